@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Arena: memory that lives until the end of one camera sample or photon path. One a thread; Reset
+// keeps the blocks, so that after the first samples nothing is allocated.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace exphoton {
+
+class Arena {
+ public:
+  Arena() = default;
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+
+  // Destructors of what is made here never run: T must hold nothing that needs one.
+  template <class T, class... Args>
+  T* Make(Args&&... args) {
+    return new (Allocate(sizeof(T), alignof(T))) T(std::forward<Args>(args)...);
+  }
+  template <class T>
+  std::span<T> MakeArray(std::size_t count) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    if (count == 0) return {};
+    return {new (Allocate(sizeof(T) * count, alignof(T))) T[count](), count};
+  }
+
+  void Reset() { block_ = 0, used_ = 0; }
+
+  // Everything made after the mark is given back at Rewind: for buffers within a recursion.
+  struct Mark {
+    std::size_t block, used;
+  };
+  Mark GetMark() const { return {block_, used_}; }
+  void Rewind(Mark mark) { block_ = mark.block, used_ = mark.used; }
+
+ private:
+  struct Block {
+    std::unique_ptr<std::byte[]> data;
+    std::size_t size;
+  };
+  static constexpr std::size_t kBlockBytes = 64 * 1024;
+
+  void* Allocate(std::size_t bytes, std::size_t alignment) {
+    for (; block_ < blocks_.size(); ++block_, used_ = 0) {
+      const std::size_t start = (used_ + alignment - 1) / alignment * alignment;
+      if (start + bytes <= blocks_[block_].size) {
+        used_ = start + bytes;
+        return blocks_[block_].data.get() + start;
+      }
+    }
+    const std::size_t size = bytes > kBlockBytes ? bytes : kBlockBytes;
+    blocks_.push_back({std::make_unique<std::byte[]>(size), size});
+    used_ = bytes;
+    return blocks_.back().data.get();
+  }
+
+  std::vector<Block> blocks_;
+  std::size_t block_ = 0, used_ = 0;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Statistics: rays by kind, seconds by phase, named counters. Threads count into their own
+// RayCounters, merged when they end; counting never changes what is computed.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace exphoton {
+
+enum class RayKind { Camera, Shadow, Bsdf, Specular, Gather, Photon };
+inline constexpr int kRayKindCount = 6;
+const char* RayKindName(RayKind kind);  // "camera"
+
+struct RayCounters {
+  std::array<std::uint64_t, kRayKindCount> counts{};
+  void Count(RayKind kind) { ++counts[std::size_t(kind)]; }
+  void Add(const RayCounters& other) {
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
+  }
+};
+
+class Statistics {
+ public:
+  struct Counter {
+    std::string name;     // "photons/caustic stored"
+    double value;
+    std::string meaning;  // one line for people
+  };
+  struct Phase {
+    std::string name;  // "shoot"
+    double wallSeconds, cpuSeconds;
+  };
+
+  void AddRays(const RayCounters& rays);        // any thread
+  void SetCounter(std::string name, double value, std::string meaning);
+  void AddPhase(const std::string& name, double wallSeconds, double cpuSeconds);
+
+  RayCounters Rays() const;
+  std::vector<Counter> Counters() const;
+  std::vector<Phase> Phases() const;  // in the order in which they first ran
+
+ private:
+  mutable std::mutex mutex_;
+  RayCounters rays_;
+  std::vector<Counter> counters_;
+  std::vector<Phase> phases_;
+};
+
+// Adds the time from construction to destruction to a phase.
+class PhaseTimer {
+ public:
+  PhaseTimer(Statistics& statistics, std::string phase);
+  ~PhaseTimer();
+
+ private:
+  Statistics& statistics_;
+  std::string phase_;
+  std::chrono::steady_clock::time_point wallStart_;
+  double cpuStart_;
+};
+
+double ProcessCpuSeconds();
+
+}  // namespace exphoton

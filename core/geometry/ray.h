@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Rays, surface points and the robust way from one to the other: a ray that leaves a surface starts
+// outside the error bound of the point it leaves, so no comparison with a global epsilon is needed.
+// Source: Pharr, Jakob and Humphreys 2016, section 3.9 (bounds); docs/decisions says what we do.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+struct Ray {
+  Point3 o;
+  Vector3 d;              // not necessarily of unit length
+  Real tMax = kInfinity;  // hits have 0 < t < tMax
+  Real time = 0;
+
+  Point3 operator()(Real t) const { return o + d * t; }
+};
+
+// A camera ray with its neighbours one pixel to the right (x) and below (y), for texture filtering.
+struct RayDifferential : Ray {
+  bool hasDifferentials = false;
+  Point3 xOrigin, yOrigin;
+  Vector3 xDirection, yDirection;
+
+  RayDifferential() = default;
+  RayDifferential(const Ray& ray) : Ray(ray) {}
+};
+
+// A point on a surface as computed, with the bound of its rounding error.
+struct SurfacePoint {
+  Point3 p;
+  Vector3 pError;  // absolute, per axis: the true point lies in p +- pError
+  Normal3 ng;      // unit geometric normal, on the outside as the scene file orients it;
+                   // 0 for a point that is on no surface (pError 0 then)
+};
+
+// The point just outside the error box of `point`, on the side of the surface that w leaves to.
+Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w);
+
+// The ray from `point` in direction w (any length), tMax infinite.
+Ray SpawnRay(const SurfacePoint& point, const Vector3& w, Real time = 0);
+
+// The segment between two surface points, both ends offset towards each other; occluders have
+// 0 < t < 1.
+Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to, Real time = 0);
+
+}  // namespace exphoton

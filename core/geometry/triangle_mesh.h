@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// TriangleMesh: flat arrays in world space, as shape plugins hand them over. Degenerate triangles
+// are dropped by the plugin (Clean), so that everything after it meets only real ones.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/shape.h"
+
+namespace exphoton {
+
+struct TriangleMesh {
+  std::vector<std::array<std::uint32_t, 3>> indices;
+  std::vector<Point3> p;
+  std::vector<Normal3> n;   // empty or one a vertex; unit or 0 (0: use the geometric normal)
+  std::vector<Vector3> s;   // empty or one a vertex: shading tangents
+  std::vector<Point2> uv;   // empty or one a vertex; empty means (0,0) (1,0) (1,1)
+  // The geometric normal is Cross(p1 - p0, p2 - p0), negated if this is set
+  // (ReverseOrientation xor a transformation that swaps handedness).
+  bool flipNormal = false;
+
+  std::size_t TriangleCount() const { return indices.size(); }
+  // Drops triangles of zero area (computed in double); returns how many.
+  std::size_t DropDegenerate();
+};
+
+// Watertight ray-triangle test: Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
+// Intersection" (JCGT 2:1). The ray's share is computed once and serves all triangles.
+struct TriangleRay {
+  Point3 o;
+  int kx, ky, kz;
+  Real sx, sy, sz;
+
+  explicit TriangleRay(const Ray& ray);
+};
+
+struct TriangleHit {
+  Real t, b1, b2;  // p = (1 - b1 - b2) p0 + b1 p1 + b2 p2
+};
+
+// Hit with 0 < t <= tMax (a tie at tMax counts, so that ties can be decided by index), and t above
+// its own error bound.
+std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, const Point3& p0,
+                                             const Point3& p1, const Point3& p2);
+
+// The surface record of triangle `index` of the mesh at barycentrics (b1, b2).
+SurfaceInteraction TriangleSurface(const TriangleMesh& mesh, std::uint32_t index, Real b1, Real b2);
+
+// A mesh as a surface to sample: a triangle in proportion to its area, then a point on it.
+class MeshEmitter;
+std::unique_ptr<EmitterSurface> MakeMeshEmitter(const TriangleMesh& mesh);  // keeps a reference
+
+}  // namespace exphoton

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The kinds of plugin: what each makes, what it is given besides its parameters, and the folder it
+// is found in.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/geometry/shape.h"
+#include "core/geometry/triangle_mesh.h"
+#include "core/imaging/camera.h"
+#include "core/lights/light.h"
+#include "core/math/transform.h"
+#include "core/sampling/filter.h"
+#include "core/sampling/sampler.h"
+#include "core/scattering/material.h"
+#include "core/scattering/texture.h"
+#include "core/scene/aggregate.h"
+#include "core/transport/integrator.h"
+
+namespace exphoton {
+
+class Log;
+
+enum class PluginKind {
+  Integrator, Accelerator, Shape, Light, AreaLight, Material, FloatTexture, ColorTexture, Sampler,
+  Filter, Camera,
+};
+inline constexpr int kPluginKindCount = 11;
+const char* PluginKindName(PluginKind kind);    // "area light": in messages
+const char* PluginKindFolder(PluginKind kind);  // "lights"
+
+struct NoContext {};
+
+struct IntegratorContext {
+  Log& log;
+};
+struct AcceleratorContext {
+  const PrimitiveSet& primitives;  // outlives the accelerator
+  Log& log;
+};
+struct ShapeContext {
+  Transform objectToWorld;
+  bool reverseOrientation = false;
+  Log& log;
+  SourceLocation where;  // of the Shape directive, for warnings
+
+  // Whether Cross(dpdu, dpdv) must be negated to point outside.
+  bool FlipsNormal() const { return reverseOrientation != objectToWorld.SwapsHandedness(); }
+};
+struct LightContext {
+  Transform lightToWorld;
+  Log& log;
+  SourceLocation where;
+};
+struct AreaLightContext {
+  std::shared_ptr<const EmitterSurface> surface;
+  Log& log;
+  SourceLocation where;
+};
+struct MaterialContext {
+  Log& log;
+  SourceLocation where;
+};
+struct TextureContext {
+  Transform textureToWorld;
+  Log& log;
+  SourceLocation where;
+};
+
+template <PluginKind>
+struct PluginTraits;
+template <class P, class C>
+struct PluginTraitsOf {
+  using Product = P;
+  using Context = C;
+};
+template <> struct PluginTraits<PluginKind::Integrator> : PluginTraitsOf<SurfaceIntegrator, IntegratorContext> {};
+template <> struct PluginTraits<PluginKind::Accelerator> : PluginTraitsOf<Aggregate, AcceleratorContext> {};
+template <> struct PluginTraits<PluginKind::Shape> : PluginTraitsOf<ShapeGeometry, ShapeContext> {};
+template <> struct PluginTraits<PluginKind::Light> : PluginTraitsOf<Light, LightContext> {};
+template <> struct PluginTraits<PluginKind::AreaLight> : PluginTraitsOf<AreaLight, AreaLightContext> {};
+template <> struct PluginTraits<PluginKind::Material> : PluginTraitsOf<Material, MaterialContext> {};
+template <> struct PluginTraits<PluginKind::FloatTexture> : PluginTraitsOf<FloatTexture, TextureContext> {};
+template <> struct PluginTraits<PluginKind::ColorTexture> : PluginTraitsOf<ColorTexture, TextureContext> {};
+template <> struct PluginTraits<PluginKind::Sampler> : PluginTraitsOf<Sampler, NoContext> {};
+template <> struct PluginTraits<PluginKind::Filter> : PluginTraitsOf<Filter, NoContext> {};
+template <> struct PluginTraits<PluginKind::Camera> : PluginTraitsOf<Camera, CameraContext> {};
+
+}  // namespace exphoton

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PluginRegistry: finds plugins by kind and name, loads each when it is first named, and makes
+// objects from them. One a render; libraries stay loaded until the process ends (never dlclose).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/plugins/descriptor.h"
+
+namespace exphoton {
+
+class PluginRegistry {
+ public:
+  // Folders in order of preference; each may hold <kind folder>/<name>.so or <name>.so.
+  explicit PluginRegistry(std::vector<std::string> folders, Log* log);
+
+  // --plugin-dir, PBRT_SEARCHPATH and the folder beside the program, in this order.
+  static std::vector<std::string> DefaultFolders(const std::vector<std::string>& extra);
+
+  // The form of that kind of the plugin of that name (aliases resolved: "diffuse" is "area").
+  // Throws Error(Scene) at `where`: missing (listing what exists and where it looked), not a
+  // library, wrong ABI or build, wrong kind, another name, threw.
+  const PluginForm& Find(PluginKind kind, const std::string& name, const SourceLocation& where);
+
+  template <PluginKind kind>
+  std::unique_ptr<typename PluginTraits<kind>::Product> Create(
+      const std::string& name, const ParamSet& params, BindContext bind,
+      const typename PluginTraits<kind>::Context& context) {
+    return std::unique_ptr<typename PluginTraits<kind>::Product>(
+        static_cast<typename PluginTraits<kind>::Product*>(
+            CreateErased(kind, name, params, std::move(bind), &context)));
+  }
+
+  std::vector<std::string> Available(PluginKind kind) const;  // sorted names, from the folders
+  std::vector<std::string> Loaded() const;                    // "integrators/exphotonmap", sorted
+  const PluginDescriptor& Load(PluginKind kind, const std::string& name, const SourceLocation& where);
+
+ private:
+  void* CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
+                     BindContext bind, const void* context);
+
+  std::vector<std::string> folders_;
+  Log* log_;
+  std::map<std::string, const PluginDescriptor*> loaded_;  // by "<kind folder>/<name>"
+};
+
+}  // namespace exphoton

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Bsdf: the lobes of a surface at one point, in world space. Lobes live in the caller's arena.
+// The side of wi against the *geometric* normal decides between reflection and transmission; the
+// shading normal gives the frame and the cosines.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/geometry/interaction.h"
+#include "core/scattering/bxdf.h"
+
+namespace exphoton {
+
+struct BsdfSample {
+  Vector3 wi;           // unit, world
+  Spectrum throughput;  // f |wi.ns| / pdf; finite
+  Real pdf = 0;         // per solid angle over the masked lobes; a specular lobe: its probability
+  LobeSet lobe = LobeSet::None;
+
+  bool IsSpecular() const { return Intersects(lobe, LobeSet::Specular); }
+  bool IsTransmission() const { return Intersects(lobe, LobeSet::Transmission); }
+};
+
+class Bsdf {
+ public:
+  static constexpr int kMaxLobes = 8;
+
+  // The frame is taken from si.shading.
+  explicit Bsdf(const SurfaceInteraction& si);
+
+  void Add(const Bxdf* lobe);  // null is ignored; more than kMaxLobes throws Error(Internal)
+
+  bool Has(LobeSet mask) const { return Intersects(present_, mask); }
+  int Count(LobeSet mask = LobeSet::All) const;
+  const Normal3& Ns() const { return frame_.z; }
+  const Normal3& Ng() const { return ng_; }
+
+  // Sum over the non-specular masked lobes; per steradian, symmetric in mode except for refraction.
+  Spectrum f(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
+  // Mean of the masked lobes' densities, per solid angle. Specular lobes in the mask count in the
+  // mean with density 0: pass the same mask to f, Pdf and Sample.
+  Real Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
+  // Picks one masked lobe uniformly by uLobe. nullopt: no sample (absorbed).
+  std::optional<BsdfSample> Sample(const Vector3& wo, Point2 u, Real uLobe,
+                                   LobeSet mask = LobeSet::All) const;
+  // Sum of hemispherical-hemispherical reflectances of the masked lobes.
+  Spectrum Rho(LobeSet mask) const;
+
+ private:
+  Frame frame_;
+  Normal3 ng_;
+  std::array<const Bxdf*, kMaxLobes> lobes_{};
+  int count_ = 0;
+  LobeSet present_ = LobeSet::None;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Material: turns a surface interaction into a BSDF. Immutable and shared between threads.
+#pragma once
+
+#include "core/base/arena.h"
+#include "core/scattering/bsdf.h"
+#include "core/scattering/texture.h"
+
+namespace exphoton {
+
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  // Evaluates textures and applies bump mapping to si->shading, then makes the lobes in `arena`.
+  virtual Bsdf Evaluate(SurfaceInteraction* si, TransportMode mode, Arena* arena) const = 0;
+
+  // Every lobe that Evaluate may ever add: a lobe whose coefficient is provably 0 is left out.
+  virtual LobeSet PossibleLobes() const = 0;
+  // Whether any texture is filtered or there is a bump map: without, plain rays do.
+  virtual bool NeedsDifferentials() const = 0;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Texture: a value that varies over a surface; T is Real ("float") or Spectrum ("color").
+#pragma once
+
+#include <memory>
+
+#include "core/geometry/interaction.h"
+#include "core/math/spectrum.h"
+
+namespace exphoton {
+
+template <class T>
+class Texture {
+ public:
+  virtual ~Texture() = default;
+  virtual T Evaluate(const SurfaceInteraction& si) const = 0;
+  // Whether every value is provably 0. A texture that is not constant counts as not.
+  virtual bool IsProvablyZero() const { return false; }
+  // Whether Evaluate uses the footprint (dudx ... or dpdx).
+  virtual bool IsFiltered() const { return false; }
+};
+
+using FloatTexture = Texture<Real>;
+using ColorTexture = Texture<Spectrum>;
+template <class T>
+using TexturePtr = std::shared_ptr<const Texture<T>>;
+
+// A texture with one value everywhere: what a plain parameter value becomes.
+template <class T>
+class UniformTexture final : public Texture<T> {
+ public:
+  explicit UniformTexture(const T& value) : value_(value) {}
+  T Evaluate(const SurfaceInteraction&) const override { return value_; }
+  bool IsProvablyZero() const override { return value_ == T{}; }
+
+ private:
+  T value_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// EffectPlan: which effects this scene needs, decided once from the scene alone, each with its
+// reason. An effect is off only where its contribution is provably zero, so the picture never
+// depends on the plan. Passed to integrators and renderer as data.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace exphoton {
+
+enum class Effect {
+  Caustics,      // caustic photon map and its lookups
+  Indirect,      // indirect map, final gather, radiance photons
+  Transmission,  // the transmitted side of radiance photons
+  Specular,      // recursion at specular lobes
+  Media,         // transmittance and ray marching
+  Filtering,     // ray differentials
+  Lens,          // lens samples
+  Motion,        // time samples
+  Environment,   // radiance of rays that escape
+};
+inline constexpr int kEffectCount = 9;
+
+const char* EffectName(Effect effect);  // "caustics", as --effects spells it
+
+class EffectPlan {
+ public:
+  struct Row {
+    bool on = true;
+    std::string reason;  // "no specular surface"
+  };
+
+  EffectPlan();  // everything on: what --effects all gives
+  bool Needs(Effect effect) const { return rows_[std::size_t(effect)].on; }
+  const Row& Get(Effect effect) const { return rows_[std::size_t(effect)]; }
+  void Set(Effect effect, bool on, std::string reason);
+
+  // One line an effect: "caustics      off  no specular surface".
+  std::string Describe() const;
+  // Further lines that are no effect ("lights        3 (1 black, skipped)").
+  std::vector<std::string> notes;
+
+ private:
+  std::array<Row, kEffectCount> rows_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PrimitiveSet: the things that one accelerator is built over, in flat arrays, and the test of one
+// ray against one of them. Ids: triangles first, then shapes, then instances.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/geometry/shape.h"
+#include "core/geometry/triangle_mesh.h"
+#include "core/math/transform.h"
+
+namespace exphoton {
+
+class Aggregate;
+
+inline constexpr std::uint32_t kNoId = ~std::uint32_t(0);
+
+// The nearest hit so far, small enough to live in registers. Ties in t go to the lower instance,
+// then the lower primitive id, so that every accelerator gives the same winner.
+struct Hit {
+  Real t = kInfinity;
+  Point2 uv;  // triangle: (b1, b2); shape: ShapeHit::uv
+  std::uint32_t primitive = kNoId;
+  std::uint32_t instance = kNoId;  // id in the outer set, where the hit is inside an instance
+
+  bool IsHit() const { return primitive != kNoId; }
+};
+
+// A ray with what the tests of many primitives share.
+struct TraceRay {
+  Ray ray;
+  TriangleRay triangle;
+  explicit TraceRay(const Ray& r) : ray(r), triangle(r) {}
+};
+
+struct PrimitiveAttributes {
+  const Material* material = nullptr;
+  const AreaLight* areaLight = nullptr;
+};
+
+// Same geometry in object space, placed by a transformation.
+struct Instance {
+  Transform instanceToWorld;
+  const class ObjectGeometry* object = nullptr;
+};
+
+class PrimitiveSet {
+ public:
+  void AddMesh(std::shared_ptr<const TriangleMesh> mesh, PrimitiveAttributes attributes);
+  void AddShape(std::shared_ptr<const Shape> shape, PrimitiveAttributes attributes);
+  void AddInstance(const Instance& instance);
+  // Call once after the last Add: assigns ids and lays the triangles out flat.
+  void Finish();
+
+  std::uint32_t Count() const;
+  std::uint32_t TriangleCount() const { return std::uint32_t(triangles_.size()); }
+  Bounds3 Bounds(std::uint32_t id) const;  // conservative
+  Bounds3 WorldBounds() const { return bounds_; }
+
+  // Vertices of a triangle, for accelerators that clip.
+  std::array<Point3, 3> TriangleVertices(std::uint32_t id) const;
+
+  // Tests primitive `id`; replaces *hit (whose t bounds the search) where nearer, or as near with a
+  // lower id. `hit->t` starts at ray.tMax.
+  void Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const;
+  // Whether primitive `id` blocks the ray in 0 < t < ray.tMax.
+  bool Occludes(std::uint32_t id, const TraceRay& ray) const;
+
+  // The full record of a hit that Intersect found with this ray.
+  SurfaceInteraction Surface(const Ray& ray, const Hit& hit) const;
+
+ private:
+  struct Triangle {  // 8 bytes: where the vertices are
+    std::uint32_t mesh, index;
+  };
+  std::vector<Triangle> triangles_;
+  std::vector<std::array<Point3, 3>> vertices_;  // by triangle id, contiguous
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
+  std::vector<PrimitiveAttributes> meshAttributes_;
+  std::vector<std::shared_ptr<const Shape>> shapes_;
+  std::vector<PrimitiveAttributes> shapeAttributes_;
+  std::vector<Instance> instances_;
+  Bounds3 bounds_;
+};
+
+}  // namespace exphoton

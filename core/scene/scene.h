@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Scene: geometry, lights and the plan of effects; what integrators see. Immutable once made; no
+// globals, so many scenes can live in one process.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/lights/light.h"
+#include "core/scattering/material.h"
+#include "core/scene/aggregate.h"
+#include "core/scene/effects.h"
+#include "core/scene/primitive.h"
+
+namespace exphoton {
+
+class Camera;
+
+// Everything a scene is made of; the scene takes it over.
+struct SceneParts {
+  std::unique_ptr<PrimitiveSet> primitives;
+  std::unique_ptr<Aggregate> aggregate;  // over *primitives
+  std::vector<std::unique_ptr<ObjectGeometry>> objects;
+  std::vector<std::unique_ptr<Light>> lights;
+  std::vector<std::shared_ptr<const Material>> materials;  // used by any primitive
+  std::vector<std::shared_ptr<const EmitterSurface>> emitters;  // referred to by area lights
+  int mediaCount = 0;
+};
+
+class Scene {
+ public:
+  explicit Scene(SceneParts parts);  // prepares the lights
+  ~Scene();
+
+  std::optional<SurfaceInteraction> Intersect(const RayDifferential& ray) const;
+  bool Occluded(const Ray& ray) const { return aggregate_->Occluded(ray); }
+
+  // Radiance of every infinite light along a ray that escaped in direction w.
+  Spectrum EscapedRadiance(const Vector3& w) const;
+
+  // All lights in the order of the file. Black ones are kept, so that indices are stable; skip them.
+  const std::vector<std::unique_ptr<Light>>& Lights() const { return parts_.lights; }
+  const std::vector<const Light*>& InfiniteLights() const { return infiniteLights_; }
+  const std::vector<std::shared_ptr<const Material>>& Materials() const { return parts_.materials; }
+  const Bounds3& WorldBounds() const { return bounds_; }
+  const PrimitiveSet& Primitives() const { return *parts_.primitives; }
+  const Aggregate& Accelerator() const { return *aggregate_; }
+
+  const EffectPlan& Effects() const { return effects_; }
+  void SetEffects(EffectPlan plan) { effects_ = std::move(plan); }
+
+  int MediaCount() const { return parts_.mediaCount; }
+
+ private:
+  SceneParts parts_;
+  const Aggregate* aggregate_;
+  Bounds3 bounds_;
+  std::vector<const Light*> infiniteLights_;
+  EffectPlan effects_;
+};
+
+// The plan for this scene and camera (effects.md's table): decides from materials, lights, camera.
+EffectPlan PlanEffects(const Scene& scene, const Camera& camera);
+
+}  // namespace exphoton

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SurfaceIntegrator: the interface of light transport algorithms (plugins), and the contexts that
+// the renderer hands them. One object serves all threads: Li is const.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/arena.h"
+#include "core/base/statistics.h"
+#include "core/math/random.h"
+#include "core/sampling/sampler.h"
+#include "core/scene/scene.h"
+
+namespace exphoton {
+
+class Log;
+class ThreadPool;
+class ProgressReporter;
+
+// What Preprocess works with.
+struct PreprocessContext {
+  ThreadPool& threads;
+  std::uint64_t seed = 0;
+  Log& log;
+  ProgressReporter& progress;  // one bar a phase
+  Statistics& statistics;
+};
+
+// What one camera sample works with; lives on the stack of the thread that renders it.
+struct LiContext {
+  const Scene& scene;
+  const CameraSamples& samples;
+  Arena& arena;        // reset by the renderer after each camera sample
+  RayCounters& rays;   // this thread's
+  std::uint64_t key;   // of (seed, pixel, sample index)
+  Real alpha = 1;      // set to 0 by Li where the camera ray escapes and sees nothing
+
+  // Random numbers for one purpose (`stream`: a constant of the integrator's) at this sample.
+  RandomStream Stream(std::uint64_t stream) const { return RandomStream(HashKey({key, stream})); }
+
+  std::optional<SurfaceInteraction> Intersect(const RayDifferential& ray, RayKind kind) {
+    rays.Count(kind);
+    return scene.Intersect(ray);
+  }
+  bool Occluded(const Ray& ray) {
+    rays.Count(RayKind::Shadow);
+    return scene.Occluded(ray);
+  }
+};
+
+class SurfaceIntegrator {
+ public:
+  virtual ~SurfaceIntegrator() = default;
+
+  // Work before the first camera ray (photon maps). Called once a scene; sampler as in
+  // RequestSamples.
+  virtual void Preprocess(const Scene& scene, PreprocessContext& context) {
+    (void)scene, (void)context;
+  }
+  // Says which sample arrays Li wants. Idempotent: may be called any number of times, each time
+  // with a fresh layout.
+  virtual void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) {
+    (void)scene, (void)sampler, (void)layout;
+  }
+  // Radiance arriving along the camera ray.
+  virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
+};
+
+}  // namespace exphoton

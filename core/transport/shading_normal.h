@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The adjoint correction for shading normals: Veach 1997, section 5.3. Scattering with an
+// interpolated or bumped normal is not symmetric; photons carry this factor, camera paths do not.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+// |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|), wo towards where the photon came from, wi where it goes.
+// 0 where a cosine in the denominator is 0; never above kMaxShadingNormalFactor.
+inline constexpr Real kMaxShadingNormalFactor = 10;
+inline Real ShadingNormalFactor(const Vector3& wo, const Vector3& wi, const Normal3& ng,
+                                const Normal3& ns) {
+  if (ng == ns) return 1;
+  const Real denominator = AbsDot(wo, ng) * AbsDot(wi, ns);
+  if (!(denominator > 0)) return 0;
+  return std::min(AbsDot(wo, ns) * AbsDot(wi, ng) / denominator, kMaxShadingNormalFactor);
+}
+
+}  // namespace exphoton

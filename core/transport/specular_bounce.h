@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Specular bounces: the rays that continue at specular lobes, with differentials for the reflected
+// and refracted footprint (Igehy 1999). What arrives along them is the caller's affair.
+#pragma once
+
+
+#include "core/transport/integrator.h"
+#include "core/transport/shading_point.h"
+
+namespace exphoton {
+
+struct SpecularRay {
+  RayDifferential ray;
+  Spectrum throughput;
+  bool isTransmission = false;
+};
+
+// The ray of one specular lobe among `lobes` (specular reflection or transmission, or both), picked
+// uniformly by uLobe; nullopt where there is none or it carries nothing.
+std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet lobes, Point2 u,
+                                             Real uLobe);
+
+// Sum over reflection and transmission of throughput * incident(ray): both are followed.
+// Does nothing where point.depth has reached maxDepth.
+template <class Incident>  // Spectrum(const RayDifferential&)
+Spectrum SpecularBounces(const ShadingPoint& point, int maxDepth, RandomStream random,
+                         Incident&& incident) {
+  Spectrum sum;
+  if (point.depth >= maxDepth) return sum;
+  for (LobeSet lobe : {LobeSet::SpecularReflection, LobeSet::SpecularTransmission}) {
+    if (!point.bsdf.Has(lobe)) continue;
+    const Point2 u{random.Uniform(), random.Uniform()};
+    if (const auto bounce = SampleSpecularRay(point, lobe, u, random.Uniform()))
+      sum += bounce->throughput * incident(bounce->ray);
+  }
+  return sum;
+}
+
+}  // namespace exphoton
