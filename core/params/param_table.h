@@ -210,15 +210,18 @@ class ParamTable final : public ParamTableBase {
     const S defaults{};
     (AddOne(params, defaults), ...);
   }
-  // A table that begins with the entries of a base struct's table (shared declarations).
+  // A table that begins with the entries of a base struct's table: shared declarations, whose
+  // defaults are those of S.
   template <class Base, class... T>
   ParamTable(const ParamTable<Base>& base, const Param<S, T>&... params) {
     static_assert(std::is_base_of_v<Base, S>);
+    const S defaults{};
     for (std::size_t i = 0; i < base.Declarations().size(); ++i) {
       declarations_.push_back(base.Declarations()[i]);
+      declarations_.back().defaultText = base.DefaultTextAt(i, defaults);
       assign_.push_back([&base, i](S& s, const std::any& v) { base.AssignAt(i, s, v); });
+      defaultText_.push_back([&base, i](const S& s) { return base.DefaultTextAt(i, s); });
     }
-    const S defaults{};
     (AddOne(params, defaults), ...);
   }
 
@@ -250,6 +253,9 @@ class ParamTable final : public ParamTableBase {
   void AssignAt(std::size_t index, S& settings, const std::any& value) const {
     assign_[index](settings, value);
   }
+  std::string DefaultTextAt(std::size_t index, const S& settings) const {
+    return defaultText_[index](settings);
+  }
 
  private:
   template <class T>
@@ -257,9 +263,11 @@ class ParamTable final : public ParamTableBase {
     declarations_.push_back(param.decl_);
     declarations_.back().defaultText = param.DefaultOf(defaults);
     assign_.push_back([param](S& s, const std::any& v) { param.Assign(s, v); });
+    defaultText_.push_back([param](const S& s) { return param.DefaultOf(s); });
   }
 
   std::vector<std::function<void(S&, const std::any&)>> assign_;
+  std::vector<std::function<std::string(const S&)>> defaultText_;
 };
 
 }  // namespace exphoton

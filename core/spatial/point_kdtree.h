@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PointKdTree: nearest neighbours among points (photons), not geometry. A balanced tree whose shape
+// follows from the number of points alone, so nodes hold only a split plane and lie in heap order;
+// the points themselves are stored once, contiguous, in the order of the leaves.
+// Bentley 1975; Friedman, Bentley and Finkel 1977 (search with a shrinking bound).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/bounds.h"
+
+namespace exphoton {
+
+// A neighbour: `index` counts in tree order (PointKdTree::Order says where it came from).
+struct NearPoint {
+  Real distance2;
+  std::uint32_t index;
+
+  // Nearer first; ties by index, so that a result does not depend on how it was found.
+  friend bool operator<(const NearPoint& a, const NearPoint& b) {
+    return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
+  }
+};
+
+class PointKdTree {
+ public:
+  static constexpr std::uint32_t kMaxLeafPoints = 8;
+  static constexpr std::size_t kMaxPoints = std::size_t(1) << 31;
+
+  PointKdTree() = default;  // no points: finds nothing
+  // Points must be finite. Throws std::length_error above kMaxPoints.
+  explicit PointKdTree(std::span<const Point3> points);
+
+  std::size_t Size() const { return points_.size(); }
+  // Order()[i] is the place in the constructor's span of the point at i in tree order.
+  const std::vector<std::uint32_t>& Order() const { return order_; }
+  const Point3& Point(std::uint32_t index) const { return points_[index]; }
+  const Bounds3& Bounds() const { return bounds_; }
+  std::size_t MemoryBytes() const;
+
+  // Calls visit(index, distance2) for every point whose squared distance from p is at most
+  // *radius2. visit may lower *radius2 as it finds what it wants; nothing beyond it is visited
+  // afterwards.
+  template <class Visit>
+  void Search(const Point3& p, Real* radius2, Visit&& visit) const;
+
+ private:
+  struct Node {
+    Real split;
+    std::uint32_t axis;
+  };
+
+  void Build(std::span<const Point3> points, std::size_t node, std::uint32_t begin,
+             std::uint32_t end);
+
+  std::vector<Node> nodes_;  // node i has children 2i+1 and 2i+2; beyond the last level: leaves
+  std::vector<Point3> points_;
+  std::vector<std::uint32_t> order_;
+  Bounds3 bounds_;
+  int levels_ = 0;  // of inner nodes
+};
+
+template <class Visit>
+void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
+  struct Pending {
+    std::uint32_t node, begin, end;
+    int level;
+    Real distance2;  // of p from the subtree's region, a lower bound
+  };
+  if (points_.empty() || !IsFinite(p)) return;
+  Pending stack[32];  // at most one a level
+  int depth = 0;
+  Pending at{0, 0, std::uint32_t(points_.size()), 0, 0};
+  for (;;) {
+    if (at.distance2 <= *radius2) {
+      while (at.level < levels_) {
+        const Node& node = nodes_[at.node];
+        const std::uint32_t middle = at.begin + (at.end - at.begin) / 2;
+        const Real delta = p[int(node.axis)] - node.split;
+        const Real far2 = std::max(at.distance2, delta * delta);
+        const Pending left{2 * at.node + 1, at.begin, middle, at.level + 1, far2};
+        const Pending right{2 * at.node + 2, middle, at.end, at.level + 1, far2};
+        const Real near2 = at.distance2;
+        if (far2 <= *radius2) stack[depth++] = delta < 0 ? right : left;
+        at = delta < 0 ? left : right;
+        at.distance2 = near2;
+      }
+      for (std::uint32_t i = at.begin; i < at.end; ++i) {
+        const Real distance2 = DistanceSquared(points_[i], p);
+        if (distance2 <= *radius2) visit(i, distance2);
+      }
+    }
+    if (depth == 0) return;
+    at = stack[--depth];
+  }
+}
+
+}  // namespace exphoton

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The shared parameter declarations of the photon integrators.
+#include "integrators/photon/photon_settings.h"
+
+namespace exphoton {
+
+ExtendedPhotonSettings::ExtendedPhotonSettings() {
+  lightSelection = LightSelection::Power;
+  photonRoulette = PhotonRoulette::Luminance;
+  radiancePhotons = true;
+  gatherSampling = GatherSampling::Photons;
+  kernel = DensityKernel::Simpson;
+  rrThreshold = Real(.05);
+}
+
+const ParamTable<PhotonSettings>& PhotonParameters() {
+  using S = PhotonSettings;
+  static const ParamTable<S> table{
+      Param("causticphotons", &S::causticPhotons, "photons wanted in the caustic map")
+          .Range(0, 1e9),
+      Param("directphotons", &S::directPhotons,
+            "photons wanted in the direct map; as indirectphotons if absent")
+          .Range(0, 1e9),
+      Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")
+          .Range(0, 1e9),
+      Param("nused", &S::nUsed, "photons used in a density estimate").Range(2, 100000),
+      Param("maxdepth", &S::maxDepth, "specular bounces followed from the camera").Range(0, 1000),
+      Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),
+      Param("finalgather", &S::finalGather,
+            "gather indirect light over the hemisphere; false shows the maps directly"),
+      Param("finalgathersamples", &S::finalGatherSamples,
+            "gather rays at a shading point, both techniques together")
+          .Range(1, 1 << 20),
+      Param("maxdist", &S::maxDist,
+            "largest radius of a density estimate; chosen from the photons if absent")
+          .Range(1e-15, 1e15)
+          .Unit("scene units"),
+      Param("rrthreshold", &S::rrThreshold,
+            "gather rays whose contribution is below this play roulette; 0 turns it off")
+          .Range(0, 1e6),
+      Param("gatherangle", &S::gatherAngle, "half-angle of the cone round a photon's direction")
+          .Above(0)
+          .AtMost(90)
+          .Unit("degrees"),
+      Param("gatherphotons", &S::gatherPhotons, "photons whose directions guide a gather")
+          .Range(1, 10000),
+      Param("lightselection", &S::lightSelection, "how a photon's light is chosen")
+          .OneOf({{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
+      Param("photonroulette", &S::photonRoulette, "how photon paths end")
+          .OneOf({{"luminance", PhotonRoulette::Luminance},
+                  {"half", PhotonRoulette::Half},
+                  {"maxcomponent", PhotonRoulette::MaxComponent}}),
+      Param("radiancephotons", &S::radiancePhotons,
+            "gather rays read precomputed radiance instead of three density estimates"),
+      Param("gathersampling", &S::gatherSampling,
+            "where gather rays go: half of them round photons' directions, or all by the BSDF")
+          .OneOf({{"photons", GatherSampling::Photons}, {"bsdf", GatherSampling::Bsdf}}),
+      Param("kernel", &S::kernel, "weight of a photon by its distance where maps are seen directly")
+          .OneOf({{"simpson", DensityKernel::Simpson}, {"constant", DensityKernel::Constant}}),
+      Param("radiancefraction", &S::radianceFraction,
+            "share of the stored photons at which radiance is computed")
+          .Range(0, 1),
+      Param("radiancemode", &S::radianceMode,
+            "what a radiance photon stores: exitant radiance, or irradiance that is multiplied by "
+            "the reflectance at the hit")
+          .OneOf({{"exitant", RadianceMode::Exitant}, {"irradiance", RadianceMode::Irradiance}}),
+      Param("radiancereach", &S::radianceReach,
+            "a radiance photon serves hits within this many radii of its own estimate")
+          .Range(0, 1000),
+      Param("radiancenormal", &S::radianceNormal,
+            "least cosine between the normals of a radiance photon and the hit it serves")
+          .Range(-1, 1),
+      Param("shortrays", &S::shortRays,
+            "gather rays shorter than this many radii do not read a radiance photon; 0: all do")
+          .Range(0, 1000),
+      Param("shortgather", &S::shortGather,
+            "what short gather rays read: the density estimate at the hit, or one more bounce")
+          .OneOf({{"estimate", ShortGather::Estimate}, {"gather", ShortGather::Gather}}),
+      Param("maxphotondepth", &S::maxPhotonDepth, "bounces after which a photon path is cut")
+          .Range(1, 1 << 20),
+      Param("maxphotonpaths", &S::maxPhotonPaths, "paths after which a map stays as it is")
+          .Range(1, 1e15),
+      Param("show", &S::show, "shows one map directly, for looking at it")
+          .OneOf({{"", ShowMap::Nothing},
+                  {"radiancephotons", ShowMap::Radiance},
+                  {"directphotons", ShowMap::Direct},
+                  {"causticphotons", ShowMap::Caustic},
+                  {"indirectphotons", ShowMap::Indirect}})};
+  return table;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PhotonSettings: the parameters that photonmap and exphotonmap share, declared once. The defaults
+// here are the plain algorithm's; ExtendedPhotonSettings turns the five improvements on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/lights/light_distribution.h"
+#include "core/params/param_table.h"
+
+namespace exphoton {
+
+enum class PhotonRoulette {
+  Luminance,     // survivors keep their luminance
+  MaxComponent,  // survivors keep their largest channel
+  Half,          // probability 1/2 after three bounces: weights vary
+};
+enum class GatherSampling { Photons, Bsdf };
+enum class DensityKernel { Constant, Simpson };
+enum class RadianceMode { Exitant, Irradiance };
+enum class ShortGather { Estimate, Gather };  // what a short gather ray reads
+enum class ShowMap { Nothing, Radiance, Direct, Caustic, Indirect };
+
+struct PhotonSettings {
+  std::int64_t causticPhotons = 20000;
+  std::optional<std::int64_t> directPhotons;  // absent: as indirectPhotons
+  std::int64_t indirectPhotons = 100000;
+  int nUsed = 50;
+  int maxDepth = 5;
+  bool finalGather = true;
+  int finalGatherSamples = 32;
+  std::optional<Real> maxDist;  // absent: chosen from the photons
+  Real rrThreshold = 0;
+  Real gatherAngle = 10;  // degrees
+  int gatherPhotons = 50;
+
+  LightSelection lightSelection = LightSelection::Uniform;
+  PhotonRoulette photonRoulette = PhotonRoulette::Half;
+  bool radiancePhotons = false;
+  GatherSampling gatherSampling = GatherSampling::Bsdf;
+  DensityKernel kernel = DensityKernel::Constant;
+
+  Real radianceFraction = Real(.125);
+  RadianceMode radianceMode = RadianceMode::Exitant;
+  Real radianceReach = 1;
+  Real radianceNormal = Real(.7);
+  Real shortRays = 1;
+  ShortGather shortGather = ShortGather::Estimate;
+  int maxPhotonDepth = 1024;
+  std::int64_t maxPhotonPaths = std::int64_t(1) << 24;
+  ShowMap show = ShowMap::Nothing;
+
+  std::int64_t DirectPhotons() const { return directPhotons.value_or(indirectPhotons); }
+};
+
+// The same with the five improvements on: exphotonmap's defaults.
+struct ExtendedPhotonSettings : PhotonSettings {
+  ExtendedPhotonSettings();
+};
+
+const ParamTable<PhotonSettings>& PhotonParameters();
+
+}  // namespace exphoton
