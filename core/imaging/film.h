@@ -3,6 +3,7 @@
 // filled by one thread at a time; its value never depends on its neighbours.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,20 +34,26 @@ class Film {
   const PixelBounds& Full() const { return full_; }
   const PixelBounds& Crop() const { return crop_; }
 
-  // weight is the filter's (FilterSample). L must be finite.
+  // weight is the filter's (FilterSample). L must be finite. A sample that was dropped still counts
+  // as one, as black.
   void AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight);
-  // A sample that was dropped still counts as one, as black.
   std::int64_t SampleCount(Point2i pixel) const;
 
-  // R, G, B, A: means over each pixel's samples; pixels without a sample are 0.
+  // R, G, B, A: sum(w L) / sum(w) over each pixel's samples, never below 0, alpha at most 1; pixels
+  // without a sample are 0. premultiplyAlpha, as v1 has it: R, G, B are multiplied by A.
   Image ToImage(bool premultiplyAlpha) const;
 
  private:
+  // sum(w) is close to the number of samples, except by chance after the first few samples under a
+  // filter with negative lobes. There the mean by |w| is used, which needs little precision.
   struct Pixel {
-    double r = 0, g = 0, b = 0, alpha = 0;
+    double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
     std::int64_t samples = 0;
+    float absR = 0, absG = 0, absB = 0, absAlpha = 0, absWeight = 0;
+
+    std::array<double, 4> Mean() const;
   };
-  Pixel& At(Point2i pixel);
+  std::size_t IndexOf(Point2i pixel) const;
 
   PixelBounds full_, crop_;
   std::vector<Pixel> pixels_;

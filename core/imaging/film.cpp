@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Film: sums in double, so that the mean of 1e8 samples is as good as that of one; one division a
+// pixel, at the end.
+#include "core/imaging/film.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <new>
+
+#include "core/base/error.h"
+
+namespace exphoton {
+namespace {
+
+// Bytes of memory that the machine has.
+double PhysicalMemory() { return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)); }
+
+std::string Megabytes(double bytes) {
+  return std::to_string(static_cast<long long>(std::ceil(bytes / 1048576))) + " MB";
+}
+
+}  // namespace
+
+PixelBounds FilmSettings::Crop() const {
+  const std::vector<Real> window = cropWindow.value_or(std::vector<Real>{0, 1, 0, 1});
+  // In Real, as scene files meant it: 0.2 of 300 pixels is 60, not 60.0000009.
+  const auto pixel = [](int resolution, Real fraction) {
+    return std::clamp(int(std::ceil(Real(resolution) * fraction)), 0, resolution);
+  };
+  return {pixel(xResolution, window[0]), pixel(yResolution, window[2]),
+          pixel(xResolution, window[1]), pixel(yResolution, window[3])};
+}
+
+Film::Film(PixelBounds full, PixelBounds crop) : full_(full), crop_(crop) {
+  if (full.IsEmpty()) throw Error(ExitStatus::Scene, "the film has no pixels");
+  if (crop.IsEmpty() || crop.x0 < full.x0 || crop.y0 < full.y0 || crop.x1 > full.x1 ||
+      crop.y1 > full.y1) {
+    throw Error(ExitStatus::Scene, "the crop window holds no pixel of the film");
+  }
+  // The pixels and the image that is made of them in the end.
+  const double need = double(crop.Width()) * crop.Height() * (sizeof(Pixel) + 4 * sizeof(float));
+  const std::string text = "a film of " + std::to_string(crop.Width()) + " x " +
+                           std::to_string(crop.Height()) + " pixels needs " + Megabytes(need);
+  if (need > PhysicalMemory()) {
+    throw Error(ExitStatus::Resource,
+                text + "; this machine has " + Megabytes(PhysicalMemory()) + " of memory");
+  }
+  try {
+    pixels_.resize(std::size_t(crop.Width()) * std::size_t(crop.Height()));
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::Resource, text + ", more than this process may use");
+  }
+}
+
+std::size_t Film::IndexOf(Point2i pixel) const {
+  return std::size_t(pixel.y - crop_.y0) * std::size_t(crop_.Width()) +
+         std::size_t(pixel.x - crop_.x0);
+}
+
+void Film::AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight) {
+  Pixel& p = pixels_[IndexOf(pixel)];
+  const double w = weight;
+  p.r += w * double(L.r);
+  p.g += w * double(L.g);
+  p.b += w * double(L.b);
+  p.alpha += w * double(alpha);
+  p.weight += w;
+  ++p.samples;
+  const auto a = float(std::abs(weight));
+  p.absR += a * float(L.r);
+  p.absG += a * float(L.g);
+  p.absB += a * float(L.b);
+  p.absAlpha += a * float(alpha);
+  p.absWeight += a;
+}
+
+std::int64_t Film::SampleCount(Point2i pixel) const { return pixels_[IndexOf(pixel)].samples; }
+
+std::array<double, 4> Film::Pixel::Mean() const {
+  if (samples == 0) return {};
+  if (std::abs(weight) >= .5 * double(samples))
+    return {r / weight, g / weight, b / weight, alpha / weight};
+  if (!(absWeight > 0)) return {};
+  const double w = absWeight;
+  return {double(absR) / w, double(absG) / w, double(absB) / w, double(absAlpha) / w};
+}
+
+Image Film::ToImage(bool premultiplyAlpha) const {
+  Image image(crop_, full_, {"R", "G", "B", "A"});
+  float* out = image.pixels.data();
+  for (const Pixel& pixel : pixels_) {
+    const std::array<double, 4> mean = pixel.Mean();
+    const double alpha = std::clamp(mean[3], 0., 1.);
+    const double scale = premultiplyAlpha ? alpha : 1;
+    for (std::size_t c = 0; c < 3; ++c) *out++ = float(std::max(mean[c], 0.) * scale);
+    *out++ = float(alpha);
+  }
+  return image;
+}
+
+}  // namespace exphoton
