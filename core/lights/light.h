@@ -52,6 +52,10 @@ class Light {
   virtual Real PdfDirect(const SurfacePoint& ref, const Vector3& wi,
                          const SurfacePoint* on) const = 0;
 
+  // Whether a ray may end on this light (or escape to it). False only where it provably does not:
+  // it spares direct lighting the tracing of most BSDF samples.
+  virtual bool MayMeet(const Ray& ray) const { return (void)ray, true; }
+
   // Radiance that a ray escaping in direction w sees.
   virtual Spectrum Le(const Vector3& w) const { (void)w; return {}; }
 

@@ -20,7 +20,9 @@ class LightDistribution {
   static constexpr double kUniformShare = 0.05;
 
   LightDistribution() = default;
-  LightDistribution(const std::vector<std::unique_ptr<Light>>& lights, LightSelection selection);
+  // uniformShare, in [0,1]: what part of the choices by Power is uniform.
+  LightDistribution(const std::vector<std::unique_ptr<Light>>& lights, LightSelection selection,
+                    double uniformShare = kUniformShare);
 
   bool IsEmpty() const { return distribution_.IsEmpty(); }  // every light is black
 

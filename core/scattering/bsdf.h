@@ -17,6 +17,7 @@ struct BsdfSample {
   Spectrum throughput;  // f |wi.ns| / pdf; finite
   Real pdf = 0;         // per solid angle over the masked lobes; a specular lobe: its probability
   LobeSet lobe = LobeSet::None;
+  Real eta = 1;  // of a specular transmission: index on wo's side over that on wi's side
 
   bool IsSpecular() const { return Intersects(lobe, LobeSet::Specular); }
   bool IsTransmission() const { return Intersects(lobe, LobeSet::Transmission); }

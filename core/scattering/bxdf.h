@@ -43,6 +43,7 @@ struct BxdfSample {
   // delta's coefficient, its cosine already cancelled.
   Spectrum throughput;
   Real pdf = 0;  // per solid angle, > 0; for a specular lobe the probability of this choice
+  Real eta = 1;  // of a specular transmission: index on wo's side over that on wi's side
 };
 
 class Bxdf {

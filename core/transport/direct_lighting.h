@@ -12,14 +12,14 @@ namespace exphoton {
 
 // The random numbers of one estimate.
 struct DirectLightSample {
-  Point2 light;    // point on the light
-  Real lightPart;  // part of the light
-  Point2 bsdf;     // direction
-  Real bsdfLobe;
+  Point2 light;        // point on the light
+  Real lightPart = 0;  // part of the light
+  Point2 bsdf;         // direction
+  Real bsdfLobe = 0;
 };
 
 // One light's contribution to the non-specular lobes, one light sample and one BSDF sample.
-// `deltaOnlyFromLight` lights (IsDelta) take no BSDF sample. Black lights give 0 without a ray.
+// Delta lights take no BSDF sample. Black lights give 0 without a ray.
 Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
                         const DirectLightSample& sample, LiContext& context);
 

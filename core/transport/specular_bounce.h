@@ -3,6 +3,7 @@
 // and refracted footprint (Igehy 1999). What arrives along them is the caller's affair.
 #pragma once
 
+#include <optional>
 
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
@@ -20,6 +21,10 @@ struct SpecularRay {
 std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet lobes, Point2 u,
                                              Real uLobe);
 
+// Beyond this depth one of the two lobes is followed, picked at random, so that the rays of a deep
+// recursion stay countable.
+inline constexpr int kMaxSplitDepth = 8;
+
 // Sum over reflection and transmission of throughput * incident(ray): both are followed.
 // Does nothing where point.depth has reached maxDepth.
 template <class Incident>  // Spectrum(const RayDifferential&)
@@ -27,6 +32,13 @@ Spectrum SpecularBounces(const ShadingPoint& point, int maxDepth, RandomStream r
                          Incident&& incident) {
   Spectrum sum;
   if (point.depth >= maxDepth) return sum;
+  if (point.depth >= kMaxSplitDepth) {
+    if (!point.bsdf.Has(LobeSet::Specular)) return sum;
+    const Point2 u{random.Uniform(), random.Uniform()};
+    if (const auto bounce = SampleSpecularRay(point, LobeSet::Specular, u, random.Uniform()))
+      sum += bounce->throughput * incident(bounce->ray);
+    return sum;
+  }
   for (LobeSet lobe : {LobeSet::SpecularReflection, LobeSet::SpecularTransmission}) {
     if (!point.bsdf.Has(lobe)) continue;
     const Point2 u{random.Uniform(), random.Uniform()};

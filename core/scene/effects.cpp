@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// EffectPlan and the rules that fill it: an effect is off only where its contribution to this scene
+// is provably zero.
+#include "core/scene/effects.h"
+
+#include <algorithm>
+
+#include "core/imaging/camera.h"
+#include "core/scene/scene.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::array<const char*, kEffectCount> kEffectNames{
+    "caustics",  "indirect", "transmission", "specular",    "media",
+    "filtering", "lens",     "motion",       "environment",
+};
+
+// What the rules ask of a scene.
+struct SceneTraits {
+  LobeSet lobes = LobeSet::None;  // of any surface
+  bool needsDifferentials = false;
+  int lights = 0, shiningLights = 0;
+
+  explicit SceneTraits(const Scene& scene) : lights(int(scene.Lights().size())) {
+    for (const auto& material : scene.Materials()) {
+      lobes = lobes | material->PossibleLobes();
+      needsDifferentials = needsDifferentials || material->NeedsDifferentials();
+    }
+    for (const auto& light : scene.Lights())
+      if (!light->IsProvablyBlack()) ++shiningLights;
+  }
+  bool Has(LobeSet mask) const { return Intersects(lobes, mask); }
+};
+
+std::string LightsNote(const SceneTraits& traits) {
+  std::string note = "lights        " + std::to_string(traits.lights);
+  const int black = traits.lights - traits.shiningLights;
+  if (black > 0) note += " (" + std::to_string(black) + " black, skipped)";
+  return note;
+}
+
+void PlanPhotons(const SceneTraits& traits, EffectPlan* plan) {
+  const bool isLit = traits.shiningLights > 0;
+  const bool hasSpecular = traits.Has(LobeSet::Specular);
+  const bool hasReceiver = traits.Has(LobeSet::NonSpecular);
+  const std::string noReceiver =
+      Any(traits.lobes) ? "every surface is specular" : "no surface scatters light";
+  plan->Set(Effect::Caustics, isLit && hasSpecular && hasReceiver,
+            !isLit         ? "no light"
+            : !hasSpecular ? "no specular surface"
+            : !hasReceiver ? noReceiver
+                           : "a specular surface and a receiver");
+  plan->Set(Effect::Indirect, isLit && hasReceiver,
+            !isLit         ? "no light"
+            : !hasReceiver ? noReceiver
+                           : "a surface that scatters light");
+  const bool transmits = isLit && traits.Has(LobeSet::NonSpecularTransmission);
+  plan->Set(Effect::Transmission, transmits,
+            transmits ? "a translucent surface"
+            : isLit   ? "no translucent surface"
+                      : "no light");
+  plan->Set(Effect::Specular, hasSpecular,
+            hasSpecular ? "a specular surface" : "no specular surface");
+}
+
+}  // namespace
+
+const char* EffectName(Effect effect) { return kEffectNames[std::size_t(effect)]; }
+
+EffectPlan::EffectPlan() {
+  for (Row& row : rows_) row = {true, "asked for"};
+}
+
+void EffectPlan::Set(Effect effect, bool on, std::string reason) {
+  rows_[std::size_t(effect)] = {on, std::move(reason)};
+}
+
+std::string EffectPlan::Describe() const {
+  std::string text;
+  for (int i = 0; i < kEffectCount; ++i) {
+    std::string line = kEffectNames[std::size_t(i)];
+    line.resize(std::max<std::size_t>(line.size() + 1, 14), ' ');
+    const Row& row = rows_[std::size_t(i)];
+    text += line + (row.on ? "on   " : "off  ") + row.reason + "\n";
+  }
+  for (const std::string& note : notes) text += note + "\n";
+  return text;
+}
+
+EffectPlan PlanEffects(const Scene& scene, const Camera& camera) {
+  const SceneTraits traits(scene);
+  EffectPlan plan;
+  PlanPhotons(traits, &plan);
+  const bool hasMedia = scene.MediaCount() > 0;
+  plan.Set(Effect::Media, hasMedia,
+           hasMedia ? "a participating medium" : "no participating medium");
+  plan.Set(Effect::Filtering, traits.needsDifferentials,
+           traits.needsDifferentials ? "a filtered texture or bump map"
+                                     : "no filtered texture and no bump map");
+  plan.Set(Effect::Lens, camera.HasLens(), camera.HasLens() ? "lens radius > 0" : "pinhole camera");
+  // Nothing in a scene can move, so an open shutter alone blurs nothing.
+  plan.Set(Effect::Motion, false, camera.HasOpenShutter() ? "nothing moves" : "shutter closed");
+  const bool hasSky = !scene.InfiniteLights().empty();
+  plan.Set(Effect::Environment, hasSky, hasSky ? "an infinite light" : "no infinite light");
+  plan.notes.push_back(LightsNote(traits));
+  return plan;
+}
+
+}  // namespace exphoton

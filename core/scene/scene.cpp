@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Scene: puts the parts together, prepares the lights and answers rays.
+#include "core/scene/scene.h"
+
+namespace exphoton {
+
+Scene::Scene(SceneParts parts)
+    : parts_(std::move(parts)),
+      aggregate_(parts_.aggregate.get()),
+      bounds_(parts_.primitives->WorldBounds()) {
+  const Sphere3 world = BoundingSphere(bounds_);
+  for (const auto& light : parts_.lights) {
+    light->Prepare(world);
+    if (light->IsInfinite() && !light->IsProvablyBlack()) infiniteLights_.push_back(light.get());
+  }
+}
+
+Scene::~Scene() = default;
+
+std::optional<SurfaceInteraction> Scene::Intersect(const RayDifferential& ray) const {
+  const Hit hit = aggregate_->Intersect(ray);
+  if (!hit.IsHit()) return std::nullopt;
+  SurfaceInteraction surface = parts_.primitives->Surface(ray, hit);
+  surface.wo = NormalizeOr(-ray.d, surface.ng);
+  surface.time = ray.time;
+  return surface;
+}
+
+Spectrum Scene::EscapedRadiance(const Vector3& w) const {
+  Spectrum sum;
+  for (const Light* light : infiniteLights_) sum += light->Le(w);
+  return sum;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// DirectLighting: the two estimators of one light's share and their weights, and the sum over the
+// lights. The same lobe mask serves f, Pdf and Sample, or the weights would not add up to 1.
+#include "core/transport/direct_lighting.h"
+
+#include "core/math/mis.h"
+
+namespace exphoton {
+namespace {
+
+constexpr LobeSet kLobes = LobeSet::NonSpecular;
+
+// A point sampled on the light, weighted against BSDF sampling (delta lights: alone).
+Spectrum FromLightSample(const ShadingPoint& point, const Light& light,
+                         const DirectLightSample& sample, LiContext& context) {
+  const auto direct = light.SampleDirect(point.surface, sample.light, sample.lightPart);
+  if (!direct || direct->Li.IsBlack()) return {};
+  const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
+  const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, kLobes) * cosine;
+  if (f.IsBlack()) return {};
+  Ray shadowRay = direct->shadowRay;
+  shadowRay.time = point.surface.time;
+  if (context.Occluded(shadowRay)) return {};
+  if (light.IsDelta()) return f * direct->Li;
+  const Real weight =
+      PowerHeuristic(1, direct->pdf, 1, point.bsdf.Pdf(point.Wo(), direct->wi, kLobes));
+  return f * direct->Li * (weight / direct->pdf);
+}
+
+// A direction sampled from the BSDF that happens to meet the light.
+Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
+                        const DirectLightSample& sample, LiContext& context) {
+  const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, kLobes);
+  if (!scattered || scattered->throughput.IsBlack()) return {};
+  const Ray ray = SpawnRay(point.surface, scattered->wi, point.surface.time);
+  if (!light.MayMeet(ray)) return {};
+  const auto hit = context.Intersect(ray, RayKind::Bsdf);
+  Spectrum radiance;
+  if (hit && hit->areaLight == &light) {
+    radiance = hit->areaLight->L(*hit, hit->uv, hit->wo);
+  } else if (!hit && light.IsInfinite()) {
+    radiance = light.Le(scattered->wi);
+  }
+  if (radiance.IsBlack()) return {};
+  const SurfacePoint* on = hit ? &*hit : nullptr;
+  const Real lightPdf = light.PdfDirect(point.surface, scattered->wi, on);
+  return scattered->throughput * radiance * PowerHeuristic(1, scattered->pdf, 1, lightPdf);
+}
+
+}  // namespace
+
+Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
+                        const DirectLightSample& sample, LiContext& context) {
+  if (light.IsProvablyBlack() || !point.bsdf.Has(kLobes)) return {};
+  Spectrum sum = FromLightSample(point, light, sample, context);
+  if (!light.IsDelta()) sum += FromBsdfSample(point, light, sample, context);
+  return sum;
+}
+
+void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
+                                    SampleLayout* layout) {
+  arrays_.assign(scene.Lights().size(), {});
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    const Light& light = *scene.Lights()[i];
+    if (light.IsProvablyBlack()) continue;
+    LightArrays& arrays = arrays_[i];
+    // Every sample of a delta light is the same one.
+    arrays.count = light.IsDelta() ? 1 : std::max(1, sampler.RoundCount(light.SampleCount()));
+    if (light.IsDelta()) continue;
+    arrays.light2D = layout->Request2D(arrays.count);
+    arrays.part1D = layout->Request1D(arrays.count);
+    arrays.bsdf2D = layout->Request2D(arrays.count);
+    arrays.lobe1D = layout->Request1D(arrays.count);
+  }
+}
+
+Spectrum DirectLighting::AllLights(const ShadingPoint& point, LiContext& context) const {
+  Spectrum sum;
+  if (!point.bsdf.Has(kLobes)) return sum;
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    const LightArrays& arrays = arrays_[i];
+    if (arrays.count == 0) continue;
+    const Light& light = *context.scene.Lights()[i];
+    if (light.IsDelta()) {
+      sum += EstimateDirect(point, light, {}, context);
+      continue;
+    }
+    const auto light2D = context.samples.Array2D(arrays.light2D);
+    const auto part1D = context.samples.Array1D(arrays.part1D);
+    const auto bsdf2D = context.samples.Array2D(arrays.bsdf2D);
+    const auto lobe1D = context.samples.Array1D(arrays.lobe1D);
+    Spectrum lightSum;
+    for (std::size_t j = 0; j < std::size_t(arrays.count); ++j) {
+      lightSum +=
+          EstimateDirect(point, light, {light2D[j], part1D[j], bsdf2D[j], lobe1D[j]}, context);
+    }
+    sum += lightSum / Real(arrays.count);
+  }
+  return sum;
+}
+
+}  // namespace exphoton

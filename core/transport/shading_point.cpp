@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// MakeShadingPoint: from a hit to a BSDF.
+#include "core/transport/shading_point.h"
+
+namespace exphoton {
+
+ShadingPoint MakeShadingPoint(const SurfaceInteraction& surface, const RayDifferential& ray,
+                              int depth, TransportMode mode, Arena* arena) {
+  SurfaceInteraction shaded = surface;
+  const Material* material = surface.material;
+  if (!material) return {shaded, Bsdf(shaded), ray, depth};
+  if (ray.hasDifferentials && material->NeedsDifferentials()) shaded.ComputeDifferentials(ray);
+  const Bsdf bsdf = material->Evaluate(&shaded, mode, arena);
+  return {shaded, bsdf, ray, depth};
+}
+
+}  // namespace exphoton

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SampleSpecularRay: one specular lobe's ray, with the footprint of the pixel carried over the
+// bounce. Source: Igehy 1999, "Tracing Ray Differentials", section 3.
+#include "core/transport/specular_bounce.h"
+
+namespace exphoton {
+namespace {
+
+// The bounce whose derivative is wanted; n is on wo's side.
+struct Bounce {
+  Vector3 wo, wi;
+  Normal3 n;
+  Real eta;  // index on wo's side over that on wi's side; 0 for a reflection
+};
+
+// Change of wi for a change dwo of wo and dn of n.
+Vector3 DifferentialDirection(const Bounce& b, const Vector3& dwo, const Normal3& dn) {
+  const Real cosO = Dot(b.wo, b.n);
+  const Real dCosO = Dot(dwo, b.n) + Dot(b.wo, dn);
+  if (b.eta == 0) return -dwo + Real(2) * (cosO * dn + dCosO * b.n);
+  // wi = -eta wo + mu n with mu = eta cosO - cosT (Igehy, eqs. 14-17).
+  const Real cosT = AbsDot(b.wi, b.n);
+  const Real mu = b.eta * cosO - cosT;
+  const Real dMu = (b.eta - b.eta * b.eta * cosO / cosT) * dCosO;
+  return -b.eta * dwo + (mu * dn + dMu * b.n);
+}
+
+// Gives `ray` the neighbours that the bounce makes of those of the ray that arrived; none where
+// anything is not finite (grazing refraction divides by 0).
+void AddDifferentials(const ShadingPoint& point, const BsdfSample& sample, RayDifferential* ray) {
+  if (!point.ray.hasDifferentials) return;
+  SurfaceInteraction surface = point.surface;
+  if (!surface.hasDifferentials) surface.ComputeDifferentials(point.ray);
+  if (!surface.hasDifferentials) return;
+
+  const auto& shading = surface.shading;
+  const Vector3& wo = surface.wo;
+  const Real side = Dot(wo, shading.n) < 0 ? Real(-1) : Real(1);
+  const Bounce bounce{wo, sample.wi, side * shading.n, sample.IsTransmission() ? sample.eta : 0};
+  const Normal3 dndx = side * (shading.dndu * surface.dudx + shading.dndv * surface.dvdx);
+  const Normal3 dndy = side * (shading.dndu * surface.dudy + shading.dndv * surface.dvdy);
+  const Vector3 dwodx = -NormalizeOr(point.ray.xDirection, -wo) - wo;
+  const Vector3 dwody = -NormalizeOr(point.ray.yDirection, -wo) - wo;
+
+  ray->xOrigin = ray->o + surface.dpdx;
+  ray->yOrigin = ray->o + surface.dpdy;
+  ray->xDirection = ray->d + DifferentialDirection(bounce, dwodx, dndx);
+  ray->yDirection = ray->d + DifferentialDirection(bounce, dwody, dndy);
+  ray->hasDifferentials = IsFinite(ray->xOrigin) && IsFinite(ray->yOrigin) &&
+                          IsFinite(ray->xDirection) && IsFinite(ray->yDirection);
+}
+
+}  // namespace
+
+std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet lobes, Point2 u,
+                                             Real uLobe) {
+  const std::optional<BsdfSample> sample =
+      point.bsdf.Sample(point.Wo(), u, uLobe, lobes & LobeSet::Specular);
+  if (!sample || sample->throughput.IsBlack() || !sample->throughput.IsFinite()) {
+    return std::nullopt;
+  }
+  SpecularRay result;
+  result.ray = SpawnRay(point.surface, sample->wi, point.surface.time);
+  result.throughput = sample->throughput;
+  result.isTransmission = sample->IsTransmission();
+  AddDifferentials(point, *sample, &result.ray);
+  return result;
+}
+
+}  // namespace exphoton
