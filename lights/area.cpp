@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Area light "area" (version 2 of the scene language: "diffuse"): a surface that emits the same
+// radiance from every point into the hemisphere round its normal, and nothing behind.
+#include "core/math/sampling.h"
+#include "core/plugin.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  Spectrum radiance{1};
+  Spectrum scale{1};
+  int sampleCount = 1;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("L", &Settings::radiance, "emitted radiance").AtLeast(0).Unit("W/(m^2 sr)"),
+      Param("scale", &Settings::scale, "factor on L").AtLeast(0),
+      Param("nsamples", &Settings::sampleCount, "shadow rays at a shading point")
+          .Range(1, 1 << 20)};
+  return table;
+}
+
+class DiffuseAreaLight final : public AreaLight {
+ public:
+  DiffuseAreaLight(std::shared_ptr<const EmitterSurface> surface, const Spectrum& radiance,
+                   int sampleCount)
+      : surface_(std::move(surface)),
+        bounds_(surface_->Bounds()),
+        radiance_(radiance),
+        sampleCount_(sampleCount) {}
+
+  bool IsProvablyBlack() const override { return radiance_.IsBlack(); }
+  int SampleCount() const override { return sampleCount_; }
+  Spectrum Power() const override { return radiance_ * (kPi * surface_->Area()); }
+  bool MayMeet(const Ray& ray) const override {
+    return IntersectBox(bounds_, ray.o, ray.d, ray.tMax).has_value();
+  }
+
+  Spectrum L(const SurfacePoint& on, Point2, const Vector3& w) const override {
+    return Dot(on.ng, w) > 0 ? radiance_ : Spectrum{};
+  }
+
+  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2 u,
+                                           Real uPart) const override {
+    const auto sample = surface_->SampleToward(ref, u, uPart);
+    if (!sample || !(sample->pdf > 0)) return std::nullopt;
+    const Vector3 wi = NormalizeOr(sample->point.p - ref.p, {});
+    if (!(Dot(sample->point.ng, -wi) > 0)) return std::nullopt;
+    return DirectSample{wi, radiance_, sample->pdf, SpawnRayTo(ref, sample->point)};
+  }
+  Real PdfDirect(const SurfacePoint& ref, const Vector3& wi,
+                 const SurfacePoint* on) const override {
+    return on ? surface_->PdfToward(ref, wi, *on) : 0;
+  }
+
+  // Uniform by area, cosine about the normal: every ray carries the same power.
+  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
+                                               Real uPart) const override {
+    const SurfacePoint point = surface_->SamplePoint(uPosition, uPart).point;
+    const Vector3 local = SampleCosineHemisphere(uDirection);
+    const Vector3 w = Frame::FromZ(point.ng).ToWorld(local);
+    return EmissionSample{SpawnRay(point, w), Power(), 1 / surface_->Area(),
+                          CosineHemispherePdf(local.z)};
+  }
+  EmissionPdf PdfEmission(const SurfacePoint& from, const Vector3& w) const override {
+    return {1 / surface_->Area(), CosineHemispherePdf(Dot(from.ng, w))};
+  }
+
+ private:
+  std::shared_ptr<const EmitterSurface> surface_;
+  Bounds3 bounds_;
+  Spectrum radiance_;
+  int sampleCount_;
+};
+
+std::unique_ptr<AreaLight> Create(const Settings& settings, const AreaLightContext& context) {
+  Spectrum radiance = settings.radiance * settings.scale;
+  const Real area = context.surface->Area();
+  if (!(area > 0) || !std::isfinite(1 / area)) {
+    context.log.Warning("area light on a surface without area: it emits nothing", context.where);
+    radiance = {};
+  }
+  return std::make_unique<DiffuseAreaLight>(context.surface, radiance, settings.sampleCount);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("area", "a surface that emits light on the side of its normal",
+                exphoton::MakeForm<exphoton::PluginKind::AreaLight>(exphoton::Parameters(),
+                                                                    exphoton::Create))

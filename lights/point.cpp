@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Light "point": the same intensity in every direction from one point. Closer to a surface than
+// 2^-20 of the world's radius it acts as from that distance, so that a light on a surface stays
+// finite; the radius scales with the scene, so this is no absolute length.
+#include "core/math/sampling.h"
+#include "core/plugin.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  Spectrum intensity{1};
+  Spectrum scale{1};
+  Point3 from;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("I", &Settings::intensity, "radiant intensity").AtLeast(0).Unit("W/sr"),
+      Param("scale", &Settings::scale, "factor on I").AtLeast(0),
+      Param("from", &Settings::from, "position").Unit("scene units")};
+  return table;
+}
+
+class PointLight final : public Light {
+ public:
+  PointLight(const Point3& position, const Spectrum& intensity)
+      : position_(position), intensity_(intensity) {}
+
+  void Prepare(const Sphere3& world) override {
+    minDistance2_ = Square(world.radius * Real(0x1p-20));
+  }
+  bool IsDelta() const override { return true; }
+  bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
+  Spectrum Power() const override { return intensity_ * (4 * kPi); }
+
+  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
+    const Vector3 toLight = position_ - ref.p;
+    const Vector3 wi = NormalizeOr(toLight, {});
+    const Real distance2 = std::max(LengthSquared(toLight), minDistance2_);
+    if (wi == Vector3{} || !(distance2 > 0)) return std::nullopt;
+    return DirectSample{wi, intensity_ / distance2, 1, SpawnRayTo(ref, {position_, {}, {}})};
+  }
+  Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
+    return 0;
+  }
+
+  std::optional<EmissionSample> SampleEmission(Point2, Point2 uDirection, Real) const override {
+    const Ray ray{position_, SampleUniformSphere(uDirection)};
+    return EmissionSample{ray, Power(), 1, kUniformSpherePdf};
+  }
+  EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {
+    return {0, kUniformSpherePdf};
+  }
+
+ private:
+  Point3 position_;
+  Spectrum intensity_;
+  Real minDistance2_ = 0;
+};
+
+std::unique_ptr<Light> Create(const Settings& settings, const LightContext& context) {
+  return std::make_unique<PointLight>(context.lightToWorld.ApplyPoint(settings.from),
+                                      settings.intensity * settings.scale);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("point", "light from one point, equal in all directions",
+                exphoton::MakeForm<exphoton::PluginKind::Light>(exphoton::Parameters(),
+                                                                exphoton::Create))
