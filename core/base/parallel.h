@@ -11,8 +11,8 @@ namespace exphoton {
 
 class ThreadPool {
  public:
-  // count 0: as many as there are cores. Fewer are used, with ActualCount saying so, where the
-  // system gives no more.
+  // count 0: as many as there are cores. Fewer are used, as Count says, where the system
+  // gives no more.
   explicit ThreadPool(int count);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -21,8 +21,9 @@ class ThreadPool {
   int Count() const;  // workers, the calling thread among them; >= 1
 
   // Calls work(index, worker) for every index in [0, count); worker in [0, Count()) names the
-  // thread, for per-thread storage. Returns when all are done. The first exception stops further
-  // pieces and is thrown again here. Must not be called from within work.
+  // thread, for per-thread storage. Returns when all are done. An exception stops further pieces
+  // and is thrown again here; of several, that of the lowest index. A call from within work throws
+  // std::logic_error.
   void For(std::int64_t count, const std::function<void(std::int64_t index, int worker)>& work);
 
  private:

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Printing and counting of warnings and notices.
+#include "core/base/log.h"
+
+#include <cstdio>
+
+#include "core/base/terminal.h"
+
+namespace exphoton {
+namespace {
+
+// One call a message, so that messages of several processes do not mix. On a terminal a progress
+// bar may stand on the line: it is wiped and drawn again below.
+void Print(const std::string& message, const std::string& severity) {
+  const std::string text = (IsRedrawable() ? "\r\x1b[K" : "") + Colored(message, severity);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace
+
+void Log::Warning(const std::string& text, const std::optional<SourceLocation>& where,
+                  const std::string& hint) {
+  Say("warning", text, where, hint);
+}
+
+void Log::Notice(const std::string& text, const std::optional<SourceLocation>& where,
+                 const std::string& hint) {
+  if (level_ != Level::Quiet) Say("note", text, where, hint);
+}
+
+void Log::Verbose(const std::string& text) {
+  if (level_ == Level::Verbose) Say("note", text, {}, {});
+}
+
+void Log::Say(const char* severity, const std::string& text,
+              const std::optional<SourceLocation>& where, const std::string& hint) {
+  const std::lock_guard lock(mutex_);
+  const std::string kind = severity;
+  if (kind == "warning") ++warnings_;
+  if (++counts_[kind + ": " + text] > 1) return;
+  const std::string message = FormatDiagnostic(kind, text, where, hint);
+  if (sink_ == Sink::Memory) {
+    messages_.push_back(message);
+  } else {
+    Print(message, kind);
+  }
+}
+
+void Log::Summarize() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [text, count] : counts_) {
+    if (count < 2) continue;
+    const std::string severity = text.substr(0, text.find(':'));
+    const std::string message =
+        "exphoton: " + text + " (" + std::to_string(count) + " times in all)\n";
+    count = 1;
+    if (sink_ == Sink::Memory) {
+      messages_.push_back(message);
+    } else {
+      Print(message, severity);
+    }
+  }
+}
+
+int Log::WarningCount() const {
+  const std::lock_guard lock(mutex_);
+  return warnings_;
+}
+
+std::vector<std::string> Log::Messages() const {
+  const std::lock_guard lock(mutex_);
+  return messages_;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Collecting of counts and times. How they are shown is the program's matter.
+#include "core/base/statistics.h"
+
+#include <time.h>
+
+#include <utility>
+
+namespace exphoton {
+
+const char* RayKindName(RayKind kind) {
+  switch (kind) {
+    case RayKind::Camera:
+      return "camera";
+    case RayKind::Shadow:
+      return "shadow";
+    case RayKind::Bsdf:
+      return "bsdf";
+    case RayKind::Specular:
+      return "specular";
+    case RayKind::Gather:
+      return "gather";
+    case RayKind::Photon:
+      return "photon";
+  }
+  return "";
+}
+
+void Statistics::AddRays(const RayCounters& rays) {
+  const std::lock_guard lock(mutex_);
+  rays_.Add(rays);
+}
+
+void Statistics::SetCounter(std::string name, double value, std::string meaning) {
+  const std::lock_guard lock(mutex_);
+  for (Counter& counter : counters_) {
+    if (counter.name != name) continue;
+    counter.value = value;
+    counter.meaning = std::move(meaning);
+    return;
+  }
+  counters_.push_back({std::move(name), value, std::move(meaning)});
+}
+
+void Statistics::AddPhase(const std::string& name, double wallSeconds, double cpuSeconds) {
+  const std::lock_guard lock(mutex_);
+  for (Phase& phase : phases_) {
+    if (phase.name != name) continue;
+    phase.wallSeconds += wallSeconds;
+    phase.cpuSeconds += cpuSeconds;
+    return;
+  }
+  phases_.push_back({name, wallSeconds, cpuSeconds});
+}
+
+RayCounters Statistics::Rays() const {
+  const std::lock_guard lock(mutex_);
+  return rays_;
+}
+
+std::vector<Statistics::Counter> Statistics::Counters() const {
+  const std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+std::vector<Statistics::Phase> Statistics::Phases() const {
+  const std::lock_guard lock(mutex_);
+  return phases_;
+}
+
+PhaseTimer::PhaseTimer(Statistics& statistics, std::string phase)
+    : statistics_(statistics),
+      phase_(std::move(phase)),
+      wallStart_(std::chrono::steady_clock::now()),
+      cpuStart_(ProcessCpuSeconds()) {}
+
+PhaseTimer::~PhaseTimer() {
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wallStart_;
+  statistics_.AddPhase(phase_, wall.count(), ProcessCpuSeconds() - cpuStart_);
+}
+
+double ProcessCpuSeconds() {
+  timespec time{};
+  if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time) != 0) return 0;
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
+}  // namespace exphoton
