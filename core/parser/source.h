@@ -46,7 +46,7 @@ class MemorySource : public SceneSource {
   std::map<std::string, std::string> files_;
 };
 
-bool IsGzip(std::string_view bytes);          // by its magic number
-std::string Gunzip(std::string_view bytes);   // all members, one after the other; SourceError
+bool IsGzip(std::string_view bytes);         // by its magic number
+std::string Gunzip(std::string_view bytes);  // all members, one after the other; SourceError
 
 }  // namespace exphoton
