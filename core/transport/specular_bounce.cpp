@@ -25,9 +25,11 @@ Vector3 DifferentialDirection(const Bounce& b, const Vector3& dwo, const Normal3
   return -b.eta * dwo + (mu * dn + dMu * b.n);
 }
 
-// Gives `ray` the neighbours that the bounce makes of those of the ray that arrived; none where
-// anything is not finite (grazing refraction divides by 0).
-void AddDifferentials(const ShadingPoint& point, const BsdfSample& sample, RayDifferential* ray) {
+}  // namespace
+
+// Grazing refraction divides by 0: such neighbours are dropped.
+void AddSpecularDifferentials(const ShadingPoint& point, const BsdfSample& sample,
+                              RayDifferential* ray) {
   if (!point.ray.hasDifferentials) return;
   SurfaceInteraction surface = point.surface;
   if (!surface.hasDifferentials) surface.ComputeDifferentials(point.ray);
@@ -50,8 +52,6 @@ void AddDifferentials(const ShadingPoint& point, const BsdfSample& sample, RayDi
                           IsFinite(ray->xDirection) && IsFinite(ray->yDirection);
 }
 
-}  // namespace
-
 std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet lobes, Point2 u,
                                              Real uLobe) {
   const std::optional<BsdfSample> sample =
@@ -63,7 +63,7 @@ std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet 
   result.ray = SpawnRay(point.surface, sample->wi, point.surface.time);
   result.throughput = sample->throughput;
   result.isTransmission = sample->IsTransmission();
-  AddDifferentials(point, *sample, &result.ray);
+  AddSpecularDifferentials(point, *sample, &result.ray);
   return result;
 }
 

@@ -16,6 +16,11 @@ struct SpecularRay {
   bool isTransmission = false;
 };
 
+// Gives `ray`, which leaves the point by a specular `sample`, the neighbours that the bounce makes of
+// those of point.ray; none where they are unknown or not finite.
+void AddSpecularDifferentials(const ShadingPoint& point, const BsdfSample& sample,
+                              RayDifferential* ray);
+
 // The ray of one specular lobe among `lobes` (specular reflection or transmission, or both), picked
 // uniformly by uLobe; nullopt where there is none or it carries nothing.
 std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet lobes, Point2 u,

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Integrator "directlighting": emission, light straight from the lights (light and BSDF samples
+// with the power heuristic), and recursion at specular lobes. No interreflection. Strategies: "all"
+// samples every light; "one" picks one light for each camera sample, uniformly; "weighted" picks it
+// in proportion to power. All three have the same mean.
+#include "core/lights/light_distribution.h"
+#include "core/plugin.h"
+#include "core/transport/direct_lighting.h"
+#include "core/transport/specular_bounce.h"
+
+namespace exphoton {
+namespace {
+
+enum class Strategy { All, One, Weighted };
+
+struct Settings {
+  int maxDepth = 5;
+  Strategy strategy = Strategy::All;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("maxdepth", &Settings::maxDepth, "specular bounces followed").Range(0, 1000),
+      Param("strategy", &Settings::strategy,
+            "sample all lights, one at random, or one at random by power")
+          .OneOf(
+              {{"all", Strategy::All}, {"one", Strategy::One}, {"weighted", Strategy::Weighted}})};
+  return table;
+}
+
+class DirectLightingIntegrator final : public SurfaceIntegrator {
+ public:
+  explicit DirectLightingIntegrator(const Settings& settings) : settings_(settings) {}
+
+  void Preprocess(const Scene& scene, PreprocessContext&) override {
+    if (settings_.strategy == Strategy::All) return;
+    const bool byPower = settings_.strategy == Strategy::Weighted;
+    distribution_ = LightDistribution(scene.Lights(),
+                                      byPower ? LightSelection::Power : LightSelection::Uniform);
+  }
+  void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
+    if (settings_.strategy == Strategy::All) {
+      direct_.RequestSamples(scene, sampler, layout);
+    } else {
+      arrays_ = {layout->Request1D(1), layout->Request2D(1), layout->Request1D(1),
+                 layout->Request2D(1), layout->Request1D(1)};
+    }
+  }
+
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
+    return Li(ray, context, 0);
+  }
+
+ private:
+  struct OneLightArrays {
+    int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
+  };
+  static constexpr std::uint64_t kSpecularStream = 0x5757;
+
+  Spectrum Li(const RayDifferential& ray, LiContext& context, int depth) const {
+    const auto hit = context.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
+    if (!hit) {
+      const Spectrum sky = context.scene.EscapedRadiance(ray.d);
+      if (depth == 0) context.alpha = sky.IsBlack() ? 0 : 1;
+      return sky;
+    }
+    const ShadingPoint point =
+        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context.arena);
+    return point.Le() + DirectLight(point, context) + SpecularLight(point, context);
+  }
+
+  Spectrum DirectLight(const ShadingPoint& point, LiContext& context) const {
+    if (settings_.strategy == Strategy::All) return direct_.AllLights(point, context);
+    if (distribution_.IsEmpty()) return {};
+    const CameraSamples& samples = context.samples;
+    const auto choice = distribution_.Sample(samples.Array1D(arrays_.choice1D)[0]);
+    const DirectLightSample sample{
+        samples.Array2D(arrays_.light2D)[0], samples.Array1D(arrays_.part1D)[0],
+        samples.Array2D(arrays_.bsdf2D)[0], samples.Array1D(arrays_.lobe1D)[0]};
+    return EstimateDirect(point, *choice.light, sample, context) / choice.probability;
+  }
+
+  Spectrum SpecularLight(const ShadingPoint& point, LiContext& context) const {
+    if (!context.scene.Effects().Needs(Effect::Specular)) return {};
+    const std::uint64_t stream = HashKey({kSpecularStream, std::uint64_t(point.depth)});
+    const auto incident = [&](const RayDifferential& ray) {
+      return Li(ray, context, point.depth + 1);
+    };
+    return SpecularBounces(point, settings_.maxDepth, context.Stream(stream), incident);
+  }
+
+  Settings settings_;
+  DirectLighting direct_;
+  LightDistribution distribution_;
+  OneLightArrays arrays_;
+};
+
+std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {
+  return std::make_unique<DirectLightingIntegrator>(settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("directlighting", "light straight from the lights, and specular recursion",
+                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
+                                                                     exphoton::Create))

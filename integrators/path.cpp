@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Integrator "path": unidirectional path tracing with next-event estimation, the ground truth that
+// the photon integrators are tested against. Every estimate is unbiased up to maxdepth.
+// At each vertex one light is chosen (half by power, half uniformly) and combined with the BSDF
+// sample that continues the path by the power heuristic (Veach 1997, chapters 9 and 10).
+// maxdepth d: light is collected at the first d + 1 surfaces of a path; 0 is emission and direct
+// light only (as in pbrt-v1, whose default 5 is this one's).
+#include <unordered_map>
+
+#include "core/lights/light_distribution.h"
+#include "core/math/mis.h"
+#include "core/plugin.h"
+#include "core/transport/shading_point.h"
+#include "core/transport/specular_bounce.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  int maxDepth = 5;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("maxdepth", &Settings::maxDepth,
+            "bounces after the first surface; 0: emission and direct light only")
+          .Range(0, 10000)};
+  return table;
+}
+
+// The random numbers of one vertex.
+struct VertexSample {
+  Real lightChoice;
+  Point2 light;
+  Real lightPart;
+  Point2 bsdf;
+  Real bsdfLobe;
+  Real roulette;
+};
+
+// A path between two vertices.
+struct PathState {
+  RayDifferential ray;
+  Spectrum beta{1};   // product of f |cos| / pdf so far
+  Real etaScale = 1;  // product of 1/eta^2 at refractions, which radiance scales by
+  SurfacePoint from;  // the last vertex
+  Real bsdfPdf = 0;   // per solid angle at `from`, of the ray's direction
+  bool isSpecular =
+      true;  // whether only this ray can find emission: the camera's or a delta lobe's
+};
+
+class PathIntegrator final : public SurfaceIntegrator {
+ public:
+  explicit PathIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
+
+  void Preprocess(const Scene& scene, PreprocessContext&) override {
+    lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
+    indices_.clear();
+    for (std::size_t i = 0; i < scene.Lights().size(); ++i)
+      indices_.emplace(scene.Lights()[i].get(), int(i));
+  }
+
+  void RequestSamples(const Scene&, const Sampler&, SampleLayout* layout) override {
+    for (VertexArrays& a : arrays_) {
+      a = {layout->Request1D(1), layout->Request2D(1), layout->Request1D(1), layout->Request2D(1),
+           layout->Request1D(1)};
+    }
+  }
+
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
+    PathState path;
+    path.ray = ray;
+    Spectrum sum;
+    RandomStream random = context.Stream(kPathStream);
+    for (int depth = 0;; ++depth) {
+      const auto hit = context.Intersect(path.ray, KindOf(path, depth));
+      sum += path.beta * Emission(path, hit ? &*hit : nullptr, context.scene);
+      if (!hit) {
+        if (depth == 0) context.alpha = sum.IsBlack() ? 0 : 1;
+        break;
+      }
+      // One ray beyond the last vertex was for the emission it may meet.
+      if (depth > maxDepth_) break;
+      const Arena::Mark mark = context.arena.GetMark();
+      const ShadingPoint point =
+          MakeShadingPoint(*hit, path.ray, depth, TransportMode::Radiance, &context.arena);
+      const VertexSample sample = MakeVertexSample(depth, context, &random);
+      sum += path.beta * DirectLight(point, sample, context);
+      const bool goesOn = Continue(point, sample, Lobes(context.scene), &path);
+      context.arena.Rewind(mark);
+      if (!goesOn) break;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr double kUniformShare = 0.5;
+  static constexpr int kSampledVertices = 3;  // with points of the sampler; then random ones
+  static constexpr int kRouletteDepth = 4;    // vertices before roulette begins
+  static constexpr Real kMaxSurvival = Real(.98);
+  static constexpr std::uint64_t kPathStream = 0x9a7;
+
+  struct VertexArrays {
+    int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
+  };
+
+  static RayKind KindOf(const PathState& path, int depth) {
+    if (depth == 0) return RayKind::Camera;
+    return path.isSpecular ? RayKind::Specular : RayKind::Bsdf;
+  }
+
+  VertexSample MakeVertexSample(int depth, const LiContext& context, RandomStream* random) const {
+    RandomStream& r = *random;
+    VertexSample s;
+    if (depth < kSampledVertices) {
+      const VertexArrays& a = arrays_[std::size_t(depth)];
+      const CameraSamples& samples = context.samples;
+      s.lightChoice = samples.Array1D(a.choice1D)[0];
+      s.light = samples.Array2D(a.light2D)[0];
+      s.lightPart = samples.Array1D(a.part1D)[0];
+      s.bsdf = samples.Array2D(a.bsdf2D)[0];
+      s.bsdfLobe = samples.Array1D(a.lobe1D)[0];
+    } else {
+      s.lightChoice = r.Uniform();
+      s.light = {r.Uniform(), r.Uniform()};
+      s.lightPart = r.Uniform();
+      s.bsdf = {r.Uniform(), r.Uniform()};
+      s.bsdfLobe = r.Uniform();
+    }
+    s.roulette = r.Uniform();
+    return s;
+  }
+
+  // What the ray's end emits, weighted against the light sample of the vertex that it left.
+  Spectrum Emission(const PathState& path, const SurfaceInteraction* hit,
+                    const Scene& scene) const {
+    const Vector3& w = path.ray.d;
+    if (!hit) {
+      if (path.isSpecular) return scene.EscapedRadiance(w);
+      Spectrum sum;
+      for (const Light* light : scene.InfiniteLights())
+        sum += light->Le(w) * BsdfWeight(path, *light, nullptr);
+      return sum;
+    }
+    if (!hit->areaLight) return {};
+    const Spectrum radiance = hit->areaLight->L(*hit, hit->uv, hit->wo);
+    if (path.isSpecular || radiance.IsBlack()) return radiance;
+    return radiance * BsdfWeight(path, *hit->areaLight, hit);
+  }
+  Real BsdfWeight(const PathState& path, const Light& light, const SurfacePoint* on) const {
+    const Real choice = lights_.Probability(indices_.at(&light));
+    const Real lightPdf = choice * light.PdfDirect(path.from, path.ray.d, on);
+    return PowerHeuristic(1, path.bsdfPdf, 1, lightPdf);
+  }
+
+  // The lobes of f, Pdf and Sample alike.
+  static LobeSet Lobes(const Scene& scene) {
+    return scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular;
+  }
+
+  // Next-event estimation with one light.
+  Spectrum DirectLight(const ShadingPoint& point, const VertexSample& sample,
+                       LiContext& context) const {
+    if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
+    const auto choice = lights_.Sample(sample.lightChoice);
+    const auto direct = choice.light->SampleDirect(point.surface, sample.light, sample.lightPart);
+    if (!direct || direct->Li.IsBlack()) return {};
+    const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
+    const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, Lobes(context.scene)) * cosine;
+    if (f.IsBlack()) return {};
+    Ray shadowRay = direct->shadowRay;
+    shadowRay.time = point.surface.time;
+    if (context.Occluded(shadowRay)) return {};
+    const Real pdf = choice.probability * direct->pdf;
+    if (choice.light->IsDelta()) return f * direct->Li / pdf;
+    const Real bsdfPdf = point.bsdf.Pdf(point.Wo(), direct->wi, Lobes(context.scene));
+    return f * direct->Li * (PowerHeuristic(1, pdf, 1, bsdfPdf) / pdf);
+  }
+
+  // Extends the path by one BSDF sample; false where it ends.
+  bool Continue(const ShadingPoint& point, const VertexSample& sample, LobeSet lobes,
+                PathState* path) const {
+    const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, lobes);
+    if (!scattered) return false;
+    // Beyond the last vertex only emission that direct lighting shares in is collected.
+    if (point.depth >= maxDepth_ && scattered->IsSpecular()) return false;
+    path->beta *= scattered->throughput;
+    if (scattered->IsSpecular() && scattered->IsTransmission()) {
+      path->etaScale /= scattered->eta * scattered->eta;
+    }
+    if (!(path->beta.MaxComponent() > 0) || !path->beta.IsFinite()) return false;
+    if (point.depth >= kRouletteDepth) {
+      // Radiance scaled by entering a denser medium says nothing about what the path will bring.
+      const Real survival = std::min(path->beta.MaxComponent() * path->etaScale, kMaxSurvival);
+      if (!(sample.roulette < survival)) return false;
+      path->beta /= survival;
+    }
+    path->ray = NextRay(point, *scattered);
+    path->from = point.surface;
+    path->bsdfPdf = scattered->pdf;
+    path->isSpecular = scattered->IsSpecular();
+    return true;
+  }
+
+  // Specular rays keep the footprint of the pixel; others have none.
+  static RayDifferential NextRay(const ShadingPoint& point, const BsdfSample& scattered) {
+    RayDifferential ray = SpawnRay(point.surface, scattered.wi, point.surface.time);
+    if (scattered.IsSpecular()) AddSpecularDifferentials(point, scattered, &ray);
+    return ray;
+  }
+
+  int maxDepth_;
+  LightDistribution lights_;
+  std::unordered_map<const Light*, int> indices_;
+  std::array<VertexArrays, kSampledVertices> arrays_;
+};
+
+std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {
+  return std::make_unique<PathIntegrator>(settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("path", "path tracing: all light transport, without bias",
+                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
+                                                                     exphoton::Create))

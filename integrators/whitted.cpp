@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Integrator "whitted": emission, one shadow ray to each light, and recursion at specular lobes.
+// Area lights and skies are sampled at one random point without BSDF samples, so it is unbiased but
+// noisier than "directlighting" where a light is large or a surface glossy.
+// Source: Whitted 1980, "An Improved Illumination Model for Shaded Display".
+#include "core/plugin.h"
+#include "core/transport/shading_point.h"
+#include "core/transport/specular_bounce.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  int maxDepth = 5;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("maxdepth", &Settings::maxDepth, "specular bounces followed").Range(0, 1000)};
+  return table;
+}
+
+class WhittedIntegrator final : public SurfaceIntegrator {
+ public:
+  explicit WhittedIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
+
+  void RequestSamples(const Scene& scene, const Sampler&, SampleLayout* layout) override {
+    arrays_.assign(scene.Lights().size(), {});
+    for (std::size_t i = 0; i < arrays_.size(); ++i) {
+      const Light& light = *scene.Lights()[i];
+      if (light.IsProvablyBlack() || light.IsDelta()) continue;
+      arrays_[i] = {layout->Request2D(1), layout->Request1D(1)};
+    }
+  }
+
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
+    return Li(ray, context, 0);
+  }
+
+ private:
+  struct LightArrays {
+    int light2D = -1, part1D = -1;
+  };
+
+  Spectrum Li(const RayDifferential& ray, LiContext& context, int depth) const {
+    const auto hit = context.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
+    if (!hit) {
+      const Spectrum sky = context.scene.EscapedRadiance(ray.d);
+      if (depth == 0) context.alpha = sky.IsBlack() ? 0 : 1;
+      return sky;
+    }
+    const ShadingPoint point =
+        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context.arena);
+    return point.Le() + DirectLight(point, context) + SpecularLight(point, context);
+  }
+
+  Spectrum DirectLight(const ShadingPoint& point, LiContext& context) const {
+    Spectrum sum;
+    if (!point.bsdf.Has(LobeSet::NonSpecular)) return sum;
+    for (std::size_t i = 0; i < arrays_.size(); ++i) {
+      const Light& light = *context.scene.Lights()[i];
+      if (light.IsProvablyBlack()) continue;
+      Point2 u;
+      Real uPart = 0;
+      if (arrays_[i].light2D >= 0) {
+        u = context.samples.Array2D(arrays_[i].light2D)[0];
+        uPart = context.samples.Array1D(arrays_[i].part1D)[0];
+      }
+      sum += OneLight(point, light, u, uPart, context);
+    }
+    return sum;
+  }
+
+  static Spectrum OneLight(const ShadingPoint& point, const Light& light, Point2 u, Real uPart,
+                           LiContext& context) {
+    const auto direct = light.SampleDirect(point.surface, u, uPart);
+    if (!direct || direct->Li.IsBlack()) return {};
+    const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, LobeSet::NonSpecular);
+    if (f.IsBlack() || context.Occluded(direct->shadowRay)) return {};
+    return f * direct->Li * (AbsDot(direct->wi, point.bsdf.Ns()) / direct->pdf);
+  }
+
+  Spectrum SpecularLight(const ShadingPoint& point, LiContext& context) const {
+    if (!context.scene.Effects().Needs(Effect::Specular)) return {};
+    return SpecularBounces(
+        point, maxDepth_, context.Stream(HashKey({kSpecularStream, Depth(point)})),
+        [&](const RayDifferential& ray) { return Li(ray, context, point.depth + 1); });
+  }
+  static std::uint64_t Depth(const ShadingPoint& point) { return std::uint64_t(point.depth); }
+  static constexpr std::uint64_t kSpecularStream = 0x5757;
+
+  int maxDepth_;
+  std::vector<LightArrays> arrays_;  // one a light; -1 for black and delta lights
+};
+
+std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {
+  return std::make_unique<WhittedIntegrator>(settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("whitted", "direct light from one point of each light, and specular recursion",
+                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
+                                                                     exphoton::Create))
