@@ -31,9 +31,9 @@ class DiscreteDistribution {
   Real Probability(int index) const;  // 0 for an empty distribution
 
  private:
+  double sum_ = 0;           // before cdf_: the constructor computes both at once
   std::vector<double> cdf_;  // cdf_[i] = P(choice < i); size + 1 entries, last one exactly 1
   int size_ = 0;
-  double sum_ = 0;
 };
 
 // Density on [0,1) proportional to a step function of n equal steps. All zero: uniform.
