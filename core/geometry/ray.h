@@ -42,7 +42,7 @@ Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w);
 Ray SpawnRay(const SurfacePoint& point, const Vector3& w, Real time = 0);
 
 // The segment between two surface points, both ends offset towards each other; occluders have
-// 0 < t < 1.
+// 0 < t < tMax (1, less a few roundings).
 Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to, Real time = 0);
 
 }  // namespace exphoton

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A mesh as an emitter: a triangle in proportion to its area, then a point uniform on it, so that
+// the density is 1 / area everywhere. Areas and their sums in double.
+#include <utility>
+
+#include "core/geometry/triangle_mesh.h"
+#include "core/geometry/vec3d.h"
+#include "core/math/distribution.h"
+#include "core/math/sampling.h"
+
+namespace exphoton {
+
+class MeshEmitter final : public EmitterSurface {
+ public:
+  explicit MeshEmitter(const TriangleMesh& mesh) : mesh_(mesh) {
+    std::vector<double> areas;
+    areas.reserve(mesh.TriangleCount());
+    for (const auto& v : mesh.indices) {
+      const Vec3d a(mesh.p[v[0]]);
+      areas.push_back(Length(Cross(Vec3d(mesh.p[v[1]]) - a, Vec3d(mesh.p[v[2]]) - a)) / 2);
+      for (const std::uint32_t corner : v) bounds_.Extend(mesh.p[corner]);
+    }
+    byArea_ = DiscreteDistribution(areas);
+    area_ = Real(byArea_.Sum());
+  }
+
+  Real Area() const override { return area_; }
+  Bounds3 Bounds() const override { return bounds_; }
+
+  EmitterSample SamplePoint(Point2 u, Real uPart) const override {
+    const auto triangle = std::uint32_t(byArea_.Sample(uPart).index);
+    const Point2 b = SampleTriangle(u);
+    const SurfaceInteraction surface = TriangleSurface(mesh_, triangle, b.x, b.y);
+    return {surface, surface.uv, 1 / area_};
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  DiscreteDistribution byArea_;
+  Real area_ = 0;
+  Bounds3 bounds_;
+};
+
+std::unique_ptr<EmitterSurface> MakeMeshEmitter(const TriangleMesh& mesh) {
+  return std::make_unique<MeshEmitter>(mesh);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Leaving a surface without hitting it again: the origin moves along the normal until the plane
+// through it clears the error box of the point, then one representable step further on every axis.
+// Every step scales exactly with powers of two.
+#include "core/geometry/ray.h"
+
+namespace exphoton {
+
+Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w) {
+  // Half the width of the error box along the normal.
+  const Real reach = std::abs(point.ng.x) * point.pError.x + std::abs(point.ng.y) * point.pError.y +
+                     std::abs(point.ng.z) * point.pError.z;
+  Vector3 offset = point.ng * (reach * (1 + Gamma(8)));
+  if (Dot(w, point.ng) < 0) offset = -offset;
+  Point3 origin = point.p + offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (offset[axis] == 0) continue;
+    if (origin[axis] == 0) {
+      // A denormal would be the next value, but it does not scale with the scene.
+      origin[axis] = offset[axis] * kMachineEpsilon;
+    } else {
+      origin[axis] = offset[axis] > 0 ? NextUp(origin[axis]) : NextDown(origin[axis]);
+    }
+  }
+  return origin;
+}
+
+Ray SpawnRay(const SurfacePoint& point, const Vector3& w, Real time) {
+  Ray ray;
+  ray.o = OffsetRayOrigin(point, w);
+  ray.d = w;
+  ray.time = time;
+  return ray;
+}
+
+Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to, Real time) {
+  const Vector3 between = to.p - from.p;
+  Ray ray;
+  ray.o = OffsetRayOrigin(from, between);
+  // The direction is rounded too, so that the far end is uncertain by its share of the distance.
+  SurfacePoint end = to;
+  end.pError += Abs(between) * Gamma(4);
+  ray.d = OffsetRayOrigin(end, -between) - ray.o;
+  ray.tMax = 1 - Gamma(4);
+  ray.time = time;
+  return ray;
+}
+
+}  // namespace exphoton
