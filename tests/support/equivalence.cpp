@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The equivalence rule. Quantiles of Student's t distribution from the usual tables.
+#include "tests/support/equivalence.h"
+
+#include <cmath>
+
+namespace exphoton {
+
+double StudentQuantile995(int degrees) {
+  static constexpr double kTable[] = {63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355,
+                                      3.250,  3.169, 3.106, 3.055, 3.012, 2.977, 2.947, 2.921,
+                                      2.898,  2.878, 2.861, 2.845, 2.831, 2.819, 2.807, 2.797,
+                                      2.787,  2.779, 2.771, 2.763, 2.756, 2.750, 2.744};
+  constexpr int kEntries = int(sizeof kTable / sizeof *kTable);
+  if (degrees < 1) return kTable[0];
+  if (degrees <= kEntries) return kTable[degrees - 1];
+  // Cornish-Fisher expansion about the normal quantile; exact to 4 digits here.
+  const double z = 2.5758293;
+  return z + (z * z * z + z) / (4.0 * degrees);
+}
+
+SeedEstimate EstimateFrom(std::span<const double> meansOfSeeds) {
+  SeedEstimate estimate;
+  const double count = double(meansOfSeeds.size());
+  for (const double mean : meansOfSeeds) estimate.mean += mean / count;
+  double squares = 0;
+  for (const double mean : meansOfSeeds) squares += (mean - estimate.mean) * (mean - estimate.mean);
+  estimate.standardDeviation = std::sqrt(squares / (count - 1));
+  const double quantile = StudentQuantile995(int(meansOfSeeds.size()) - 1);
+  estimate.halfWidth = quantile * estimate.standardDeviation / std::sqrt(count);
+  return estimate;
+}
+
+testing::AssertionResult IsWithin(double relativeTolerance, const SeedEstimate& estimate,
+                                  double truth) {
+  return IsWithinAbsolute(relativeTolerance * std::abs(truth), estimate, truth);
+}
+
+testing::AssertionResult IsWithinAbsolute(double tolerance, const SeedEstimate& estimate,
+                                          double truth) {
+  const double error = std::abs(estimate.mean - truth);
+  const bool isWithin = error + estimate.halfWidth <= tolerance;  // false for NaN
+  return (isWithin ? testing::AssertionSuccess() : testing::AssertionFailure())
+         << "mean " << estimate.mean << " +- " << estimate.halfWidth << ", truth " << truth
+         << ", tolerance " << tolerance
+         << (estimate.halfWidth > tolerance ? " (inconclusive: too few samples)" : "");
+}
+
+}  // namespace exphoton

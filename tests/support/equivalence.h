@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The rule of every Monte Carlo test of a mean: K independent seeds give K means; the test passes
+// where |mean - truth| plus the half-width of the 99 % confidence interval (Student's t) is within
+// the tolerance. A half-width beyond the tolerance fails: noise can never make a test pass.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace exphoton {
+
+inline constexpr int kGateSeeds = 8;
+
+struct SeedEstimate {
+  double mean = 0;
+  double standardDeviation = 0;  // of one seed's mean
+  double halfWidth = 0;          // t(0.995, K - 1) s / sqrt(K)
+};
+
+// The quantile t(0.995, degrees) of Student's distribution.
+double StudentQuantile995(int degrees);
+
+SeedEstimate EstimateFrom(std::span<const double> meansOfSeeds);
+
+// Calls measure(seed) for `count` seeds, 1000 apart.
+template <class Measure>  // double(std::uint64_t seed)
+SeedEstimate EstimateOverSeeds(Measure&& measure, int count = kGateSeeds) {
+  std::vector<double> means;
+  for (int k = 0; k < count; ++k) means.push_back(measure(std::uint64_t(k) * 1000 + 1));
+  return EstimateFrom(means);
+}
+
+// tolerance is relative to |truth|.
+testing::AssertionResult IsWithin(double relativeTolerance, const SeedEstimate& estimate,
+                                  double truth);
+testing::AssertionResult IsWithinAbsolute(double tolerance, const SeedEstimate& estimate,
+                                          double truth);
+
+}  // namespace exphoton

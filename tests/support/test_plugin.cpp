@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// TestPlugins: parses one directive from memory and lets the registry make the plugin.
+#include "tests/support/test_plugin.h"
+
+#include "core/parser/parser.h"
+
+namespace exphoton {
+namespace {
+
+class OneDirective final : public DirectiveHandler {
+ public:
+  void Handle(Directive directive) override { directive_ = std::move(directive); }
+  void Finish(const SourceLocation&) override {}
+  const Directive& Get() const { return directive_; }
+
+ private:
+  Directive directive_;
+};
+
+}  // namespace
+
+TestPlugins::TestPlugins() : registry_({std::string(EXPHOTON_BINARY_DIR) + "/plugins"}, &log_) {}
+
+template <PluginKind kind>
+std::unique_ptr<typename PluginTraits<kind>::Product> TestPlugins::Make(
+    const std::string& text, const typename PluginTraits<kind>::Context& context) {
+  // Every directive with one name and parameters is written alike.
+  MemorySource source({{"test.pbrt", "Shape " + text + "\n"}});
+  OneDirective handler;
+  ParseScene(source, "test.pbrt", handler, log_);
+  BindContext bind;
+  bind.log = &log_;
+  return registry_.Create<kind>(handler.Get().strings.at(0), handler.Get().params, bind, context);
+}
+
+std::unique_ptr<Light> TestPlugins::MakeLight(const std::string& text, const Transform& toWorld) {
+  return Make<PluginKind::Light>(text, {toWorld, log_, {}});
+}
+
+std::unique_ptr<AreaLight> TestPlugins::MakeAreaLight(
+    const std::string& text, std::shared_ptr<const EmitterSurface> surface) {
+  return Make<PluginKind::AreaLight>(text, {std::move(surface), log_, {}});
+}
+
+ShapeGeometry TestPlugins::MakeShape(const std::string& text, const Transform& toWorld,
+                                     bool reverseOrientation) {
+  return std::move(*Make<PluginKind::Shape>(text, {toWorld, reverseOrientation, log_, {}}));
+}
+
+std::shared_ptr<const EmitterSurface> TestPlugins::MakeEmitter(const std::string& text,
+                                                               const Transform& toWorld,
+                                                               bool reverseOrientation) {
+  ShapeGeometry geometry = MakeShape(text, toWorld, reverseOrientation);
+  if (auto* shape = std::get_if<std::unique_ptr<Shape>>(&geometry)) return std::move(*shape);
+  meshes_.push_back(std::move(std::get<std::unique_ptr<TriangleMesh>>(geometry)));
+  return MakeMeshEmitter(*meshes_.back());
+}
+
+}  // namespace exphoton

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Makes single plugins from scene text, for tests of one light, shape or material without a scene:
+//   TestPlugins plugins;
+//   auto light = plugins.MakeLight(R"("spot" "float coneangle" 20)");
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/log.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton {
+
+class TestPlugins {
+ public:
+  TestPlugins();
+
+  // `text`: the plugin's name in quotes and its parameters, as behind a directive.
+  std::unique_ptr<Light> MakeLight(const std::string& text, const Transform& toWorld = {});
+  std::unique_ptr<AreaLight> MakeAreaLight(const std::string& text,
+                                           std::shared_ptr<const EmitterSurface> surface);
+  ShapeGeometry MakeShape(const std::string& text, const Transform& toWorld = {},
+                          bool reverseOrientation = false);
+  // The shape as a surface to sample; keeps what it refers to.
+  std::shared_ptr<const EmitterSurface> MakeEmitter(const std::string& text,
+                                                    const Transform& toWorld = {},
+                                                    bool reverseOrientation = false);
+
+  Log& GetLog() { return log_; }
+  PluginRegistry& Registry() { return registry_; }
+
+ private:
+  template <PluginKind kind>
+  std::unique_ptr<typename PluginTraits<kind>::Product> Make(
+      const std::string& text, const typename PluginTraits<kind>::Context& context);
+
+  Log log_{Log::Level::Normal, Log::Sink::Memory};
+  PluginRegistry registry_;
+  std::vector<std::unique_ptr<TriangleMesh>> meshes_;
+};
+
+}  // namespace exphoton
