@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/geometry/interaction.h"
 #include "core/math/spectrum.h"
@@ -14,8 +15,10 @@ class Texture {
  public:
   virtual ~Texture() = default;
   virtual T Evaluate(const SurfaceInteraction& si) const = 0;
+  // The value, where it is the same everywhere and known while loading.
+  virtual std::optional<T> ConstantValue() const { return std::nullopt; }
   // Whether every value is provably 0. A texture that is not constant counts as not.
-  virtual bool IsProvablyZero() const { return false; }
+  bool IsProvablyZero() const { return ConstantValue() == T{}; }
   // Whether Evaluate uses the footprint (dudx ... or dpdx).
   virtual bool IsFiltered() const { return false; }
 };
@@ -31,7 +34,7 @@ class UniformTexture final : public Texture<T> {
  public:
   explicit UniformTexture(const T& value) : value_(value) {}
   T Evaluate(const SurfaceInteraction&) const override { return value_; }
-  bool IsProvablyZero() const override { return value_ == T{}; }
+  std::optional<T> ConstantValue() const override { return value_; }
 
  private:
   T value_;
