@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The BSDF of a point: lobes combined under a mask. The geometric normal alone decides what is
+// reflection and what transmission; a direction that is on another side of the shading normal than
+// of the geometric one is handled before any lobe sees it (Veach 1997, section 5.3).
+#include "core/scattering/bsdf.h"
+
+#include <span>
+
+#include "core/base/error.h"
+#include "core/scattering/local_frame.h"
+
+namespace exphoton {
+namespace {
+
+// The frame's x follows dpdu, so that anisotropic lobes lie along the surface's parameters.
+Frame ShadingFrame(const SurfaceInteraction& si) {
+  const Normal3& n = si.shading.n;
+  const Vector3 tangent = NormalizeOr(si.shading.dpdu, Vector3());
+  const Vector3 x = tangent - n * Dot(n, tangent);
+  const Real length2 = LengthSquared(x);
+  if (!(length2 > Real(1e-8))) return Frame::FromZ(n);  // no tangent, or parallel to n
+  Frame frame;
+  frame.x = x / std::sqrt(length2);
+  frame.y = Cross(n, frame.x);
+  frame.z = n;
+  return frame;
+}
+
+// wo in the local frame, on the side that the geometric normal says. Where the two normals
+// disagree its cosine changes sign: such a point is seen as under a grazing view, not as black.
+struct LocalOut {
+  Vector3 wo;
+  Real side = 0;  // wo . ng
+  bool isMirrored = false;
+};
+
+LocalOut ToLocalOut(const Frame& frame, const Normal3& ng, const Vector3& wo) {
+  LocalOut out{frame.ToLocal(wo), Dot(wo, ng), false};
+  out.isMirrored = (out.wo.z < 0) != (out.side < 0);
+  if (out.isMirrored) out.wo.z = -out.wo.z;
+  return out;
+}
+
+// Which kinds of lobe serve a pair of directions with these cosines to the geometric normal.
+LobeSet Served(Real woSide, Real wiSide) {
+  if (woSide == 0 || wiSide == 0) return LobeSet::None;
+  return (woSide > 0) == (wiSide > 0) ? LobeSet::Reflection : LobeSet::Transmission;
+}
+
+// The lobes under a mask, the specular ones apart.
+struct Chosen {
+  std::array<const Bxdf*, Bsdf::kMaxLobes> sharp, smooth;
+  std::size_t sharpCount = 0, smoothCount = 0;
+
+  Chosen(std::span<const Bxdf* const> lobes, LobeSet mask) {
+    for (const Bxdf* lobe : lobes) {
+      if (!lobe->Matches(mask)) continue;
+      if (lobe->Matches(LobeSet::Specular)) {
+        sharp[sharpCount++] = lobe;
+      } else {
+        smooth[smoothCount++] = lobe;
+      }
+    }
+  }
+  std::span<const Bxdf* const> Sharp() const { return {sharp.data(), sharpCount}; }
+};
+
+// One of these specular lobes, with probability in proportion to its largest coefficient: so glass
+// reflects a Fresnel share of the photons, each with nearly its whole power. wi stays local.
+std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, const Vector3& wo,
+                                         Real u) {
+  std::array<BsdfSample, Bsdf::kMaxLobes> found;
+  std::array<Real, Bsdf::kMaxLobes> weight;
+  std::size_t count = 0;
+  Real total = 0;
+  for (const Bxdf* lobe : lobes) {
+    const auto local = lobe->Sample(wo, {});
+    if (!local) continue;
+    const Real w = local->throughput.MaxComponent();
+    if (!(w > 0) || !std::isfinite(w)) continue;
+    found[count] = {local->wi, local->throughput, local->pdf, lobe->Lobe()};
+    weight[count++] = w;
+    total += w;
+  }
+  if (count == 0) return std::nullopt;
+  std::size_t i = 0;
+  for (Real left = u * total; i + 1 < count && left >= weight[i]; ++i) left -= weight[i];
+  BsdfSample sample = found[i];
+  const Real probability = count == 1 ? 1 : weight[i] / total;
+  sample.pdf *= probability;
+  sample.throughput /= probability;
+  return sample;
+}
+
+// Replaces the density of the picked lobe by the mean over all chosen ones, and its value by the
+// sum of those that serve this pair of sides.
+void CombineSmooth(const Chosen& chosen, std::size_t picked, LobeSet served, const Vector3& wo,
+                   const Vector3& wi, BsdfSample* sample) {
+  Spectrum f;
+  Real pdf = 0;
+  for (std::size_t i = 0; i < chosen.smoothCount; ++i) {
+    const Bxdf& lobe = *chosen.smooth[i];
+    if (!lobe.Matches(served)) continue;
+    f += lobe.f(wo, wi);
+    pdf += i == picked ? sample->pdf : lobe.Pdf(wo, wi);
+  }
+  sample->pdf = pdf / Real(chosen.sharpCount + chosen.smoothCount);
+  if (sample->pdf > 0) sample->throughput = f * (std::abs(wi.z) / sample->pdf);
+}
+
+}  // namespace
+
+Bsdf::Bsdf(const SurfaceInteraction& si) : frame_(ShadingFrame(si)), ng_(si.ng) {}
+
+void Bsdf::Add(const Bxdf* lobe) {
+  if (!lobe) return;
+  if (count_ == kMaxLobes) throw Error(ExitStatus::Internal, "a material made too many lobes");
+  lobes_[std::size_t(count_++)] = lobe;
+  present_ = present_ | lobe->Lobe();
+}
+
+int Bsdf::Count(LobeSet mask) const {
+  int count = 0;
+  for (int i = 0; i < count_; ++i) count += lobes_[std::size_t(i)]->Matches(mask);
+  return count;
+}
+
+Spectrum Bsdf::f(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
+  const LocalOut out = ToLocalOut(frame_, ng_, wo);
+  const LobeSet served = mask & Served(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
+  Spectrum sum;
+  if (!Has(served)) return sum;
+  const Vector3 localWi = frame_.ToLocal(wi);
+  for (int i = 0; i < count_; ++i) {
+    const Bxdf& lobe = *lobes_[std::size_t(i)];
+    if (lobe.Matches(served)) sum += lobe.f(out.wo, localWi);
+  }
+  return sum;
+}
+
+Real Bsdf::Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
+  const LocalOut out = ToLocalOut(frame_, ng_, wo);
+  const LobeSet served = mask & Served(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
+  if (!Has(served)) return 0;
+  const Vector3 localWi = frame_.ToLocal(wi);
+  Real sum = 0;
+  int matching = 0;
+  for (int i = 0; i < count_; ++i) {
+    const Bxdf& lobe = *lobes_[std::size_t(i)];
+    matching += lobe.Matches(mask);
+    if (lobe.Matches(served)) sum += lobe.Pdf(out.wo, localWi);
+  }
+  return sum / Real(matching);
+}
+
+std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe,
+                                       LobeSet mask) const {
+  const Chosen chosen(std::span(lobes_.data(), std::size_t(count_)), mask);
+  const int count = int(chosen.sharpCount + chosen.smoothCount);
+  if (count == 0) return std::nullopt;
+  const LocalOut out = ToLocalOut(frame_, ng_, wo);
+  if (out.side == 0 || out.wo.z == 0) return std::nullopt;
+
+  const Real position = uLobe * Real(count);
+  const bool isSpecular = position < Real(chosen.sharpCount);
+  std::optional<BsdfSample> sample;
+  std::size_t picked = 0;
+  if (isSpecular) {
+    sample = SampleSpecular(chosen.Sharp(), out.wo, position / Real(chosen.sharpCount));
+  } else {
+    picked = std::min(std::size_t(position) - chosen.sharpCount, chosen.smoothCount - 1);
+    const Bxdf& lobe = *chosen.smooth[picked];
+    if (const auto local = lobe.Sample(out.wo, u))
+      sample = BsdfSample{local->wi, local->throughput, local->pdf, lobe.Lobe()};
+  }
+  if (!sample) return std::nullopt;
+  const Vector3 localWi = sample->wi;
+  // Undone for what goes straight through, so that an invisible boundary bends nothing.
+  sample->wi = frame_.ToWorld(
+      out.isMirrored && isSpecular && sample->IsTransmission() ? MirrorZ(localWi) : localWi);
+  const LobeSet served = Served(out.side, Dot(sample->wi, ng_));
+  if (!Intersects(sample->lobe, served)) return std::nullopt;
+  if (isSpecular) {
+    const Real share = Real(chosen.sharpCount) / Real(count);
+    sample->pdf *= share;
+    sample->throughput /= share;
+  } else if (count > 1) {
+    CombineSmooth(chosen, picked, served, out.wo, localWi, &*sample);
+  }
+  if (!(sample->pdf > 0) || !sample->throughput.IsFinite()) return std::nullopt;
+  return sample;
+}
+
+Spectrum Bsdf::Rho(LobeSet mask) const {
+  Spectrum sum;
+  for (int i = 0; i < count_; ++i) {
+    const Bxdf& lobe = *lobes_[std::size_t(i)];
+    if (lobe.Matches(mask)) sum += lobe.Rho();
+  }
+  return sum;
+}
+
+}  // namespace exphoton

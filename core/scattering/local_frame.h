@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Small helpers for directions in a lobe's local frame, where z is the shading normal.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+// Strictly on the same side of the surface; a direction in the surface is on neither side. By
+// comparisons, since a product of two tiny cosines underflows.
+constexpr bool SameHemisphere(const Vector3& a, const Vector3& b) {
+  return (a.z > 0 && b.z > 0) || (a.z < 0 && b.z < 0);
+}
+constexpr Vector3 MirrorZ(const Vector3& v) { return {v.x, v.y, -v.z}; }
+// v, or its mirror image on the side where `side` is (+z for side.z == 0).
+constexpr Vector3 OnSideOf(const Vector3& v, const Vector3& side) {
+  return (v.z < 0) != (side.z < 0) ? MirrorZ(v) : v;
+}
+
+}  // namespace exphoton
