@@ -6,7 +6,7 @@
 #include "core/lights/light_distribution.h"
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular_tree.h"
 
 namespace exphoton {
 namespace {
@@ -48,26 +48,15 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
   }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
-    return Li(ray, context, 0);
+    return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
+      return point.Le() + DirectLight(point, context);
+    });
   }
 
  private:
   struct OneLightArrays {
     int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
-  static constexpr std::uint64_t kSpecularStream = 0x5757;
-
-  Spectrum Li(const RayDifferential& ray, LiContext& context, int depth) const {
-    const auto hit = context.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
-    if (!hit) {
-      const Spectrum sky = context.scene.EscapedRadiance(ray.d);
-      if (depth == 0) context.alpha = sky.IsBlack() ? 0 : 1;
-      return sky;
-    }
-    const ShadingPoint point =
-        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context.arena);
-    return point.Le() + DirectLight(point, context) + SpecularLight(point, context);
-  }
 
   Spectrum DirectLight(const ShadingPoint& point, LiContext& context) const {
     if (settings_.strategy == Strategy::All) return direct_.AllLights(point, context);
@@ -78,15 +67,6 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
         samples.Array2D(arrays_.light2D)[0], samples.Array1D(arrays_.part1D)[0],
         samples.Array2D(arrays_.bsdf2D)[0], samples.Array1D(arrays_.lobe1D)[0]};
     return EstimateDirect(point, *choice.light, sample, context) / choice.probability;
-  }
-
-  Spectrum SpecularLight(const ShadingPoint& point, LiContext& context) const {
-    if (!context.scene.Effects().Needs(Effect::Specular)) return {};
-    const std::uint64_t stream = HashKey({kSpecularStream, std::uint64_t(point.depth)});
-    const auto incident = [&](const RayDifferential& ray) {
-      return Li(ray, context, point.depth + 1);
-    };
-    return SpecularBounces(point, settings_.maxDepth, context.Stream(stream), incident);
   }
 
   Settings settings_;

@@ -5,7 +5,7 @@
 // Source: Whitted 1980, "An Improved Illumination Model for Shaded Display".
 #include "core/plugin.h"
 #include "core/transport/shading_point.h"
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular_tree.h"
 
 namespace exphoton {
 namespace {
@@ -34,25 +34,15 @@ class WhittedIntegrator final : public SurfaceIntegrator {
   }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
-    return Li(ray, context, 0);
+    return SpecularTree(maxDepth_, context).Radiance(ray, [&](const ShadingPoint& point) {
+      return point.Le() + DirectLight(point, context);
+    });
   }
 
  private:
   struct LightArrays {
     int light2D = -1, part1D = -1;
   };
-
-  Spectrum Li(const RayDifferential& ray, LiContext& context, int depth) const {
-    const auto hit = context.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
-    if (!hit) {
-      const Spectrum sky = context.scene.EscapedRadiance(ray.d);
-      if (depth == 0) context.alpha = sky.IsBlack() ? 0 : 1;
-      return sky;
-    }
-    const ShadingPoint point =
-        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context.arena);
-    return point.Le() + DirectLight(point, context) + SpecularLight(point, context);
-  }
 
   Spectrum DirectLight(const ShadingPoint& point, LiContext& context) const {
     Spectrum sum;
@@ -79,15 +69,6 @@ class WhittedIntegrator final : public SurfaceIntegrator {
     if (f.IsBlack() || context.Occluded(direct->shadowRay)) return {};
     return f * direct->Li * (AbsDot(direct->wi, point.bsdf.Ns()) / direct->pdf);
   }
-
-  Spectrum SpecularLight(const ShadingPoint& point, LiContext& context) const {
-    if (!context.scene.Effects().Needs(Effect::Specular)) return {};
-    return SpecularBounces(
-        point, maxDepth_, context.Stream(HashKey({kSpecularStream, Depth(point)})),
-        [&](const RayDifferential& ray) { return Li(ray, context, point.depth + 1); });
-  }
-  static std::uint64_t Depth(const ShadingPoint& point) { return std::uint64_t(point.depth); }
-  static constexpr std::uint64_t kSpecularStream = 0x5757;
 
   int maxDepth_;
   std::vector<LightArrays> arrays_;  // one a light; -1 for black and delta lights

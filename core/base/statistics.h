@@ -18,9 +18,14 @@ const char* RayKindName(RayKind kind);  // "camera"
 
 struct RayCounters {
   std::array<std::uint64_t, kRayKindCount> counts{};
+  // Throughput (luminance) of camera paths that a depth limit cut; to be compared with the number
+  // of camera rays.
+  double cutThroughput = 0;
+
   void Count(RayKind kind) { ++counts[std::size_t(kind)]; }
   void Add(const RayCounters& other) {
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
+    cutThroughput += other.cutThroughput;
   }
 };
 

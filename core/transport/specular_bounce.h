@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
@@ -16,8 +17,8 @@ struct SpecularRay {
   bool isTransmission = false;
 };
 
-// Gives `ray`, which leaves the point by a specular `sample`, the neighbours that the bounce makes of
-// those of point.ray; none where they are unknown or not finite.
+// Gives `ray`, which leaves the point by a specular `sample`, the neighbours that the bounce makes
+// of those of point.ray; none where they are unknown or not finite.
 void AddSpecularDifferentials(const ShadingPoint& point, const BsdfSample& sample,
                               RayDifferential* ray);
 
@@ -31,24 +32,18 @@ std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet 
 inline constexpr int kMaxSplitDepth = 8;
 
 // Sum over reflection and transmission of throughput * incident(ray): both are followed.
-// Does nothing where point.depth has reached maxDepth.
-template <class Incident>  // Spectrum(const RayDifferential&)
-Spectrum SpecularBounces(const ShadingPoint& point, int maxDepth, RandomStream random,
-                         Incident&& incident) {
+template <class Incident>  // Spectrum(const SpecularRay&)
+Spectrum SpecularBounces(const ShadingPoint& point, RandomStream random, Incident&& incident) {
+  constexpr LobeSet kTogether[] = {LobeSet::Specular};
+  constexpr LobeSet kSplit[] = {LobeSet::SpecularReflection, LobeSet::SpecularTransmission};
   Spectrum sum;
-  if (point.depth >= maxDepth) return sum;
-  if (point.depth >= kMaxSplitDepth) {
-    if (!point.bsdf.Has(LobeSet::Specular)) return sum;
+  const std::span<const LobeSet> branches =
+      point.depth < kMaxSplitDepth ? std::span<const LobeSet>(kSplit) : kTogether;
+  for (const LobeSet lobes : branches) {
+    if (!point.bsdf.Has(lobes)) continue;
     const Point2 u{random.Uniform(), random.Uniform()};
-    if (const auto bounce = SampleSpecularRay(point, LobeSet::Specular, u, random.Uniform()))
-      sum += bounce->throughput * incident(bounce->ray);
-    return sum;
-  }
-  for (LobeSet lobe : {LobeSet::SpecularReflection, LobeSet::SpecularTransmission}) {
-    if (!point.bsdf.Has(lobe)) continue;
-    const Point2 u{random.Uniform(), random.Uniform()};
-    if (const auto bounce = SampleSpecularRay(point, lobe, u, random.Uniform()))
-      sum += bounce->throughput * incident(bounce->ray);
+    if (const auto bounce = SampleSpecularRay(point, lobes, u, random.Uniform()))
+      sum += bounce->throughput * incident(*bounce);
   }
   return sum;
 }

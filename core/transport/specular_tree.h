@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SpecularTree: the part that Whitted-style integrators share (Whitted 1980): follow a camera ray
+// to a surface, let the caller shade it, and add what arrives over its specular lobes, up to a
+// depth. Counts what that depth cuts, so that the render can say so.
+#pragma once
+
+#include "core/transport/specular_bounce.h"
+
+namespace exphoton {
+
+class SpecularTree {
+ public:
+  SpecularTree(int maxDepth, LiContext& context) : maxDepth_(maxDepth), context_(context) {}
+
+  // Radiance along the ray: shade(point), for Spectrum shade(const ShadingPoint&), is what leaves a
+  // point by emission and its non-specular lobes.
+  template <class Shade>
+  Spectrum Radiance(const RayDifferential& ray, const Shade& shade) {
+    return Along(ray, Spectrum(1), 0, shade);
+  }
+
+ private:
+  static constexpr std::uint64_t kStream = 0x73706563ull;
+
+  template <class Shade>
+  Spectrum Along(const RayDifferential& ray, const Spectrum& throughput, int depth,
+                 const Shade& shade) {
+    const auto hit = context_.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
+    if (!hit) {
+      const Spectrum sky = context_.scene.EscapedRadiance(ray.d);
+      if (depth == 0) context_.alpha = sky.IsBlack() ? 0 : 1;
+      return sky;
+    }
+    const ShadingPoint point =
+        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context_.arena);
+    Spectrum radiance = shade(point);
+    if (!context_.scene.Effects().Needs(Effect::Specular)) return radiance;
+    if (depth == maxDepth_) {
+      if (point.bsdf.Has(LobeSet::Specular))
+        context_.rays.cutThroughput += double((throughput * point.bsdf.Rho(LobeSet::Specular)).Y());
+      return radiance;
+    }
+    const auto incident = [&](const SpecularRay& bounce) {
+      return Along(bounce.ray, throughput * bounce.throughput, depth + 1, shade);
+    };
+    return radiance +=
+           SpecularBounces(point, context_.Stream(kStream + std::uint64_t(depth)), incident);
+  }
+
+  int maxDepth_;
+  LiContext& context_;
+};
+
+}  // namespace exphoton

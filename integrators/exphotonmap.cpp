@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. Photons of
+// nearly constant weight, radiance precomputed at a sample of them, and a final gather that is
+// guided by their directions. docs/exphotonmap.md derives it; integrators/photon/ holds the
+// machinery.
+#include "core/plugin.h"
+#include "core/transport/direct_lighting.h"
+#include "core/transport/specular_tree.h"
+#include "integrators/photon/photon_lighting.h"
+
+namespace exphoton {
+namespace {
+
+const ParamTable<ExtendedPhotonSettings>& Parameters() {
+  static const ParamTable<ExtendedPhotonSettings> table{PhotonParameters()};
+  return table;
+}
+
+class ExPhotonIntegrator final : public SurfaceIntegrator {
+ public:
+  explicit ExPhotonIntegrator(const ExtendedPhotonSettings& settings)
+      : settings_(settings), photons_(settings, false) {}
+
+  void Preprocess(const Scene& scene, PreprocessContext& context) override {
+    photons_.Preprocess(scene, context);
+  }
+
+  void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
+    direct_.RequestSamples(scene, sampler, layout);
+    photons_.RequestSamples(scene, layout);
+  }
+
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
+    return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
+      if (settings_.show != ShowMap::Nothing) return photons_.Shown(point, context);
+      return point.Le() + direct_.AllLights(point, context) + photons_.Caustic(point, context) +
+             photons_.Indirect(point, context);
+    });
+  }
+
+ private:
+  ExtendedPhotonSettings settings_;
+  DirectLighting direct_;
+  PhotonLighting photons_;
+};
+
+std::unique_ptr<SurfaceIntegrator> Create(const ExtendedPhotonSettings& settings,
+                                          const IntegratorContext&) {
+  return std::make_unique<ExPhotonIntegrator>(settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("exphotonmap", "extended photon mapping: precomputed radiance, guided final gather",
+                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
+                                                                     exphoton::Create))

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ConeMixture: directions round those of nearby photons: pick one of m axes uniformly, then a
+// direction uniform in the cone about it. Sampling and density share one idea of what a cone holds;
+// small angles lose nothing.
+#pragma once
+
+#include <span>
+
+#include "core/math/sampling.h"
+
+namespace exphoton {
+
+class ConeMixture {
+ public:
+  // Axes are unit and must outlive this; halfAngle in (0, pi/2].
+  ConeMixture(std::span<const Vector3> axes, Real halfAngle)
+      : axes_(axes), oneMinusCos_(OneMinusCos(halfAngle)) {}
+
+  bool IsEmpty() const { return axes_.empty(); }
+
+  struct Sample {
+    Vector3 w;  // unit
+    Real pdf;   // per solid angle, > 0
+  };
+  // uAxis picks the axis, u the direction. Must not be empty.
+  Sample Draw(Real uAxis, Point2 u) const {
+    const auto own = std::min(std::size_t(uAxis * Real(axes_.size())), axes_.size() - 1);
+    const Vector3 w = Frame::FromZ(axes_[own]).ToWorld(SampleUniformCone(u, oneMinusCos_));
+    // The chosen cone holds w by construction, whatever rounding says; the others by the test.
+    std::size_t holding = 1;
+    for (std::size_t j = 0; j < axes_.size(); ++j) holding += j != own && Contains(j, w);
+    return {w, Density(holding)};
+  }
+  // Density of Draw per solid angle.
+  Real Pdf(const Vector3& w) const {
+    std::size_t holding = 0;
+    for (std::size_t j = 0; j < axes_.size(); ++j) holding += Contains(j, w);
+    return holding == 0 ? Real(0) : Density(holding);
+  }
+
+ private:
+  // By the chord: |w - axis|^2 <= 4 sin^2(a/2) = 2 (1 - cos a).
+  bool Contains(std::size_t j, const Vector3& w) const {
+    return DistanceSquared(w, axes_[j]) <= 2 * oneMinusCos_;
+  }
+  Real Density(std::size_t holding) const {
+    return Real(holding) / Real(axes_.size()) * UniformConePdf(oneMinusCos_);
+  }
+
+  std::span<const Vector3> axes_;
+  Real oneMinusCos_;
+};
+
+}  // namespace exphoton

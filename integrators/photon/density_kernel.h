@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Kernels of a density estimate: weight per area of a photon at squared distance d2 from the centre
+// of a disk of squared radius r2. Each integrates to 1 over the disk.
+#pragma once
+
+#include "integrators/photon/photon_settings.h"
+
+namespace exphoton {
+
+inline Real ConstantKernel(Real d2, Real r2) { return d2 < r2 ? kInvPi / r2 : Real(0); }
+
+// Simpson's kernel (Silverman 1986, "biweight"): 3 / (pi r^2) (1 - (d/r)^2)^2.
+inline Real SimpsonKernel(Real d2, Real r2) {
+  return d2 < r2 ? 3 * kInvPi / r2 * Square(1 - d2 / r2) : Real(0);
+}
+
+inline Real KernelWeight(DensityKernel kernel, Real d2, Real r2) {
+  // A photon at the very rim of a fixed disk counts for the constant kernel: the search found it.
+  return kernel == DensityKernel::Simpson ? SimpsonKernel(d2, r2) : kInvPi / r2;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// FinalGather: sample requests and the choice of guiding photons.
+#include "integrators/photon/final_gather.h"
+
+namespace exphoton {
+
+FinalGather::FinalGather(const PhotonSettings& settings)
+    : guideCount_(settings.gatherPhotons),
+      coneAngle_(Radians(settings.gatherAngle)),
+      rrThreshold_(settings.rrThreshold) {
+  const bool isGuided = settings.gatherSampling == GatherSampling::Photons;
+  photonCount_ = isGuided ? settings.finalGatherSamples / 2 : 0;
+  bsdfCount_ = settings.finalGatherSamples - photonCount_;
+}
+
+void FinalGather::RequestSamples(SampleLayout* layout) {
+  bsdfDirections_ = layout->Request2D(bsdfCount_);
+  bsdfLobes_ = layout->Request1D(bsdfCount_);
+  photonDirections_ = layout->Request2D(photonCount_);
+  photonAxes_ = layout->Request1D(photonCount_);
+}
+
+std::span<const Vector3> FinalGather::GuideDirections(const ShadingPoint& point,
+                                                      const PhotonMap& guide, Arena* arena) const {
+  if (photonCount_ == 0 || guide.IsEmpty()) return {};
+  const auto near = guide.Nearest(point.surface.p, guideCount_, arena);
+  const auto directions = arena->MakeArray<Vector3>(near.size());
+  // Light from below the horizon of a surface that transmits none is no guide.
+  const bool isTwoSided = point.bsdf.Has(LobeSet::NonSpecularTransmission);
+  const Normal3 ng = FaceForward(point.surface.ng, point.Wo());
+  const Normal3 ns = FaceForward(point.bsdf.Ns(), ng);
+  std::size_t count = 0;
+  for (const NearPoint& photon : near) {
+    const Vector3& w = guide.Direction(photon.index);
+    if (isTwoSided || (Dot(w, ng) > 0 && Dot(w, ns) > 0)) directions[count++] = w;
+  }
+  return directions.first(count);
+}
+
+}  // namespace exphoton

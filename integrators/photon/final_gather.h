@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// FinalGather: indirect light at a point by rays over its hemisphere, half of them drawn by the
+// BSDF, half round the directions of nearby photons, combined with the power heuristic
+// (Veach 1997, section 9.2). What a ray brings is any callable's affair.
+#pragma once
+
+#include "core/math/mis.h"
+#include "core/transport/integrator.h"
+#include "core/transport/shading_point.h"
+#include "integrators/photon/cone_mixture.h"
+#include "integrators/photon/photon_map.h"
+#include "integrators/photon/photon_settings.h"
+
+namespace exphoton {
+
+class FinalGather {
+ public:
+  FinalGather() = default;
+  explicit FinalGather(const PhotonSettings& settings);
+
+  void RequestSamples(SampleLayout* layout);
+
+  // Integral over the non-specular lobes of f * incident * |cos|. `incident` is called as
+  // Spectrum(const Ray&) for rays with 0 < t < infinity.
+  template <class Incident>
+  Spectrum Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
+                  Incident&& incident) const;
+
+ private:
+  // Fixed once a gather, and the same for f, Pdf and Sample.
+  static constexpr LobeSet kLobes = LobeSet::NonSpecular;
+  static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
+
+  // Directions of the nearest photons of the guide that can light this surface.
+  std::span<const Vector3> GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
+                                           Arena* arena) const;
+  // Roulette on a ray whose weight is c: the factor to trace it with, or 0.
+  Real SurvivalFactor(Real c, RandomStream* random) const {
+    if (!(c < rrThreshold_)) return 1;
+    const Real survival = c / rrThreshold_;
+    return random->Uniform() < survival ? 1 / survival : Real(0);
+  }
+
+  int bsdfCount_ = 0, photonCount_ = 0;  // rays by each technique
+  int guideCount_ = 0;
+  Real coneAngle_ = 0;
+  Real rrThreshold_ = 0;
+  int bsdfDirections_ = -1, bsdfLobes_ = -1, photonDirections_ = -1, photonAxes_ = -1;
+};
+
+template <class Incident>
+Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
+                             Incident&& incident) const {
+  const Bsdf& bsdf = point.bsdf;
+  if (!bsdf.Has(kLobes)) return {};
+  const Arena::Mark mark = context.arena.GetMark();
+  const ConeMixture cones(GuideDirections(point, guide, &context.arena), coneAngle_);
+  const bool isGuided = !cones.IsEmpty();
+  // Without a guide the photons' share of the rays follows the BSDF too.
+  const int bsdfRays = isGuided ? bsdfCount_ : bsdfCount_ + photonCount_;
+  const int photonRays = isGuided ? photonCount_ : 0;
+  const Vector3& wo = point.Wo();
+  RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
+
+  Spectrum byBsdf;
+  for (int i = 0; i < bsdfRays; ++i) {
+    const bool isOwn = i < bsdfCount_;
+    const auto at = std::size_t(isOwn ? i : i - bsdfCount_);
+    const Point2 u = context.samples.Array2D(isOwn ? bsdfDirections_ : photonDirections_)[at];
+    const Real uLobe = context.samples.Array1D(isOwn ? bsdfLobes_ : photonAxes_)[at];
+    const auto sample = bsdf.Sample(wo, u, uLobe, kLobes);
+    if (!sample) continue;
+    const Real weight =
+        isGuided ? PowerHeuristic(bsdfRays, sample->pdf, photonRays, cones.Pdf(sample->wi))
+                 : Real(1);
+    const Spectrum contribution = sample->throughput * weight;
+    const Real factor = SurvivalFactor(contribution.Y(), &roulette);
+    if (factor > 0) byBsdf += contribution * factor * incident(SpawnRay(point.surface, sample->wi));
+  }
+
+  Spectrum byPhotons;
+  for (int i = 0; i < photonRays; ++i) {
+    const auto at = std::size_t(i);
+    const auto sample = cones.Draw(context.samples.Array1D(photonAxes_)[at],
+                                   context.samples.Array2D(photonDirections_)[at]);
+    const Spectrum f = bsdf.f(wo, sample.w, kLobes);
+    if (f.IsBlack()) continue;
+    const Real weight =
+        PowerHeuristic(photonRays, sample.pdf, bsdfRays, bsdf.Pdf(wo, sample.w, kLobes));
+    const Spectrum contribution = f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf);
+    const Real factor = SurvivalFactor(contribution.Y(), &roulette);
+    if (factor > 0)
+      byPhotons += contribution * factor * incident(SpawnRay(point.surface, sample.w));
+  }
+  context.arena.Rewind(mark);
+  Spectrum gathered = byBsdf / Real(bsdfRays);
+  if (photonRays > 0) gathered += byPhotons / Real(photonRays);
+  return gathered;
+}
+
+}  // namespace exphoton

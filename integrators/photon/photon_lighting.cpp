@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Deciding what to shoot, shooting it, and the terms that maps contribute.
+#include "integrators/photon/photon_lighting.h"
+
+#include "integrators/photon/gather_radiance.h"
+#include "integrators/photon/photon_report.h"
+
+namespace exphoton {
+
+bool PhotonLighting::Gathers(const Scene& scene) const {
+  return settings_.finalGather && settings_.show == ShowMap::Nothing &&
+         scene.Effects().Needs(Effect::Indirect);
+}
+
+// A map is requested if something will read it and this scene can fill it.
+PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
+  const bool gathers = Gathers(scene), showsRadiance = settings_.show == ShowMap::Radiance;
+  const bool hasIndirect = scene.Effects().Needs(Effect::Indirect);
+  PhotonTargets targets;
+  if (scene.Effects().Needs(Effect::Caustics))
+    targets[PhotonKind::Caustic] = settings_.causticPhotons;
+  if (hasIndirect) targets[PhotonKind::Indirect] = settings_.indirectPhotons;
+  if (hasIndirect &&
+      (gathers || needsDirectMap_ || showsRadiance || settings_.show == ShowMap::Direct))
+    targets[PhotonKind::Direct] = settings_.DirectPhotons();
+  if (showsRadiance || (gathers && settings_.radiancePhotons))
+    targets.radianceFraction = settings_.radianceFraction;
+  return targets;
+}
+
+void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) {
+  gathers_ = Gathers(scene);
+  lights_ = LightDistribution(scene.Lights(), settings_.lightSelection);
+  radianceMap_.reset();
+  const PhotonTargets targets = Targets(scene);
+  PhotonHarvest harvest;
+  {
+    const PhaseTimer timer(context.statistics, "shoot");
+    harvest = PhotonTracer(scene, settings_, context.seed).Shoot(targets, context);
+  }
+  ReportHarvest(harvest, targets, settings_, context);
+  {
+    const PhaseTimer timer(context.statistics, "kd-trees");
+    maps_ = PhotonMaps(&harvest, settings_, context);
+  }
+  if (targets.radianceFraction > 0) {
+    const PhaseTimer timer(context.statistics, "radiance");
+    radianceMap_ = std::make_unique<RadianceMap>(harvest.seeds, maps_, settings_, context);
+  }
+  ReportMaps(maps_, radianceMap_.get(), settings_, context);
+}
+
+void PhotonLighting::RequestSamples(const Scene& scene, SampleLayout* layout) {
+  gather_ = FinalGather(settings_);
+  if (Gathers(scene)) gather_.RequestSamples(layout);
+}
+
+Spectrum PhotonLighting::Direct(const ShadingPoint& point, LiContext& context) const {
+  return maps_.Radiance(PhotonKind::Direct, point, &context.arena);
+}
+
+Spectrum PhotonLighting::Caustic(const ShadingPoint& point, LiContext& context) const {
+  return maps_.Radiance(PhotonKind::Caustic, point, &context.arena);
+}
+
+Spectrum PhotonLighting::Indirect(const ShadingPoint& point, LiContext& context) const {
+  if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
+  const GatherRadiance radiance(maps_, radianceMap_.get(), settings_, lights_);
+  RandomStream random = context.Stream(kGatherStream + std::uint64_t(point.depth));
+  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context,
+                        [&](const Ray& ray) { return radiance(ray, context, &random); });
+}
+
+Spectrum PhotonLighting::Shown(const ShadingPoint& point, LiContext& context) const {
+  switch (settings_.show) {
+    case ShowMap::Nothing:
+      break;
+    case ShowMap::Direct:
+      return Direct(point, context);
+    case ShowMap::Caustic:
+      return Caustic(point, context);
+    case ShowMap::Indirect:
+      return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
+    case ShowMap::Radiance: {
+      if (!radianceMap_) return {};
+      const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+      const auto* entry = radianceMap_->Find(point.surface.p, n);
+      if (!entry) return {};
+      if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
+      return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;
+    }
+  }
+  return {};
+}
+
+}  // namespace exphoton

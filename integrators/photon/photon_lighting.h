@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PhotonLighting: the two passes of photon mapping as an integrator sees them: Preprocess shoots
+// and builds what the scene calls for, then each term of the radiance equation is one call. Holds
+// what one render needs, and nothing from an earlier one.
+#pragma once
+
+#include <memory>
+
+#include "core/lights/light_distribution.h"
+#include "core/transport/integrator.h"
+#include "core/transport/shading_point.h"
+#include "integrators/photon/final_gather.h"
+#include "integrators/photon/photon_maps.h"
+#include "integrators/photon/radiance_map.h"
+
+namespace exphoton {
+
+class PhotonLighting {
+ public:
+  // needsDirectMap: the integrator itself reads the direct map.
+  PhotonLighting(const PhotonSettings& settings, bool needsDirectMap)
+      : settings_(settings), needsDirectMap_(needsDirectMap) {}
+
+  void Preprocess(const Scene& scene, PreprocessContext& context);
+  void RequestSamples(const Scene& scene, SampleLayout* layout);
+
+  // Radiance by the non-specular lobes towards wo:
+  Spectrum Direct(const ShadingPoint& point, LiContext& context) const;   // of the direct map
+  Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;  // of the caustic map
+  // Gathered over the hemisphere, or of the indirect map where final gathering is off.
+  Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
+  // The map that `show` names and nothing else.
+  Spectrum Shown(const ShadingPoint& point, LiContext& context) const;
+
+ private:
+  static constexpr std::uint64_t kGatherStream = 0x726164ull;
+
+  bool Gathers(const Scene& scene) const;
+  PhotonTargets Targets(const Scene& scene) const;
+
+  PhotonSettings settings_;
+  bool needsDirectMap_;
+  LightDistribution lights_;
+  PhotonMaps maps_;
+  std::unique_ptr<RadianceMap> radianceMap_;
+  FinalGather gather_;
+  bool gathers_ = false;
+};
+
+}  // namespace exphoton

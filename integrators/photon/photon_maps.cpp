@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Building the three maps, and density estimates with a kernel.
+#include "integrators/photon/photon_maps.h"
+
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/transport/shading_normal.h"
+#include "integrators/photon/density_kernel.h"
+
+namespace exphoton {
+namespace {
+
+// |wi.ns| / |wi.ng|, capped: a photon's power is per geometric area, f |cos| is per shading area.
+Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns) {
+  if (ng == ns) return 1;
+  const Real geometric = AbsDot(wi, ng);
+  if (!(geometric > 0)) return 0;
+  return std::min(AbsDot(wi, ns) / geometric, kMaxShadingNormalFactor);
+}
+
+}  // namespace
+
+PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings,
+                       PreprocessContext& context)
+    : nUsed_(settings.nUsed), kernel_(settings.kernel) {
+  context.progress.Begin("Building photon maps", kPhotonKindCount);
+  context.threads.For(kPhotonKindCount, [&](std::int64_t m, int) {
+    const auto at = std::size_t(m);
+    maps_[at] = PhotonMap(std::move(harvest->hauls[at]));
+    Arena arena;
+    radii_[at] = settings.maxDist.value_or(maps_[at].TypicalRadius(settings.nUsed, &arena));
+    context.progress.Advance();
+  });
+  context.progress.End();
+}
+
+Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena) const {
+  const PhotonMap& map = Map(kind);
+  const Bsdf& bsdf = point.bsdf;
+  if (map.IsEmpty() || !bsdf.Has(LobeSet::NonSpecular)) return {};
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const bool isOneSided = !bsdf.Has(LobeSet::NonSpecularTransmission);
+  const Arena::Mark mark = arena->GetMark();
+  const PhotonNeighbourhood around =
+      map.Find({point.surface.p, n, nUsed_, MaxDistance(kind), isOneSided}, arena);
+
+  // Where every lobe is diffuse, powers are summed side by side and reflected once.
+  constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
+  const bool isDiffuse = !bsdf.Has(kGlossy);
+  Spectrum front, back, glossy;
+  for (const NearPoint& near : around.photons) {
+    const Vector3& wi = map.Direction(near.index);
+    const Real weight = KernelWeight(kernel_, near.distance2, around.radius2) *
+                        GeometricToShading(wi, point.surface.ng, bsdf.Ns());
+    const Spectrum flux = map.Alpha(near.index) * weight;
+    if (!isDiffuse) {
+      glossy += bsdf.f(point.Wo(), wi, LobeSet::NonSpecular) * flux;
+    } else if (Dot(wi, n) > 0) {
+      front += flux;
+    } else {
+      back += flux;
+    }
+  }
+  arena->Rewind(mark);
+  if (isDiffuse) {
+    glossy = front * bsdf.Rho(LobeSet::NonSpecularReflection) * kInvPi;
+    if (!isOneSided) glossy += back * bsdf.Rho(LobeSet::NonSpecularTransmission) * kInvPi;
+  }
+  return glossy / Real(map.Paths());
+}
+
+Spectrum PhotonMaps::Radiance(const ShadingPoint& point, Arena* arena) const {
+  return Radiance(PhotonKind::Direct, point, arena) + Radiance(PhotonKind::Caustic, point, arena) +
+         Radiance(PhotonKind::Indirect, point, arena);
+}
+
+PhotonMap::Irradiance PhotonMaps::EstimateIrradiance(const Point3& p, const Normal3& n,
+                                                     Arena* arena) const {
+  PhotonMap::Irradiance total;
+  Real weight = 0, weightedRadius = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (maps_[m].IsEmpty()) continue;
+    const auto part = maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true}, arena);
+    total.e += part.e;
+    weight += part.e.Y();
+    weightedRadius += part.e.Y() * part.radius;
+    total.radius = std::max(total.radius, part.radius);
+  }
+  if (weight > 0) total.radius = weightedRadius / weight;
+  return total;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Notices, warnings and counters of the photon pass.
+#include "integrators/photon/photon_report.h"
+
+#include <sstream>
+#include <string>
+
+#include "core/base/log.h"
+
+namespace exphoton {
+namespace {
+
+// Power that the depth limit may cut without a word.
+constexpr double kSilentCut = 1e-3;
+
+template <class... Parts>
+std::string Text(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  return out.str();
+}
+
+}  // namespace
+
+void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
+                   const PhotonSettings& settings, PreprocessContext& context) {
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (targets[kind] == 0) continue;
+    const PhotonHaul& haul = harvest[kind];
+    const std::string name = PhotonKindName(kind);
+    context.statistics.SetCounter("photons/" + name + " stored", double(haul.photons.size()),
+                                  "photons in the " + name + " map");
+    context.statistics.SetCounter("photons/" + name + " paths", double(haul.paths),
+                                  "paths from the lights that the " + name + " map counts");
+    if (std::int64_t(haul.photons.size()) < targets[kind])
+      context.log.Notice(Text(name, " map: ", haul.photons.size(), " of ", targets[kind],
+                              " photons after ", haul.paths, " paths"));
+  }
+  if (harvest.paths > 0)
+    context.statistics.SetCounter("photons/emitted power",
+                                  harvest.emittedPower / double(harvest.paths),
+                                  "luminance of the power that the lights emit, as shot");
+  if (harvest.cutPower > kSilentCut * harvest.emittedPower)
+    context.log.Warning(
+        Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",
+             100 * harvest.cutPower / harvest.emittedPower, " % of the emitted power"),
+        {}, "raise \"maxphotondepth\", or lower reflectances that are (nearly) 1");
+  if (harvest.droppedPhotons > 0)
+    context.log.Warning(Text(harvest.droppedPhotons, " photons had no finite power and were lost"));
+}
+
+void ReportMaps(const PhotonMaps& maps, const RadianceMap* radianceMap,
+                const PhotonSettings& settings, PreprocessContext& context) {
+  double bytes = 0;
+  std::string chosen;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (maps.Map(kind).IsEmpty()) continue;
+    const std::string name = PhotonKindName(kind);
+    bytes += double(maps.Map(kind).MemoryBytes());
+    context.statistics.SetCounter("photons/" + name + " maxdist", double(maps.MaxDistance(kind)),
+                                  "largest radius of an estimate in the " + name + " map");
+    chosen += Text(chosen.empty() ? "" : ", ", name, " ", maps.MaxDistance(kind));
+  }
+  if (!settings.maxDist && !chosen.empty())
+    context.log.Notice(
+        "maxdist chosen from the photons: " + chosen, {},
+        "it is the distance within which nine of ten photons have nused neighbours; \"float "
+        "maxdist\" sets it for all maps");
+  if (radianceMap) {
+    bytes += double(radianceMap->MemoryBytes());
+    context.statistics.SetCounter("photons/radiance photons", double(radianceMap->Size()),
+                                  "places with precomputed radiance");
+  }
+  context.statistics.SetCounter("photons/memory", bytes, "bytes held by all photon maps");
+}
+
+}  // namespace exphoton

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What people are told of a photon pass: shortages, cut power, dropped photons, chosen radii, and
+// the counters of --stats.
+#pragma once
+
+#include "integrators/photon/photon_maps.h"
+#include "integrators/photon/photon_tracer.h"
+#include "integrators/photon/radiance_map.h"
+
+namespace exphoton {
+
+// Once the photons are shot, while their hauls are still in the harvest.
+void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
+                   const PhotonSettings& settings, PreprocessContext& context);
+// Once the maps are built. radianceMap may be null.
+void ReportMaps(const PhotonMaps& maps, const RadianceMap* radianceMap,
+                const PhotonSettings& settings, PreprocessContext& context);
+
+}  // namespace exphoton

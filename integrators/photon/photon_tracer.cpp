@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Shooting photons: one path from its light to its end, and the batches that paths come in.
+#include "integrators/photon/photon_tracer.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/transport/shading_normal.h"
+#include "core/transport/shading_point.h"
+#include "integrators/photon/path_samples.h"
+
+namespace exphoton {
+
+// What one piece of work leaves behind.
+struct PhotonTracer::Chunk {
+  std::array<std::vector<Photon>, kPhotonKindCount> photons;
+  std::array<std::vector<RadianceSeed>, kPhotonKindCount> seeds;  // by the map of their photon
+  double emittedPower = 0, cutPower = 0;
+  std::int64_t dropped = 0;
+};
+
+// One photon path: follows it to its end and stores into the chunk what `open` maps want.
+class PhotonTracer::Path {
+ public:
+  Path(const PhotonTracer& tracer, std::uint64_t index,
+       const std::array<bool, kPhotonKindCount>& open, Real radianceFraction, Chunk* chunk)
+      : tracer_(tracer),
+        samples_(tracer.seed_, index),
+        open_(open),
+        radianceFraction_(radianceFraction),
+        chunk_(chunk) {}
+
+  void Trace(Arena* arena, RayCounters* rays) {
+    RayDifferential ray;
+    if (!Emit(&ray)) return;
+    for (int hits = 1;; ++hits) {
+      rays->Count(RayKind::Photon);
+      const auto surface = tracer_.scene_.Intersect(ray);
+      if (!surface) return;
+      const ShadingPoint point =
+          MakeShadingPoint(*surface, ray, hits, TransportMode::Importance, arena);
+      const PhotonKind kind = hits == 1         ? PhotonKind::Direct
+                              : isSpecularPath_ ? PhotonKind::Caustic
+                                                : PhotonKind::Indirect;
+      if (open_[std::size_t(kind)] && point.bsdf.Has(LobeSet::NonSpecular)) Store(kind, point);
+      if (!Scatter(point, hits, &ray)) return;
+      arena->Reset();
+    }
+  }
+
+ private:
+  bool Emit(RayDifferential* ray) {
+    const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
+    const Point2 uDirection = samples_.Next2D();
+    const auto choice = tracer_.lights_.Sample(uLight.x);
+    const auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y);
+    if (!emission) return false;
+    alpha_ = emission->power / choice.probability;
+    if (!alpha_.IsFinite()) {
+      ++chunk_->dropped;
+      return false;
+    }
+    chunk_->emittedPower += double(alpha_.Y());
+    *ray = RayDifferential(emission->ray);
+    return alpha_.MaxComponent() > 0;
+  }
+
+  void Store(PhotonKind kind, const ShadingPoint& point) {
+    chunk_->photons[std::size_t(kind)].push_back({point.surface.p, point.Wo(), alpha_});
+    if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
+    chunk_->seeds[std::size_t(kind)].push_back({point.surface.p,
+                                                FaceForward(point.surface.ng, point.Wo()),
+                                                point.bsdf.Rho(LobeSet::NonSpecularReflection),
+                                                point.bsdf.Rho(LobeSet::NonSpecularTransmission)});
+  }
+
+  // Whether a map still wants photons of what comes after a bounce of this kind.
+  bool IsWantedAfter(bool isSpecular) const {
+    if (open_[std::size_t(PhotonKind::Indirect)]) return true;
+    return isSpecular && open_[std::size_t(PhotonKind::Caustic)];
+  }
+
+  // Bsdf sampling and Russian roulette; false where the path ends.
+  bool Scatter(const ShadingPoint& point, int hits, RayDifferential* ray) {
+    const Point2 u = samples_.Next2D(), uChoice = samples_.Next2D();
+    const auto sample = point.bsdf.Sample(point.Wo(), u, uChoice.x);
+    if (!sample) return false;
+    isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_);
+    if (!IsWantedAfter(isSpecularPath_)) return false;
+    const Spectrum scattered =
+        alpha_ * sample->throughput *
+        ShadingNormalFactor(point.Wo(), sample->wi, point.bsdf.Ng(), point.bsdf.Ns());
+    const Real survival = SurvivalProbability(scattered, hits);
+    if (!(uChoice.y < survival)) return false;
+    alpha_ = scattered / survival;
+    if (!alpha_.IsFinite()) {
+      ++chunk_->dropped;
+      return false;
+    }
+    if (hits >= tracer_.settings_.maxPhotonDepth) {
+      chunk_->cutPower += double(alpha_.Y());
+      return false;
+    }
+    *ray = SpawnRay(point.surface, sample->wi, point.surface.time);
+    return true;
+  }
+
+  // exphotonmap: the survivor keeps what the photon had, so weights stay nearly constant.
+  Real SurvivalProbability(const Spectrum& scattered, int hits) const {
+    constexpr int kPlainBounces = 3;
+    switch (tracer_.settings_.photonRoulette) {
+      case PhotonRoulette::Half:
+        return hits > kPlainBounces ? Real(.5) : Real(1);
+      case PhotonRoulette::MaxComponent:
+        return std::min(Real(1),
+                        SafeDivide(scattered.MaxComponent(), alpha_.MaxComponent(), Real(0)));
+      case PhotonRoulette::Luminance:
+        break;
+    }
+    return std::min(Real(1), SafeDivide(scattered.Y(), alpha_.Y(), Real(0)));
+  }
+
+  const PhotonTracer& tracer_;
+  PathSamples samples_;
+  const std::array<bool, kPhotonKindCount>& open_;
+  Real radianceFraction_;
+  Chunk* chunk_;
+  Spectrum alpha_;
+  bool isSpecularPath_ = false;  // every bounce so far was specular
+};
+
+PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed)
+    : scene_(scene),
+      settings_(settings),
+      seed_(seed),
+      lights_(scene.Lights(), settings.lightSelection) {}
+
+PhotonTracer::Chunk PhotonTracer::TraceChunk(std::int64_t firstPath,
+                                             const std::array<bool, kPhotonKindCount>& open,
+                                             Real radianceFraction, Arena* arena,
+                                             RayCounters* rays) const {
+  Chunk chunk;
+  for (int i = 0; i < kChunkPaths; ++i) {
+    Path path(*this, std::uint64_t(firstPath + i), open, radianceFraction, &chunk);
+    arena->Reset();
+    path.Trace(arena, rays);
+  }
+  return chunk;
+}
+
+namespace {
+
+// Progress of the map that is farthest from its target.
+std::int64_t Promille(const PhotonTargets& targets, const PhotonHarvest& harvest,
+                      std::int64_t maxPaths) {
+  double least = 1;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (targets.counts[m] == 0) continue;
+    const double filled = double(harvest.hauls[m].photons.size()) / double(targets.counts[m]);
+    const double spent = double(harvest.hauls[m].paths) / double(maxPaths);
+    least = std::min(least, std::max(filled, spent));
+  }
+  return std::int64_t(1000 * least);
+}
+
+}  // namespace
+
+PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContext& context) const {
+  PhotonHarvest harvest;
+  std::array<bool, kPhotonKindCount> open{};
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
+  if (lights_.IsEmpty()) return harvest;
+
+  const auto workers = std::size_t(context.threads.Count());
+  std::vector<Arena> arenas(workers);
+  std::vector<RayCounters> rays(workers);
+  context.progress.Begin("Shooting photons", 1000);
+  for (std::int64_t batch = kChunkPaths; open[0] || open[1] || open[2];
+       batch = std::min(2 * batch, kMaxBatchPaths)) {
+    std::vector<Chunk> chunks(std::size_t(batch / kChunkPaths));
+    context.threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int worker) {
+      chunks[std::size_t(c)] =
+          TraceChunk(harvest.paths + c * kChunkPaths, open, targets.radianceFraction,
+                     &arenas[std::size_t(worker)], &rays[std::size_t(worker)]);
+    });
+    harvest.paths += batch;
+    for (Chunk& chunk : chunks) {
+      for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+        auto& photons = harvest.hauls[m].photons;
+        photons.insert(photons.end(), chunk.photons[m].begin(), chunk.photons[m].end());
+        harvest.seeds.insert(harvest.seeds.end(), chunk.seeds[m].begin(), chunk.seeds[m].end());
+      }
+      harvest.emittedPower += chunk.emittedPower;
+      harvest.cutPower += chunk.cutPower;
+      harvest.droppedPhotons += chunk.dropped;
+    }
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+      if (!open[m]) continue;
+      PhotonHaul& haul = harvest.hauls[m];
+      haul.paths = harvest.paths;
+      const auto stored = std::int64_t(haul.photons.size());
+      const bool isFruitless = stored == 0 && haul.paths >= kFruitlessPaths;
+      open[m] = stored < targets.counts[m] && haul.paths < settings_.maxPhotonPaths && !isFruitless;
+    }
+    context.progress.SetDone(Promille(targets, harvest, settings_.maxPhotonPaths));
+  }
+  context.progress.End();
+  for (const RayCounters& counters : rays) context.statistics.AddRays(counters);
+  return harvest;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PhotonTracer: shoots photons from the lights in numbered batches and sorts what they leave behind
+// into hauls. Path i is a function of (seed, i) alone; batches grow 64, 128 ... 4096 paths, are
+// traced in parallel and merged in order; a haul counts the paths of whole batches only, because
+// stopping at the n-th photon would bias every estimate. Jensen 2001, chapter 5.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/transport/integrator.h"
+#include "integrators/photon/photon.h"
+#include "integrators/photon/photon_settings.h"
+
+namespace exphoton {
+
+// How many photons each map wants; 0: the map is not requested.
+struct PhotonTargets {
+  std::array<std::int64_t, kPhotonKindCount> counts{};
+  Real radianceFraction = 0;  // of the stored photons; 0: no seeds
+
+  std::int64_t& operator[](PhotonKind kind) { return counts[std::size_t(kind)]; }
+  std::int64_t operator[](PhotonKind kind) const { return counts[std::size_t(kind)]; }
+};
+
+struct PhotonHarvest {
+  std::array<PhotonHaul, kPhotonKindCount> hauls;
+  std::vector<RadianceSeed> seeds;
+  std::int64_t paths = 0;           // traced in all
+  double emittedPower = 0;          // luminance, summed over the paths
+  double cutPower = 0;              // of it, cut by the depth limit
+  std::int64_t droppedPhotons = 0;  // whose power was not finite
+
+  PhotonHaul& operator[](PhotonKind kind) { return hauls[std::size_t(kind)]; }
+  const PhotonHaul& operator[](PhotonKind kind) const { return hauls[std::size_t(kind)]; }
+};
+
+class PhotonTracer {
+ public:
+  PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed);
+
+  // Shoots until every requested map is full, has had maxphotonpaths, or has stored nothing in its
+  // first kFruitlessPaths. Says so once where a map fell short.
+  PhotonHarvest Shoot(const PhotonTargets& targets, PreprocessContext& context) const;
+
+  static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
+  // Paths that one piece of parallel work traces: the smallest batch.
+  static constexpr int kChunkPaths = 64;
+  static constexpr std::int64_t kMaxBatchPaths = 4096;
+
+ private:
+  struct Chunk;
+  class Path;
+
+  Chunk TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
+                   Real radianceFraction, Arena* arena, RayCounters* rays) const;
+
+  const Scene& scene_;
+  PhotonSettings settings_;
+  std::uint64_t seed_;
+  LightDistribution lights_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Computing radiance photons and finding the one that serves a hit.
+#include "integrators/photon/radiance_map.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+
+namespace exphoton {
+namespace {
+
+// The entries of one seed: one, or two where the surface transmits; none where it is black.
+struct SeedEntries {
+  RadianceMap::Entry sides[2];
+  int count = 0;
+};
+
+SeedEntries ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, RadianceMode mode,
+                           Arena* arena) {
+  const bool reflects = !seed.reflectance.IsBlack(), transmits = !seed.transmittance.IsBlack();
+  SeedEntries result;
+  if (!reflects && !transmits) return result;
+  const auto front = maps.EstimateIrradiance(seed.p, seed.n, arena);
+  if (mode == RadianceMode::Irradiance) {
+    result.sides[result.count++] = {seed.n, front.e, front.radius};
+    if (transmits) {
+      const auto back = maps.EstimateIrradiance(seed.p, -seed.n, arena);
+      result.sides[result.count++] = {-seed.n, back.e, back.radius};
+    }
+    return result;
+  }
+  if (!transmits) {
+    result.sides[result.count++] = {seed.n, seed.reflectance * front.e * kInvPi, front.radius};
+    return result;
+  }
+  const auto back = maps.EstimateIrradiance(seed.p, -seed.n, arena);
+  const Real radius = std::max(front.radius, back.radius);
+  const Spectrum rho = seed.reflectance * kInvPi, tau = seed.transmittance * kInvPi;
+  result.sides[result.count++] = {seed.n, rho * front.e + tau * back.e, radius};
+  result.sides[result.count++] = {-seed.n, rho * back.e + tau * front.e, radius};
+  return result;
+}
+
+}  // namespace
+
+RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
+                         const PhotonSettings& settings, PreprocessContext& context)
+    : reach_(settings.radianceReach), minCosine_(settings.radianceNormal) {
+  constexpr std::size_t kChunk = 256;
+  const std::size_t chunks = (seeds.size() + kChunk - 1) / kChunk;
+  std::vector<SeedEntries> computed(seeds.size());
+  std::vector<Arena> arenas(std::size_t(context.threads.Count()));
+  context.progress.Begin("Computing photon radiances", std::int64_t(chunks));
+  context.threads.For(std::int64_t(chunks), [&](std::int64_t chunk, int worker) {
+    const std::size_t begin = std::size_t(chunk) * kChunk;
+    const std::size_t end = std::min(begin + kChunk, seeds.size());
+    for (std::size_t i = begin; i < end; ++i)
+      computed[i] =
+          ComputeEntries(seeds[i], maps, settings.radianceMode, &arenas[std::size_t(worker)]);
+    context.progress.Advance();
+  });
+  context.progress.End();
+
+  std::vector<Point3> points;
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    for (int side = 0; side < computed[i].count; ++side) {
+      points.push_back(seeds[i].p);
+      entries.push_back(computed[i].sides[side]);
+      maxRadius_ = std::max(maxRadius_, entries.back().radius);
+    }
+  tree_ = PointKdTree(points);
+  entries_.reserve(entries.size());
+  for (std::uint32_t i : tree_.Order()) entries_.push_back(entries[i]);
+}
+
+std::size_t RadianceMap::MemoryBytes() const {
+  return tree_.MemoryBytes() + entries_.capacity() * sizeof(Entry);
+}
+
+const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
+  Real radius2 = Square(reach_ * maxRadius_);
+  const Entry* nearest = nullptr;
+  std::uint32_t nearestIndex = 0;
+  tree_.Search(p, &radius2, [&](std::uint32_t i, Real distance2) {
+    const Entry& entry = entries_[i];
+    if (!(Dot(entry.n, n) > minCosine_) || distance2 > Square(reach_ * entry.radius)) return;
+    if (nearest && distance2 == radius2 && i > nearestIndex) return;
+    nearest = &entry;
+    nearestIndex = i;
+    radius2 = distance2;
+  });
+  return nearest;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// RadianceMap: exitant radiance (or irradiance) precomputed at a sample of the stored photons, read
+// by gather rays. Christensen 1999, "Faster Photon Map Global Illumination".
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/spatial/point_kdtree.h"
+#include "integrators/photon/photon_maps.h"
+
+namespace exphoton {
+
+class RadianceMap {
+ public:
+  struct Entry {
+    Normal3 n;        // unit geometric normal of the side that it speaks for
+    Spectrum value;   // Exitant: radiance leaving on that side; Irradiance: arriving on it
+    Real radius = 0;  // of its estimate
+  };
+
+  RadianceMap() = default;  // empty: finds nothing
+  // Computes all entries in parallel: Lo = rho_r / pi E(p, n) + rho_t / pi E(p, -n), and for the
+  // other side too where something is transmitted.
+  RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
+              const PhotonSettings& settings, PreprocessContext& context);
+
+  std::size_t Size() const { return tree_.Size(); }
+  std::size_t MemoryBytes() const;
+
+  // The nearest entry that speaks for a surface point p with unit normal n (turned towards where
+  // the radiance goes): its normal agrees and p lies within its reach. Null where there is none.
+  const Entry* Find(const Point3& p, const Normal3& n) const;
+
+ private:
+  PointKdTree tree_;
+  std::vector<Entry> entries_;  // in tree order
+  Real reach_ = 1, minCosine_ = 0;
+  Real maxRadius_ = 0;  // of any entry
+};
+
+}  // namespace exphoton
