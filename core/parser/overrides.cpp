@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// From "name=value" on the command line to a parameter as if the file had said it.
+#include "core/parser/overrides.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "core/params/suggestions.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::array<std::string_view, 6> kDirectives{
+    "Accelerator", "Camera", "Film", "PixelFilter", "Sampler", "SurfaceIntegrator"};
+struct QuickRule {
+  std::string_view parameter;
+  int divisor;
+};
+constexpr std::array<QuickRule, 5> kQuickRules{{{"causticphotons", 10},
+                                                {"directphotons", 10},
+                                                {"indirectphotons", 10},
+                                                {"nused", 10},
+                                                {"finalgathersamples", 4}}};
+
+const ParamDecl* FindDeclaration(const std::vector<ParamDecl>& declared, std::string_view name) {
+  const auto found = std::find_if(declared.begin(), declared.end(),
+                                  [&](const ParamDecl& decl) { return decl.name == name; });
+  return found == declared.end() ? nullptr : &*found;
+}
+
+std::string FileType(ParamType type, bool isNumeric) {
+  switch (type) {
+    case ParamType::Integer:
+    case ParamType::IntegerList:
+      return "integer";
+    case ParamType::Float:
+    case ParamType::FloatList:
+    case ParamType::Point2List:
+      return "float";
+    case ParamType::Bool:
+      return "bool";
+    case ParamType::String:
+    case ParamType::Choice:
+    case ParamType::File:
+      return "string";
+    case ParamType::Color:
+      return "color";
+    case ParamType::Point:
+    case ParamType::PointList:
+      return "point";
+    case ParamType::Vector:
+    case ParamType::VectorList:
+      return "vector";
+    case ParamType::Normal:
+    case ParamType::NormalList:
+      return "normal";
+    case ParamType::FloatTexture:
+      return isNumeric ? "float" : "texture";
+    case ParamType::ColorTexture:
+      return isNumeric ? "color" : "texture";
+  }
+  return "string";
+}
+
+// Numbers separated by blanks or commas; nullopt where anything is not a number.
+std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
+  constexpr std::string_view kSeparators = " ,\t[]";
+  std::vector<double> numbers;
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(kSeparators), text.size()));
+    if (text.empty()) break;
+    std::string_view word = text.substr(0, text.find_first_of(kSeparators));
+    text.remove_prefix(word.size());
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(number))
+      return std::nullopt;
+    numbers.push_back(number);
+  }
+  if (numbers.empty()) return std::nullopt;
+  return numbers;
+}
+
+SourceLocation PlaceOf(const ParameterOverride& override) {
+  SourceLocation where;
+  where.file = kCommandLinePlace;
+  where.line = 1;
+  where.lineText = "--set " + override.directive + "." + override.parameter + "=" + override.value;
+  where.column = int(where.lineText.size() - override.value.size()) + 1;
+  return where;
+}
+
+ParsedParam ParamOf(const ParameterOverride& override, ParamType type) {
+  const std::optional<std::vector<double>> numbers = ParseNumbers(override.value);
+  ParsedParam param;
+  param.name = override.parameter;
+  param.type = FileType(type, numbers.has_value());
+  param.where = PlaceOf(override);
+  const bool takesText = param.type == "string" || param.type == "bool" || param.type == "texture";
+  if (takesText) {
+    param.strings.push_back(override.value);
+  } else if (numbers) {
+    param.numbers = *numbers;
+  } else {
+    throw Error(ExitStatus::CommandLine,
+                "parameter \"" + param.name + "\" takes numbers, not \"" + override.value + "\"",
+                param.where);
+  }
+  return param;
+}
+
+}  // namespace
+
+void CheckOverrides(const std::vector<ParameterOverride>& overrides) {
+  for (const ParameterOverride& override : overrides) {
+    if (std::find(kDirectives.begin(), kDirectives.end(), override.directive) != kDirectives.end())
+      continue;
+    const std::vector<std::string> known(kDirectives.begin(), kDirectives.end());
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    throw Error(ExitStatus::CommandLine,
+                "--set: \"" + override.directive + "\" cannot be set; these can: " + list,
+                PlaceOf(override), DidYouMean(override.directive, known));
+  }
+}
+
+void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::string& directive,
+                    const std::string& what, const std::vector<ParamDecl>& declared,
+                    ParamSet* params) {
+  for (const ParameterOverride& override : overrides) {
+    if (override.directive != directive) continue;
+    const ParamDecl* declaration = FindDeclaration(declared, override.parameter);
+    if (!declaration) {
+      std::vector<std::string> known;
+      for (const ParamDecl& decl : declared) known.push_back(decl.name);
+      throw Error(ExitStatus::CommandLine,
+                  "--set: unknown parameter \"" + override.parameter + "\" of " + what,
+                  PlaceOf(override), DidYouMean(override.parameter, known));
+    }
+    params->Add(ParamOf(override, declaration->type));
+  }
+}
+
+void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params) {
+  for (const auto& [name, divisor] : kQuickRules) {
+    const ParamDecl* declaration = FindDeclaration(declared, name);
+    if (!declaration) continue;
+    ParsedParam param;
+    if (const ParsedParam* given = params->Find(declaration->name)) {
+      if (given->numbers.size() != 1) continue;  // wrong: left to the binder
+      param = *given;
+    } else {
+      const std::optional<std::vector<double>> value = ParseNumbers(declaration->defaultText);
+      if (!value) continue;  // chosen by the plugin from the others
+      param.name = declaration->name;
+      param.type = "integer";
+      param.where = params->where;
+      param.numbers = *value;
+    }
+    const double least = std::max(declaration->min.value_or(1), param.numbers[0] > 0 ? 1.0 : 0.0);
+    const double scaled = std::floor(param.numbers[0] / divisor);
+    param.numbers[0] = std::min(param.numbers[0], std::max(scaled, least));
+    params->Add(std::move(param));
+  }
+}
+
+}  // namespace exphoton

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Each directive multiplies the current matrix from the right, as in version 1.
+#include "core/parser/transform_directives.h"
+
+#include <cmath>
+
+#include "core/parser/graphics_state.h"
+
+namespace exphoton {
+namespace {
+
+Vec3 VectorOf(const std::vector<double>& numbers, std::size_t first) {
+  return {Real(numbers[first]), Real(numbers[first + 1]), Real(numbers[first + 2])};
+}
+
+Transform Require(const std::optional<Transform>& transform, const Directive& directive,
+                  const std::string& problem) {
+  if (!transform) FailAt(directive.Where(), std::string(directive.spec->name) + ": " + problem);
+  return *transform;
+}
+
+// Sixteen numbers, column by column.
+Transform MatrixOf(const Directive& directive) {
+  Matrix4 matrix;
+  for (std::size_t column = 0; column < 4; ++column)
+    for (std::size_t row = 0; row < 4; ++row)
+      matrix.m[row][column] = directive.numbers[column * 4 + row];
+  return Require(Transform::FromMatrix(matrix), directive, "the matrix is singular");
+}
+
+Transform LookAtOf(const Directive& directive, Dialect dialect) {
+  const std::vector<double>& n = directive.numbers;
+  const Transform lookAt =
+      Require(Transform::LookAt(VectorOf(n, 0), VectorOf(n, 3), VectorOf(n, 6)), directive,
+              "the eye is where it looks at, or \"up\" is parallel to the direction of view");
+  if (dialect == Dialect::V1) return lookAt;
+  return *Transform::Scale(-1, 1, 1) * lookAt;
+}
+
+bool IsFinite(const Transform& transform) {
+  double sum = 0;  // not finite where any term is not
+  for (const Matrix4* matrix : {&transform.Matrix(), &transform.InverseMatrix()})
+    for (const auto& row : matrix->m)
+      for (const double value : row) sum += std::abs(value) * 1e-3;
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+bool IsTransformDirective(DirectiveId id) {
+  switch (id) {
+    case DirectiveId::Identity:
+    case DirectiveId::Translate:
+    case DirectiveId::Scale:
+    case DirectiveId::Rotate:
+    case DirectiveId::LookAt:
+    case DirectiveId::Transform:
+    case DirectiveId::ConcatTransform:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Transform ApplyTransform(const Transform& current, const Directive& directive, Dialect dialect) {
+  const std::vector<double>& n = directive.numbers;
+  Transform step;
+  switch (directive.spec->id) {
+    case DirectiveId::Identity:
+      return {};
+    case DirectiveId::Transform:
+      return MatrixOf(directive);
+    case DirectiveId::ConcatTransform:
+      step = MatrixOf(directive);
+      break;
+    case DirectiveId::Translate:
+      step = Transform::Translate(VectorOf(n, 0));
+      break;
+    case DirectiveId::Scale:
+      step = Require(Transform::Scale(n[0], n[1], n[2]), directive, "a factor is 0");
+      break;
+    case DirectiveId::Rotate:
+      step = Require(Transform::Rotate(n[0], VectorOf(n, 1)), directive, "the axis is 0 0 0");
+      break;
+    case DirectiveId::LookAt:
+      step = LookAtOf(directive, dialect);
+      break;
+    default:
+      return current;
+  }
+  const Transform result = current * step;
+  if (!IsFinite(result)) FailAt(directive.Where(), "the transformation overflows");
+  return result;
+}
+
+}  // namespace exphoton
