@@ -66,7 +66,7 @@ std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, 
   const double z =
       du * (double(p0[kz]) - oz) + dv * (double(p1[kz]) - oz) + dw * (double(p2[kz]) - oz);
   const Real t = Real(z * inverse * double(ray.sz));
-  if (!(t > 0 && t <= tMax)) return std::nullopt;
+  if (!(t > 0 && t <= tMax && t < kInfinity)) return std::nullopt;
   if (!PlaneIsAhead(ray.o, p0, p1, p2, -determinant * double(ray.sz))) return std::nullopt;
   return TriangleHit{t, Real(dv * inverse), Real(dw * inverse)};
 }

@@ -207,7 +207,7 @@ class ParamTable final : public ParamTableBase {
  public:
   template <class... T>
   ParamTable(const Param<S, T>&... params) {
-    const S defaults{};
+    [[maybe_unused]] const S defaults{};
     (AddOne(params, defaults), ...);
   }
   // A table that begins with the entries of a base struct's table: shared declarations, whose
@@ -215,7 +215,7 @@ class ParamTable final : public ParamTableBase {
   template <class Base, class... T>
   ParamTable(const ParamTable<Base>& base, const Param<S, T>&... params) {
     static_assert(std::is_base_of_v<Base, S>);
-    const S defaults{};
+    [[maybe_unused]] const S defaults{};
     for (std::size_t i = 0; i < base.Declarations().size(); ++i) {
       declarations_.push_back(base.Declarations()[i]);
       declarations_.back().defaultText = base.DefaultTextAt(i, defaults);

@@ -9,6 +9,12 @@
 
 namespace exphoton {
 
+// Whether a ray can hit anything at all; every accelerator asks this first, and may then rely on
+// finite numbers.
+inline bool IsTraceable(const Ray& ray) {
+  return IsFinite(ray.o) && IsFinite(ray.d) && ray.d != Vector3() && ray.tMax > 0;
+}
+
 class Aggregate {
  public:
   virtual ~Aggregate() = default;

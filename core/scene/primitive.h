@@ -56,7 +56,8 @@ class PrimitiveSet {
 
   std::uint32_t Count() const;
   std::uint32_t TriangleCount() const { return std::uint32_t(triangles_.size()); }
-  Bounds3 Bounds(std::uint32_t id) const;  // conservative
+  // Of the true surface; accelerators add what rounding asks for.
+  Bounds3 Bounds(std::uint32_t id) const;
   Bounds3 WorldBounds() const { return bounds_; }
 
   // Vertices of a triangle, for accelerators that clip.
@@ -72,6 +73,10 @@ class PrimitiveSet {
   SurfaceInteraction Surface(const Ray& ray, const Hit& hit) const;
 
  private:
+  Ray InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const;
+  void IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const;
+  SurfaceInteraction InstanceSurface(const Ray& ray, const Hit& hit) const;
+
   struct Triangle {  // 8 bytes: where the vertices are
     std::uint32_t mesh, index;
   };
@@ -82,6 +87,7 @@ class PrimitiveSet {
   std::vector<std::shared_ptr<const Shape>> shapes_;
   std::vector<PrimitiveAttributes> shapeAttributes_;
   std::vector<Instance> instances_;
+  std::vector<Transform> worldToInstance_;
   Bounds3 bounds_;
 };
 

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PrimitiveSet: one numbering over triangles, shapes and instances, and the tests behind it. The
+// order of tests never shows: a hit replaces another only where nearer, or as near with lower ids.
+#include "core/scene/primitive.h"
+
+#include "core/base/error.h"
+#include "core/geometry/vec3d.h"
+#include "core/scene/aggregate.h"
+
+namespace exphoton {
+namespace {
+
+// Whether a hit at t of these ids wins over *hit. At the end of the search interval (no hit yet)
+// nothing ties.
+bool Wins(Real t, std::uint32_t instance, std::uint32_t primitive, const Hit& hit) {
+  if (t != hit.t) return t < hit.t;
+  if (!hit.IsHit()) return false;
+  if (instance != hit.instance) return instance < hit.instance;
+  return primitive < hit.primitive;
+}
+
+// A derivative of the unit normal that `n` becomes under the transformation.
+Normal3 ApplyNormalDerivative(const Transform& transform, const Normal3& n, const Normal3& dn) {
+  const Vec3d image(transform.ApplyNormal(n)), derivative(transform.ApplyNormal(dn));
+  const double length = Length(image);
+  if (!(length > 0)) return {};
+  const Vec3d unit = image * (1 / length);
+  return ((derivative - unit * Dot(unit, derivative)) * (1 / length)).ToReal();
+}
+
+}  // namespace
+
+void PrimitiveSet::AddMesh(std::shared_ptr<const TriangleMesh> mesh,
+                           PrimitiveAttributes attributes) {
+  meshes_.push_back(std::move(mesh));
+  meshAttributes_.push_back(attributes);
+}
+
+void PrimitiveSet::AddShape(std::shared_ptr<const Shape> shape, PrimitiveAttributes attributes) {
+  shapes_.push_back(std::move(shape));
+  shapeAttributes_.push_back(attributes);
+}
+
+void PrimitiveSet::AddInstance(const Instance& instance) {
+  instances_.push_back(instance);
+  worldToInstance_.push_back(instance.instanceToWorld.Inverted());
+}
+
+void PrimitiveSet::Finish() {
+  std::size_t count = shapes_.size() + instances_.size();
+  for (const auto& mesh : meshes_) count += mesh->TriangleCount();
+  if (count >= kNoId)
+    throw Error(ExitStatus::Resource, "more than 2^32 - 2 primitives in one scene or object");
+
+  triangles_.clear();
+  vertices_.clear();
+  for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
+    const TriangleMesh& mesh = *meshes_[m];
+    for (std::uint32_t i = 0; i < mesh.TriangleCount(); ++i) {
+      const auto& v = mesh.indices[i];
+      triangles_.push_back({m, i});
+      vertices_.push_back({mesh.p[v[0]], mesh.p[v[1]], mesh.p[v[2]]});
+    }
+  }
+  bounds_ = Bounds3();
+  for (std::uint32_t id = 0; id < Count(); ++id) bounds_.Extend(Bounds(id));
+}
+
+std::uint32_t PrimitiveSet::Count() const {
+  return std::uint32_t(triangles_.size() + shapes_.size() + instances_.size());
+}
+
+Bounds3 PrimitiveSet::Bounds(std::uint32_t id) const {
+  if (id < triangles_.size()) {
+    const auto& v = vertices_[id];
+    Bounds3 bounds(v[0], v[1]);
+    bounds.Extend(v[2]);
+    return bounds;
+  }
+  id -= TriangleCount();
+  if (id < shapes_.size()) return shapes_[id]->Bounds();
+  const Instance& instance = instances_[id - shapes_.size()];
+  return instance.instanceToWorld.ApplyBounds(instance.object->Set().WorldBounds());
+}
+
+std::array<Point3, 3> PrimitiveSet::TriangleVertices(std::uint32_t id) const {
+  return vertices_[id];
+}
+
+void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const {
+  if (id < triangles_.size()) {
+    const auto& v = vertices_[id];
+    const auto found = IntersectTriangle(ray.triangle, hit->t, v[0], v[1], v[2]);
+    if (found && Wins(found->t, kNoId, id, *hit))
+      *hit = {found->t, {found->b1, found->b2}, id, kNoId};
+    return;
+  }
+  const std::uint32_t index = id - TriangleCount();
+  if (index >= shapes_.size()) {
+    IntersectInstance(index - std::uint32_t(shapes_.size()), ray, hit);
+    return;
+  }
+  Ray bounded = ray.ray;
+  bounded.tMax = NextUp(hit->t);  // a tie is a hit, so that ids can decide it
+  const auto found = shapes_[index]->Intersect(bounded);
+  if (found && Wins(found->t, kNoId, id, *hit)) *hit = {found->t, found->uv, id, kNoId};
+}
+
+// The ray in the space of the object; direction not normalised, so that t means the same.
+Ray PrimitiveSet::InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const {
+  Ray local = ray;
+  local.o = worldToInstance_[instance].ApplyPoint(ray.o);
+  local.d = worldToInstance_[instance].ApplyVector(ray.d);
+  local.tMax = tMax;
+  return local;
+}
+
+void PrimitiveSet::IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const {
+  const std::uint32_t id = TriangleCount() + std::uint32_t(shapes_.size()) + instance;
+  const Ray local = InstanceRay(instance, ray.ray, NextUp(hit->t));
+  const Hit inner = instances_[instance].object->Accelerator().Intersect(local);
+  if (inner.IsHit() && Wins(inner.t, id, inner.primitive, *hit))
+    *hit = {inner.t, inner.uv, inner.primitive, id};
+}
+
+bool PrimitiveSet::Occludes(std::uint32_t id, const TraceRay& ray) const {
+  const Real tMax = ray.ray.tMax;
+  if (id < triangles_.size()) {
+    const auto& v = vertices_[id];
+    const auto found = IntersectTriangle(ray.triangle, tMax, v[0], v[1], v[2]);
+    return found && found->t < tMax;
+  }
+  const std::uint32_t index = id - TriangleCount();
+  if (index < shapes_.size()) return shapes_[index]->Occludes(ray.ray);
+  const std::uint32_t instance = index - std::uint32_t(shapes_.size());
+  return instances_[instance].object->Accelerator().Occluded(InstanceRay(instance, ray.ray, tMax));
+}
+
+SurfaceInteraction PrimitiveSet::Surface(const Ray& ray, const Hit& hit) const {
+  if (hit.instance != kNoId) return InstanceSurface(ray, hit);
+  SurfaceInteraction surface;
+  PrimitiveAttributes attributes;
+  if (hit.primitive < triangles_.size()) {
+    const Triangle& triangle = triangles_[hit.primitive];
+    surface = TriangleSurface(*meshes_[triangle.mesh], triangle.index, hit.uv.x, hit.uv.y);
+    attributes = meshAttributes_[triangle.mesh];
+  } else {
+    const std::uint32_t index = hit.primitive - TriangleCount();
+    surface = shapes_[index]->Surface(ray, {hit.t, hit.uv});
+    attributes = shapeAttributes_[index];
+  }
+  surface.wo = NormalizeOr(-ray.d, Vector3());
+  surface.time = ray.time;
+  surface.material = attributes.material;
+  surface.areaLight = attributes.areaLight;
+  return surface;
+}
+
+SurfaceInteraction PrimitiveSet::InstanceSurface(const Ray& ray, const Hit& hit) const {
+  const std::uint32_t index = hit.instance - TriangleCount() - std::uint32_t(shapes_.size());
+  const Instance& instance = instances_[index];
+  const Transform& toWorld = instance.instanceToWorld;
+  Hit inner = hit;
+  inner.instance = kNoId;
+  const SurfaceInteraction local =
+      instance.object->Set().Surface(InstanceRay(index, ray, kInfinity), inner);
+
+  SurfaceInteraction surface = local;
+  // A ray that leaves this point is rounded once more when it enters the object's space again.
+  const Vector3 error = local.pError + Abs(local.p) * Gamma(3);
+  surface.p = toWorld.ApplyPoint(local.p, error, &surface.pError);
+  surface.ng = NormalizeOr(toWorld.ApplyNormal(local.ng), local.ng);
+  surface.dpdu = toWorld.ApplyVector(local.dpdu);
+  surface.dpdv = toWorld.ApplyVector(local.dpdv);
+  surface.dndu = ApplyNormalDerivative(toWorld, local.ng, local.dndu);
+  surface.dndv = ApplyNormalDerivative(toWorld, local.ng, local.dndv);
+  const auto& shading = local.shading;
+  surface.shading.n =
+      FaceForward(NormalizeOr(toWorld.ApplyNormal(shading.n), surface.ng), surface.ng);
+  surface.shading.dpdu = toWorld.ApplyVector(shading.dpdu);
+  surface.shading.dpdv = toWorld.ApplyVector(shading.dpdv);
+  surface.shading.dndu = ApplyNormalDerivative(toWorld, shading.n, shading.dndu);
+  surface.shading.dndv = ApplyNormalDerivative(toWorld, shading.n, shading.dndv);
+  surface.wo = NormalizeOr(-ray.d, Vector3());
+  return surface;
+}
+
+}  // namespace exphoton
