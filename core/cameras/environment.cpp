@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Camera "environment": all directions at once. The film's y is the angle from +y (up), its x the
+// azimuth from +x to +z. hither and yon are distances; there is no lens.
+#include "core/cameras/common/camera_base.h"
+
+namespace exphoton {
+namespace {
+
+class EnvironmentCamera final : public CameraBase {
+ public:
+  using CameraBase::CameraBase;
+
+ private:
+  CameraSpaceRay Generate(Point2 film, Point2) const override {
+    const double theta = M_PI * double(film.y) / YResolution();
+    const double phi = 2 * M_PI * double(film.x) / XResolution();
+    const Vector3 d(Real(std::sin(theta) * std::cos(phi)), Real(std::cos(theta)),
+                    Real(std::sin(theta) * std::sin(phi)));
+    return {{}, d, Common().hither, Common().yon};
+  }
+};
+
+std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraContext& context) {
+  return std::make_unique<EnvironmentCamera>(settings, context);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("environment", "every direction, as a map of latitude and longitude",
+                exphoton::MakeForm<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
+                                                                 exphoton::Create))

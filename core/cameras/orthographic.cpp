@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Camera "orthographic": parallel rays from a window in the plane z = 0; with a lens radius, rays
+// that meet in the plane that is sharp.
+#include "core/cameras/common/camera_base.h"
+
+namespace exphoton {
+namespace {
+
+class OrthographicCamera final : public CameraBase {
+ public:
+  using CameraBase::CameraBase;
+
+  bool HasLens() const override { return Common().lensRadius > 0; }
+  Matrix4 WorldToNdc() const override {
+    return WindowMatrix(1, false) * CameraToWorld().InverseMatrix();
+  }
+
+ private:
+  CameraSpaceRay Generate(Point2 film, Point2 lens) const override {
+    const auto [x, y] = Screen(film);
+    return ThinLensRay(Point3(Real(x), Real(y), 0), 0, 0, lens);
+  }
+};
+
+std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraContext& context) {
+  return std::make_unique<OrthographicCamera>(settings, context);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("orthographic", "parallel rays",
+                exphoton::MakeForm<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
+                                                                 exphoton::Create))

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Camera "perspective": a pinhole or a thin lens.
+#include "core/cameras/common/camera_base.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings : CameraSettings {
+  Real fov = 90;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      CameraParameters(), Param("fov", &Settings::fov, "field of view of the image's shorter axis")
+                              .Above(0)
+                              .Below(180)
+                              .Unit("degrees")};
+  return table;
+}
+
+class PerspectiveCamera final : public CameraBase {
+ public:
+  PerspectiveCamera(const Settings& settings, const CameraContext& context)
+      : CameraBase(settings, context), tan_(std::tan(double(settings.fov) * (M_PI / 360))) {}
+
+  bool HasLens() const override { return Common().lensRadius > 0; }
+  Matrix4 WorldToNdc() const override {
+    return WindowMatrix(tan_, true) * CameraToWorld().InverseMatrix();
+  }
+
+ private:
+  CameraSpaceRay Generate(Point2 film, Point2 lens) const override {
+    const auto [x, y] = Screen(film);
+    return ThinLensRay({}, x * tan_, y * tan_, lens);
+  }
+
+  double tan_;  // of half the field of view
+};
+
+std::unique_ptr<Camera> Create(const Settings& settings, const CameraContext& context) {
+  return std::make_unique<PerspectiveCamera>(settings, context);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("perspective", "pinhole or thin lens",
+                exphoton::MakeForm<exphoton::PluginKind::Camera>(exphoton::Parameters(),
+                                                                 exphoton::Create))
