@@ -78,7 +78,7 @@ std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, con
     if (!local) continue;
     const Real w = local->throughput.MaxComponent();
     if (!(w > 0) || !std::isfinite(w)) continue;
-    found[count] = {local->wi, local->throughput, local->pdf, lobe->Lobe()};
+    found[count] = {local->wi, local->throughput, local->pdf, lobe->Lobe(), local->eta};
     weight[count++] = w;
     total += w;
   }

@@ -41,7 +41,7 @@ std::optional<BxdfSample> SpecularTransmission::Sample(const Vector3& wo, Point2
   Spectrum weight = transmittance_ * (1 - FresnelDielectric(wo.z, etaOutside_, etaInside_));
   if (mode_ == TransportMode::Radiance) weight *= eta * eta;
   if (weight.IsBlack()) return std::nullopt;
-  return BxdfSample{{-eta * wo.x, -eta * wo.y, isEntering ? -*cosT : *cosT}, weight, 1};
+  return BxdfSample{{-eta * wo.x, -eta * wo.y, isEntering ? -*cosT : *cosT}, weight, 1, eta};
 }
 
 Spectrum SpecularTransmission::Rho() const {
