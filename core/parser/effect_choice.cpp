@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The parser of --effects.
+#include "core/parser/effect_choice.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/params/suggestions.h"
+
+namespace exphoton {
+namespace {
+
+std::vector<std::string> EffectNames() {
+  std::vector<std::string> names;
+  for (int i = 0; i < kEffectCount; ++i) names.emplace_back(EffectName(Effect(i)));
+  return names;
+}
+
+[[noreturn]] void FailChoice(const std::string& text, const std::string& hint = {}) {
+  std::string known;
+  for (const std::string& name : EffectNames()) known += (known.empty() ? "" : ", ") + name;
+  throw Error(ExitStatus::CommandLine,
+              "--effects: " + text + "; it takes auto, all or a list such as caustics=off of " +
+                  known + (hint.empty() ? "" : "; " + hint));
+}
+
+void ApplyOne(const std::string& item, EffectPlan* plan, Log& log) {
+  const std::size_t equals = item.find('=');
+  const std::string name = item.substr(0, equals);
+  const std::string value = equals == std::string::npos ? "" : item.substr(equals + 1);
+  const std::vector<std::string> names = EffectNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) FailChoice("unknown effect \"" + name + "\"", DidYouMean(name, names));
+  if (value != "on" && value != "off") FailChoice("\"" + item + "\" says neither on nor off");
+  const auto effect = Effect(found - names.begin());
+  if (value == "off" && plan->Needs(effect))
+    log.Warning("--effects " + item + " leaves out light that the scene needs");
+  plan->Set(effect, value == "on", "by --effects");
+}
+
+}  // namespace
+
+EffectPlan ChooseEffects(EffectPlan plan, const std::string& choice, Log& log) {
+  if (choice == "auto") return plan;
+  if (choice == "all") {
+    EffectPlan all;
+    all.notes = std::move(plan.notes);
+    return all;
+  }
+  for (std::size_t at = 0; at <= choice.size();) {
+    const std::size_t end = std::min(choice.find(',', at), choice.size());
+    ApplyOne(choice.substr(at, end - at), &plan, log);
+    at = end + 1;
+  }
+  return plan;
+}
+
+}  // namespace exphoton

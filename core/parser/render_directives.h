@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// RenderDirectives: what a file says before WorldBegin about how to render, and the objects made
+// from it at WorldEnd.
+#pragma once
+
+#include <string>
+
+#include "core/math/transform.h"
+#include "core/parser/directive.h"
+#include "core/parser/render_setup.h"
+#include "core/parser/world_builder.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton {
+
+class RenderDirectives {
+ public:
+  explicit RenderDirectives(const LoadOptions& options);
+
+  // Camera, Film, Sampler ...: the last one of each wins.
+  void Handle(Directive directive, const Transform& current);
+
+  AcceleratorSpec Accelerator(PluginRegistry& registry) const;
+  const Transform& WorldToCamera() const { return worldToCamera_; }
+  bool HasCamera() const { return camera_.isGiven; }
+
+  // Makes everything but the scene.
+  void Create(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+
+ private:
+  struct Choice {
+    std::string name;
+    ParamSet params;
+    bool isGiven = false;
+  };
+
+  void OverrideIntegrator();
+  ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
+                      PluginRegistry& registry) const;
+  BindContext Bind(PluginKind kind, const std::string& name, Log& log) const;
+  void CreateFilm(Log& log, RenderSetup* setup) const;
+  void CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  void CreateIntegrator(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  void CheckVolumeIntegrator(Log& log) const;
+
+  const LoadOptions& options_;
+  Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
+      accelerator_{"kdtree", {}}, integrator_{"directlighting", {}},
+      volumeIntegrator_{"emission", {}}, camera_{"perspective", {}}, renderer_{"sampler", {}};
+  Transform worldToCamera_;
+};
+
+}  // namespace exphoton

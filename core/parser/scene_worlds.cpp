@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The world's beginning and end: where a scene becomes a render setup.
+#include <utility>
+
+#include "core/base/log.h"
+#include "core/parser/effect_choice.h"
+#include "core/parser/scene_builder.h"
+
+namespace exphoton {
+
+void SceneBuilder::BeginWorld(const Directive& directive) {
+  worldBegin_ = directive.Where();
+  world_.emplace(*registry_, log_, options_.isStrict, render_->Accelerator(*registry_));
+  state_.transform = Transform();
+  isOneTimeActive_ = false;
+  if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = Transform();
+  coordinateSystems_["world"] = Transform();
+  ParamSet none;
+  none.where = directive.Where();
+  state_.material = world_->MakeMaterialSpec("matte", none);
+}
+
+void SceneBuilder::EndWorld(const Directive& directive) {
+  if (world_->IsInObject())
+    FailAt(directive.Where(),
+           "the object that begins at " + PlaceName(stack_.Innermost()) + " has no ObjectEnd");
+  if (!stack_.IsEmpty())
+    log_.Warning(std::string(stack_.InnermostName()) + " without its end", stack_.Innermost());
+
+  auto setup = std::make_unique<RenderSetup>();
+  setup->sceneName = sceneName_;
+  setup->sceneHash = hash_;
+  render_->Create(*registry_, log_, setup.get());
+  SceneParts parts = world_->Take();
+  if (parts.lights.empty()) log_.Warning("the scene has no light", directive.Where());
+  setup->scene = std::make_unique<Scene>(std::move(parts));
+  setup->scene->SetEffects(
+      ChooseEffects(PlanEffects(*setup->scene, *setup->camera), options_.effects, log_));
+  setup->plugins = registry_->Loaded();
+  setups_.push_back(std::move(setup));
+  Reset();
+}
+
+void SceneBuilder::Finish(const SourceLocation& end) {
+  if (world_) FailAt(end, "WorldEnd is missing: the world begins at " + PlaceName(*worldBegin_));
+  if (setups_.empty()) FailAt(end, "the file has no WorldBegin: there is nothing to render");
+}
+
+std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
+                                                     const LoadOptions& options, Log& log) {
+  try {
+    SceneBuilder builder(path == "-" ? "<stdin>" : path, options, log);
+    ParseScene(source, path, builder, log);
+    return builder.TakeSetups();
+  } catch (const Error& error) {
+    const bool isCommandLine = error.Where() && error.Where()->file == kCommandLinePlace;
+    if (!isCommandLine || error.Status() == ExitStatus::CommandLine) throw;
+    throw Error(ExitStatus::CommandLine, error.what(), *error.Where(), error.Hint());
+  }
+}
+
+}  // namespace exphoton

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Shapes with their materials and area lights, lights, and textures. Instances are in
+// world_objects.cpp.
+#include "core/parser/world_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/log.h"
+
+namespace exphoton {
+
+WorldBuilder::WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict,
+                           AcceleratorSpec accelerator)
+    : registry_(registry), log_(log), isStrict_(isStrict), accelerator_(std::move(accelerator)) {
+  parts_.primitives = std::make_unique<PrimitiveSet>();
+}
+
+BindContext WorldBuilder::Bind(PluginKind kind, const std::string& name,
+                               const TextureLookup* textures) const {
+  BindContext bind;
+  bind.textures = textures;
+  bind.log = &log_;
+  bind.isStrict = isStrict_;
+  bind.what = std::string(PluginKindName(kind)) + " \"" + name + "\"";
+  return bind;
+}
+
+void WorldBuilder::AddLight(const Directive& directive, const GraphicsState& state) {
+  if (IsInObject())
+    log_.Warning(
+        "a light in an object is not repeated with its instances: it shines once, where "
+        "the object is defined",
+        directive.Where());
+  const std::string& name = directive.strings[0];
+  parts_.lights.push_back(registry_.Create<PluginKind::Light>(
+      name, directive.params, Bind(PluginKind::Light, name, state.textures.get()),
+      LightContext{state.transform, log_, directive.Where()}));
+}
+
+void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* state) {
+  const std::string &name = directive.strings[0], &type = directive.strings[1],
+                    &plugin = directive.strings[2];
+  const bool isColor = type == "color" || type == "spectrum";
+  if (!isColor && type != "float")
+    FailAt(directive.Where(), "texture \"" + name + "\" has type \"" + type +
+                                  "\"; types of textures are \"float\" and \"color\"");
+  const TextureContext context{state->transform, log_, directive.Where()};
+  TexturePtr<Real> floats;
+  TexturePtr<Spectrum> colors;
+  if (isColor)
+    colors = registry_.Create<PluginKind::ColorTexture>(
+        plugin, directive.params, Bind(PluginKind::ColorTexture, plugin, state->textures.get()),
+        context);
+  else
+    floats = registry_.Create<PluginKind::FloatTexture>(
+        plugin, directive.params, Bind(PluginKind::FloatTexture, plugin, state->textures.get()),
+        context);
+  const bool isKnown = state->textures->Has(name, isColor);
+  if (isKnown)
+    log_.Warning("texture \"" + name + "\" is defined again: shapes from here on get the new one",
+                 directive.Where());
+  TextureTable& table = state->OwnTextures();
+  if (isKnown) table.generation = ++textureGenerations_;
+  if (isColor)
+    table.Define(name, std::move(colors));
+  else
+    table.Define(name, std::move(floats));
+}
+
+std::shared_ptr<MaterialSpec> WorldBuilder::MakeMaterialSpec(std::string name, ParamSet params) {
+  registry_.Find(PluginKind::Material, name, params.where);
+  auto spec = std::make_shared<MaterialSpec>();
+  spec->name = std::move(name);
+  spec->params = std::move(params);
+  return spec;
+}
+
+std::shared_ptr<AreaLightSpec> WorldBuilder::MakeAreaLightSpec(Directive directive) {
+  registry_.Find(PluginKind::AreaLight, directive.strings[0], directive.Where());
+  return std::make_shared<AreaLightSpec>(
+      AreaLightSpec{std::move(directive.strings[0]), std::move(directive.params)});
+}
+
+bool WorldBuilder::Declares(PluginKind kind, const std::string& plugin,
+                            const std::string& parameter, const SourceLocation& where) {
+  const auto& declared = registry_.Find(kind, plugin, where).parameters->Declarations();
+  return std::any_of(declared.begin(), declared.end(),
+                     [&](const ParamDecl& decl) { return decl.name == parameter; });
+}
+
+ParamSet WorldBuilder::WithoutMaterialParameters(const std::string& shape,
+                                                 const std::string& material, ParamSet params) {
+  const auto isMaterialOnly = [&](const ParsedParam& param) {
+    return !Declares(PluginKind::Shape, shape, param.name, params.where) &&
+           Declares(PluginKind::Material, material, param.name, params.where);
+  };
+  const std::vector<ParsedParam>& all = params.All();
+  if (std::none_of(all.begin(), all.end(), isMaterialOnly)) return params;
+  ParamSet own;
+  own.where = params.where;
+  for (const ParsedParam& param : all)
+    if (!isMaterialOnly(param)) own.Add(param);
+  return own;
+}
+
+const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& shape,
+                                          const GraphicsState& state) {
+  const std::vector<ParsedParam>& all = shape.All();
+  const bool overrides = std::any_of(all.begin(), all.end(), [&](const ParsedParam& param) {
+    return Declares(PluginKind::Material, spec.name, param.name, spec.params.where);
+  });
+  const TextureTable& textures = spec.textures ? *spec.textures : *state.textures;
+  if (!overrides && spec.made && spec.madeGeneration == textures.generation) return spec.made.get();
+  BindContext bind = Bind(PluginKind::Material, spec.name, &textures);
+  if (overrides) bind.overrides = &shape;
+  std::shared_ptr<const Material> material = registry_.Create<PluginKind::Material>(
+      spec.name, spec.params, std::move(bind), MaterialContext{log_, spec.params.where});
+  parts_.materials.push_back(material);
+  if (!overrides) {
+    spec.made = material;
+    spec.madeGeneration = textures.generation;
+  }
+  return material.get();
+}
+
+const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
+                                            std::shared_ptr<const EmitterSurface> surface,
+                                            const Directive& shape, const GraphicsState& state) {
+  if (!spec) return nullptr;
+  if (IsInObject()) {
+    log_.Warning("a shape in an object cannot be an area light: it does not emit", shape.Where());
+    return nullptr;
+  }
+  if (const Real area = surface->Area(); !(area > 0) || !std::isfinite(area)) {
+    log_.Warning("an area light of area 0 does not emit", shape.Where());
+    return nullptr;
+  }
+  std::unique_ptr<AreaLight> light = registry_.Create<PluginKind::AreaLight>(
+      spec->name, spec->params, Bind(PluginKind::AreaLight, spec->name, state.textures.get()),
+      AreaLightContext{std::move(surface), log_, spec->params.where});
+  const AreaLight* made = light.get();
+  parts_.lights.push_back(std::move(light));
+  return made;
+}
+
+void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
+  const std::string& name = directive.strings[0];
+  const Material* material = MaterialFor(*state.material, directive.params, state);
+  const SourceLocation where = directive.Where();
+  const ParamSet params =
+      WithoutMaterialParameters(name, state.material->name, std::exchange(directive.params, {}));
+  directive.params.where = where;
+  std::unique_ptr<ShapeGeometry> geometry = registry_.Create<PluginKind::Shape>(
+      name, params, Bind(PluginKind::Shape, name, state.textures.get()),
+      ShapeContext{state.transform, state.reverseOrientation, log_, where});
+  AddGeometry(std::move(*geometry), material, directive, state);
+}
+
+void WorldBuilder::AddGeometry(ShapeGeometry geometry, const Material* material,
+                               const Directive& directive, const GraphicsState& state) {
+  PrimitiveSet& set = object_ ? *object_->set : *parts_.primitives;
+  const AreaLightSpec* light = state.areaLight.get();
+  if (auto* owned = std::get_if<std::unique_ptr<Shape>>(&geometry)) {
+    const std::shared_ptr<const Shape> shape = std::move(*owned);
+    set.AddShape(shape, {material, AreaLightFor(light, shape, directive, state)});
+    return;
+  }
+  const std::shared_ptr<const TriangleMesh> mesh =
+      std::move(std::get<std::unique_ptr<TriangleMesh>>(geometry));
+  if (mesh->TriangleCount() == 0) return;
+  std::shared_ptr<const EmitterSurface> surface;
+  if (light && !IsInObject()) {
+    surface = MakeMeshEmitter(*mesh);
+    parts_.emitters.push_back(surface);
+  }
+  set.AddMesh(mesh, {material, AreaLightFor(light, surface, directive, state)});
+}
+
+}  // namespace exphoton
