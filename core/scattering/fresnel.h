@@ -29,10 +29,10 @@ inline Real FresnelDielectric(Real cosIncident, Real etaOutside, Real etaInside)
   const Real cosI = std::min(std::abs(cosIncident), Real(1));
   const std::optional<Real> cosT = RefractedCosine(cosI, etaOutside / etaInside);
   if (!cosT) return 1;
-  const Real parallel = (etaInside * cosI - etaOutside * *cosT) /
-                        (etaInside * cosI + etaOutside * *cosT);
-  const Real perpendicular = (etaOutside * cosI - etaInside * *cosT) /
-                             (etaOutside * cosI + etaInside * *cosT);
+  const Real parallel =
+      (etaInside * cosI - etaOutside * *cosT) / (etaInside * cosI + etaOutside * *cosT);
+  const Real perpendicular =
+      (etaOutside * cosI - etaInside * *cosT) / (etaOutside * cosI + etaInside * *cosT);
   return (Square(parallel) + Square(perpendicular)) / 2;
 }
 
@@ -76,12 +76,14 @@ class Fresnel {
   // cosIncident: of the incident direction and the (micro)facet's normal; its sign says the side.
   Spectrum operator()(Real cosIncident) const {
     switch (kind_) {
-      case Kind::Dielectric: return Spectrum(FresnelDielectric(cosIncident, eta_.r, eta_.g));
+      case Kind::Dielectric:
+        return Spectrum(FresnelDielectric(cosIncident, eta_.r, eta_.g));
       case Kind::Conductor:
         return {FresnelConductor(cosIncident, eta_.r, k_.r),
                 FresnelConductor(cosIncident, eta_.g, k_.g),
                 FresnelConductor(cosIncident, eta_.b, k_.b)};
-      case Kind::None: break;
+      case Kind::None:
+        break;
     }
     return Spectrum(1);
   }
