@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Pearson's chi-square test of a sampler against its density, over rectangles and over directions:
+//   EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf), 30));  // one of 30 such tests
+// Samples that fail, or fall outside the grid, fill one more cell, which expects the rest of the
+// probability: a density that is too low or too high everywhere is found too.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+
+#include "core/math/random.h"
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+struct ChiSquareResult {
+  double statistic = 0;
+  int degrees = 0;     // cells after pooling, less one
+  double pValue = 1;   // of a statistic at least this large where sampler and density agree
+  double mass = 0;     // integral of the density over the grid
+  int impossible = 0;  // samples in cells where the density is 0
+};
+
+// Probability that a chi-square variate of so many degrees of freedom exceeds x.
+double ChiSquareTail(double x, int degrees);
+
+struct ChiSquareOptions {
+  int rows = 16, columns = 32;
+  int samples = 100000;
+  std::uint64_t seed = 1;
+  // Levels of halving in the quadrature of a cell; more for densities with edges.
+  int quadratureDepth = 5;
+};
+
+struct PlaneGrid {
+  Point2 min{0, 0}, max{1, 1};
+};
+// pdf: per unit area of the rectangle.
+ChiSquareResult TestPlane(const PlaneGrid& grid,
+                          const std::function<std::optional<Point2>(RandomStream&)>& sample,
+                          const std::function<double(Point2)>& pdf,
+                          const ChiSquareOptions& options = {});
+
+// All directions within the cone about the axis; 2: the whole sphere.
+struct DirectionGrid {
+  Vector3 axis{0, 0, 1};
+  double oneMinusCosMax = 2;
+};
+// pdf: per solid angle. Directions are unit; cells have equal solid angles.
+ChiSquareResult TestDirections(const DirectionGrid& grid,
+                               const std::function<std::optional<Vector3>(RandomStream&)>& sample,
+                               const std::function<double(const Vector3&)>& pdf,
+                               const ChiSquareOptions& options = {});
+
+// Whether sampler and density agree, at a false-alarm rate of 1 % over `testCount` such tests
+// (Sidak). The message has all of the result.
+testing::AssertionResult FitsDensity(const ChiSquareResult& result, int testCount);
+
+}  // namespace exphoton
