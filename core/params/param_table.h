@@ -13,8 +13,10 @@
 //   }
 #pragma once
 
+#include <algorithm>
 #include <any>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -51,9 +53,13 @@ struct ParamDecl {
   std::optional<double> min, max;  // of each number
   bool minExcluded = false, maxExcluded = false;
   bool isRequired = false;
+  // What an Integer's member can hold, within +-2^53.
+  double lowest = std::numeric_limits<int>::lowest(), highest = std::numeric_limits<int>::max();
   std::vector<std::string> choices;  // of a Choice, and of nothing else
   std::string defaultText;           // as a scene file would write it; "" where automatic
 };
+// "between 0 and 90", "above 0 and at most 1"; "" without limits.
+std::string RangeText(const ParamDecl& decl);
 
 // Everything binding needs besides the values.
 struct BindContext {
@@ -61,13 +67,16 @@ struct BindContext {
   Log* log = nullptr;
   bool isStrict = false;
   std::string what;  // "integrator \"exphotonmap\"": for messages
-  // Parameter names of other plugins of the same kind: naming one is only a notice.
-  std::vector<std::string> siblingNames;
+  // Parameter names of other plugins of the same kind: naming one is only a notice. Asked when an
+  // unknown name is met. May be empty.
+  std::function<std::vector<std::string>()> siblingNames;
+  // Names that something else reads: of a shape's parameters, those of its material.
+  std::vector<std::string> readElsewhere;
   // A second set that overrides and need not be consumed (a shape's, over its material's).
   const ParamSet* overrides = nullptr;
 };
 
-// The untyped half: declarations, and assignment of checked values through std::any-free setters.
+// The untyped half: declarations, and assignment of checked values through std::any.
 class ParamTableBase {
  public:
   virtual ~ParamTableBase() = default;
@@ -76,8 +85,8 @@ class ParamTableBase {
  protected:
   // Checks types, counts, ranges and names; for each declared parameter present in the file calls
   // set(index, value). Throws Error(Scene) with file, line, column and hint.
-  // Values: int, Real, bool, std::string (Choice: its index as int), Spectrum, Vec3, TexturePtr<T>,
-  // std::vector<int | Real | Vec3 | Point2>.
+  // Values: long long, Real, bool, std::string (Choice: its index as int), Spectrum, Vec3,
+  // TexturePtr<T>, std::vector<int | Real | Vec3 | Point2>.
   void BindValues(const ParamSet& params, const BindContext& context,
                   const std::function<void(std::size_t index, std::any value)>& set) const;
   // Turns a ParamError into an Error at the parameter's place.
@@ -124,6 +133,7 @@ std::string DefaultText(double v);
 std::string DefaultText(const std::string& v);
 std::string DefaultText(const Spectrum& v);
 std::string DefaultText(const Vec3& v);
+std::string DefaultText(const std::vector<Real>& v);
 // The value of a UniformTexture; "" for a null texture.
 std::string DefaultText(const TexturePtr<Real>& v);
 std::string DefaultText(const TexturePtr<Spectrum>& v);
@@ -141,6 +151,11 @@ class Param {
     decl_.name = std::move(name);
     decl_.doc = std::move(doc);
     decl_.type = detail::TypeOf<T>();
+    if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
+      constexpr double kExact = 9007199254740992.0;  // 2^53
+      decl_.lowest = std::max(double(std::numeric_limits<Value>::lowest()), -kExact);
+      decl_.highest = std::min(double(std::numeric_limits<Value>::max()), kExact);
+    }
   }
   Param& Range(double min, double max) { decl_.min = min, decl_.max = max; return *this; }
   Param& AtLeast(double min) { decl_.min = min; return *this; }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Binding: which parameter of a scene file goes to which declaration, and what is left over.
+#include "core/params/param_table.h"
+
+#include <algorithm>
+
+#include "core/base/log.h"
+#include "core/params/param_reader.h"
+#include "core/params/suggestions.h"
+
+namespace exphoton {
+namespace {
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const ParsedParam* FindWithOverrides(const std::string& name, const ParamSet& params,
+                                     const BindContext& context) {
+  if (context.overrides) {
+    if (const ParsedParam* param = context.overrides->Find(name)) return param;
+  }
+  return params.Find(name);
+}
+
+std::optional<SourceLocation> Place(const SourceLocation& where) {
+  return where.file.empty() ? std::optional<SourceLocation>() : where;
+}
+
+void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& known,
+                   const BindContext& context) {
+  if (context.siblingNames && Contains(context.siblingNames(), param.name)) {
+    if (context.log) {
+      context.log->Notice("parameter \"" + param.name + "\" means nothing to " + context.what +
+                              ": it is of another plugin of this kind",
+                          Place(param.where));
+    }
+    return;
+  }
+  const std::string text = "unknown parameter \"" + param.name + "\" of " + context.what;
+  std::string hint = DidYouMean(param.name, known);
+  if (hint.empty() && known.empty()) hint = context.what + " has no parameters";
+  if (context.isStrict) throw Error(ExitStatus::Scene, text, param.where, hint);
+  if (context.log) context.log->Warning(text, Place(param.where), hint);
+}
+
+}  // namespace
+
+void ParamTableBase::BindValues(
+    const ParamSet& params, const BindContext& context,
+    const std::function<void(std::size_t index, std::any value)>& set) const {
+  std::vector<std::string> known;
+  for (const ParamDecl& decl : declarations_) known.push_back(decl.name);
+  for (const ParsedParam& param : params.All()) {
+    if (Contains(known, param.name) || Contains(context.readElsewhere, param.name)) continue;
+    ReportUnknown(param, known, context);
+  }
+  for (std::size_t i = 0; i < declarations_.size(); ++i) {
+    const ParamDecl& decl = declarations_[i];
+    if (const ParsedParam* param = FindWithOverrides(decl.name, params, context)) {
+      set(i, ParamReader(decl, *param, context).Read());
+    } else if (decl.isRequired) {
+      throw Error(ExitStatus::Scene,
+                  context.what + " needs the parameter \"" +
+                      std::string(AcceptedTypes(decl.type)[0]) + ' ' + decl.name + '"',
+                  params.where);
+    }
+  }
+}
+
+void ParamTableBase::Locate(const ParamError& error, const ParamSet& params,
+                            const BindContext& context) {
+  const ParsedParam* param = FindWithOverrides(error.param, params, context);
+  const std::string subject =
+      error.param.empty() ? context.what : "parameter \"" + error.param + "\" of " + context.what;
+  throw Error(ExitStatus::Scene, subject + ' ' + error.text, param ? param->where : params.where,
+              error.hint);
+}
+
+}  // namespace exphoton
