@@ -52,8 +52,7 @@ void ParamTableBase::BindValues(
   std::vector<std::string> known;
   for (const ParamDecl& decl : declarations_) known.push_back(decl.name);
   for (const ParsedParam& param : params.All()) {
-    if (Contains(known, param.name) || Contains(context.readElsewhere, param.name)) continue;
-    ReportUnknown(param, known, context);
+    if (!Contains(known, param.name)) ReportUnknown(param, known, context);
   }
   for (std::size_t i = 0; i < declarations_.size(); ++i) {
     const ParamDecl& decl = declarations_[i];

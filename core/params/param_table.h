@@ -70,8 +70,6 @@ struct BindContext {
   // Parameter names of other plugins of the same kind: naming one is only a notice. Asked when an
   // unknown name is met. May be empty.
   std::function<std::vector<std::string>()> siblingNames;
-  // Names that something else reads: of a shape's parameters, those of its material.
-  std::vector<std::string> readElsewhere;
   // A second set that overrides and need not be consumed (a shape's, over its material's).
   const ParamSet* overrides = nullptr;
 };

@@ -96,12 +96,12 @@ std::string DefaultText(const std::vector<Real>& v) {
   return '[' + text.substr(1) + ']';
 }
 std::string DefaultText(const TexturePtr<Real>& v) {
-  if (!dynamic_cast<const UniformTexture<Real>*>(v.get())) return "";
-  return NumberText(double(v->Evaluate(SurfaceInteraction())));
+  const std::optional<Real> value = v ? v->ConstantValue() : std::nullopt;
+  return value ? NumberText(double(*value)) : "";
 }
 std::string DefaultText(const TexturePtr<Spectrum>& v) {
-  if (!dynamic_cast<const UniformTexture<Spectrum>*>(v.get())) return "";
-  return DefaultText(v->Evaluate(SurfaceInteraction()));
+  const std::optional<Spectrum> value = v ? v->ConstantValue() : std::nullopt;
+  return value ? DefaultText(*value) : "";
 }
 
 }  // namespace detail
