@@ -167,14 +167,28 @@ void Preprocess(const RenderJob& job, const RenderOptions& options) {
   job.integrator.Preprocess(job.scene, context);
 }
 
+// A depth limit may cut a little without a word; more is light that the picture lacks.
+void WarnOfCutPaths(const RenderJob& job, double cutThroughput, std::int64_t cameraSamples) {
+  constexpr double kSilentShare = 1e-3;
+  const double share = cutThroughput / double(std::max<std::int64_t>(cameraSamples, 1));
+  if (!(share > kSilentShare)) return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "the depth limit cut specular paths that carry " << 100 * share
+       << " % of what the camera could see";
+  job.log.Warning(text.str(), {}, "raise \"maxdepth\" of the integrator");
+}
+
 RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
                        const NonFiniteLog& log) {
   RenderResult result;
   std::int64_t cameraSamples = 0, negative = 0;
+  double cutThroughput = 0;
   for (const Worker& worker : workers) {
     job.statistics.AddRays(worker.rays);
     cameraSamples += worker.cameraSamples;
     negative += worker.negative;
+    cutThroughput += worker.rays.cutThroughput;
     result.nonFiniteSamples += worker.nonFinite;
     result.isComplete &= !worker.wasStopped;
   }
@@ -184,6 +198,7 @@ RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
                             "camera samples dropped, counted as black");
   job.statistics.SetCounter("render/negative samples", double(negative),
                             "camera samples with a component below 0, taken as 0");
+  WarnOfCutPaths(job, cutThroughput, cameraSamples);
   if (result.nonFiniteSamples == 0) return result;
   for (const std::string& text : result.nonFiniteReports)
     job.log.Warning("dropped a non-finite " + text);
