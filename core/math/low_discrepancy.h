@@ -40,8 +40,10 @@ constexpr std::uint32_t SobolSecond(std::uint32_t index) {
   return result;
 }
 
+// Cut off, not rounded, so that no point leaves its binary stratum.
 inline Real FractionToReal(std::uint32_t v) {
-  return std::min(Real(v) * Real(1.0 / 4294967296.0), kOneMinusEpsilon);
+  if constexpr (sizeof(Real) == 4) v &= 0xffffff00u;
+  return Real(v) * Real(1.0 / 4294967296.0);
 }
 
 // Point `index` of the scrambled van der Corput sequence and of the scrambled (0,2)-sequence.

@@ -32,6 +32,11 @@ const char* PluginKindFolder(PluginKind kind);  // "lights"
 
 struct NoContext {};
 
+struct SamplerContext {
+  Log& log;
+  SourceLocation where;
+};
+
 struct IntegratorContext {
   Log& log;
 };
@@ -83,7 +88,7 @@ template <> struct PluginTraits<PluginKind::AreaLight> : PluginTraitsOf<AreaLigh
 template <> struct PluginTraits<PluginKind::Material> : PluginTraitsOf<Material, MaterialContext> {};
 template <> struct PluginTraits<PluginKind::FloatTexture> : PluginTraitsOf<FloatTexture, TextureContext> {};
 template <> struct PluginTraits<PluginKind::ColorTexture> : PluginTraitsOf<ColorTexture, TextureContext> {};
-template <> struct PluginTraits<PluginKind::Sampler> : PluginTraitsOf<Sampler, NoContext> {};
+template <> struct PluginTraits<PluginKind::Sampler> : PluginTraitsOf<Sampler, SamplerContext> {};
 template <> struct PluginTraits<PluginKind::Filter> : PluginTraitsOf<Filter, NoContext> {};
 template <> struct PluginTraits<PluginKind::Camera> : PluginTraitsOf<Camera, CameraContext> {};
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Sampler "lowdiscrepancy": for each pixel and request an Owen-scrambled (0,2)-sequence, shuffled
+// so that requests do not correlate. Any 2^k first samples, and any array of 2^k points, are a
+// (0,k,2)-net. Sources: Kollig and Keller 2002; Burley 2020, "Practical Hash-based Owen
+// Scrambling".
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "core/math/low_discrepancy.h"
+#include "core/plugin.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ull;
+constexpr int kMaxCount = 1 << 30;
+
+struct Settings {
+  int pixelSamples = 4;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{Param("pixelsamples", &Settings::pixelSamples,
+                                                "samples a pixel, rounded up to a power of two")
+                                              .Range(1, kMaxCount)};
+  return table;
+}
+
+// The part of OwenScramble that works on reversed bits.
+constexpr std::uint32_t ScrambleReversed(std::uint32_t v, std::uint32_t key) {
+  v += key;
+  v ^= v * 0x6c50b47cu;
+  v ^= v * 0xb82f1e52u;
+  v ^= v * 0xc7afe638u;
+  v ^= v * 0x8d22f6e6u;
+  return v;
+}
+
+// SobolSecond(2^k) with its bits reversed, as everything is here until the last step: reversed, the
+// first dimension is the index itself.
+constexpr std::array<std::uint32_t, 32> ReversedDirections() {
+  std::array<std::uint32_t, 32> directions{};
+  for (std::size_t k = 0; k < 32; ++k) directions[k] = ReverseBits32(SobolSecond(1u << k));
+  return directions;
+}
+constexpr std::array<std::uint32_t, 32> kDirections = ReversedDirections();
+
+// The points of one request at one sample: a block of 2^k of the sequence, aligned, in Gray code
+// order, which needs one exclusive-or a point.
+class Block {
+ public:
+  // `requestKey` is of (seed, pixel, request).
+  Block(std::uint64_t requestKey, std::int64_t sample, std::size_t count)
+      : key_(MixBits(requestKey)) {
+    const int shift = int(std::bit_width(count == 0 ? 0 : count - 1));
+    const auto s = std::uint64_t(sample);
+    // Beyond 2^32 points the sequence begins again with other keys.
+    const std::uint64_t round = s >> (32 - shift);
+    if (round != 0) key_ = MixBits(key_ + kGolden * round);
+    const auto first = static_cast<std::uint32_t>(s << shift);
+    index_ = OwenScramble(first, std::uint32_t(MixBits(key_ + kGolden))) >> shift << shift;
+    second_ = ReverseBits32(SobolSecond(index_));
+  }
+
+  Real First() const { return Finish(index_, std::uint32_t(key_)); }
+  Point2 Both() const { return {First(), Finish(second_, std::uint32_t(key_ >> 32))}; }
+  // From the k-th point to the next; k counts from 0.
+  void Advance(std::uint32_t k) {
+    const int bit = std::countr_one(k);
+    index_ ^= 1u << bit;
+    second_ ^= kDirections[std::size_t(bit)];
+  }
+
+ private:
+  static Real Finish(std::uint32_t reversed, std::uint32_t key) {
+    return FractionToReal(ReverseBits32(ScrambleReversed(reversed, key)));
+  }
+
+  std::uint64_t key_;
+  std::uint32_t index_, second_;
+};
+
+// Makes every order equally likely, so that the i-th points of two arrays are independent.
+template <class T>
+void Shuffle(std::span<T> values, std::uint64_t key) {
+  RandomStream random(key);
+  for (std::size_t i = values.size(); i > 1; --i) {
+    const std::size_t j = (random.Bits() >> 32) * i >> 32;
+    std::swap(values[i - 1], values[j]);
+  }
+}
+
+class LowDiscrepancySampler final : public Sampler {
+ public:
+  explicit LowDiscrepancySampler(std::int64_t count) : count_(count) {}
+
+  std::int64_t SamplesPerPixel() const override { return count_; }
+  int RoundCount(int count) const override {
+    return count <= 1 ? 1 : int(std::bit_ceil(unsigned(std::min(count, kMaxCount))));
+  }
+  bool IsProgressive() const override { return true; }
+  std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const override {
+    return std::make_unique<LowDiscrepancySampler>(
+        std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(count, 1)))));
+  }
+
+  void Generate(const SampleKey& key, CameraSamples* samples) const override {
+    std::uint64_t request =
+        HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), 0x6c6f7764});
+    samples->film = Block(request += kGolden, key.index, 1).Both();
+    samples->lens = Block(request += kGolden, key.index, 1).Both();
+    samples->time = Block(request += kGolden, key.index, 1).First();
+    for (int i = 0; i < samples->Count1D(); ++i)
+      Fill(request += kGolden, key.index, samples->Array1D(i));
+    for (int i = 0; i < samples->Count2D(); ++i)
+      Fill(request += kGolden, key.index, samples->Array2D(i));
+  }
+
+ private:
+  template <class T>
+  static void Fill(std::uint64_t request, std::int64_t sample, std::span<T> values) {
+    Block block(request, sample, values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if constexpr (std::is_same_v<T, Point2>) {
+        values[k] = block.Both();
+      } else {
+        values[k] = block.First();
+      }
+      block.Advance(std::uint32_t(k));
+    }
+    if (values.size() > 1)
+      Shuffle(values, MixBits(request + MixBits(std::uint64_t(sample) + kGolden)));
+  }
+
+  std::int64_t count_;
+};
+
+std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext& context) {
+  const int rounded = int(std::bit_ceil(unsigned(settings.pixelSamples)));
+  if (rounded != settings.pixelSamples) {
+    context.log.Warning("sampler \"lowdiscrepancy\": \"pixelsamples\" " +
+                            std::to_string(settings.pixelSamples) + " is rounded up to " +
+                            std::to_string(rounded) + ", a power of two",
+                        context.where);
+  }
+  return std::make_unique<LowDiscrepancySampler>(rounded);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("lowdiscrepancy", "scrambled (0,2)-sequences",
+                exphoton::MakeForm<exphoton::PluginKind::Sampler>(exphoton::Parameters(),
+                                                                  exphoton::Create))

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Sampler "stratified": one point in each cell of an xsamples by ysamples grid, cells in an order
+// that differs from request to request. Arrays are correlated multi-jittered (Kensler 2013), and
+// each of their strata is divided once more among the samples of the pixel.
+#include <cmath>
+#include <utility>
+
+#include "core/math/random.h"
+#include "core/plugin.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ull;
+
+struct Settings {
+  bool jitter = true;
+  int xSamples = 2, ySamples = 2;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("jitter", &Settings::jitter,
+            "random points within the cells of film, lens and time; else their centres"),
+      Param("xsamples", &Settings::xSamples, "columns of cells in a pixel").Range(1, 32768),
+      Param("ysamples", &Settings::ySamples, "rows of cells in a pixel").Range(1, 32768)};
+  return table;
+}
+
+// The most nearly square grid of `count` cells; a few cells more where count has no such divisors.
+struct Grid {
+  std::uint32_t x, y;
+
+  static Grid For(std::uint32_t count) {
+    const auto root = std::uint32_t(std::sqrt(double(count)));
+    std::uint32_t x = std::max(root, 1u);
+    while (count % x != 0) --x;
+    if (count / x <= 4 * x) return {x, count / x};
+    const std::uint32_t columns = root + 1;
+    return {columns, (count + columns - 1) / columns};
+  }
+  std::uint32_t Count() const { return x * y; }
+};
+
+// (cell + offset) / count, in the half-open cell also after rounding.
+Real InCell(double cell, double offset, double count) {
+  return std::min(Real((cell + offset) / count), kOneMinusEpsilon);
+}
+
+// Where sample `index` stands among the samples of its pixel, for one request.
+struct Turn {
+  std::uint64_t pixelKey;   // of (seed, pixel, round, request): the same for all samples
+  std::uint64_t sampleKey;  // also of the sample
+  std::uint32_t cell;       // its number in this request's order
+  std::uint32_t cells;
+
+  // The part, 0 to cells - 1, that this sample takes of stratum `number`; every part is taken once.
+  std::uint32_t PartOf(std::uint32_t number, std::uint64_t axis) const {
+    const std::uint64_t bits = MixBits(pixelKey + axis + kGolden * (number + 1));
+    const auto turn = std::uint32_t((bits >> 32) * cells >> 32);
+    return std::uint32_t((std::uint64_t(cell) + turn) % cells);
+  }
+};
+
+template <class T>
+void Shuffle(std::span<T> values, RandomStream* random) {
+  for (std::size_t i = values.size(); i > 1; --i)
+    std::swap(values[i - 1], values[(random->Bits() >> 32) * i >> 32]);
+}
+
+void FillArray(const Turn& turn, std::span<Real> values) {
+  RandomStream random(turn.sampleKey);
+  const auto n = std::uint32_t(values.size());
+  for (std::uint32_t j = 0; j < n; ++j) {
+    const double part = (turn.PartOf(j, 0) + double(random.Uniform())) / turn.cells;
+    values[j] = InCell(j, part, n);
+  }
+  Shuffle(values, &random);
+}
+
+// Columns times rows cells with one point each; within a column (row) the points have different
+// finer columns (rows), so that each axis alone is stratified too.
+void FillArray(const Turn& turn, std::span<Point2> values) {
+  RandomStream random(turn.sampleKey);
+  const auto n = std::uint32_t(values.size());
+  std::uint32_t rows = std::uint32_t(std::sqrt(double(n)));
+  while (n % rows != 0) --rows;
+  const std::uint32_t columns = n / rows;
+  const auto value = [&](std::uint32_t stratum, std::uint64_t axis) {
+    const double part = (turn.PartOf(stratum, axis) + double(random.Uniform())) / turn.cells;
+    return InCell(stratum, part, n);
+  };
+  const auto xKey = std::uint32_t(random.Bits()), yKey = std::uint32_t(random.Bits());
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    const std::uint32_t fine = PermuteIndex(row, rows, xKey);
+    for (std::uint32_t column = 0; column < columns; ++column)
+      values[row * columns + column].x = value(column * rows + fine, 0);
+  }
+  for (std::uint32_t column = 0; column < columns; ++column) {
+    const std::uint32_t fine = PermuteIndex(column, columns, yKey);
+    for (std::uint32_t row = 0; row < rows; ++row)
+      values[row * columns + column].y = value(row * columns + fine, 1);
+  }
+  Shuffle(values, &random);
+}
+
+class StratifiedSampler final : public Sampler {
+ public:
+  StratifiedSampler(std::int64_t count, Grid grid, bool jitter)
+      : count_(count), grid_(grid), jitter_(jitter) {}
+
+  std::int64_t SamplesPerPixel() const override { return count_; }
+  std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const override {
+    count = std::clamp<std::int64_t>(count, 1, 1 << 30);
+    return std::make_unique<StratifiedSampler>(count, Grid::For(std::uint32_t(count)), jitter_);
+  }
+
+  void Generate(const SampleKey& key, CameraSamples* samples) const override {
+    // Samples beyond the last cell begin another round with other keys.
+    const std::uint64_t round = std::uint64_t(key.index) / grid_.Count();
+    const auto index = std::uint32_t(std::uint64_t(key.index) % grid_.Count());
+    std::uint64_t request = HashKey(
+        {key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), round, 0x73747261});
+    const auto next = [&] {
+      request += kGolden;
+      Turn turn{request, MixBits(request + MixBits(index + kGolden)), 0, grid_.Count()};
+      turn.cell = PermuteIndex(index, turn.cells, std::uint32_t(MixBits(request)));
+      return turn;
+    };
+    samples->film = InGrid(next(), jitter_);
+    samples->lens = InGrid(next(), jitter_);
+    samples->time = InRow(next(), jitter_);
+    for (int i = 0; i < samples->Count1D(); ++i) Fill(next(), samples->Array1D(i));
+    for (int i = 0; i < samples->Count2D(); ++i) Fill(next(), samples->Array2D(i));
+  }
+
+ private:
+  Point2 InGrid(const Turn& turn, bool jitter) const {
+    RandomStream random(turn.sampleKey);
+    const double dx = jitter ? double(random.Uniform()) : .5;
+    const double dy = jitter ? double(random.Uniform()) : .5;
+    return {InCell(turn.cell % grid_.x, dx, grid_.x), InCell(turn.cell / grid_.x, dy, grid_.y)};
+  }
+  Real InRow(const Turn& turn, bool jitter) const {
+    RandomStream random(turn.sampleKey);
+    return InCell(turn.cell, jitter ? double(random.Uniform()) : .5, turn.cells);
+  }
+  void Fill(const Turn& turn, std::span<Real> values) const {
+    if (values.size() == 1) {
+      values[0] = InRow(turn, true);
+    } else if (!values.empty()) {
+      FillArray(turn, values);
+    }
+  }
+  void Fill(const Turn& turn, std::span<Point2> values) const {
+    if (values.size() == 1) {
+      values[0] = InGrid(turn, true);
+    } else if (!values.empty()) {
+      FillArray(turn, values);
+    }
+  }
+
+  std::int64_t count_;
+  Grid grid_;
+  bool jitter_;
+};
+
+std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext&) {
+  const Grid grid{std::uint32_t(settings.xSamples), std::uint32_t(settings.ySamples)};
+  return std::make_unique<StratifiedSampler>(grid.Count(), grid, settings.jitter);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("stratified", "jittered cells of a grid",
+                exphoton::MakeForm<exphoton::PluginKind::Sampler>(exphoton::Parameters(),
+                                                                  exphoton::Create))
