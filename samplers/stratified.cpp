@@ -42,9 +42,12 @@ struct Grid {
   std::uint32_t Count() const { return x * y; }
 };
 
-// (cell + offset) / count, in the half-open cell also after rounding.
+// (cell + offset) / count, not rounded out of its cell.
 Real InCell(double cell, double offset, double count) {
-  return std::min(Real((cell + offset) / count), kOneMinusEpsilon);
+  const Real v = Real((cell + offset) / count);
+  if (double(v) * count >= cell + 1) return NextDown(v);
+  if (double(v) * count < cell) return NextUp(v);
+  return v;
 }
 
 // Where sample `index` stands among the samples of its pixel, for one request.

@@ -153,7 +153,8 @@ void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderS
   const ParamSet params = Overridden("Sampler", sampler_, PluginKind::Sampler, registry);
   setup->samplerName = sampler_.name;
   setup->sampler = registry.Create<PluginKind::Sampler>(
-      sampler_.name, params, Bind(PluginKind::Sampler, sampler_.name, log), NoContext{});
+      sampler_.name, params, Bind(PluginKind::Sampler, sampler_.name, log),
+      SamplerContext{log, sampler_.params.where});
   std::optional<std::int64_t> count = options_.samplesPerPixel;
   if (options_.isQuick && !count) count = 1;
   if (count) setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
