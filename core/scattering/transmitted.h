@@ -8,11 +8,11 @@
 
 namespace exphoton {
 
-// Lobe: a concrete reflection lobe, held by value.
-template <class Lobe>
+// Reflection: a concrete reflection lobe, held by value.
+template <class Reflection>
 class Transmitted final : public Bxdf {
  public:
-  explicit Transmitted(const Lobe& reflection)
+  explicit Transmitted(const Reflection& reflection)
       : Bxdf(LobeSet(unsigned(reflection.Lobe()) << 3)), reflection_(reflection) {}
 
   Spectrum f(const Vector3& wo, const Vector3& wi) const override {
@@ -29,7 +29,7 @@ class Transmitted final : public Bxdf {
   Spectrum Rho() const override { return reflection_.Rho(); }
 
  private:
-  Lobe reflection_;
+  Reflection reflection_;
 };
 
 }  // namespace exphoton

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The glossy coat that plastic, uber and translucent share: its roughness and its Fresnel term.
+#pragma once
+
+#include "core/scattering/microfacet.h"
+#include "materials/common/surface_material.h"
+
+namespace exphoton {
+
+// The coat's boundary. Inverted: as pbrt 1 to 3 have it, from index 1.5 to 1, so that it reflects
+// totally beyond 41.8 degrees; pictures made with them depend on it. Physical: from 1 to 1.5.
+enum class CoatFresnel { Inverted, Physical };
+
+struct GlossSettings : SurfaceSettings {
+  TexturePtr<Real> roughness = Uniform(Real(.1));
+  CoatFresnel fresnel = CoatFresnel::Inverted;
+};
+
+inline const ParamTable<GlossSettings>& GlossParameters() {
+  static const ParamTable<GlossSettings> table{
+      SurfaceParameters(),
+      Param("roughness", &GlossSettings::roughness,
+            "inverse of the gloss exponent; below .001 counts as .001")
+          .AtLeast(0),
+      Param("fresnel", &GlossSettings::fresnel,
+            "the gloss's Fresnel term: from index 1.5 to 1 as in pbrt 1 to 3, or from 1 to 1.5")
+          .OneOf({{"inverted", CoatFresnel::Inverted}, {"physical", CoatFresnel::Physical}})};
+  return table;
+}
+
+inline Fresnel FresnelOf(CoatFresnel kind) {
+  return kind == CoatFresnel::Inverted ? Fresnel::Dielectric(Real(1.5), 1)
+                                       : Fresnel::Dielectric(1, Real(1.5));
+}
+
+}  // namespace exphoton
