@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/error.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/imaging/camera.h"

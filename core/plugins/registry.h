@@ -13,7 +13,8 @@ namespace exphoton {
 
 class PluginRegistry {
  public:
-  // Folders in order of preference; each may hold <kind folder>/<name>.so or <name>.so.
+  // Folders in order of preference; each may hold <kind folder>/<name>.so or <name>.so. Of two
+  // files for one plugin the first counts, even where it is broken.
   explicit PluginRegistry(std::vector<std::string> folders, Log* log);
 
   // --plugin-dir, PBRT_SEARCHPATH and the folder beside the program, in this order.
@@ -33,11 +34,18 @@ class PluginRegistry {
             CreateErased(kind, name, params, std::move(bind), &context)));
   }
 
-  std::vector<std::string> Available(PluginKind kind) const;  // sorted names, from the folders
+  // Sorted names of what can be loaded from the kind's folders; loads all of them.
+  std::vector<std::string> Available(PluginKind kind) const;
   std::vector<std::string> Loaded() const;                    // "integrators/exphotonmap", sorted
   const PluginDescriptor& Load(PluginKind kind, const std::string& name, const SourceLocation& where);
 
  private:
+  // Null where there is no such plugin. Throws PluginFileError.
+  const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
+  [[noreturn]] void ThrowMissing(PluginKind kind, const std::string& name,
+                                 const SourceLocation& where) const;
+  // Of all plugins of a kind; loads them.
+  std::vector<std::string> ParameterNames(PluginKind kind) const;
   void* CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
                      BindContext bind, const void* context);
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// From a kind and a name in a scene file to a loaded plugin and an object.
+#include "core/plugins/registry.h"
+
+#include <algorithm>
+#include <new>
+
+#include "core/base/log.h"
+#include "core/params/suggestions.h"
+#include "core/plugins/library.h"
+#include "core/plugins/search.h"
+
+namespace exphoton {
+namespace {
+
+std::string Key(PluginKind kind, const std::string& name) {
+  return std::string(PluginKindFolder(kind)) + '/' + name;
+}
+
+std::string Named(PluginKind kind, const std::string& name) {
+  return std::string(PluginKindName(kind)) + " \"" + name + '"';
+}
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+const PluginForm* FormOf(const PluginDescriptor& plugin, PluginKind kind) {
+  for (const PluginForm& form : plugin.forms) {
+    if (form.kind == kind) return &form;
+  }
+  return nullptr;
+}
+
+const PluginDescriptor* FindStatic(PluginKind kind, const std::string& name) {
+  for (const PluginEntry entry : StaticPlugins()) {
+    const PluginDescriptor& plugin = *entry();
+    if (plugin.name == name && FormOf(plugin, kind)) return &plugin;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+PluginRegistry::PluginRegistry(std::vector<std::string> folders, Log* log)
+    : folders_(std::move(folders)), log_(log) {}
+
+const PluginDescriptor* PluginRegistry::TryLoad(PluginKind kind, const std::string& name) const {
+  const auto found = loaded_.find(Key(kind, name));
+  if (found != loaded_.end()) return found->second;
+  if (const PluginDescriptor* plugin = FindStatic(kind, name)) return plugin;
+  const std::optional<std::string> file = FindPluginFile(folders_, kind, name);
+  if (!file) return nullptr;
+  try {
+    return &LoadPluginFile(*file, name);
+  } catch (const PluginFileError& error) {
+    throw PluginFileError('"' + *file + "\" " + error.what());
+  }
+}
+
+void PluginRegistry::ThrowMissing(PluginKind kind, const std::string& name,
+                                  const SourceLocation& where) const {
+  const std::vector<std::string> available = Available(kind);
+  std::string text = "there is no " + Named(kind, name);
+  text += available.empty() ? "; no plugin of this kind was found"
+                            : "; those that there are: " + Join(available);
+  if (StaticPlugins().empty()) text += " (looked in " + Join(folders_) + ')';
+  throw Error(ExitStatus::Scene, text, where, DidYouMean(name, available));
+}
+
+const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string& name,
+                                             const SourceLocation& where) {
+  const std::string subject = Named(kind, name);
+  if (const std::optional<std::string> fault = FaultOfPluginName(name)) {
+    throw Error(ExitStatus::Scene, "the name of " + subject + ' ' + *fault, where);
+  }
+  try {
+    const PluginDescriptor* plugin = TryLoad(kind, name);
+    const PluginAlias* alias = plugin ? nullptr : FindPluginAlias(kind, name);
+    if (alias) {
+      if (alias->notice && log_) log_->Notice(alias->notice, where);
+      return Load(kind, alias->name, where);
+    }
+    if (!plugin) ThrowMissing(kind, name, where);
+    loaded_.emplace(Key(kind, name), plugin);
+    return *plugin;
+  } catch (const PluginFileError& error) {
+    throw Error(ExitStatus::Scene, "cannot load " + subject + ": " + error.what(), where);
+  }
+}
+
+const PluginForm& PluginRegistry::Find(PluginKind kind, const std::string& name,
+                                       const SourceLocation& where) {
+  const PluginDescriptor& plugin = Load(kind, name, where);
+  if (const PluginForm* form = FormOf(plugin, kind)) return *form;
+  const std::string is = plugin.forms.empty() ? "nothing" : PluginKindName(plugin.forms[0].kind);
+  const std::vector<std::string> available = Available(kind);
+  throw Error(ExitStatus::Scene,
+              '"' + name + "\" is no " + PluginKindName(kind) + " but of the kind " + is +
+                  "; those that there are: " + Join(available),
+              where, DidYouMean(name, available));
+}
+
+std::vector<std::string> PluginRegistry::Available(PluginKind kind) const {
+  std::vector<std::string> names;
+  for (const PluginEntry entry : StaticPlugins()) {
+    if (FormOf(*entry(), kind)) names.push_back(entry()->name);
+  }
+  for (const std::string& name : PluginNamesIn(folders_, kind)) {
+    try {
+      const PluginDescriptor* plugin = TryLoad(kind, name);
+      if (plugin && FormOf(*plugin, kind)) names.push_back(name);
+    } catch (const PluginFileError&) {
+      // What cannot be loaded is reported when a scene names it.
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<std::string> PluginRegistry::Loaded() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, plugin] : loaded_) keys.push_back(key);
+  return keys;
+}
+
+std::vector<std::string> PluginRegistry::ParameterNames(PluginKind kind) const {
+  std::vector<std::string> names;
+  for (const std::string& name : Available(kind)) {
+    for (const ParamDecl& decl : FormOf(*TryLoad(kind, name), kind)->parameters->Declarations()) {
+      names.push_back(decl.name);
+    }
+  }
+  return names;
+}
+
+void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
+                                   BindContext bind, const void* context) {
+  const PluginForm& form = Find(kind, name, params.where);
+  if (bind.what.empty()) bind.what = Named(kind, name);
+  if (!bind.siblingNames) bind.siblingNames = [this, kind] { return ParameterNames(kind); };
+  const std::string failed = bind.what + " cannot be made: ";
+  try {
+    if (void* product = form.create(params, bind, context)) return product;
+  } catch (const Error& error) {
+    if (error.Where() || error.Status() != ExitStatus::Scene) throw;
+    throw Error(error.Status(), error.what(), params.where, error.Hint());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(ExitStatus::Scene, failed + error.what(), params.where);
+  } catch (...) {
+    throw Error(ExitStatus::Scene, failed + "it failed without saying why", params.where);
+  }
+  throw Error(ExitStatus::Scene, failed + "its plugin made nothing", params.where);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Names, aliases and folders of plugins.
+#include "core/plugins/search.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "core/plugins/library.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSuffix = ".so";
+
+constexpr PluginAlias kAliases[] = {
+    {PluginKind::AreaLight, "diffuse", "area", nullptr},
+    {PluginKind::Light, "infinitesample", "infinite", nullptr},
+    {PluginKind::Sampler, "bestcandidate", "lowdiscrepancy",
+     "sampler \"bestcandidate\" does not exist yet: \"lowdiscrepancy\" takes its place"},
+};
+
+// The folders beside the program and beside the core's library: of a build tree, of an
+// installation.
+std::vector<std::string> FoldersBesideProgram() {
+  std::error_code error;
+  std::vector<std::string> candidates;
+  for (const fs::path& file : {fs::read_symlink("/proc/self/exe", error), fs::path(CoreFile())}) {
+    if (!file.has_parent_path()) continue;
+    const fs::path prefix = file.parent_path().parent_path();
+    for (const char* folder : {"plugins", "lib/exphoton/plugins"}) {
+      const std::string candidate = (prefix / folder).lexically_normal().string();
+      if (std::find(candidates.begin(), candidates.end(), candidate) == candidates.end()) {
+        candidates.push_back(candidate);
+      }
+    }
+  }
+  std::vector<std::string> existing;
+  for (const std::string& candidate : candidates) {
+    if (fs::is_directory(candidate, error)) existing.push_back(candidate);
+  }
+  if (existing.empty() && !candidates.empty()) existing.push_back(candidates.front());
+  return existing;
+}
+
+}  // namespace
+
+const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name) {
+  for (const PluginAlias& alias : kAliases) {
+    if (alias.kind == kind && name == alias.alias) return &alias;
+  }
+  return nullptr;
+}
+
+std::optional<std::string> FaultOfPluginName(const std::string& name) {
+  if (name.empty()) return "is empty";
+  if (name.find('/') != std::string::npos || name.find("..") != std::string::npos) {
+    return "has parts of a path: folders are given by --plugin-dir or PBRT_SEARCHPATH";
+  }
+  if (name.find('\0') != std::string::npos || name.size() > 200) {
+    return "cannot be the name of a file";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindPluginFile(const std::vector<std::string>& folders, PluginKind kind,
+                                          const std::string& name) {
+  std::error_code error;
+  for (const std::string& folder : folders) {
+    for (const fs::path& file : {fs::path(folder) / PluginKindFolder(kind) / (name + kSuffix),
+                                 fs::path(folder) / (name + kSuffix)}) {
+      if (fs::exists(file, error)) return file.string();
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> PluginNamesIn(const std::vector<std::string>& folders, PluginKind kind) {
+  std::set<std::string> names;
+  for (const std::string& folder : folders) {
+    std::error_code error;
+    fs::directory_iterator files(fs::path(folder) / PluginKindFolder(kind), error);
+    for (; !error && files != fs::directory_iterator(); files.increment(error)) {
+      const fs::path& path = files->path();
+      if (path.extension() == kSuffix) names.insert(path.stem().string());
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> PluginRegistry::DefaultFolders(const std::vector<std::string>& extra) {
+  std::vector<std::string> folders = extra;
+  const char* variable = std::getenv("PBRT_SEARCHPATH");
+  std::string rest = variable ? variable : "";
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) folders.push_back(rest.substr(0, end));
+    rest.erase(0, end + 1);
+  }
+  for (std::string& folder : FoldersBesideProgram()) folders.push_back(std::move(folder));
+  return folders;
+}
+
+}  // namespace exphoton
