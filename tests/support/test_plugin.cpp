@@ -47,6 +47,19 @@ ShapeGeometry TestPlugins::MakeShape(const std::string& text, const Transform& t
   return std::move(*Make<PluginKind::Shape>(text, {toWorld, reverseOrientation, log_, {}}));
 }
 
+std::unique_ptr<Camera> TestPlugins::MakeCamera(const std::string& text, const Transform& toWorld,
+                                                int xResolution, int yResolution) {
+  return Make<PluginKind::Camera>(text, {toWorld, xResolution, yResolution});
+}
+
+std::unique_ptr<Sampler> TestPlugins::MakeSampler(const std::string& text) {
+  return Make<PluginKind::Sampler>(text, {log_, {}});
+}
+
+std::unique_ptr<Filter> TestPlugins::MakeFilter(const std::string& text) {
+  return Make<PluginKind::Filter>(text, {});
+}
+
 std::shared_ptr<const EmitterSurface> TestPlugins::MakeEmitter(const std::string& text,
                                                                const Transform& toWorld,
                                                                bool reverseOrientation) {

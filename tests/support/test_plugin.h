@@ -27,6 +27,10 @@ class TestPlugins {
   std::shared_ptr<const EmitterSurface> MakeEmitter(const std::string& text,
                                                     const Transform& toWorld = {},
                                                     bool reverseOrientation = false);
+  std::unique_ptr<Camera> MakeCamera(const std::string& text, const Transform& toWorld,
+                                     int xResolution, int yResolution);
+  std::unique_ptr<Sampler> MakeSampler(const std::string& text);
+  std::unique_ptr<Filter> MakeFilter(const std::string& text);
 
   Log& GetLog() { return log_; }
   PluginRegistry& Registry() { return registry_; }

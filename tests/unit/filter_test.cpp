@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Pixel filters: values by hand, the mean of their weights, ranges. Their distribution is tested in
+// tests/stat.
+#include "core/sampling/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+const char* const kFilters[] = {
+    R"("box")",
+    R"("box" "float xwidth" 2 "float ywidth" .25)",
+    R"("triangle")",
+    R"("gaussian")",
+    R"("gaussian" "float alpha" .01)",
+    R"("gaussian" "float alpha" 5000)",
+    R"("mitchell")",
+    R"("mitchell" "float B" 0 "float C" 1 "float xwidth" 3)",
+    R"("sinc")",
+    R"("sinc" "float tau" 1.5)",
+};
+
+TEST(Filter, ValuesAreThoseOfTheFormulas) {
+  TestPlugins plugins;
+  EXPECT_EQ(plugins.MakeFilter(R"("box")")->Evaluate({Real(.4), Real(-.5)}), 1);
+  EXPECT_EQ(plugins.MakeFilter(R"("triangle")")->Evaluate({Real(.5), -1}), Real(1.5));
+  EXPECT_NEAR(plugins.MakeFilter(R"("gaussian")")->Evaluate({1, Real(.5)}),
+              (std::exp(-2.) - std::exp(-8.)) * (std::exp(-.5) - std::exp(-8.)), 1e-6);
+  const auto mitchell = plugins.MakeFilter(R"("mitchell")");
+  EXPECT_NEAR(mitchell->Evaluate({0, 0}), 64. / 81, 1e-6);     // (8/9)^2
+  EXPECT_NEAR(mitchell->Evaluate({0, 1}), 8. / 9 / 18, 1e-6);  // 8/9 * 1/18
+  EXPECT_NEAR(mitchell->Evaluate({0, Real(1.5)}), 8. / 9 * -5. / 144, 1e-6);
+  const auto sinc = plugins.MakeFilter(R"("sinc")");
+  EXPECT_NEAR(sinc->Evaluate({2, 0}), std::sin(1.5 * M_PI) / (1.5 * M_PI) / (M_PI / 2), 1e-6);
+  EXPECT_NEAR(sinc->Evaluate({0, 0}), 1, 1e-6);
+}
+
+TEST(Filter, IsZeroBeyondItsWidth) {
+  TestPlugins plugins;
+  for (const char* text : kFilters) {
+    const auto filter = plugins.MakeFilter(text);
+    EXPECT_EQ(filter->Evaluate({filter->XWidth() * Real(1.001), 0}), 0) << text;
+    EXPECT_EQ(filter->Evaluate({0, -filter->YWidth() * Real(1.001)}), 0) << text;
+  }
+}
+
+TEST(Filter, TheMeanOfTheWeightsIsOne) {
+  TestPlugins plugins;
+  for (const char* text : kFilters) {
+    const auto filter = plugins.MakeFilter(text);
+    constexpr int kSteps = 1000;
+    double sum = 0;
+    for (int y = 0; y < kSteps; ++y)
+      for (int x = 0; x < kSteps; ++x)
+        sum += double(filter->Sample({Real((x + .5) / kSteps), Real((y + .5) / kSteps)}).weight);
+    EXPECT_NEAR(sum / (kSteps * kSteps), 1, 2e-3) << text;
+  }
+}
+
+TEST(Filter, WeightsHaveTheSignOfTheFilterAndOneMagnitude) {
+  TestPlugins plugins;
+  for (const char* text : kFilters) {
+    const auto filter = plugins.MakeFilter(text);
+    const Real magnitude = std::abs(filter->Sample({Real(.51), Real(.51)}).weight);
+    int odd = 0;
+    for (int y = 0; y < 100; ++y) {
+      for (int x = 0; x < 100; ++x) {
+        const FilterSample s = filter->Sample({Real(x) / 100, Real(y) / 100});
+        EXPECT_GE(s.weight * filter->Evaluate(s.offset), 0) << text;
+        odd += std::abs(std::abs(s.weight) - magnitude) > Real(.01) * magnitude;
+      }
+    }
+    EXPECT_LE(odd, 300) << text;  // at the edge and where the sign changes
+  }
+}
+
+TEST(Filter, TheEndsOfTheUnitSquareAreFinite) {
+  TestPlugins plugins;
+  for (const char* text : kFilters) {
+    const auto filter = plugins.MakeFilter(text);
+    for (Real u : {Real(0), Real(1e-30), Real(.5), Real(.49999997), kOneMinusEpsilon}) {
+      for (Point2 p : {Point2(u, Real(.3)), Point2(Real(.3), u), Point2(u, u)}) {
+        const FilterSample s = filter->Sample(p);
+        EXPECT_LE(std::abs(s.offset.x), filter->XWidth()) << text;
+        EXPECT_LE(std::abs(s.offset.y), filter->YWidth()) << text;
+        EXPECT_LE(std::abs(s.weight), 10) << text;
+      }
+    }
+  }
+}
+
+TEST(Filter, WidthsOutOfRangeAreErrors) {
+  TestPlugins plugins;
+  for (const char* name : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {
+    for (const char* width : {"0", "1e-6", "-1", "2147483300"}) {
+      const std::string text = std::string("\"") + name + "\" \"float xwidth\" " + width;
+      EXPECT_THROW(plugins.MakeFilter(text), Error) << text;
+    }
+  }
+  EXPECT_THROW(plugins.MakeFilter(R"("gaussian" "float alpha" 0)"), Error);
+}
+
+}  // namespace
+}  // namespace exphoton
