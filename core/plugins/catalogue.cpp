@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Collects the plugins and lays them out, as text for a terminal and as Markdown.
+#include "core/plugins/catalogue.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/params/suggestions.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::size_t kTextWidth = 96;
+
+struct Entry {
+  std::string name, summary;
+  PluginKind kind;
+  const ParamTableBase* parameters;
+};
+
+std::vector<Entry> EntriesOf(PluginRegistry& registry, PluginKind kind) {
+  std::vector<Entry> entries;
+  for (const std::string& name : registry.Available(kind)) {
+    const PluginForm& form = registry.Find(kind, name, {});
+    entries.push_back({name, registry.Load(kind, name, {}).summary, kind, form.parameters});
+  }
+  return entries;
+}
+
+PluginKind KindAt(int index) { return static_cast<PluginKind>(index); }
+
+std::string Plural(PluginKind kind) { return std::string(PluginKindName(kind)) + 's'; }
+
+std::string Capitalized(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
+  return text;
+}
+
+// What stands for the default: "required", "automatic" where the plugin chooses.
+std::string DefaultColumn(const ParamDecl& decl) {
+  if (decl.isRequired) return "required";
+  return decl.defaultText.empty() ? "automatic" : decl.defaultText;
+}
+
+std::string RangeColumn(const ParamDecl& decl) {
+  std::string text = RangeText(decl);
+  for (const std::string& choice : decl.choices) {
+    text += (text.empty() ? "\"" : ", \"") + choice + '"';
+  }
+  if (!decl.unit.empty()) text += (text.empty() ? "in " : ", in ") + decl.unit;
+  return text;
+}
+
+// `text` in lines that begin with `indent` blanks, broken between words.
+std::string Wrapped(const std::string& text, std::size_t indent) {
+  std::string result, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (!line.empty() && indent + line.size() + 1 + word.size() > kTextWidth) {
+      result += std::string(indent, ' ') + line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    at = end + 1;
+  }
+  return line.empty() ? result : result + std::string(indent, ' ') + line + '\n';
+}
+
+// A cell of a Markdown table: '|' would end it, '<' begin a tag.
+std::string Cell(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|' || c == '<') result += '\\';
+    result += c;
+  }
+  return result.empty() ? " " : ' ' + result + ' ';
+}
+
+std::string MarkdownTable(const ParamTableBase& table) {
+  const std::vector<ParamDecl>& declarations = table.Declarations();
+  if (declarations.empty()) return "No parameters.\n";
+  std::string text =
+      "| parameter | type | default | range | meaning |\n| --- | --- | --- | --- | --- |\n";
+  for (const ParamDecl& decl : declarations) {
+    const std::string value = DefaultColumn(decl);
+    const bool isLiteral = !decl.isRequired && !decl.defaultText.empty();
+    text += "| `" + decl.name + "` |" + Cell(ParamTypeName(decl.type)) + '|' +
+            (isLiteral ? " `" + value + "` " : Cell(value)) + '|' + Cell(RangeColumn(decl)) + '|' +
+            Cell(decl.doc) + "|\n";
+  }
+  return text;
+}
+
+std::string PageOf(PluginRegistry& registry, const std::string& folder) {
+  std::string text =
+      "<!-- Generated from the plugins' own declarations by `exphoton plugins --markdown`. -->\n\n"
+      "# " +
+      Capitalized(folder) + '\n';
+  for (int i = 0; i < kPluginKindCount; ++i) {
+    if (PluginKindFolder(KindAt(i)) != folder) continue;
+    for (const Entry& entry : EntriesOf(registry, KindAt(i))) {
+      text += "\n## " + Capitalized(PluginKindName(entry.kind)) + " `" + entry.name + "`\n\n" +
+              Capitalized(entry.summary) + ".\n\n" + MarkdownTable(*entry.parameters);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ListPlugins(PluginRegistry& registry) {
+  std::string text;
+  for (int i = 0; i < kPluginKindCount; ++i) {
+    const std::vector<Entry> entries = EntriesOf(registry, KindAt(i));
+    if (entries.empty()) continue;
+    text += (text.empty() ? "" : "\n") + Plural(KindAt(i)) + '\n';
+    std::size_t width = 0;
+    for (const Entry& entry : entries) width = std::max(width, entry.name.size());
+    for (const Entry& entry : entries) {
+      text += "  " + entry.name + std::string(width - entry.name.size() + 2, ' ') + entry.summary +
+              '\n';
+    }
+  }
+  return text;
+}
+
+std::string DescribePlugin(PluginRegistry& registry, const std::string& name) {
+  std::string text;
+  std::vector<std::string> known;
+  for (int i = 0; i < kPluginKindCount; ++i) {
+    for (const Entry& entry : EntriesOf(registry, KindAt(i))) {
+      known.push_back(entry.name);
+      if (entry.name != name) continue;
+      text += (text.empty() ? "" : "\n") + std::string(PluginKindName(entry.kind)) + " \"" + name +
+              "\": " + entry.summary + '\n';
+      const std::vector<ParamDecl>& declarations = entry.parameters->Declarations();
+      if (declarations.empty()) text += "\n  no parameters\n";
+      for (const ParamDecl& decl : declarations) {
+        const std::string range = RangeColumn(decl);
+        text += "\n  " + std::string(ParamTypeName(decl.type)) + ' ' + decl.name + "  " +
+                DefaultColumn(decl) + (range.empty() ? "" : "  (" + range + ')') + '\n' +
+                Wrapped(decl.doc, 6);
+      }
+    }
+  }
+  if (text.empty()) {
+    throw Error(ExitStatus::CommandLine, "there is no plugin \"" + name + '"', {},
+                DidYouMean(name, known));
+  }
+  return text;
+}
+
+std::map<std::string, std::string> ReferencePages(PluginRegistry& registry) {
+  std::map<std::string, std::string> pages;
+  std::string index =
+      "<!-- Generated from the plugins' own declarations by `exphoton plugins --markdown`. -->\n\n"
+      "# Reference: the plugins and their parameters\n\n";
+  for (int i = 0; i < kPluginKindCount; ++i) {
+    const std::string folder = PluginKindFolder(KindAt(i)), file = folder + ".md";
+    if (!pages.count(file)) pages[file] = PageOf(registry, folder);
+    std::string names;
+    for (const Entry& entry : EntriesOf(registry, KindAt(i))) {
+      names += (names.empty() ? "`" : ", `") + entry.name + '`';
+    }
+    if (!names.empty()) {
+      index += "- [" + Capitalized(Plural(KindAt(i))) + "](" + file + "): " + names + '\n';
+    }
+  }
+  pages["README.md"] = index;
+  return pages;
+}
+
+}  // namespace exphoton
