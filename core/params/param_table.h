@@ -44,7 +44,8 @@ enum class ParamType {
   FloatTexture, ColorTexture,
   IntegerList, FloatList, PointList, VectorList, NormalList, Point2List,
 };
-const char* ParamTypeName(ParamType type);  // "integer", "float texture" ...
+// "integer", "float texture" ...; "string" where a scene file writes one, whatever it means.
+const char* ParamTypeName(ParamType type);
 
 // One declared parameter, type-erased.
 struct ParamDecl {

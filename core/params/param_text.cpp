@@ -55,6 +55,7 @@ const char* ParamTypeName(ParamType type) {
 std::string NumberText(double v) {
   if (std::isnan(v)) return "nan";
   if (std::isinf(v)) return v > 0 ? "infinity" : "-infinity";
+  if (v == std::trunc(v) && std::abs(v) < 1e10) return std::to_string(static_cast<long long>(v));
   char text[40];
   const float narrow = static_cast<float>(v);
   const bool isNarrow = static_cast<double>(narrow) == v;

@@ -43,7 +43,7 @@ std::string DefaultColumn(const ParamDecl& decl) {
 }
 
 std::string RangeColumn(const ParamDecl& decl) {
-  std::string text = RangeText(decl);
+  std::string text = decl.type == ParamType::File ? "a file" : RangeText(decl);
   for (const std::string& choice : decl.choices) {
     text += (text.empty() ? "\"" : ", \"") + choice + '"';
   }
@@ -114,7 +114,8 @@ std::string ListPlugins(PluginRegistry& registry) {
   for (int i = 0; i < kPluginKindCount; ++i) {
     const std::vector<Entry> entries = EntriesOf(registry, KindAt(i));
     if (entries.empty()) continue;
-    text += (text.empty() ? "" : "\n") + Plural(KindAt(i)) + '\n';
+    if (!text.empty()) text += '\n';
+    text += Plural(KindAt(i)) + '\n';
     std::size_t width = 0;
     for (const Entry& entry : entries) width = std::max(width, entry.name.size());
     for (const Entry& entry : entries) {
@@ -132,15 +133,18 @@ std::string DescribePlugin(PluginRegistry& registry, const std::string& name) {
     for (const Entry& entry : EntriesOf(registry, KindAt(i))) {
       known.push_back(entry.name);
       if (entry.name != name) continue;
-      text += (text.empty() ? "" : "\n") + std::string(PluginKindName(entry.kind)) + " \"" + name +
-              "\": " + entry.summary + '\n';
+      if (!text.empty()) text += '\n';
+      text += PluginKindName(entry.kind);
+      text += " \"" + name + "\": " + entry.summary + '\n';
       const std::vector<ParamDecl>& declarations = entry.parameters->Declarations();
       if (declarations.empty()) text += "\n  no parameters\n";
       for (const ParamDecl& decl : declarations) {
         const std::string range = RangeColumn(decl);
-        text += "\n  " + std::string(ParamTypeName(decl.type)) + ' ' + decl.name + "  " +
-                DefaultColumn(decl) + (range.empty() ? "" : "  (" + range + ')') + '\n' +
-                Wrapped(decl.doc, 6);
+        text += "\n  ";
+        text += ParamTypeName(decl.type);
+        text += ' ' + decl.name + "  " + DefaultColumn(decl);
+        if (!range.empty()) text += "  (" + range + ')';
+        text += '\n' + Wrapped(decl.doc, 6);
       }
     }
   }
