@@ -67,7 +67,7 @@ TEST(Film, APixelIsNeverNegative) {
 TEST(Film, AHundredMillionSamplesKeepTheirMean) {
   Film film(kOnePixel, kOnePixel);
   for (int i = 0; i < 100'000'000; ++i)
-    film.AddSample({0, 0}, Spectrum(Real(.1), Real(.7), i % 2 ? 1 : 0), 1, 1);
+    film.AddSample({0, 0}, Spectrum(Real(.1), Real(.7), Real(i % 2)), 1, 1);
   const Image image = film.ToImage(true);
   EXPECT_NEAR(image.At(0, 0, 0), .1, 1e-7);
   EXPECT_NEAR(image.At(0, 0, 1), .7, 7e-7);
