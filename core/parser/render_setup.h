@@ -58,6 +58,7 @@ struct RenderSetup {
   FilmSettings film;
   PixelBounds crop;  // the pixels to render
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
+  std::vector<std::string> inputFiles;  // the scene's own file and those its parameters name
   std::vector<std::string> plugins;  // "integrators/exphotonmap", sorted
   std::uint64_t sceneHash = 0;       // of what the file says, whatever its layout
 };

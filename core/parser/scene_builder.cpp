@@ -3,9 +3,11 @@
 #include "core/parser/scene_builder.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "core/base/log.h"
+#include "core/params/scene_path.h"
 #include "core/params/suggestions.h"
 #include "core/parser/overrides.h"
 #include "core/parser/scene_hash.h"
@@ -31,6 +33,20 @@ void SceneBuilder::Reset() {
   coordinateSystems_.clear();
   isOneTimeActive_ = false;
   hash_ = 0;
+  inputFiles_ = {sceneName_};
+}
+
+// Strings that name a file which exists, so that the picture is not written over it.
+void SceneBuilder::NoteInputFiles(const Directive& directive) {
+  for (const ParsedParam& param : directive.params.All()) {
+    if (param.type != "string" && param.type != "spectrum") continue;
+    if (directive.spec->id == DirectiveId::Film) continue;
+    for (const std::string& text : param.strings) {
+      const std::string path = ResolveScenePath(text, param.where);
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(path, ignored)) inputFiles_.insert(path);
+    }
+  }
 }
 
 void SceneBuilder::CheckScope(const Directive& directive) const {
@@ -50,6 +66,7 @@ void SceneBuilder::Handle(Directive directive) {
   if (options_.stop && *options_.stop) throw LoadingStopped();
   CheckScope(directive);
   hash_ = HashDirective(hash_, directive);
+  NoteInputFiles(directive);
   const DirectiveId id = directive.spec->id;
   if (IsTransformDirective(id)) return ChangeTransform(directive);
   switch (id) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::vector<std::unique_ptr<RenderSetup>> TakeSetups() { return std::move(setups_); }
 
  private:
+  void NoteInputFiles(const Directive& directive);
   void CheckScope(const Directive& directive) const;
   void ChangeTransform(const Directive& directive);
   void SetActiveTransform(const Directive& directive);
@@ -55,6 +57,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::map<std::string, Transform> coordinateSystems_;
   bool isOneTimeActive_ = false;  // ActiveTransform StartTime or EndTime
   std::uint64_t hash_ = 0;
+  std::set<std::string> inputFiles_;
   std::vector<std::unique_ptr<RenderSetup>> setups_;
 };
 

@@ -30,6 +30,7 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   auto setup = std::make_unique<RenderSetup>();
   setup->sceneName = sceneName_;
   setup->sceneHash = hash_;
+  setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
   render_->Create(*registry_, log_, setup.get());
   SceneParts parts = world_->Take();
   if (parts.lights.empty()) log_.Warning("the scene has no light", directive.Where());

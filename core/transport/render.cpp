@@ -222,6 +222,7 @@ RenderResult Render(const RenderJob& job, const RenderOptions& options) {
   NonFiniteLog log;
   const TileRenderer renderer(job, options, &log);
   const PixelBounds& crop = job.film.Crop();
+  if (options.pixelsBegun) *options.pixelsBegun = true;
   job.progress.Begin("Rendering", std::int64_t(crop.Width()) * crop.Height());
   job.threads.For(tiles.Count(), [&](std::int64_t number, int worker) {
     renderer.RenderTile(tiles.Get(number), &workers[std::size_t(worker)]);

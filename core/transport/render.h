@@ -28,6 +28,7 @@ struct RenderOptions {
   TileOrder tileOrder = TileOrder::Scanline;
   bool isStrict = false;              // a non-finite sample ends the render: throws Error(Internal)
   const std::atomic<bool>* stop = nullptr;  // set from outside (a signal): stop at the next pixel
+  std::atomic<bool>* pixelsBegun = nullptr;  // set here once there may be something to keep
 };
 
 struct RenderJob {

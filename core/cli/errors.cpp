@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The last place that an exception reaches.
+#include "core/cli/errors.h"
+
+#include <cstdio>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/base/error.h"
+#include "core/base/terminal.h"
+#include "core/cli/options.h"
+#include "core/cli/output_files.h"
+#include "core/cli/signals.h"
+#include "core/imaging/image.h"
+
+namespace exphoton::cli {
+namespace {
+
+int Fail(ExitStatus status, const std::string& text,
+         const std::optional<SourceLocation>& where = {}, const std::string& hint = {}) {
+  const std::string message = FormatDiagnostic("error", text, where, hint);
+  const std::string shown = (IsRedrawable() ? "\r\x1b[K" : "") + Colored(message, "error");
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
+  return int(status);
+}
+
+}  // namespace
+
+int Guarded(const std::function<void()>& work) {
+  try {
+    work();
+    return 0;
+  } catch (const TextRequest& request) {
+    return Guarded([&] { PrintOut(request.text); });
+  } catch (const LoadingStopped&) {
+    std::fputs("exphoton: interrupted before anything was rendered\n", stderr);
+    return 128 + SignalNumber();
+  } catch (const Error& error) {
+    return Fail(error.Status(), error.what(), error.Where(), error.Hint());
+  } catch (const ImageError& error) {
+    return Fail(ExitStatus::File, error.what());
+  } catch (const std::bad_alloc&) {
+    return Fail(ExitStatus::Resource, "out of memory");
+  } catch (const std::length_error&) {
+    return Fail(ExitStatus::Resource, "out of memory: something is larger than any memory");
+  } catch (const std::system_error& error) {
+    return Fail(ExitStatus::Resource, error.what());
+  } catch (const std::exception& error) {
+    return Fail(ExitStatus::Internal, std::string("internal error: ") + error.what());
+  } catch (...) {
+    return Fail(ExitStatus::Internal, "internal error of an unknown kind");
+  }
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Looking at pictures, changing their format, and measuring how far two are apart.
+#include "core/cli/image_commands.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/cli/errors.h"
+#include "core/cli/options.h"
+#include "core/cli/output_files.h"
+#include "core/cli/values.h"
+#include "core/imaging/exr.h"
+#include "core/imaging/metrics.h"
+#include "core/imaging/png.h"
+
+namespace exphoton::cli {
+namespace {
+
+template <class... Args>
+std::string Print(const char* format, Args... args) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+void Parse(CLI::App& app, const std::vector<std::string>& arguments) {
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    throw TextRequest{app.help()};
+  } catch (const CLI::ParseError& error) {
+    FailUsage(error.what(), app.get_name() + " --help lists the options");
+  }
+}
+
+std::string WindowText(const char* name, const PixelBounds& window) {
+  return Print("%-16s %d x %d at (%d, %d)\n", name, window.Width(), window.Height(), window.x0,
+               window.y0);
+}
+
+// Least, mean and greatest of the finite values.
+std::string ChannelText(const Image& image, int channel) {
+  double sum = 0;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  long long finite = 0, nonFinite = 0;
+  for (int y = 0; y < image.Height(); ++y) {
+    for (int x = 0; x < image.Width(); ++x) {
+      const float value = image.At(x, y, channel);
+      if (!std::isfinite(value)) {
+        ++nonFinite;
+        continue;
+      }
+      ++finite;
+      sum += double(value);
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  std::string text = Print("  %-14s ", image.channels[std::size_t(channel)].c_str());
+  text += finite > 0 ? Print("min %-12.6g mean %-12.6g max %-12.6g", double(low),
+                             sum / double(finite), double(high))
+                     : std::string("no finite value");
+  if (nonFinite > 0) text += Print(" (%lld not finite)", nonFinite);
+  return text + "\n";
+}
+
+std::string AttributeText(const ImageAttribute& attribute) {
+  if (const auto* text = std::get_if<std::string>(&attribute)) {
+    std::string indented;
+    std::string_view rest = *text;
+    while (rest.ends_with('\n')) rest.remove_suffix(1);
+    for (const char c : rest)
+      indented += c == '\n' ? std::string("\n") + std::string(17, ' ') : std::string(1, c);
+    return indented;
+  }
+  if (const auto* number = std::get_if<float>(&attribute)) return Print("%.9g", double(*number));
+  if (const auto* integer = std::get_if<int>(&attribute)) return std::to_string(*integer);
+  std::string list;
+  for (const float value : std::get<std::vector<float>>(attribute))
+    list += Print(list.empty() ? "%.9g" : " %.9g", double(value));
+  return list;
+}
+
+std::string InfoText(const std::string& path, const Image& image) {
+  std::string text = path + "\n" + WindowText("data window", image.data) +
+                     WindowText("display window", image.display) + "channels\n";
+  for (int c = 0; c < image.ChannelCount(); ++c) text += ChannelText(image, c);
+  if (!image.attributes.empty()) text += "attributes\n";
+  for (const auto& [name, value] : image.attributes)
+    text += Print("  %-14s ", name.c_str()) + AttributeText(value) + "\n";
+  return text;
+}
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool AreIdentical(const Image& a, const Image& b) {
+  const auto isSame = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return a.data == b.data && a.channels == b.channels &&
+         std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(), isSame);
+}
+
+}  // namespace
+
+int RunInfo(const std::vector<std::string>& arguments) {
+  return Guarded([&] {
+    CLI::App app("Prints windows, channels, attributes and ranges of pictures.", "exphoton info");
+    std::vector<std::string> files;
+    app.add_option("files", files, "EXR or PNG files")->required();
+    Parse(app, arguments);
+    for (const std::string& file : files) PrintOut(InfoText(file, ReadImage(file)));
+  });
+}
+
+int RunConvert(const std::vector<std::string>& arguments) {
+  return Guarded([&] {
+    CLI::App app("Converts between EXR (linear) and PNG (sRGB), by the names' endings.",
+                 "exphoton convert");
+    std::string from, to;
+    float exposure = 0;
+    bool asFloat = false;
+    app.add_option("from", from, "picture to read")->required();
+    app.add_option("to", to, "picture to write: NAME.exr or NAME.png")->required();
+    app.add_option("--exposure", exposure, "for PNG: multiply by 2 to this power")
+        ->check(CLI::Range(-100.0, 100.0))
+        ->default_str("0");
+    app.add_flag("--float", asFloat, "for EXR: 32-bit channels");
+    Parse(app, arguments);
+    const bool isPng = EndsWith(to, ".png");
+    if (!isPng && !EndsWith(to, ".exr")) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
+    if (!isPng && exposure != 0) FailUsage("--exposure is for PNG: an EXR stays linear");
+    const Image image = ReadImage(from);
+    const std::string target = ResolveOutput(to);
+    CheckWritable(target);
+    if (isPng)
+      WritePng(target, image, exposure);
+    else
+      WriteExr(target, image, !asFloat);
+  });
+}
+
+int RunCompare(const std::vector<std::string>& arguments) {
+  constexpr int kDifferent = 1, kTrouble = 2;
+  bool isSame = false;
+  const int status = Guarded([&] {
+    CLI::App app(
+        "Measures how far a picture is from a reference (R, G and B). Exit status: 0 the "
+        "same, 1 different, 2 they cannot be compared.",
+        "exphoton compare");
+    std::string reference, picture;
+    double maxRelMse = -1, maxMean = -1;
+    app.add_option("reference", reference)->required();
+    app.add_option("picture", picture)->required();
+    app.add_option("--max-relmse", maxRelMse, "up to this relMSE they count as the same");
+    app.add_option("--max-mean", maxMean, "up to this relative error of the mean, too");
+    Parse(app, arguments);
+    const Image a = ReadImage(reference), b = ReadImage(picture);
+    const ImageDifference d = CompareImages(a, b);
+    const bool isIdentical = AreIdentical(a, b);
+    const bool isBounded = maxRelMse >= 0 || maxMean >= 0;
+    isSame = isIdentical ||
+             (isBounded && d.nonFinitePixels == 0 && (maxRelMse < 0 || d.relMse <= maxRelMse) &&
+              (maxMean < 0 || std::abs(d.relativeMeanError) <= maxMean));
+    PrintOut(
+        Print("identical           %s\nMSE                 %.9g\nrelMSE              %.9g\n"
+              "mean error          %+.9g\nrelative mean error %+.6g %%\n"
+              "mean of reference   %.9g\nnot finite          %lld pixels\n",
+              isIdentical ? "yes" : "no", d.mse, d.relMse, d.meanError, d.relativeMeanError * 100,
+              d.meanReference, d.nonFinitePixels));
+  });
+  if (status != 0) return kTrouble;
+  return isSame ? 0 : kDifferent;
+}
+
+}  // namespace exphoton::cli

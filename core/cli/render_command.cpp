@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// From a scene file to a picture: load, check the output, render, write, report.
+#include "core/cli/render_command.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "core/base/progress.h"
+#include "core/cli/errors.h"
+#include "core/cli/interrupt_watch.h"
+#include "core/cli/output_files.h"
+#include "core/cli/run_record.h"
+#include "core/cli/signals.h"
+#include "core/imaging/exr.h"
+#include "core/imaging/png.h"
+#include "core/transport/render.h"
+
+namespace exphoton::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Setups = std::vector<std::unique_ptr<RenderSetup>>;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Seconds {
+  double wall = 0, cpu = 0;
+};
+
+// Thrown after an interrupted picture has been written.
+struct Interrupted {};
+
+// Renders the scenes of one file.
+class FileRenderer {
+ public:
+  FileRenderer(const RenderCommand& command, Log& log) : command_(command), log_(log) {}
+
+  void Run(const std::string& path) {
+    Seconds loading;
+    Setups setups = Load(path, &loading);
+    if (command_.mode == RenderMode::Check) return log_.Verbose("\"" + path + "\" has no errors");
+    if (command_.mode == RenderMode::Explain) {
+      for (const auto& setup : setups) PrintOut(ExplainText(*setup));
+      return;
+    }
+    CheckOutputs(setups, path);
+    for (std::unique_ptr<RenderSetup>& setup : setups) {
+      watch_.MustFinish() = false;
+      RenderOne(*setup, std::exchange(loading, {}));
+      setup.reset();
+    }
+  }
+
+ private:
+  Setups Load(const std::string& path, Seconds* seconds);
+  std::string OutputOf(const RenderSetup& setup) const;
+  void CheckOutputs(const Setups& setups, const std::string& scenePath) const;
+  void RenderOne(const RenderSetup& setup, const Seconds& loading);
+  void Write(const RunRecord& run, const Film& film, Statistics& statistics);
+  void Report(const RunRecord& run) const;
+
+  const RenderCommand& command_;
+  Log& log_;
+  InterruptWatch watch_;
+};
+
+Setups FileRenderer::Load(const std::string& path, Seconds* seconds) {
+  const Clock::time_point start = Clock::now();
+  const double cpuStart = ProcessCpuSeconds();
+  LoadOptions options = command_.load;
+  options.stop = &StopFlag();
+  FileSource source;
+  Setups setups = LoadScenes(source, path, options, log_);
+  *seconds = {SecondsSince(start), ProcessCpuSeconds() - cpuStart};
+  return setups;
+}
+
+std::string FileRenderer::OutputOf(const RenderSetup& setup) const {
+  return ResolveOutput(command_.outfile.empty() ? setup.film.filename : command_.outfile);
+}
+
+void FileRenderer::CheckOutputs(const Setups& setups, const std::string& scenePath) const {
+  if (!command_.outfile.empty() && setups.size() > 1)
+    throw Error(ExitStatus::CommandLine, "--outfile names one picture, but \"" + scenePath +
+                                             "\" holds " + std::to_string(setups.size()) +
+                                             " scenes");
+  std::set<std::string> outputs;
+  for (const auto& setup : setups) {
+    const std::string output = OutputOf(*setup);
+    CheckWritable(output);
+    std::error_code ignored;
+    for (const std::string& input : setup->inputFiles)
+      if (std::filesystem::equivalent(output, input, ignored))
+        throw Error(ExitStatus::File, "cannot write \"" + output + "\": the scene reads this file");
+    const std::string extension = std::filesystem::path(output).extension().string();
+    if (extension != ".exr")
+      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, whatever its name");
+    if (!outputs.insert(output).second)
+      log_.Warning("several scenes write \"" + output + "\": the last one stays");
+  }
+  if (!command_.previewFile.empty()) CheckWritable(ResolveOutput(command_.previewFile));
+  if (!command_.statsFile.empty() && command_.statsFile != "-")
+    CheckWritable(ResolveOutput(command_.statsFile));
+}
+
+void FileRenderer::RenderOne(const RenderSetup& setup, const Seconds& loading) {
+  log_.Notice("effects:\n" + setup.scene->Effects().Describe());
+  Film film(setup.film.Full(), setup.crop);
+  ThreadPool threads(command_.threadCount);
+  ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
+                                                   : ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  statistics.AddPhase("load", loading.wall, loading.cpu);
+  RenderOptions options;
+  options.seed = command_.seed;
+  options.isStrict = command_.load.isStrict;
+  options.stop = &StopFlag();
+  options.pixelsBegun = &watch_.MustFinish();
+
+  const Clock::time_point start = Clock::now();
+  const RenderResult result =
+      Render({*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, film,
+              threads, log_, progress, statistics},
+             options);
+  watch_.MustFinish() = true;
+  RunRecord run{.setup = setup, .statistics = statistics, .commandLine = command_.commandLine};
+  run.seed = command_.seed;
+  run.threads = threads.Count();
+  run.renderSeconds = SecondsSince(start);
+  run.isComplete = result.isComplete;
+  run.nonFiniteSamples = result.nonFiniteSamples;
+  Write(run, film, statistics);
+  Report(run);
+  if (!run.isComplete) throw Interrupted();
+}
+
+void FileRenderer::Write(const RunRecord& run, const Film& film, Statistics& statistics) {
+  std::string path = OutputOf(run.setup);
+  if (!run.isComplete) path = PartialName(path);
+  Image image = film.ToImage(run.setup.film.premultiplyAlpha);
+  image.attributes = PictureAttributes(run, command_.isReproducible);
+  {
+    const PhaseTimer timer(statistics, "write");
+    const ExrWriteReport report = WriteExr(path, image, command_.asHalf);
+    if (report.clampedToHalf > 0)
+      log_.Warning(std::to_string(report.clampedToHalf) +
+                   " values above 65504 were written as 65504; --float stores them as they are");
+    if (!command_.previewFile.empty() && run.isComplete)
+      WritePng(ResolveOutput(command_.previewFile), image);
+  }
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.2f s", run.renderSeconds);
+  log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") + path +
+              "\" (rendered in " + seconds + ")");
+}
+
+void FileRenderer::Report(const RunRecord& run) const {
+  if (command_.printsStatistics) PrintOut(StatisticsTable(run));
+  if (command_.statsFile == "-")
+    PrintOut(StatisticsJson(run));
+  else if (!command_.statsFile.empty())
+    WriteTextFile(ResolveOutput(command_.statsFile), StatisticsJson(run));
+}
+
+}  // namespace
+
+int RunRender(const RenderCommand& command) {
+  int status = 0;
+  for (const std::string& path : command.scenes) {
+    Log log(command.logLevel);
+    const int result = Guarded([&] {
+      try {
+        FileRenderer(command, log).Run(path);
+      } catch (const Interrupted&) {
+        // Its picture is written; the status says the rest.
+      }
+    });
+    log.Summarize();
+    if (status == 0) status = result;
+    if (SignalNumber() != 0) return 128 + SignalNumber();
+  }
+  return status;
+}
+
+}  // namespace exphoton::cli
