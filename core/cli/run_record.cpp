@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Statistics as a table and as JSON, and the text of `exphoton explain`.
+// Statistics as a table, and the text of `exphoton explain`. JSON is in run_json.cpp.
 #include "core/cli/run_record.h"
 
 #include <algorithm>
@@ -14,22 +14,6 @@ std::string Print(const char* format, Args... args) {
   char text[512];
   std::snprintf(text, sizeof text, format, args...);
   return text;
-}
-
-std::string JsonText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 32)
-      quoted += Print("\\u%04x", unsigned(static_cast<unsigned char>(c)));
-    else
-      quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::string JsonNumber(double value) {
-  return std::isfinite(value) ? Print("%.17g", value) : std::string("null");
 }
 
 // Counts without decimals, others with what they need.
@@ -81,47 +65,6 @@ std::string StatisticsTable(const RunRecord& run) {
     text += Print("%-30s %12s  ", counter.name.c_str(), Number(counter.value).c_str()) +
             counter.meaning + "\n";
   return text;
-}
-
-std::string StatisticsJson(const RunRecord& run) {
-  const RenderSetup& setup = run.setup;
-  std::string text = "{\"scene\":" + JsonText(setup.sceneName) +
-                     ",\"sceneHash\":" + JsonText(HashText(setup.sceneHash)) +
-                     ",\"integrator\":" + JsonText(setup.integratorName) +
-                     ",\"sampler\":" + JsonText(setup.samplerName) +
-                     ",\"accelerator\":" + JsonText(setup.acceleratorName);
-  text += Print(",\"resolution\":[%d,%d],\"crop\":[%d,%d,%d,%d]", setup.film.xResolution,
-                setup.film.yResolution, setup.crop.x0, setup.crop.x1, setup.crop.y0, setup.crop.y1);
-  text += ",\"samplesPerPixel\":" + std::to_string(setup.sampler->SamplesPerPixel()) +
-          ",\"seed\":" + std::to_string(run.seed) + ",\"threads\":" + std::to_string(run.threads) +
-          ",\"complete\":" + (run.isComplete ? "true" : "false") +
-          ",\"nonFiniteSamples\":" + std::to_string(run.nonFiniteSamples) +
-          ",\"renderSeconds\":" + JsonNumber(run.renderSeconds) + ",\"phases\":[";
-  std::string separator;
-  for (const Statistics::Phase& phase : run.statistics.Phases()) {
-    text += separator + "{\"name\":" + JsonText(phase.name) +
-            ",\"seconds\":" + JsonNumber(phase.wallSeconds) +
-            ",\"cpuSeconds\":" + JsonNumber(phase.cpuSeconds) + "}";
-    separator = ",";
-  }
-  text += "],\"rays\":{";
-  const RayCounters rays = run.statistics.Rays();
-  for (int i = 0; i < kRayKindCount; ++i)
-    text += (i ? "," : "") + JsonText(RayKindName(RayKind(i))) + ":" +
-            std::to_string(rays.counts[std::size_t(i)]);
-  text += "},\"counters\":{";
-  separator.clear();
-  for (const Statistics::Counter& counter : run.statistics.Counters()) {
-    text += separator + JsonText(counter.name) + ":" + JsonNumber(counter.value);
-    separator = ",";
-  }
-  text += "},\"effects\":{";
-  for (int i = 0; i < kEffectCount; ++i) {
-    const EffectPlan::Row& row = setup.scene->Effects().Get(Effect(i));
-    text += (i ? "," : "") + JsonText(EffectName(Effect(i))) +
-            ":{\"on\":" + (row.on ? "true" : "false") + ",\"reason\":" + JsonText(row.reason) + "}";
-  }
-  return text + "}}\n";
 }
 
 std::string ExplainText(const RenderSetup& setup) {

@@ -94,6 +94,11 @@ void RenderDirectives::Handle(Directive directive, const Transform& current) {
   if (choice == &integrator_) OverrideIntegrator();
 }
 
+void RenderDirectives::SetDefaultPlace(const SourceLocation& where) {
+  for (Choice* choice : {&filter_, &film_, &sampler_, &accelerator_, &integrator_, &camera_})
+    if (choice->params.where.file.empty()) choice->params.where = where;
+}
+
 BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log& log) const {
   BindContext bind;
   bind.log = &log;

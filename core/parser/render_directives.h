@@ -20,9 +20,10 @@ class RenderDirectives {
   // Camera, Film, Sampler ...: the last one of each wins.
   void Handle(Directive directive, const Transform& current);
 
+  // The place of errors in what the file leaves to the defaults.
+  void SetDefaultPlace(const SourceLocation& where);
+
   AcceleratorSpec Accelerator(PluginRegistry& registry) const;
-  const Transform& WorldToCamera() const { return worldToCamera_; }
-  bool HasCamera() const { return camera_.isGiven; }
 
   // Makes everything but the scene.
   void Create(PluginRegistry& registry, Log& log, RenderSetup* setup) const;

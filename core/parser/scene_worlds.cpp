@@ -10,6 +10,7 @@ namespace exphoton {
 
 void SceneBuilder::BeginWorld(const Directive& directive) {
   worldBegin_ = directive.Where();
+  render_->SetDefaultPlace(directive.Where());
   world_.emplace(*registry_, log_, options_.isStrict, render_->Accelerator(*registry_));
   state_.transform = Transform();
   isOneTimeActive_ = false;
