@@ -39,5 +39,9 @@ class UniformTexture final : public Texture<T> {
  private:
   T value_;
 };
+template <class T>
+TexturePtr<T> Uniform(const T& value) {
+  return std::make_shared<const UniformTexture<T>>(value);
+}
 
 }  // namespace exphoton

@@ -22,11 +22,6 @@ inline const ParamTable<SurfaceSettings>& SurfaceParameters() {
   return table;
 }
 
-template <class T>
-TexturePtr<T> Uniform(const T& value) {
-  return std::make_shared<const UniformTexture<T>>(value);
-}
-
 // Positive and finite values as they are, above 1 too; everything else is 0.
 inline Real NonNegative(Real x) { return x > 0 && x < kInfinity ? x : 0; }
 inline Spectrum NonNegative(const Spectrum& s) {

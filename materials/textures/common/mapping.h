@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What textures share: the parameters of a mapping to the plane, and how a plugin serves floats and
+// colours from one template.
+#pragma once
+
+#include "core/plugin.h"
+#include "core/scattering/texture_mapping.h"
+
+namespace exphoton {
+
+struct MappingSettings {
+  TextureMapping2D::Kind mapping = TextureMapping2D::Kind::Uv;
+  Real uScale = 1, vScale = 1, uDelta = 0, vDelta = 0;
+  Vector3 v1{1, 0, 0}, v2{0, 1, 0};
+
+  TextureMapping2D Mapping(const TextureContext& context) const {
+    return {{mapping, uScale, vScale, uDelta, vDelta, v1, v2}, context.textureToWorld};
+  }
+};
+
+inline const ParamTable<MappingSettings>& MappingParameters() {
+  using Kind = TextureMapping2D::Kind;
+  static const ParamTable<MappingSettings> table{
+      Param("mapping", &MappingSettings::mapping, "how the surface is laid on the texture's plane")
+          .OneOf({{"uv", Kind::Uv},
+                  {"spherical", Kind::Spherical},
+                  {"cylindrical", Kind::Cylindrical},
+                  {"planar", Kind::Planar}}),
+      Param("uscale", &MappingSettings::uScale, "factor of u (uv)").Range(-1e6, 1e6),
+      Param("vscale", &MappingSettings::vScale, "factor of v (uv)").Range(-1e6, 1e6),
+      Param("udelta", &MappingSettings::uDelta, "added to s (uv, planar)").Range(-1e6, 1e6),
+      Param("vdelta", &MappingSettings::vDelta, "added to t (uv, planar)").Range(-1e6, 1e6),
+      Param("v1", &MappingSettings::v1, "s is the product of the world point with it (planar)")
+          .As(ParamType::Vector),
+      Param("v2", &MappingSettings::v2, "t is the product of the world point with it (planar)")
+          .As(ParamType::Vector)};
+  return table;
+}
+
+}  // namespace exphoton
+
+// A plugin of both texture kinds from templates Parameters<T>() and Create<T>.
+#define EXPHOTON_TEXTURE_PLUGIN(pluginName, pluginSummary)                               \
+  EXPHOTON_PLUGIN(                                                                       \
+      pluginName, pluginSummary,                                                         \
+      exphoton::MakeForm<exphoton::PluginKind::FloatTexture>(                            \
+          exphoton::Parameters<exphoton::Real>(), exphoton::Create<exphoton::Real>),     \
+      exphoton::MakeForm<exphoton::PluginKind::ColorTexture>(                            \
+          exphoton::Parameters<exphoton::Spectrum>(), exphoton::Create<exphoton::Spectrum>))

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// imagemap: an image file (EXR or PNG) as a texture; t = 0 is its top row. A float texture takes
+// the luminance. Pixels that are no finite number count as 0, with a warning.
+#include "core/imaging/image.h"
+#include "core/imaging/mipmap.h"
+#include "materials/textures/common/mapping.h"
+
+namespace exphoton {
+namespace {
+
+struct ImageSettings : MappingSettings {
+  std::string filename;
+  WrapMode wrap = WrapMode::Repeat;
+  Real maxAnisotropy = 8;
+  bool trilinear = false;
+};
+
+// The same for both kinds.
+template <class T>
+const ParamTable<ImageSettings>& Parameters() {
+  static const ParamTable<ImageSettings> table{
+      MappingParameters(),
+      Param("filename", &ImageSettings::filename, "image file, EXR or PNG")
+          .As(ParamType::File)
+          .Required(),
+      Param("wrap", &ImageSettings::wrap, "what lies outside the unit square")
+          .OneOf({{"repeat", WrapMode::Repeat},
+                  {"black", WrapMode::Black},
+                  {"clamp", WrapMode::Clamp}}),
+      Param("maxanisotropy", &ImageSettings::maxAnisotropy,
+            "longest side of a filtered footprint over its shortest")
+          .Range(1, 64),
+      Param("trilinear", &ImageSettings::trilinear,
+            "square footprints instead of elliptical ones: faster and more blurred")};
+  return table;
+}
+
+Real FromRgb(const Spectrum& rgb, Real) { return rgb.Y(); }
+Spectrum FromRgb(const Spectrum& rgb, const Spectrum&) { return rgb; }
+
+template <class T>
+MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& context) {
+  Image image;
+  try {
+    image = ReadImage(settings.filename);
+  } catch (const ImageError& error) {
+    throw ParamError{"filename", error.what(), ""};
+  }
+  const int r = image.FindChannel("R"), g = image.FindChannel("G"), b = image.FindChannel("B");
+  if (r < 0 || g < 0 || b < 0 || image.Width() < 1 || image.Height() < 1)
+    throw ParamError{"filename", "'" + settings.filename + "' has no channels R, G and B", ""};
+  std::vector<T> texels;
+  texels.reserve(std::size_t(image.Width()) * std::size_t(image.Height()));
+  std::size_t bad = 0;
+  for (int y = 0; y < image.Height(); ++y) {
+    for (int x = 0; x < image.Width(); ++x) {
+      Spectrum rgb(image.At(x, y, r), image.At(x, y, g), image.At(x, y, b));
+      if (!rgb.IsFinite()) {
+        rgb = Spectrum();
+        ++bad;
+      }
+      texels.push_back(FromRgb(rgb, T{}));
+    }
+  }
+  if (bad > 0) {
+    context.log.Warning("'" + settings.filename + "': " + std::to_string(bad) +
+                            " pixels are no finite number and count as 0",
+                        context.where);
+  }
+  return MipMap<T>(image.Width(), image.Height(), std::move(texels), settings.wrap);
+}
+
+template <class T>
+class ImageMap final : public Texture<T> {
+ public:
+  ImageMap(const ImageSettings& s, const TextureContext& context)
+      : mapping_(s.Mapping(context)),
+        image_(ReadMipMap<T>(s, context)),
+        maxAnisotropy_(s.maxAnisotropy),
+        isTrilinear_(s.trilinear) {}
+
+  T Evaluate(const SurfaceInteraction& si) const override {
+    const TexturePoint2 at = mapping_.Map(si);
+    if (isTrilinear_) return image_.Trilinear(at.st, at.dstdx, at.dstdy);
+    return image_.Ewa(at.st, at.dstdx, at.dstdy, maxAnisotropy_);
+  }
+  bool IsFiltered() const override { return true; }
+
+ private:
+  TextureMapping2D mapping_;
+  MipMap<T> image_;
+  Real maxAnisotropy_;
+  bool isTrilinear_;
+};
+
+template <class T>
+std::unique_ptr<Texture<T>> Create(const ImageSettings& settings, const TextureContext& context) {
+  return std::make_unique<ImageMap<T>>(settings, context);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_TEXTURE_PLUGIN("imagemap", "image file, filtered over the pixel's footprint")
