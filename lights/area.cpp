@@ -76,6 +76,8 @@ class DiffuseAreaLight final : public AreaLight {
 };
 
 std::unique_ptr<AreaLight> Create(const Settings& settings, const AreaLightContext& context) {
+  if (const char* problem = context.surface->EmitterProblem())
+    throw Error(ExitStatus::Scene, problem, context.where);
   Spectrum radiance = settings.radiance * settings.scale;
   const Real area = context.surface->Area();
   if (!(area > 0) || !std::isfinite(1 / area)) {

@@ -31,6 +31,8 @@ class EmitterSurface {
 
   virtual Real Area() const = 0;
   virtual Bounds3 Bounds() const = 0;
+  // Why this surface cannot carry an area light, as a sentence; null where it can.
+  virtual const char* EmitterProblem() const { return nullptr; }
 
   // Uniform by area: pdf = 1 / Area(). u chooses the point, uPart the part where there are several.
   virtual EmitterSample SamplePoint(Point2 u, Real uPart) const = 0;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// trianglemesh: triangles by indices into lists of positions and, where wanted, of normals,
+// tangents and texture coordinates. The outside is where the corners run counter-clockwise as
+// Cross(p1 - p0, p2 - p0) says; given normals shade, they do not turn the surface.
+#include "core/plugin.h"
+#include "shapes/mesh/finish_mesh.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  std::vector<int> indices;
+  std::vector<Point3> positions;
+  std::vector<Normal3> normals;
+  std::vector<Vector3> tangents;
+  std::vector<Point2> uv, st;
+
+  void Validate() const {
+    const auto needSameCount = [&](const char* name, std::size_t count) {
+      if (count != 0 && count != positions.size()) {
+        throw ParamError{name,
+                         "has " + std::to_string(count) + " entries for " +
+                             std::to_string(positions.size()) + " points",
+                         "give one a point of 'P', or none"};
+      }
+    };
+    needSameCount("N", normals.size());
+    needSameCount("S", tangents.size());
+    needSameCount("uv", uv.size());
+    needSameCount("st", st.size());
+  }
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("indices", &Settings::indices, "three vertex numbers a triangle").Required(),
+      Param("P", &Settings::positions, "vertex positions").Required().Unit("scene units"),
+      Param("N", &Settings::normals, "shading normals, one a vertex").As(ParamType::NormalList),
+      Param("S", &Settings::tangents, "shading tangents, one a vertex").As(ParamType::VectorList),
+      Param("uv", &Settings::uv, "texture coordinates, one pair a vertex"),
+      Param("st", &Settings::st, "another name of 'uv'")};
+  return table;
+}
+
+std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
+  auto mesh = std::make_unique<TriangleMesh>();
+  mesh->indices = CheckedTriangles(settings.indices, settings.positions.size(), "indices");
+  mesh->p = settings.positions;
+  mesh->n = settings.normals;
+  mesh->s = settings.tangents;
+  mesh->uv = settings.uv.empty() ? settings.st : settings.uv;
+  return FinishMesh(std::move(mesh), context, "P");
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("trianglemesh", "triangles by indices into lists of vertices",
+                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
+                                                                exphoton::Create))
