@@ -10,8 +10,8 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "core/cli/arguments.h"
 #include "core/cli/errors.h"
-#include "core/cli/options.h"
 #include "core/cli/output_files.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
@@ -26,16 +26,6 @@ std::string Print(const char* format, Args... args) {
   char text[512];
   std::snprintf(text, sizeof text, format, args...);
   return text;
-}
-
-void Parse(CLI::App& app, const std::vector<std::string>& arguments) {
-  try {
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-  } catch (const CLI::CallForHelp&) {
-    throw TextRequest{app.help()};
-  } catch (const CLI::ParseError& error) {
-    FailUsage(error.what(), app.get_name() + " --help lists the options");
-  }
 }
 
 std::string WindowText(const char* name, const PixelBounds& window) {
@@ -113,7 +103,7 @@ int RunInfo(const std::vector<std::string>& arguments) {
     CLI::App app("Prints windows, channels, attributes and ranges of pictures.", "exphoton info");
     std::vector<std::string> files;
     app.add_option("files", files, "EXR or PNG files")->required();
-    Parse(app, arguments);
+    ParseArguments(app, arguments);
     for (const std::string& file : files) PrintOut(InfoText(file, ReadImage(file)));
   });
 }
@@ -131,7 +121,7 @@ int RunConvert(const std::vector<std::string>& arguments) {
         ->check(CLI::Range(-100.0, 100.0))
         ->default_str("0");
     app.add_flag("--float", asFloat, "for EXR: 32-bit channels");
-    Parse(app, arguments);
+    ParseArguments(app, arguments);
     const bool isPng = EndsWith(to, ".png");
     if (!isPng && !EndsWith(to, ".exr")) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
     if (!isPng && exposure != 0) FailUsage("--exposure is for PNG: an EXR stays linear");
@@ -159,7 +149,7 @@ int RunCompare(const std::vector<std::string>& arguments) {
     app.add_option("picture", picture)->required();
     app.add_option("--max-relmse", maxRelMse, "up to this relMSE they count as the same");
     app.add_option("--max-mean", maxMean, "up to this relative error of the mean, too");
-    Parse(app, arguments);
+    ParseArguments(app, arguments);
     const Image a = ReadImage(reference), b = ReadImage(picture);
     const ImageDifference d = CompareImages(a, b);
     const bool isIdentical = AreIdentical(a, b);

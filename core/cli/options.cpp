@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "core/cli/arguments.h"
 #include "core/cli/values.h"
 #include "core/parser/effect_choice.h"
 #include "core/plugins/registry.h"
@@ -121,15 +122,7 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);
   app.set_version_flag("--version", VersionText());
-  try {
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-  } catch (const CLI::CallForHelp&) {
-    throw TextRequest{app.help()};
-  } catch (const CLI::CallForVersion&) {
-    throw TextRequest{VersionText() + "\n"};
-  } catch (const CLI::ParseError& error) {
-    FailUsage(error.what(), "exphoton --help lists the options");
-  }
+  ParseArguments(app, arguments);
   TakeRaw(raw, &command);
   return command;
 }
