@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Sampler "lowdiscrepancy": for each pixel and request an Owen-scrambled (0,2)-sequence, shuffled
-// so that requests do not correlate. Any 2^k first samples, and any array of 2^k points, are a
-// (0,k,2)-net. Sources: Kollig and Keller 2002; Burley 2020, "Practical Hash-based Owen
-// Scrambling".
+// so that requests do not correlate. Any array of 2^k points, the first 2^k samples (k >= 4) and
+// all samples of a pixel are (0,k,2)-nets. Sources: Kollig and Keller 2002; Burley 2020, "Practical
+// Hash-based Owen Scrambling".
 #include <array>
 #include <bit>
 #include <utility>
@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ull;
 constexpr int kMaxCount = 1 << 30;
+// So many consecutive samples are shuffled freely: a shuffle that keeps every pair of samples
+// together would leave the interaction of two requests with twice the variance.
+constexpr std::uint32_t kShuffled = 16;
 
 struct Settings {
   int pixelSamples = 4;
@@ -50,16 +53,19 @@ constexpr std::array<std::uint32_t, 32> kDirections = ReversedDirections();
 // order, which needs one exclusive-or a point.
 class Block {
  public:
-  // `requestKey` is of (seed, pixel, request).
-  Block(std::uint64_t requestKey, std::int64_t sample, std::size_t count)
+  // `requestKey` is of (seed, pixel, request); `shuffled` a power of two.
+  Block(std::uint64_t requestKey, std::int64_t sample, std::uint32_t shuffled, std::size_t count)
       : key_(MixBits(requestKey)) {
     const int shift = int(std::bit_width(count == 0 ? 0 : count - 1));
-    const auto s = std::uint64_t(sample);
+    const std::uint64_t shuffleKey = MixBits(key_ + kGolden);
+    const auto low = std::uint32_t(sample) & (shuffled - 1);
+    const std::uint64_t s =
+        std::uint64_t(sample) - low + PermuteIndex(low, shuffled, std::uint32_t(shuffleKey >> 32));
     // Beyond 2^32 points the sequence begins again with other keys.
     const std::uint64_t round = s >> (32 - shift);
     if (round != 0) key_ = MixBits(key_ + kGolden * round);
     const auto first = static_cast<std::uint32_t>(s << shift);
-    index_ = OwenScramble(first, std::uint32_t(MixBits(key_ + kGolden))) >> shift << shift;
+    index_ = OwenScramble(first, std::uint32_t(shuffleKey)) >> shift << shift;
     second_ = ReverseBits32(SobolSecond(index_));
   }
 
@@ -93,7 +99,8 @@ void Shuffle(std::span<T> values, std::uint64_t key) {
 
 class LowDiscrepancySampler final : public Sampler {
  public:
-  explicit LowDiscrepancySampler(std::int64_t count) : count_(count) {}
+  explicit LowDiscrepancySampler(std::int64_t count)
+      : count_(count), shuffled_(count < kShuffled ? std::uint32_t(count) : kShuffled) {}
 
   std::int64_t SamplesPerPixel() const override { return count_; }
   int RoundCount(int count) const override {
@@ -108,9 +115,9 @@ class LowDiscrepancySampler final : public Sampler {
   void Generate(const SampleKey& key, CameraSamples* samples) const override {
     std::uint64_t request =
         HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), 0x6c6f7764});
-    samples->film = Block(request += kGolden, key.index, 1).Both();
-    samples->lens = Block(request += kGolden, key.index, 1).Both();
-    samples->time = Block(request += kGolden, key.index, 1).First();
+    samples->film = Block(request += kGolden, key.index, shuffled_, 1).Both();
+    samples->lens = Block(request += kGolden, key.index, shuffled_, 1).Both();
+    samples->time = Block(request += kGolden, key.index, shuffled_, 1).First();
     for (int i = 0; i < samples->Count1D(); ++i)
       Fill(request += kGolden, key.index, samples->Array1D(i));
     for (int i = 0; i < samples->Count2D(); ++i)
@@ -119,8 +126,8 @@ class LowDiscrepancySampler final : public Sampler {
 
  private:
   template <class T>
-  static void Fill(std::uint64_t request, std::int64_t sample, std::span<T> values) {
-    Block block(request, sample, values.size());
+  void Fill(std::uint64_t request, std::int64_t sample, std::span<T> values) const {
+    Block block(request, sample, shuffled_, values.size());
     for (std::size_t k = 0; k < values.size(); ++k) {
       if constexpr (std::is_same_v<T, Point2>) {
         values[k] = block.Both();
@@ -134,6 +141,7 @@ class LowDiscrepancySampler final : public Sampler {
   }
 
   std::int64_t count_;
+  std::uint32_t shuffled_;
 };
 
 std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext& context) {

@@ -54,6 +54,16 @@ class RandomStream {
 // Where index i of 0..length-1 goes in the permutation chosen by `key`: any length, no table.
 constexpr std::uint32_t PermuteIndex(std::uint32_t i, std::uint32_t length, std::uint32_t key) {
   if (length <= 1) return 0;
+  if (length <= 16) {
+    // The hash below is far from uniform for so few. Fisher and Yates' shuffle, following one index.
+    std::uint64_t state = MixBits(key + 0x9e3779b97f4a7c15ull);
+    for (std::uint32_t k = length; k > 1; --k) {
+      state = state * 6364136223846793005ull + 1442695040888963407ull;
+      const auto j = static_cast<std::uint32_t>((state >> 32) * k >> 32);
+      i = i == k - 1 ? j : i == j ? k - 1 : i;
+    }
+    return i;
+  }
   std::uint32_t w = length - 1;
   w |= w >> 1;
   w |= w >> 2;

@@ -204,6 +204,42 @@ TEST(StratifiedSampler, WithoutJitterTakesTheCentres) {
   EXPECT_EQ(*xs.begin(), Real(.5));
 }
 
+TEST(LowDiscrepancySampler, FewSamplesAreANetToo) {
+  TestPlugins plugins;
+  for (int count : {1, 2, 4, 8}) {
+    const auto sampler = plugins.MakeSampler(kSamplers[3])->WithSamplesPerPixel(count);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      std::vector<Point2> film;
+      for (int i = 0; i < count; ++i) {
+        CameraSamples s{SampleLayout{}};
+        sampler->Generate({seed, {1, 2}, i}, &s);
+        film.push_back(s.film);
+      }
+      EXPECT_TRUE(IsNet(film)) << count;
+    }
+  }
+}
+
+// Whether film and lens fall into like halves: independent of one another from sample to sample, so
+// that the mean over a pixel's 64 samples has the variance 1/4 / 64.
+TEST(LowDiscrepancySampler, RequestsAreIndependentWithinAPixel) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 64)");
+  constexpr int kPixels = 4000;
+  double squares = 0;
+  for (int pixel = 0; pixel < kPixels; ++pixel) {
+    int same = 0;
+    for (int i = 0; i < 64; ++i) {
+      CameraSamples s{SampleLayout{}};
+      sampler->Generate({5, {pixel, 3}, i}, &s);
+      same += (s.film.x < Real(.5)) == (s.lens.x < Real(.5));
+    }
+    squares += (same / 64. - .5) * (same / 64. - .5);
+  }
+  // The variance of an estimated variance is about 2/n of its square; 5 deviations.
+  EXPECT_NEAR(squares / kPixels * 4 * 64, 1, .07 + 5 * std::sqrt(2. / kPixels));
+}
+
 TEST(LowDiscrepancySampler, PowersOfTwoAreNets) {
   TestPlugins plugins;
   const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 64)");
@@ -223,7 +259,7 @@ TEST(LowDiscrepancySampler, PowersOfTwoAreNets) {
       const auto sixteen = s.Array2D(r.sixteen2);
       EXPECT_TRUE(IsNet({sixteen.begin(), sixteen.end()}));
       array2.insert(array2.end(), sixteen.begin(), sixteen.end());
-      if (((i + 1) & i) != 0) continue;  // powers of two: a render may stop here
+      if (i + 1 < 16 || ((i + 1) & i) != 0) continue;  // a render may stop here
       EXPECT_TRUE(IsNet(film)) << i;
       EXPECT_TRUE(IsNet(lens)) << i;
       EXPECT_TRUE(IsNet(single2)) << i;
