@@ -12,20 +12,6 @@ namespace {
 
 Real Power5(Real x) { return Square(Square(x)) * x; }
 
-struct Half {
-  Vector3 h;
-  Real oh;
-};
-std::optional<Half> HalfVector(const Vector3& wo, const Vector3& wi) {
-  const Vector3 sum = wo + wi;
-  const Real length2 = LengthSquared(sum);
-  if (!(length2 > std::numeric_limits<Real>::min())) return std::nullopt;
-  const Vector3 h = sum / std::sqrt(length2);
-  const Real oh = Dot(wo, h);
-  if (!(oh > 0)) return std::nullopt;
-  return Half{h, oh};
-}
-
 }  // namespace
 
 FresnelBlend::FresnelBlend(const Spectrum& diffuse, const Spectrum& gloss, Real exponentX,
@@ -49,10 +35,9 @@ Spectrum FresnelBlend::f(const Vector3& wo, const Vector3& wi) const {
   if (!SameHemisphere(wo, wi)) return {};
   const Real cosO = std::abs(wo.z), cosI = std::abs(wi.z);
   Spectrum value = diffuse_ * ((1 - Power5(1 - cosI / 2)) * (1 - Power5(1 - cosO / 2)));
-  if (const auto half = HalfVector(wo, wi)) {
-    const Spectrum schlick =
-        gloss_ + (Spectrum(1) - gloss_) * Power5(1 - std::min(half->oh, Real(1)));
-    value += schlick * (normD_ * PowH(half->h) / (4 * half->oh * std::max(cosI, cosO)));
+  if (const auto half = HalfVector::Of(wo, wi)) {
+    const Spectrum schlick = gloss_ + (Spectrum(1) - gloss_) * Power5(1 - half->cosine);
+    value += schlick * (normD_ * PowH(half->h) / (4 * half->cosine * std::max(cosI, cosO)));
   }
   return value.IsFinite() ? value : Spectrum();
 }
@@ -60,7 +45,8 @@ Spectrum FresnelBlend::f(const Vector3& wo, const Vector3& wi) const {
 Real FresnelBlend::Pdf(const Vector3& wo, const Vector3& wi) const {
   if (!SameHemisphere(wo, wi)) return 0;
   Real pdf = std::abs(wi.z) * kInvPi;
-  if (const auto half = HalfVector(wo, wi)) pdf += normPdf_ * PowH(half->h) / (4 * half->oh);
+  if (const auto half = HalfVector::Of(wo, wi))
+    pdf += normPdf_ * PowH(half->h) / (4 * half->cosine);
   return std::isfinite(pdf) ? pdf / 2 : 0;
 }
 

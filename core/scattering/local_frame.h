@@ -2,6 +2,8 @@
 // Small helpers for directions in a lobe's local frame, where z is the shading normal.
 #pragma once
 
+#include <optional>
+
 #include "core/math/vec.h"
 
 namespace exphoton {
@@ -16,5 +18,21 @@ constexpr Vector3 MirrorZ(const Vector3& v) { return {v.x, v.y, -v.z}; }
 constexpr Vector3 OnSideOf(const Vector3& v, const Vector3& side) {
   return (v.z < 0) != (side.z < 0) ? MirrorZ(v) : v;
 }
+
+// The half vector of two directions on one side, on that side too, and its cosine to both:
+// |wo + wi| / 2, which cancels less than a dot product where they are nearly opposite. nullopt
+// where they are on no common side or exactly opposite.
+struct HalfVector {
+  Vector3 h;
+  Real cosine;  // wo.h = wi.h > 0
+
+  static std::optional<HalfVector> Of(const Vector3& wo, const Vector3& wi) {
+    if (!SameHemisphere(wo, wi)) return std::nullopt;
+    const Vector3 sum = wo + wi;
+    const Real length = Length(sum);
+    if (!(length > std::sqrt(std::numeric_limits<Real>::min()))) return std::nullopt;
+    return HalfVector{sum / length, std::min(length / 2, Real(1))};
+  }
+};
 
 }  // namespace exphoton

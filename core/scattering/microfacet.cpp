@@ -6,38 +6,21 @@
 #include "core/scattering/local_frame.h"
 
 namespace exphoton {
-namespace {
-
-// The half vector of two directions on one side, turned to that side; nullopt where they are not
-// on one side or so nearly opposite in the surface that it has no direction.
-std::optional<Vector3> HalfVector(const Vector3& wo, const Vector3& wi) {
-  if (!SameHemisphere(wo, wi)) return std::nullopt;
-  const Vector3 sum = wo + wi;
-  const Real length2 = LengthSquared(sum);
-  if (!(length2 > std::numeric_limits<Real>::min())) return std::nullopt;
-  return sum / std::sqrt(length2);
-}
-
-}  // namespace
-
 Spectrum Microfacet::f(const Vector3& wo, const Vector3& wi) const {
-  const std::optional<Vector3> h = HalfVector(wo, wi);
-  if (!h) return {};
-  const Real cosO = std::abs(wo.z), cosI = std::abs(wi.z), cosH = std::abs(h->z);
-  const Real oh = Dot(wo, *h);
-  if (!(oh > 0) || !(cosO * cosI > 0)) return {};
-  const Real g = std::min(Real(1), 2 * cosH * std::min(cosO, cosI) / oh);
+  const auto half = HalfVector::Of(wo, wi);
+  if (!half) return {};
+  const Real cosO = std::abs(wo.z), cosI = std::abs(wi.z), cosH = std::abs(half->h.z);
+  if (!(cosO * cosI > 0)) return {};
+  const Real g = std::min(Real(1), 2 * cosH * std::min(cosO, cosI) / half->cosine);
   const Spectrum value =
-      reflectance_ * fresnel_(oh) * (distribution_.D(cosH) * g / (4 * cosO * cosI));
+      reflectance_ * fresnel_(half->cosine) * (distribution_.D(cosH) * g / (4 * cosO * cosI));
   return value.IsFinite() ? value : Spectrum();
 }
 
 Real Microfacet::Pdf(const Vector3& wo, const Vector3& wi) const {
-  const std::optional<Vector3> h = HalfVector(wo, wi);
-  if (!h) return 0;
-  const Real oh = Dot(wo, *h);
-  if (!(oh > 0)) return 0;
-  const Real pdf = distribution_.Pdf(std::abs(h->z)) / (4 * oh);
+  const auto half = HalfVector::Of(wo, wi);
+  if (!half) return 0;
+  const Real pdf = distribution_.Pdf(std::abs(half->h.z)) / (4 * half->cosine);
   return std::isfinite(pdf) ? pdf : 0;
 }
 

@@ -19,7 +19,34 @@ class OneDirective final : public DirectiveHandler {
 
 }  // namespace
 
-TestPlugins::TestPlugins() : registry_({std::string(EXPHOTON_BINARY_DIR) + "/plugins"}, &log_) {}
+class TestPlugins::Textures final : public TextureLookup {
+ public:
+  TexturePtr<Real> Float(const std::string& name) const override { return Get(floats, name); }
+  TexturePtr<Spectrum> Color(const std::string& name) const override { return Get(colors, name); }
+  std::vector<std::string> Names() const override { return {}; }
+
+  std::map<std::string, TexturePtr<Real>> floats;
+  std::map<std::string, TexturePtr<Spectrum>> colors;
+
+ private:
+  template <class T>
+  static TexturePtr<T> Get(const std::map<std::string, TexturePtr<T>>& all,
+                           const std::string& name) {
+    const auto found = all.find(name);
+    return found == all.end() ? nullptr : found->second;
+  }
+};
+
+TestPlugins::TestPlugins()
+    : registry_({std::string(EXPHOTON_BINARY_DIR) + "/plugins"}, &log_),
+      textures_(std::make_shared<Textures>()) {}
+
+void TestPlugins::Define(const std::string& name, TexturePtr<Real> texture) {
+  textures_->floats[name] = std::move(texture);
+}
+void TestPlugins::Define(const std::string& name, TexturePtr<Spectrum> texture) {
+  textures_->colors[name] = std::move(texture);
+}
 
 template <PluginKind kind>
 std::unique_ptr<typename PluginTraits<kind>::Product> TestPlugins::Make(
@@ -30,6 +57,7 @@ std::unique_ptr<typename PluginTraits<kind>::Product> TestPlugins::Make(
   ParseScene(source, "test.pbrt", handler, log_);
   BindContext bind;
   bind.log = &log_;
+  bind.textures = textures_.get();
   return registry_.Create<kind>(handler.Get().strings.at(0), handler.Get().params, bind, context);
 }
 
@@ -54,6 +82,20 @@ std::unique_ptr<Camera> TestPlugins::MakeCamera(const std::string& text, const T
 
 std::unique_ptr<Sampler> TestPlugins::MakeSampler(const std::string& text) {
   return Make<PluginKind::Sampler>(text, {log_, {}});
+}
+
+std::unique_ptr<Material> TestPlugins::MakeMaterial(const std::string& text) {
+  return Make<PluginKind::Material>(text, {log_, {}});
+}
+
+std::unique_ptr<FloatTexture> TestPlugins::MakeFloatTexture(const std::string& text,
+                                                            const Transform& toWorld) {
+  return Make<PluginKind::FloatTexture>(text, {toWorld, log_, {}});
+}
+
+std::unique_ptr<ColorTexture> TestPlugins::MakeColorTexture(const std::string& text,
+                                                            const Transform& toWorld) {
+  return Make<PluginKind::ColorTexture>(text, {toWorld, log_, {}});
 }
 
 std::unique_ptr<Filter> TestPlugins::MakeFilter(const std::string& text) {

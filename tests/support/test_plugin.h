@@ -31,6 +31,14 @@ class TestPlugins {
                                      int xResolution, int yResolution);
   std::unique_ptr<Sampler> MakeSampler(const std::string& text);
   std::unique_ptr<Filter> MakeFilter(const std::string& text);
+  std::unique_ptr<Material> MakeMaterial(const std::string& text);
+  std::unique_ptr<FloatTexture> MakeFloatTexture(const std::string& text,
+                                                 const Transform& toWorld = {});
+  std::unique_ptr<ColorTexture> MakeColorTexture(const std::string& text,
+                                                 const Transform& toWorld = {});
+  // What "texture" parameters of later texts may name.
+  void Define(const std::string& name, TexturePtr<Real> texture);
+  void Define(const std::string& name, TexturePtr<Spectrum> texture);
 
   Log& GetLog() { return log_; }
   PluginRegistry& Registry() { return registry_; }
@@ -42,6 +50,8 @@ class TestPlugins {
 
   Log log_{Log::Level::Normal, Log::Sink::Memory};
   PluginRegistry registry_;
+  class Textures;
+  std::shared_ptr<Textures> textures_;
   std::vector<std::unique_ptr<TriangleMesh>> meshes_;
 };
 

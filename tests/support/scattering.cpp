@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Surfaces, lobes and integrals for tests of scattering.
+#include "tests/support/scattering.h"
+
+#include "core/math/sampling.h"
+#include "core/scattering/fresnel_blend.h"
+#include "core/scattering/lambert.h"
+#include "core/scattering/microfacet.h"
+#include "core/scattering/oren_nayar.h"
+#include "core/scattering/transmitted.h"
+
+namespace exphoton {
+
+SurfaceInteraction FlatSurface() {
+  SurfaceInteraction si;
+  si.ng = {0, 0, 1};
+  si.uv = {Real(.25), Real(.75)};
+  si.dpdu = {1, 0, 0};
+  si.dpdv = {0, 1, 0};
+  si.shading.n = si.ng;
+  si.shading.dpdu = si.dpdu;
+  si.shading.dpdv = si.dpdv;
+  return si;
+}
+
+SurfaceInteraction TiltedSurface(Real angle) {
+  SurfaceInteraction si = FlatSurface();
+  si.shading.n = {std::sin(angle), 0, std::cos(angle)};
+  si.shading.dpdu = {std::cos(angle), 0, -std::sin(angle)};
+  return si;
+}
+
+std::vector<NamedLobe> SmoothLobes() {
+  const Spectrum color(Real(.9), Real(.5), Real(.1));
+  const Fresnel inverted = Fresnel::Dielectric(Real(1.5), 1);
+  const Fresnel physical = Fresnel::Dielectric(1, Real(1.5));
+  const Fresnel copper =
+      Fresnel::Conductor({Real(.2), Real(.92), Real(1.1)}, {Real(3.9), Real(2.45), Real(2.14)});
+  std::vector<NamedLobe> lobes;
+  const auto add = [&](const std::string& name, auto lobe) {
+    lobes.push_back({name, std::make_shared<const decltype(lobe)>(lobe)});
+  };
+  add("Lambert", Lambert(color));
+  add("OrenNayar20", OrenNayar(color, Radians(20)));
+  add("OrenNayar90", OrenNayar(Spectrum(1), Radians(90)));
+  add("GlossBroad", Microfacet(color, Fresnel::None(), Real(.1)));
+  add("Gloss10", Microfacet(Spectrum(1), Fresnel::None(), 10));
+  add("Gloss1000", Microfacet(color, Fresnel::None(), 1000));
+  add("GlossInverted", Microfacet(color, inverted, 20));
+  add("GlossPhysical", Microfacet(color, physical, 200));
+  add("GlossCopper", Microfacet(Spectrum(1), copper, 100));
+  add("Blend10", FresnelBlend(color, Spectrum(Real(.3)), 10, 10));
+  add("BlendAnisotropic", FresnelBlend(Spectrum(1), Spectrum(Real(.05)), 5, 300));
+  add("BlendSharp", FresnelBlend(Spectrum(0), Spectrum(1), 1000, 1000));
+  add("TransmittedLambert", Transmitted<Lambert>(Lambert(color)));
+  add("TransmittedGloss", Transmitted<Microfacet>(Microfacet(color, physical, 40)));
+  add("TransmittedBlend",
+      Transmitted<FresnelBlend>(FresnelBlend(color, Spectrum(Real(.3)), 10, 100)));
+  return lobes;
+}
+
+std::vector<Vector3> Directions(const std::vector<Real>& cosines) {
+  std::vector<Vector3> directions;
+  for (Real cosine : cosines) {
+    const Real sine = SafeSqrt((1 - cosine) * (1 + cosine));
+    directions.push_back({sine * std::cos(Real(.7)), sine * std::sin(Real(.7)), cosine});
+  }
+  return directions;
+}
+
+Spectrum Albedo(const Bxdf& lobe, const Vector3& wo, int side) {
+  Spectrum sum;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const Point2 u((Real(i) + Real(.5)) / Real(side), (Real(j) + Real(.5)) / Real(side));
+      if (const auto sample = lobe.Sample(wo, u)) sum += sample->throughput;
+    }
+  }
+  return sum / Real(side * side);
+}
+
+Spectrum HemisphericalAlbedo(const Bxdf& lobe, int side) {
+  Spectrum sum;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const Point2 u((Real(i) + Real(.5)) / Real(side), (Real(j) + Real(.5)) / Real(side));
+      sum += Albedo(lobe, SampleCosineHemisphere(u), side);
+    }
+  }
+  return sum / Real(side * side);
+}
+
+}  // namespace exphoton

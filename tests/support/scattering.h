@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What tests of scattering share: a flat surface, every kind of smooth lobe, directions that
+// include the awkward ones, and integrals over directions.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/scattering/bsdf.h"
+
+namespace exphoton {
+
+// The plane z = 0 at the origin, normal +z, dpdu = x, uv = (.25, .75), no differentials.
+SurfaceInteraction FlatSurface();
+// The same, with a shading normal tilted by `angle` (radians) from z towards x.
+SurfaceInteraction TiltedSurface(Real angle);
+
+struct NamedLobe {
+  std::string name;
+  std::shared_ptr<const Bxdf> lobe;
+
+  friend void PrintTo(const NamedLobe& named, std::ostream* out) { *out << named.name; }
+};
+// Every non-specular lobe, with coefficients at most 1, at ordinary and extreme roughness.
+std::vector<NamedLobe> SmoothLobes();
+
+// Unit vectors with these cosines to z, at an azimuth off the axes.
+std::vector<Vector3> Directions(const std::vector<Real>& cosines);
+
+// Integral of lobe.f |cos wi| over all wi, by the mean of Sample's throughput on a stratified grid
+// of side x side.
+Spectrum Albedo(const Bxdf& lobe, const Vector3& wo, int side = 64);
+// The cosine-weighted mean of Albedo over the upper hemisphere.
+Spectrum HemisphericalAlbedo(const Bxdf& lobe, int side = 32);
+
+}  // namespace exphoton
