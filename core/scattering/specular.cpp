@@ -5,16 +5,17 @@
 namespace exphoton {
 namespace {
 
-// The mean over a hemisphere of g, weighted by 2 cos d(cos): midpoint rule, a few terms.
+// The mean over a hemisphere of g, weighted by 2 cos d(cos): midpoint rule in the cosine, which
+// resolves the steep part of Fresnel's equations at grazing angles.
 template <class G>
 auto HemisphericalMean(G&& g) {
-  constexpr int kTerms = 16;
+  constexpr int kTerms = 32;
   decltype(g(Real(1))) sum{};
   for (int i = 0; i < kTerms; ++i) {
-    // Equal steps of cos^2 carry equal weight.
-    sum += g(std::sqrt((Real(i) + Real(.5)) / kTerms));
+    const Real cosine = (Real(i) + Real(.5)) / kTerms;
+    sum += g(cosine) * (2 * cosine / kTerms);
   }
-  return sum / Real(kTerms);
+  return sum;
 }
 
 }  // namespace
