@@ -94,7 +94,8 @@ std::string MarkdownTable(const ParamTableBase& table) {
 
 std::string PageOf(PluginRegistry& registry, const std::string& folder) {
   std::string text =
-      "<!-- Generated from the plugins' own declarations by `exphoton plugins --markdown`. -->\n\n"
+      "<!-- Generated from the plugins' own declarations by `exphoton plugins --write-reference`. "
+      "-->\n\n"
       "# " +
       Capitalized(folder) + '\n';
   for (int i = 0; i < kPluginKindCount; ++i) {
@@ -158,7 +159,8 @@ std::string DescribePlugin(PluginRegistry& registry, const std::string& name) {
 std::map<std::string, std::string> ReferencePages(PluginRegistry& registry) {
   std::map<std::string, std::string> pages;
   std::string index =
-      "<!-- Generated from the plugins' own declarations by `exphoton plugins --markdown`. -->\n\n"
+      "<!-- Generated from the plugins' own declarations by `exphoton plugins --write-reference`. "
+      "-->\n\n"
       "# Reference: the plugins and their parameters\n\n";
   for (int i = 0; i < kPluginKindCount; ++i) {
     const std::string folder = PluginKindFolder(KindAt(i)), file = folder + ".md";
