@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Scene text in memory to tokens, directives, scenes or the diagnostic that a user would read.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/parser/parser.h"
+#include "core/parser/render_setup.h"
+
+namespace exphoton {
+
+using Files = std::map<std::string, std::string>;
+
+// Keeps what the parser hands over.
+class DirectiveList final : public DirectiveHandler {
+ public:
+  void Handle(Directive directive) override { directives.push_back(std::move(directive)); }
+  void Finish(const SourceLocation&) override {}
+  std::vector<Directive> directives;
+};
+
+inline std::string Diagnostic(const Error& error) {
+  return FormatDiagnostic("error", error.what(), error.Where(), error.Hint());
+}
+
+// The directives of "scene.pbrt" among the files; throws Error.
+inline std::vector<Directive> ParseFiles(const Files& files, Log* log = nullptr) {
+  Log quiet(Log::Level::Normal, Log::Sink::Memory);
+  MemorySource source(files);
+  DirectiveList list;
+  ParseScene(source, "scene.pbrt", list, log ? *log : quiet);
+  return std::move(list.directives);
+}
+inline std::vector<Directive> ParseText(const std::string& text) {
+  return ParseFiles({{"scene.pbrt", text}});
+}
+
+// What parsing alone says is wrong; "" where nothing is.
+inline std::string ParseErrorOf(const Files& files) {
+  try {
+    ParseFiles(files);
+  } catch (const Error& error) {
+    return Diagnostic(error);
+  }
+  return "";
+}
+inline std::string ParseErrorOf(const std::string& text) {
+  return ParseErrorOf(Files{{"scene.pbrt", text}});
+}
+
+// A scene built in full, with all that it said.
+struct BuiltScene {
+  std::unique_ptr<Log> log = std::make_unique<Log>(Log::Level::Normal, Log::Sink::Memory);
+  std::vector<std::unique_ptr<RenderSetup>> setups;
+  std::string error;  // the diagnostic; "" where it was built
+  int status = 0;
+
+  std::string Messages() const {
+    std::string all;
+    for (const std::string& message : log->Messages()) all += message;
+    return all;
+  }
+};
+inline BuiltScene BuildText(const std::string& text, LoadOptions options = {}) {
+  BuiltScene built;
+  options.pluginFolders.push_back(std::string(EXPHOTON_BINARY_DIR) + "/plugins");
+  MemorySource source({{"scene.pbrt", text}});
+  try {
+    built.setups = LoadScenes(source, "scene.pbrt", options, *built.log);
+  } catch (const Error& error) {
+    built.error = Diagnostic(error);
+    built.status = int(error.Status());
+  }
+  return built;
+}
+
+// A small picture and a fast accelerator; what follows stands in its world.
+inline std::string InWorld(const std::string& text) {
+  return "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+         "Accelerator \"bruteforce\"\nWorldBegin\n" +
+         text + "\nWorldEnd\n";
+}
+
+}  // namespace exphoton

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// How directives and parameters are written, and the exact words of what is wrong with them.
+#include "core/parser/parser.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/parser/parse_support.h"
+
+namespace exphoton {
+namespace {
+
+TEST(Parser, ReadsNumbersWithAndWithoutBrackets) {
+  const auto directives = ParseText("Translate 1 2 3 Translate [1 2 3]\nIdentity");
+  ASSERT_EQ(directives.size(), 3u);
+  EXPECT_EQ(directives[0].numbers, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(directives[1].numbers, directives[0].numbers);
+  EXPECT_EQ(directives[2].spec->id, DirectiveId::Identity);
+}
+
+TEST(Parser, ReadsParametersWithTheirPlaces) {
+  const auto directives = ParseText(
+      "Shape \"sphere\" \"float radius\" 2\n"
+      "  \"  color   Kd\t\" [ .1 .2 .3 ] \"texture Ks\" [\"t\"] \"bool b\" \"true\" \"point P\" "
+      "[]");
+  ASSERT_EQ(directives.size(), 1u);
+  const ParamSet& params = directives[0].params;
+  EXPECT_EQ(params.where.line, 1);
+  ASSERT_EQ(params.All().size(), 5u);
+  const ParsedParam* kd = params.Find("Kd");
+  ASSERT_NE(kd, nullptr);
+  EXPECT_EQ(kd->type, "color");
+  EXPECT_EQ(kd->numbers, (std::vector<double>{.1, .2, .3}));
+  EXPECT_EQ(kd->where.line, 2);
+  EXPECT_EQ(kd->where.column, 3);
+  ASSERT_EQ(kd->valueWhere.size(), 3u);
+  EXPECT_EQ(kd->valueWhere[1].column, 24);
+  EXPECT_EQ(params.Find("Ks")->strings, (std::vector<std::string>{"t"}));
+  EXPECT_TRUE(params.Find("P")->numbers.empty());
+}
+
+TEST(Parser, KeepsNoPlacesOfLongLists) {
+  std::string text = "Shape \"s\" \"float x\" [";
+  for (int i = 0; i < 1000; ++i) text += " 1";
+  const auto directives = ParseText(text + "]");
+  EXPECT_EQ(directives[0].params.Find("x")->numbers.size(), 1000u);
+  EXPECT_TRUE(directives[0].params.Find("x")->valueWhere.empty());
+}
+
+TEST(Parser, LetsTheLaterOfTwoParametersCountAndWarns) {
+  Log log(Log::Level::Normal, Log::Sink::Memory);
+  const auto directives =
+      ParseFiles({{"scene.pbrt", "Film \"image\" \"integer x\" 1 \"integer x\" 2"}}, &log);
+  EXPECT_EQ(directives[0].params.Find("x")->numbers[0], 2);
+  ASSERT_EQ(log.Messages().size(), 1u);
+  EXPECT_EQ(log.Messages()[0],
+            "scene.pbrt:1:28: warning: parameter \"x\" is given twice: the last one counts\n"
+            "    Film \"image\" \"integer x\" 1 \"integer x\" 2\n"
+            "                               ^\n");
+}
+
+struct Case {
+  const char* text;
+  const char* message;
+};
+
+// Each message without the line and caret, which the first test of errors shows in full.
+void PrintTo(const Case& c, std::ostream* out) { *out << c.text; }
+class ParserError : public testing::TestWithParam<Case> {};
+
+TEST_P(ParserError, IsSaidInTheseWords) {
+  try {
+    ParseText(GetParam().text);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Status(), ExitStatus::Scene);
+    ASSERT_TRUE(error.Where());
+    std::string said = std::to_string(error.Where()->line) + ":" +
+                       std::to_string(error.Where()->column) + ": " + error.what();
+    if (!error.Hint().empty()) said += " | " + error.Hint();
+    EXPECT_EQ(said, GetParam().message);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Syntax, ParserError,
+    testing::Values(
+        Case{"Translte 1 2 3", "1:1: unknown directive Translte | did you mean \"Translate\"?"},
+        Case{"qqqq", "1:1: unknown directive qqqq"},
+        Case{"shape \"sphere\"", "1:1: unknown directive shape | did you mean \"Shape\"?"},
+        Case{"MakeNamedMedium \"m\"",
+             "1:1: this is a pbrt-v4 scene (MakeNamedMedium): versions 1 and 2 are read"},
+        Case{"\nIntegrator \"path\"",
+             "2:1: this is a pbrt-v3 scene (Integrator): versions 1 and 2 are read"},
+        Case{"12", "1:1: expected a directive, found a number"},
+        Case{"\"x\"", "1:1: expected a directive, found the string \"x\""},
+        Case{"]", "1:1: expected a directive, found ']'"},
+        Case{"[[[[", "1:1: expected a directive, found '['"},
+        Case{"Translate 1 2", "1:14: Translate takes 3 numbers, found the end of the file after 2"},
+        Case{"Translate 1 2 Scale 1 1 1", "1:15: Translate takes 3 numbers, found Scale after 2"},
+        Case{"Translate 1 2 3 4", "1:17: Translate takes 3 numbers, found one more"},
+        Case{"Transform [1 2]", "1:15: Transform takes 16 numbers, found ']' after 2"},
+        Case{"Scale [1 1 1 Identity", "1:14: expected ']', found Identity"},
+        Case{"Camera 3", "1:8: Camera takes a name in quotes, found a number"},
+        Case{"Texture \"a\" \"float\" Shape",
+             "1:21: Texture takes a name, a type and a class in quotes, found Shape"},
+        Case{"ActiveTransform 1", "1:17: ActiveTransform takes a word, found a number"},
+        Case{"Include 5", "1:9: Include takes the name of a file in quotes, found a number"},
+        Case{"Include \"\"", "1:9: Include names no file"},
+        Case{"Camera \"p\" 5", "1:12: expected a parameter or a directive, found a number"},
+        Case{"Camera \"p\" \"fov\" 5", "1:12: expected a parameter \"type name\", found \"fov\""},
+        Case{"Camera \"p\" \"float a b\" 5",
+             "1:12: expected a parameter \"type name\", found \"float a b\""},
+        Case{"Camera \"p\" \"flaot fov\" 5",
+             "1:12: unknown parameter type \"flaot\" | did you mean \"float\"?"},
+        Case{"Camera \"p\" \"float fov\"",
+             "1:23: parameter \"fov\" has the end of the file for a value"},
+        Case{"Camera \"p\" \"float fov\" \"x\"",
+             "1:24: parameter \"fov\" of type float takes numbers, found the string \"x\""},
+        Case{"Camera \"p\" \"string s\" 5",
+             "1:23: parameter \"s\" of type string takes strings in quotes, found a number"},
+        Case{"Camera \"p\" \"bool b\" true",
+             "1:21: parameter \"b\" has true for a value | write \"true\" in quotes"},
+        Case{"Camera \"p\" \"spectrum s\" [1 \"x\"]",
+             "1:28: parameter \"s\" mixes numbers and strings"},
+        Case{"Camera \"p\" \"float x\" [1 [2]]", "1:25: parameter \"x\" has '[' for a value"},
+        Case{"Camera \"p\" \"float x\" [1 nan]", "1:25: parameter \"x\" has nan for a value"},
+        Case{"Camera \"p\"\n\"float x\" [1 2", "2:11: the list that begins here has no ']'"}));
+
+TEST(Parser, ShowsTheLineAndACaret) {
+  EXPECT_EQ(ParseErrorOf("Identity\n\tTranslte 1 2 3  # comment\n"),
+            "scene.pbrt:2:2: error: unknown directive Translte\n"
+            "    \tTranslte 1 2 3  # comment\n"
+            "    \t^\n"
+            "    hint: did you mean \"Translate\"?\n");
+}
+
+TEST(Parser, SurvivesAMillionBrackets) {
+  EXPECT_NE(ParseErrorOf("Camera \"p\" \"float x\" " + std::string(1'000'000, '[')), "");
+}
+
+TEST(Include, GoesOnBehindTheIncludedFile) {
+  const auto directives = ParseFiles({{"scene.pbrt", "Include \"sub/a.pbrt\" Translate 3 0 0"},
+                                      {"sub/a.pbrt", "Translate 1 0 0 Include \"b.pbrt\""},
+                                      {"sub/b.pbrt", "# nothing else\nTranslate 2 0 0"}});
+  ASSERT_EQ(directives.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(directives[i].numbers[0], double(i + 1));
+  EXPECT_EQ(directives[1].Where().file, "sub/b.pbrt");
+  EXPECT_EQ(directives[2].Where().file, "scene.pbrt");
+}
+
+TEST(Include, NamesTheFilesThatLedToAnError) {
+  EXPECT_EQ(ParseErrorOf({{"scene.pbrt", "Identity\nInclude \"a.pbrt\""},
+                          {"a.pbrt", "  Include \"b.pbrt\""},
+                          {"b.pbrt", "Sale 1 1 1"}}),
+            "b.pbrt:1:1: error: unknown directive Sale\n"
+            "    Sale 1 1 1\n"
+            "    ^\n"
+            "    included from a.pbrt:1:3\n"
+            "    included from scene.pbrt:2:1\n"
+            "    hint: did you mean \"Scale\"?\n");
+}
+
+TEST(Include, SaysWhichFileIsMissing) {
+  EXPECT_EQ(ParseErrorOf({{"scene.pbrt", "Include \"sub/a.pbrt\""},
+                          {"sub/a.pbrt", "Include \"none.pbrt\""}}),
+            "sub/a.pbrt:1:1: error: cannot read the included file \"sub/none.pbrt\": no such file\n"
+            "    Include \"none.pbrt\"\n"
+            "    ^\n"
+            "    included from scene.pbrt:1:1\n");
+}
+
+TEST(Include, NamesTheCycleOfFilesThatIncludeEachOther) {
+  EXPECT_EQ(ParseErrorOf(std::string("Include \"scene.pbrt\"")),
+            "scene.pbrt:1:1: error: the file includes itself: scene.pbrt -> scene.pbrt\n"
+            "    Include \"scene.pbrt\"\n"
+            "    ^\n");
+  EXPECT_EQ(ParseErrorOf({{"scene.pbrt", "Include \"a.pbrt\""},
+                          {"a.pbrt", "Include \"b.pbrt\""},
+                          {"b.pbrt", "Include \"a.pbrt\""}}),
+            "b.pbrt:1:1: error: the file includes itself: a.pbrt -> b.pbrt -> a.pbrt\n"
+            "    Include \"a.pbrt\"\n"
+            "    ^\n"
+            "    included from a.pbrt:1:1\n"
+            "    included from scene.pbrt:1:1\n");
+}
+
+TEST(Include, MayNestThirtyTwoDeepAndNoDeeper) {
+  const auto chain = [](int depth) {
+    Files files{{"scene.pbrt", "Include \"1.pbrt\""}};
+    for (int i = 1; i < depth; ++i)
+      files[std::to_string(i) + ".pbrt"] = "Include \"" + std::to_string(i + 1) + ".pbrt\"";
+    files[std::to_string(depth) + ".pbrt"] = "Identity";
+    return files;
+  };
+  EXPECT_EQ(ParseErrorOf(chain(32)), "");
+  EXPECT_EQ(ParseErrorOf(chain(33)).substr(0, 57),
+            "32.pbrt:1:1: error: files are included more than 32 deep\n");
+}
+
+TEST(Include, MayComeTwiceOneAfterTheOther) {
+  const auto directives = ParseFiles(
+      {{"scene.pbrt", "Include \"a.pbrt\"\nInclude \"a.pbrt\""}, {"a.pbrt", "Identity"}});
+  EXPECT_EQ(directives.size(), 2u);
+}
+
+}  // namespace
+}  // namespace exphoton
