@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Chi-square of every smooth lobe and every material: sampled directions against Pdf. False alarms:
+// 1 % over all of this file's tests.
+#include "core/base/arena.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/scattering.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kTests = 400;
+const std::vector<Real> kCosines{1,          Real(.9),   Real(.5),   Real(.2),  Real(.1),
+                                 Real(1e-2), Real(1e-3), Real(1e-6), Real(-.7), -1};
+
+// A direction so near the horizon that rounding may count it to the wrong cell, moved off it.
+Vector3 OffHorizon(const Vector3& w) {
+  if (std::abs(w.z) > Real(1e-3)) return w;
+  return Normalize(Vector3(w.x, w.y, std::copysign(Real(1e-3), w.z)));
+}
+
+class LobeSampling : public testing::TestWithParam<NamedLobe> {};
+INSTANTIATE_TEST_SUITE_P(All, LobeSampling, testing::ValuesIn(SmoothLobes()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(LobeSampling, FollowsItsDensityFromEveryDirection) {
+  const Bxdf& lobe = *GetParam().lobe;
+  for (const Vector3& wo : Directions(kCosines)) {
+    const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
+      const Real x = random.Uniform(), y = random.Uniform();
+      const auto found = lobe.Sample(wo, {x, y});
+      if (!found) return std::nullopt;
+      return OffHorizon(found->wi);
+    };
+    const auto pdf = [&](const Vector3& wi) { return double(lobe.Pdf(wo, wi)); };
+    ChiSquareOptions options;
+    options.samples = 30000;
+    EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, options), kTests)) << "cos wo " << wo.z;
+  }
+}
+
+struct MaterialCase {
+  std::string name, text;
+  friend void PrintTo(const MaterialCase& c, std::ostream* out) { *out << c.text; }
+};
+std::vector<MaterialCase> Materials() {
+  return {{"matte", R"("matte" "color Kd" [.5 .6 .7])"},
+          {"matteRough", R"("matte" "float sigma" 40)"},
+          {"plastic", R"("plastic" "float roughness" .05)"},
+          {"plasticPhysical", R"("plastic" "string fresnel" "physical")"},
+          {"shinymetal", R"("shinymetal" "color Ks" [.5 .5 .5] "color Kr" [.3 .3 .3])"},
+          {"metal", R"("metal" "float roughness" .02)"},
+          {"substrate", R"("substrate" "float uroughness" .01 "float vroughness" .2)"},
+          {"translucent", R"("translucent" "color transmit" [.3 .3 .3])"},
+          {"uber", R"("uber" "color Kr" [.3 .3 .3] "color opacity" [.6 .6 .6])"}};
+}
+
+class MaterialSampling : public testing::TestWithParam<MaterialCase> {
+ protected:
+  // Smooth samples under the mask, of a surface whose normals differ, in world space.
+  void Check(LobeSet mask, Real tilt) {
+    TestPlugins plugins;
+    const auto material = plugins.MakeMaterial(GetParam().text);
+    Arena arena;
+    SurfaceInteraction si = TiltedSurface(tilt);
+    const Bsdf bsdf = material->Evaluate(&si, TransportMode::Radiance, &arena);
+    for (const Vector3& wo : Directions({Real(.9), Real(.3), Real(1e-2), Real(-.5)})) {
+      const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
+        const Real x = random.Uniform(), y = random.Uniform();
+        const auto found = bsdf.Sample(wo, {x, y}, random.Uniform(), mask);
+        if (!found || found->IsSpecular()) return std::nullopt;
+        return OffHorizon(found->wi);
+      };
+      const auto pdf = [&](const Vector3& wi) { return double(bsdf.Pdf(wo, wi, mask)); };
+      ChiSquareOptions options;
+      options.samples = 20000;
+      options.quadratureDepth = 6;
+      EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, options), kTests))
+          << "cos wo " << wo.z;
+    }
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, MaterialSampling, testing::ValuesIn(Materials()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(MaterialSampling, FollowsItsDensity) { Check(LobeSet::All, 0); }
+TEST_P(MaterialSampling, FollowsItsDensityUnderASmoothMask) { Check(LobeSet::NonSpecular, 0); }
+TEST_P(MaterialSampling, FollowsItsDensityUnderATiltedNormal) { Check(LobeSet::All, Real(.4)); }
+
+}  // namespace
+}  // namespace exphoton
