@@ -75,6 +75,11 @@ ShapeGeometry TestPlugins::MakeShape(const std::string& text, const Transform& t
   return std::move(*Make<PluginKind::Shape>(text, {toWorld, reverseOrientation, log_, {}}));
 }
 
+std::unique_ptr<Aggregate> TestPlugins::MakeAccelerator(const std::string& text,
+                                                        const PrimitiveSet& primitives) {
+  return Make<PluginKind::Accelerator>(text, {primitives, log_});
+}
+
 std::unique_ptr<Camera> TestPlugins::MakeCamera(const std::string& text, const Transform& toWorld,
                                                 int xResolution, int yResolution) {
   return Make<PluginKind::Camera>(text, {toWorld, xResolution, yResolution});

@@ -23,6 +23,8 @@ class TestPlugins {
                                            std::shared_ptr<const EmitterSurface> surface);
   ShapeGeometry MakeShape(const std::string& text, const Transform& toWorld = {},
                           bool reverseOrientation = false);
+  std::unique_ptr<Aggregate> MakeAccelerator(const std::string& text,
+                                             const PrimitiveSet& primitives);
   // The shape as a surface to sample; keeps what it refers to.
   std::shared_ptr<const EmitterSurface> MakeEmitter(const std::string& text,
                                                     const Transform& toWorld = {},

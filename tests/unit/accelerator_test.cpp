@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Every accelerator answers exactly as brute force does, on random scenes with everything that is
+// awkward: flat boxes, equal and coplanar triangles, slivers, mixed scales, shapes and instances.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "core/scene/aggregate.h"
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+const char* const kAccelerators[] = {
+    R"("kdtree")",
+    R"("kdtree" "integer maxdepth" 3)",
+    R"("kdtree" "integer maxprims" 8 "float emptybonus" 0 "integer intersectcost" 1)",
+};
+
+// Compares with brute force for many rays; returns the number of hits, so that a test can ask for
+// some.
+int CompareWithBruteForce(const PrimitiveSet& set, const std::string& accelerator, int rays,
+                          std::uint64_t seed) {
+  TestPlugins plugins;
+  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", set);
+  const auto tested = plugins.MakeAccelerator(accelerator, set);
+  RandomStream random(seed);
+  int hits = 0;
+  for (int i = 0; i < rays; ++i) {
+    const Ray ray = AwkwardRay(set, random);
+    const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+    hits += expected.IsHit();
+    EXPECT_EQ(expected.t, found.t) << accelerator << " ray " << i;
+    EXPECT_EQ(expected.primitive, found.primitive) << accelerator << " ray " << i;
+    EXPECT_EQ(expected.instance, found.instance) << accelerator << " ray " << i;
+    EXPECT_EQ(expected.uv, found.uv);
+    EXPECT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << accelerator << " ray " << i;
+    if (testing::Test::HasFailure()) {
+      ADD_FAILURE() << "o " << ray.o.x << " " << ray.o.y << " " << ray.o.z << " d " << ray.d.x
+                    << " " << ray.d.y << " " << ray.d.z << " tMax " << ray.tMax;
+      break;
+    }
+  }
+  return hits;
+}
+
+class Accelerators : public testing::TestWithParam<const char*> {};
+
+TEST_P(Accelerators, AgreeWithBruteForceOnRandomScenes) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const auto scene = RandomScene(seed);
+    EXPECT_GT(CompareWithBruteForce(*scene, GetParam(), 1500, seed), 10) << "scene " << seed;
+    if (HasFailure()) FAIL() << "scene " << seed;
+  }
+}
+
+TEST_P(Accelerators, AgreeWithBruteForceOnShapesAndInstances) {
+  TestPlugins plugins;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const ShapesAndInstances scene(plugins, GetParam(), seed);
+    EXPECT_GT(CompareWithBruteForce(scene.Set(), GetParam(), 1500, seed), 10);
+    if (HasFailure()) FAIL() << "scene " << seed;
+  }
+}
+
+TEST_P(Accelerators, AreRightForNoOneAndTwoPrimitives) {
+  TestPlugins plugins;
+  for (int count = 0; count < 3; ++count) {
+    std::vector<std::array<Point3, 3>> triangles;
+    for (int i = 0; i < count; ++i) {
+      const Real z = Real(i + 1);
+      triangles.push_back({Point3(-1, -1, z), Point3(1, -1, z), Point3(0, 1, z)});
+    }
+    const auto set = TriangleSet(triangles);
+    const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+    Ray ray;
+    ray.d = {0, 0, 1};
+    EXPECT_EQ(tested->Intersect(ray).IsHit(), count > 0);
+    EXPECT_EQ(tested->Occluded(ray), count > 0);
+    ray.d = {0, 0, -1};
+    EXPECT_FALSE(tested->Intersect(ray).IsHit());
+  }
+}
+
+TEST_P(Accelerators, BuildOverManyEqualOrCoplanarTrianglesInTime) {
+  TestPlugins plugins;
+  const auto start = std::chrono::steady_clock::now();
+  constexpr int kCount = 100000;
+  std::vector<std::array<Point3, 3>> equal(
+      kCount, {Point3(0, 0, 1), Point3(1, 0, 1), Point3(0, 1, Real(1.5))});
+  std::vector<std::array<Point3, 3>> coplanar, concentric;
+  RandomStream random(7);
+  for (int i = 0; i < kCount; ++i) {
+    const Real x = random.Uniform(), y = random.Uniform(), e = Real(.003);
+    coplanar.push_back({Point3(x, y, 1), Point3(x + e, y, 1), Point3(x, y + e, 1)});
+    const Real r = (1 + random.Uniform());
+    concentric.push_back({Point3(-r, -r, 1), Point3(2 * r, -r, 1), Point3(-r, 2 * r, 1)});
+  }
+  Ray ray;
+  ray.o = {Real(.1), Real(.1), 0};
+  ray.d = {0, 0, 1};
+  for (const auto* triangles : {&equal, &coplanar, &concentric}) {
+    const auto set = TriangleSet(*triangles);
+    const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+    const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+    const Hit hit = tested->Intersect(ray), expected = oracle->Intersect(ray);
+    EXPECT_EQ(hit.primitive, expected.primitive);
+    EXPECT_EQ(hit.t, expected.t);
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(seconds.count(), 10);
+}
+
+TEST_P(Accelerators, MeetTheBoxAlongEveryAxisWithBothZeros) {
+  TestPlugins plugins;
+  const auto set = TriangleSet(BoxTriangles({0, 0, 0}, {1, 1, 1}));
+  const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+  int hits = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      for (int zeros = 0; zeros < 4; ++zeros) {
+        // From the middle of a face inwards, and from outside along a face's own plane.
+        Ray ray;
+        ray.o = Point3(Real(.5), Real(.5), Real(.5));
+        ray.o[axis] = Real(side);
+        ray.d[axis] = side ? Real(-1) : Real(1);
+        ray.d[(axis + 1) % 3] = zeros & 1 ? -Real(0) : Real(0);
+        ray.d[(axis + 2) % 3] = zeros & 2 ? -Real(0) : Real(0);
+        const Hit hit = tested->Intersect(ray);
+        hits += hit.IsHit() && hit.t == 1;
+        Ray along = ray;
+        along.o[axis] = side ? Real(3) : Real(-2);
+        along.o[(axis + 1) % 3] = Real(side);
+        const Hit edge = tested->Intersect(along);
+        EXPECT_TRUE(edge.IsHit()) << "axis " << axis << " side " << side << " zeros " << zeros;
+      }
+    }
+  }
+  EXPECT_EQ(hits, 24);
+}
+
+TEST_P(Accelerators, AnswerNothingToRaysThatAreNone) {
+  TestPlugins plugins;
+  const auto set = RandomScene(3);
+  const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  Ray good;
+  good.o = {0, 0, -5};
+  good.d = {0, 0, 1};
+  std::vector<Ray> rays;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Real bad : {nan, kInfinity, -kInfinity}) {
+      rays.push_back(good);
+      rays.back().o[axis] = bad;
+      rays.push_back(good);
+      rays.back().d[axis] = bad;
+    }
+  }
+  rays.push_back(good);
+  rays.back().d = {0, -Real(0), 0};
+  for (const Real tMax : {nan, Real(0), Real(-1)}) {
+    rays.push_back(good);
+    rays.back().tMax = tMax;
+  }
+  for (const Ray& ray : rays) {
+    EXPECT_FALSE(tested->Intersect(ray).IsHit());
+    EXPECT_FALSE(tested->Occluded(ray));
+  }
+}
+
+// A room of size 1 within a world of size 1e12.
+TEST_P(Accelerators, FindTheRoomInAHugeWorld) {
+  auto triangles = BoxTriangles({0, 0, 0}, {1, 1, 1});
+  const Real far = Real(1e12);
+  triangles.push_back({Point3(-far, -2, -far), Point3(far, -2, -far), Point3(0, -2, far)});
+  const auto set = TriangleSet(triangles);
+  EXPECT_GT(CompareWithBruteForce(*set, GetParam(), 2000, 1), 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Accelerators, testing::ValuesIn(kAccelerators));
+
+TEST(Kdtree, LimitsItsDepthWithAWarning) {
+  TestPlugins plugins;
+  const auto set = RandomScene(1);
+  plugins.MakeAccelerator(R"("kdtree" "integer maxdepth" 1000)", *set);
+  EXPECT_EQ(plugins.GetLog().WarningCount(), 1);
+}
+
+}  // namespace
+}  // namespace exphoton
