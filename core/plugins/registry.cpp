@@ -44,8 +44,12 @@ const PluginDescriptor* FindStatic(PluginKind kind, const std::string& name) {
 
 }  // namespace
 
-PluginRegistry::PluginRegistry(std::vector<std::string> folders, Log* log)
-    : folders_(std::move(folders)), log_(log) {}
+PluginRegistry::PluginRegistry(std::vector<std::string> folders, Log* log) : log_(log) {
+  for (std::string& folder : folders) {
+    const bool isNew = std::find(folders_.begin(), folders_.end(), folder) == folders_.end();
+    if (isNew) folders_.push_back(std::move(folder));
+  }
+}
 
 const PluginDescriptor* PluginRegistry::TryLoad(PluginKind kind, const std::string& name) const {
   const auto found = loaded_.find(Key(kind, name));

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What holds for every plugin that is built: what it exports, declares and is documented as.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "core/base/log.h"
+#include "core/params/param_reader.h"
+#include "core/plugins/catalogue.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kPlugins = EXPHOTON_BINARY_DIR "/plugins";
+
+class EveryPlugin : public ::testing::Test {
+ protected:
+  template <class F>
+  void ForEachForm(F&& visit) {
+    for (int i = 0; i < kPluginKindCount; ++i) {
+      const auto kind = static_cast<PluginKind>(i);
+      for (const std::string& name : registry_.Available(kind)) {
+        SCOPED_TRACE(std::string(PluginKindName(kind)) + " " + name);
+        visit(registry_.Load(kind, name, {}), registry_.Find(kind, name, {}));
+      }
+    }
+  }
+  Log log_{Log::Level::Normal, Log::Sink::Memory};
+  PluginRegistry registry_{{kPlugins}, &log_};
+};
+
+#ifndef EXPHOTON_STATIC_PLUGINS
+
+std::string OutputOf(const std::string& command) {
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return text;
+  char buffer[4096];
+  while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe))
+    text.append(buffer, count);
+  return pclose(pipe) == 0 ? text : "failed: " + text;
+}
+
+TEST_F(EveryPlugin, ExportsExactlyOneSymbol) {
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kPlugins)) {
+    if (entry.path().extension() != ".so") continue;
+    ++count;
+    const std::string symbols =
+        OutputOf("nm -D --defined-only --format=posix '" + entry.path().string() + "'");
+    EXPECT_EQ(symbols.rfind("ExphotonPlugin T ", 0), 0u) << entry.path() << '\n' << symbols;
+    EXPECT_EQ(std::count(symbols.begin(), symbols.end(), '\n'), 1) << entry.path() << '\n'
+                                                                   << symbols;
+  }
+  EXPECT_GT(count, 20);
+}
+
+TEST_F(EveryPlugin, CanBeLoaded) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kPlugins)) {
+    if (entry.path().extension() != ".so") continue;
+    bool isLoaded = false;
+    for (int i = 0; i < kPluginKindCount; ++i) {
+      const auto kind = static_cast<PluginKind>(i);
+      if (PluginKindFolder(kind) != entry.path().parent_path().filename()) continue;
+      EXPECT_NO_THROW(registry_.Load(kind, entry.path().stem(), {})) << entry.path();
+      isLoaded = true;
+    }
+    EXPECT_TRUE(isLoaded) << entry.path() << " lies in a folder of no kind";
+  }
+}
+
+#endif
+
+TEST_F(EveryPlugin, SaysWhatItIsInOneLine) {
+  ForEachForm([](const PluginDescriptor& plugin, const PluginForm&) {
+    const std::string summary = plugin.summary;
+    EXPECT_FALSE(summary.empty());
+    EXPECT_LT(summary.size(), 90u);
+    EXPECT_EQ(summary.find('\n'), std::string::npos);
+    EXPECT_NE(summary.back(), '.') << "the pages add it";
+  });
+}
+
+TEST_F(EveryPlugin, DeclaresParametersThatMakeSense) {
+  ForEachForm([](const PluginDescriptor&, const PluginForm& form) {
+    std::set<std::string> names;
+    for (const ParamDecl& decl : form.parameters->Declarations()) {
+      SCOPED_TRACE(decl.name);
+      EXPECT_TRUE(names.insert(decl.name).second) << "declared twice";
+      EXPECT_FALSE(decl.name.empty());
+      EXPECT_EQ(decl.name.find_first_of(" \t\""), std::string::npos);
+      EXPECT_FALSE(decl.doc.empty());
+      EXPECT_FALSE(AcceptedTypes(decl.type).empty());
+      EXPECT_EQ(decl.type == ParamType::Choice, !decl.choices.empty());
+      if (decl.min && decl.max) {
+        EXPECT_LT(*decl.min, *decl.max);
+      }
+    }
+  });
+}
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
+  const fs::path folder = EXPHOTON_SOURCE_DIR "/docs/reference";
+  std::set<std::string> files;
+  for (const auto& [file, page] : ReferencePages(registry_)) {
+    const bool isCurrent = ReadText(folder / file) == page;
+    EXPECT_TRUE(isCurrent) << file
+                           << " is stale: run exphoton plugins --write-reference docs/reference";
+    files.insert(file);
+  }
+  ASSERT_TRUE(fs::is_directory(folder));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    EXPECT_TRUE(files.count(entry.path().filename())) << entry.path() << " belongs to no plugin";
+  }
+}
+
+TEST_F(EveryPlugin, IsListedAndDescribed) {
+  const std::string list = ListPlugins(registry_);
+  ForEachForm([&](const PluginDescriptor& plugin, const PluginForm& form) {
+    EXPECT_NE(list.find("  " + std::string(plugin.name) + " "), std::string::npos);
+    const std::string text = DescribePlugin(registry_, plugin.name);
+    for (const ParamDecl& decl : form.parameters->Declarations()) {
+      EXPECT_NE(text.find(' ' + decl.name + "  "), std::string::npos) << decl.name;
+    }
+  });
+  try {
+    DescribePlugin(registry_, "exphotonmpa");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Status(), ExitStatus::CommandLine);
+    EXPECT_STREQ(error.what(), "there is no plugin \"exphotonmpa\"");
+    EXPECT_EQ(error.Hint(), "did you mean \"exphotonmap\"?");
+  }
+}
+
+}  // namespace
+}  // namespace exphoton

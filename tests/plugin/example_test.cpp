@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The example of docs/writing-a-plugin.md: built outside of the program's own folder of plugins,
+// found through PBRT_SEARCHPATH, and quoted as it is.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "core/plugins/registry.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+std::string ReadText(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(ExamplePlugin, IsQuotedInTheDocumentationAsItIs) {
+  const std::string page = ReadText(EXPHOTON_SOURCE_DIR "/docs/writing-a-plugin.md");
+  const std::string code = ReadText(EXPHOTON_SOURCE_DIR "/tests/plugin/example/openness.cpp");
+  ASSERT_FALSE(code.empty());
+  EXPECT_NE(page.find("```cpp\n" + code + "```\n"), std::string::npos)
+      << "docs/writing-a-plugin.md does not quote tests/plugin/example/openness.cpp";
+}
+
+#ifndef EXPHOTON_STATIC_PLUGINS
+
+// A disk above an endless floor. From the point under its centre a disk of radius r at height h
+// covers the share r^2 / (r^2 + h^2) of the hemisphere, weighted by the cosine.
+TEST(ExamplePlugin, RendersFromPbrtSearchpath) {
+  setenv("PBRT_SEARCHPATH", EXPHOTON_BINARY_DIR "/example_plugins", 1);
+  TestRenderOptions options;
+  options.load.pluginFolders = PluginRegistry::DefaultFolders({});
+  unsetenv("PBRT_SEARCHPATH");
+  const auto openness = [&](const std::string& parameters) {
+    const TestRender render = RenderSceneText(
+        R"(LookAt 0 .5 0  0 0 0  0 0 1
+           Camera "perspective" "float fov" .01
+           Film "image" "integer xresolution" 1 "integer yresolution" 1
+           PixelFilter "box"
+           Accelerator "bruteforce"
+           Sampler "lowdiscrepancy" "integer pixelsamples" 64
+           SurfaceIntegrator "openness" "integer nsamples" 256 )" +
+            parameters + R"(
+           WorldBegin
+           AttributeBegin
+           Rotate -90 1 0 0
+           Shape "disk" "float radius" 1000
+           Shape "disk" "float radius" 1 "float height" 1
+           AttributeEnd
+           WorldEnd)",
+        options);
+    return MeanRadiance(render.image);
+  };
+  // 16384 stratified directions: independent ones would have a standard error of 0.004.
+  EXPECT_NEAR(openness(""), .5, .01);
+  EXPECT_EQ(openness("\"float reach\" .9"), 1);
+}
+
+#endif
+
+}  // namespace
+}  // namespace exphoton

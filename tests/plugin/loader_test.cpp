@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The plugin loader: what it finds, and a sentence for every way to fail. The faulty plugins are
+// made from tests/plugin/modules/.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/log.h"
+#include "core/plugins/registry.h"
+
+#ifndef EXPHOTON_STATIC_PLUGINS
+
+namespace exphoton {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kPlugins = EXPHOTON_BINARY_DIR "/plugins";
+const std::string kFaulty = EXPHOTON_BINARY_DIR "/faulty_plugins";
+
+class Loader : public ::testing::Test {
+ protected:
+  Loader() {
+    folder_ = fs::path(::testing::TempDir()) / ("exphoton_loader_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "filters");
+  }
+  ~Loader() override { fs::remove_all(folder_); }
+
+  PluginRegistry Registry(const std::vector<std::string>& folders) {
+    return PluginRegistry(folders, &log_);
+  }
+  SourceLocation Here() const { return {"a.pbrt", 2, 1, "PixelFilter", nullptr}; }
+
+  // What a person reads when a scene names this filter.
+  std::string Fails(const std::string& name, const std::vector<std::string>& folders) {
+    PluginRegistry registry = Registry(folders);
+    ParamSet params;
+    params.where = Here();
+    try {
+      registry.Create<PluginKind::Filter>(name, params, {}, {});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.Status(), ExitStatus::Scene);
+      EXPECT_TRUE(error.Where());
+      return error.what();
+    }
+    return "no error";
+  }
+  std::string FailsToLoad(const std::string& name, const std::string& folder) {
+    const std::string text = Fails(name, {folder});
+    const std::string begin =
+        "cannot load filter \"" + name + "\": \"" + folder + "/filters/" + name + ".so\" ";
+    EXPECT_EQ(text.substr(0, begin.size()), begin);
+    return text.size() > begin.size() ? text.substr(begin.size()) : "";
+  }
+
+  fs::path folder_;
+  Log log_{Log::Level::Normal, Log::Sink::Memory};
+};
+
+TEST_F(Loader, LoadsOnlyWhatIsNamed) {
+  PluginRegistry registry = Registry({kPlugins});
+  EXPECT_TRUE(registry.Loaded().empty());
+  EXPECT_TRUE(registry.Create<PluginKind::Filter>("box", {}, {}, {}));
+  EXPECT_TRUE(registry.Create<PluginKind::Filter>("box", {}, {}, {}));
+  EXPECT_EQ(registry.Loaded(), std::vector<std::string>{"filters/box"});
+}
+
+TEST_F(Loader, ListsWhatThereIsWhereAFilterIsMissing) {
+  const std::string text = Fails("gausian", {kPlugins});
+  EXPECT_EQ(text,
+            "there is no filter \"gausian\"; those that there are: box, gaussian, mitchell, "
+            "sinc, triangle (looked in " +
+                kPlugins + ")");
+  PluginRegistry registry = Registry({kPlugins});
+  try {
+    registry.Find(PluginKind::Filter, "gausian", Here());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Hint(), "did you mean \"gaussian\"?");
+  }
+  EXPECT_EQ(Fails("box", {"/nowhere"}),
+            "there is no filter \"box\"; no plugin of this kind was found (looked in /nowhere)");
+}
+
+TEST_F(Loader, RefusesNamesThatAreNotNames) {
+  EXPECT_EQ(Fails("", {kPlugins}), "the name of filter \"\" is empty");
+  for (const std::string name : {"../box", "filters/box", "/etc/passwd", "..", "a..b"}) {
+    EXPECT_EQ(Fails(name, {kPlugins}),
+              "the name of filter \"" + name +
+                  "\" has parts of a path: folders are given by --plugin-dir or PBRT_SEARCHPATH");
+  }
+  EXPECT_EQ(Fails(std::string(5000, 'x'), {kPlugins}).substr(0, 20), "the name of filter \"");
+}
+
+TEST_F(Loader, SaysWhatIsWrongWithAFile) {
+  const fs::path filters = folder_ / "filters";
+  std::ofstream(filters / "text.so") << "I am no library.\n";
+  std::ofstream(filters / "empty.so") << "";
+  fs::create_directory(filters / "folder.so");
+  EXPECT_EQ(FailsToLoad("text", folder_), "is not a library");
+  EXPECT_EQ(FailsToLoad("empty", folder_), "is not a library");
+  EXPECT_EQ(FailsToLoad("folder", folder_), "is a directory, not a plugin");
+  if (geteuid() != 0) {
+    fs::copy_file(kPlugins + "/filters/box.so", filters / "box.so");
+    fs::permissions(filters / "box.so", fs::perms::none);
+    EXPECT_EQ(FailsToLoad("box", folder_), "cannot be read: Permission denied");
+  }
+}
+
+// Every sixteenth of the file's length. Up to where the loaded parts end it is truncated; beyond,
+// only tables for debuggers are lost, and it may load.
+TEST_F(Loader, ATruncatedLibraryIsRefusedAndKillsNothing) {
+  std::ifstream whole(kPlugins + "/filters/box.so", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(whole), {}};
+  ASSERT_GT(bytes.size(), 1000u);
+  for (std::size_t part = 0; part < 16; ++part) {
+    const std::string name = "cut" + std::to_string(part);
+    const fs::path file = folder_ / "filters" / (name + ".so");
+    std::ofstream(file, std::ios::binary) << bytes.substr(0, bytes.size() * part / 16);
+    const std::string text = FailsToLoad(name, folder_);
+    if (part < 8) {
+      EXPECT_EQ(text, part == 0 ? "is not a library" : "is truncated");
+    }
+    EXPECT_NE(text, "");
+  }
+}
+
+TEST_F(Loader, GivesTheReasonOfTheSystemForAnotherMachine) {
+  std::ifstream whole(kPlugins + "/filters/box.so", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(whole), {}};
+  bytes[18] = char(0xF7);  // e_machine: no machine that there is
+  std::ofstream(folder_ / "filters/alien.so", std::ios::binary) << bytes;
+  EXPECT_EQ(FailsToLoad("alien", folder_).rfind("cannot be loaded: ", 0), 0u);
+}
+
+TEST_F(Loader, SaysWhatIsWrongWithADescriptor) {
+  EXPECT_EQ(FailsToLoad("no_symbol", kFaulty),
+            "is a library, but no plugin: it has no symbol ExphotonPlugin");
+  EXPECT_EQ(FailsToLoad("wrong_abi", kFaulty),
+            "is built for plugin interface " + std::to_string(kPluginAbi + 6) +
+                ", and this program has " + std::to_string(kPluginAbi) + ": build it again");
+  EXPECT_EQ(FailsToLoad("wrong_build", kFaulty),
+            "is built by \"exphoton 1, 3.2.1, float\", and this program by \"" +
+                std::string(CoreBuildTag()) + "\": build it again");
+  EXPECT_EQ(FailsToLoad("misnamed", kFaulty),
+            "says that its name is \"rightly_named\": a plugin's file must be named as it is");
+  EXPECT_EQ(FailsToLoad("null_descriptor", kFaulty), "does not say what it is");
+  EXPECT_EQ(FailsToLoad("throwing_entry", kFaulty), "fails when asked what it is: ask me later");
+  const std::string unresolved = FailsToLoad("unresolved", kFaulty);
+  EXPECT_NE(unresolved.find("NowhereToBeFound"), std::string::npos) << unresolved;
+}
+
+TEST_F(Loader, SaysWhatIsWrongWithAFactory) {
+  EXPECT_EQ(Fails("throwing_factory", {kFaulty}),
+            "filter \"throwing_factory\" cannot be made: out of filters");
+  EXPECT_EQ(Fails("foreign_exception", {kFaulty}),
+            "filter \"foreign_exception\" cannot be made: it failed without saying why");
+  EXPECT_EQ(Fails("null_factory", {kFaulty}),
+            "filter \"null_factory\" cannot be made: its plugin made nothing");
+}
+
+TEST_F(Loader, AFactorysRefusalIsPutAtItsParameter) {
+  PluginRegistry registry = Registry({kFaulty});
+  EXPECT_TRUE(registry.Create<PluginKind::Filter>("refusing_factory", {}, {}, {}));
+  ParamSet params;
+  params.where = Here();
+  ParsedParam width;
+  width.type = "float";
+  width.name = "width";
+  width.numbers = {3};
+  width.where = Here();
+  width.where.line = 7;
+  params.Add(width);
+  try {
+    registry.Create<PluginKind::Filter>("refusing_factory", params, {}, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "parameter \"width\" of filter \"refusing_factory\" is too wide for me");
+    EXPECT_EQ(error.Where()->line, 7);
+    EXPECT_EQ(error.Hint(), "try 2");
+  }
+}
+
+TEST_F(Loader, APluginOfAnotherKindIsNotTaken) {
+  fs::copy_file(kPlugins + "/samplers/random.so", folder_ / "random.so");
+  EXPECT_EQ(Fails("random", {folder_.string(), kPlugins}),
+            "\"random\" is no filter but of the kind sampler; those that there are: box, gaussian, "
+            "mitchell, sinc, triangle");
+}
+
+TEST_F(Loader, OfTwoFoldersTheFirstCountsEvenWhereItsFileIsBroken) {
+  std::ofstream(folder_ / "filters/box.so") << "text";
+  EXPECT_TRUE(Registry({kPlugins, folder_.string()}).Create<PluginKind::Filter>("box", {}, {}, {}));
+  EXPECT_NE(Fails("box", {folder_.string(), kPlugins}).find("is not a library"), std::string::npos);
+}
+
+TEST_F(Loader, RemovingAPluginBreaksOnlyWhatNamesIt) {
+  fs::copy(kPlugins + "/filters", folder_ / "filters");
+  fs::remove(folder_ / "filters/box.so");
+  EXPECT_TRUE(Registry({folder_.string()}).Create<PluginKind::Filter>("gaussian", {}, {}, {}));
+  EXPECT_EQ(Fails("box", {folder_.string()}),
+            "there is no filter \"box\"; those that there are: gaussian, mitchell, sinc, triangle "
+            "(looked in " +
+                folder_.string() + ")");
+}
+
+TEST_F(Loader, AliasesStandForTheirPlugins) {
+  PluginRegistry registry = Registry({kPlugins});
+  EXPECT_STREQ(registry.Load(PluginKind::AreaLight, "diffuse", {}).name, "area");
+  EXPECT_STREQ(registry.Load(PluginKind::Light, "infinitesample", {}).name, "infinite");
+  EXPECT_TRUE(log_.Messages().empty());
+  EXPECT_STREQ(registry.Load(PluginKind::Sampler, "bestcandidate", {}).name, "lowdiscrepancy");
+  EXPECT_EQ(log_.Messages(),
+            std::vector<std::string>{"exphoton: note: sampler \"bestcandidate\" does not exist "
+                                     "yet: \"lowdiscrepancy\" takes its place\n"});
+}
+
+TEST_F(Loader, FoldersComeFromTheCommandLineTheEnvironmentAndTheProgram) {
+  setenv("PBRT_SEARCHPATH", "/one::/two:", 1);
+  const std::vector<std::string> folders = PluginRegistry::DefaultFolders({"/zero"});
+  unsetenv("PBRT_SEARCHPATH");
+  ASSERT_EQ(folders.size(), 4u);
+  EXPECT_EQ(folders[0], "/zero");
+  EXPECT_EQ(folders[1], "/one");
+  EXPECT_EQ(folders[2], "/two");
+  EXPECT_EQ(fs::canonical(folders[3]), fs::canonical(kPlugins));
+}
+
+TEST_F(Loader, ParametersOfSiblingsAreRecognised) {
+  PluginRegistry registry = Registry({kPlugins});
+  ParamSet params;
+  ParsedParam tau;
+  tau.type = "float";
+  tau.name = "tau";  // of the filter "sinc"
+  tau.numbers = {3};
+  params.Add(tau);
+  BindContext bind;
+  bind.log = &log_;
+  bind.isStrict = true;
+  EXPECT_TRUE(registry.Create<PluginKind::Filter>("box", params, bind, {}));
+  EXPECT_EQ(log_.WarningCount(), 0);
+  EXPECT_EQ(registry.Loaded(), std::vector<std::string>{"filters/box"});
+}
+
+}  // namespace
+}  // namespace exphoton
+
+#endif

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A faulty plugin for the loader's tests: its factory makes nothing.
+#include "tests/plugin/modules/stub_filter.h"
+
+namespace {
+std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
+                                         const exphoton::NoContext&) {
+  return nullptr;
+}
+}  // namespace
+
+EXPHOTON_PLUGIN("null_factory", "makes nothing", exphoton::StubForm(Create))

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A faulty plugin for the loader's tests: its factory refuses a parameter.
+#include "tests/plugin/modules/stub_filter.h"
+
+namespace {
+std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings& settings,
+                                         const exphoton::NoContext&) {
+  if (settings.width > 2) throw exphoton::ParamError{"width", "is too wide for me", "try 2"};
+  return std::make_unique<exphoton::StubFilter>();
+}
+}  // namespace
+
+EXPHOTON_PLUGIN("refusing_factory", "refuses", exphoton::StubForm(Create))

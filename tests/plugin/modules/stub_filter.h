@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What the faulty plugins of the loader's tests share: a filter that is as small as one can be. A
+// real plugin has no header.
+#pragma once
+
+#include "core/plugin.h"
+
+namespace exphoton {
+namespace {
+
+struct StubSettings {
+  Real width = 1;
+};
+
+inline const ParamTable<StubSettings>& StubParameters() {
+  static const ParamTable<StubSettings> table{
+      Param("width", &StubSettings::width, "half of the width").Above(0)};
+  return table;
+}
+
+class StubFilter final : public Filter {
+ public:
+  Real XWidth() const override { return 1; }
+  Real YWidth() const override { return 1; }
+  Real Evaluate(Point2) const override { return 1; }
+  FilterSample Sample(Point2) const override { return {}; }
+};
+
+template <class Factory>
+PluginForm StubForm(Factory factory) {
+  return MakeForm<PluginKind::Filter>(StubParameters(), factory);
+}
+
+}  // namespace
+}  // namespace exphoton

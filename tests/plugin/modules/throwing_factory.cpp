@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A faulty plugin for the loader's tests: its factory throws a standard exception.
+#include "tests/plugin/modules/stub_filter.h"
+
+namespace {
+std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
+                                         const exphoton::NoContext&) {
+  throw std::runtime_error("out of filters");
+}
+}  // namespace
+
+EXPHOTON_PLUGIN("throwing_factory", "throws", exphoton::StubForm(Create))

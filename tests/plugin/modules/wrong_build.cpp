@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A faulty plugin for the loader's tests: built by another compiler.
+#include "core/plugin.h"
+
+extern "C" __attribute__((visibility("default"))) const exphoton::PluginDescriptor*
+ExphotonPlugin() {
+  static const exphoton::PluginDescriptor descriptor{
+      exphoton::kPluginAbi, "exphoton 1, 3.2.1, float", "wrong_build", "old", {}};
+  return &descriptor;
+}
