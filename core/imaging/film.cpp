@@ -26,7 +26,8 @@ PixelBounds FilmSettings::Crop() const {
   const std::vector<Real> window = cropWindow.value_or(std::vector<Real>{0, 1, 0, 1});
   // In Real, as scene files meant it: 0.2 of 300 pixels is 60, not 60.0000009.
   const auto pixel = [](int resolution, Real fraction) {
-    return std::clamp(int(std::ceil(Real(resolution) * fraction)), 0, resolution);
+    const double edge = double(std::ceil(Real(resolution) * fraction));
+    return int(std::clamp(edge, 0., double(resolution)));
   };
   return {pixel(xResolution, window[0]), pixel(yResolution, window[2]),
           pixel(xResolution, window[1]), pixel(yResolution, window[3])};
