@@ -1,137 +1,153 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Writes the shapes and pictures that are better computed than typed: control cages for
-"loopsubdiv" (jug, bowl, knot, cloth) and two images (a painting, one floor tile's relief).
+"""Writes the shapes and pictures that are better computed than typed: meshes (jug, bowl, knot, cloth)
+and images (a painting; the relief of a floor tile and of plaster, as heights).
 Run it in this folder: python3 make_parts.py. Its output is kept beside it; metres throughout."""
 import math
+import random
+import re
 import struct
 import zlib
 
 TAU = 2 * math.pi
 
 
-def write_cage(name, comment, points, triangles, levels):
+def sub(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(a):
+    length = math.sqrt(sum(x * x for x in a))
+    return tuple(x / length for x in a)
+
+
+def spline(points, t):
+    """Catmull-Rom through the points, t in [0, 1]; a point given twice is a crease."""
+    x = min(max(t, 0), 1) * (len(points) - 1)
+    i = min(int(x), len(points) - 2)
+    x -= i
+    p = [points[min(max(j, 0), len(points) - 1)] for j in range(i - 1, i + 3)]
+    if p[1] == p[2]:
+        return p[1]
+    p[0], p[3] = (p[1] if p[0] == p[1] else p[0]), (p[2] if p[3] == p[2] else p[3])
+    return tuple(.5 * (2 * b + (c - a) * x + (2 * a - 5 * b + 4 * c - d) * x * x
+                       + (3 * b - a - 3 * c + d) * x ** 3) for a, b, c, d in zip(*p))
+
+
+def write_surface(name, comment, surface, columns, rows):
+    """The surface p(u, v), u and v in [0, 1], as a grid of triangles with normals and (u, v).
+    Normals are du x dv, by differences."""
+    e = 1e-4
+    points, normals, uvs, triangles = [], [], [], []
+    for j in range(rows + 1):
+        for i in range(columns + 1):
+            u, v = i / columns, j / rows
+            w = min(max(v, 1e-3), 1 - 1e-3)  # at a pole the normal is that from close by
+            du = sub(surface(u + e, w), surface(u - e, w))
+            dv = sub(surface(u, min(w + e, 1)), surface(u, max(w - e, 0)))
+            points.append(tuple(round(x, 4) for x in surface(u, v)))
+            normals.append(unit(cross(du, dv)))
+            uvs.append((u, v))
+    for j in range(rows):
+        for i in range(columns):
+            a, d = j * (columns + 1) + i, (j + 1) * (columns + 1) + i
+            triangles += [t for t in ((a, a + 1, d + 1), (a, d + 1, d))
+                          if len({points[k] for k in t}) == 3]
+
+    def lines(values, each):
+        return "".join("    " + "  ".join(values[i:i + each]) + "\n" for i in range(0, len(values), each))
+
+    def text(x):
+        short = ("%.4f" % x).rstrip("0").rstrip(".")
+        return "0" if short == "-0" else re.sub(r"^(-?)0\.", r"\1.", short)
     with open(name + ".pbrt", "w") as out:
-        out.write(f"# {comment}\n# Made by make_parts.py.\n")
-        out.write(f'Shape "loopsubdiv" "integer nlevels" [ {levels} ]\n  "integer indices" [\n')
-        for i in range(0, len(triangles), 6):
-            out.write("    " + "  ".join("%d %d %d" % t for t in triangles[i:i + 6]) + "\n")
-        out.write('  ]\n  "point P" [\n')
-        for i in range(0, len(points), 4):
-            out.write("    " + "  ".join("%.5g %.5g %.5g" % p for p in points[i:i + 4]) + "\n")
-        out.write("  ]\n")
+        out.write(f"# {comment}\n# Made by make_parts.py.\nShape \"trianglemesh\"\n")
+        for kind, values, each in (("integer indices", triangles, 8), ("point P", points, 5),
+                                   ("normal N", normals, 5), ("float uv", uvs, 8)):
+            out.write(f'  "{kind}" [\n')
+            out.write(lines([" ".join(text(x) if isinstance(x, float) else str(x) for x in v)
+                             for v in values], each))
+            out.write("  ]\n")
 
 
-def quads_to_triangles(rows, columns, close_rows, close_columns, flip=False):
-    """Triangles of a grid of points, row by row, that may close on itself either way."""
-    triangles = []
-    for i in range(rows if close_rows else rows - 1):
-        for j in range(columns if close_columns else columns - 1):
-            a, b = i * columns + j, i * columns + (j + 1) % columns
-            c, d = (i + 1) % rows * columns + (j + 1) % columns, (i + 1) % rows * columns + j
-            # Every other diagonal the other way, which Loop's rule keeps rounder.
-            pair = [(a, b, c), (a, c, d)] if (i + j) % 2 == 0 else [(a, b, d), (b, c, d)]
-            triangles += [(p, r, q) for p, q, r in pair] if flip else pair
-    return triangles
+def revolved(profile, deform=None):
+    """The surface of revolution round y of a profile (radius, height) from pole to pole; deform(angle,
+    radius, height, v) may change radius and height."""
+    def surface(u, v):
+        angle = -TAU * (u % 1)
+        r, h = spline(profile, v)
+        r, h = deform(angle, r, h, v) if deform else (r, h)
+        return (max(r, 0) * math.cos(angle), h, max(r, 0) * math.sin(angle))
+    return surface
 
 
-def revolve(profile, segments, spout=None):
-    """A closed surface of revolution round y: the profile runs from pole to pole (radius, height);
-    its first and last points lie on the axis. spout(ring, angle, radius, height) may deform."""
-    points, triangles = [(0, profile[0][1], 0)], []
-    for ring, (r, h) in enumerate(profile[1:-1]):
-        for s in range(segments):
-            angle = TAU * s / segments
-            rr, hh = spout(ring, angle, r, h) if spout else (r, h)
-            points.append((rr * math.cos(angle), hh, -rr * math.sin(angle)))
-    rings = len(profile) - 2
-    points.append((0, profile[-1][1], 0))
-    for s in range(segments):
-        triangles.append((0, 1 + (s + 1) % segments, 1 + s))
-        last = 1 + (rings - 1) * segments
-        triangles.append((len(points) - 1, last + s, last + (s + 1) % segments))
-    for a, b, c in quads_to_triangles(rings, segments, False, True):
-        triangles.append((a + 1, b + 1, c + 1))
-    return points, triangles
-
-
-def tube(centre, radius, along, around, closed):
-    """A tube about the curve centre(t), t in [0, 1]; radius(t)."""
-    points = []
-    for i in range(along):
-        t = i / along if closed else i / (along - 1)
-        e = 1e-4
-        p, q = centre(t), centre(t + e)
-        d = [b - a for a, b in zip(p, q)]
-        n = math.sqrt(sum(x * x for x in d))
-        d = [x / n for x in d]
-        u = [d[1], -d[0], 0] if abs(d[2]) < .9 else [0, d[2], -d[1]]
-        # A frame that turns smoothly along these curves: perpendicular to a fixed axis.
-        axis = (0, 0, 1) if abs(d[2]) < .9 else (1, 0, 0)
-        u = [axis[1] * d[2] - axis[2] * d[1], axis[2] * d[0] - axis[0] * d[2],
-             axis[0] * d[1] - axis[1] * d[0]]
-        n = math.sqrt(sum(x * x for x in u))
-        u = [x / n for x in u]
-        v = [d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]]
-        for j in range(around):
-            c, s = math.cos(TAU * j / around), math.sin(TAU * j / around)
-            points.append(tuple(p[k] + radius(t) * (c * u[k] + s * v[k]) for k in range(3)))
-    return points, quads_to_triangles(along, around, closed, True)
+def tube(centre, radius, axis):
+    """A tube about the curve centre(v) that is nowhere parallel to the axis; radius(v)."""
+    def surface(u, v):
+        e, p = 1e-4, centre(v)
+        d = unit(sub(centre(v + e), centre(v - e)))
+        x = unit(cross(axis, d))
+        y = cross(d, x)
+        c, s = math.cos(TAU * u), math.sin(TAU * u)
+        return tuple(p[k] + radius(v) * (c * x[k] + s * y[k]) for k in range(3))
+    return surface
 
 
 def jug():
-    def pour(ring, angle, r, h):  # a lip at the rim, on the +x side
-        lip = max(0.0, math.cos(angle)) ** 8
-        reach = {6: .25, 7: 1, 8: .9, 9: .2}.get(ring, 0)
-        return r + .035 * lip * reach, h + .018 * lip * reach
-    profile = [(0, 0), (.055, 0), (.064, .004), (.098, .06), (.108, .115), (.085, .18), (.048, .235),
-               (.046, .265), (.062, .298), (.056, .298), (.039, .265), (.041, .235), (.07, .18),
-               (.09, .115), (.08, .06), (.045, .018), (0, .014)]
-    write_cage("jug", "A jug with a lip towards +x, 30 cm high, standing on y = 0.",
-               *revolve(profile, 16, pour), 2)
+    profile = [(0, 0), (.05, 0), (.062, .003), (.096, .05), (.109, .105), (.096, .16), (.062, .205),
+               (.048, .24), (.051, .275), (.064, .3), (.061, .303), (.057, .3), (.044, .27), (.042, .24),
+               (.056, .205), (.09, .16), (.1, .105), (.08, .045), (.05, .016), (0, .012)]
 
-    def handle(t):
-        angle = math.radians(100 - 205 * t)
-        return (-.062 - .075 * math.sin(math.pi * min(1, t)) ** .8 - .02 * (1 - t) * t,
-                .18 + .082 * math.sin(angle), 0)
-    write_cage("jug_handle", "The jug's handle, on the -x side.",
-               *tube(handle, lambda t: .0125 + .003 * abs(2 * t - 1), 12, 6, False), 2)
+    def lip(angle, r, h, v):  # towards +x, where the rim is
+        pull = max(0.0, math.cos(angle)) ** 10 * math.exp(-((v - .53) / .075) ** 2)
+        return r + .04 * pull, h + .02 * pull
+    write_surface("jug", "A jug with a lip towards +x, 30 cm high, standing on y = 0.",
+                  revolved(profile, lip), 36, 46)
+
+    def handle(v):
+        angle = math.radians(112 - 236 * v)
+        return (-.078 - .062 * math.cos(angle), .185 + .078 * math.sin(angle), 0)
+    write_surface("jug_handle", "The jug's handle, on the -x side.",
+                  tube(handle, lambda v: .0105 + .006 * (2 * v - 1) ** 2, (0, 0, 1)), 10, 18)
 
 
 def bowl():
-    profile = [(0, .0), (.06, 0), (.066, .004), (.06, .018), (.1, .034), (.148, .075), (.172, .115),
-               (.168, .121), (.161, .115), (.138, .08), (.094, .045), (.05, .032), (0, .03)]
-    write_cage("bowl", "A bowl on a foot, 12 cm high, standing on y = 0.", *revolve(profile, 16), 2)
+    profile = [(0, 0), (.055, 0), (.066, .002), (.062, .018), (.1, .032), (.142, .065), (.17, .112),
+               (.171, .119), (.166, .119), (.136, .074), (.095, .043), (.05, .03), (0, .028)]
+    write_surface("bowl", "A bowl on a foot, 12 cm high, standing on y = 0.", revolved(profile), 36, 36)
 
 
 def knot():
-    def trefoil(t):
-        a = TAU * t
-        r = .17 + .075 * math.cos(3 * a)
-        return (r * math.cos(2 * a), r * math.sin(2 * a), .075 * math.sin(3 * a))
-    write_cage("knot", "A trefoil knot in the plane z = 0, about 58 cm across, centred on the origin.",
-               *tube(trefoil, lambda t: .046 + .010 * math.cos(3 * TAU * t), 48, 8, True), 2)
+    def trefoil(v):
+        a = TAU * v
+        r = .17 + .08 * math.cos(3 * a)
+        return (r * math.cos(2 * a), r * math.sin(2 * a), .085 * math.sin(3 * a))
+    write_surface("knot", "A trefoil knot in the plane z = 0, about 60 cm across, centred on the origin.",
+                  tube(trefoil, lambda v: .05 + .008 * math.cos(3 * TAU * v), (0, 0, 1)), 14, 120)
 
 
 def cloth():
-    """Lies on y = 0 for z < 0 and hangs over an edge along x at z = 0 in folds."""
-    width, top, drop, columns, rows = .74, .80, .52, 40, 30
-    points = []
-    for i in range(rows):
-        s = i / (rows - 1) * (top + drop) - top  # length along the cloth, < 0: on the table
-        for j in range(columns):
-            x = (j / (columns - 1) - .5) * width
-            if s <= 0:
-                wave = .0025 * math.sin(19 * x + 7 * s) * math.sin(5 * s + 1)
-                points.append((x + .01 * math.sin(6 * s), .006 + wave, s))
-                continue
-            bend = min(1, s / .03)
-            fold = min(1, s / .3)
-            ripple = (.034 * math.sin(29 * x + .8 + 2 * s) + .012 * math.sin(53 * x + 2)) * fold
-            points.append((x * (1 - .07 * fold) + .008 * fold * math.cos(29 * x),
-                           .006 - max(0, s - .012), .016 * bend + (.035 + ripple) * fold))
-    write_cage("cloth", "A cloth, 74 cm wide, that lies on y = 0 and hangs down in folds beyond z = 0.",
-               points, quads_to_triangles(rows, columns, False, False, True), 1)
+    width, top, drop = .74, .80, .50
+
+    def surface(u, v):
+        x, s = (u - .5) * width, v * (top + drop) - top  # s: length along the cloth, < 0 on the table
+        flat = .004 + .0015 * math.sin(19 * x + 7 * s) * math.sin(5 * s + 1)
+        if s <= 0:
+            return (x + .008 * math.sin(6 * s), flat, s)
+        fold = min(1, s / .3)
+        fold = fold * fold * (3 - 2 * fold)
+        angle = min(s / .02, math.pi / 2)  # round the edge on a radius of 2 cm
+        drape = max(0, s - .02 * math.pi / 2)
+        ripple = .030 * math.sin(29 * x + .8 + 2 * s) + .012 * math.sin(53 * x + 2)
+        return (x * (1 - .07 * fold) + .008 * fold * math.cos(29 * x),
+                flat - .02 * (1 - math.cos(angle)) - drape,
+                .02 * math.sin(angle) + (.032 + ripple) * fold)
+    write_surface("cloth", "A cloth, 74 cm wide, that lies on y = 0 and hangs down in folds beyond z = 0.",
+                  lambda u, v: surface(u, 1 - v), 48, 44)
 
 
 def write_png(name, width, height, colour):
@@ -181,9 +197,23 @@ def tile(x, y):
     return (h, h, h)
 
 
+def plaster(x, y):
+    """Height of trowelled plaster; repeats."""
+    h = 0
+    for octave, weight in ((4, .45), (9, .3), (21, .16), (43, .09)):
+        for a, b, phase in WAVES[octave]:
+            h += weight * math.sin(TAU * (a * x + b * y) + phase) / len(WAVES[octave])
+    return (.5 + 1.1 * h,) * 3
+
+
+RANDOM = random.Random(7)
+WAVES = {n: [(RANDOM.randint(-n, n), RANDOM.randint(-n, n), TAU * RANDOM.random()) for _ in range(7)]
+         for n in (4, 9, 21, 43)}
+
 jug()
 bowl()
 knot()
 cloth()
 write_png("painting.png", 320, 240, painting)
 write_png("tile_height.png", 160, 160, tile)
+write_png("plaster_height.png", 256, 256, plaster)
