@@ -89,7 +89,8 @@ Transform ApplyTransform(const Transform& current, const Directive& directive, D
       return current;
   }
   const Transform result = current * step;
-  if (!IsFinite(result)) FailAt(directive.Where(), "the transformation overflows");
+  if (!IsFinite(result))
+    FailAt(directive.Where(), std::string(directive.spec->name) + ": the transformation overflows");
   return result;
 }
 
