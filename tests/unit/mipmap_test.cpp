@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The MIP map: means kept at any size, constant images constant under any filter, bounded cost.
+#include "core/imaging/mipmap.h"
+
+#include <chrono>
+
+#include "core/math/random.h"
+#include "gtest/gtest.h"
+
+namespace exphoton {
+namespace {
+
+constexpr WrapMode kWraps[] = {WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp};
+
+std::vector<Real> Noise(int count) {
+  RandomStream random(1);
+  std::vector<Real> values;
+  for (int i = 0; i < count; ++i) values.push_back(random.Uniform());
+  return values;
+}
+double Mean(const std::vector<Real>& values) {
+  double sum = 0;
+  for (Real v : values) sum += double(v);
+  return sum / double(values.size());
+}
+
+TEST(MipMap, KeepsTheMeanAtEverySize) {
+  const int sizes[][2] = {{1, 1}, {1, 7}, {3, 5}, {16, 16}, {17, 31}, {100, 1}, {64, 3}, {33, 255}};
+  for (const auto& size : sizes) {
+    const std::vector<Real> texels = Noise(size[0] * size[1]);
+    const MipMap<Real> map(size[0], size[1], texels, WrapMode::Repeat);
+    const int top = map.LevelCount() - 1;
+    ASSERT_EQ(map.Width(top), 1);
+    ASSERT_EQ(map.Height(top), 1);
+    EXPECT_NEAR(map.Texel(top, 0, 0), Mean(texels), 1e-5) << size[0] << " x " << size[1];
+  }
+}
+
+TEST(MipMap, OfOneColorIsThatColorUnderEveryFootprint) {
+  const MipMap<Real> map(13, 40, std::vector<Real>(13 * 40, Real(.625)), WrapMode::Repeat);
+  RandomStream random(2);
+  for (int i = 0; i < 2000; ++i) {
+    const auto any = [&] {
+      return (random.Uniform() - Real(.5)) * std::exp2(-12 * random.Uniform());
+    };
+    const Point2 st(10 * any(), 10 * any()), dx(any(), any()), dy(any(), any());
+    EXPECT_NEAR(map.Ewa(st, dx, dy, 8), .625, 1e-5);
+    EXPECT_NEAR(map.Trilinear(st, dx, dy), .625, 1e-5);
+    EXPECT_NEAR(map.Lookup(st), .625, 1e-5);
+  }
+}
+
+// Filtering moves light about but makes none: the mean over the image stays.
+TEST(MipMap, FilteringKeepsTheMean) {
+  const int n = 32;
+  const std::vector<Real> texels = Noise(n * n);
+  const MipMap<Real> map(n, n, texels, WrapMode::Repeat);
+  for (Real width : {Real(.01), Real(.05), Real(.2)}) {
+    double ewa = 0, trilinear = 0;
+    const int steps = 128;
+    for (int y = 0; y < steps; ++y) {
+      for (int x = 0; x < steps; ++x) {
+        const Point2 st((Real(x) + Real(.5)) / steps, (Real(y) + Real(.5)) / steps);
+        ewa += double(map.Ewa(st, {width, width / 3}, {0, width / 4}, 8));
+        trilinear += double(map.Trilinear(st, {width, 0}, {0, width / 4}));
+      }
+    }
+    EXPECT_NEAR(ewa / (steps * steps), Mean(texels), 5e-3) << width;
+    EXPECT_NEAR(trilinear / (steps * steps), Mean(texels), 1e-3) << width;
+  }
+}
+
+TEST(MipMap, WithoutAFootprintIsBilinear) {
+  const MipMap<Real> map(2, 2, {0, 1, 2, 3}, WrapMode::Clamp);
+  EXPECT_EQ(map.Lookup({Real(.25), Real(.25)}), 0);
+  EXPECT_EQ(map.Lookup({Real(.75), Real(.25)}), 1);
+  EXPECT_EQ(map.Lookup({Real(.25), Real(.75)}), 2);
+  EXPECT_FLOAT_EQ(float(map.Lookup({Real(.5), Real(.5)})), 1.5f);
+  EXPECT_EQ(map.Ewa({Real(.5), Real(.25)}, {}, {}, 8), map.Lookup({Real(.5), Real(.25)}));
+  EXPECT_EQ(map.Trilinear({Real(.5), Real(.25)}, {}, {}), map.Lookup({Real(.5), Real(.25)}));
+}
+
+TEST(MipMap, WrapsAsAsked) {
+  const std::vector<Real> texels{1, 2, 3, 4};
+  EXPECT_EQ(MipMap<Real>(4, 1, texels, WrapMode::Repeat).Texel(0, -1, 5), 4);
+  EXPECT_EQ(MipMap<Real>(4, 1, texels, WrapMode::Clamp).Texel(0, -1, 5), 1);
+  EXPECT_EQ(MipMap<Real>(4, 1, texels, WrapMode::Black).Texel(0, -1, 0), 0);
+  const MipMap<Real> black(4, 1, texels, WrapMode::Black), repeat(4, 1, texels, WrapMode::Repeat);
+  EXPECT_EQ(black.Lookup({50, Real(.5)}), 0);
+  EXPECT_EQ(repeat.Lookup({Real(50.125), Real(.5)}), 1);
+}
+
+// A long thin footprint across stripes averages them; along them it does not.
+TEST(MipMap, EllipticalFilterIsSharpAcrossItsShortAxis) {
+  const int n = 64;
+  std::vector<Real> stripes;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) stripes.push_back(Real((x / 8) % 2));
+  const MipMap<Real> map(n, n, stripes, WrapMode::Repeat);
+  const Point2 st(Real(12) / n, Real(.5)), longStep(Real(.25), 0), shortStep(Real(.01), 0);
+  const Point2 up(0, Real(.1)), low(0, Real(.01));
+  EXPECT_GT(map.Ewa(st, shortStep, up, 10), Real(.95));
+  EXPECT_LT(map.Ewa(st, longStep, low, 10), Real(.8));
+  EXPECT_LT(map.Trilinear(st, shortStep, up), Real(.8));
+}
+
+TEST(MipMap, TurnsWithItsFootprint) {
+  const int n = 64;
+  std::vector<Real> diagonal;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) diagonal.push_back(Real(((x + y) / 8) % 2));
+  const MipMap<Real> map(n, n, diagonal, WrapMode::Repeat);
+  const Point2 st(Real(6) / n, Real(6) / n);  // the middle of a bright stripe
+  EXPECT_GT(map.Ewa(st, {Real(.08), Real(-.08)}, {Real(.001), Real(.001)}, 16), Real(.9));
+  EXPECT_LT(map.Ewa(st, {Real(.08), Real(.08)}, {Real(.001), Real(-.001)}, 16), Real(.7));
+}
+
+TEST(MipMap, SurvivesFootprintsThatAreNoNumbersOrHuge) {
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  const int sizes[][2] = {{256, 256}, {1, 4096}, {4096, 1}, {3, 1000}};
+  const Real values[] = {0, nan, kInfinity, Real(1e30), Real(1e-30), Real(1e4), -1, Real(.05)};
+  const auto start = std::chrono::steady_clock::now();
+  for (const auto& size : sizes) {
+    const std::vector<Real> texels = Noise(size[0] * size[1]);
+    for (WrapMode wrap : kWraps) {
+      const MipMap<Real> map(size[0], size[1], texels, wrap);
+      for (Real a : values) {
+        for (Real b : values) {
+          for (Real st : {Real(.3), Real(-1e9), nan, kInfinity}) {
+            for (const Real value :
+                 {map.Ewa({st, Real(.5)}, {a, 0}, {0, b}, 64), map.Ewa({st, a}, {a, b}, {b, a}, 8),
+                  map.Trilinear({st, b}, {a, b}, {b, a})}) {
+              EXPECT_TRUE(value >= 0 && value <= Real(1.0001));
+            }
+          }
+        }
+      }
+    }
+  }
+  // 9216 lookups of at most some 10^4 texels each; scanning ellipses at the finest level would
+  // take minutes.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+}  // namespace
+}  // namespace exphoton
