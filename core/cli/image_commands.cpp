@@ -137,7 +137,7 @@ int RunConvert(const std::vector<std::string>& arguments) {
 
 int RunCompare(const std::vector<std::string>& arguments) {
   constexpr int kDifferent = 1, kTrouble = 2;
-  bool isSame = false;
+  bool isSame = true;  // also where only help was asked for
   const int status = Guarded([&] {
     CLI::App app(
         "Measures how far a picture is from a reference (R, G and B). Exit status: 0 the "

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The commands that do not render: help, version, plugins, info, convert, compare.
+#include "core/imaging/exr.h"
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+class CommandTest : public ProgramTest {
+ protected:
+  void WriteGrey(const std::string& name, float value) const {
+    Image image(3, 2, {"R", "G", "B"});
+    for (float& pixel : image.pixels) pixel = value;
+    image.attributes["software"] = std::string("test");
+    WriteExr(Path(name), image, false);
+  }
+};
+
+TEST_F(CommandTest, PrintHelpAndVersionToStandardOutput) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"-h"},
+                                             {"render", "--help"},
+                                             {"plugins", "--help"},
+                                             {"info", "--help"},
+                                             {"convert", "--help"},
+                                             {"compare", "--help"},
+                                             {"explain", "--help"}}) {
+    const ProgramResult result = Run(arguments);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_NE(result.out.find("Usage: exphoton"), std::string::npos) << result.out;
+  }
+  EXPECT_EQ(Run({"--version"}).out.substr(0, 9), "exphoton ");
+}
+
+TEST_F(CommandTest, ListPluginsAndTheirParameters) {
+  const ProgramResult all = Run({"plugins"});
+  EXPECT_EQ(all.status, 0);
+  for (const char* name : {"matte", "sphere", "directlighting", "perspective"})
+    EXPECT_NE(all.out.find(name), std::string::npos) << name;
+  EXPECT_NE(Run({"plugins", "sphere"}).out.find("radius"), std::string::npos);
+  EXPECT_EQ(Run({"plugins", "nosuch"}).status, 1);
+}
+
+TEST_F(CommandTest, ShowWhatAPictureHolds) {
+  WriteGrey("a.exr", .5f);
+  const ProgramResult result = Run({"info", "a.exr"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const char* part : {"3 x 2 at (0, 0)", "G ", "mean 0.5", "software", "test"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  EXPECT_EQ(Run({"info", "none.exr"}).status, 3);
+  EXPECT_EQ(Run({"info"}).status, 1);
+}
+
+TEST_F(CommandTest, ConvertToPngAndBack) {
+  WriteGrey("a.exr", .25f);
+  EXPECT_EQ(Run({"convert", "a.exr", "a.png", "--exposure", "1"}).status, 0);
+  EXPECT_EQ(Run({"convert", "a.png", "b.exr", "--float"}).status, 0);
+  EXPECT_NEAR(double(ReadExr(Path("b.exr")).At(1, 1, 0)), .5, .004);
+  EXPECT_EQ(Run({"convert", "a.exr", "a.gif"}).status, 1);
+  EXPECT_EQ(Run({"convert", "none.exr", "a.png"}).status, 3);
+  EXPECT_EQ(Run({"convert", "a.exr", "nowhere/a.png"}).status, 3);
+}
+
+TEST_F(CommandTest, CompareWithStatusesOfDiff) {
+  WriteGrey("a.exr", .5f);
+  WriteGrey("b.exr", .5f);
+  WriteGrey("c.exr", .51f);
+  EXPECT_EQ(Run({"compare", "a.exr", "b.exr"}).status, 0);
+  const ProgramResult different = Run({"compare", "a.exr", "c.exr"});
+  EXPECT_EQ(different.status, 1);
+  EXPECT_NE(different.out.find("identical           no"), std::string::npos);
+  EXPECT_NE(different.out.find("relative mean error +2 %"), std::string::npos) << different.out;
+  EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "--max-relmse", "0.01"}).status, 0);
+  EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "--max-mean", "0.01"}).status, 1);
+  EXPECT_EQ(Run({"compare", "a.exr", "none.exr"}).status, 2);
+  EXPECT_EQ(Run({"compare", "a.exr"}).status, 2);
+}
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Runs the built program in a folder of its own, as a user would, and looks at what it leaves.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace exphoton {
+
+struct ProgramResult {
+  int status = -1;  // exit status; 128 + n where a signal ended it
+  std::string out, err;
+};
+
+// A test with an empty folder, which is the program's working folder and is removed at the end.
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest();
+  ~ProgramTest() override;
+
+  // `input`: what standard input holds.
+  ProgramResult Run(const std::vector<std::string>& arguments, const std::string& input = "") const;
+  // Starts it without waiting, output to out.txt and err.txt; Wait gives its result.
+  pid_t Start(const std::vector<std::string>& arguments) const;
+  ProgramResult Wait(pid_t process) const;
+
+  std::string Path(const std::string& name) const { return folder_ + "/" + name; }
+  void Write(const std::string& name, const std::string& text) const;
+  std::string Read(const std::string& name) const;
+  bool Exists(const std::string& name) const;
+  // Sorted names of all files, except what the test's own plumbing made.
+  std::vector<std::string> Files() const;
+
+ private:
+  std::string folder_;
+};
+
+// A lit sphere, rendered in no time to "out.exr"; `options` stand before WorldBegin, `world` after.
+std::string SmallScene(const std::string& options = "", const std::string& world = "");
+
+}  // namespace exphoton
