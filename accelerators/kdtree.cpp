@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // kdtree: rays walk a kd-tree from front to back. Cells are entered wherever rounding might have
-// put a hit: every plane has a margin that follows from the ray's origin, every primitive one that
-// follows from its coordinates, so that the answer is exactly that of testing every primitive.
-// Traversal runs in double; direction components of 0 are decided by comparison.
+// put a hit: planes are crossed within a margin that grows with the distance, primitives have one
+// that follows from their size, so that the answer is exactly that of testing every primitive.
+// Traversal runs in double and divides by no component that may be 0.
 #include <array>
 
 #include "accelerators/kd/kd_build.h"
@@ -32,20 +32,27 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// The ray as the traversal needs it.
+// The ray as the traversal needs it. A hit at t may be computed up to slope * t off the ray on each
+// axis, so that a plane is crossed somewhere between two values of t.
 struct KdRay {
-  std::array<double, 3> o, d, inverse;
-  double margin;                  // of positions
-  std::array<double, 3> tMargin;  // the same, as a part of the ray
+  struct Axis {
+    double o;
+    double first, last;  // 1 / (d +- slope), signed as d: earliest and latest crossing per distance
+    bool isParallel;     // may stay on either side of a plane for good
+    bool isBackward;
+  };
+  Axis axes[3];
 
   explicit KdRay(const Ray& ray) {
-    margin = double(kKdMargin) * double(MaxComponent(Abs(ray.o)));
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = std::size_t(axis);
-      o[a] = double(ray.o[axis]);
-      d[a] = double(ray.d[axis]);
-      inverse[a] = d[a] == 0 ? 0 : 1 / d[a];
-      tMargin[a] = margin * std::abs(inverse[a]);
+    const double slope = double(kKdMargin) * double(MaxComponent(Abs(ray.d)));
+    for (int i = 0; i < 3; ++i) {
+      Axis& axis = axes[i];
+      const double d = double(ray.d[i]), size = std::abs(d);
+      axis.o = double(ray.o[i]);
+      axis.isBackward = d < 0;
+      axis.isParallel = size <= slope;
+      axis.first = std::copysign(1 / (size + slope), d);
+      axis.last = axis.isParallel ? 0 : std::copysign(1 / (size - slope), d);
     }
   }
 };
@@ -57,16 +64,17 @@ struct Span {
 // Where the ray may be within the bounds.
 std::optional<Span> RootSpan(const KdRay& ray, const Bounds3& bounds, Real tMax) {
   Span span{0, double(tMax)};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double low = double(bounds.min[int(a)]) - ray.o[a];
-    const double high = double(bounds.max[int(a)]) - ray.o[a];
-    if (ray.d[a] == 0) {
-      if (low > ray.margin || high < -ray.margin) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    const KdRay::Axis& axis = ray.axes[i];
+    double enter = double(bounds.min[i]) - axis.o, leave = double(bounds.max[i]) - axis.o;
+    if (axis.isParallel) {
+      const double outside = std::max({enter, -leave, 0.0});
+      span.min = std::max(span.min, outside * std::abs(axis.first));
       continue;
     }
-    const double t0 = low * ray.inverse[a], t1 = high * ray.inverse[a];
-    span.min = std::max(span.min, std::min(t0, t1) - ray.tMargin[a]);
-    span.max = std::min(span.max, std::max(t0, t1) + ray.tMargin[a]);
+    if (axis.isBackward) std::swap(enter, leave);
+    span.min = std::max(span.min, enter * axis.first);
+    span.max = std::min(span.max, leave * axis.last);
   }
   if (!(span.min <= span.max)) return std::nullopt;
   return span;
@@ -140,20 +148,16 @@ class KdTree final : public Aggregate {
     for (;;) {
       const KdNode& node = nodes[index];
       if (!node.IsLeaf()) {
-        const auto axis = std::size_t(node.Axis());
-        const double toPlane = double(node.split) - ray.o[axis];
+        const KdRay::Axis& axis = ray.axes[node.Axis()];
+        const double toPlane = double(node.split) - axis.o;
         std::uint32_t near = index + 1, far = node.High();
-        double nearEnd, farBegin;
-        if (ray.d[axis] == 0) {
+        double nearEnd = toPlane * axis.last, farBegin = toPlane * axis.first;
+        if (axis.isParallel) [[unlikely]] {
           if (toPlane < 0) std::swap(near, far);
-          const bool isBeside = std::abs(toPlane) <= ray.margin;
           nearEnd = span.max;
-          farBegin = isBeside ? span.min : std::numeric_limits<double>::infinity();
-        } else {
-          if (ray.d[axis] < 0) std::swap(near, far);
-          const double t = toPlane * ray.inverse[axis];
-          nearEnd = t + ray.tMargin[axis];
-          farBegin = t - ray.tMargin[axis];
+          farBegin = std::abs(farBegin);
+        } else if (axis.isBackward) {
+          std::swap(near, far);
         }
         if (farBegin > span.max) {
           index = near;

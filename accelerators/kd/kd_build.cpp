@@ -12,10 +12,13 @@
 namespace exphoton {
 namespace {
 
+// Larger by at least the margin on every side, and by one step of Real where that is more.
 Bounds3 Grown(const Bounds3& bounds, Real margin) {
   Bounds3 grown = bounds;
-  const Vector3 m(margin, margin, margin);
-  grown.min = bounds.min - m, grown.max = bounds.max + m;
+  for (int axis = 0; axis < 3; ++axis) {
+    grown.min[axis] = NextDown(bounds.min[axis] - margin);
+    grown.max[axis] = NextUp(bounds.max[axis] + margin);
+  }
   return grown;
 }
 
@@ -25,9 +28,7 @@ Bounds3 Intersection(const Bounds3& a, const Bounds3& b) {
   return both;
 }
 
-Real MarginOf(const Bounds3& bounds) {
-  return kKdMargin * std::max(MaxComponent(Abs(bounds.min)), MaxComponent(Abs(bounds.max)));
-}
+Real MarginOf(const Bounds3& bounds) { return kKdMargin * MaxComponent(bounds.Diagonal()); }
 
 // Entries of all leaves together, for the primitives that lie in many cells: a soup of large
 // triangles would fill any memory otherwise.

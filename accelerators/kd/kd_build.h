@@ -39,8 +39,9 @@ struct KdCosts {
 };
 inline constexpr int kKdMaxDepth = 60;  // the traversal's stack holds as many
 
-// What rounding in the intersection tests can shift a hit by, relative to the coordinates of what
-// is hit (added to bounds here) and of the ray's origin (added by the traversal).
+// Rounding in the intersection tests shifts what is hit, across the ray, by less than this part of
+// the distance from the ray's origin to the farthest vertex. That is at most the distance to the
+// hit (allowed for by the traversal) and the extent of the primitive (added to its bounds).
 inline constexpr Real kKdMargin = Gamma(16);
 
 struct KdArrays {

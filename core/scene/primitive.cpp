@@ -80,7 +80,17 @@ Bounds3 PrimitiveSet::Bounds(std::uint32_t id) const {
   id -= TriangleCount();
   if (id < shapes_.size()) return shapes_[id]->Bounds();
   const Instance& instance = instances_[id - shapes_.size()];
-  return instance.instanceToWorld.ApplyBounds(instance.object->Set().WorldBounds());
+  Bounds3 bounds = instance.instanceToWorld.ApplyBounds(instance.object->Set().WorldBounds());
+  if (bounds.IsEmpty()) return bounds;
+  // The ray is rounded when it enters the object's space, in proportion to its distance from the
+  // origin of that space: what lies far from it is uncertain.
+  const Point3 origin = instance.instanceToWorld.ApplyPoint(Point3());
+  const Real reach =
+      std::max(MaxComponent(Abs(bounds.min - origin)), MaxComponent(Abs(bounds.max - origin)));
+  const Vector3 margin(reach * Gamma(16));
+  bounds.min = bounds.min - margin;
+  bounds.max = bounds.max + margin;
+  return bounds;
 }
 
 std::array<Point3, 3> PrimitiveSet::TriangleVertices(std::uint32_t id) const {

@@ -56,7 +56,8 @@ class PrimitiveSet {
 
   std::uint32_t Count() const;
   std::uint32_t TriangleCount() const { return std::uint32_t(triangles_.size()); }
-  // Of the true surface; accelerators add what rounding asks for.
+  // Of the true surface (of an instance: with what rounding its rays asks for). Accelerators add
+  // their own margin. Empty for an instance of nothing.
   Bounds3 Bounds(std::uint32_t id) const;
   Bounds3 WorldBounds() const { return bounds_; }
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Sphere, disk and cylinder: accurate from afar and at grazing incidence, never met by a ray that
+// leaves them, and refused where nothing of them is left.
+#include <gtest/gtest.h>
+
+#include "core/geometry/vec3d.h"
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+class Quadrics : public testing::Test {
+ protected:
+  std::unique_ptr<Shape> Make(const std::string& text, const Transform& toWorld = {},
+                              bool reverse = false) {
+    ShapeGeometry geometry = plugins_.MakeShape(text, toWorld, reverse);
+    return std::move(std::get<std::unique_ptr<Shape>>(geometry));
+  }
+  TestPlugins plugins_;
+};
+
+Ray RayFromTo(const Point3& o, const Point3& target) {
+  Ray ray;
+  ray.o = o;
+  ray.d = target - o;
+  return ray;
+}
+
+TEST_F(Quadrics, AreNeverHitAgainByARayThatLeavesThem) {
+  RandomStream random(21);
+  const char* const kinds[] = {R"("sphere" "float radius" 1.3)",
+                               R"("disk" "float radius" 1.3 "float height" .7)",
+                               R"("cylinder" "float radius" 1.3)"};
+  int hits = 0, found = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double scale = std::pow(10.0, double(Between(random, -4, 4)));
+    const Transform toWorld =
+        Transform::Translate(RandomVector(random) * Real(scale * 3)) *
+        *Transform::Rotate(double(random.Uniform()) * 360, RandomVector(random)) *
+        *Transform::Scale(scale, scale, scale * (i % 2 ? 1 : 0.3));
+    const auto shape = Make(kinds[i % 3], toWorld);
+    for (int k = 0; k < 200; ++k) {
+      const Bounds3 bounds = shape->Bounds();
+      const Ray in = RayFromTo(bounds.Center() + RandomVector(random) * Real(scale * 6),
+                               bounds.Center() + RandomVector(random) * Real(scale));
+      const auto hit = shape->Intersect(in);
+      if (!hit) continue;
+      ++found;
+      const SurfaceInteraction surface = shape->Surface(in, *hit);
+      Vector3 w = RandomVector(random);
+      if (k % 4 == 0) w = w - surface.ng * Dot(surface.ng, w) * Real(.9999);
+      // Leaving a convex body for good; or through it, so that the next hit is far off.
+      const auto again = shape->Intersect(SpawnRay(surface, w));
+      if (!again) continue;
+      const SurfaceInteraction next = shape->Surface(SpawnRay(surface, w), *again);
+      hits += Dot(w, surface.ng) > 0 && Dot(surface.ng, surface.p - next.p) >= 0 && i % 3 != 2;
+      hits += Distance(next.p, surface.p) < Real(1e-5 * scale) * AbsDot(w, surface.ng);
+    }
+  }
+  EXPECT_EQ(hits, 0);
+  EXPECT_GT(found, 10000);
+}
+
+TEST_F(Quadrics, SphereIsAccurateFromAfar) {
+  const auto sphere = Make(R"("sphere")");
+  for (const double distance : {10.0, 1e3, 1e5, 1e6}) {
+    constexpr int kGrid = 64;
+    int hits = 0, exactHits = 0;
+    double worst = 1;
+    for (int i = 0; i < kGrid; ++i) {
+      for (int j = 0; j < kGrid; ++j) {
+        const double x = (i + .5) * 2 / kGrid - 1, y = (j + .5) * 2 / kGrid - 1;
+        const Ray ray = RayFromTo({0, 0, Real(-distance)}, {Real(x), Real(y), 0});
+        const auto hit = sphere->Intersect(ray);
+        const Vec3d d(ray.d), o(ray.o);
+        const double a = Dot(d, d), b = Dot(o, d), nearest = -b / a;
+        const Vec3d q = o + d * nearest;
+        hits += hit.has_value();
+        exactHits += Dot(q, q) < 1;
+        if (!hit) continue;
+        const double half = std::sqrt(std::max((1 - Dot(q, q)) / a, 0.0));
+        const Vec3d exact = NormalizeOrZero(o + d * (nearest - half));
+        worst = std::min(worst, Dot(exact, Vec3d(sphere->Surface(ray, *hit).ng)));
+      }
+    }
+    EXPECT_NEAR(hits, exactHits, 0.01 * exactHits);
+    EXPECT_GT(exactHits, 3000);
+    EXPECT_GT(worst, std::cos(3.14159265 / 180)) << distance;
+  }
+}
+
+TEST_F(Quadrics, GrazingAndUnnormalisedRaysStayFinite) {
+  const auto sphere = Make(R"("sphere")");
+  for (const Real length : {Real(1e-20), Real(1), Real(1e18)}) {
+    for (int ulps = -3; ulps <= 3; ++ulps) {
+      Real x = 1;
+      for (int k = 0; k < std::abs(ulps); ++k) x = ulps < 0 ? NextDown(x) : NextUp(x);
+      Ray ray;
+      ray.o = {x, 0, -2};
+      ray.d = {0, 0, length};
+      const auto hit = sphere->Intersect(ray);
+      EXPECT_EQ(hit.has_value(), x <= 1);
+      if (!hit) continue;
+      const SurfaceInteraction surface = sphere->Surface(ray, *hit);
+      EXPECT_TRUE(IsFinite(surface.p) && IsFinite(surface.ng) && IsFinite(surface.dpdu));
+      EXPECT_NEAR(hit->t * length, 2, 1e-2);
+    }
+  }
+}
+
+TEST_F(Quadrics, NormalsPointOutUnlessReversedOrMirrored) {
+  const auto mirror = *Transform::Scale(-1, 1, 1);
+  for (const bool reverse : {false, true}) {
+    for (const Transform& toWorld : {Transform(), mirror}) {
+      const Ray ray = RayFromTo({5, 0, Real(.3)}, {0, 0, Real(.3)});
+      const Real side = reverse ? -1 : 1;
+      for (const char* text : {R"("sphere")", R"("cylinder")"}) {
+        const auto shape = Make(text, toWorld, reverse);
+        EXPECT_GT(shape->Surface(ray, *shape->Intersect(ray)).ng.x * side, Real(.9));
+      }
+      const auto disk = Make(R"("disk")", toWorld, reverse);
+      const Ray down = RayFromTo({Real(.2), Real(.1), 5}, {Real(.2), Real(.1), 0});
+      EXPECT_EQ(disk->Surface(down, *disk->Intersect(down)).ng.z, side);
+    }
+  }
+}
+
+TEST_F(Quadrics, DiskHitAtItsCentreHasAFiniteFrame) {
+  const auto disk = Make(R"("disk")");
+  const Ray ray = RayFromTo({0, 0, 3}, {0, 0, 0});
+  const auto hit = disk->Intersect(ray);
+  ASSERT_TRUE(hit);
+  const SurfaceInteraction surface = disk->Surface(ray, *hit);
+  EXPECT_EQ(surface.ng, Normal3(0, 0, 1));
+  EXPECT_GT(Length(Cross(surface.dpdu, surface.dpdv)), 0);
+  EXPECT_FALSE(disk->Intersect(RayFromTo({-3, 0, 0}, {3, 0, 0})));
+  EXPECT_FALSE(disk->Intersect(RayFromTo({-3, 0, 1}, {3, 0, 1})));
+}
+
+TEST_F(Quadrics, DerivativesAgreeWithDifferences) {
+  const auto scaled = *Transform::Scale(2, 1, Real(.5));
+  for (const char* text :
+       {R"("sphere" "float zmin" -.9 "float zmax" .8 "float phimax" 300)",
+        R"("disk" "float innerradius" .1)", R"("cylinder" "float phimax" 300)"}) {
+    const auto shape = Make(text, scaled);
+    const bool isDisk = std::string(text).find("disk") != std::string::npos;
+    const auto at = [&](Real dx, Real dy) {
+      const Ray ray =
+          isDisk ? RayFromTo({Real(.4) + dx, Real(.5) + dy, 4}, {Real(.4) + dx, Real(.5) + dy, 0})
+                 : RayFromTo({9, 2 + dx, Real(.2) + dy}, {0, dx, dy});
+      return shape->Surface(ray, *shape->Intersect(ray));
+    };
+    const SurfaceInteraction s = at(0, 0);
+    const Real e = Real(.002);
+    for (const SurfaceInteraction& other : {at(e, 0), at(0, e)}) {
+      const Real du = other.uv.x - s.uv.x, dv = other.uv.y - s.uv.y;
+      EXPECT_LT(Distance(other.p - s.p, s.dpdu * du + s.dpdv * dv),
+                Real(.03) * Distance(other.p, s.p));
+      EXPECT_LT(Distance(other.ng - s.ng, s.dndu * du + s.dndv * dv),
+                Real(.05) * Distance(other.p, s.p));
+    }
+  }
+}
+
+TEST_F(Quadrics, WithNothingLeftAreRefused) {
+  for (const char* text : {R"("sphere" "float radius" 0)", R"("sphere" "float radius" -1)",
+                           R"("sphere" "float zmin" .5 "float zmax" .5)",
+                           R"("sphere" "float phimax" 0)", R"("sphere" "float zmin" 2)",
+                           R"("disk" "float radius" 0)", R"("disk" "float innerradius" 1)",
+                           R"("disk" "float phimax" 361)", R"("cylinder" "float zmin" 1)",
+                           R"("cylinder" "float radius" -2)", R"("cylinder" "float phimax" 0)"}) {
+    EXPECT_THROW(Make(text), Error) << text;
+  }
+}
+
+TEST_F(Quadrics, UnevenlyScaledOnesRefuseToEmitExceptTheDisk) {
+  const auto uneven = *Transform::Scale(1, 2, 1), even = *Transform::Scale(3, 3, 3);
+  EXPECT_NE(Make(R"("sphere")", uneven)->EmitterProblem(), nullptr);
+  EXPECT_NE(Make(R"("cylinder")", uneven)->EmitterProblem(), nullptr);
+  EXPECT_EQ(Make(R"("disk")", uneven)->EmitterProblem(), nullptr);
+  EXPECT_NEAR(Make(R"("sphere")", even)->Area(), 4 * kPi * 9, 1e-3);
+  EXPECT_NEAR(Make(R"("cylinder")", even)->Area(), 4 * kPi * 9, 1e-3);
+  EXPECT_NEAR(Make(R"("disk" "float innerradius" .5 "float phimax" 90)", uneven)->Area(),
+              kPi * Real(.75) / 4 * 2, 1e-5);
+}
+
+}  // namespace
+}  // namespace exphoton
