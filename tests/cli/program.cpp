@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -45,6 +47,7 @@ pid_t ProgramTest::Start(const std::vector<std::string>& arguments) const {
   argv.push_back(nullptr);
   const pid_t process = fork();
   if (process != 0) return process;
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE}) std::signal(number, SIG_DFL);
   if (chdir(folder_.c_str()) != 0) _exit(125);
   Redirect(kInputName, O_RDONLY, STDIN_FILENO);
   Redirect(kOutName, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);

@@ -2,10 +2,14 @@
 // The program as its users meet it: exit statuses, messages, and what it leaves in the folder.
 #include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <thread>
 
+#include "core/cli/app.h"
 #include "core/imaging/exr.h"
 #include "tests/cli/program.h"
 
@@ -276,6 +280,64 @@ TEST_F(RenderCommandTest, KeepsWhatIsFinishedWhenInterrupted) {
     EXPECT_NE(result.err.find("wrote what is finished to \"out.partial.exr\""), std::string::npos);
     unlink(Path("out.partial.exr").c_str());
   }
+}
+
+TEST_F(RenderCommandTest, EndsAtOnceWhenInterruptedBeforeTheFirstPixel) {
+  Write("scene.pbrt",
+        SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 20000000",
+                   "Shape \"sphere\" \"float radius\" 50"));
+  const pid_t process = Start({"scene.pbrt", "--nthreads", "1"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ASSERT_EQ(kill(process, SIGTERM), 0);
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramResult result = Wait(process);
+  EXPECT_EQ(result.status, 143) << result.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(4));
+  EXPECT_NE(result.err.find("interrupted before anything was rendered"), std::string::npos);
+  EXPECT_EQ(Files(), Names{"scene.pbrt"});
+}
+
+TEST_F(RenderCommandTest, RendersTheSameTwiceInOneProcess) {
+  Write("scene.pbrt", SmallScene());
+  Names pictures;
+  for (const char* name : {"a.exr", "b.exr"}) {
+    EXPECT_EQ(
+        cli::RunProgram({"exphoton", Path("scene.pbrt"), "-o", Path(name), "--reproducible",
+                         "--quiet", "--plugin-dir", std::string(EXPHOTON_BINARY_DIR) + "/plugins"}),
+        0);
+    pictures.push_back(Read(name));
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
+  EXPECT_NE(pictures[0], "");
+}
+
+TEST_F(RenderCommandTest, RunsOnLittleStack) {
+  Write("scene.pbrt", SmallScene());
+  const std::string command = "cd '" + Path("") + "' && ulimit -s 256 && '" + EXPHOTON_BINARY_DIR +
+                              "/bin/exphoton' scene.pbrt --quiet";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(RenderCommandTest, SaysWhenMemoryIsNotEnough) {
+  Write("scene.pbrt", SmallScene());
+  const std::string command = "cd '" + Path("") + "' && ulimit -v 600000 && '" +
+                              EXPHOTON_BINARY_DIR +
+                              "/bin/exphoton' scene.pbrt --nthreads 1 --set Film.xresolution=20000 "
+                              "--set Film.yresolution=20000 2>message";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_NE(Read("message").find("exphoton: error: "), std::string::npos) << Read("message");
+  EXPECT_EQ(Files(), (Names{"message", "scene.pbrt"}));
+}
+#endif
+
+TEST_F(RenderCommandTest, LooksForPluginsInTheSearchPathAndThenAtHome) {
+  Write("scene.pbrt", "SearchPath \"nowhere:&\"\nSearchPath \"elsewhere\"\n" +
+                          SmallScene("", "Material \"mate\""));
+  const ProgramResult result = Run({"scene.pbrt"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("matte"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("looked in elsewhere, "), std::string::npos) << result.err;
 }
 
 TEST_F(RenderCommandTest, EndsWithoutWaitingForAReaderThatIsGone) {
