@@ -9,8 +9,8 @@ HALF_WIDTH, DEPTH, CEILING, ROOF = 2.6, 6.4, 3.4, 3.72   # the room: x in [-2.6,
 HOLE_X, HOLE_Z = (-.90, .55), (2.25, 3.75)               # the skylight, in the roof's plane
 TOWARDS = (-.75, -.62, -.17)                              # where sunlight goes
 DISTANCE = 26.                                            # of the spot from the skylight
-INTENSITY = (50000., 45000., 37500.)                      # of the spot: W / sr
-WALL = (.82, .77, .68)                                    # reflectance of the lit wall
+INTENSITY = (54000., 50000., 44000.)                      # of the spot: W / sr
+WALL = (.84, .82, .77)                                    # reflectance of the lit wall
 MARGIN = .08                                              # of the ceiling's hole round the beam
 CELLS_Y, CELLS_Z = 6, 6                                 # area lights for the patch
 
