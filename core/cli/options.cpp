@@ -14,7 +14,7 @@ namespace exphoton::cli {
 namespace {
 
 constexpr int kMaxThreads = 4096;
-constexpr double kMaxSamplesPerPixel = 1 << 30;
+constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 
 // What CLI11 stores as text and is read afterwards.
 struct RawOptions {
@@ -27,46 +27,55 @@ struct RawOptions {
 };
 
 void AddSceneOptions(CLI::App& app, RenderCommand& command, RawOptions& raw) {
-  app.add_option("scenes", command.scenes, "scene files; none or \"-\": standard input");
+  app.add_option("scenes", command.scenes, "scene files; none or \"-\": standard input")
+      ->type_name("FILE");
   app.add_option("--integrator", raw.integrator,
-                 "use this surface integrator instead of the scene's");
-  app.add_option("--set", raw.sets,
-                 "Directive.parameter=value: set a parameter, for example "
-                 "SurfaceIntegrator.maxdist=1.5")
+                 "use this surface integrator instead of the scene's")
+      ->type_name("NAME");
+  app.add_option("--set", raw.sets, "set a parameter, for example SurfaceIntegrator.maxdist=1.5")
+      ->type_name("Directive.parameter=value")
       ->allow_extra_args(false);
   app.add_option("--spp", raw.samplesPerPixel, "samples a pixel")
-      ->check(CLI::Range(1.0, kMaxSamplesPerPixel));
-  app.add_option("--cropwindow", raw.cropWindow, "x0,x1,y0,y1: fractions of the picture");
-  app.add_option("--pixelbounds", raw.pixelBounds, "x0,x1,y0,y1: pixels, the upper ones excluded");
-  app.add_option("--pixel", raw.pixel, "x,y: one pixel");
+      ->check(CLI::Range(std::int64_t(1), kMaxSamplesPerPixel))
+      ->type_name("N");
+  app.add_option("--cropwindow", raw.cropWindow, "a part of the picture, in fractions of it")
+      ->type_name("x0,x1,y0,y1");
+  app.add_option("--pixelbounds", raw.pixelBounds, "a part in pixels, the upper ones excluded")
+      ->type_name("x0,x1,y0,y1");
+  app.add_option("--pixel", raw.pixel, "one pixel")->type_name("x,y");
   app.add_flag("--quick", command.load.isQuick,
                "a quarter of the resolution, 1 sample a pixel, a tenth of the photons");
   app.add_option("--effects", command.load.effects,
-                 "auto, all, or a list such as caustics=off,lens=on")
-      ->default_str("auto");
-  app.add_option("--dialect", raw.dialect, "v1 or v2: how LookAt is meant")
+                 "what to compute: auto, all, or a list such as caustics=off,lens=on")
+      ->type_name("LIST");
+  app.add_option("--dialect", raw.dialect, "how LookAt is meant: v1 (default) or v2")
       ->check(CLI::IsMember({"v1", "v2"}))
-      ->default_str("v1");
+      ->type_name("");
   app.add_flag("--strict", command.load.isStrict,
                "unknown parameters and samples that are not finite are errors");
   app.add_option("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
+      ->type_name("DIR")
       ->allow_extra_args(false);
 }
 
 void AddRunOptions(CLI::App& app, RenderCommand& command, RawOptions& raw) {
-  app.add_option("-o,--outfile", command.outfile, "the picture's file instead of the scene's");
+  app.add_option("-o,--outfile", command.outfile, "the picture's file instead of the scene's")
+      ->type_name("FILE");
   app.add_option("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
-      ->check(CLI::Range(0, kMaxThreads));
-  app.add_option("--seed", command.seed, "another seed gives other noise")->default_str("0");
+      ->check(CLI::Range(0, kMaxThreads))
+      ->type_name("N");
+  app.add_option("--seed", command.seed, "another seed gives other noise")->type_name("N");
   app.add_flag("--half", raw.asHalf, "16-bit channels (default)");
   app.add_flag("--float", raw.asFloat, "32-bit channels");
-  app.add_option("--preview", command.previewFile, "also write the picture as PNG");
+  app.add_option("--preview", command.previewFile, "also write the picture as PNG")
+      ->type_name("FILE.png");
   app.add_flag("--reproducible", command.isReproducible,
                "leave times, dates, threads and command line out of the picture's file");
   app.add_flag("--check", raw.checks, "read the scene, report errors, render nothing");
   app.add_flag("--explain", raw.explains, "print what would be computed and why, render nothing");
   app.add_flag("--stats", command.printsStatistics, "print times, rays and counts at the end");
-  app.add_option("--stats-json", command.statsFile, "write them to this file (-: print them)");
+  app.add_option("--stats-json", command.statsFile, "write them to this file (-: print them)")
+      ->type_name("FILE");
   app.add_flag("--quiet", raw.isQuiet, "errors and warnings only");
   app.add_flag("--verbose", raw.isVerbose, "say more");
   app.add_flag("--no-progress", raw.hidesProgress, "no progress bar");

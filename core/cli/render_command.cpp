@@ -111,6 +111,9 @@ void FileRenderer::RenderOne(const RenderSetup& setup, const Seconds& loading) {
   log_.Notice("effects:\n" + setup.scene->Effects().Describe());
   Film film(setup.film.Full(), setup.crop);
   ThreadPool threads(command_.threadCount);
+  if (threads.Count() < command_.threadCount)
+    log_.Warning("only " + std::to_string(threads.Count()) + " of " +
+                 std::to_string(command_.threadCount) + " threads could be started");
   ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;

@@ -84,7 +84,8 @@ const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string&
     const PluginDescriptor* plugin = TryLoad(kind, name);
     const PluginAlias* alias = plugin ? nullptr : FindPluginAlias(kind, name);
     if (alias) {
-      if (alias->notice && log_) log_->Notice(alias->notice, where);
+      const bool isNew = noticed_.insert(Key(kind, name)).second;
+      if (alias->notice && log_ && isNew) log_->Notice(alias->notice, where);
       return Load(kind, alias->name, where);
     }
     if (!plugin) ThrowMissing(kind, name, where);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,7 @@ class PluginRegistry {
 
   std::vector<std::string> folders_;
   Log* log_;
+  std::set<std::string> noticed_;  // aliases that were named before
   std::map<std::string, const PluginDescriptor*> loaded_;  // by "<kind folder>/<name>"
 };
 
