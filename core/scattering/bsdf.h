@@ -42,8 +42,8 @@ class Bsdf {
   // Mean of the masked lobes' densities, per solid angle. Specular lobes in the mask count in the
   // mean with density 0: pass the same mask to f, Pdf and Sample.
   Real Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
-  // Picks one masked lobe by uLobe, uniformly; if a specular one, then again among the specular ones
-  // in proportion to what they carry. nullopt: no sample (absorbed).
+  // Picks one masked lobe by uLobe, uniformly; if a specular one, then again among the specular
+  // ones in proportion to what they carry. nullopt: no sample (absorbed).
   std::optional<BsdfSample> Sample(const Vector3& wo, Point2 u, Real uLobe,
                                    LobeSet mask = LobeSet::All) const;
   // Sum of hemispherical-hemispherical reflectances of the masked lobes.
