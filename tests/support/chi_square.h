@@ -20,7 +20,8 @@ struct ChiSquareResult {
   int degrees = 0;     // cells after pooling, less one
   double pValue = 1;   // of a statistic at least this large where sampler and density agree
   double mass = 0;     // integral of the density over the grid
-  int impossible = 0;  // samples in cells where the density is 0
+  int impossible = 0;  // samples at which the density is 0
+  int samples = 0;
 };
 
 // Probability that a chi-square variate of so many degrees of freedom exceeds x.
@@ -55,7 +56,8 @@ ChiSquareResult TestDirections(const DirectionGrid& grid,
                                const ChiSquareOptions& options = {});
 
 // Whether sampler and density agree, at a false-alarm rate of 1 % over `testCount` such tests
-// (Sidak). The message has all of the result.
+// (Sidak). Up to one sample in 500 may be where the density says 0: rounding at an edge. The
+// message has all of the result.
 testing::AssertionResult FitsDensity(const ChiSquareResult& result, int testCount);
 
 }  // namespace exphoton

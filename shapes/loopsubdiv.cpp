@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// loopsubdiv: the limit surface of Loop subdivision of a triangle mesh, as a finer mesh whose
+// vertices and normals lie on it.
+#include "core/plugin.h"
+#include "shapes/mesh/finish_mesh.h"
+#include "shapes/mesh/loop_subdivision.h"
+
+namespace exphoton {
+namespace {
+
+enum class Scheme { Loop };
+
+struct Settings {
+  int levels = 3;
+  std::vector<int> indices;
+  std::vector<Point3> positions;
+  Scheme scheme = Scheme::Loop;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("nlevels", &Settings::levels, "times that every triangle is split in four")
+          .Range(0, 12),
+      Param("indices", &Settings::indices, "three vertex numbers a triangle").Required(),
+      Param("P", &Settings::positions, "vertices of the control mesh")
+          .Required()
+          .Unit("scene units"),
+      Param("scheme", &Settings::scheme, "rule of subdivision").OneOf({{"loop", Scheme::Loop}})};
+  return table;
+}
+
+constexpr double kMostTriangles = 1 << 27;
+
+std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
+  SubdivisionMesh control;
+  control.faces = CheckedTriangles(settings.indices, settings.positions.size(), "indices");
+  for (const Point3& p : settings.positions) control.positions.push_back(Vec3d(p));
+  if (!IsManifold(control)) {
+    throw ParamError{"indices",
+                     "has an edge with more than two triangles, or a triangle that names a vertex "
+                     "twice",
+                     "subdivision needs a surface"};
+  }
+  const double count = double(control.faces.size()) * std::pow(4.0, settings.levels);
+  if (count > kMostTriangles) {
+    throw ParamError{"nlevels", "would make " + std::to_string(std::int64_t(count)) + " triangles",
+                     "at most " + std::to_string(std::int64_t(kMostTriangles))};
+  }
+  LimitMesh limit = LoopSubdivide(std::move(control), settings.levels);
+  auto mesh = std::make_unique<TriangleMesh>();
+  mesh->indices = std::move(limit.mesh.faces);
+  for (const Vec3d& p : limit.mesh.positions) mesh->p.push_back(p.ToReal());
+  for (const Vec3d& n : limit.normals) mesh->n.push_back(n.ToReal());
+  return FinishMesh(std::move(mesh), context, "P");
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("loopsubdiv", "the limit surface of Loop subdivision",
+                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
+                                                                exphoton::Create))

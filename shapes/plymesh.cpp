@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// plymesh: the triangles and quads of a PLY file, which may be compressed by gzip. Not part of
+// version 1 of the scene language; meaning as in version 3.
+#include "core/plugin.h"
+#include "shapes/mesh/finish_mesh.h"
+#include "shapes/mesh/ply_reader.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  std::string fileName;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("filename", &Settings::fileName, "PLY file, relative to the scene file")
+          .As(ParamType::File)
+          .Required()};
+  return table;
+}
+
+std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
+  try {
+    return FinishMesh(ReadPly(settings.fileName), context, "filename");
+  } catch (const PlyError& error) {
+    throw ParamError{"filename", "cannot be used (" + settings.fileName + "): " + error.what(), ""};
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("plymesh", "triangles and quads from a PLY file",
+                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
+                                                                exphoton::Create))
