@@ -35,6 +35,10 @@ class PhotonIntegrator final : public SurfaceIntegrator {
     photons_.RequestSamples(scene, layout);
   }
 
+  std::vector<std::string> Explain(const Scene& scene) const override {
+    return photons_.Explain(scene);
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
       if (settings_.show != ShowMap::Nothing) return photons_.Shown(point, context);

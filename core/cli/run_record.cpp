@@ -71,13 +71,15 @@ std::string ExplainText(const RenderSetup& setup) {
   std::string plugins = std::to_string(setup.plugins.size()) + " loaded";
   for (std::size_t i = 0; i < setup.plugins.size(); ++i)
     plugins += (i ? ", " : ": ") + setup.plugins[i];
+  std::string computed;
+  for (const std::string& line : setup.integrator->Explain(*setup.scene)) computed += line + "\n";
   return Row("scene", setup.sceneName) + Row("hash", HashText(setup.sceneHash)) +
          Row("integrator", setup.integratorName) + Row("sampler", setup.samplerName) +
          Row("samples", std::to_string(setup.sampler->SamplesPerPixel()) + " a pixel") +
          Row("filter", setup.filterName) + Row("camera", setup.cameraName) +
          Row("accelerator", setup.acceleratorName) + Row("picture", Resolution(setup)) +
          Row("primitives", std::to_string(setup.scene->Primitives().Count())) +
-         setup.scene->Effects().Describe() + Row("plugins", plugins);
+         setup.scene->Effects().Describe() + computed + Row("plugins", plugins);
 }
 
 }  // namespace exphoton::cli

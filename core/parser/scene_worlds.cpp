@@ -16,9 +16,9 @@ void SceneBuilder::BeginWorld(const Directive& directive) {
   isOneTimeActive_ = false;
   if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = Transform();
   coordinateSystems_["world"] = Transform();
-  ParamSet none;
-  none.where = directive.Where();
-  state_.material = world_->MakeMaterialSpec("matte", none);
+  state_.material = std::make_shared<MaterialSpec>();  // loaded only if a shape wears it
+  state_.material->name = "matte";
+  state_.material->params.where = directive.Where();
 }
 
 void SceneBuilder::EndWorld(const Directive& directive) {

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/base/arena.h"
 #include "core/base/statistics.h"
@@ -62,6 +64,12 @@ class SurfaceIntegrator {
   // with a fresh layout.
   virtual void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) {
     (void)scene, (void)sampler, (void)layout;
+  }
+  // What it will compute for this scene, one line a thing ("photons       100000 indirect"), for
+  // `exphoton explain`.
+  virtual std::vector<std::string> Explain(const Scene& scene) const {
+    (void)scene;
+    return {};
   }
   // Radiance arriving along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;

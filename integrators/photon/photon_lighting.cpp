@@ -55,6 +55,23 @@ void PhotonLighting::RequestSamples(const Scene& scene, SampleLayout* layout) {
   if (Gathers(scene)) gather_.RequestSamples(layout);
 }
 
+std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {
+  const PhotonTargets targets = Targets(scene);
+  std::string photons;
+  double bytes = 0, stored = 0;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (targets[kind] == 0) continue;
+    photons +=
+        (photons.empty() ? "" : ", ") + std::to_string(targets[kind]) + " " + PhotonKindName(kind);
+    bytes += double(targets[kind]) * double(PhotonMap::kBytesPerPhoton);
+    if (kind != PhotonKind::Caustic) stored += double(targets[kind]);
+  }
+  bytes += stored * double(targets.radianceFraction) * double(RadianceMap::kBytesPerEntry);
+  const auto mebibytes = std::to_string(std::int64_t(bytes / (1 << 20)) + 1);
+  return {"photons       " + (photons.empty() ? "none" : photons),
+          "memory        about " + mebibytes + " MiB for the photon maps"};
+}
+
 Spectrum PhotonLighting::Direct(const ShadingPoint& point, LiContext& context) const {
   return maps_.Radiance(PhotonKind::Direct, point, &context.arena);
 }

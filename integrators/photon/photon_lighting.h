@@ -23,6 +23,8 @@ class PhotonLighting {
 
   void Preprocess(const Scene& scene, PreprocessContext& context);
   void RequestSamples(const Scene& scene, SampleLayout* layout);
+  // The maps that this scene calls for and the memory that they will take.
+  std::vector<std::string> Explain(const Scene& scene) const;
 
   // Radiance by the non-specular lobes towards wo:
   Spectrum Direct(const ShadingPoint& point, LiContext& context) const;   // of the direct map

@@ -34,6 +34,9 @@ class PhotonMap {
   // least h / kFlatness away, which keeps corners and thin walls apart.
   static constexpr Real kFlatness = Real(.5);
 
+  static constexpr std::size_t kBytesPerPhoton =
+      sizeof(Point3) + sizeof(std::uint32_t) + sizeof(Vector3) + sizeof(Spectrum);
+
   PhotonMap() = default;
   explicit PhotonMap(PhotonHaul haul);
 

@@ -19,6 +19,9 @@ class RadianceMap {
     Real radius = 0;  // of its estimate
   };
 
+  static constexpr std::size_t kBytesPerEntry =
+      sizeof(Point3) + sizeof(std::uint32_t) + sizeof(Entry);
+
   RadianceMap() = default;  // empty: finds nothing
   // Computes all entries in parallel: Lo = rho_r / pi E(p, n) + rho_t / pi E(p, -n), and for the
   // other side too where something is transmitted.

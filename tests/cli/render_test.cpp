@@ -237,6 +237,14 @@ TEST_F(RenderCommandTest, ChecksAndExplainsWithoutRendering) {
   }
 }
 
+TEST_F(RenderCommandTest, ExplainsPhotonMapsAndTheirMemory) {
+  Write("scene.pbrt", SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer directphotons\" 5"));
+  const std::string text = Run({"explain", "scene.pbrt"}).out;
+  EXPECT_NE(text.find("photons       5 direct, 100000 indirect\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("memory        about 5 MiB for the photon maps\n"), std::string::npos)
+      << text;
+}
+
 TEST_F(RenderCommandTest, PrintsStatisticsOnlyWhenAsked) {
   const ProgramResult result = RunText(SmallScene(), {"--stats", "--stats-json", "s.json"});
   EXPECT_EQ(result.status, 0);
