@@ -18,17 +18,17 @@ struct RenderCommand {
   std::vector<std::string> scenes;  // "-": standard input
   RenderMode mode = RenderMode::Render;
   LoadOptions load;
-  std::string outfile;       // "": what the scene says
-  std::string previewFile;   // "": none
-  std::string statsFile;     // "": none; "-": standard output
+  std::string outfile;      // "": what the scene says
+  std::string previewFile;  // "": none
+  std::string statsFile;    // "": none; "-": standard output
   bool printsStatistics = false;
   bool asHalf = true;
   bool isReproducible = false;
   bool showsProgress = true;
-  int threadCount = 0;       // 0: all cores
+  int threadCount = 0;  // 0: all cores
   std::uint64_t seed = 0;
   Log::Level logLevel = Log::Level::Normal;
-  std::string commandLine;   // as it was typed, for the picture's attributes
+  std::string commandLine;  // as it was typed, for the picture's attributes
 };
 
 // Thrown for --help and --version: the text goes to standard output, the status is 0.

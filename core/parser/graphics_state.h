@@ -71,8 +71,7 @@ class StateStack {
 
   void Push(Block block, const GraphicsState& state, const SourceLocation& where);
   // Closes the innermost block, which must be of that kind; `name` is the directive's.
-  void Pop(Block block, const std::string& name, const SourceLocation& where,
-           GraphicsState* state);
+  void Pop(Block block, const std::string& name, const SourceLocation& where, GraphicsState* state);
 
   bool IsEmpty() const { return entries_.empty(); }
   const SourceLocation& Innermost() const { return entries_.back().where; }

@@ -59,8 +59,8 @@ struct RenderSetup {
   PixelBounds crop;  // the pixels to render
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
   std::vector<std::string> inputFiles;  // the scene's own file and those its parameters name
-  std::vector<std::string> plugins;  // "integrators/exphotonmap", sorted
-  std::uint64_t sceneHash = 0;       // of what the file says, whatever its layout
+  std::vector<std::string> plugins;     // "integrators/exphotonmap", sorted
+  std::uint64_t sceneHash = 0;          // of what the file says, whatever its layout
 };
 
 // The place of errors in what the command line says: SourceLocation::file of them.

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 namespace exphoton {
 namespace {
@@ -45,6 +47,7 @@ pid_t ProgramTest::Start(const std::vector<std::string>& arguments) const {
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  unlink(Path(kErrName).c_str());
   const pid_t process = fork();
   if (process != 0) return process;
   for (const int number : {SIGINT, SIGTERM, SIGPIPE}) std::signal(number, SIG_DFL);
@@ -65,6 +68,14 @@ ProgramResult ProgramTest::Wait(pid_t process) const {
   result.out = Read(kOutName);
   result.err = Read(kErrName);
   return result;
+}
+
+bool ProgramTest::WaitForMessage(const std::string& text) const {
+  for (int i = 0; i < 600; ++i) {
+    if (Read(kErrName).find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
 }
 
 ProgramResult ProgramTest::Run(const std::vector<std::string>& arguments,

@@ -26,6 +26,8 @@ class ProgramTest : public testing::Test {
   // Starts it without waiting, output to out.txt and err.txt; Wait gives its result.
   pid_t Start(const std::vector<std::string>& arguments) const;
   ProgramResult Wait(pid_t process) const;
+  // Waits until what Start began has said this on standard error; false after 30 s.
+  bool WaitForMessage(const std::string& text) const;
 
   std::string Path(const std::string& name) const { return folder_ + "/" + name; }
   void Write(const std::string& name, const std::string& text) const;

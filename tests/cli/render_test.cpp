@@ -277,7 +277,8 @@ TEST_F(RenderCommandTest, KeepsWhatIsFinishedWhenInterrupted) {
     Write("out.exr", "older picture");
     Write("scene.pbrt", SmallScene());
     const pid_t process = Start({"scene.pbrt", "--nthreads", "1", "--spp", "100000000"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(800));
+    ASSERT_TRUE(WaitForMessage("effects"));  // said just before rendering
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
     ASSERT_EQ(kill(process, signal), 0);
     const ProgramResult result = Wait(process);
     EXPECT_EQ(result.status, 128 + signal) << result.err;
@@ -295,7 +296,8 @@ TEST_F(RenderCommandTest, EndsAtOnceWhenInterruptedBeforeTheFirstPixel) {
         SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 20000000",
                    "Shape \"sphere\" \"float radius\" 50"));
   const pid_t process = Start({"scene.pbrt", "--nthreads", "1"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ASSERT_TRUE(WaitForMessage("effects"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
   ASSERT_EQ(kill(process, SIGTERM), 0);
   const auto start = std::chrono::steady_clock::now();
   const ProgramResult result = Wait(process);
