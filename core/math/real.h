@@ -53,13 +53,13 @@ inline Real SafeDivide(Real a, Real b, Real fallback) {
   return std::isfinite(q) ? q : fallback;
 }
 
-// The neighbouring representable value. +-infinity stays; both zeros go to the smallest denormal.
+// The neighbouring representable value above x. +infinity stays; both zeros go to the smallest
+// denormal.
 inline Real NextUp(Real x) {
   if (std::isinf(x) && x > 0) return x;
-  if (x == 0) x = 0;  // -0 -> +0
-  auto bits = std::bit_cast<RealBits>(x == 0 ? Real(0) : x);
-  bits = x >= 0 ? bits + 1 : bits - 1;
-  return std::bit_cast<Real>(bits);
+  if (x == 0) return std::numeric_limits<Real>::denorm_min();
+  const auto bits = std::bit_cast<RealBits>(x);
+  return std::bit_cast<Real>(x > 0 ? bits + 1 : bits - 1);
 }
 inline Real NextDown(Real x) { return -NextUp(-x); }
 

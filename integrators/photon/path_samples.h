@@ -24,9 +24,9 @@ class PathSamples {
       return {x, stream_.Uniform()};
     }
     const std::uint64_t key = HashKey({key_, std::uint64_t(pair_++)});
-    // A nested shuffle of the order: aligned blocks of 2^m indices stay such blocks.
-    const std::uint32_t index =
-        ReverseBits32(OwenScramble(ReverseBits32(index_), std::uint32_t(MixBits(key))));
+    // The pair's own order of the points, or the pairs would be functions of each other. Nested from
+    // the highest bit of the index, so that aligned blocks of 2^m indices stay such blocks.
+    const std::uint32_t index = OwenScramble(index_, std::uint32_t(MixBits(key)));
     return ScrambledSobol2(index, key);
   }
   // From the stream at once.

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Photon integrators against closed forms: furnaces, a light in a sphere, caustics of a slab and a
+// mirror, one light split into many. Equivalence rule over independent seeds (equivalence.h): each
+// case has a false-alarm rate below 1 %, and noise can never make it pass.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/equivalence.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+std::string Grey(double value) {
+  const std::string v = std::to_string(value);
+  return "[" + v + " " + v + " " + v + "]";
+}
+
+double Mean(const std::string& scene, std::uint64_t seed) {
+  TestRenderOptions options;
+  options.seed = seed;
+  return MeanRadiance(RenderSceneText(scene, options).image);
+}
+
+// Radiance e / (1 - a) everywhere in a closed sphere that emits e and reflects a.
+class Furnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(Furnace, ShowsEmissionOverOneMinusAlbedo) {
+  const auto [integrator, albedo] = GetParam();
+  const std::string scene =
+      TestHeader(std::string("\"") + integrator +
+                     "\" \"integer indirectphotons\" [20000] \"integer finalgathersamples\" [16]",
+                 6, 6, 4) +
+      FurnaceWorld(1, "\"matte\" \"color Kd\" " + Grey(albedo));
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  EXPECT_TRUE(IsWithin(.01, estimate, 1 / (1 - albedo)));
+}
+
+INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, Furnace,
+                         testing::Combine(testing::Values("photonmap", "exphotonmap"),
+                                          testing::Values(.5, .8, .9)));
+
+// The guided gather must not lose or add energy at any cone angle.
+class GatherFurnace : public testing::TestWithParam<double> {};
+
+TEST_P(GatherFurnace, IsRightAtEveryGatherAngle) {
+  const std::string scene =
+      TestHeader("\"exphotonmap\" \"integer indirectphotons\" [20000] \"float gatherangle\" [" +
+                     std::to_string(GetParam()) + "] \"integer finalgathersamples\" [64]",
+                 8, 8, 4) +
+      FurnaceWorld(1, "\"matte\" \"color Kd\" " + Grey(.5));
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  // Emission 1 and direct light .5 are exact here; .5 is gathered: .4 % of the whole is .8 % of it.
+  EXPECT_TRUE(IsWithin(.004, estimate, 2));
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, GatherFurnace,
+                         testing::Values(.001, .05, .1, 1.0, 5.0, 10.0, 45.0, 90.0));
+
+// A point light anywhere in a sphere of radius R and albedo a: the indirect radiance is the same
+// all over the sphere, a^2 Phi / (4 pi^2 R^2 (1 - a)).
+class LightInSphere : public testing::TestWithParam<const char*> {};
+
+TEST_P(LightInSphere, GivesConstantIndirectLightWhereverItIs) {
+  const double albedo = .6, intensity = 1;
+  const auto scene = [&](const std::string& integrator) {
+    return TestHeader(integrator, 8, 8, 4) +
+           "WorldBegin\nLightSource \"point\" \"color I\" [1 1 1] \"point from\" [.4 .2 -.3]\n"
+           "Material \"matte\" \"color Kd\" " + Grey(albedo) +
+           "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
+  };
+  const std::string all = scene(std::string("\"") + GetParam() +
+                                "\" \"integer indirectphotons\" [20000] \"float maxdist\" [.2]");
+  const std::string direct = scene("\"directlighting\"");
+  const auto estimate = EstimateOverSeeds(
+      [&](std::uint64_t seed) { return Mean(all, seed) - Mean(direct, seed); });
+  const double pi = 3.14159265358979, power = 4 * pi * intensity;
+  EXPECT_TRUE(IsWithin(.02, estimate, albedo * albedo * power / (4 * pi * pi * (1 - albedo))));
+}
+
+INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, LightInSphere,
+                         testing::Values("photonmap", "exphotonmap"));
+
+// Kd .01 keeps interreflection below 1e-4; the camera looks at the floor from the side.
+std::string CausticScene(const std::string& integrator, const std::string& optics) {
+  return "SurfaceIntegrator " + integrator +
+         "\nFilm \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
+         "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
+         "LookAt 0 .4 -1.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [8]\n"
+         "WorldBegin\nLightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 1 0] "
+         "\"point to\" [0 0 0]\n" + optics +
+         "Material \"matte\" \"color Kd\" [.01 .01 .01]\n"
+         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
+         "[-1 0 -1  -1 0 1  1 0 1  1 0 -1]\nWorldEnd\n";
+}
+
+class Caustic : public testing::TestWithParam<const char*> {
+ protected:
+  std::string Integrator() const {
+    return std::string("\"") + GetParam() +
+           "\" \"integer causticphotons\" [60000] \"integer indirectphotons\" [1000] \"float "
+           "maxdist\" [.1] \"bool finalgather\" [\"false\"]";
+  }
+};
+
+TEST_P(Caustic, ThroughAGlassSlabLosesWhatFresnelTakes) {
+  // All internal bounces included a slab transmits 2 n / (n^2 + 1).
+  for (const double index : {1.5, 1.33}) {
+    const std::string slab =
+        "Material \"glass\" \"float index\" [" + std::to_string(index) +
+        "]\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 5 4 7 6] \"point P\" "
+        "[-2 .9 -2  -2 .9 2  2 .9 2  2 .9 -2  -2 .8 -2  -2 .8 2  2 .8 2  2 .8 -2]\n";
+    const std::string scene = CausticScene(Integrator(), slab);
+    const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+    EXPECT_TRUE(IsWithin(.01, estimate,
+                         .01 / 3.14159265358979 * 2 * index / (index * index + 1)))
+        << "index " << index;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, Caustic, testing::Values("photonmap", "exphotonmap"));
+
+TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
+  // A horizontal beam meets a 45 degree mirror above the floor and turns down on to it.
+  const std::string scene =
+      "SurfaceIntegrator \"exphotonmap\" \"integer causticphotons\" [60000] \"integer "
+      "indirectphotons\" [1000] \"float maxdist\" [.1] \"bool finalgather\" [\"false\"]\n"
+      "Film \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
+      "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
+      "LookAt 0 .4 -1.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [8]\nWorldBegin\n"
+      "LightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 0 0] \"point to\" [1 0 0]\n"
+      "Material \"mirror\" \"color Kr\" [1 1 1]\n"
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
+      "[-1 .5 -1  -1 .5 1  1 2.5 1  1 2.5 -1]\n"
+      "Material \"matte\" \"color Kd\" [.01 .01 .01]\n"
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
+      "[-1 0 -1  -1 0 1  1 0 1  1 0 -1]\nWorldEnd\n";
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979));
+}
+
+// n lights of power 1/n light the room as one does.
+class SplitLight : public testing::TestWithParam<std::tuple<const char*, int>> {};
+
+TEST_P(SplitLight, LightsAsOneDoes) {
+  const auto [selection, count] = GetParam();
+  std::string lights;
+  for (int i = 0; i < count; ++i)
+    lights += "LightSource \"point\" \"color I\" " + Grey(1.0 / count) + "\n";
+  const double albedo = .5;
+  const std::string scene =
+      TestHeader("\"exphotonmap\" \"integer indirectphotons\" [10000] \"string lightselection\" "
+                 "[\"" + std::string(selection) + "\"]",
+                 4, 4, 4) +
+      "WorldBegin\n" + lights + "Material \"matte\" \"color Kd\" " + Grey(albedo) +
+      "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  // The light is in the centre: a I / (pi R^2 (1 - a)).
+  EXPECT_TRUE(IsWithin(.01, estimate, albedo / (3.14159265358979 * (1 - albedo))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, SplitLight,
+                         testing::Combine(testing::Values("power", "uniform"),
+                                          testing::Values(1, 2, 7, 100)));
+
+TEST(UnlitRoom, NextToALitOneStaysDark) {
+  // Two closed cells that share a wall; the light is in the other one.
+  const std::string scene =
+      TestHeader("\"exphotonmap\" \"integer indirectphotons\" [5000]", 6, 6, 4) +
+      "WorldBegin\nLightSource \"point\" \"color I\" [5 5 5] \"point from\" [3 0 0]\n"
+      "Material \"matte\" \"color Kd\" [.7 .7 .7]\n"
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 5 6 4 6 7 0 1 5 0 5 4 3 2 6 3 6 7 "
+      "0 3 7 0 7 4 1 2 6 1 6 5 8 9 10 8 10 11 3 2 9 3 9 8 7 6 10 7 10 11 3 7 11 3 11 8 2 6 10 2 10 "
+      "9] \"point P\" [-1 -1 -1  -1 1 -1  1 1 -1  1 -1 -1  -1 -1 1  -1 1 1  1 1 1  1 -1 1  5 -1 -1 "
+      " 5 1 -1  5 1 1  5 -1 1]\nWorldEnd\n";
+  EXPECT_EQ(Mean(scene, 1), 0);
+}
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The final gather of a constant environment: f integrates to the reflectance of the non-specular
+// lobes, whatever specular lobes stand beside them and wherever the guide points.
+#include "integrators/photon/final_gather.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/sampling.h"
+#include "core/scattering/lambert.h"
+#include "core/scattering/specular.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+struct Gathered {
+  double mean, error;  // 4 standard errors
+};
+
+// Gathers radiance 1 from everywhere, guided by photons from the given directions, over `count`
+// independent sets of gather samples.
+template <class AddLobes>
+Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleDegrees, int count,
+                        const AddLobes& addLobes) {
+  static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
+  PhotonHaul haul;
+  for (const Vector3& w : guideDirections) haul.photons.push_back({{0, 0, 0}, w, Spectrum(1)});
+  haul.paths = 1;
+  const PhotonMap guide(std::move(haul));
+
+  PhotonSettings settings;
+  settings.gatherSampling = GatherSampling::Photons;
+  settings.gatherAngle = angleDegrees;
+  settings.finalGatherSamples = 32;
+  FinalGather gather(settings);
+  SampleLayout layout;
+  gather.RequestSamples(&layout);
+  CameraSamples samples(layout);
+
+  Arena arena;
+  RayCounters rays;
+  double sum = 0, sum2 = 0;
+  for (int i = 0; i < count; ++i) {
+    arena.Reset();
+    RandomStream random(HashKey({std::uint64_t(i)}));
+    for (int a = 0; a < samples.Count2D(); ++a)
+      for (Point2& u : samples.Array2D(a)) u = {random.Uniform(), random.Uniform()};
+    for (int a = 0; a < samples.Count1D(); ++a)
+      for (Real& u : samples.Array1D(a)) u = random.Uniform();
+    SurfaceInteraction surface;
+    surface.ng = surface.shading.n = {0, 0, 1};
+    surface.dpdu = surface.shading.dpdu = {1, 0, 0};
+    surface.dpdv = surface.shading.dpdv = {0, 1, 0};
+    surface.wo = Normalize(Vector3(Real(.3), Real(.2), 1));
+    ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
+    addLobes(&point.bsdf, &arena);
+    LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
+    const double x =
+        double(gather.Gather(point, guide, context, [](const Ray&) { return Spectrum(1); }).g);
+    sum += x;
+    sum2 += x * x;
+  }
+  const double mean = sum / count;
+  return {mean, 4 * std::sqrt(std::max(0.0, sum2 / count - mean * mean) / count)};
+}
+
+std::vector<Vector3> UpperDirections(int count) {
+  std::vector<Vector3> directions;
+  RandomStream random(21);
+  for (int i = 0; i < count; ++i)
+    directions.push_back(SampleCosineHemisphere({random.Uniform(), random.Uniform()}));
+  return directions;
+}
+
+constexpr double kTolerance = .005;
+
+TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
+  for (Real angle : {Real(.001), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {
+    const Gathered g = GatherConstant(UpperDirections(50), angle, 3000, [](Bsdf* bsdf, Arena* arena) {
+      bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+    });
+    EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * kTolerance) << angle << " degrees";
+  }
+}
+
+TEST(FinalGather, BesideASpecularLobeBringsTheDiffusePartAlone) {
+  const Gathered g = GatherConstant(UpperDirections(50), 10, 3000, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.5))));
+    bsdf->Add(arena->Make<SpecularReflection>(Spectrum(Real(.3)), Fresnel::None()));
+  });
+  EXPECT_LE(std::abs(g.mean - .5) + g.error, .5 * kTolerance);
+}
+
+TEST(FinalGather, GuidedByOneDirectionOnlyIsStillUnbiased) {
+  const std::vector<Vector3> same(50, Normalize(Vector3(1, 0, 1)));
+  const Gathered g = GatherConstant(same, 10, 20000, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+  });
+  EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * 2 * kTolerance);
+}
+
+TEST(FinalGather, WithEveryPhotonBelowTheHorizonFollowsTheBsdfAlone) {
+  const std::vector<Vector3> below(50, Vector3(0, 0, -1));
+  const Gathered g = GatherConstant(below, 10, 200, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+  });
+  EXPECT_NEAR(g.mean, .8, 1e-4);  // every cosine-sampled ray brings exactly rho
+}
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What the classic photon mapper hangs, crashes or loses energy on: missing photons, missing
+// lights, surfaces that are all specular, tiny counts, colours that cancel.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/base/error.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+std::string Sphere(const std::string& integrator, const std::string& light,
+                   const std::string& material) {
+  return TestHeader(integrator, 4, 4, 2) + "WorldBegin\n" + light + "\nMaterial " + material +
+         "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
+}
+
+constexpr const char* kPoint = "LightSource \"point\" \"color I\" [1 1 1]";
+constexpr const char* kMatte = "\"matte\" \"color Kd\" [.5 .5 .5]";
+
+TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
+  for (const char* integrator : {"photonmap", "exphotonmap"})
+    for (int indirect : {0, 1, 2, 49, 50, 51})
+      for (int caustic : {0, 1, 2}) {
+        const std::string settings = std::string("\"") + integrator +
+                                     "\" \"integer indirectphotons\" [" + std::to_string(indirect) +
+                                     "] \"integer causticphotons\" [" + std::to_string(caustic) +
+                                     "]";
+        const TestRender render = RenderSceneText(Sphere(settings, kPoint, kMatte));
+        EXPECT_EQ(render.result.nonFiniteSamples, 0);
+        EXPECT_GT(MeanRadiance(render.image), 0) << settings;
+      }
+}
+
+TEST(PhotonEdgeCases, WithoutIndirectPhotonsTheGatherStillReadsDirectAndCausticLight) {
+  const auto render = [](const std::string& counts) {
+    return MeanRadiance(
+        RenderSceneText(Sphere("\"exphotonmap\" " + counts, kPoint, kMatte)).image);
+  };
+  const double direct = MeanRadiance(RenderSceneText(Sphere("\"directlighting\"", kPoint, kMatte)).image);
+  const double once = render("\"integer indirectphotons\" [0] \"integer directphotons\" [20000]");
+  // One bounce more than direct light: the indirect map would add the further ones.
+  EXPECT_NEAR(once / direct, 1.5, .05);
+}
+
+TEST(PhotonEdgeCases, BlackLightsGiveEmissionOnly) {
+  const TestRender render = RenderSceneText(
+      Sphere("\"exphotonmap\"", "LightSource \"point\" \"color I\" [0 0 0]", kMatte));
+  EXPECT_EQ(MeanRadiance(render.image), 0);
+}
+
+TEST(PhotonEdgeCases, WithoutLightsThePictureIsBlack) {
+  const TestRender render = RenderSceneText(Sphere("\"exphotonmap\"", "", kMatte));
+  EXPECT_EQ(MeanRadiance(render.image), 0);
+}
+
+TEST(PhotonEdgeCases, WithoutSpecularSurfacesNoCausticPathIsShot) {
+  const TestRender asked = RenderSceneText(
+      Sphere("\"exphotonmap\" \"integer causticphotons\" [20000] \"integer indirectphotons\" [500]",
+             kPoint, kMatte));
+  const TestRender unasked = RenderSceneText(
+      Sphere("\"exphotonmap\" \"integer causticphotons\" [0] \"integer indirectphotons\" [500]",
+             kPoint, kMatte));
+  EXPECT_EQ(asked.image.pixels, unasked.image.pixels);
+  EXPECT_LT(asked.Counter("photons/indirect paths"), 1000);
+  EXPECT_TRUE(std::isnan(asked.Counter("photons/caustic paths")));
+}
+
+TEST(PhotonEdgeCases, AMirrorBoxEnds) {
+  const TestRender render = RenderSceneText(
+      Sphere("\"exphotonmap\" \"integer indirectphotons\" [1000]", kPoint, "\"mirror\""));
+  EXPECT_EQ(MeanRadiance(render.image), 0);
+}
+
+TEST(PhotonEdgeCases, AMapThatNeverFillsIsReportedWithWhatItHas) {
+  const TestRender render = RenderSceneText(
+      Sphere("\"exphotonmap\" \"integer maxphotonpaths\" [640] \"integer indirectphotons\" "
+             "[1000000]",
+             kPoint, kMatte));
+  EXPECT_TRUE(render.Says("indirect map: "));
+  EXPECT_TRUE(render.Says("of 1000000 photons after"));
+  EXPECT_GT(render.Counter("photons/indirect stored"), 0);
+  EXPECT_GT(MeanRadiance(render.image), 0);
+}
+
+TEST(PhotonEdgeCases, ComplementaryColoursEndPathsWithoutNan) {
+  const TestRender render = RenderSceneText(
+      Sphere("\"exphotonmap\" \"integer indirectphotons\" [1000] \"integer maxphotonpaths\" [4096]",
+             "LightSource \"point\" \"color I\" [1 0 0]", "\"matte\" \"color Kd\" [0 1 0]"));
+  EXPECT_EQ(render.result.nonFiniteSamples, 0);
+  EXPECT_EQ(MeanRadiance(render.image), 0);
+}
+
+TEST(PhotonEdgeCases, TheDepthLimitWarnsWhereItCutsPower) {
+  const auto render = [](int depth) {
+    return RenderSceneText(Sphere("\"exphotonmap\" \"integer indirectphotons\" [2000] \"integer "
+                                  "maxphotondepth\" [" + std::to_string(depth) + "]",
+                                  kPoint, "\"matte\" \"color Kd\" [.9 .9 .9]"));
+  };
+  EXPECT_TRUE(render(5).Says("maxphotondepth 5 cut"));
+  EXPECT_FALSE(render(1024).Says("maxphotondepth"));
+}
+
+TEST(PhotonEdgeCases, TheCamerasDepthLimitWarnsWhereItCuts) {
+  const auto render = [](int depth) {
+    return RenderSceneText(Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"integer "
+                                  "maxdepth\" [" + std::to_string(depth) + "]",
+                                  kPoint, "\"mirror\" \"color Kr\" [.2 .2 .2]"));
+  };
+  EXPECT_TRUE(render(1).Says("the depth limit cut specular paths"));
+  EXPECT_FALSE(render(10).Says("the depth limit cut specular paths"));
+}
+
+TEST(PhotonEdgeCases, EveryShownMapRenders) {
+  for (const char* integrator : {"photonmap", "exphotonmap"})
+    for (const char* show : {"radiancephotons", "directphotons", "indirectphotons"}) {
+      const TestRender render = RenderSceneText(
+          Sphere(std::string("\"") + integrator + "\" \"integer indirectphotons\" [2000] \"string "
+                 "show\" \"" + show + "\"", kPoint, kMatte));
+      EXPECT_GT(MeanRadiance(render.image), 0) << integrator << " " << show;
+    }
+}
+
+TEST(PhotonEdgeCases, GatherAnglesOutsideTheirRangeAreErrors) {
+  for (const char* angle : {"0", "91", "180", "-5"})
+    EXPECT_THROW(RenderSceneText(Sphere(std::string("\"exphotonmap\" \"float gatherangle\" [") +
+                                            angle + "]", kPoint, kMatte)),
+                 Error)
+        << angle;
+  EXPECT_NO_THROW(RenderSceneText(
+      Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"float gatherangle\" [90]", kPoint,
+             kMatte)));
+}
+
+TEST(PhotonEdgeCases, LightThatHitsNothingEndsWithinItsBudget) {
+  const std::string scene =
+      TestHeader("\"exphotonmap\" \"integer indirectphotons\" [1000]", 4, 4, 1) +
+      "WorldBegin\nLightSource \"spot\" \"point from\" [0 0 5] \"point to\" [0 0 10]\nMaterial " +
+      kMatte + "\nTranslate 0 0 3\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
+  const TestRender render = RenderSceneText(scene);
+  EXPECT_TRUE(render.Says("indirect map: 0 of 1000 photons"));
+  EXPECT_EQ(MeanRadiance(render.image), 0);
+}
+
+}  // namespace
+}  // namespace exphoton
