@@ -14,7 +14,6 @@ namespace {
 // A room with a glass ball, a mirror and a coloured wall, all lengths times `scale`, all radiances
 // times `power`.
 std::string Room(const std::string& integrator, double scale, double power, bool scalesRadius) {
-  const std::string s = std::to_string(scale);
   const std::string L = std::to_string(4 * power);
   std::string radius;
   if (scalesRadius) {
@@ -24,14 +23,15 @@ std::string Room(const std::string& integrator, double scale, double power, bool
   }
   char scaling[128];
   std::snprintf(scaling, sizeof scaling, "Scale %.9g %.9g %.9g\n", scale, scale, scale);
-  char look[128];
-  std::snprintf(look, sizeof look, "LookAt 0 0 %.9g  0 0 0  0 1 0\n", -.95 * scale);
+  char view[256];
+  std::snprintf(view, sizeof view,
+                "LookAt 0 0 %.9g  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [80] \"float "
+                "hither\" [%.9g]\n",
+                -.9375 * scale, scale / 1024);
   return "SurfaceIntegrator " + integrator + radius +
          "\nFilm \"image\" \"integer xresolution\" [24] \"integer yresolution\" [18]\n"
          "PixelFilter \"gaussian\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [2]\n" +
-         look +
-         "Camera \"perspective\" \"float fov\" [80] \"float hither\" [" +
-         std::to_string(.001 * scale) + "]\nWorldBegin\n" + scaling +
+         view + "WorldBegin\n" + scaling +
          "AttributeBegin\nAreaLightSource \"area\" \"color L\" [" + L + " " + L + " " + L +
          "]\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
          "[-.3 .98 -.3  .3 .98 -.3  .3 .98 .3  -.3 .98 .3]\nAttributeEnd\n"

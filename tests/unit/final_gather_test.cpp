@@ -78,7 +78,7 @@ constexpr double kTolerance = .005;
 
 TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
   for (Real angle : {Real(.001), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {
-    const Gathered g = GatherConstant(UpperDirections(50), angle, 3000, [](Bsdf* bsdf, Arena* arena) {
+    const Gathered g = GatherConstant(UpperDirections(50), angle, 30000, [](Bsdf* bsdf, Arena* arena) {
       bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
     });
     EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * kTolerance) << angle << " degrees";
@@ -86,7 +86,7 @@ TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
 }
 
 TEST(FinalGather, BesideASpecularLobeBringsTheDiffusePartAlone) {
-  const Gathered g = GatherConstant(UpperDirections(50), 10, 3000, [](Bsdf* bsdf, Arena* arena) {
+  const Gathered g = GatherConstant(UpperDirections(50), 10, 30000, [](Bsdf* bsdf, Arena* arena) {
     bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.5))));
     bsdf->Add(arena->Make<SpecularReflection>(Spectrum(Real(.3)), Fresnel::None()));
   });
