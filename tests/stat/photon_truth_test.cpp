@@ -33,7 +33,7 @@ TEST_P(Furnace, ShowsEmissionOverOneMinusAlbedo) {
   const std::string scene =
       TestHeader(std::string("\"") + integrator +
                      // A path leaves a geometric number of photons: paths are what counts.
-                     "\" \"integer indirectphotons\" [" + (albedo > .85 ? "200000" : "40000") +
+                     "\" \"integer indirectphotons\" [" + (albedo > .85 ? "500000" : "40000") +
                      "] \"integer directphotons\" [20000] \"integer finalgathersamples\" [16]" +
                      (albedo > .7 ? " \"string photonroulette\" \"luminance\"" : ""),
                  6, 6, 4) +
@@ -94,7 +94,7 @@ std::string CausticScene(const std::string& integrator, const std::string& optic
   return "SurfaceIntegrator " + integrator +
          "\nFilm \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
          "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
-         "LookAt 0 .4 -1.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [35]\n"
+         "LookAt 0 .7 -.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [50]\n"
          "WorldBegin\nLightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 1 0] "
          "\"point to\" [0 0 0]\n" + optics +
          "Material \"matte\" \"color Kd\" [.01 .01 .01]\n"
@@ -135,7 +135,7 @@ TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
       "indirectphotons\" [0] \"integer nused\" [200] \"float maxdist\" [.1] \"bool finalgather\" [\"false\"]\n"
       "Film \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
       "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
-      "LookAt 0 .4 -1.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [35]\nWorldBegin\n"
+      "LookAt 0 .7 -.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [50]\nWorldBegin\n"
       "LightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 0 0] \"point to\" [1 0 0]\n"
       "Material \"mirror\" \"color Kr\" [1 1 1]\n"
       "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
