@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // loopsubdiv: the limit surface of Loop subdivision of a triangle mesh, as a finer mesh whose
-// vertices and normals lie on it.
+// vertices lie on it and whose normals are its own. (pbrt-v1 takes normals from the ring of limit
+// positions, which is exact only in the limit: at low levels its highlights lie elsewhere.)
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
 #include "shapes/mesh/loop_subdivision.h"

@@ -221,6 +221,20 @@ TEST(LoopSubdivision, NormalsAreThoseOfTheFineMesh) {
   EXPECT_GT(worst, 0.98);
 }
 
+// A limit is a limit: refining further changes neither the vertices nor their normals.
+TEST(LoopSubdivision, NormalsDoNotDependOnTheLevel) {
+  SubdivisionMesh bent = Tetrahedron();
+  bent.positions[0] = {3, 1, 0.5};
+  bent.positions[2] = {1, -2, -0.3};
+  for (int level = 0; level < 4; ++level) {
+    const LimitMesh coarse = LoopSubdivide(bent, level), fine = LoopSubdivide(bent, level + 1);
+    for (std::size_t i = 0; i < coarse.normals.size(); ++i) {
+      EXPECT_LT(Length(coarse.mesh.positions[i] - fine.mesh.positions[i]), 1e-12);
+      EXPECT_GT(Dot(coarse.normals[i], fine.normals[i]), 1 - 1e-12) << level << " " << i;
+    }
+  }
+}
+
 // A square of 3 x 3 vertices, bent; corners have valence 2 and 3, sides 4.
 SubdivisionMesh Patch(double bend) {
   SubdivisionMesh mesh;
