@@ -92,7 +92,7 @@ class KdTree final : public Aggregate {
     const TraceRay trace(ray);
     Walk(ray, [&](const KdNode& leaf) {
       ForEach(leaf, [&](std::uint32_t id) {
-        primitives_.Intersect(id, trace, &hit);
+        if (!primitives_.Misses(id, trace)) primitives_.Intersect(id, trace, &hit);
         return false;
       });
       return double(hit.t);
@@ -105,7 +105,9 @@ class KdTree final : public Aggregate {
     const TraceRay trace(ray);
     bool isOccluded = false;
     Walk(ray, [&](const KdNode& leaf) {
-      isOccluded = ForEach(leaf, [&](std::uint32_t id) { return primitives_.Occludes(id, trace); });
+      isOccluded = ForEach(leaf, [&](std::uint32_t id) {
+        return !primitives_.Misses(id, trace) && primitives_.Occludes(id, trace);
+      });
       return isOccluded ? -1.0 : double(ray.tMax);
     });
     return isOccluded;

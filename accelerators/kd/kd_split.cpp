@@ -83,7 +83,7 @@ void TryBins(std::span<const KdItem> items, const Bounds3& cell, int axis, const
     below += begins[i - 1];
     above -= ends[i - 1];
     const float plane = float(low + length * double(i) / kBins);
-    if (plane > cell.min[axis] && plane < cell.max[axis])
+    if (Real(plane) > cell.min[axis] && Real(plane) < cell.max[axis])
       cost.Try(double(plane), below, above, best);
   }
 }
@@ -101,9 +101,10 @@ KdSplit FindKdSplit(std::span<const KdItem> items, const Bounds3& cell, const Kd
     }
   }
   // In a build with doubles the plane is rounded and may have left the cell.
-  if (best.axis >= 0 &&
-      !(best.position > cell.min[best.axis] && best.position < cell.max[best.axis]))
-    best.axis = -1;
+  if (best.axis >= 0) {
+    const Real position = Real(best.position);
+    if (!(position > cell.min[best.axis] && position < cell.max[best.axis])) best.axis = -1;
+  }
   return best;
 }
 

@@ -46,16 +46,13 @@ TriangleRay::TriangleRay(const Ray& ray) : o(ray.o) {
 
 std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, const Point3& p0,
                                              const Point3& p1, const Point3& p2) {
+  if (MissesTriangle(ray, p0, p1, p2)) return std::nullopt;
   const int kx = ray.kx, ky = ray.ky, kz = ray.kz;
   const auto shear = [&](const Point3& p) -> Sheared {
     const Real z = p[kz] - ray.o[kz];
     return {(p[kx] - ray.o[kx]) - ray.sx * z, (p[ky] - ray.o[ky]) - ray.sy * z};
   };
   const Sheared a = shear(p0), b = shear(p1), c = shear(p2);
-  const Real u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
-  // A NaN passes here and is decided in double below.
-  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
-
   const double ax = a.x, ay = a.y, bx = b.x, by = b.y, cx = c.x, cy = c.y;
   const double du = cx * by - cy * bx, dv = ax * cy - ay * cx, dw = bx * ay - by * ax;
   if ((du < 0 || dv < 0 || dw < 0) && (du > 0 || dv > 0 || dw > 0)) return std::nullopt;

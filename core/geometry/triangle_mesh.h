@@ -40,6 +40,25 @@ struct TriangleHit {
   Real t, b1, b2;  // p = (1 - b1 - b2) p0 + b1 p1 + b2 p2
 };
 
+// Whether the ray passes the triangle, by its edges alone; never true for one that
+// IntersectTriangle would find. For inner loops: most triangles end here.
+inline bool MissesTriangle(const TriangleRay& ray, const Point3& p0, const Point3& p1,
+                           const Point3& p2) {
+  const auto misses = [&]<int kz>() {
+    constexpr int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    const Real ox = ray.o[kx], oy = ray.o[ky], oz = ray.o[kz];
+    const Real az = p0[kz] - oz, bz = p1[kz] - oz, cz = p2[kz] - oz;
+    const Real ax = (p0[kx] - ox) - ray.sx * az, ay = (p0[ky] - oy) - ray.sy * az;
+    const Real bx = (p1[kx] - ox) - ray.sx * bz, by = (p1[ky] - oy) - ray.sy * bz;
+    const Real cx = (p2[kx] - ox) - ray.sx * cz, cy = (p2[ky] - oy) - ray.sy * cz;
+    const Real u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
+    // Neither holds for a NaN, which the full test decides.
+    return (u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0);
+  };
+  if (ray.kz == 0) return misses.template operator()<0>();
+  return ray.kz == 1 ? misses.template operator()<1>() : misses.template operator()<2>();
+}
+
 // Hit with 0 < t <= tMax (a tie at tMax counts, so that ties can be decided by index), and t above
 // its own error bound.
 std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, const Point3& p0,

@@ -93,10 +93,6 @@ Bounds3 PrimitiveSet::Bounds(std::uint32_t id) const {
   return bounds;
 }
 
-std::array<Point3, 3> PrimitiveSet::TriangleVertices(std::uint32_t id) const {
-  return vertices_[id];
-}
-
 void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const {
   if (id < triangles_.size()) {
     const auto& v = vertices_[id];

@@ -62,8 +62,14 @@ class PrimitiveSet {
   Bounds3 WorldBounds() const { return bounds_; }
 
   // Vertices of a triangle, for accelerators that clip.
-  std::array<Point3, 3> TriangleVertices(std::uint32_t id) const;
+  const std::array<Point3, 3>& TriangleVertices(std::uint32_t id) const { return vertices_[id]; }
 
+  // Whether the ray certainly misses primitive `id`; cheap and inline, false where it is not.
+  bool Misses(std::uint32_t id, const TraceRay& ray) const {
+    if (id >= vertices_.size()) return false;
+    const auto& v = vertices_[id];
+    return MissesTriangle(ray.triangle, v[0], v[1], v[2]);
+  }
   // Tests primitive `id`; replaces *hit (whose t bounds the search) where nearer, or as near with a
   // lower id. `hit->t` starts at ray.tMax.
   void Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const;

@@ -163,6 +163,51 @@ TEST_F(Quadrics, DerivativesAgreeWithDifferences) {
   }
 }
 
+TEST_F(Quadrics, ScaleByPowersOfTwoBitForBit) {
+  RandomStream random(31);
+  int hits = 0;
+  for (const char* text : {R"("sphere")", R"("sphere" "float zmax" .5 "float phimax" 270)",
+                           R"("disk")", R"("cylinder")"}) {
+    const Vector3 shift = RandomVector(random);
+    const Transform turned = *Transform::Rotate(37, {1, 2, 3});
+    const auto shape = Make(text, Transform::Translate(shift) * turned);
+    for (const int k : {-20, 10, 20}) {
+      const Real factor = std::ldexp(Real(1), k);
+      const auto scale = *Transform::Scale(double(factor), double(factor), double(factor));
+      const auto larger = Make(text, Transform::Translate(shift * factor) * turned * scale);
+      EXPECT_EQ(shape->Area() * factor * factor, larger->Area());
+      for (int i = 0; i < 500; ++i) {
+        Ray ray = RayFromTo(RandomVector(random) * 4, shift + RandomVector(random));
+        ray.d = NormalizeOr(ray.d, {0, 0, 1});
+        Ray far = ray;
+        far.o = ray.o * factor;
+        const auto hit = shape->Intersect(ray), farHit = larger->Intersect(far);
+        ASSERT_EQ(hit.has_value(), farHit.has_value());
+        const Point2 u(random.Uniform(), random.Uniform());
+        SurfacePoint ref, farRef;
+        ref.p = ray.o, farRef.p = far.o;
+        const auto sample = shape->SampleToward(ref, u, 0);
+        const auto farSample = larger->SampleToward(farRef, u, 0);
+        ASSERT_EQ(sample.has_value(), farSample.has_value());
+        if (sample) {
+          EXPECT_EQ(sample->pdf, farSample->pdf);
+          EXPECT_EQ(sample->point.p * factor, farSample->point.p);
+        }
+        if (!hit) continue;
+        ++hits;
+        EXPECT_EQ(hit->t * factor, farHit->t);
+        const SurfaceInteraction a = shape->Surface(ray, *hit), b = larger->Surface(far, *farHit);
+        EXPECT_EQ(a.p * factor, b.p);
+        EXPECT_EQ(a.pError * factor, b.pError);
+        EXPECT_EQ(a.ng, b.ng);
+        EXPECT_EQ(a.uv, b.uv);
+        EXPECT_EQ(a.dpdu * factor, b.dpdu);
+      }
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
 TEST_F(Quadrics, WithNothingLeftAreRefused) {
   for (const char* text : {R"("sphere" "float radius" 0)", R"("sphere" "float radius" -1)",
                            R"("sphere" "float zmin" .5 "float zmax" .5)",
