@@ -52,15 +52,14 @@ inline bool IsFinite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-// a / |a|, or `fallback` where |a| is 0 or not finite. Scales first, so that neither tiny nor huge
-// vectors underflow or overflow; the scale is a power of two and so exact.
+// a / |a|, or `fallback` where |a| is 0 or not finite. Where the square would underflow or overflow
+// the vector is scaled first, by a power of two: both ways round alike, bit for bit.
+Vec3 NormalizeExtremeOr(const Vec3& a, const Vec3& fallback);
 inline Vec3 NormalizeOr(const Vec3& a, const Vec3& fallback) {
-  const Real largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-  if (!(largest > 0) || !std::isfinite(largest) || !IsFinite(a)) return fallback;
-  int exponent;
-  std::frexp(largest, &exponent);
-  const Vec3 b(std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent));
-  return b / Length(b);
+  constexpr Real kSmall = Real(1e-20), kLarge = Real(1e30);
+  const Real length2 = LengthSquared(a);
+  if (length2 > kSmall && length2 < kLarge) return a / std::sqrt(length2);
+  return NormalizeExtremeOr(a, fallback);
 }
 // For vectors known to be of ordinary length (not 0, square neither underflows nor overflows).
 inline Vec3 Normalize(const Vec3& a) { return a / Length(a); }

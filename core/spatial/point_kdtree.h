@@ -64,36 +64,48 @@ class PointKdTree {
 
 template <class Visit>
 void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
+  // A subtree to be searched, with the offset of its region from p on each axis; the sum of their
+  // squares is a lower bound of every distance in it (Arya and Mount 1993).
   struct Pending {
     std::uint32_t node, begin, end;
     int level;
-    Real distance2;  // of p from the subtree's region, a lower bound
+    Vector3 offset;
+    Real distance2;
   };
+  // The bound is rounded too: a little less of it never hides a point.
+  constexpr Real kSlack = 1 - Gamma(8);
   if (points_.empty() || !IsFinite(p)) return;
   Pending stack[32];  // at most one a level
   int depth = 0;
-  Pending at{0, 0, std::uint32_t(points_.size()), 0, 0};
+  Pending at{0, 0, std::uint32_t(points_.size()), 0, {}, 0};
   for (;;) {
-    if (at.distance2 <= *radius2) {
-      while (at.level < levels_) {
-        const Node& node = nodes_[at.node];
-        const std::uint32_t middle = at.begin + (at.end - at.begin) / 2;
-        const Real delta = p[int(node.axis)] - node.split;
-        const Real far2 = std::max(at.distance2, delta * delta);
-        const Pending left{2 * at.node + 1, at.begin, middle, at.level + 1, far2};
-        const Pending right{2 * at.node + 2, middle, at.end, at.level + 1, far2};
-        const Real near2 = at.distance2;
-        if (far2 <= *radius2) stack[depth++] = delta < 0 ? right : left;
-        at = delta < 0 ? left : right;
-        at.distance2 = near2;
+    while (at.level < levels_) {
+      const Node& node = nodes_[at.node];
+      const std::uint32_t middle = at.begin + (at.end - at.begin) / 2;
+      const int axis = int(node.axis);
+      const Real delta = p[axis] - node.split;
+      const Real far2 = (at.distance2 + (Square(delta) - Square(at.offset[axis]))) * kSlack;
+      const bool isLeft = delta < 0;
+      ++at.level;
+      if (far2 <= *radius2) {
+        Pending& far = stack[depth++];
+        far = at;
+        far.node = 2 * at.node + (isLeft ? 2 : 1);
+        (isLeft ? far.begin : far.end) = middle;
+        far.offset[axis] = delta;
+        far.distance2 = far2;
       }
-      for (std::uint32_t i = at.begin; i < at.end; ++i) {
-        const Real distance2 = DistanceSquared(points_[i], p);
-        if (distance2 <= *radius2) visit(i, distance2);
-      }
+      at.node = 2 * at.node + (isLeft ? 1 : 2);
+      (isLeft ? at.end : at.begin) = middle;
     }
-    if (depth == 0) return;
-    at = stack[--depth];
+    for (std::uint32_t i = at.begin; i < at.end; ++i) {
+      const Real distance2 = DistanceSquared(points_[i], p);
+      if (distance2 <= *radius2) visit(i, distance2);
+    }
+    do {
+      if (depth == 0) return;
+      at = stack[--depth];
+    } while (!(at.distance2 <= *radius2));
   }
 }
 

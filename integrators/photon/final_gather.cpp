@@ -20,11 +20,12 @@ void FinalGather::RequestSamples(SampleLayout* layout) {
   photonAxes_ = layout->Request1D(photonCount_);
 }
 
-std::span<const Vector3> FinalGather::GuideDirections(const ShadingPoint& point,
-                                                      const PhotonMap& guide, Arena* arena) const {
+ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
+                                               Arena* arena) const {
   if (photonCount_ == 0 || guide.IsEmpty()) return {};
   const auto near = guide.Nearest(point.surface.p, guideCount_, arena);
-  const auto directions = arena->MakeArray<Vector3>(near.size());
+  const auto x = arena->MakeArray<Real>(near.size()), y = arena->MakeArray<Real>(near.size()),
+             z = arena->MakeArray<Real>(near.size());
   // Light from below the horizon of a surface that transmits none is no guide.
   const bool isTwoSided = point.bsdf.Has(LobeSet::NonSpecularTransmission);
   const Normal3 ng = FaceForward(point.surface.ng, point.Wo());
@@ -32,9 +33,12 @@ std::span<const Vector3> FinalGather::GuideDirections(const ShadingPoint& point,
   std::size_t count = 0;
   for (const NearPoint& photon : near) {
     const Vector3& w = guide.Direction(photon.index);
-    if (isTwoSided || (Dot(w, ng) > 0 && Dot(w, ns) > 0)) directions[count++] = w;
+    if (!isTwoSided && !(Dot(w, ng) > 0 && Dot(w, ns) > 0)) continue;
+    x[count] = w.x;
+    y[count] = w.y;
+    z[count++] = w.z;
   }
-  return directions.first(count);
+  return {x.first(count), y.first(count), z.first(count)};
 }
 
 }  // namespace exphoton

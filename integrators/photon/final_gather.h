@@ -32,7 +32,7 @@ class FinalGather {
   static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
 
   // Directions of the nearest photons of the guide that can light this surface.
-  std::span<const Vector3> GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
+  ConeMixture::Axes GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
                                            Arena* arena) const;
   // Roulette on a ray whose weight is c: the factor to trace it with, or 0.
   Real SurvivalFactor(Real c, RandomStream* random) const {

@@ -45,7 +45,7 @@ struct PhotonSettings {
   RadianceMode radianceMode = RadianceMode::Exitant;
   Real radianceReach = 1;
   Real radianceNormal = Real(.7);
-  Real shortRays = 1;
+  Real shortRays = Real(.3);
   ShortGather shortGather = ShortGather::Estimate;
   int maxPhotonDepth = 1024;
   std::int64_t maxPhotonPaths = std::int64_t(1) << 24;

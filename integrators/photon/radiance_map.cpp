@@ -6,9 +6,12 @@
 
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
+#include "integrators/photon/nearest_set.h"
 
 namespace exphoton {
 namespace {
+
+constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 // The entries of one seed: one, or two where the surface transmits; none where it is black.
 struct SeedEntries {
@@ -42,11 +45,32 @@ SeedEntries ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, Rad
   return result;
 }
 
+// The upper quartile of the squared distances to the fourth nearest entry, over a fixed sample: a
+// point between entries mostly has one within it.
+Real GuessRadius2(const PointKdTree& tree, Real maxRadius2) {
+  constexpr std::size_t kSamples = 256;
+  constexpr int kNeighbours = 5;  // the entry itself among them
+  if (tree.Size() < kSamples) return maxRadius2;
+  std::vector<Real> found;
+  std::vector<NearPoint> buffer(NearestSet::BufferSize(kNeighbours));
+  for (std::size_t i = 0; i < tree.Size(); i += tree.Size() / kSamples) {
+    NearestSet nearest(buffer, kNeighbours);
+    Real radius2 = kInfinity;
+    tree.Search(tree.Point(std::uint32_t(i)), &radius2, [&](std::uint32_t j, Real distance2) {
+      nearest.Offer({distance2, j}, &radius2);
+    });
+    found.push_back(nearest.Finish().back().distance2);
+  }
+  const auto quartile = std::ptrdiff_t(found.size() * 3 / 4);
+  std::nth_element(found.begin(), found.begin() + quartile, found.end());
+  return std::min(found[std::size_t(quartile)], maxRadius2);
+}
+
 }  // namespace
 
 RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
                          const PhotonSettings& settings, PreprocessContext& context)
-    : reach_(settings.radianceReach), minCosine_(settings.radianceNormal) {
+    : minCosine_(settings.radianceNormal) {
   constexpr std::size_t kChunk = 256;
   const std::size_t chunks = (seeds.size() + kChunk - 1) / kChunk;
   std::vector<SeedEntries> computed(seeds.size());
@@ -68,30 +92,41 @@ RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMap
     for (int side = 0; side < computed[i].count; ++side) {
       points.push_back(seeds[i].p);
       entries.push_back(computed[i].sides[side]);
-      maxRadius_ = std::max(maxRadius_, entries.back().radius);
     }
   tree_ = PointKdTree(points);
   entries_.reserve(entries.size());
-  for (std::uint32_t i : tree_.Order()) entries_.push_back(entries[i]);
+  sides_.reserve(entries.size());
+  for (std::uint32_t i : tree_.Order()) {
+    entries_.push_back(entries[i]);
+    sides_.push_back({entries[i].n, Square(settings.radianceReach * entries[i].radius)});
+    maxReach2_ = std::max(maxReach2_, sides_.back().reach2);
+  }
+  guess2_ = GuessRadius2(tree_, maxReach2_);
 }
 
 std::size_t RadianceMap::MemoryBytes() const {
-  return tree_.MemoryBytes() + entries_.capacity() * sizeof(Entry);
+  return tree_.MemoryBytes() + entries_.capacity() * sizeof(Entry) +
+         sides_.capacity() * sizeof(Side);
 }
 
-const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
-  Real radius2 = Square(reach_ * maxRadius_);
-  const Entry* nearest = nullptr;
-  std::uint32_t nearestIndex = 0;
+std::uint32_t RadianceMap::FindWithin(Real radius2, const Point3& p, const Normal3& n) const {
+  std::uint32_t nearest = kNone;
   tree_.Search(p, &radius2, [&](std::uint32_t i, Real distance2) {
-    const Entry& entry = entries_[i];
-    if (!(Dot(entry.n, n) > minCosine_) || distance2 > Square(reach_ * entry.radius)) return;
-    if (nearest && distance2 == radius2 && i > nearestIndex) return;
-    nearest = &entry;
-    nearestIndex = i;
+    const Side& side = sides_[i];
+    if (distance2 > side.reach2 || !(Dot(side.n, n) > minCosine_)) return;
+    // Ties go to the lower index, in whatever order they are met.
+    if (distance2 == radius2 && i > nearest) return;
+    nearest = i;
     radius2 = distance2;
   });
   return nearest;
+}
+
+// A small radius first: what it finds is the nearest, and far branches are never looked at.
+const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
+  std::uint32_t nearest = FindWithin(guess2_, p, n);
+  if (nearest == kNone && guess2_ < maxReach2_) nearest = FindWithin(maxReach2_, p, n);
+  return nearest == kNone ? nullptr : &entries_[nearest];
 }
 
 }  // namespace exphoton

@@ -36,10 +36,19 @@ class RadianceMap {
   const Entry* Find(const Point3& p, const Normal3& n) const;
 
  private:
+  std::uint32_t FindWithin(Real radius2, const Point3& p, const Normal3& n) const;
+
   PointKdTree tree_;
-  std::vector<Entry> entries_;  // in tree order
-  Real reach_ = 1, minCosine_ = 0;
-  Real maxRadius_ = 0;  // of any entry
+  // What a search looks at, apart from what it brings; both in tree order.
+  struct Side {
+    Normal3 n;
+    Real reach2;  // squared distance within which the entry serves
+  };
+  std::vector<Side> sides_;
+  std::vector<Entry> entries_;
+  Real minCosine_ = 0;
+  Real maxReach2_ = 0;  // of any entry
+  Real guess2_ = 0;     // squared distance within which most lookups find their entry
 };
 
 }  // namespace exphoton

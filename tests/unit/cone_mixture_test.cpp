@@ -12,10 +12,21 @@
 namespace exphoton {
 namespace {
 
-std::vector<Vector3> RandomAxes(int count, RandomStream* random) {
-  std::vector<Vector3> axes;
+struct AxisArrays {
+  std::vector<Real> x, y, z;
+
+  void Add(const Vector3& w) {
+    x.push_back(w.x);
+    y.push_back(w.y);
+    z.push_back(w.z);
+  }
+  operator ConeMixture::Axes() const { return {x, y, z}; }
+};
+
+AxisArrays RandomAxes(int count, RandomStream* random) {
+  AxisArrays axes;
   for (int i = 0; i < count; ++i)
-    axes.push_back(SampleUniformSphere({random->Uniform(), random->Uniform()}));
+    axes.Add(SampleUniformSphere({random->Uniform(), random->Uniform()}));
   return axes;
 }
 
@@ -56,7 +67,8 @@ TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
 }
 
 TEST(ConeMixture, OfASingleConeHasTheConesDensityDownToTinyAngles) {
-  const std::vector<Vector3> axis{{0, 0, 1}};
+  AxisArrays axis;
+  axis.Add({0, 0, 1});
   for (double degrees : {1e-3, 1e-2, 1.0, 60.0, 90.0}) {
     const ConeMixture cones(axis, Radians(Real(degrees)));
     const double half = degrees / 360 * 3.14159265358979;
