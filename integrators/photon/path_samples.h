@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PathSamples: the random numbers of photon path i. Light choice, emission and first bounce take
 // the i-th point of padded Owen-scrambled (0,2)-sequences, each pair with its own order of the
-// points (Burley 2020); everything after that an independent stream. Indices are 64-bit: beyond
-// 2^32 the sequences start again with other keys.
+// points (Burley 2020: Owen's scrambling of the index itself, so that aligned blocks of 2^m indices
+// stay such blocks; and of the sixteen of a block before it, as that alone keeps neighbours
+// together in every pair). Everything after that is an independent stream. Indices are 64-bit:
+// beyond 2^32 the sequences start again with other keys.
 #pragma once
 
 #include "core/math/low_discrepancy.h"
@@ -24,16 +26,19 @@ class PathSamples {
       return {x, stream_.Uniform()};
     }
     const std::uint64_t key = HashKey({key_, std::uint64_t(pair_++)});
-    // The pair's own order of the points, or the pairs would be functions of each other. Nested from
-    // the highest bit of the index, so that aligned blocks of 2^m indices stay such blocks.
-    const std::uint32_t index = OwenScramble(index_, std::uint32_t(MixBits(key)));
-    return ScrambledSobol2(index, key);
+    // The pair's own order of the points, or the pairs would be functions of each other.
+    const std::uint64_t shuffleKey = MixBits(key);
+    const std::uint32_t low = index_ & (kShuffled - 1);
+    const std::uint32_t permuted =
+        index_ - low + PermuteIndex(low, kShuffled, std::uint32_t(shuffleKey >> 32));
+    return ScrambledSobol2(OwenScramble(permuted, std::uint32_t(shuffleKey)), key);
   }
   // From the stream at once.
   Real Independent() { return stream_.Uniform(); }
 
  private:
   static constexpr int kSequencePairs = 5;  // light, position, direction, bounce, lobe and roulette
+  static constexpr std::uint32_t kShuffled = 16;  // a power of two
   static constexpr std::uint64_t kSequenceKey = 0x70686f746f6e31ull;
   static constexpr std::uint64_t kStreamKey = 0x70686f746f6e32ull;
 
