@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Rays, surface points and the robust way from one to the other: a ray that leaves a surface starts
 // outside the error bound of the point it leaves, so no comparison with a global epsilon is needed.
-// Source: Pharr, Jakob and Humphreys 2016, section 3.9 (bounds); docs/decisions says what we do.
+// Source: Pharr, Jakob and Humphreys 2016, section 3.9; docs/decisions/0003-geometry.md.
 #pragma once
 
 #include "core/math/vec.h"
