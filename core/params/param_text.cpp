@@ -21,9 +21,9 @@ const char* ParamTypeName(ParamType type) {
     case ParamType::String:
       return "string";
     case ParamType::Choice:
-      return "choice";
+      return "string";
     case ParamType::File:
-      return "file";
+      return "string";
     case ParamType::Color:
       return "color";
     case ParamType::Point:
