@@ -2,43 +2,57 @@
 // Clipping by the six planes of the box in turn (Sutherland and Hodgman 1974), in double.
 #include "accelerators/kd/clip_triangle.h"
 
-#include "core/geometry/vec3d.h"
+#include <utility>
 
 namespace exphoton {
 namespace {
 
+// A plane adds one corner to the three; where rounding has bent the outline, at most half as many
+// as there are.
 struct Polygon {
-  // A plane adds one corner; where rounding has bent the outline, at most half as many as there
-  // are.
-  std::array<Vec3d, 32> corners;
+  double corners[32][3];  // not initialised: most planes touch few
   int count = 0;
-  void Add(const Vec3d& p) { corners[std::size_t(count++)] = p; }
 };
 
-// The part where sign * (p[axis] - plane) >= 0.
-Polygon ClipByPlane(const Polygon& polygon, int axis, double plane, double sign) {
-  Polygon result;
-  for (int i = 0; i < polygon.count; ++i) {
-    const Vec3d& a = polygon.corners[std::size_t(i)];
-    const Vec3d& b = polygon.corners[std::size_t((i + 1) % polygon.count)];
+// Copies the part of `from` where sign * (p[axis] - plane) >= 0. False, with nothing done, where
+// that is all of it.
+bool ClipByPlane(const Polygon& from, int axis, double plane, double sign, Polygon* to) {
+  bool isCut = false;
+  for (int i = 0; i < from.count; ++i) isCut |= sign * (from.corners[i][axis] - plane) < 0;
+  if (!isCut) return false;
+  to->count = 0;
+  for (int i = 0; i < from.count; ++i) {
+    const double* a = from.corners[i];
+    const double* b = from.corners[i + 1 < from.count ? i + 1 : 0];
     const double da = sign * (a[axis] - plane), db = sign * (b[axis] - plane);
-    if (da >= 0) result.Add(a);
-    if ((da > 0 && db < 0) || (da < 0 && db > 0)) result.Add(a + (b - a) * (da / (da - db)));
+    if (da >= 0) std::copy(a, a + 3, to->corners[to->count++]);
+    if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
+      const double s = da / (da - db);
+      double* p = to->corners[to->count++];
+      for (int k = 0; k < 3; ++k) p[k] = a[k] + (b[k] - a[k]) * s;
+    }
   }
-  return result;
+  return true;
 }
 
 }  // namespace
 
 Bounds3 ClipTriangle(const std::array<Point3, 3>& triangle, const Bounds3& box) {
-  Polygon polygon;
-  for (const Point3& p : triangle) polygon.Add(Vec3d(p));
-  for (int axis = 0; axis < 3 && polygon.count > 0; ++axis) {
-    polygon = ClipByPlane(polygon, axis, double(box.min[axis]), 1);
-    polygon = ClipByPlane(polygon, axis, double(box.max[axis]), -1);
+  Polygon buffers[2];
+  Polygon *now = &buffers[0], *next = &buffers[1];
+  for (const Point3& p : triangle) {
+    double* corner = now->corners[now->count++];
+    for (int k = 0; k < 3; ++k) corner[k] = double(p[k]);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ClipByPlane(*now, axis, double(box.min[axis]), 1, next)) std::swap(now, next);
+    if (ClipByPlane(*now, axis, double(box.max[axis]), -1, next)) std::swap(now, next);
   }
   Bounds3 bounds;
-  for (int i = 0; i < polygon.count; ++i) bounds.Extend(polygon.corners[std::size_t(i)].ToReal());
+  for (int i = 0; i < now->count; ++i) {
+    const double* p = now->corners[i];
+    bounds.Extend(Point3(Real(p[0]), Real(p[1]), Real(p[2])));
+  }
   return bounds;
 }
 

@@ -9,7 +9,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kExactLimit = 512;  // items up to which every plane is tried
+constexpr std::size_t kExactLimit = 64;  // items up to which every plane is tried
 constexpr int kBins = 64;
 
 // What splitting a cell along one axis costs.
