@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Lights sample the densities they state: directions towards them, directions and positions of the
+// rays that they emit; and the mean weight of those rays is their power. False alarms: 1 % over all
+// chi-square tests of this file together.
+#include <gtest/gtest.h>
+
+#include "core/imaging/exr.h"
+#include "core/math/sampling.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/equivalence.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kTests = 15;
+const Sphere3 kWorld{{1, -2, Real(.5)}, 3};
+
+// A map with every kind of texel: black, dim, bright, coloured; rows by the poles are bright.
+std::string WriteMap(int width, int height) {
+  Image image(width, height, {"R", "G", "B"});
+  RandomStream random(99);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const bool isBlack = (x + 2 * y) % 5 == 0;
+        const bool isPole = y == 0 || y == height - 1;
+        image.At(x, y, c) = isBlack ? 0 : float(random.Uniform()) * (isPole ? 5.f : 1.f);
+      }
+    }
+  }
+  const std::string path = testing::TempDir() + "exphoton_sky_" + std::to_string(width) + "x" +
+                           std::to_string(height) + ".exr";
+  WriteExr(path, image, false);
+  return "\"infinite\" \"string mapname\" \"" + path + "\"";
+}
+
+Transform Tilted() { return *Transform::Rotate(37, {1, 2, 3}) * *Transform::Scale(-1, 1, 1); }
+Transform Stretched() {
+  return *Transform::Rotate(20, {3, 1, 2}) * *Transform::Scale(1, 2, Real(.7));
+}
+
+struct Case {
+  const char* name;
+  std::string text;
+  Transform toWorld;
+
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+};
+
+std::vector<Case> PlainLights() {
+  return {{"Point", R"("point" "point from" [1 2 3])", {}},
+          {"Spot", R"("spot" "float coneangle" 50 "float conedeltaangle" 30)", Tilted()},
+          {"SharpSpot", R"("spot" "float coneangle" 120 "float conedeltaangle" 0)", Tilted()},
+          {"SoftSpot", R"("spot" "float coneangle" 70 "float conedeltaangle" 70)", {}},
+          {"Sky", R"("infinite")", {}},
+          {"Map", WriteMap(12, 6), Tilted()},
+          {"TinyMap", WriteMap(1, 3), Tilted()},
+          {"StretchedMap", WriteMap(8, 5), Stretched()}};
+}
+
+std::string NameOf(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+
+class PlainLight : public testing::TestWithParam<Case> {
+ protected:
+  PlainLight() : light_(plugins_.MakeLight(GetParam().text, GetParam().toWorld)) {
+    light_->Prepare(kWorld);
+  }
+  std::optional<EmissionSample> Emit(RandomStream& random) const {
+    const Point2 position{random.Uniform(), random.Uniform()};
+    const Point2 direction{random.Uniform(), random.Uniform()};
+    return light_->SampleEmission(position, direction, random.Uniform());
+  }
+  // Finer quadrature, since maps have edges.
+  static ChiSquareOptions Options() { return {.quadratureDepth = 7}; }
+
+  TestPlugins plugins_;
+  std::unique_ptr<Light> light_;
+};
+
+TEST_P(PlainLight, EmitsDirectionsOfItsDensity) {
+  const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
+    const auto emission = Emit(random);
+    if (!emission) return std::nullopt;
+    const auto pdf = light_->PdfEmission({emission->ray.o, {}, {}}, emission->ray.d);
+    EXPECT_NEAR(double(pdf.direction), double(emission->pdfDirection),
+                1e-3 * double(emission->pdfDirection) + 1e-3);
+    return emission->ray.d;
+  };
+  const auto pdf = [&](const Vector3& w) { return double(light_->PdfEmission({}, w).direction); };
+  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kTests));
+}
+
+TEST_P(PlainLight, EmitsItsPowerInTheMean) {
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) {
+    RandomStream random(seed);
+    double sum = 0;
+    constexpr int kSamples = 20000;
+    for (int i = 0; i < kSamples; ++i)
+      if (const auto emission = Emit(random)) sum += double(emission->power.g);
+    return sum / kSamples;
+  });
+  // A map's power is an estimate: cells weigh their mean, and a stretch is not accounted for.
+  const bool isMap = GetParam().text.find("mapname") != std::string::npos;
+  const double tolerance = !isMap ? .001 : GetParam().toWorld.SimilarityScale() ? .2 : .5;
+  EXPECT_TRUE(IsWithin(tolerance, estimate, double(light_->Power().g)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, PlainLight, testing::ValuesIn(PlainLights()), NameOf);
+
+class SkyLight : public PlainLight {};
+
+TEST_P(SkyLight, IsSampledFromAPointByItsDensity) {
+  const SurfacePoint ref{{1, 2, 3}, {}, {0, 1, 0}};
+  const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
+    const auto direct =
+        light_->SampleDirect(ref, {random.Uniform(), random.Uniform()}, random.Uniform());
+    if (!direct) return std::nullopt;
+    EXPECT_EQ(direct->pdf, light_->PdfDirect(ref, direct->wi, nullptr));
+    EXPECT_EQ(direct->Li, light_->Le(direct->wi));
+    return direct->wi;
+  };
+  const auto pdf = [&](const Vector3& w) { return double(light_->PdfDirect(ref, w, nullptr)); };
+  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kTests));
+}
+
+// Wherever there is radiance there is density, or light would be missing.
+TEST_P(SkyLight, HasDensityWhereverItShines) {
+  RandomStream random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 w = SampleUniformSphere({random.Uniform(), random.Uniform()});
+    if (!light_->Le(w).IsBlack()) {
+      EXPECT_GT(light_->PdfDirect({}, w, nullptr), 0);
+    }
+  }
+}
+
+// All in a plane through the middle of the world: the disk that its sphere casts, evenly filled.
+TEST_P(SkyLight, EmitsFromADiskThatCoversTheWorld) {
+  const auto sample = [&](RandomStream& random) -> std::optional<Point2> {
+    const auto emission = Emit(random);
+    if (!emission) return std::nullopt;
+    const Vector3 fromCentre = emission->ray.o - kWorld.center;
+    EXPECT_GE(Length(fromCentre), kWorld.radius);
+    const Frame frame = Frame::FromZ(emission->ray.d);
+    // As radius squared and angle, in which a uniform disk is a uniform rectangle.
+    const Real x = Dot(fromCentre, frame.x), y = Dot(fromCentre, frame.y);
+    return Point2{(x * x + y * y) / Square(kWorld.radius), std::atan2(y, x)};
+  };
+  const PlaneGrid grid{{0, -kPi}, {Real(1.00001), kPi}};
+  EXPECT_TRUE(FitsDensity(
+      TestPlane(grid, sample, [](Point2 p) { return p.x <= 1 ? .5 / M_PI : 0; }), kTests));
+}
+
+std::vector<Case> Skies() {
+  auto lights = PlainLights();
+  return {lights.begin() + 4, lights.end()};
+}
+INSTANTIATE_TEST_SUITE_P(Lights, SkyLight, testing::ValuesIn(Skies()), NameOf);
+
+TEST(AreaLight, EmitsByTheCosineFromItsWholeSurface) {
+  TestPlugins plugins;
+  const auto surface = plugins.MakeEmitter(R"("disk" "float radius" 2)", Tilted());
+  const auto light = plugins.MakeAreaLight(R"("area")", surface);
+  const SurfacePoint on = surface->SamplePoint({Real(.5), Real(.5)}, Real(.5)).point;
+  const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
+    const auto emission =
+        light->SampleEmission({random.Uniform(), random.Uniform()},
+                              {random.Uniform(), random.Uniform()}, random.Uniform());
+    EXPECT_GT(Dot(emission->ray.d, on.ng), 0);
+    EXPECT_NEAR(double(Dot(emission->ray.o - on.p, on.ng)), 0, 1e-6);
+    return emission->ray.d;
+  };
+  const auto pdf = [&](const Vector3& w) { return double(light->PdfEmission(on, w).direction); };
+  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf), kTests));
+  EXPECT_NEAR(double(light->PdfEmission(on, on.ng).position), 1 / (4 * M_PI), 1e-6);
+}
+
+}  // namespace
+}  // namespace exphoton
