@@ -142,19 +142,33 @@ bool PrimitiveSet::Occludes(std::uint32_t id, const TraceRay& ray) const {
   return instances_[instance].object->Accelerator().Occluded(InstanceRay(instance, ray.ray, tMax));
 }
 
+PrimitiveAttributes PrimitiveSet::Attributes(const Hit& hit) const {
+  if (hit.instance != kNoId) {
+    const std::uint32_t index = hit.instance - TriangleCount() - std::uint32_t(shapes_.size());
+    Hit inner = hit;
+    inner.instance = kNoId;
+    return instances_[index].object->Set().Attributes(inner);
+  }
+  if (hit.primitive < triangles_.size()) return meshAttributes_[triangles_[hit.primitive].mesh];
+  return shapeAttributes_[hit.primitive - TriangleCount()];
+}
+
+SurfacePoint PrimitiveSet::Point(const Ray& ray, const Hit& hit) const {
+  if (hit.instance != kNoId || hit.primitive >= triangles_.size()) return Surface(ray, hit);
+  const Triangle& triangle = triangles_[hit.primitive];
+  return TrianglePoint(*meshes_[triangle.mesh], triangle.index, hit.uv.x, hit.uv.y);
+}
+
 SurfaceInteraction PrimitiveSet::Surface(const Ray& ray, const Hit& hit) const {
   if (hit.instance != kNoId) return InstanceSurface(ray, hit);
   SurfaceInteraction surface;
-  PrimitiveAttributes attributes;
   if (hit.primitive < triangles_.size()) {
     const Triangle& triangle = triangles_[hit.primitive];
     surface = TriangleSurface(*meshes_[triangle.mesh], triangle.index, hit.uv.x, hit.uv.y);
-    attributes = meshAttributes_[triangle.mesh];
   } else {
-    const std::uint32_t index = hit.primitive - TriangleCount();
-    surface = shapes_[index]->Surface(ray, {hit.t, hit.uv});
-    attributes = shapeAttributes_[index];
+    surface = shapes_[hit.primitive - TriangleCount()]->Surface(ray, {hit.t, hit.uv});
   }
+  const PrimitiveAttributes attributes = Attributes(hit);
   surface.wo = NormalizeOr(-ray.d, Vector3());
   surface.time = ray.time;
   surface.material = attributes.material;

@@ -78,6 +78,9 @@ class PrimitiveSet {
 
   // The full record of a hit that Intersect found with this ray.
   SurfaceInteraction Surface(const Ray& ray, const Hit& hit) const;
+  // Its first part, at a fraction of the cost for triangles: the same p, pError and ng.
+  SurfacePoint Point(const Ray& ray, const Hit& hit) const;
+  PrimitiveAttributes Attributes(const Hit& hit) const;
 
  private:
   Ray InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const;

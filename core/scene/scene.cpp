@@ -20,6 +20,17 @@ Scene::~Scene() = default;
 std::optional<SurfaceInteraction> Scene::Intersect(const RayDifferential& ray) const {
   const Hit hit = aggregate_->Intersect(ray);
   if (!hit.IsHit()) return std::nullopt;
+  return Complete(ray, hit);
+}
+
+std::optional<Scene::HitPoint> Scene::IntersectPoint(const Ray& ray) const {
+  const Hit hit = aggregate_->Intersect(ray);
+  if (!hit.IsHit()) return std::nullopt;
+  const PrimitiveSet& primitives = *parts_.primitives;
+  return HitPoint{hit, primitives.Point(ray, hit), primitives.Attributes(hit).material};
+}
+
+SurfaceInteraction Scene::Complete(const Ray& ray, const Hit& hit) const {
   SurfaceInteraction surface = parts_.primitives->Surface(ray, hit);
   surface.wo = NormalizeOr(-ray.d, surface.ng);
   surface.time = ray.time;

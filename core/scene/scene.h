@@ -34,6 +34,14 @@ class Scene {
   ~Scene();
 
   std::optional<SurfaceInteraction> Intersect(const RayDifferential& ray) const;
+  // The nearest hit and where it lies, for rays that may need no more; Complete gives the rest.
+  struct HitPoint {
+    Hit hit;
+    SurfacePoint point;
+    const Material* material;
+  };
+  std::optional<HitPoint> IntersectPoint(const Ray& ray) const;
+  SurfaceInteraction Complete(const Ray& ray, const Hit& hit) const;
   bool Occluded(const Ray& ray) const { return aggregate_->Occluded(ray); }
 
   // Radiance of every infinite light along a ray that escaped in direction w.

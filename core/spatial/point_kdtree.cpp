@@ -17,10 +17,13 @@ PointKdTree::PointKdTree(std::span<const Point3> points) {
     largest = (largest + 1) / 2;
   nodes_.resize((std::size_t(1) << levels_) - 1);
   Build(points, 0, 0, std::uint32_t(points.size()));
-  points_.reserve(points.size());
-  for (std::uint32_t i : order_) {
-    points_.push_back(points[i]);
-    bounds_.Extend(points[i]);
+  for (auto* coordinates : {&x_, &y_, &z_}) coordinates->resize(points.size() + kMaxLeafPoints);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Point3& p = points[order_[i]];
+    x_[i] = p.x;
+    y_[i] = p.y;
+    z_[i] = p.z;
+    bounds_.Extend(p);
   }
 }
 
@@ -42,7 +45,7 @@ void PointKdTree::Build(std::span<const Point3> points, std::size_t node, std::u
 }
 
 std::size_t PointKdTree::MemoryBytes() const {
-  return nodes_.capacity() * sizeof(Node) + points_.capacity() * sizeof(Point3) +
+  return nodes_.capacity() * sizeof(Node) + 3 * x_.capacity() * sizeof(Real) +
          order_.capacity() * sizeof(std::uint32_t);
 }
 

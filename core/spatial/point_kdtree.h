@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PointKdTree: nearest neighbours among points (photons), not geometry. A balanced tree whose shape
 // follows from the number of points alone, so nodes hold only a split plane and lie in heap order;
-// the points themselves are stored once, contiguous, in the order of the leaves.
+// the points are stored in the order of the leaves, one coordinate after the other, so that a leaf's
+// distances are computed several at a time.
 // Bentley 1975; Friedman, Bentley and Finkel 1977 (search with a shrinking bound).
 #pragma once
 
@@ -33,10 +34,10 @@ class PointKdTree {
   // Points must be finite. Throws std::length_error above kMaxPoints.
   explicit PointKdTree(std::span<const Point3> points);
 
-  std::size_t Size() const { return points_.size(); }
+  std::size_t Size() const { return order_.size(); }
   // Order()[i] is the place in the constructor's span of the point at i in tree order.
   const std::vector<std::uint32_t>& Order() const { return order_; }
-  const Point3& Point(std::uint32_t index) const { return points_[index]; }
+  Point3 Point(std::uint32_t index) const { return {x_[index], y_[index], z_[index]}; }
   const Bounds3& Bounds() const { return bounds_; }
   std::size_t MemoryBytes() const;
 
@@ -56,7 +57,7 @@ class PointKdTree {
              std::uint32_t end);
 
   std::vector<Node> nodes_;  // node i has children 2i+1 and 2i+2; beyond the last level: leaves
-  std::vector<Point3> points_;
+  std::vector<Real> x_, y_, z_;  // kMaxLeafPoints longer than there are points
   std::vector<std::uint32_t> order_;
   Bounds3 bounds_;
   int levels_ = 0;  // of inner nodes
@@ -74,10 +75,10 @@ void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
   };
   // The bound is rounded too: a little less of it never hides a point.
   constexpr Real kSlack = 1 - Gamma(8);
-  if (points_.empty() || !IsFinite(p)) return;
+  if (order_.empty() || !IsFinite(p)) return;
   Pending stack[32];  // at most one a level
   int depth = 0;
-  Pending at{0, 0, std::uint32_t(points_.size()), 0, {}, 0};
+  Pending at{0, 0, std::uint32_t(order_.size()), 0, {}, 0};
   for (;;) {
     while (at.level < levels_) {
       const Node& node = nodes_[at.node];
@@ -98,10 +99,16 @@ void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
       at.node = 2 * at.node + (isLeft ? 1 : 2);
       (isLeft ? at.end : at.begin) = middle;
     }
-    for (std::uint32_t i = at.begin; i < at.end; ++i) {
-      const Real distance2 = DistanceSquared(points_[i], p);
-      if (distance2 <= *radius2) visit(i, distance2);
+    // A fixed number of lanes, some of them beyond the leaf: no branch until they are compared.
+    Real distance2[kMaxLeafPoints];
+    for (std::uint32_t j = 0; j < kMaxLeafPoints; ++j) {
+      const Real dx = x_[at.begin + j] - p.x, dy = y_[at.begin + j] - p.y;
+      const Real dz = z_[at.begin + j] - p.z;
+      distance2[j] = dx * dx + dy * dy + dz * dz;
     }
+    const std::uint32_t count = at.end - at.begin;
+    for (std::uint32_t j = 0; j < count; ++j)
+      if (distance2[j] <= *radius2) visit(at.begin + j, distance2[j]);
     do {
       if (depth == 0) return;
       at = stack[--depth];

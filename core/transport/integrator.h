@@ -45,6 +45,10 @@ struct LiContext {
     rays.Count(kind);
     return scene.Intersect(ray);
   }
+  std::optional<Scene::HitPoint> IntersectPoint(const Ray& ray, RayKind kind) {
+    rays.Count(kind);
+    return scene.IntersectPoint(ray);
+  }
   bool Occluded(const Ray& ray) {
     rays.Count(RayKind::Shadow);
     return scene.Occluded(ray);

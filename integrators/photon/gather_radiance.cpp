@@ -33,58 +33,64 @@ Spectrum GatherRadiance::Along(RayDifferential ray, LiContext& context, RandomSt
                                int shortBounces) const {
   Spectrum sum, throughput(1);
   for (int depth = 0;; ++depth) {
-    const auto hit = context.Intersect(ray, RayKind::Gather);
+    const auto hit = context.IntersectPoint(ray, RayKind::Gather);
     if (!hit || !hit->material) return sum;
     sum += throughput * NonSpecular(*hit, ray, context, random, shortBounces);
     if (depth == settings_.maxDepth ||
         !Intersects(hit->material->PossibleLobes(), LobeSet::Specular))
       return sum;
     const Arena::Mark mark = context.arena.GetMark();
-    const ShadingPoint point =
-        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context.arena);
+    const ShadingPoint point = Shade(*hit, ray, context);
     const auto bounce = FollowSpecular(point, random);
     context.arena.Rewind(mark);
     if (!bounce) return sum;
     throughput *= bounce->throughput;
-    ray = SpawnRay(*hit, bounce->wi, ray.time);
+    ray = SpawnRay(hit->point, bounce->wi, ray.time);
   }
 }
 
-Spectrum GatherRadiance::NonSpecular(const SurfaceInteraction& hit, const RayDifferential& ray,
+ShadingPoint GatherRadiance::Shade(const Scene::HitPoint& hit, const RayDifferential& ray,
+                                   LiContext& context) const {
+  return MakeShadingPoint(context.scene.Complete(ray, hit.hit), ray, 0, TransportMode::Radiance,
+                          &context.arena);
+}
+
+Spectrum GatherRadiance::NonSpecular(const Scene::HitPoint& hit, const RayDifferential& ray,
                                      LiContext& context, RandomStream* random,
                                      int shortBounces) const {
   if (!Intersects(hit.material->PossibleLobes(), LobeSet::NonSpecular)) return {};
   bool isShort = false;
   if (radianceMap_) {
-    const Normal3 n = FaceForward(hit.ng, hit.wo);
-    const RadianceMap::Entry* entry = radianceMap_->Find(hit.p, n);
-    isShort = entry && DistanceSquared(ray.o, hit.p) < Square(settings_.shortRays * entry->radius);
+    const Normal3 n = FaceForward(hit.point.ng, -ray.d);
+    const RadianceMap::Entry* entry = radianceMap_->Find(hit.point.p, n);
+    isShort =
+        entry && DistanceSquared(ray.o, hit.point.p) < Square(settings_.shortRays * entry->radius);
     if (entry && !isShort) {
       if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
       return Reflected(hit, ray, *entry, context);
     }
   }
   const Arena::Mark mark = context.arena.GetMark();
-  const ShadingPoint point = MakeShadingPoint(hit, ray, 0, TransportMode::Radiance, &context.arena);
-  const bool goesOn =
-      isShort && settings_.shortGather == ShortGather::Gather && shortBounces < kMaxShortBounces;
+  const ShadingPoint point = Shade(hit, ray, context);
+  const bool goesOn = isShort && settings_.shortGather == ShortGather::Gather &&
+                      shortBounces < kMaxShortBounces;
   const Spectrum radiance = goesOn ? OneMoreBounce(point, context, random, shortBounces)
                                    : maps_.Radiance(point, &context.arena);
   context.arena.Rewind(mark);
   return radiance;
 }
 
-Spectrum GatherRadiance::Reflected(const SurfaceInteraction& hit, const RayDifferential& ray,
+Spectrum GatherRadiance::Reflected(const Scene::HitPoint& hit, const RayDifferential& ray,
                                    const RadianceMap::Entry& front, LiContext& context) const {
   const Arena::Mark mark = context.arena.GetMark();
-  const ShadingPoint point = MakeShadingPoint(hit, ray, 0, TransportMode::Radiance, &context.arena);
+  const ShadingPoint point = Shade(hit, ray, context);
   Spectrum radiance = point.bsdf.Rho(LobeSet::NonSpecularReflection) * front.value * kInvPi;
   const Spectrum transmittance = point.bsdf.Rho(LobeSet::NonSpecularTransmission);
   if (!transmittance.IsBlack()) {
-    const Normal3 back = -FaceForward(hit.ng, hit.wo);
-    const RadianceMap::Entry* entry = radianceMap_->Find(hit.p, back);
+    const Normal3 back = -FaceForward(hit.point.ng, -ray.d);
+    const RadianceMap::Entry* entry = radianceMap_->Find(hit.point.p, back);
     const Spectrum e =
-        entry ? entry->value : maps_.EstimateIrradiance(hit.p, back, &context.arena).e;
+        entry ? entry->value : maps_.EstimateIrradiance(hit.point.p, back, &context.arena).e;
     radiance += transmittance * e * kInvPi;
   }
   context.arena.Rewind(mark);

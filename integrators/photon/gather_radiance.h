@@ -30,10 +30,13 @@ class GatherRadiance {
   Spectrum Along(RayDifferential ray, LiContext& context, RandomStream* random,
                  int shortBounces) const;
   // The non-specular part of what leaves the hit towards the ray's origin.
-  Spectrum NonSpecular(const SurfaceInteraction& hit, const RayDifferential& ray,
+  Spectrum NonSpecular(const Scene::HitPoint& hit, const RayDifferential& ray,
                        LiContext& context, RandomStream* random, int shortBounces) const;
+  // The whole record of a hit, with its BSDF in the context's arena.
+  ShadingPoint Shade(const Scene::HitPoint& hit, const RayDifferential& ray,
+                     LiContext& context) const;
   // Irradiance mode: what the hit makes of the irradiance on its two sides.
-  Spectrum Reflected(const SurfaceInteraction& hit, const RayDifferential& ray,
+  Spectrum Reflected(const Scene::HitPoint& hit, const RayDifferential& ray,
                      const RadianceMap::Entry& front, LiContext& context) const;
   // One more bounce instead of a blurred estimate: direct light, caustics, one gather ray.
   Spectrum OneMoreBounce(const ShadingPoint& point, LiContext& context, RandomStream* random,

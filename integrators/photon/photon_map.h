@@ -44,7 +44,7 @@ class PhotonMap {
   std::size_t Size() const { return tree_.Size(); }
   std::int64_t Paths() const { return paths_; }
   const PointKdTree& Tree() const { return tree_; }
-  const Point3& Position(std::uint32_t i) const { return tree_.Point(i); }
+  Point3 Position(std::uint32_t i) const { return tree_.Point(i); }
   const Vector3& Direction(std::uint32_t i) const { return directions_[i]; }  // towards the light
   const Spectrum& Alpha(std::uint32_t i) const { return alphas_[i]; }
   std::size_t MemoryBytes() const;
