@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PointKdTree: nearest neighbours among points (photons), not geometry. A balanced tree whose shape
 // follows from the number of points alone, so nodes hold only a split plane and lie in heap order;
-// the points are stored in the order of the leaves, one coordinate after the other, so that a leaf's
-// distances are computed several at a time.
-// Bentley 1975; Friedman, Bentley and Finkel 1977 (search with a shrinking bound).
+// the points are stored in the order of the leaves, one coordinate after the other, so that a
+// leaf's distances are computed several at a time. Bentley 1975; Friedman, Bentley and Finkel 1977
+// (search with a shrinking bound).
 #pragma once
 
 #include <cstdint>
@@ -47,6 +47,11 @@ class PointKdTree {
   template <class Visit>
   void Search(const Point3& p, Real* radius2, Visit&& visit) const;
 
+  // Calls visit(index, distance2) for the points of the leaf that p falls into: a cheap first look,
+  // whose best distance lets a Search begin with a small radius.
+  template <class Visit>
+  void LookIntoLeaf(const Point3& p, Visit&& visit) const;
+
  private:
   struct Node {
     Real split;
@@ -56,7 +61,7 @@ class PointKdTree {
   void Build(std::span<const Point3> points, std::size_t node, std::uint32_t begin,
              std::uint32_t end);
 
-  std::vector<Node> nodes_;  // node i has children 2i+1 and 2i+2; beyond the last level: leaves
+  std::vector<Node> nodes_;      // node i has children 2i+1 and 2i+2; beyond the last level: leaves
   std::vector<Real> x_, y_, z_;  // kMaxLeafPoints longer than there are points
   std::vector<std::uint32_t> order_;
   Bounds3 bounds_;
@@ -114,6 +119,20 @@ void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
       at = stack[--depth];
     } while (!(at.distance2 <= *radius2));
   }
+}
+
+template <class Visit>
+void PointKdTree::LookIntoLeaf(const Point3& p, Visit&& visit) const {
+  if (order_.empty() || !IsFinite(p)) return;
+  std::uint32_t node = 0, begin = 0, end = std::uint32_t(order_.size());
+  for (int level = 0; level < levels_; ++level) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    const bool isRight = !(p[int(nodes_[node].axis)] < nodes_[node].split);
+    node = 2 * node + 1 + isRight;
+    begin = isRight ? middle : begin;
+    end = isRight ? end : middle;
+  }
+  for (std::uint32_t i = begin; i < end; ++i) visit(i, DistanceSquared(Point(i), p));
 }
 
 }  // namespace exphoton

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ConeMixture: directions round those of nearby photons: pick one of m axes uniformly, then a
-// direction uniform in the cone about it. Sampling and density share one idea of what a cone holds;
-// small angles lose nothing.
+// direction uniform in the cone about it (docs/exphotonmap.md, eq. 15). Sampling and density share
+// one idea of what a cone holds; small angles lose nothing.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Kernels of a density estimate: weight per area of a photon at squared distance d2 from the centre
-// of a disk of squared radius r2. Each integrates to 1 over the disk.
+// of a disk of squared radius r2. Each integrates to 1 over the disk (docs/exphotonmap.md, eq. 10).
 #pragma once
 
 #include "integrators/photon/photon_settings.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // FinalGather: indirect light at a point by rays over its hemisphere, half of them drawn by the
 // BSDF, half round the directions of nearby photons, combined with the power heuristic
-// (Veach 1997, section 9.2). What a ray brings is any callable's affair.
+// (Veach 1997, section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is any
+// callable's affair.
 #pragma once
 
 #include "core/math/mis.h"
@@ -33,8 +34,8 @@ class FinalGather {
 
   // Directions of the nearest photons of the guide that can light this surface.
   ConeMixture::Axes GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
-                                           Arena* arena) const;
-  // Roulette on a ray whose weight is c: the factor to trace it with, or 0.
+                                    Arena* arena) const;
+  // Roulette on a ray whose weight is c (eq. 18): the factor to trace it with, or 0.
   Real SurvivalFactor(Real c, RandomStream* random) const {
     if (!(c < rrThreshold_)) return 1;
     const Real survival = c / rrThreshold_;

@@ -72,8 +72,8 @@ Spectrum GatherRadiance::NonSpecular(const Scene::HitPoint& hit, const RayDiffer
   }
   const Arena::Mark mark = context.arena.GetMark();
   const ShadingPoint point = Shade(hit, ray, context);
-  const bool goesOn = isShort && settings_.shortGather == ShortGather::Gather &&
-                      shortBounces < kMaxShortBounces;
+  const bool goesOn =
+      isShort && settings_.shortGather == ShortGather::Gather && shortBounces < kMaxShortBounces;
   const Spectrum radiance = goesOn ? OneMoreBounce(point, context, random, shortBounces)
                                    : maps_.Radiance(point, &context.arena);
   context.arena.Rewind(mark);

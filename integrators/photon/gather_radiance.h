@@ -30,8 +30,8 @@ class GatherRadiance {
   Spectrum Along(RayDifferential ray, LiContext& context, RandomStream* random,
                  int shortBounces) const;
   // The non-specular part of what leaves the hit towards the ray's origin.
-  Spectrum NonSpecular(const Scene::HitPoint& hit, const RayDifferential& ray,
-                       LiContext& context, RandomStream* random, int shortBounces) const;
+  Spectrum NonSpecular(const Scene::HitPoint& hit, const RayDifferential& ray, LiContext& context,
+                       RandomStream* random, int shortBounces) const;
   // The whole record of a hit, with its BSDF in the context's arena.
   ShadingPoint Shade(const Scene::HitPoint& hit, const RayDifferential& ray,
                      LiContext& context) const;

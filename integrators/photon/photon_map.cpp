@@ -40,7 +40,8 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   tree_.Search(query.p, &radius2, [&](std::uint32_t i, Real distance2) {
     if (query.isOneSided && !(Dot(directions_[i], query.n) > 0)) return;
     const Real height = Dot(tree_.Point(i) - query.p, query.n);
-    const Real flat2 = std::max(distance2, Square(height / kFlatness));
+    const Real flat2 =
+        std::max(distance2, Square(height / kFlatness));  // docs/exphotonmap.md, eq. 11
     if (flat2 <= radius2) nearest.Offer({flat2, i}, &radius2);
   });
   const std::span<const NearPoint> found = nearest.Finish();

@@ -24,8 +24,8 @@ class PhotonMaps {
   Real MaxDistance(PhotonKind kind) const { return radii_[std::size_t(kind)]; }
 
   // Radiance leaving the point towards wo by the non-specular lobes, of one map's photons:
-  // 1/N sum K f alpha, with the shading normal's correction, since photons measure power per
-  // geometric area.
+  // 1/N sum K f alpha (docs/exphotonmap.md, eq. 12), with the shading normal's correction, since
+  // photons measure power per geometric area.
   Spectrum Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena) const;
   // The same of all three maps.
   Spectrum Radiance(const ShadingPoint& point, Arena* arena) const;

@@ -58,7 +58,7 @@ class PhotonTracer::Path {
     const auto choice = tracer_.lights_.Sample(uLight.x);
     const auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y);
     if (!emission) return false;
-    alpha_ = emission->power / choice.probability;
+    alpha_ = emission->power / choice.probability;  // docs/exphotonmap.md, eq. 3
     if (!alpha_.IsFinite()) {
       ++chunk_->dropped;
       return false;
@@ -83,7 +83,7 @@ class PhotonTracer::Path {
     return isSpecular && open_[std::size_t(PhotonKind::Caustic)];
   }
 
-  // Bsdf sampling and Russian roulette; false where the path ends.
+  // Bsdf sampling (eq. 5 and 6) and Russian roulette (eq. 7); false where the path ends.
   bool Scatter(const ShadingPoint& point, int hits, RayDifferential* ray) {
     const Point2 u = samples_.Next2D(), uChoice = samples_.Next2D();
     const auto sample = point.bsdf.Sample(point.Wo(), u, uChoice.x);

@@ -6,7 +6,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
-#include "integrators/photon/nearest_set.h"
 
 namespace exphoton {
 namespace {
@@ -45,27 +44,6 @@ SeedEntries ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, Rad
   return result;
 }
 
-// The upper quartile of the squared distances to the fourth nearest entry, over a fixed sample: a
-// point between entries mostly has one within it.
-Real GuessRadius2(const PointKdTree& tree, Real maxRadius2) {
-  constexpr std::size_t kSamples = 256;
-  constexpr int kNeighbours = 5;  // the entry itself among them
-  if (tree.Size() < kSamples) return maxRadius2;
-  std::vector<Real> found;
-  std::vector<NearPoint> buffer(NearestSet::BufferSize(kNeighbours));
-  for (std::size_t i = 0; i < tree.Size(); i += tree.Size() / kSamples) {
-    NearestSet nearest(buffer, kNeighbours);
-    Real radius2 = kInfinity;
-    tree.Search(tree.Point(std::uint32_t(i)), &radius2, [&](std::uint32_t j, Real distance2) {
-      nearest.Offer({distance2, j}, &radius2);
-    });
-    found.push_back(nearest.Finish().back().distance2);
-  }
-  const auto quartile = std::ptrdiff_t(found.size() * 3 / 4);
-  std::nth_element(found.begin(), found.begin() + quartile, found.end());
-  return std::min(found[std::size_t(quartile)], maxRadius2);
-}
-
 }  // namespace
 
 RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
@@ -101,7 +79,6 @@ RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMap
     sides_.push_back({entries[i].n, Square(settings.radianceReach * entries[i].radius)});
     maxReach2_ = std::max(maxReach2_, sides_.back().reach2);
   }
-  guess2_ = GuessRadius2(tree_, maxReach2_);
 }
 
 std::size_t RadianceMap::MemoryBytes() const {
@@ -109,23 +86,21 @@ std::size_t RadianceMap::MemoryBytes() const {
          sides_.capacity() * sizeof(Side);
 }
 
-std::uint32_t RadianceMap::FindWithin(Real radius2, const Point3& p, const Normal3& n) const {
+// The leaf that p falls into mostly holds an entry that serves, and bounds the search for the
+// nearest; far branches are then never looked at.
+const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
+  Real radius2 = maxReach2_;
   std::uint32_t nearest = kNone;
-  tree_.Search(p, &radius2, [&](std::uint32_t i, Real distance2) {
+  const auto offer = [&](std::uint32_t i, Real distance2) {
     const Side& side = sides_[i];
-    if (distance2 > side.reach2 || !(Dot(side.n, n) > minCosine_)) return;
+    if (distance2 > radius2 || distance2 > side.reach2 || !(Dot(side.n, n) > minCosine_)) return;
     // Ties go to the lower index, in whatever order they are met.
     if (distance2 == radius2 && i > nearest) return;
     nearest = i;
     radius2 = distance2;
-  });
-  return nearest;
-}
-
-// A small radius first: what it finds is the nearest, and far branches are never looked at.
-const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
-  std::uint32_t nearest = FindWithin(guess2_, p, n);
-  if (nearest == kNone && guess2_ < maxReach2_) nearest = FindWithin(maxReach2_, p, n);
+  };
+  tree_.LookIntoLeaf(p, offer);
+  tree_.Search(p, &radius2, offer);
   return nearest == kNone ? nullptr : &entries_[nearest];
 }
 

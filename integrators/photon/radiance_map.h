@@ -23,8 +23,8 @@ class RadianceMap {
       sizeof(Point3) + sizeof(std::uint32_t) + sizeof(Entry);
 
   RadianceMap() = default;  // empty: finds nothing
-  // Computes all entries in parallel: Lo = rho_r / pi E(p, n) + rho_t / pi E(p, -n), and for the
-  // other side too where something is transmitted.
+  // Computes all entries in parallel (docs/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n) + rho_t
+  // / pi E(p, -n), and for the other side too where something is transmitted.
   RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
               const PhotonSettings& settings, PreprocessContext& context);
 
@@ -32,12 +32,11 @@ class RadianceMap {
   std::size_t MemoryBytes() const;
 
   // The nearest entry that speaks for a surface point p with unit normal n (turned towards where
-  // the radiance goes): its normal agrees and p lies within its reach. Null where there is none.
+  // the radiance goes): its normal agrees and p lies within its reach (eq. 14). Null where there is
+  // none.
   const Entry* Find(const Point3& p, const Normal3& n) const;
 
  private:
-  std::uint32_t FindWithin(Real radius2, const Point3& p, const Normal3& n) const;
-
   PointKdTree tree_;
   // What a search looks at, apart from what it brings; both in tree order.
   struct Side {
@@ -48,7 +47,6 @@ class RadianceMap {
   std::vector<Entry> entries_;
   Real minCosine_ = 0;
   Real maxReach2_ = 0;  // of any entry
-  Real guess2_ = 0;     // squared distance within which most lookups find their entry
 };
 
 }  // namespace exphoton
