@@ -23,9 +23,10 @@ double Mean(const std::string& scene, std::uint64_t seed) {
   return MeanRadiance(RenderSceneText(scene, options).image);
 }
 
-// Radiance e / (1 - a) everywhere in a closed sphere that emits e and reflects a. The plain roulette
-// (survival 1/2 after three bounces) multiplies a photon's weight by 2a: beyond a = 1/sqrt(2) its
-// variance is infinite, so brighter furnaces need the roulette that keeps weights constant.
+// Radiance e / (1 - a) everywhere in a closed sphere that emits e and reflects a. The plain
+// roulette (survival 1/2 after three bounces) multiplies a photon's weight by 2a: beyond a =
+// 1/sqrt(2) its variance is infinite, so brighter furnaces need the roulette that keeps weights
+// constant.
 class Furnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
 
 TEST_P(Furnace, ShowsEmissionOverOneMinusAlbedo) {
@@ -72,14 +73,14 @@ TEST_P(LightInSphere, GivesConstantIndirectLightWhereverItIs) {
   const auto scene = [&](const std::string& integrator) {
     return TestHeader(integrator, 8, 8, 4) +
            "WorldBegin\nLightSource \"point\" \"color I\" [1 1 1] \"point from\" [.4 .2 -.3]\n"
-           "Material \"matte\" \"color Kd\" " + Grey(albedo) +
-           "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
+           "Material \"matte\" \"color Kd\" " +
+           Grey(albedo) + "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
   };
   const std::string all = scene(std::string("\"") + GetParam() +
                                 "\" \"integer indirectphotons\" [20000] \"float maxdist\" [.2]");
   const std::string direct = scene("\"directlighting\"");
-  const auto estimate = EstimateOverSeeds(
-      [&](std::uint64_t seed) { return Mean(all, seed) - Mean(direct, seed); });
+  const auto estimate =
+      EstimateOverSeeds([&](std::uint64_t seed) { return Mean(all, seed) - Mean(direct, seed); });
   const double pi = 3.14159265358979, power = 4 * pi * intensity;
   EXPECT_TRUE(IsWithin(.02, estimate, albedo * albedo * power / (4 * pi * pi * (1 - albedo))));
 }
@@ -96,7 +97,8 @@ std::string CausticScene(const std::string& integrator, const std::string& optic
          "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
          "LookAt 0 .7 -.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [50]\n"
          "WorldBegin\nLightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 1 0] "
-         "\"point to\" [0 0 0]\n" + optics +
+         "\"point to\" [0 0 0]\n" +
+         optics +
          "Material \"matte\" \"color Kd\" [.01 .01 .01]\n"
          "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
          "[-1 0 -1  -1 0 1  1 0 1  1 0 -1]\nWorldEnd\n";
@@ -106,7 +108,8 @@ class Caustic : public testing::TestWithParam<const char*> {
  protected:
   std::string Integrator() const {
     return std::string("\"") + GetParam() +
-           "\" \"integer causticphotons\" [30000] \"integer indirectphotons\" [0] \"integer nused\" [200] \"float "
+           "\" \"integer causticphotons\" [30000] \"integer indirectphotons\" [0] \"integer "
+           "nused\" [200] \"float "
            "maxdist\" [.1] \"bool finalgather\" [\"false\"]";
   }
 };
@@ -120,8 +123,7 @@ TEST_P(Caustic, ThroughAGlassSlabLosesWhatFresnelTakes) {
         "[-2 .9 -2  -2 .9 2  2 .9 2  2 .9 -2  -2 .8 -2  -2 .8 2  2 .8 2  2 .8 -2]\n";
     const std::string scene = CausticScene(Integrator(), slab);
     const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
-    EXPECT_TRUE(IsWithin(.01, estimate,
-                         .01 / 3.14159265358979 * 2 * index / (index * index + 1)))
+    EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979 * 2 * index / (index * index + 1)))
         << "index " << index;
   }
 }
@@ -132,7 +134,8 @@ TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
   // A horizontal beam meets a 45 degree mirror above the floor and turns down on to it.
   const std::string scene =
       "SurfaceIntegrator \"exphotonmap\" \"integer causticphotons\" [60000] \"integer "
-      "indirectphotons\" [0] \"integer nused\" [200] \"float maxdist\" [.1] \"bool finalgather\" [\"false\"]\n"
+      "indirectphotons\" [0] \"integer nused\" [200] \"float maxdist\" [.1] \"bool finalgather\" "
+      "[\"false\"]\n"
       "Film \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
       "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
       "LookAt 0 .7 -.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [50]\nWorldBegin\n"
@@ -157,9 +160,12 @@ TEST_P(SplitLight, LightsAsOneDoes) {
     lights += "LightSource \"point\" \"color I\" " + Grey(1.0 / count) + "\n";
   const double albedo = .5;
   const std::string scene =
-      TestHeader("\"exphotonmap\" \"integer indirectphotons\" [40000] \"string lightselection\" "
-                 "[\"" + std::string(selection) + "\"]",
-                 4, 4, 4) +
+      TestHeader(
+          "\"exphotonmap\" \"integer indirectphotons\" [160000] \"integer directphotons\" [20000] "
+          "\"integer finalgathersamples\" [8] \"string lightselection\" "
+          "[\"" +
+              std::string(selection) + "\"]",
+          4, 4, 4) +
       "WorldBegin\n" + lights + "Material \"matte\" \"color Kd\" " + Grey(albedo) +
       "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
   const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
@@ -176,8 +182,10 @@ std::string Box(double x) {
   std::string p;
   for (int i = 0; i < 8; ++i)
     p += std::to_string(x + (i & 1 ? 1 : -1)) + (i & 2 ? " 1" : " -1") + (i & 4 ? " 1 " : " -1 ");
-  return "Shape \"trianglemesh\" \"integer indices\" [0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 2 3 7 2 7 "
-         "6 0 2 6 0 6 4 1 5 7 1 7 3] \"point P\" [" + p + "]\n";
+  return "Shape \"trianglemesh\" \"integer indices\" [0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 2 3 7 2 "
+         "7 "
+         "6 0 2 6 0 6 4 1 5 7 1 7 3] \"point P\" [" +
+         p + "]\n";
 }
 
 TEST(UnlitRoom, BesideALitOneStaysDark) {
@@ -187,7 +195,8 @@ TEST(UnlitRoom, BesideALitOneStaysDark) {
                        "\" \"integer indirectphotons\" [5000] \"float maxdist\" [.4]",
                    6, 6, 4) +
         "WorldBegin\nLightSource \"point\" \"color I\" [5 5 5] \"point from\" [2.5 0 0]\n"
-        "Material \"matte\" \"color Kd\" [.7 .7 .7]\n" + Box(0) + Box(2.5) + "WorldEnd\n";
+        "Material \"matte\" \"color Kd\" [.7 .7 .7]\n" +
+        Box(0) + Box(2.5) + "WorldEnd\n";
     EXPECT_EQ(Mean(scene, 1), 0) << integrator;
   }
 }
