@@ -47,11 +47,6 @@ class PointKdTree {
   template <class Visit>
   void Search(const Point3& p, Real* radius2, Visit&& visit) const;
 
-  // Calls visit(index, distance2) for the points of the leaf that p falls into: a cheap first look,
-  // whose best distance lets a Search begin with a small radius.
-  template <class Visit>
-  void LookIntoLeaf(const Point3& p, Visit&& visit) const;
-
  private:
   struct Node {
     Real split;
@@ -119,20 +114,6 @@ void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
       at = stack[--depth];
     } while (!(at.distance2 <= *radius2));
   }
-}
-
-template <class Visit>
-void PointKdTree::LookIntoLeaf(const Point3& p, Visit&& visit) const {
-  if (order_.empty() || !IsFinite(p)) return;
-  std::uint32_t node = 0, begin = 0, end = std::uint32_t(order_.size());
-  for (int level = 0; level < levels_; ++level) {
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    const bool isRight = !(p[int(nodes_[node].axis)] < nodes_[node].split);
-    node = 2 * node + 1 + isRight;
-    begin = isRight ? middle : begin;
-    end = isRight ? end : middle;
-  }
-  for (std::uint32_t i = begin; i < end; ++i) visit(i, DistanceSquared(Point(i), p));
 }
 
 }  // namespace exphoton

@@ -86,21 +86,17 @@ std::size_t RadianceMap::MemoryBytes() const {
          sides_.capacity() * sizeof(Side);
 }
 
-// The leaf that p falls into mostly holds an entry that serves, and bounds the search for the
-// nearest; far branches are then never looked at.
 const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
   Real radius2 = maxReach2_;
   std::uint32_t nearest = kNone;
-  const auto offer = [&](std::uint32_t i, Real distance2) {
+  tree_.Search(p, &radius2, [&](std::uint32_t i, Real distance2) {
     const Side& side = sides_[i];
-    if (distance2 > radius2 || distance2 > side.reach2 || !(Dot(side.n, n) > minCosine_)) return;
+    if (distance2 > side.reach2 || !(Dot(side.n, n) > minCosine_)) return;
     // Ties go to the lower index, in whatever order they are met.
     if (distance2 == radius2 && i > nearest) return;
     nearest = i;
     radius2 = distance2;
-  };
-  tree_.LookIntoLeaf(p, offer);
-  tree_.Search(p, &radius2, offer);
+  });
   return nearest == kNone ? nullptr : &entries_[nearest];
 }
 

@@ -161,11 +161,11 @@ TEST_P(SplitLight, LightsAsOneDoes) {
   const double albedo = .5;
   const std::string scene =
       TestHeader(
-          "\"exphotonmap\" \"integer indirectphotons\" [160000] \"integer directphotons\" [20000] "
-          "\"integer finalgathersamples\" [8] \"string lightselection\" "
+          "\"exphotonmap\" \"integer indirectphotons\" [80000] \"integer directphotons\" [20000] "
+          "\"integer finalgathersamples\" [32] \"string lightselection\" "
           "[\"" +
               std::string(selection) + "\"]",
-          4, 4, 4) +
+          10, 10, 4) +
       "WorldBegin\n" + lights + "Material \"matte\" \"color Kd\" " + Grey(albedo) +
       "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
   const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
