@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Renders of our scenes against the pictures of tests/references: means over the picture and over
+// 4 x 3 blocks by the equivalence rule (equivalence.h), with the noise of the reference taken from
+// the difference of its two halves. Makes no references: tests/references/make.sh does.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/imaging/image.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+
+// The mean of a reference's two halves; row by row, the variance of R + G + B over 3, and which
+// pixels count. Those brighter than ten times the median, and their neighbours, do not: they show a
+// lamp or its mirror image, which is a matter of where the pixel's few samples fall, and would
+// drown the light that integrators are about.
+struct Reference {
+  Image image;
+  std::vector<double> variance;  // ((a - b) / 2)^2
+  std::vector<bool> counts;
+};
+Reference LoadReference(const std::string& name);
+
+// "cornell-caustic/path": scenes/cornell-caustic/path.pbrt at the references' size.
+LoadedScene LoadSceneFile(const std::string& variant, LoadOptions options = {});
+
+// What one region (the picture or a block) says, all in units of radiance.
+struct RegionResult {
+  std::string name;
+  double truth = 0, mean = 0, halfWidth = 0, pValue = 1;
+};
+
+// Means of `pictures` (one a seed) in a region. halfWidth is that of the 99 % confidence interval
+// of mean - truth: the seeds' (Student) and the reference's (normal) added in squares. pValue: how
+// often seeds would stray as far without any bias.
+RegionResult MeasureRegion(const Reference& reference, const std::vector<Image>& pictures,
+                           const PixelBounds& region);
+std::vector<PixelBounds> Blocks(const Image& image);  // 4 x 3, row by row
+
+// The largest pixel that counts of all pictures, each divided by the largest reference among it and
+// its eight neighbours plus a tenth of the picture's mean (so that black may be grey).
+double LargestFirefly(const Reference& reference, const std::vector<Image>& pictures);
+
+long long CountNonFinite(const std::vector<Image>& pictures);  // pixels; negative ones too
+
+// Writes the pictures' mean, the reference and the signed difference to failed-images/NAME*.exr in
+// the working directory; returns the path of the first.
+std::string WriteFailure(const std::string& name, const Reference& reference,
+                         const std::vector<Image>& pictures);
+
+}  // namespace exphoton

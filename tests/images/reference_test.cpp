@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Every scene with every integrator that renders all of its light, at 64 x 48 pixels, against path
+// tracing: no pixel that is not finite, no bias beyond the stated one in the picture's mean or in
+// any of 4 x 3 blocks, no fireflies. Settings are small; tolerances are those of the settings.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/images/reference.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kSeeds = 6;
+
+struct Tolerances {
+  double picture;  // of the mean, relative
+  double block;    // of a block's mean, relative to it or to half the picture's, if darker
+  double firefly;  // largest pixel over the reference around it
+};
+
+struct PictureCase {
+  const char* scene;
+  const char* variant;  // the file; its integrator
+  int samples;          // a pixel
+  std::vector<ParameterOverride> parameters;
+  Tolerances tolerances;
+
+  std::string Path() const { return std::string(scene) + "/" + variant; }
+};
+
+std::vector<ParameterOverride> Photons(const char* indirect, const char* gather,
+                                       const char* caustic = "20000") {
+  return {{"SurfaceIntegrator", "indirectphotons", indirect},
+          {"SurfaceIntegrator", "causticphotons", caustic},
+          {"SurfaceIntegrator", "finalgathersamples", gather}};
+}
+
+const std::vector<ParameterOverride> kDeep = {{"SurfaceIntegrator", "maxdepth", "200"}};
+
+// Path tracing has no bias; what its tolerances exceed 1 % by is noise, of caustics above all.
+// Photon maps have (docs/exphotonmap.md, section 6): it is largest in blocks full of contact
+// shadows, +4 % under the skylight room's chair, and falls slowly with the photons.
+const PictureCase kCases[] = {
+    {"skylight-room", "emitters", 16, kDeep, {.01, .05, 4}},
+    {"skylight-room", "photonmap", 4, Photons("100000", "16"), {.02, .10, 5}},
+    {"skylight-room", "exphotonmap", 2, Photons("100000", "32"), {.02, .08, 5}},
+    {"cornell-caustic", "path", 64, kDeep, {.03, .16, 30}},
+    {"cornell-caustic", "photonmap", 2, Photons("30000", "16", "40000"), {.02, .06, 5}},
+    {"cornell-caustic", "exphotonmap", 2, Photons("30000", "16", "40000"), {.02, .06, 5}},
+    {"glossy-room", "path", 64, kDeep, {.01, .05, 6}},
+    {"glossy-room", "photonmap", 4, Photons("30000", "8", "4000"), {.02, .10, 10}},
+    {"glossy-room", "exphotonmap", 4, Photons("30000", "8", "4000"), {.02, .10, 10}},
+    {"furnace", "path", 16, kDeep, {.01, .02, 2}},
+    {"furnace", "photonmap", 1, Photons("50000", "16"), {.02, .03, 2}},
+    {"furnace", "exphotonmap", 1, Photons("50000", "16"), {.02, .03, 2}},
+    {"veach-mis", "path", 32, kDeep, {.01, .08, 4}},
+    {"veach-mis", "photonmap", 8, Photons("20000", "8"), {.02, .10, 15}},
+    {"veach-mis", "exphotonmap", 8, Photons("20000", "8"), {.02, .06, 4}},
+};
+
+class Picture : public testing::TestWithParam<PictureCase> {};
+
+std::vector<Image> RenderSeeds(const PictureCase& picture) {
+  LoadOptions load;
+  load.parameters = picture.parameters;
+  load.samplesPerPixel = picture.samples;
+  LoadedScene scene = LoadSceneFile(picture.Path(), load);
+  std::vector<Image> pictures;
+  for (int k = 0; k < kSeeds; ++k) {
+    TestRenderOptions options;
+    options.seed = std::uint64_t(k) * 1000 + 1;
+    pictures.push_back(RenderLoaded(scene, options).image);
+  }
+  return pictures;
+}
+
+std::string Describe(const RegionResult& region, double tolerance) {
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "%s: mean %.5g, reference %.5g, error %+.5f +- %.5f, tolerance %.5f, p-value %.2g%s",
+      region.name.c_str(), region.mean, region.truth, region.mean - region.truth, region.halfWidth,
+      tolerance, region.pValue, region.halfWidth > tolerance ? " (inconclusive: too noisy)" : "");
+  return text;
+}
+
+bool IsWithinTolerance(const RegionResult& region, double tolerance) {
+  return std::abs(region.mean - region.truth) + region.halfWidth <= tolerance;  // false for NaN
+}
+
+TEST_P(Picture, AgreesWithPathTracing) {
+  const PictureCase& picture = GetParam();
+  const Reference reference = LoadReference(picture.scene);
+  const std::vector<Image> pictures = RenderSeeds(picture);
+  EXPECT_EQ(CountNonFinite(pictures), 0);
+
+  const Image& truth = reference.image;
+  const RegionResult whole =
+      MeasureRegion(reference, pictures, {0, 0, truth.Width(), truth.Height()});
+  double tolerance = picture.tolerances.picture * whole.truth;
+  EXPECT_TRUE(IsWithinTolerance(whole, tolerance)) << Describe(whole, tolerance);
+  double worst = 0;
+  for (const PixelBounds& block : Blocks(truth)) {
+    const RegionResult region = MeasureRegion(reference, pictures, block);
+    const double scale = std::max(region.truth, whole.truth / 2);
+    tolerance = picture.tolerances.block * scale;
+    EXPECT_TRUE(IsWithinTolerance(region, tolerance)) << Describe(region, tolerance);
+    worst = std::max(worst, (std::abs(region.mean - region.truth) + region.halfWidth) / scale);
+  }
+  const double firefly = LargestFirefly(reference, pictures);
+  EXPECT_LE(firefly, picture.tolerances.firefly);
+
+  std::printf("%s: error %+.2f %% +- %.2f %%, worst block %.2f %%, brightest pixel %.1f x\n",
+              picture.Path().c_str(), 100 * (whole.mean / whole.truth - 1),
+              100 * whole.halfWidth / whole.truth, 100 * worst, firefly);
+  if (HasFailure())
+    std::printf("see %s\n", WriteFailure(picture.Path(), reference, pictures).c_str());
+}
+
+std::string CaseName(const testing::TestParamInfo<PictureCase>& info) {
+  std::string name = info.param.Path();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(References, Picture, testing::ValuesIn(kCases), CaseName);
+
+// directlighting and whitted leave light out: they never exceed the reference. Two threads, tiles
+// of another size and another order give the same bits.
+TEST(Picture, WithoutIndirectLightIsNoBrighterAndAlwaysTheSame) {
+  for (const char* scene :
+       {"skylight-room", "cornell-caustic", "glossy-room", "furnace", "veach-mis"}) {
+    const double truth = MeanRadiance(LoadReference(scene).image);
+    for (const char* variant : {"directlighting", "whitted"}) {
+      SCOPED_TRACE(std::string(scene) + "/" + variant);
+      LoadOptions load;
+      load.samplesPerPixel = 4;
+      LoadedScene loaded = LoadSceneFile(std::string(scene) + "/" + variant, load);
+      const Image first = RenderLoaded(loaded).image;
+      TestRenderOptions others;
+      others.threads = 2;
+      others.tileSize = 7;
+      others.tileOrder = TileOrder::Reversed;
+      EXPECT_EQ(first.pixels, RenderLoaded(loaded, others).image.pixels);
+      EXPECT_EQ(CountNonFinite({first}), 0);
+      EXPECT_LE(MeanRadiance(first), truth * 1.02);
+      if (std::string(scene) == "skylight-room")
+        EXPECT_EQ(MeanRadiance(first), 0);
+      else
+        EXPECT_GT(MeanRadiance(first), truth * .2);
+    }
+  }
+}
+
+TEST(Picture, OfPhotonsIsTheSameForAnyThreadsAndTiles) {
+  for (const char* variant : {"cornell-caustic/exphotonmap", "cornell-caustic/photonmap"}) {
+    SCOPED_TRACE(variant);
+    LoadOptions load;
+    load.parameters = Photons("3000", "8", "3000");
+    load.samplesPerPixel = 1;
+    LoadedScene loaded = LoadSceneFile(variant, load);
+    const Image first = RenderLoaded(loaded).image;
+    TestRenderOptions others;
+    others.threads = 3;
+    others.tileSize = 7;
+    others.tileOrder = TileOrder::Reversed;
+    EXPECT_EQ(first.pixels, RenderLoaded(loaded, others).image.pixels);
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
