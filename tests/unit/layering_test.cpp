@@ -67,9 +67,10 @@ TEST(Layering, NoSourceFileHasMoreThan500Lines) {
   for (const char* folder : {"core", "integrators", "accelerators", "shapes", "lights", "materials",
                              "samplers", "tests"})
     for (const auto& entry :
-         fs::recursive_directory_iterator(fs::path(EXPHOTON_SOURCE_DIR) / folder))
-      if (entry.is_regular_file() && IsSource(entry.path()))
-        EXPECT_LE(Lines(entry.path()).size(), 500u) << entry.path();
+         fs::recursive_directory_iterator(fs::path(EXPHOTON_SOURCE_DIR) / folder)) {
+      if (!entry.is_regular_file() || !IsSource(entry.path())) continue;
+      EXPECT_LE(Lines(entry.path()).size(), 500u) << entry.path();
+    }
 }
 
 }  // namespace
