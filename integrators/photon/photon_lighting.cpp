@@ -41,7 +41,7 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
   ReportHarvest(harvest, targets, settings_, context);
   {
     const PhaseTimer timer(context.statistics, "kd-trees");
-    maps_ = PhotonMaps(&harvest, settings_, context);
+    maps_ = PhotonMaps(&harvest, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
   }
   if (targets.radianceFraction > 0) {
     const PhaseTimer timer(context.statistics, "radiance");

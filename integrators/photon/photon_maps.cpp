@@ -18,9 +18,15 @@ Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns)
   return std::min(AbsDot(wi, ns) / geometric, kMaxShadingNormalFactor);
 }
 
+// Photons that lie on one spot, or are too few to tell, say nothing of a radius: then it follows
+// from the size of the scene.
+Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
+  return sceneRadius * (photons < std::size_t(nUsed) ? Real(.01) : Real(1e-6));
+}
+
 }  // namespace
 
-PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings,
+PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, Real sceneRadius,
                        PreprocessContext& context)
     : nUsed_(settings.nUsed), kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
@@ -28,7 +34,9 @@ PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings,
     const auto at = std::size_t(m);
     maps_[at] = PhotonMap(std::move(harvest->hauls[at]));
     Arena arena;
-    radii_[at] = settings.maxDist.value_or(maps_[at].TypicalRadius(settings.nUsed, &arena));
+    radii_[at] = settings.maxDist.value_or(
+        std::max(maps_[at].TypicalRadius(settings.nUsed, &arena),
+                 SmallestRadius(maps_[at].Size(), settings.nUsed, sceneRadius)));
     context.progress.Advance();
   });
   context.progress.End();
@@ -53,6 +61,8 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
     const Real weight = KernelWeight(kernel_, near.distance2, around.radius2) *
                         GeometricToShading(wi, point.surface.ng, bsdf.Ns());
     const Spectrum flux = map.Alpha(near.index) * weight;
+    // As in the BSDF, light that is on different sides of the two normals scatters nothing.
+    if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
     if (!isDiffuse) {
       glossy += bsdf.f(point.Wo(), wi, LobeSet::NonSpecular) * flux;
     } else if (Dot(wi, n) > 0) {

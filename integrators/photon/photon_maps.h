@@ -17,8 +17,9 @@ class PhotonMaps {
  public:
   PhotonMaps() = default;
   // Builds the maps from the hauls, which it takes, and chooses the radii where the settings give
-  // none.
-  PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, PreprocessContext& context);
+  // none. sceneRadius: of the sphere round the scene.
+  PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, Real sceneRadius,
+             PreprocessContext& context);
 
   const PhotonMap& Map(PhotonKind kind) const { return maps_[std::size_t(kind)]; }
   Real MaxDistance(PhotonKind kind) const { return radii_[std::size_t(kind)]; }
