@@ -2,6 +2,7 @@
 // Dispatch by the first argument; without a command's name it is a scene to render.
 #include "core/cli/app.h"
 
+#include "core/cli/compare_command.h"
 #include "core/cli/errors.h"
 #include "core/cli/image_commands.h"
 #include "core/cli/options.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Looking at pictures, changing their format, and measuring how far two are apart.
+// Looking at pictures and changing their format.
 #include "core/cli/image_commands.h"
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,6 @@
 #include "core/cli/output_files.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
-#include "core/imaging/metrics.h"
 #include "core/imaging/png.h"
 
 namespace exphoton::cli {
@@ -90,12 +89,6 @@ bool EndsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool AreIdentical(const Image& a, const Image& b) {
-  const auto isSame = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  return a.data == b.data && a.channels == b.channels &&
-         std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(), isSame);
-}
-
 }  // namespace
 
 int RunInfo(const std::vector<std::string>& arguments) {
@@ -133,39 +126,6 @@ int RunConvert(const std::vector<std::string>& arguments) {
     else
       WriteExr(target, image, !asFloat);
   });
-}
-
-int RunCompare(const std::vector<std::string>& arguments) {
-  constexpr int kDifferent = 1, kTrouble = 2;
-  bool isSame = true;  // also where only help was asked for
-  const int status = Guarded([&] {
-    CLI::App app(
-        "Measures how far a picture is from a reference (R, G and B). Exit status: 0 the "
-        "same, 1 different, 2 they cannot be compared.",
-        "exphoton compare");
-    std::string reference, picture;
-    double maxRelMse = -1, maxMean = -1;
-    app.add_option("reference", reference)->required();
-    app.add_option("picture", picture)->required();
-    app.add_option("--max-relmse", maxRelMse, "up to this relMSE they count as the same");
-    app.add_option("--max-mean", maxMean, "up to this relative error of the mean, too");
-    ParseArguments(app, arguments);
-    const Image a = ReadImage(reference), b = ReadImage(picture);
-    const ImageDifference d = CompareImages(a, b);
-    const bool isIdentical = AreIdentical(a, b);
-    const bool isBounded = maxRelMse >= 0 || maxMean >= 0;
-    isSame = isIdentical ||
-             (isBounded && d.nonFinitePixels == 0 && (maxRelMse < 0 || d.relMse <= maxRelMse) &&
-              (maxMean < 0 || std::abs(d.relativeMeanError) <= maxMean));
-    PrintOut(
-        Print("identical           %s\nMSE                 %.9g\nrelMSE              %.9g\n"
-              "mean error          %+.9g\nrelative mean error %+.6g %%\n"
-              "mean of reference   %.9g\nnot finite          %lld pixels\n",
-              isIdentical ? "yes" : "no", d.mse, d.relMse, d.meanError, d.relativeMeanError * 100,
-              d.meanReference, d.nonFinitePixels));
-  });
-  if (status != 0) return kTrouble;
-  return isSame ? 0 : kDifferent;
 }
 
 }  // namespace exphoton::cli

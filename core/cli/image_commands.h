@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton info`, `convert` and `compare`: pictures without scenes. `arguments` without the
+// `exphoton info` and `convert`: pictures without scenes. `arguments` without the
 // program's and the command's name; the result is the exit status.
 #pragma once
 
@@ -10,7 +10,5 @@ namespace exphoton::cli {
 
 int RunInfo(const std::vector<std::string>& arguments);
 int RunConvert(const std::vector<std::string>& arguments);
-// 0: the same; 1: they differ; 2: they cannot be compared.
-int RunCompare(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

@@ -45,6 +45,13 @@ void CheckWritable(const std::string& path) {
   const AtomicFile probe(path);
 }
 
+void MakeFolder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw Error(ExitStatus::File, "cannot make the folder \"" + path + "\": " + error.message());
+}
+
 std::string PartialName(const std::string& path) {
   const fs::path file(path);
   if (file.extension() != ".exr") return path + ".partial.exr";

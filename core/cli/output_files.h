@@ -12,6 +12,9 @@ std::string ResolveOutput(const std::string& path);
 // Throws Error(File) where `path` cannot be written. Leaves nothing behind.
 void CheckWritable(const std::string& path);
 
+// Makes the folder and those above it. Throws Error(File).
+void MakeFolder(const std::string& path);
+
 // "room.exr" -> "room.partial.exr": the name of an interrupted picture.
 std::string PartialName(const std::string& path);
 

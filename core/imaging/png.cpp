@@ -102,11 +102,11 @@ std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& 
 
 }  // namespace
 
-void WritePng(const std::string& path, const Image& image, float exposure) {
+std::string EncodePng(const Image& image, float exposure) {
   const std::array<int, 4> from = {image.FindChannel("R"), image.FindChannel("G"),
                                    image.FindChannel("B"), image.FindChannel("A")};
   if (from[0] < 0 || from[1] < 0 || from[2] < 0)
-    throw Error(ExitStatus::File, "cannot write \"" + path + "\": no channels R, G, B");
+    throw Error(ExitStatus::File, "no channels R, G, B for a PNG");
   const std::size_t channels = from[3] >= 0 ? 4 : 3;
   const std::vector<std::uint8_t> bytes = ToneMap(image, from, channels, exposure);
 
@@ -114,9 +114,23 @@ void WritePng(const std::string& path, const Image& image, float exposure) {
   png.image.width = png_uint_32(image.Width());
   png.image.height = png_uint_32(image.Height());
   png.image.format = channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);
+  std::string encoded(size, '\0');
+  if (!png_image_write_to_memory(&png.image, encoded.data(), &size, 0, bytes.data(), 0, nullptr))
+    throw Error(ExitStatus::File, std::string("cannot encode a PNG: ") + png.image.message);
+  encoded.resize(size);
+  return encoded;
+}
+
+void WritePng(const std::string& path, const Image& image, float exposure) {
+  std::string encoded;
+  try {
+    encoded = EncodePng(image, exposure);
+  } catch (const Error& error) {
+    throw Error(error.Status(), "cannot write \"" + path + "\": " + error.what());
+  }
   AtomicFile file(path);
-  if (!png_image_write_to_stdio(&png.image, file.Stream(), 0, bytes.data(), 0, nullptr))
-    throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + png.image.message);
+  file.Write(encoded.data(), encoded.size());
   file.Commit();
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The commands that do not render: help, version, plugins, info, convert, compare.
+#include <limits>
+
 #include "core/imaging/exr.h"
 #include "tests/cli/program.h"
 
@@ -76,6 +78,48 @@ TEST_F(CommandTest, CompareWithStatusesOfDiff) {
   EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "--max-mean", "0.01"}).status, 1);
   EXPECT_EQ(Run({"compare", "a.exr", "none.exr"}).status, 2);
   EXPECT_EQ(Run({"compare", "a.exr"}).status, 2);
+}
+
+TEST_F(CommandTest, CompareSeveralPicturesAndWriteDifferenceImages) {
+  WriteGrey("a.exr", .5f);
+  WriteGrey("b.exr", .5f);
+  WriteGrey("c.exr", .51f);
+  const ProgramResult result =
+      Run({"compare", "a.exr", "b.exr", "c.exr", "--difference", "diff/here"});
+  EXPECT_EQ(result.status, 1) << result.err;
+  for (const char* part : {"b.exr", "c.exr", "trimmed relMSE", "p99 error", "FLIP"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  const Image difference = ReadExr(Path("diff/here/c-difference.exr"));
+  EXPECT_NEAR(double(difference.At(1, 1, difference.FindChannel("G"))), .01, 1e-6);
+  EXPECT_TRUE(Exists("diff/here/b-difference.png"));
+}
+
+TEST_F(CommandTest, CompareSaysWhichPictureCannotBeCompared) {
+  WriteGrey("a.exr", .5f);
+  WriteExr(Path("small.exr"), Image(2, 2, {"R", "G", "B"}), false);
+  WriteExr(Path("depth.exr"), Image(3, 2, {"Z"}), false);
+  const ProgramResult size = Run({"compare", "a.exr", "a.exr", "small.exr"});
+  EXPECT_EQ(size.status, 2);
+  EXPECT_NE(size.err.find("small.exr: the pictures differ in size: 3 x 2 and 2 x 2"),
+            std::string::npos)
+      << size.err;
+  const ProgramResult channel = Run({"compare", "a.exr", "depth.exr"});
+  EXPECT_EQ(channel.status, 2);
+  EXPECT_NE(channel.err.find("depth.exr lacks channel R, G, B (it has Z)"), std::string::npos)
+      << channel.err;
+}
+
+TEST_F(CommandTest, CompareCountsPixelsThatAreNotFinite) {
+  WriteGrey("a.exr", .5f);
+  Image image(3, 2, {"R", "G", "B"});
+  for (float& pixel : image.pixels) pixel = .5f;
+  image.At(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
+  image.At(2, 1, 0) = std::numeric_limits<float>::infinity();
+  WriteExr(Path("b.exr"), image, false);
+  const ProgramResult result = Run({"compare", "a.exr", "b.exr", "--max-relmse", "1"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("not finite          2 pixels"), std::string::npos) << result.out;
+  EXPECT_EQ(Run({"compare", "b.exr", "b.exr"}).status, 1);
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "core/imaging/flip.h"
 
 namespace exphoton {
 namespace {
@@ -51,6 +54,80 @@ TEST(Metrics, OfBlackImagesAreZero) {
   const ImageDifference d = CompareImages(Constant(2, 2, 0, 0, 0), Constant(2, 2, 0, 0, 0));
   EXPECT_EQ(d.relativeMeanError, 0);
   EXPECT_EQ(d.relMse, 0);
+}
+
+TEST(Metrics, TrimTheWorstThousandthAndFindThe99thPercentile) {
+  const Image reference = Constant(100, 20, 1, 1, 1);
+  Image image = reference;
+  for (int c = 0; c < 3; ++c) {
+    for (int x = 0; x < 19; ++x) image.At(x, 5, c) = 2;  // 19 of 2000 pixels are off by 1
+    image.At(50, 7, c) = 11;                             // two fireflies
+    image.At(51, 7, c) = 11;
+  }
+  const ImageDifference d = CompareImages(reference, image);
+  EXPECT_NEAR(d.relMse, (19 + 200) / 1.01 / 2000, 1e-12);
+  EXPECT_NEAR(d.trimmedRelMse, 19 / 1.01 / 1998, 1e-12);  // two pixels are a thousandth
+  EXPECT_NEAR(d.p99, 1 / std::sqrt(1.01), 1e-12);         // the 1980th smallest
+}
+
+TEST(Metrics, NameTheChannelsThatAreMissingAndThoseThatAreThere) {
+  try {
+    FindColors(Image(1, 1, {"R", "Z"}), "a.exr");
+    FAIL();
+  } catch (const ImageError& error) {
+    EXPECT_STREQ(error.what(), "a.exr lacks channel G, B (it has R, Z)");
+  }
+}
+
+TEST(Metrics, ADifferenceImageHoldsSignedRelativeAndSquaredErrors) {
+  const Image reference = Constant(2, 1, 1, 2, 0);
+  Image image = reference;
+  image.At(1, 0, 1) = 1;
+  const Image d = DifferenceImage(reference, image);
+  EXPECT_FLOAT_EQ(d.At(1, 0, d.FindChannel("G")), -1);
+  EXPECT_FLOAT_EQ(d.At(1, 0, d.FindChannel("relative.G")), float(-1 / std::sqrt(4.01)));
+  EXPECT_FLOAT_EQ(d.At(1, 0, d.FindChannel("relMSE.Y")), float(1 / 4.01 / 3));
+  EXPECT_GT(d.At(1, 0, d.FindChannel("FLIP.Y")), 0);
+  EXPECT_EQ(d.At(0, 0, d.FindChannel("R")), 0);
+}
+
+TEST(Metrics, SignedErrorIsRedWhereTooBrightAndBlueWhereTooDark) {
+  const Image reference = Constant(4, 1, 1, 1, 1);
+  Image image = reference;
+  for (int c = 0; c < 3; ++c) {
+    image.At(1, 0, c) = 3;
+    image.At(2, 0, c) = 0;
+  }
+  image.At(3, 0, 0) = std::numeric_limits<float>::quiet_NaN();
+  const Image shown = SignedErrorImage(reference, image, .5);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(shown.At(0, 0, c), 1);
+  EXPECT_GT(shown.At(1, 0, 0), shown.At(1, 0, 2) + .5f);
+  EXPECT_GT(shown.At(2, 0, 2), shown.At(2, 0, 0) + .5f);
+  EXPECT_GT(shown.At(3, 0, 1), shown.At(3, 0, 2) + .5f);
+}
+
+TEST(Flip, OfUniformGreysIsTheirLightnessDifferenceRedistributed) {
+  // Blurring and edges do nothing: |L1 - L2|^0.7, linear up to 0.4 of the largest, which is that of
+  // the Hunt-adjusted primaries green and blue (203.3 by hand).
+  const Image dark = Constant(32, 24, .2f, .2f, .2f), light = Constant(32, 24, .3f, .3f, .3f);
+  const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };
+  const double largest = std::pow(203.30, .7);
+  const double expected = std::pow(lightness(.3) - lightness(.2), .7) * .95 / (.4 * largest);
+  for (const float v : FlipMapOfDisplayed(dark, light)) EXPECT_NEAR(double(v), expected, 2e-3);
+}
+
+TEST(Flip, IsZeroForEqualPicturesAndSymmetric) {
+  Image a(40, 30, {"R", "G", "B"}), b = a;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    a.pixels[i] = float(i * 7919 % 101) / 100;
+    b.pixels[i] = float(i * 104729 % 97) / 96;
+  }
+  EXPECT_EQ(FlipError(a, a), 0);
+  const std::vector<float> ab = FlipMapOfDisplayed(a, b), ba = FlipMapOfDisplayed(b, a);
+  for (std::size_t i = 0; i < ab.size(); ++i) {
+    EXPECT_FLOAT_EQ(ab[i], ba[i]);
+    EXPECT_LE(ab[i], 1);
+  }
 }
 
 TEST(Metrics, RefuseOtherSizesAndMissingChannels) {
