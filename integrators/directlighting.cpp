@@ -47,9 +47,11 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
     }
   }
 
+  LayerSet Layers() const override { return kLightLayers; }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-      return point.Le() + DirectLight(point, context);
+      return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point, context);
     });
   }
 

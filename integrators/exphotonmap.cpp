@@ -34,11 +34,16 @@ class ExPhotonIntegrator final : public SurfaceIntegrator {
     return photons_.Explain(scene);
   }
 
+  LayerSet Layers() const override { return photons_.Layers(); }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-      if (settings_.show != ShowMap::Nothing) return photons_.Shown(point, context);
-      return point.Le() + direct_.AllLights(point, context) + photons_.Caustic(point, context) +
-             photons_.Indirect(point, context);
+      if (settings_.show != ShowMap::Nothing)
+        return photons_.Shown(point, context).Collect(point, context);
+      photons_.Describe(point, context);
+      return SurfaceLight{point.Le(), direct_.AllLights(point, context),
+                          photons_.Caustic(point, context), photons_.Indirect(point, context)}
+          .Collect(point, context);
     });
   }
 

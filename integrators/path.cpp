@@ -49,6 +49,48 @@ struct PathState {
       true;  // whether only this ray can find emission: the camera's or a delta lobe's
 };
 
+// Which light layer a path's contributions belong to: by its first bounce, and by whether all later
+// ones were specular.
+class PathLayers {
+ public:
+  explicit PathLayers(LayerSample* layers) : layers_(layers) {}
+
+  void Emission(int depth, const Spectrum& radiance) const {
+    if (!layers_) return;
+    if (depth == 0) {
+      layers_->emission += radiance;
+    } else if (isFirstSpecular_) {
+      layers_->specular += radiance;
+    } else if (depth == 1) {
+      layers_->direct += radiance;
+    } else if (isRestSpecular_) {
+      layers_->caustic += radiance;
+    } else {
+      layers_->indirect += radiance;
+    }
+  }
+  // Of a light sample at the vertex of this depth.
+  void Direct(int depth, const Spectrum& radiance) const {
+    if (!layers_) return;
+    if (depth == 0) {
+      layers_->direct += radiance;
+    } else {
+      (isFirstSpecular_ ? layers_->specular : layers_->indirect) += radiance;
+    }
+  }
+  void Bounce(int depth, bool isSpecular) {
+    if (depth == 0) {
+      isFirstSpecular_ = isSpecular;
+    } else {
+      isRestSpecular_ &= isSpecular;
+    }
+  }
+
+ private:
+  LayerSample* layers_;  // null: no layer was asked for
+  bool isFirstSpecular_ = false, isRestSpecular_ = true;
+};
+
 class PathIntegrator final : public SurfaceIntegrator {
  public:
   explicit PathIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
@@ -67,14 +109,19 @@ class PathIntegrator final : public SurfaceIntegrator {
     }
   }
 
+  LayerSet Layers() const override { return kLightLayers; }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     PathState path;
     path.ray = ray;
     Spectrum sum;
+    PathLayers layers(context.layers);
     RandomStream random = context.Stream(kPathStream);
     for (int depth = 0;; ++depth) {
       const auto hit = context.Intersect(path.ray, KindOf(path, depth));
-      sum += path.beta * Emission(path, hit ? &*hit : nullptr, context.scene);
+      const Spectrum emission = path.beta * Emission(path, hit ? &*hit : nullptr, context.scene);
+      sum += emission;
+      layers.Emission(depth, emission);
       if (!hit) {
         if (depth == 0) context.alpha = sum.IsBlack() ? 0 : 1;
         break;
@@ -85,8 +132,11 @@ class PathIntegrator final : public SurfaceIntegrator {
       const ShadingPoint point =
           MakeShadingPoint(*hit, path.ray, depth, TransportMode::Radiance, &context.arena);
       const VertexSample sample = MakeVertexSample(depth, context, &random);
-      sum += path.beta * DirectLight(point, sample, context);
+      const Spectrum direct = path.beta * DirectLight(point, sample, context);
+      sum += direct;
+      layers.Direct(depth, direct);
       const bool goesOn = Continue(point, sample, Lobes(context.scene), &path);
+      layers.Bounce(depth, path.isSpecular);
       context.arena.Rewind(mark);
       if (!goesOn) break;
     }

@@ -33,9 +33,11 @@ class WhittedIntegrator final : public SurfaceIntegrator {
     }
   }
 
+  LayerSet Layers() const override { return kLightLayers; }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(maxDepth_, context).Radiance(ray, [&](const ShadingPoint& point) {
-      return point.Le() + DirectLight(point, context);
+      return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point, context);
     });
   }
 

@@ -2,6 +2,7 @@
 // Collecting of counts and times. How they are shown is the program's matter.
 #include "core/base/statistics.h"
 
+#include <sys/resource.h>
 #include <time.h>
 
 #include <utility>
@@ -31,15 +32,24 @@ void Statistics::AddRays(const RayCounters& rays) {
   rays_.Add(rays);
 }
 
+Statistics::Counter& Statistics::FindCounter(std::string name) {
+  for (Counter& counter : counters_)
+    if (counter.name == name) return counter;
+  return counters_.emplace_back(Counter{std::move(name), 0, {}});
+}
+
 void Statistics::SetCounter(std::string name, double value, std::string meaning) {
   const std::lock_guard lock(mutex_);
-  for (Counter& counter : counters_) {
-    if (counter.name != name) continue;
-    counter.value = value;
-    counter.meaning = std::move(meaning);
-    return;
-  }
-  counters_.push_back({std::move(name), value, std::move(meaning)});
+  Counter& counter = FindCounter(std::move(name));
+  counter.value = value;
+  counter.meaning = std::move(meaning);
+}
+
+void Statistics::AddToCounter(std::string name, double value, std::string meaning) {
+  const std::lock_guard lock(mutex_);
+  Counter& counter = FindCounter(std::move(name));
+  counter.value += value;
+  counter.meaning = std::move(meaning);
 }
 
 void Statistics::AddPhase(const std::string& name, double wallSeconds, double cpuSeconds) {
@@ -83,6 +93,12 @@ double ProcessCpuSeconds() {
   timespec time{};
   if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time) != 0) return 0;
   return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
+double PeakMemoryBytes() {
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return double(usage.ru_maxrss) * 1024;  // Linux counts kibibytes
 }
 
 }  // namespace exphoton

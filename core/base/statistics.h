@@ -21,11 +21,13 @@ struct RayCounters {
   // Throughput (luminance) of camera paths that a depth limit cut; to be compared with the number
   // of camera rays.
   double cutThroughput = 0;
+  double cutGatherThroughput = 0;  // the same of gather rays
 
   void Count(RayKind kind) { ++counts[std::size_t(kind)]; }
   void Add(const RayCounters& other) {
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
     cutThroughput += other.cutThroughput;
+    cutGatherThroughput += other.cutGatherThroughput;
   }
 };
 
@@ -43,6 +45,8 @@ class Statistics {
 
   void AddRays(const RayCounters& rays);        // any thread
   void SetCounter(std::string name, double value, std::string meaning);
+  // Adds to what the counter has, for work that a render may do several times.
+  void AddToCounter(std::string name, double value, std::string meaning);
   void AddPhase(const std::string& name, double wallSeconds, double cpuSeconds);
 
   RayCounters Rays() const;
@@ -50,6 +54,8 @@ class Statistics {
   std::vector<Phase> Phases() const;  // in the order in which they first ran
 
  private:
+  Counter& FindCounter(std::string name);  // with the mutex held
+
   mutable std::mutex mutex_;
   RayCounters rays_;
   std::vector<Counter> counters_;
@@ -70,5 +76,6 @@ class PhaseTimer {
 };
 
 double ProcessCpuSeconds();
+double PeakMemoryBytes();  // of this process so far, in physical memory
 
 }  // namespace exphoton

@@ -3,6 +3,7 @@
 #include "core/cli/errors.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -44,6 +45,8 @@ int Guarded(const std::function<void()>& work) {
     return Fail(ExitStatus::Resource, "out of memory");
   } catch (const std::length_error&) {
     return Fail(ExitStatus::Resource, "out of memory: something is larger than any memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Fail(ExitStatus::File, std::string("cannot use a file or folder: ") + error.what());
   } catch (const std::system_error& error) {
     return Fail(ExitStatus::Resource, error.what());
   } catch (const std::exception& error) {

@@ -20,7 +20,7 @@ constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "v1";
   std::vector<std::string> sets, pluginFolders;
-  std::string integrator;
+  std::string integrator, layers, timeLimit;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -67,6 +67,16 @@ void AddRunOptions(CLI::App& app, RenderCommand& command, RawOptions& raw) {
   app.add_option("--seed", command.seed, "another seed gives other noise")->type_name("N");
   app.add_flag("--half", raw.asHalf, "16-bit channels (default)");
   app.add_flag("--float", raw.asFloat, "32-bit channels");
+  app.add_option("--time-limit", raw.timeLimit,
+                 "render whole passes until so much time is over: 90, 90s, 2m, 1h")
+      ->type_name("TIME");
+  app.add_option("--target-error", command.targetError,
+                 "render whole passes until the noise part of relMSE is estimated below this")
+      ->type_name("X");
+  app.add_flag("--two-halves", command.asTwoHalves,
+               "render two independent halves, say how far apart they are, write both as layers");
+  app.add_option("--aov", raw.layers, "also write these layers: " + AllLayerNames())
+      ->type_name("LIST");
   app.add_option("--preview", command.previewFile, "also write the picture as PNG")
       ->type_name("FILE.png");
   app.add_flag("--reproducible", command.isReproducible,
@@ -101,6 +111,12 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (raw.samplesPerPixel > 0) load.samplesPerPixel = raw.samplesPerPixel;
   load.dialect = raw.dialect == "v2" ? Dialect::V2 : Dialect::V1;
   load.pluginFolders = PluginRegistry::DefaultFolders(raw.pluginFolders);
+  if (!raw.timeLimit.empty()) command->timeLimit = ParseDuration("--time-limit", raw.timeLimit);
+  if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
+    FailUsage("--target-error takes a number above 0");
+  Exclude(command->asTwoHalves, command->HasStoppingRule(),
+          "--two-halves and --time-limit or --target-error exclude each other");
+  if (!raw.layers.empty()) command->layers = ParseLayerList(raw.layers);
   command->asHalf = !raw.asFloat;
   command->showsProgress = !raw.hidesProgress && !raw.isQuiet;
   if (raw.isQuiet) command->logLevel = Log::Level::Quiet;

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/log.h"
+#include "core/imaging/layers.h"
 #include "core/parser/render_setup.h"
 
 namespace exphoton::cli {
@@ -21,6 +23,11 @@ struct RenderCommand {
   std::string outfile;      // "": what the scene says
   std::string previewFile;  // "": none
   std::string statsFile;    // "": none; "-": standard output
+  LayerSet layers;          // --aov
+  std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
+  bool asTwoHalves = false;
+
+  bool HasStoppingRule() const { return timeLimit || targetError; }
   bool printsStatistics = false;
   bool asHalf = true;
   bool isReproducible = false;

@@ -42,6 +42,7 @@ void AddTimes(const RunRecord& run, std::map<std::string, ImageAttribute>* attri
   (*attributes)["phaseTimes"] = PhaseTimes(run.statistics);
   (*attributes)["renderTimeSeconds"] = float(run.renderSeconds);
   (*attributes)["threads"] = run.threads;
+  if (run.timeLimit) (*attributes)["timeLimit"] = float(*run.timeLimit);
 }
 
 }  // namespace
@@ -55,7 +56,11 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   attributes["integrator"] = setup.integratorName;
   attributes["effects"] = setup.scene->Effects().Describe();
   attributes["seed"] = std::to_string(run.seed);
-  attributes["samplesPerPixel"] = int(setup.sampler->SamplesPerPixel());
+  attributes["samplesPerPixel"] = int(run.samplesPerPixel);
+  attributes["passes"] = run.passes;
+  attributes["stoppedBy"] = run.stoppedBy;
+  if (run.noise) attributes["noise"] = float(*run.noise);  // estimated noise part of relMSE
+  if (run.targetError) attributes["targetError"] = float(*run.targetError);
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
                            "sampler " + setup.samplerName + ", filter " + setup.filterName +
                            ", camera " + setup.cameraName;

@@ -2,6 +2,7 @@
 // From a scene file to a picture: load, check the output, render, write, report.
 #include "core/cli/render_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -11,11 +12,11 @@
 #include "core/cli/errors.h"
 #include "core/cli/interrupt_watch.h"
 #include "core/cli/output_files.h"
+#include "core/cli/picture.h"
 #include "core/cli/run_record.h"
 #include "core/cli/signals.h"
 #include "core/imaging/exr.h"
 #include "core/imaging/png.h"
-#include "core/transport/render.h"
 
 namespace exphoton::cli {
 namespace {
@@ -27,8 +28,11 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-struct Seconds {
-  double wall = 0, cpu = 0;
+// When the work for a picture began, and what of it was reading the scene.
+struct Begin {
+  Clock::time_point wall = Clock::now();
+  double cpu = ProcessCpuSeconds();
+  double loadWall = 0, loadCpu = 0;
 };
 
 // Thrown after an interrupted picture has been written.
@@ -40,8 +44,7 @@ class FileRenderer {
   FileRenderer(const RenderCommand& command, Log& log) : command_(command), log_(log) {}
 
   void Run(const std::string& path) {
-    Seconds loading;
-    Setups setups = Load(path, &loading);
+    Setups setups = Load(path);
     if (command_.mode == RenderMode::Check) return log_.Verbose("\"" + path + "\" has no errors");
     if (command_.mode == RenderMode::Explain) {
       for (const auto& setup : setups) PrintOut(ExplainText(*setup));
@@ -50,32 +53,35 @@ class FileRenderer {
     CheckOutputs(setups, path);
     for (std::unique_ptr<RenderSetup>& setup : setups) {
       watch_.MustFinish() = false;
-      RenderOne(*setup, std::exchange(loading, {}));
+      RenderOne(*setup);
       setup.reset();
     }
   }
 
  private:
-  Setups Load(const std::string& path, Seconds* seconds);
+  Setups Load(const std::string& path);
   std::string OutputOf(const RenderSetup& setup) const;
   void CheckOutputs(const Setups& setups, const std::string& scenePath) const;
-  void RenderOne(const RenderSetup& setup, const Seconds& loading);
-  void Write(const RunRecord& run, const Film& film, Statistics& statistics);
+  void RenderOne(const RenderSetup& setup);
+  void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
+  void TakeResult(const PassesResult& result, RunRecord* run) const;
+  void Write(const RunRecord& run, Image image, Statistics& statistics);
   void Report(const RunRecord& run) const;
 
   const RenderCommand& command_;
   Log& log_;
   InterruptWatch watch_;
+  std::optional<Begin> begin_;  // of the first picture
 };
 
-Setups FileRenderer::Load(const std::string& path, Seconds* seconds) {
-  const Clock::time_point start = Clock::now();
-  const double cpuStart = ProcessCpuSeconds();
+Setups FileRenderer::Load(const std::string& path) {
+  Begin& begin = begin_.emplace();
   LoadOptions options = command_.load;
   options.stop = &StopFlag();
   FileSource source;
   Setups setups = LoadScenes(source, path, options, log_);
-  *seconds = {SecondsSince(start), ProcessCpuSeconds() - cpuStart};
+  begin.loadWall = SecondsSince(begin.wall);
+  begin.loadCpu = ProcessCpuSeconds() - begin.cpu;
   return setups;
 }
 
@@ -90,6 +96,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, const std::string& scenePa
                                              " scenes");
   std::set<std::string> outputs;
   for (const auto& setup : setups) {
+    CheckLayers(command_, *setup);
     const std::string output = OutputOf(*setup);
     CheckWritable(output);
     std::error_code ignored;
@@ -107,9 +114,10 @@ void FileRenderer::CheckOutputs(const Setups& setups, const std::string& scenePa
     CheckWritable(ResolveOutput(command_.statsFile));
 }
 
-void FileRenderer::RenderOne(const RenderSetup& setup, const Seconds& loading) {
+void FileRenderer::RenderOne(const RenderSetup& setup) {
+  const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
   log_.Notice("effects:\n" + setup.scene->Effects().Describe());
-  Film film(setup.film.Full(), setup.crop);
+  PictureFilms films(command_, setup);
   ThreadPool threads(command_.threadCount);
   if (threads.Count() < command_.threadCount)
     log_.Warning("only " + std::to_string(threads.Count()) + " of " +
@@ -117,34 +125,61 @@ void FileRenderer::RenderOne(const RenderSetup& setup, const Seconds& loading) {
   ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;
-  statistics.AddPhase("load", loading.wall, loading.cpu);
+  AddLoadingTimes(setup, begin, &statistics);
   RenderOptions options;
   options.seed = command_.seed;
   options.isStrict = command_.load.isStrict;
   options.stop = &StopFlag();
   options.pixelsBegun = &watch_.MustFinish();
+  options.layers = films.layers.get();
 
   const Clock::time_point start = Clock::now();
-  const RenderResult result =
-      Render({*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, film,
-              threads, log_, progress, statistics},
-             options);
+  const PassesResult result =
+      RenderPicture(command_,
+                    {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera,
+                     films.film, threads, log_, progress, statistics},
+                    options, begin.wall, &films);
   watch_.MustFinish() = true;
-  RunRecord run{.setup = setup, .statistics = statistics, .commandLine = command_.commandLine};
-  run.seed = command_.seed;
+  RunRecord run(setup, statistics);
+  run.commandLine = command_.commandLine;
   run.threads = threads.Count();
   run.renderSeconds = SecondsSince(start);
-  run.isComplete = result.isComplete;
-  run.nonFiniteSamples = result.nonFiniteSamples;
-  Write(run, film, statistics);
+  TakeResult(result, &run);
+  Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
+  run.wallSeconds = SecondsSince(begin.wall);
+  run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
+  run.peakMemory = PeakMemoryBytes();
+  statistics.SetCounter("memory/peak", run.peakMemory, "most bytes of memory held at any time");
   Report(run);
   if (!run.isComplete) throw Interrupted();
 }
 
-void FileRenderer::Write(const RunRecord& run, const Film& film, Statistics& statistics) {
+// Reading the scene is work for the first picture of a file.
+void FileRenderer::AddLoadingTimes(const RenderSetup& setup, const Begin& begin,
+                                   Statistics* statistics) const {
+  const double wall = begin.loadWall - setup.acceleratorSeconds;
+  const double cpu = begin.loadCpu - setup.acceleratorCpuSeconds;
+  statistics->AddPhase("parse", std::max(wall, 0.), std::max(cpu, 0.));
+  statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
+}
+
+void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
+  run->seed = command_.seed;
+  run->isComplete = result.render.isComplete;
+  run->nonFiniteSamples = result.render.nonFiniteSamples;
+  run->samplesPerPixel = result.samplesPerPixel;
+  run->passes = result.passes;
+  run->stoppedBy = StopReasonName(result.reason);
+  run->noise = result.noise;
+  run->timeLimit = command_.timeLimit;
+  run->targetError = command_.targetError;
+  run->layers = LayerNames(command_);
+  if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
+}
+
+void FileRenderer::Write(const RunRecord& run, Image image, Statistics& statistics) {
   std::string path = OutputOf(run.setup);
   if (!run.isComplete) path = PartialName(path);
-  Image image = film.ToImage(run.setup.film.premultiplyAlpha);
   image.attributes = PictureAttributes(run, command_.isReproducible);
   {
     const PhaseTimer timer(statistics, "write");

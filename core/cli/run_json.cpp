@@ -2,6 +2,7 @@
 // A run record as one line of JSON (RFC 8259).
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/cli/run_record.h"
 
@@ -84,7 +85,7 @@ void AddScene(const RunRecord& run, JsonWriter* json) {
   for (const int edge : {setup.crop.x0, setup.crop.x1, setup.crop.y0, setup.crop.y1})
     json->Integer(edge);
   json->Close(']');
-  json->Key("samplesPerPixel"), json->Integer(setup.sampler->SamplesPerPixel());
+  json->Key("samplesPerPixel"), json->Integer(run.samplesPerPixel);
   json->Key("effects"), json->Open('{');
   for (int i = 0; i < kEffectCount; ++i) {
     const EffectPlan::Row& row = setup.scene->Effects().Get(Effect(i));
@@ -94,6 +95,20 @@ void AddScene(const RunRecord& run, JsonWriter* json) {
     json->Close('}');
   }
   json->Close('}');
+}
+
+void AddOptional(const char* key, const std::optional<double>& value, JsonWriter* json) {
+  json->Key(key), json->Number(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+// What was reached, and by which rule.
+void AddStopping(const RunRecord& run, JsonWriter* json) {
+  json->Key("passes"), json->Integer(run.passes);
+  json->Key("stoppedBy"), json->Text(run.stoppedBy);
+  AddOptional("noise", run.noise, json);
+  AddOptional("targetError", run.targetError, json);
+  AddOptional("timeLimit", run.timeLimit, json);
+  json->Key("layers"), json->Text(run.layers);
 }
 
 void AddStatistics(const Statistics& statistics, JsonWriter* json) {
@@ -130,6 +145,10 @@ std::string StatisticsJson(const RunRecord& run) {
   json.Key("complete"), json.Bool(run.isComplete);
   json.Key("nonFiniteSamples"), json.Integer(run.nonFiniteSamples);
   json.Key("renderSeconds"), json.Number(run.renderSeconds);
+  json.Key("wallSeconds"), json.Number(run.wallSeconds);
+  json.Key("cpuSeconds"), json.Number(run.cpuSeconds);
+  json.Key("peakMemoryBytes"), json.Number(run.peakMemory);
+  AddStopping(run, &json);
   AddStatistics(run.statistics, &json);
   json.Close('}');
   return json.Take() + "\n";

@@ -4,8 +4,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "core/base/error.h"
+#include "core/params/suggestions.h"
 #include "core/parser/film_parameters.h"
 
 namespace exphoton::cli {
@@ -74,6 +76,36 @@ ParameterOverride ParseOverride(const std::string& text) {
     FailUsage("--set takes Directive.parameter=value, not \"" + text + "\"",
               "for example --set SurfaceIntegrator.maxdepth=8");
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+double ParseDuration(const std::string& option, const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, value);
+  const std::string_view unit(next, std::size_t(end - next));
+  const double seconds = unit.empty() || unit == "s" ? 1
+                         : unit == "m"               ? 60
+                         : unit == "h"               ? 3600
+                                                     : 0;
+  value *= seconds;
+  if (error != std::errc{} || !(value > 0) || !(value < 1e9))
+    FailUsage(option + " takes a time such as 90, 90s, 2m or 1h, not \"" + text + "\"");
+  return value;
+}
+
+std::string AllLayerNames() {
+  LayerSet all;
+  for (int i = 0; i < kLayerCount; ++i) all.Add(Layer(i));
+  return all.Names() + ", light (all light layers)";
+}
+
+LayerSet ParseLayerList(const std::string& text) {
+  std::string unknown;
+  if (const auto layers = ParseLayers(text, &unknown)) return *layers;
+  std::vector<std::string> names{"light"};
+  for (int i = 0; i < kLayerCount; ++i) names.emplace_back(GetLayerInfo(Layer(i)).name);
+  FailUsage("--aov: unknown layer \"" + unknown + "\"; layers are " + AllLayerNames(),
+            DidYouMean(unknown, names));
 }
 
 }  // namespace exphoton::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/imaging/image.h"
+#include "core/imaging/layers.h"
 #include "core/parser/render_setup.h"
 
 namespace exphoton::cli {
@@ -19,6 +20,12 @@ PixelBounds ParsePixelBounds(const std::string& text);
 PixelBounds ParsePixel(const std::string& text);
 // "SurfaceIntegrator.maxdist=1.5".
 ParameterOverride ParseOverride(const std::string& text);
+
+// "90", "90s", "1.5m", "1h": seconds, more than 0.
+double ParseDuration(const std::string& option, const std::string& text);
+// "Albedo,N,direct".
+LayerSet ParseLayerList(const std::string& text);
+std::string AllLayerNames();
 
 [[noreturn]] void FailUsage(const std::string& text, const std::string& hint = {});
 

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -74,6 +75,26 @@ void Film::AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight) 
   p.absB += a * float(L.b);
   p.absAlpha += a * float(alpha);
   p.absWeight += a;
+}
+
+void Film::Clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel()); }
+
+void Film::Add(const Film& other) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    Pixel& p = pixels_[i];
+    const Pixel& q = other.pixels_[i];
+    p.r += q.r;
+    p.g += q.g;
+    p.b += q.b;
+    p.alpha += q.alpha;
+    p.weight += q.weight;
+    p.samples += q.samples;
+    p.absR += q.absR;
+    p.absG += q.absG;
+    p.absB += q.absB;
+    p.absAlpha += q.absAlpha;
+    p.absWeight += q.absWeight;
+  }
 }
 
 std::int64_t Film::SampleCount(Point2i pixel) const { return pixels_[IndexOf(pixel)].samples; }

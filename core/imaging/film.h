@@ -39,6 +39,24 @@ class Film {
   void AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
 
+  // Back to no samples.
+  void Clear();
+  // Adds the samples of another film with the same windows, as if they had come after its own.
+  void Add(const Film& other);
+
+  // sum(w L) and sum(w) of a pixel, for those who reckon with several films.
+  struct Sums {
+    double r = 0, g = 0, b = 0, weight = 0;
+  };
+  // Of the crop window's pixels, row by row.
+  Sums SumsOf(std::size_t index) const {
+    const Pixel& p = pixels_[index];
+    return {p.r, p.g, p.b, p.weight};
+  }
+  std::size_t PixelCount() const { return pixels_.size(); }
+  // r, g, b, alpha as ToImage starts from them: neither clamped nor premultiplied.
+  std::array<double, 4> MeanOf(Point2i pixel) const { return pixels_[IndexOf(pixel)].Mean(); }
+
   // R, G, B, A: sum(w L) / sum(w) over each pixel's samples, never below 0, alpha at most 1; pixels
   // without a sample are 0. premultiplyAlpha, as v1 has it: R, G, B are multiplied by A.
   Image ToImage(bool premultiplyAlpha) const;

@@ -162,7 +162,12 @@ void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderS
       SamplerContext{log, sampler_.params.where});
   std::optional<std::int64_t> count = options_.samplesPerPixel;
   if (options_.isQuick && !count) count = 1;
-  if (count) setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
+  if (!count) return;
+  setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
+  const std::int64_t made = setup->sampler->SamplesPerPixel();
+  if (made != *count)
+    log.Notice("sampler \"" + sampler_.name + "\" takes " + std::to_string(made) +
+               " samples a pixel instead of " + std::to_string(*count));
 }
 
 void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,

@@ -60,6 +60,7 @@ struct RenderSetup {
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
   std::vector<std::string> inputFiles;  // the scene's own file and those its parameters name
   std::vector<std::string> plugins;     // "integrators/exphotonmap", sorted
+  double acceleratorSeconds = 0, acceleratorCpuSeconds = 0;  // of building it, while loading
   std::uint64_t sceneHash = 0;          // of what the file says, whatever its layout
 };
 

@@ -34,6 +34,10 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
   render_->Create(*registry_, log_, setup.get());
   SceneParts parts = world_->Take();
+  for (const Statistics::Phase& phase : world_->Times().Phases()) {
+    setup->acceleratorSeconds += phase.wallSeconds;
+    setup->acceleratorCpuSeconds += phase.cpuSeconds;
+  }
   if (parts.lights.empty()) log_.Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
   setup->scene->SetEffects(

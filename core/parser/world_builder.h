@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/statistics.h"
 #include "core/parser/directive.h"
 #include "core/parser/graphics_state.h"
 #include "core/plugins/registry.h"
@@ -38,6 +39,8 @@ class WorldBuilder {
 
   // The finished world. Nothing may be added after it.
   SceneParts Take();
+  // What building accelerators has taken so far, as phase "accelerator".
+  const Statistics& Times() const { return times_; }
 
  private:
   struct ObjectDefinition {
@@ -65,6 +68,7 @@ class WorldBuilder {
   Log& log_;
   bool isStrict_;
   AcceleratorSpec accelerator_;
+  Statistics times_;
   SceneParts parts_;
   std::map<std::string, ObjectDefinition> objects_;
   ObjectDefinition* object_ = nullptr;  // the one being defined

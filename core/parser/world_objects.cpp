@@ -9,6 +9,7 @@
 namespace exphoton {
 
 std::unique_ptr<Aggregate> WorldBuilder::MakeAggregate(PrimitiveSet& set) {
+  const PhaseTimer timer(times_, "accelerator");
   set.Finish();
   return registry_.Create<PluginKind::Accelerator>(
       accelerator_.name, accelerator_.params,

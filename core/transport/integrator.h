@@ -10,6 +10,7 @@
 
 #include "core/base/arena.h"
 #include "core/base/statistics.h"
+#include "core/imaging/layers.h"
 #include "core/math/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
@@ -27,6 +28,7 @@ struct PreprocessContext {
   Log& log;
   ProgressReporter& progress;  // one bar a phase
   Statistics& statistics;
+  bool isStrict = false;  // what is not finite ends the render: throw Error(Internal)
 };
 
 // What one camera sample works with; lives on the stack of the thread that renders it.
@@ -37,6 +39,8 @@ struct LiContext {
   RayCounters& rays;   // this thread's
   std::uint64_t key;   // of (seed, pixel, sample index)
   Real alpha = 1;      // set to 0 by Li where the camera ray escapes and sees nothing
+  // Where Li leaves what it says of layers besides the radiance; null where no layer was asked for.
+  LayerSample* layers = nullptr;
 
   // Random numbers for one purpose (`stream`: a constant of the integrator's) at this sample.
   RandomStream Stream(std::uint64_t stream) const { return RandomStream(HashKey({key, stream})); }
@@ -59,8 +63,8 @@ class SurfaceIntegrator {
  public:
   virtual ~SurfaceIntegrator() = default;
 
-  // Work before the first camera ray (photon maps). Called once a scene; sampler as in
-  // RequestSamples.
+  // Work before the first camera ray (photon maps). Called again, with another seed, for each of
+  // several independent passes over the image: what it made before is to be replaced.
   virtual void Preprocess(const Scene& scene, PreprocessContext& context) {
     (void)scene, (void)context;
   }
@@ -75,6 +79,9 @@ class SurfaceIntegrator {
     (void)scene;
     return {};
   }
+  // The layers that Li fills where LiContext::layers is there. Those of kRendererLayers need no
+  // integrator. Light layers must sum to what Li returns, to rounding.
+  virtual LayerSet Layers() const { return {}; }
   // Radiance arriving along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 };

@@ -3,16 +3,17 @@
 // sample index), and a pixel's sums are added by one thread in the order of the index.
 #include "core/transport/render.h"
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
-#include <map>
-#include <mutex>
 #include <sstream>
-#include <tuple>
+
+#include "core/transport/non_finite_log.h"
+#include "core/transport/shading_point.h"
+#include "core/transport/tiles.h"
 
 namespace exphoton {
 namespace {
-
-constexpr std::size_t kReportsKept = 8;
 
 // What one thread works with.
 struct alignas(64) Worker {
@@ -23,48 +24,6 @@ struct alignas(64) Worker {
   RayCounters rays;
   std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
   bool wasStopped = false;
-};
-
-// The dropped samples that come first in scanline order, whichever thread met them first.
-class NonFiniteLog {
- public:
-  void Add(Point2i pixel, std::int64_t index, std::string text) {
-    const std::lock_guard lock(mutex_);
-    reports_.emplace(std::tuple(pixel.y, pixel.x, index), std::move(text));
-    if (reports_.size() > kReportsKept) reports_.erase(std::prev(reports_.end()));
-  }
-  std::vector<std::string> Texts() const {
-    std::vector<std::string> texts;
-    for (const auto& report : reports_) texts.push_back(report.second);
-    return texts;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::tuple<int, int, std::int64_t>, std::string> reports_;
-};
-
-// The crop window cut into squares, numbered in the order in which they are rendered.
-class Tiles {
- public:
-  Tiles(const PixelBounds& crop, const RenderOptions& options)
-      : crop_(crop), size_(std::max(options.tileSize, 1)), order_(options.tileOrder) {
-    columns_ = (std::int64_t(crop.Width()) + size_ - 1) / size_;
-    rows_ = (std::int64_t(crop.Height()) + size_ - 1) / size_;
-  }
-  std::int64_t Count() const { return columns_ * rows_; }
-  PixelBounds Get(std::int64_t number) const {
-    if (order_ == TileOrder::Reversed) number = Count() - 1 - number;
-    const std::int64_t x = crop_.x0 + number % columns_ * size_;
-    const std::int64_t y = crop_.y0 + number / columns_ * size_;
-    return {int(x), int(y), int(std::min<std::int64_t>(x + size_, crop_.x1)),
-            int(std::min<std::int64_t>(y + size_, crop_.y1))};
-  }
-
- private:
-  PixelBounds crop_;
-  std::int64_t size_, columns_, rows_;
-  TileOrder order_;
 };
 
 // Brings the neighbouring rays from a pixel's distance to the mean distance of a pixel's samples.
@@ -82,15 +41,51 @@ std::string Describe(const Spectrum& L, const SampleKey& key) {
   return text.str();
 }
 
+// What the layers say of the first surface; the integrator is not asked.
+void DescribeSurface(const Scene& scene, const RayDifferential& ray, Arena* arena,
+                     LayerSample* sample) {
+  const auto surface = scene.Intersect(ray);
+  if (!surface) return;
+  const Arena::Mark mark = arena->GetMark();
+  const ShadingPoint point = MakeShadingPoint(*surface, ray, 0, TransportMode::Radiance, arena);
+  sample->albedo = point.bsdf.Rho(LobeSet::All);
+  sample->n = FaceForward(point.bsdf.Ns(), point.Wo());
+  sample->p = point.surface.p;
+  arena->Rewind(mark);
+}
+
+void Blacken(LayerSample* sample) {
+  sample->emission = sample->direct = sample->caustic = sample->indirect = sample->specular = {};
+}
+
+// Where the sample is negative it counts as 0, and so do its parts.
+void ClampNegative(Spectrum* L, LayerSample* sample) {
+  for (Real Spectrum::*channel : {&Spectrum::r, &Spectrum::g, &Spectrum::b}) {
+    if (!(L->*channel < 0)) continue;
+    for (Spectrum* part : {L, &sample->emission, &sample->direct, &sample->caustic,
+                           &sample->indirect, &sample->specular})
+      part->*channel = 0;
+  }
+}
+
 class TileRenderer {
  public:
-  TileRenderer(const RenderJob& job, const RenderOptions& options, NonFiniteLog* log)
+  struct Target {
+    const RenderPass& pass;
+    const Sampler& sampler;
+    Film& film;
+    ProgressReporter& progress;
+  };
+
+  TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
+               NonFiniteLog* log)
       : job_(job),
         options_(options),
+        target_(target),
         log_(log),
-        samplesPerPixel_(job.sampler.SamplesPerPixel()),
+        layers_(options.layers),
         differentialScale_(
-            Real(1 / std::sqrt(double(std::max<std::int64_t>(samplesPerPixel_, 1))))),
+            Real(1 / std::sqrt(double(std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1))))),
         needsFiltering_(job.scene.Effects().Needs(Effect::Filtering)),
         needsLens_(job.scene.Effects().Needs(Effect::Lens)),
         needsTime_(job.scene.Effects().Needs(Effect::Motion)) {}
@@ -99,28 +94,39 @@ class TileRenderer {
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x)
         if (!RenderPixel({x, y}, worker)) return;
-      job_.progress.Advance(tile.Width());
+      target_.progress.Advance(tile.Width());
     }
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
   // False where stopped.
   bool RenderPixel(Point2i pixel, Worker* worker) const {
-    for (std::int64_t i = 0; i < samplesPerPixel_; ++i) {
+    if (!layers_ || !layers_->NeedsTime()) return RenderSamples(pixel, worker);
+    const Clock::time_point start = Clock::now();
+    const bool isDone = RenderSamples(pixel, worker);
+    layers_->AddTime(pixel, std::chrono::duration<double>(Clock::now() - start).count());
+    return isDone;
+  }
+
+  bool RenderSamples(Point2i pixel, Worker* worker) const {
+    const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
+    for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
       if (IsStopped()) {
         worker->wasStopped = true;
         return false;
       }
-      RenderSample({options_.seed, pixel, i}, worker);
+      RenderSample({target_.pass.sampleSeed, pixel, i}, worker);
     }
     return true;
   }
 
   void RenderSample(const SampleKey& key, Worker* worker) const {
     CameraSamples& samples = worker->samples;
-    job_.sampler.Generate(key, &samples);
+    target_.sampler.Generate(key, &samples);
     const FilterSample filter = job_.filter.Sample(samples.film);
     CameraSample sample;
     sample.film =
@@ -134,17 +140,25 @@ class TileRenderer {
     LiContext context{job_.scene, samples, worker->arena, worker->rays,
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
+    LayerSample layers;
+    if (layers_) {
+      layers.wanted = layers_->Wanted();
+      context.layers = &layers;
+      if (layers_->NeedsSurface()) DescribeSurface(job_.scene, ray, &worker->arena, &layers);
+    }
     Spectrum L = job_.integrator.Li(ray, context);
     ++worker->cameraSamples;
     const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
     if (!L.IsFinite()) {
       Drop(L, key, worker);
       L = Spectrum();
+      Blacken(&layers);
     } else if (L.MinComponent() < 0) {
       ++worker->negative;
-      L = {std::max(L.r, Real(0)), std::max(L.g, Real(0)), std::max(L.b, Real(0))};
+      ClampNegative(&L, &layers);
     }
-    job_.film.AddSample(key.pixel, L, alpha, filter.weight);
+    target_.film.AddSample(key.pixel, L, alpha, filter.weight);
+    if (layers_) layers_->AddSample(key.pixel, layers, L, filter.weight);
   }
 
   void Drop(const Spectrum& L, const SampleKey& key, Worker* worker) const {
@@ -156,49 +170,50 @@ class TileRenderer {
 
   const RenderJob& job_;
   const RenderOptions& options_;
+  Target target_;
   NonFiniteLog* log_;
-  std::int64_t samplesPerPixel_;
+  LayerFilm* layers_;
   Real differentialScale_;
   bool needsFiltering_, needsLens_, needsTime_;
 };
 
-void Preprocess(const RenderJob& job, const RenderOptions& options) {
-  PreprocessContext context{job.threads, options.seed, job.log, job.progress, job.statistics};
-  job.integrator.Preprocess(job.scene, context);
-}
-
 // A depth limit may cut a little without a word; more is light that the picture lacks.
-void WarnOfCutPaths(const RenderJob& job, double cutThroughput, std::int64_t cameraSamples) {
+void WarnOfCutPaths(const RenderJob& job, const RayCounters& rays, std::int64_t cameraSamples) {
   constexpr double kSilentShare = 1e-3;
-  const double share = cutThroughput / double(std::max<std::int64_t>(cameraSamples, 1));
-  if (!(share > kSilentShare)) return;
-  std::ostringstream text;
-  text.precision(2);
-  text << "the depth limit cut specular paths that carry " << 100 * share
-       << " % of what the camera could see";
-  job.log.Warning(text.str(), {}, "raise \"maxdepth\" of the integrator");
+  const auto warn = [&](double cut, double of, const std::string& what) {
+    const double share = cut / std::max(of, 1.);
+    if (!(share > kSilentShare)) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << "the depth limit cut specular paths that carry " << 100 * share << " % of what "
+         << what;
+    job.log.Warning(text.str(), {}, "raise \"maxdepth\" of the integrator");
+  };
+  warn(rays.cutThroughput, double(cameraSamples), "the camera could see");
+  warn(rays.cutGatherThroughput, double(rays.counts[std::size_t(RayKind::Gather)]),
+       "gather rays could see");
 }
 
 RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
                        const NonFiniteLog& log) {
   RenderResult result;
   std::int64_t cameraSamples = 0, negative = 0;
-  double cutThroughput = 0;
+  RayCounters rays;
   for (const Worker& worker : workers) {
-    job.statistics.AddRays(worker.rays);
+    rays.Add(worker.rays);
     cameraSamples += worker.cameraSamples;
     negative += worker.negative;
-    cutThroughput += worker.rays.cutThroughput;
     result.nonFiniteSamples += worker.nonFinite;
     result.isComplete &= !worker.wasStopped;
   }
+  job.statistics.AddRays(rays);
   result.nonFiniteReports = log.Texts();
   job.statistics.SetCounter("render/camera samples", double(cameraSamples), "camera rays started");
   job.statistics.SetCounter("render/non-finite samples", double(result.nonFiniteSamples),
                             "camera samples dropped, counted as black");
   job.statistics.SetCounter("render/negative samples", double(negative),
                             "camera samples with a component below 0, taken as 0");
-  WarnOfCutPaths(job, cutThroughput, cameraSamples);
+  WarnOfCutPaths(job, rays, cameraSamples);
   if (result.nonFiniteSamples == 0) return result;
   for (const std::string& text : result.nonFiniteReports)
     job.log.Warning("dropped a non-finite " + text);
@@ -209,26 +224,75 @@ RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
 
 }  // namespace
 
-RenderResult Render(const RenderJob& job, const RenderOptions& options) {
+struct PassRenderer::State {
+  State(const RenderJob& aJob, const RenderOptions& someOptions)
+      : job(aJob), options(someOptions) {}
+
+  void Preprocess(std::uint64_t seed, ProgressReporter& progress) {
+    Log& log = passes == 0 ? job.log : unheard;
+    PreprocessContext context{job.threads, seed, log, progress, job.statistics, options.isStrict};
+    job.integrator.Preprocess(job.scene, context);
+  }
+
+  const RenderJob& job;
+  const RenderOptions& options;
+  std::deque<Worker> workers;
+  NonFiniteLog nonFinite;
+  Log unheard{Log::Level::Quiet, Log::Sink::Memory};
+  int passes = 0;
+  double preprocessSeconds = 0, renderSeconds = 0;
+};
+
+PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
+    : state_(std::make_unique<State>(job, options)) {
   SampleLayout layout;
   job.integrator.RequestSamples(job.scene, job.sampler, &layout);
-  Preprocess(job, options);
+  for (int i = 0; i < job.threads.Count(); ++i) state_->workers.emplace_back(layout);
+}
 
+PassRenderer::~PassRenderer() = default;
+
+double PassRenderer::PreprocessSeconds() const { return state_->preprocessSeconds; }
+double PassRenderer::RenderSeconds() const { return state_->renderSeconds; }
+
+bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* film) {
+  using Clock = std::chrono::steady_clock;
+  const auto secondsSince = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  State& state = *state_;
+  const RenderJob& job = state.job;
+  const Clock::time_point start = Clock::now();
+  state.Preprocess(pass.preprocessSeed, job.progress);
+  ++state.passes;
+  state.preprocessSeconds = secondsSince(start);
+
+  const Clock::time_point renderStart = Clock::now();
   const PhaseTimer timer(job.statistics, "render");
-  std::deque<Worker> workers;
-  for (int i = 0; i < job.threads.Count(); ++i) workers.emplace_back(layout);
-
-  const Tiles tiles(job.film.Crop(), options);
-  NonFiniteLog log;
-  const TileRenderer renderer(job, options, &log);
-  const PixelBounds& crop = job.film.Crop();
-  if (options.pixelsBegun) *options.pixelsBegun = true;
+  const Tiles tiles(film->Crop(), state.options);
+  const TileRenderer renderer(job, state.options, {pass, sampler, *film, job.progress},
+                              &state.nonFinite);
+  const PixelBounds& crop = film->Crop();
+  if (state.options.pixelsBegun) *state.options.pixelsBegun = true;
   job.progress.Begin("Rendering", std::int64_t(crop.Width()) * crop.Height());
   job.threads.For(tiles.Count(), [&](std::int64_t number, int worker) {
-    renderer.RenderTile(tiles.Get(number), &workers[std::size_t(worker)]);
+    renderer.RenderTile(tiles.Get(number), &state.workers[std::size_t(worker)]);
   });
   job.progress.End();
-  return Summarize(job, workers, log);
+  state.renderSeconds = secondsSince(renderStart);
+  return std::none_of(state.workers.begin(), state.workers.end(),
+                      [](const Worker& worker) { return worker.wasStopped; });
+}
+
+RenderResult PassRenderer::Finish() {
+  return Summarize(state_->job, state_->workers, state_->nonFinite);
+}
+
+RenderResult Render(const RenderJob& job, const RenderOptions& options) {
+  PassRenderer renderer(job, options);
+  renderer.Run({options.seed, options.seed, 0, job.sampler.SamplesPerPixel()}, job.sampler,
+               &job.film);
+  return renderer.Finish();
 }
 
 }  // namespace exphoton

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/base/statistics.h"
 #include "core/imaging/camera.h"
 #include "core/imaging/film.h"
+#include "core/imaging/layer_film.h"
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/transport/integrator.h"
@@ -29,6 +31,7 @@ struct RenderOptions {
   bool isStrict = false;              // a non-finite sample ends the render: throws Error(Internal)
   const std::atomic<bool>* stop = nullptr;  // set from outside (a signal): stop at the next pixel
   std::atomic<bool>* pixelsBegun = nullptr;  // set here once there may be something to keep
+  LayerFilm* layers = nullptr;  // filled beside the film; null: no layer was asked for
 };
 
 struct RenderJob {
@@ -51,5 +54,34 @@ struct RenderResult {
 };
 
 RenderResult Render(const RenderJob& job, const RenderOptions& options);
+
+// One pass over the image: which samples of each pixel, and by which random numbers.
+struct RenderPass {
+  std::uint64_t preprocessSeed = 0;  // of photons
+  std::uint64_t sampleSeed = 0;      // of camera samples
+  std::int64_t firstSample = 0, sampleCount = 0;
+};
+
+// Renders pass by pass. Passes may differ in everything that RenderPass says; statistics and
+// complaints are of all of them together.
+class PassRenderer {
+ public:
+  // The job's film is not used: each pass names its own. Both must outlive this.
+  PassRenderer(const RenderJob& job, const RenderOptions& options);
+  ~PassRenderer();
+
+  // Preprocesses, and adds the pass's samples to the film. Messages of a preprocessing that was done
+  // before with another seed are not repeated. False where stopped; then some pixels lack samples.
+  bool Run(const RenderPass& pass, const Sampler& sampler, Film* film);
+  // Fills the job's statistics and says what went wrong. Once, at the end.
+  RenderResult Finish();
+
+  double PreprocessSeconds() const;  // wall, of the last pass
+  double RenderSeconds() const;      // the same, without preprocessing
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace exphoton

@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SpecularTree: the part that Whitted-style integrators share (Whitted 1980): follow a camera ray
 // to a surface, let the caller shade it, and add what arrives over its specular lobes, up to a
-// depth. Counts what that depth cuts, so that the render can say so.
+// depth. Counts what that depth cuts, so that the render can say so. Fills the light layers that
+// are the tree's: what lies behind everything, and what arrives over specular lobes.
 #pragma once
 
 #include "core/transport/specular_bounce.h"
 
 namespace exphoton {
 
+// What leaves a point by emission and non-specular lobes, term by term.
+struct SurfaceLight {
+  Spectrum emission, direct, caustic, indirect;
+
+  // Their sum; the camera's own surface leaves them in the layers too.
+  Spectrum Collect(const ShadingPoint& point, LiContext& context) const {
+    if (context.layers && point.depth == 0) {
+      context.layers->emission = emission;
+      context.layers->direct = direct;
+      context.layers->caustic = caustic;
+      context.layers->indirect = indirect;
+    }
+    return emission + direct + caustic + indirect;
+  }
+};
+
 class SpecularTree {
  public:
   SpecularTree(int maxDepth, LiContext& context) : maxDepth_(maxDepth), context_(context) {}
 
   // Radiance along the ray: shade(point), for Spectrum shade(const ShadingPoint&), is what leaves a
-  // point by emission and its non-specular lobes.
+  // point by emission and its non-specular lobes; at depth 0 it fills their light layers.
   template <class Shade>
   Spectrum Radiance(const RayDifferential& ray, const Shade& shade) {
     return Along(ray, Spectrum(1), 0, shade);
@@ -29,6 +46,7 @@ class SpecularTree {
     if (!hit) {
       const Spectrum sky = context_.scene.EscapedRadiance(ray.d);
       if (depth == 0) context_.alpha = sky.IsBlack() ? 0 : 1;
+      if (depth == 0 && context_.layers) context_.layers->emission = sky;
       return sky;
     }
     const ShadingPoint point =
@@ -43,8 +61,10 @@ class SpecularTree {
     const auto incident = [&](const SpecularRay& bounce) {
       return Along(bounce.ray, throughput * bounce.throughput, depth + 1, shade);
     };
-    return radiance +=
-           SpecularBounces(point, context_.Stream(kStream + std::uint64_t(depth)), incident);
+    const Spectrum bounces =
+        SpecularBounces(point, context_.Stream(kStream + std::uint64_t(depth)), incident);
+    if (depth == 0 && context_.layers) context_.layers->specular = bounces;
+    return radiance += bounces;
   }
 
   int maxDepth_;

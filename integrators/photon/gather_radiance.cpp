@@ -36,11 +36,15 @@ Spectrum GatherRadiance::Along(RayDifferential ray, LiContext& context, RandomSt
     const auto hit = context.IntersectPoint(ray, RayKind::Gather);
     if (!hit || !hit->material) return sum;
     sum += throughput * NonSpecular(*hit, ray, context, random, shortBounces);
-    if (depth == settings_.maxDepth ||
-        !Intersects(hit->material->PossibleLobes(), LobeSet::Specular))
-      return sum;
+    if (!Intersects(hit->material->PossibleLobes(), LobeSet::Specular)) return sum;
     const Arena::Mark mark = context.arena.GetMark();
     const ShadingPoint point = Shade(*hit, ray, context);
+    if (depth == settings_.maxDepth) {
+      context.rays.cutGatherThroughput +=
+          double((throughput * point.bsdf.Rho(LobeSet::Specular)).Y());
+      context.arena.Rewind(mark);
+      return sum;
+    }
     const auto bounce = FollowSpecular(point, random);
     context.arena.Rewind(mark);
     if (!bounce) return sum;
@@ -66,6 +70,10 @@ Spectrum GatherRadiance::NonSpecular(const Scene::HitPoint& hit, const RayDiffer
     isShort =
         entry && DistanceSquared(ray.o, hit.point.p) < Square(settings_.shortRays * entry->radius);
     if (entry && !isShort) {
+      if (context.layers) {
+        context.layers->radianceDistance += double(radianceMap_->DistanceTo(*entry, hit.point.p));
+        ++context.layers->radiancePhotonsRead;
+      }
       if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
       return Reflected(hit, ray, *entry, context);
     }

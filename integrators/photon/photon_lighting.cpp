@@ -2,10 +2,23 @@
 // Deciding what to shoot, shooting it, and the terms that maps contribute.
 #include "integrators/photon/photon_lighting.h"
 
+#include <algorithm>
+
 #include "integrators/photon/gather_radiance.h"
 #include "integrators/photon/photon_report.h"
 
 namespace exphoton {
+
+namespace {
+
+bool HasReceiver(const Scene& scene) {
+  const auto& materials = scene.Materials();
+  return std::any_of(materials.begin(), materials.end(), [](const auto& material) {
+    return Intersects(material->PossibleLobes(), LobeSet::NonSpecular);
+  });
+}
+
+}  // namespace
 
 bool PhotonLighting::Gathers(const Scene& scene) const {
   return settings_.finalGather && settings_.show == ShowMap::Nothing &&
@@ -14,14 +27,17 @@ bool PhotonLighting::Gathers(const Scene& scene) const {
 
 // A map is requested if something will read it and this scene can fill it.
 PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
-  const bool gathers = Gathers(scene), showsRadiance = settings_.show == ShowMap::Radiance;
+  const ShowMap show = settings_.show;
+  const bool showsAll = show == ShowMap::Nothing || show == ShowMap::Radiance;
+  const bool gathers = Gathers(scene), showsRadiance = show == ShowMap::Radiance;
   const bool hasIndirect = scene.Effects().Needs(Effect::Indirect);
   PhotonTargets targets;
-  if (scene.Effects().Needs(Effect::Caustics))
+  if (scene.Effects().Needs(Effect::Caustics) && (showsAll || show == ShowMap::Caustic))
     targets[PhotonKind::Caustic] = settings_.causticPhotons;
-  if (hasIndirect) targets[PhotonKind::Indirect] = settings_.indirectPhotons;
-  if (hasIndirect &&
-      (gathers || needsDirectMap_ || showsRadiance || settings_.show == ShowMap::Direct))
+  if (hasIndirect && (showsAll || show == ShowMap::Indirect))
+    targets[PhotonKind::Indirect] = settings_.indirectPhotons;
+  if ((hasIndirect && (gathers || showsRadiance)) ||
+      (HasReceiver(scene) && ((needsDirectMap_ && showsAll) || show == ShowMap::Direct)))
     targets[PhotonKind::Direct] = settings_.DirectPhotons();
   if (showsRadiance || (gathers && settings_.radiancePhotons))
     targets.radianceFraction = settings_.radianceFraction;
@@ -32,6 +48,7 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
   gathers_ = Gathers(scene);
   lights_ = LightDistribution(scene.Lights(), settings_.lightSelection);
   radianceMap_.reset();
+  maps_ = {};  // of an earlier pass: its memory is wanted
   const PhotonTargets targets = Targets(scene);
   PhotonHarvest harvest;
   {
@@ -64,7 +81,7 @@ std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {
     photons +=
         (photons.empty() ? "" : ", ") + std::to_string(targets[kind]) + " " + PhotonKindName(kind);
     bytes += double(targets[kind]) * double(PhotonMap::kBytesPerPhoton);
-    if (kind != PhotonKind::Caustic) stored += double(targets[kind]);
+    stored += double(targets[kind]);
   }
   bytes += stored * double(targets.radianceFraction) * double(RadianceMap::kBytesPerEntry);
   const auto mebibytes = std::to_string(std::int64_t(bytes / (1 << 20)) + 1);
@@ -88,26 +105,47 @@ Spectrum PhotonLighting::Indirect(const ShadingPoint& point, LiContext& context)
                         [&](const Ray& ray) { return radiance(ray, context, &random); });
 }
 
-Spectrum PhotonLighting::Shown(const ShadingPoint& point, LiContext& context) const {
+SurfaceLight PhotonLighting::Shown(const ShadingPoint& point, LiContext& context) const {
+  SurfaceLight light;
   switch (settings_.show) {
     case ShowMap::Nothing:
       break;
     case ShowMap::Direct:
-      return Direct(point, context);
+      light.direct = Direct(point, context);
+      break;
     case ShowMap::Caustic:
-      return Caustic(point, context);
+      light.caustic = Caustic(point, context);
+      break;
     case ShowMap::Indirect:
-      return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
-    case ShowMap::Radiance: {
-      if (!radianceMap_) return {};
-      const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-      const auto* entry = radianceMap_->Find(point.surface.p, n);
-      if (!entry) return {};
-      if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
-      return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;
-    }
+      light.indirect = maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
+      break;
+    case ShowMap::Radiance:
+      light.indirect = ShownRadiance(point);
+      break;
   }
-  return {};
+  return light;
+}
+
+Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
+  if (!radianceMap_) return {};
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const auto* entry = radianceMap_->Find(point.surface.p, n);
+  if (!entry) return {};
+  if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
+  return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;
+}
+
+LayerSet PhotonLighting::Layers() const {
+  LayerSet layers = kLightLayers | LayerSet{Layer::PhotonDensity};
+  if (settings_.radiancePhotons && settings_.finalGather && settings_.show == ShowMap::Nothing)
+    layers.Add(Layer::RadianceDistance);
+  return layers;
+}
+
+void PhotonLighting::Describe(const ShadingPoint& point, LiContext& context) const {
+  if (!context.layers || point.depth != 0) return;
+  if (context.layers->wanted.Has(Layer::PhotonDensity))
+    context.layers->photonDensity = maps_.PhotonDensity(point, &context.arena);
 }
 
 }  // namespace exphoton

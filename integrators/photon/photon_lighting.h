@@ -8,7 +8,7 @@
 
 #include "core/lights/light_distribution.h"
 #include "core/transport/integrator.h"
-#include "core/transport/shading_point.h"
+#include "core/transport/specular_tree.h"
 #include "integrators/photon/final_gather.h"
 #include "integrators/photon/photon_maps.h"
 #include "integrators/photon/radiance_map.h"
@@ -32,11 +32,17 @@ class PhotonLighting {
   // Gathered over the hemisphere, or of the indirect map where final gathering is off.
   Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
   // The map that `show` names and nothing else.
-  Spectrum Shown(const ShadingPoint& point, LiContext& context) const;
+  SurfaceLight Shown(const ShadingPoint& point, LiContext& context) const;
+
+  // The layers that Li and its terms fill.
+  LayerSet Layers() const;
+  // Fills the density of photons at the camera's own surface, where that layer is wanted.
+  void Describe(const ShadingPoint& point, LiContext& context) const;
 
  private:
   static constexpr std::uint64_t kGatherStream = 0x726164ull;
 
+  Spectrum ShownRadiance(const ShadingPoint& point) const;  // of the radiance photons
   bool Gathers(const Scene& scene) const;
   PhotonTargets Targets(const Scene& scene) const;
 

@@ -84,6 +84,21 @@ Spectrum PhotonMaps::Radiance(const ShadingPoint& point, Arena* arena) const {
          Radiance(PhotonKind::Indirect, point, arena);
 }
 
+double PhotonMaps::PhotonDensity(const ShadingPoint& point, Arena* arena) const {
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const bool isOneSided = !point.bsdf.Has(LobeSet::NonSpecularTransmission);
+  double density = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (maps_[m].IsEmpty()) continue;
+    const Arena::Mark mark = arena->GetMark();
+    const PhotonNeighbourhood around =
+        maps_[m].Find({point.surface.p, n, nUsed_, radii_[m], isOneSided}, arena);
+    density += double(around.photons.size()) / (double(kPi) * double(around.radius2));
+    arena->Rewind(mark);
+  }
+  return density;
+}
+
 PhotonMap::Irradiance PhotonMaps::EstimateIrradiance(const Point3& p, const Normal3& n,
                                                      Arena* arena) const {
   PhotonMap::Irradiance total;

@@ -31,6 +31,9 @@ class PhotonMaps {
   // The same of all three maps.
   Spectrum Radiance(const ShadingPoint& point, Arena* arena) const;
 
+  // Photons of all three maps per unit of area that an estimate at the point would use.
+  double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
+
   // Irradiance on the side of n, of all three maps; the radius is the mean of the maps' radii,
   // weighted by what each contributed.
   PhotonMap::Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena) const;

@@ -28,14 +28,16 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
     if (targets[kind] == 0) continue;
     const PhotonHaul& haul = harvest[kind];
     const std::string name = PhotonKindName(kind);
-    context.statistics.SetCounter("photons/" + name + " stored", double(haul.photons.size()),
-                                  "photons in the " + name + " map");
-    context.statistics.SetCounter("photons/" + name + " paths", double(haul.paths),
-                                  "paths from the lights that the " + name + " map counts");
+    context.statistics.AddToCounter("photons/" + name + " stored", double(haul.photons.size()),
+                                    "photons in the " + name + " map, of all passes together");
+    context.statistics.AddToCounter("photons/" + name + " paths", double(haul.paths),
+                                    "paths from the lights that the " + name + " map counts");
     if (std::int64_t(haul.photons.size()) < targets[kind])
       context.log.Notice(Text(name, " map: ", haul.photons.size(), " of ", targets[kind],
                               " photons after ", haul.paths, " paths"));
   }
+  context.statistics.AddToCounter("photons/shot", double(harvest.paths),
+                                  "paths that were traced from the lights");
   if (harvest.paths > 0)
     context.statistics.SetCounter("photons/emitted power",
                                   harvest.emittedPower / double(harvest.paths),
@@ -45,8 +47,13 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
         Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",
              100 * harvest.cutPower / harvest.emittedPower, " % of the emitted power"),
         {}, "raise \"maxphotondepth\", or lower reflectances that are (nearly) 1");
-  if (harvest.droppedPhotons > 0)
-    context.log.Warning(Text(harvest.droppedPhotons, " photons had no finite power and were lost"));
+  if (harvest.droppedPhotons == 0) return;
+  context.statistics.AddToCounter("photons/non-finite", double(harvest.droppedPhotons),
+                                  "photons lost because their power was not finite");
+  if (context.isStrict)
+    throw Error(ExitStatus::Internal, Text("photon path ", harvest.firstDroppedPath, " of seed ",
+                                           context.seed, " has a power that is not finite"));
+  context.log.Warning(Text(harvest.droppedPhotons, " photons had no finite power and were lost"));
 }
 
 void ReportMaps(const PhotonMaps& maps, const RadianceMap* radianceMap,

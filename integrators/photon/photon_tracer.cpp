@@ -19,7 +19,7 @@ struct PhotonTracer::Chunk {
   std::array<std::vector<Photon>, kPhotonKindCount> photons;
   std::array<std::vector<RadianceSeed>, kPhotonKindCount> seeds;  // by the map of their photon
   double emittedPower = 0, cutPower = 0;
-  std::int64_t dropped = 0;
+  std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
 };
 
 // One photon path: follows it to its end and stores into the chunk what `open` maps want.
@@ -28,6 +28,7 @@ class PhotonTracer::Path {
   Path(const PhotonTracer& tracer, std::uint64_t index,
        const std::array<bool, kPhotonKindCount>& open, Real radianceFraction, Chunk* chunk)
       : tracer_(tracer),
+        index_(index),
         samples_(tracer.seed_, index),
         open_(open),
         radianceFraction_(radianceFraction),
@@ -60,7 +61,7 @@ class PhotonTracer::Path {
     if (!emission) return false;
     alpha_ = emission->power / choice.probability;  // docs/exphotonmap.md, eq. 3
     if (!alpha_.IsFinite()) {
-      ++chunk_->dropped;
+      Drop();
       return false;
     }
     chunk_->emittedPower += double(alpha_.Y());
@@ -75,6 +76,10 @@ class PhotonTracer::Path {
                                                 FaceForward(point.surface.ng, point.Wo()),
                                                 point.bsdf.Rho(LobeSet::NonSpecularReflection),
                                                 point.bsdf.Rho(LobeSet::NonSpecularTransmission)});
+  }
+
+  void Drop() {
+    if (chunk_->dropped++ == 0) chunk_->firstDropped = std::int64_t(index_);
   }
 
   // Whether a map still wants photons of what comes after a bounce of this kind.
@@ -97,7 +102,7 @@ class PhotonTracer::Path {
     if (!(uChoice.y < survival)) return false;
     alpha_ = scattered / survival;
     if (!alpha_.IsFinite()) {
-      ++chunk_->dropped;
+      Drop();
       return false;
     }
     if (hits >= tracer_.settings_.maxPhotonDepth) {
@@ -124,6 +129,7 @@ class PhotonTracer::Path {
   }
 
   const PhotonTracer& tracer_;
+  std::uint64_t index_;
   PathSamples samples_;
   const std::array<bool, kPhotonKindCount>& open_;
   Real radianceFraction_;
@@ -195,6 +201,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
       }
       harvest.emittedPower += chunk.emittedPower;
       harvest.cutPower += chunk.cutPower;
+      if (harvest.droppedPhotons == 0) harvest.firstDroppedPath = chunk.firstDropped;
       harvest.droppedPhotons += chunk.dropped;
     }
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) {

@@ -31,6 +31,7 @@ struct PhotonHarvest {
   double emittedPower = 0;          // luminance, summed over the paths
   double cutPower = 0;              // of it, cut by the depth limit
   std::int64_t droppedPhotons = 0;  // whose power was not finite
+  std::int64_t firstDroppedPath = -1;
 
   PhotonHaul& operator[](PhotonKind kind) { return hauls[std::size_t(kind)]; }
   const PhotonHaul& operator[](PhotonKind kind) const { return hauls[std::size_t(kind)]; }

@@ -35,6 +35,10 @@ class RadianceMap {
   // the radiance goes): its normal agrees and p lies within its reach (eq. 14). Null where there is
   // none.
   const Entry* Find(const Point3& p, const Normal3& n) const;
+  // How far an entry that Find gave lies from a point.
+  Real DistanceTo(const Entry& entry, const Point3& p) const {
+    return Distance(tree_.Point(std::uint32_t(&entry - entries_.data())), p);
+  }
 
  private:
   PointKdTree tree_;

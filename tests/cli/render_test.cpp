@@ -130,7 +130,9 @@ TEST_F(RenderCommandTest, CallsWrongUsageStatus1) {
         Names{"--effects", "caustic=off"}, Names{"--set", "Film.xresolution"},
         Names{"--set", "Film.nosuch=1"}, Names{"--half", "--float"}, Names{"--quiet", "--verbose"},
         Names{"--integrator", "nosuch"}, Names{"-o", "x.exr", "other.pbrt"},
-        Names{"--time-limit", "3"}}) {
+        Names{"--time-limit", "0"}, Names{"--time-limit", "3x"}, Names{"--target-error", "0"},
+        Names{"--target-error", "-1"}, Names{"--two-halves", "--time-limit", "3"},
+        Names{"--aov", "albeido"}, Names{"--aov", "N,"}, Names{"--aov", "photondensity"}}) {
     const ProgramResult result = RunText(scene, arguments);
     EXPECT_EQ(result.status, 1) << arguments[0] << "\n" << result.err;
     EXPECT_NE(result.err.find("error: "), std::string::npos) << result.err;
@@ -248,7 +250,7 @@ TEST_F(RenderCommandTest, ExplainsPhotonMapsAndTheirMemory) {
 TEST_F(RenderCommandTest, PrintsStatisticsOnlyWhenAsked) {
   const ProgramResult result = RunText(SmallScene(), {"--stats", "--stats-json", "s.json"});
   EXPECT_EQ(result.status, 0);
-  for (const char* part : {"phase", "load", "camera", "shadow"})
+  for (const char* part : {"phase", "parse", "camera", "shadow"})
     EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
   const std::string json = Read("s.json");
   EXPECT_EQ(json.substr(0, 23), "{\"scene\":\"scene.pbrt\",\"");

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// NonFiniteLog: the first few camera samples that were not finite, the same ones however the work
+// was divided.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+// The dropped samples that come first in scanline order, whichever thread met them first.
+class NonFiniteLog {
+ public:
+  void Add(Point2i pixel, std::int64_t index, std::string text) {
+    const std::lock_guard lock(mutex_);
+    reports_.emplace(std::tuple(pixel.y, pixel.x, index), std::move(text));
+    if (reports_.size() > kKept) reports_.erase(std::prev(reports_.end()));
+  }
+  std::vector<std::string> Texts() const {
+    std::vector<std::string> texts;
+    for (const auto& report : reports_) texts.push_back(report.second);
+    return texts;
+  }
+
+ private:
+  static constexpr std::size_t kKept = 8;
+
+  std::mutex mutex_;
+  std::map<std::tuple<int, int, std::int64_t>, std::string> reports_;
+};
+
+}  // namespace exphoton
