@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kLayers{"base",      "math",    "geometry", "scattering", "lights",
-                                       "sampling",  "spatial", "imaging",  "cameras",    "scene",
-                                       "transport", "params",  "plugins",  "parser",     "cli"};
+const std::vector<std::string> kLayers{
+    "base",    "math",  "geometry",  "scattering", "lights",  "sampling", "spatial", "imaging",
+    "cameras", "scene", "transport", "params",     "plugins", "parser",   "study",   "cli"};
 
 int LayerOf(const std::string& folder) {
   const auto it = std::find(kLayers.begin(), kLayers.end(), folder);
