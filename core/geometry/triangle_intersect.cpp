@@ -1,37 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The watertight ray-triangle test: Woop, Benthin and Wald 2013 (JCGT 2:1). Vertices are sheared so
-// that the ray runs along z; the signs of the three edge functions then decide. They are exact for
-// the sheared vertices: in single precision a sign is right or the value 0 (rounding is monotone),
-// and where it is 0 products in double decide, so that neighbours never both refuse a ray.
-#include "core/geometry/triangle_mesh.h"
-#include "core/geometry/vec3d.h"
+// The watertight ray-triangle test as a function: filter, then decision (triangle_decide.h).
+#include "core/geometry/triangle_decide.h"
 
 namespace exphoton {
-namespace {
-
-struct Sheared {
-  Real x, y;
-};
-
-// Whether the plane of the triangle lies ahead of the ray's origin, beyond the rounding error of
-// that decision. In double, from the true vertices: a ray that starts outside the error box of a
-// point on this plane and leaves it is never sent back. `orientation` has the sign of the dot
-// product of normal and ray.
-bool PlaneIsAhead(const Point3& o, const Point3& p0, const Point3& p1, const Point3& p2,
-                  double orientation) {
-  const Vec3d a(p0);
-  const Vec3d e1 = Vec3d(p1) - a, e2 = Vec3d(p2) - a, toPlane = a - Vec3d(o);
-  const Vec3d n = Cross(e1, e2);
-  const double distance = Dot(n, toPlane);
-  constexpr double kUnit = std::numeric_limits<double>::epsilon();
-  const double magnitude = (std::abs(e1.y * e2.z) + std::abs(e1.z * e2.y)) * std::abs(toPlane.x) +
-                           (std::abs(e1.z * e2.x) + std::abs(e1.x * e2.z)) * std::abs(toPlane.y) +
-                           (std::abs(e1.x * e2.y) + std::abs(e1.y * e2.x)) * std::abs(toPlane.z);
-  const double ahead = orientation < 0 ? -distance : distance;
-  return ahead > 8 * kUnit * magnitude;
-}
-
-}  // namespace
 
 TriangleRay::TriangleRay(const Ray& ray) : o(ray.o) {
   const Vector3 size = Abs(ray.d);
@@ -47,25 +18,7 @@ TriangleRay::TriangleRay(const Ray& ray) : o(ray.o) {
 std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, const Point3& p0,
                                              const Point3& p1, const Point3& p2) {
   if (MissesTriangle(ray, p0, p1, p2)) return std::nullopt;
-  const int kx = ray.kx, ky = ray.ky, kz = ray.kz;
-  const auto shear = [&](const Point3& p) -> Sheared {
-    const Real z = p[kz] - ray.o[kz];
-    return {(p[kx] - ray.o[kx]) - ray.sx * z, (p[ky] - ray.o[ky]) - ray.sy * z};
-  };
-  const Sheared a = shear(p0), b = shear(p1), c = shear(p2);
-  const double ax = a.x, ay = a.y, bx = b.x, by = b.y, cx = c.x, cy = c.y;
-  const double du = cx * by - cy * bx, dv = ax * cy - ay * cx, dw = bx * ay - by * ax;
-  if ((du < 0 || dv < 0 || dw < 0) && (du > 0 || dv > 0 || dw > 0)) return std::nullopt;
-  const double determinant = du + dv + dw;
-  if (!(std::abs(determinant) > 0)) return std::nullopt;  // edge-on, or NaN
-
-  const double oz = ray.o[kz], inverse = 1 / determinant;
-  const double z =
-      du * (double(p0[kz]) - oz) + dv * (double(p1[kz]) - oz) + dw * (double(p2[kz]) - oz);
-  const Real t = Real(z * inverse * double(ray.sz));
-  if (!(t > 0 && t <= tMax && t < kInfinity)) return std::nullopt;
-  if (!PlaneIsAhead(ray.o, p0, p1, p2, -determinant * double(ray.sz))) return std::nullopt;
-  return TriangleHit{t, Real(dv * inverse), Real(dw * inverse)};
+  return DecideTriangle(ray, tMax, p0, p1, p2);
 }
 
 }  // namespace exphoton

@@ -46,7 +46,7 @@ class RenderDirectives {
 
   const LoadOptions& options_;
   Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
-      accelerator_{"kdtree", {}}, integrator_{"directlighting", {}},
+      accelerator_{"bvh", {}}, integrator_{"directlighting", {}},
       volumeIntegrator_{"emission", {}}, camera_{"perspective", {}}, renderer_{"sampler", {}};
   Transform worldToCamera_;
 };

@@ -6,18 +6,10 @@
 #include "core/base/error.h"
 #include "core/geometry/vec3d.h"
 #include "core/scene/aggregate.h"
+#include "core/scene/hit_order.h"
 
 namespace exphoton {
 namespace {
-
-// Whether a hit at t of these ids wins over *hit. At the end of the search interval (no hit yet)
-// nothing ties.
-bool Wins(Real t, std::uint32_t instance, std::uint32_t primitive, const Hit& hit) {
-  if (t != hit.t) return t < hit.t;
-  if (!hit.IsHit()) return false;
-  if (instance != hit.instance) return instance < hit.instance;
-  return primitive < hit.primitive;
-}
 
 // A derivative of the unit normal that `n` becomes under the transformation.
 Normal3 ApplyNormalDerivative(const Transform& transform, const Normal3& n, const Normal3& dn) {

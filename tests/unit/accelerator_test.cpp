@@ -16,6 +16,10 @@ const char* const kAccelerators[] = {
     R"("kdtree")",
     R"("kdtree" "integer maxdepth" 3)",
     R"("kdtree" "integer maxprims" 8 "float emptybonus" 0 "integer intersectcost" 1)",
+    R"("bvh")",
+    R"("bvh" "string vectors" "portable")",
+    R"("bvh" "integer maxprims" 2)",
+    R"("bvh" "integer maxprims" 20)",
 };
 
 // Compares with brute force for many rays; returns the number of hits, so that a test can ask for

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// bvh: a bounding volume hierarchy with eight children a node, whose boxes and triangles are tested
+// eight at a time; what is used where a scene names no accelerator. Its hits are those of testing
+// every primitive, bit for bit, whatever vectors the machine has.
+#include "accelerators/bvh/bvh_build.h"
+#include "accelerators/bvh/traverse.h"
+#include "core/plugin.h"
+
+namespace exphoton {
+namespace {
+
+enum class Vectors { Auto, Portable };
+
+struct Settings {
+  int maxPrimitives = 8;
+  Vectors vectors = Vectors::Auto;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("maxprims", &Settings::maxPrimitives, "a leaf has at most as many triangles")
+          .Range(1, 64),
+      Param("vectors", &Settings::vectors,
+            "the widest vectors of the machine, or what every machine has; the hits are the same")
+          .OneOf({{"auto", Vectors::Auto}, {"portable", Vectors::Portable}})};
+  return table;
+}
+
+class Bvh final : public Aggregate {
+ public:
+  Bvh(const PrimitiveSet& primitives, const Settings& settings)
+      : primitives_(primitives),
+        arrays_(BuildBvh(primitives, std::uint32_t(settings.maxPrimitives))),
+        traversal_(settings.vectors == Vectors::Auto ? FastestTraversal() : kPortableTraversal) {}
+
+  Hit Intersect(const Ray& ray) const override {
+    return traversal_.intersect(arrays_, primitives_, ray);
+  }
+  bool Occluded(const Ray& ray) const override {
+    return traversal_.occluded(arrays_, primitives_, ray);
+  }
+  std::size_t MemoryBytes() const override {
+    return arrays_.nodes.size() * sizeof(BvhNode) + arrays_.blocks.size() * sizeof(BvhBlock) +
+           arrays_.others.size() * sizeof(std::uint32_t);
+  }
+
+ private:
+  const PrimitiveSet& primitives_;
+  BvhArrays arrays_;
+  const BvhTraversal& traversal_;
+};
+
+std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorContext& context) {
+  return std::make_unique<Bvh>(context.primitives, settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("bvh", "a bounding volume hierarchy, eight wide; used where none is named",
+                exphoton::MakeForm<exphoton::PluginKind::Accelerator>(exphoton::Parameters(),
+                                                                      exphoton::Create))

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Walking rays through the hierarchy: one implementation (traverse.inl), compiled for each width of
+// vectors; the widest that the machine has is chosen when the program runs. All give the same
+// hits, bit for bit: vectors only discard what exact tests in scalar code would refuse.
+#pragma once
+
+#include "accelerators/bvh/bvh_layout.h"
+
+namespace exphoton {
+
+struct BvhTraversal {
+  const char* name;
+  Hit (*intersect)(const BvhArrays&, const PrimitiveSet&, const Ray&);
+  bool (*occluded)(const BvhArrays&, const PrimitiveSet&, const Ray&);
+};
+
+extern const BvhTraversal kPortableTraversal;
+#if defined(__x86_64__) && !defined(EXPHOTON_DOUBLE)
+#define EXPHOTON_BVH_AVX2 1
+extern const BvhTraversal kAvx2Traversal;  // call only where the machine has AVX2
+#endif
+
+// The best one for this machine.
+const BvhTraversal& FastestTraversal();
+
+}  // namespace exphoton

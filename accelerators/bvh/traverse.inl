@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The traversal, written on a vector Real8 that the including file defines (Load, All, Store,
+// + - *, Min, Max, LessEqualMask, LessMask). Included into an unnamed namespace.
+//
+// Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
+// slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
+// earliest crossing of a plane is (plane - o) / (|d_axis| + slope) and whose latest
+// (plane - o) / (|d_axis| - slope). On an axis to which the ray is perpendicular within the slope,
+// planes are moved by what the cone spreads to on its way through the scene instead.
+
+// The ray as boxes see it.
+struct BoxRay {
+  Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
+  int nearRow[3], farRow[3];
+
+  BoxRay(const Ray& ray, const Bounds3& world) {
+    constexpr Real kLargest = std::numeric_limits<Real>::max();
+    constexpr double kDown = 1 - double(Gamma(4)), kUp = 1 + double(Gamma(4));
+    const Vector3 size = Abs(ray.d);
+    const int major = MaxDimension(size);
+    const double slope = double(kBvhMargin) * double(size[major]);
+    // The farthest that any hit can be along the major axis.
+    const double reach = std::max(std::abs(double(world.min[major]) - double(ray.o[major])),
+                                  std::abs(double(world.max[major]) - double(ray.o[major])));
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool isBackward = std::signbit(ray.d[axis]);
+      const Real sign = isBackward ? Real(-1) : Real(1);
+      nearRow[axis] = 2 * axis + isBackward;
+      farRow[axis] = 2 * axis + !isBackward;
+      const double d = double(size[axis]);
+      double first, last, spread = 0;
+      if (d > 2 * slope) {
+        first = kDown / (d + slope), last = kUp / (d - slope);
+      } else {
+        // The ray strays by less than 3/8 of the spread. What it may hit begins behind one moved
+        // origin, and ends so far ahead of the other that it is crossed beyond the scene's end.
+        spread = 8 * double(kBvhMargin) * reach;
+        first = last = 1 / slope;
+      }
+      const auto inverse = [&](double value) {
+        return Real8::All(sign * Real(std::min(value, double(kLargest))));
+      };
+      const auto moved = [&](double shift) {
+        if (shift == 0) return Real8::All(ray.o[axis]);
+        const Real o = Real(double(ray.o[axis]) + shift);
+        return Real8::All(shift > 0 ? NextUp(o) : NextDown(o));
+      };
+      nearOrigin[axis] = moved(double(sign) * spread), nearInverse[axis] = inverse(first);
+      farOrigin[axis] = moved(double(-sign) * spread), farInverse[axis] = inverse(last);
+    }
+  }
+
+  // Where the ray enters the eight boxes of a node; the mask has those that it meets by tMax.
+  unsigned Meet(const BvhNode& node, Real8 tMax, Real* enter) const {
+    const auto crossNear = [&](int axis) {
+      return (Real8::Load(node.rows[nearRow[axis]]) - nearOrigin[axis]) * nearInverse[axis];
+    };
+    const auto crossFar = [&](int axis) {
+      return (Real8::Load(node.rows[farRow[axis]]) - farOrigin[axis]) * farInverse[axis];
+    };
+    const Real8 first =
+        Max(Max(crossNear(0), crossNear(1)), Max(crossNear(2), Real8::All(Real(0))));
+    const Real8 last = Min(Min(crossFar(0), crossFar(1)), Min(crossFar(2), tMax));
+    first.Store(enter);
+    return LessEqualMask(first, last);
+  }
+};
+
+// The ray as triangles see it: the shear of TriangleRay, eight wide.
+struct BlockRay {
+  Real8 ox, oy, oz, sx, sy, sz;
+  int kx, ky, kz;
+
+  explicit BlockRay(const TriangleRay& ray)
+      : ox(Real8::All(ray.o[ray.kx])), oy(Real8::All(ray.o[ray.ky])),
+        oz(Real8::All(ray.o[ray.kz])), sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
+        sz(Real8::All(ray.sz)), kx(ray.kx), ky(ray.ky), kz(ray.kz) {}
+
+  // The triangles of a block that may be hit by tMax. Edges as in MissesTriangle; and the distance
+  // lies between those of the vertices.
+  unsigned Candidates(const BvhBlock& block, Real8 tMax) const {
+    Real8 x[3], y[3], t[3];
+    for (int v = 0; v < 3; ++v) {
+      const Real8 z = Real8::Load(block.vertices[v][kz]) - oz;
+      x[v] = (Real8::Load(block.vertices[v][kx]) - ox) - sx * z;
+      y[v] = (Real8::Load(block.vertices[v][ky]) - oy) - sy * z;
+      t[v] = z * sz;
+    }
+    const Real8 u = x[2] * y[1] - y[2] * x[1], v = x[0] * y[2] - y[0] * x[2],
+                w = x[1] * y[0] - y[1] * x[0];
+    const Real8 zero = Real8::All(Real(0));
+    const unsigned miss =
+        LessMask(Min(Min(u, v), w), zero) & LessMask(zero, Max(Max(u, v), w));
+    const unsigned far = LessMask(tMax, Min(Min(t[0], t[1]), t[2]));
+    const unsigned behind = LessMask(Max(Max(t[0], t[1]), t[2]), zero);
+    return block.validMask & ~(miss | far | behind);
+  }
+};
+
+inline Point3 Vertex(const BvhBlock& block, int vertex, int lane) {
+  const auto& rows = block.vertices[vertex];
+  return {rows[0][lane], rows[1][lane], rows[2][lane]};
+}
+
+// Vectors compare with a little more than t: what rounding may add to a distance on the way.
+inline Real8 Limit(Real t) { return Real8::All(t * (1 + Gamma(8))); }
+
+struct StackEntry {
+  BvhChild child;
+  Real enter;
+};
+constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + kBvhWidth;
+
+// Walks the tree from near to far. visit(child) deals with a leaf and returns the t beyond which
+// nothing matters any more (ties at it do); a negative one ends the walk.
+template <class Visit>
+inline void Walk(const BvhArrays& arrays, const Ray& worldRay, const Visit& visit) {
+  if (arrays.nodes.empty()) return;
+  const BoxRay ray(worldRay, arrays.bounds);
+  StackEntry stack[kStackSize];
+  StackEntry* top = stack;
+  Real tMax = worldRay.tMax;
+  BvhChild child(BvhChild::Kind::Node, 0);
+  for (;;) {
+    if (child.IsNode()) {
+      const BvhNode& node = arrays.nodes[child.Index()];
+      alignas(32) Real enter[kBvhWidth];
+      unsigned mask = ray.Meet(node, Limit(tMax), enter);
+      if (mask != 0) {
+        // The nearest goes on at once, the others wait in order, the farthest lowest.
+        int lane = std::countr_zero(mask);
+        mask &= mask - 1;
+        StackEntry nearest{node.children[lane], enter[lane]};
+        StackEntry* const base = top;
+        while (mask != 0) {
+          lane = std::countr_zero(mask);
+          mask &= mask - 1;
+          StackEntry other{node.children[lane], enter[lane]};
+          if (other.enter < nearest.enter) std::swap(other, nearest);
+          StackEntry* place = top++;
+          for (; place != base && place[-1].enter < other.enter; --place) *place = place[-1];
+          *place = other;
+        }
+        child = nearest.child;
+        continue;
+      }
+    } else {
+      tMax = visit(child);
+    }
+    do {
+      if (top == stack) return;
+      --top;
+    } while (top->enter > tMax);
+    child = top->child;
+  }
+}
+
+Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
+  Hit hit;
+  if (!IsTraceable(ray)) return hit;
+  hit.t = ray.tMax;
+  const TraceRay trace(ray);
+  const BlockRay blockRay(trace.triangle);
+  Walk(arrays, ray, [&](BvhChild leaf) {
+    if (!leaf.IsTriangles()) {
+      const std::uint32_t* list = arrays.others.data() + leaf.Index();
+      for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
+      return hit.t;
+    }
+    const BvhBlock* block = arrays.blocks.data() + leaf.Index();
+    for (;; ++block) {
+      unsigned candidates = blockRay.Candidates(*block, Limit(hit.t));
+      for (; candidates != 0; candidates &= candidates - 1) {
+        const int lane = std::countr_zero(candidates);
+        const auto found = DecideTriangle(trace.triangle, hit.t, Vertex(*block, 0, lane),
+                                          Vertex(*block, 1, lane), Vertex(*block, 2, lane));
+        if (found && Wins(found->t, kNoId, block->ids[lane], hit))
+          hit = {found->t, {found->b1, found->b2}, block->ids[lane], kNoId};
+      }
+      if (block->isLast) return hit.t;
+    }
+  });
+  return hit;
+}
+
+bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
+  if (!IsTraceable(ray)) return false;
+  const TraceRay trace(ray);
+  const BlockRay blockRay(trace.triangle);
+  const auto isBlocked = [&](BvhChild leaf) {
+    if (!leaf.IsTriangles()) {
+      const std::uint32_t* list = arrays.others.data() + leaf.Index();
+      for (std::uint32_t i = 1; i <= list[0]; ++i)
+        if (primitives.Occludes(list[i], trace)) return true;
+      return false;
+    }
+    const BvhBlock* block = arrays.blocks.data() + leaf.Index();
+    for (;; ++block) {
+      unsigned candidates = blockRay.Candidates(*block, Limit(ray.tMax));
+      for (; candidates != 0; candidates &= candidates - 1) {
+        const int lane = std::countr_zero(candidates);
+        const auto found = DecideTriangle(trace.triangle, ray.tMax, Vertex(*block, 0, lane),
+                                          Vertex(*block, 1, lane), Vertex(*block, 2, lane));
+        if (found && found->t < ray.tMax) return true;
+      }
+      if (block->isLast) return false;
+    }
+  };
+  bool isOccluded = false;
+  Walk(arrays, ray, [&](BvhChild leaf) {
+    isOccluded = isBlocked(leaf);
+    return isOccluded ? Real(-1) : ray.tMax;
+  });
+  return isOccluded;
+}
