@@ -21,7 +21,8 @@ class PassNoise {
   int SmallestGroup() const;
 
   // Estimate of the mean over pixels and channels of var / (r^2 + 0.01), where var is the variance
-  // of the picture of all passes together and r the true picture: the noise part of relMSE.
+  // of the picture of all passes together and r the true picture: the noise part of relMSE. For r
+  // it takes the mean of 5 x 5 pixels: a pixel's own value is as noisy as what it would divide.
   // Infinite with less than two groups that have samples.
   double RelativeVariance() const;
   // Estimated variance of each pixel of that picture, three channels a pixel.
@@ -38,7 +39,10 @@ class PassNoise {
   std::vector<Group> Groups() const;
   Sums TotalOf(const std::vector<Group>& groups, std::size_t pixel) const;
 
-  std::size_t pixelCount_;
+  double SampleCount() const;          // a pixel, of all groups
+  std::vector<float> Means() const;  // the picture, three channels
+
+  std::size_t width_, pixelCount_;
   std::vector<std::vector<Sums>> sums_;  // a group, a pixel
   std::vector<std::int64_t> samples_;
 };

@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 // Independent replicates of the picture. Passes go to them in turn; those of one replicate go on in
 // the same sequences of camera samples, which are the better the longer they are.
 constexpr int kReplicates = 8;
-constexpr int kLeastPasses = 4;      // before an estimate of the noise is believed
+constexpr int kLeastPasses = 2;      // that tell of noise
 constexpr std::int64_t kGrowth = 8;  // a pass adds at most this part of what there is
 constexpr std::int64_t kLargestPass = 64;
 constexpr std::uint64_t kPassSeed = 0x70617373ull, kReplicateSeed = 0x7265706cull;
@@ -91,8 +91,7 @@ class Passes {
     lastSize_ = size;
     ++result_.passes;
     result_.samplesPerPixel += size;
-    if (result_.passes > 1 && rule_.targetError)
-      result_.noise = noise_.RelativeVariance();
+    if (result_.passes > 1 && rule_.targetError) result_.noise = noise_.RelativeVariance();
     return true;
   }
 
