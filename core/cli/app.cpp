@@ -2,6 +2,7 @@
 // Dispatch by the first argument; without a command's name it is a scene to render.
 #include "core/cli/app.h"
 
+#include "core/cli/arguments.h"
 #include "core/cli/compare_command.h"
 #include "core/cli/errors.h"
 #include "core/cli/image_commands.h"
@@ -9,27 +10,10 @@
 #include "core/cli/plugins_command.h"
 #include "core/cli/render_command.h"
 #include "core/cli/signals.h"
+#include "core/cli/study_command.h"
 
 namespace exphoton::cli {
 namespace {
-
-// Words as a shell would need them, so that the line can be pasted.
-std::string CommandLineText(const std::vector<std::string>& arguments) {
-  constexpr const char* kHarmless =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  std::string text;
-  for (const std::string& argument : arguments) {
-    if (!text.empty()) text += ' ';
-    if (!argument.empty() && argument.find_first_not_of(kHarmless) == std::string::npos) {
-      text += argument;
-      continue;
-    }
-    text += '\'';
-    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    text += '\'';
-  }
-  return text;
-}
 
 int RunScenes(const std::vector<std::string>& program, const std::vector<std::string>& arguments,
               RenderMode mode) {
@@ -56,6 +40,8 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "info") return RunInfo(rest);
   if (command == "convert") return RunConvert(rest);
   if (command == "compare") return RunCompare(rest);
+  if (command == "study") return RunStudy(rest, CommandLineText(arguments));
+  if (command == "report") return RunReport(rest);
   const std::vector<std::string> all(
       arguments.begin() + std::min<std::ptrdiff_t>(1, std::ptrdiff_t(arguments.size())),
       arguments.end());

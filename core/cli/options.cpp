@@ -141,7 +141,7 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   CLI::App app("Renders scenes in the language of pbrt, versions 1 and 2, to OpenEXR pictures.",
                "exphoton [render]");
   app.footer(
-      "\nOther commands: exphoton plugins | info | convert | compare | explain, each with --help.\n"
+      "\nOther commands: exphoton study | report | compare | info | convert | plugins | explain,\neach with --help.\n"
       "Exit status: 0 complete, 1 command line, 2 scene, 3 files, 4 resources, 5 internal,\n"
       "128 + n on signal n.");
   AddSceneOptions(app, command, raw);

@@ -64,26 +64,32 @@ NamedValues MetricValues(const RunRow& row) {
           {"nonFinitePixels", double(m.nonFinitePixels)}};
 }
 
+// What does not depend on the study.
+Json FromRun(const RunRow& row) {
+  return {{"key", row.key},
+          {"seed", row.seed},
+          {"threads", row.threads},
+          {"samplesPerPixel", row.samplesPerPixel},
+          {"complete", row.isComplete},
+          {"wallSeconds", row.wallSeconds},
+          {"cpuSeconds", row.cpuSeconds},
+          {"peakMemoryBytes", row.peakMemory},
+          {"phases", FromValues(row.phases)},
+          {"phaseWallSeconds", FromValues(row.phaseWall)},
+          {"rays", FromValues(row.rays)},
+          {"counters", FromValues(row.counters)},
+          {"image", row.image},
+          {"command", row.command}};
+}
+
 Json FromRow(const RunRow& row, const Results& results) {
   const Setting& setting = results.settings.at(row.setting);
-  Json json = {{"key", row.key},
-               {"scene", results.title},
+  Json json = {{"scene", results.title},
                {"setting", row.setting},
+               {"label", setting.label},
                {"integrator", setting.integrator},
-               {"parameters", setting.Text()},
-               {"seed", row.seed},
-               {"threads", row.threads},
-               {"samplesPerPixel", row.samplesPerPixel},
-               {"complete", row.isComplete},
-               {"wallSeconds", row.wallSeconds},
-               {"cpuSeconds", row.cpuSeconds},
-               {"peakMemoryBytes", row.peakMemory},
-               {"phases", FromValues(row.phases)},
-               {"phaseWallSeconds", FromValues(row.phaseWall)},
-               {"rays", FromValues(row.rays)},
-               {"counters", FromValues(row.counters)},
-               {"image", row.image},
-               {"command", row.command}};
+               {"parameters", setting.Text()}};
+  json.update(FromRun(row));
   if (row.hasMetrics) json["metrics"] = FromValues(MetricValues(row));
   return json;
 }
@@ -91,7 +97,7 @@ Json FromRow(const RunRow& row, const Results& results) {
 RunRow ToRow(const Json& json) {
   RunRow row;
   row.key = Text(json, "key");
-  row.setting = json.at("setting").get<std::size_t>();
+  row.setting = json.value("setting", std::size_t(0));
   row.seed = json.at("seed").get<std::uint64_t>();
   row.threads = int(Number(json, "threads"));
   row.samplesPerPixel = Number(json, "samplesPerPixel");
@@ -149,6 +155,7 @@ Results Parse(const std::string& text) {
   results.clock = Text(json, "clock");
   results.seeds = int(Number(json, "seeds"));
   results.targets = json.at("targets").get<std::vector<double>>();
+  results.crops = json.at("crops").get<std::vector<std::array<double, 4>>>();
   for (const Json& setting : json.at("settings")) results.settings.push_back(ToSetting(setting));
   results.reference = ToReference(json.at("reference"));
   for (const Json& map : json.at("maps"))
@@ -220,7 +227,8 @@ std::string ToJson(const Results& results) {
                {"command", results.command},
                {"clock", results.clock},
                {"seeds", results.seeds},
-               {"targets", results.targets}};
+               {"targets", results.targets},
+               {"crops", results.crops}};
   json["reference"] = FromReference(results.reference);
   json["settings"] = Json::array();
   for (const Setting& setting : results.settings) json["settings"].push_back(FromSetting(setting));
@@ -269,6 +277,16 @@ std::string ToCsv(const Results& results) {
     text += "," + CsvField(row.image) + "\r\n";
   }
   return text;
+}
+
+std::string RowToJson(const RunRow& row) { return FromRun(row).dump(1) + "\n"; }
+
+RunRow RowFromJson(const std::string& text) {
+  try {
+    return ToRow(Json::parse(text));
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(error.what());
+  }
 }
 
 void AddRunStatistics(const std::string& text, RunRow* row) {

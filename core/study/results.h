@@ -3,6 +3,7 @@
 // is. results.json is the record, results.csv the same rows for spreadsheets.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -58,7 +59,8 @@ struct Results {
   std::string title, scene, sceneHash, command;
   std::string clock = "cpu";  // the seconds of charts and ratios: cpu or wall
   int seeds = 0;
-  std::vector<double> targets;  // errors of the price list
+  std::vector<double> targets;               // errors of the price list
+  std::vector<std::array<double, 4>> crops;  // x0 x1 y0 y1 in fractions, shown larger
   std::vector<Setting> settings;
   ReferenceRecord reference;
   std::vector<RunRow> runs;
@@ -69,6 +71,11 @@ struct Results {
 std::string ToJson(const Results& results);
 Results FromJson(const std::string& text);
 std::string ToCsv(const Results& results);
+
+// One row by itself, for the file beside its picture; without its setting and metrics, which depend
+// on the study.
+std::string RowToJson(const RunRow& row);
+RunRow RowFromJson(const std::string& text);  // throws std::runtime_error
 
 // Adds what --stats-json wrote (one line of JSON) to a row. Unknown members are left alone and
 // missing ones stay 0. Throws std::runtime_error where it is no JSON object.

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A study from its options to its page: reference, runs, measurements, files.
+#include "core/cli/study_command.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/cli/arguments.h"
+#include "core/cli/errors.h"
+#include "core/cli/output_files.h"
+#include "core/cli/signals.h"
+#include "core/cli/study_runner.h"
+#include "core/cli/values.h"
+#include "core/imaging/exr.h"
+#include "core/study/report.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "skylight-room" for .../skylight-room/exphotonmap.pbrt: variants of a scene share a folder.
+std::string TitleOf(const StudyOptions& options) {
+  if (!options.title.empty()) return options.title;
+  const fs::path scene = fs::absolute(options.scene);
+  for (const study::Setting& base : options.plan.bases)
+    if (scene.stem() == base.integrator) return scene.parent_path().filename().string();
+  return scene.stem().string();
+}
+
+study::Results Describe(const StudyOptions& options, const SceneFacts& scene,
+                        const ProgramFacts& program) {
+  study::Results results;
+  results.program = program.version;
+  results.fingerprint = program.fingerprint;
+  results.processor = program.processor;
+  results.system = program.system;
+  results.cores = program.cores;
+  results.title = TitleOf(options);
+  results.scene = options.scene;
+  results.sceneHash = scene.hash;
+  results.command = options.commandLine;
+  results.clock = options.clock;
+  results.seeds = options.seeds;
+  results.targets = options.targets;
+  for (const std::string& crop : options.crops) {
+    const std::vector<Real> c = ParseCropWindow(crop);
+    results.crops.push_back({double(c[0]), double(c[1]), double(c[2]), double(c[3])});
+  }
+  return results;
+}
+
+// One more render, of the first setting with photon maps, that shows where time and photons are.
+std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
+                                       const std::vector<study::Setting>& settings,
+                                       StudyRunner& runner) {
+  if (!options.makesMaps) return {};
+  const study::Setting* chosen = nullptr;
+  for (const study::Setting& setting : settings)
+    if (!chosen && setting.integrator == "exphotonmap") chosen = &setting;
+  if (!chosen && !settings.empty()) chosen = &settings.front();
+  if (!chosen) return {};
+  study::Setting setting = *chosen;
+  std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
+  const study::RunRow row =
+      runner.RunOne(setting, 1, {"--aov", "time,photondensity,radiancedistance"});
+  const std::string of = " (" + setting.label + ", " + setting.Text() + ")";
+  return {{row.image, "time.ms", "Cost of each pixel" + of, "ms"},
+          {row.image, "photondensity.Y", "Photon density" + of, "photons per unit of area"},
+          {row.image, "radiancedistance.Y",
+           "Distance from gather hits to the radiance photon used" + of, "units of length"}};
+}
+
+// Reads pictures, measures, and writes every file that is made from them.
+void WriteResults(const std::string& folder, study::Results* results) {
+  study::MeasureRuns(folder, results);
+  const study::Analysis analysis = study::Analyse(folder, *results);
+  WriteTextFile(folder + "/results.json", study::ToJson(*results));
+  WriteTextFile(folder + "/results.csv", study::ToCsv(*results));
+  WriteTextFile(folder + "/report.html", study::MakeReport(folder, *results, analysis));
+  PrintOut(analysis.headline + "\n" + folder + "/report.html\n");
+}
+
+void Study(const std::vector<std::string>& arguments, const std::string& commandLine) {
+  StudyOptions options = ParseStudyOptions(arguments);
+  options.commandLine = commandLine;
+  const SceneFacts scene = ExamineScene(options.scene, options);
+  study::Results results = Describe(options, scene, ExamineProgram(options));
+  results.settings = PlanSettings(options);
+  MakeFolder(options.folder + "/images");
+  RemoveLeftovers(options.folder);
+  StudyRunner runner(options, scene, ExamineProgram(options));
+  results.reference = PrepareReference(options, runner);
+  results.runs = runner.RunAll(results.settings);
+  results.maps = MakeMaps(options, results.settings, runner);
+  WriteResults(options.folder, &results);
+}
+
+}  // namespace
+
+int RunStudy(const std::vector<std::string>& arguments, const std::string& commandLine) {
+  bool wasInterrupted = false;
+  const int status = Guarded([&] {
+    try {
+      Study(arguments, commandLine);
+    } catch (const StudyInterrupted&) {
+      wasInterrupted = true;
+      std::fputs("exphoton: interrupted; the same command goes on where this stopped\n", stderr);
+    }
+  });
+  return wasInterrupted ? 128 + SignalNumber() : status;
+}
+
+int RunReport(const std::vector<std::string>& arguments) {
+  return Guarded([&] {
+    CLI::App app("Makes the page of a study again from its data, without rendering.",
+                 "exphoton report");
+    std::string folder, clock;
+    app.add_option("folder", folder, "the folder of a study")->required();
+    app.add_option("--clock", clock, "seconds of what: cpu or wall")
+        ->check(CLI::IsMember({"cpu", "wall"}));
+    ParseArguments(app, arguments);
+    const std::string text = ReadTextFile(folder + "/results.json");
+    if (text.empty())
+      throw Error(ExitStatus::File, "\"" + folder + "\" holds no results.json of a finished study");
+    study::Results results;
+    try {
+      results = study::FromJson(text);
+    } catch (const std::runtime_error& error) {
+      throw Error(ExitStatus::File, folder + ": " + error.what());
+    }
+    if (!clock.empty()) results.clock = clock;
+    WriteResults(folder, &results);
+  });
+}
+
+}  // namespace exphoton::cli

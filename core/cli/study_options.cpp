@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The options, declared to CLI11, and study files turned into arguments.
+#include "core/cli/study_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "core/base/error.h"
+#include "core/cli/arguments.h"
+#include "core/cli/values.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RawOptions {
+  std::string integrators, budgets, referenceTime, resolution, targets;
+  std::vector<std::string> settings, knobs;
+  bool hidesMaps = false;
+};
+
+bool IsStudyFile(const std::string& path) { return fs::path(path).extension() == ".study"; }
+
+// Options of a study file whose values are paths.
+bool NamesAFile(const std::string& option) {
+  return option == "scene" || option == "reference" || option == "reference-scene" ||
+         option == "plugin-dir";
+}
+
+std::vector<std::string> ReadStudyFile(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw Error(ExitStatus::File, "cannot read the study file \"" + path + "\"");
+  std::vector<std::string> arguments;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    line = line.substr(first, last - first + 1);
+    const std::size_t space = line.find_first_of(" \t");
+    const std::string name = line.substr(0, space);
+    std::string value;
+    if (space != std::string::npos) value = line.substr(line.find_first_not_of(" \t", space));
+    if (name[0] == '-')
+      throw Error(ExitStatus::CommandLine,
+                  path + ":" + std::to_string(number) + ": options stand here without dashes");
+    if (NamesAFile(name) && fs::path(value).is_relative())
+      value = (fs::path(path).parent_path() / value).lexically_normal().string();
+    arguments.push_back(value.empty() ? "--" + name : "--" + name + "=" + value);
+  }
+  return arguments;
+}
+
+void AddWhat(CLI::App& app, StudyOptions& options, RawOptions& raw) {
+  app.add_option("file", options.scene, "the scene, or a study file (NAME.study)")
+      ->type_name("SCENE.pbrt|NAME.study");
+  app.add_option("--scene", options.scene, "the scene")->take_last();
+  app.add_option("-o,--out", options.folder, "the folder for everything")->take_last();
+  app.add_option("--title", options.title, "the scene's name on the page")->take_last();
+  app.add_option("--integrators", raw.integrators, "for example exphotonmap,photonmap,path")
+      ->take_last()
+      ->type_name("LIST");
+  app.add_option("--setting", raw.settings,
+                 "one more thing to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
+      ->allow_extra_args(false);
+  app.add_option("--vary", raw.knobs,
+                 "a parameter and its values, [INTEGRATOR:]name=v1,v2,...; \"spp\" too. Several "
+                 "are multiplied")
+      ->allow_extra_args(false);
+  app.add_option("--budgets", raw.budgets, "seconds that renders may take: 1,4,16,64s")
+      ->take_last()
+      ->type_name("LIST");
+  app.add_option("--seeds", options.seeds, "independent renders of each setting (default 4)")
+      ->check(CLI::Range(1, 1000))
+      ->take_last();
+  app.add_option("--targets", raw.targets, "errors of the price list (default .1,.03,.01,.003)")
+      ->take_last()
+      ->type_name("LIST");
+  app.add_option("--clock", options.clock, "seconds of what: cpu (default) or wall")
+      ->check(CLI::IsMember({"cpu", "wall"}))
+      ->take_last();
+}
+
+void AddReference(CLI::App& app, StudyOptions& options, RawOptions& raw) {
+  app.add_option("--reference", options.references,
+                 "the true picture; given twice: two independent halves of it")
+      ->allow_extra_args(false);
+  app.add_option("--make-reference", options.makeReference,
+                 "render one, in two halves, with this: \"path maxdepth=100\"")
+      ->take_last();
+  app.add_option("--reference-time", raw.referenceTime, "for so long (default 30m)")->take_last();
+  app.add_option("--reference-scene", options.referenceScene,
+                 "another scene file that has the same picture")
+      ->take_last();
+}
+
+void AddRender(CLI::App& app, StudyOptions& options, RawOptions& raw) {
+  app.add_option("--resolution", raw.resolution, "of all pictures")
+      ->take_last()
+      ->type_name("WIDTHxHEIGHT");
+  app.add_option("--set", options.sets, "for all renders, as in exphoton render")
+      ->allow_extra_args(false);
+  app.add_option("--cropwindow", options.cropWindow, "render a part only")->take_last();
+  app.add_option("--crop", options.crops,
+                 "a part to show larger on the page: x0,x1,y0,y1 from 0 to 1")
+      ->allow_extra_args(false);
+  app.add_option("--nthreads,--ncores", options.threads, "threads of each render; 0: all cores")
+      ->check(CLI::Range(0, 4096))
+      ->take_last();
+  app.add_option("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
+      ->allow_extra_args(false);
+  app.add_flag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
+  app.add_flag("--quiet", options.isQuiet, "no progress");
+}
+
+void TakeResolution(const std::string& text, StudyOptions* options) {
+  if (text.empty()) return;
+  const std::size_t x = text.find('x');
+  const auto isNumber = [](const std::string& part) {
+    return !part.empty() && part.size() < 7 &&
+           part.find_first_not_of("0123456789") == std::string::npos && part != "0";
+  };
+  if (x == std::string::npos || !isNumber(text.substr(0, x)) || !isNumber(text.substr(x + 1)))
+    FailUsage("--resolution takes WIDTHxHEIGHT, for example 128x96, not \"" + text + "\"");
+  options->sets.push_back("Film.xresolution=" + text.substr(0, x));
+  options->sets.push_back("Film.yresolution=" + text.substr(x + 1));
+}
+
+std::vector<double> ParseTargets(const std::string& text) {
+  std::vector<double> targets;
+  for (const std::string& part : study::SplitList(text)) {
+    std::size_t used = 0;
+    double value = 0;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used != part.size() || !(value > 0))
+      FailUsage("--targets takes errors, not \"" + text + "\"");
+    targets.push_back(value);
+  }
+  std::sort(targets.rbegin(), targets.rend());
+  return targets;
+}
+
+void TakePlan(const RawOptions& raw, StudyOptions* options) {
+  for (const std::string& name : study::SplitList(raw.integrators))
+    options->plan.bases.push_back(study::ParseSetting(name));
+  for (const std::string& text : raw.settings)
+    options->plan.bases.push_back(study::ParseSetting(text));
+  for (const std::string& text : raw.knobs) options->plan.knobs.push_back(study::ParseKnob(text));
+  if (!raw.budgets.empty()) options->plan.budgets = study::ParseBudgets(raw.budgets);
+  if (!raw.referenceTime.empty())
+    options->referenceSeconds = study::ParseSeconds(raw.referenceTime);
+  if (!options->makeReference.empty()) study::ParseSetting(options->makeReference);
+  if (options->plan.bases.empty())
+    for (const char* name : {"exphotonmap", "photonmap", "path"})
+      options->plan.bases.push_back(study::ParseSetting(name));
+}
+
+void Check(const StudyOptions& options) {
+  if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
+  if (options.folder.empty()) FailUsage("exphoton study needs --out FOLDER");
+  if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
+  if (!options.references.empty() && !options.makeReference.empty())
+    FailUsage("--reference and --make-reference exclude each other");
+  for (const std::string& set : options.sets) ParseOverride(set);
+  for (const std::string& crop : options.crops) ParseCropWindow(crop);
+  if (!options.cropWindow.empty()) ParseCropWindow(options.cropWindow);
+}
+
+}  // namespace
+
+StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
+  StudyOptions options;
+  RawOptions raw;
+  CLI::App app(
+      "Renders a scene with several integrators and settings, each with several seeds, and shows "
+      "what accuracy costs in time: results.csv, results.json, images/ and report.html in one "
+      "folder. Started again it goes on where it stopped.",
+      "exphoton study");
+  AddWhat(app, options, raw);
+  AddReference(app, options, raw);
+  AddRender(app, options, raw);
+  // A study file's options come first, whichever place it has.
+  std::vector<std::string> arguments, rest;
+  for (const std::string& argument : given) {
+    const bool isFile = IsStudyFile(argument) && argument[0] != '-';
+    const std::vector<std::string> read =
+        isFile ? ReadStudyFile(argument) : std::vector<std::string>();
+    arguments.insert(arguments.end(), read.begin(), read.end());
+    if (!isFile) rest.push_back(argument);
+  }
+  arguments.insert(arguments.end(), rest.begin(), rest.end());
+  ParseArguments(app, arguments);
+  try {
+    TakePlan(raw, &options);
+  } catch (const std::invalid_argument& error) {
+    FailUsage(error.what());
+  }
+  TakeResolution(raw.resolution, &options);
+  if (!raw.targets.empty()) options.targets = ParseTargets(raw.targets);
+  options.makesMaps = !raw.hidesMaps;
+  Check(options);
+  return options;
+}
+
+}  // namespace exphoton::cli

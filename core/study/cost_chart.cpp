@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Error against seconds. Drawn with it: error bars of one standard error, the slope that pure noise
+// has, floors where bias dominates, and where the reference's noise forbids to read anything.
+#include "core/study/cost_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/study/markup.h"
+
+namespace exphoton::study {
+namespace {
+
+constexpr double kWidth = 820, kHeight = 500;
+constexpr double kLeft = 66, kRight = 20, kTop = 18, kBottom = 54;
+
+bool IsShown(const CostPoint& point) {
+  return point.seconds.value > 0 && point.error.value > 0 && std::isfinite(point.error.value);
+}
+
+class Chart {
+ public:
+  Chart(const Results& results, const Analysis& analysis, double lowX, double highX, double lowY,
+        double highY)
+      : results_(results),
+        analysis_(analysis),
+        x_(lowX, highX, kLeft, kWidth - kRight),
+        y_(lowY, highY, kHeight - kBottom, kTop) {}
+
+  std::string Draw() {
+    AddGrid();
+    AddReferenceLimit();
+    AddSlope();
+    AddFloors();
+    for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddLine(i);
+    AddNumbers();
+    return "<svg class=\"chart\" viewBox=\"0 0 " + Coordinate(kWidth) + " " + Coordinate(kHeight) +
+           "\" role=\"img\" aria-label=\"Error against seconds\">" + text_ + "</svg>";
+  }
+
+ private:
+  void AddGrid() {
+    for (const LogScale::Tick& tick : x_.Ticks()) {
+      const double x = x_(tick.value);
+      text_ += SvgLine({x, kTop}, {x, kHeight - kBottom}, tick.isDecade ? "grid major" : "grid");
+      text_ += SvgText({x, kHeight - kBottom + 18}, ShortNumber(tick.value), "middle", "tick");
+    }
+    for (const LogScale::Tick& tick : y_.Ticks()) {
+      const double y = y_(tick.value);
+      text_ += SvgLine({kLeft, y}, {kWidth - kRight, y}, tick.isDecade ? "grid major" : "grid");
+      text_ += SvgText({kLeft - 8, y + 4}, ShortNumber(tick.value), "end", "tick");
+    }
+    text_ += SvgText({(kLeft + kWidth - kRight) / 2, kHeight - 12},
+                     results_.clock == "wall" ? "seconds" : "CPU seconds", "middle", "axis");
+    const std::string name = analysis_.hasReference ? "error (relMSE)" : "noise (relMSE)";
+    text_ += "<text class=\"axis\" text-anchor=\"middle\" transform=\"translate(16 " +
+             Coordinate((kTop + kHeight - kBottom) / 2) + ") rotate(-90)\">" + name + "</text>";
+  }
+
+  // Below ten times the reference's noise nothing is compared.
+  void AddReferenceLimit() {
+    if (!analysis_.reference.variance.IsKnown()) return;
+    const double limit = analysis_.reference.variance.value / kMaxReferenceShare;
+    if (limit < y_.Low()) return;
+    const double y = std::max(y_(limit), kTop);
+    text_ += SvgRect({kLeft, y}, {kWidth - kRight - kLeft, kHeight - kBottom - y}, "limit");
+    text_ += SvgText({kWidth - kRight - 6, std::min(y + 15, kHeight - kBottom - 4)},
+                     "below: the reference is too noisy to compare", "end", "note");
+  }
+
+  // Through the middle of the first line's front: error ~ 1 / seconds.
+  void AddSlope() {
+    if (analysis_.lines.empty()) return;
+    const auto points = analysis_.Points(analysis_.lines.front());
+    const auto front = ParetoFront(points);
+    if (front.empty()) return;
+    const CostPoint& through = points[front[front.size() / 2]];
+    const double product = 2.2 * through.seconds.value * through.error.value;
+    const double left = std::max(x_.Low(), product / y_.High());
+    const double right = std::min(x_.High(), product / y_.Low());
+    if (!(left < right)) return;
+    const Point2d a{x_(left), y_(product / left)}, b{x_(right), y_(product / right)};
+    text_ += SvgLine(a, b, "slope");
+    const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / 3.14159265358979;
+    const Point2d at{a.x + .3 * (b.x - a.x), a.y + .3 * (b.y - a.y) - 6};
+    text_ += "<text class=\"note\" text-anchor=\"middle\" transform=\"translate(" +
+             Coordinate(at.x) + " " + Coordinate(at.y) + ") rotate(" + Coordinate(angle) +
+             ")\">pure noise: its root falls with slope −1/2</text>";
+  }
+
+  // The least bias of each line, where it is certain (two standard errors).
+  void AddFloors() {
+    for (std::size_t i = 0; i < analysis_.lines.size(); ++i) {
+      const auto points = analysis_.Points(analysis_.lines[i]);
+      const auto front = ParetoFront(points);
+      if (front.empty()) continue;
+      const SettingResult& best = analysis_.settings[analysis_.lines[i].settings[front.back()]];
+      const Measured& bias = best.separation.bias2;
+      if (!bias.IsKnown() || !std::isfinite(bias.error) || bias.value < 2 * bias.error) continue;
+      if (bias.value < .1 * best.cost.error.value || bias.value < y_.Low()) continue;
+      const double y = y_(bias.value), x = x_(best.cost.seconds.value);
+      const double start = std::max(kLeft, x - 90);
+      text_ += SvgLine({start, y}, {kWidth - kRight, y}, "floor " + Color(i));
+      text_ += SvgText({start, y - 4}, "bias² of " + analysis_.lines[i].label, "start",
+                       "note text" + Color(i));
+    }
+  }
+
+  void AddLine(std::size_t number) {
+    const Line& line = analysis_.lines[number];
+    const auto points = analysis_.Points(line);
+    const auto front = ParetoFront(points);
+    std::vector<Point2d> corners;
+    for (const std::size_t i : front)
+      corners.push_back({x_(points[i].seconds.value), y_(points[i].error.value)});
+    text_ += SvgPolyline(corners, "series " + Color(number));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!IsShown(points[i])) continue;
+      const bool isFront = std::find(front.begin(), front.end(), i) != front.end();
+      AddPoint(number, line.settings[i], isFront);
+    }
+    if (corners.empty()) return;
+    const Point2d end = corners.back();
+    const bool isRight = end.x > kWidth - 150;
+    text_ += SvgText({isRight ? end.x + 4 : end.x + 11, isRight ? end.y + 20 : end.y + 4},
+                     line.label, isRight ? "end" : "start", "name text" + Color(number));
+  }
+
+  void AddPoint(std::size_t line, std::size_t index, bool isFront) {
+    const SettingResult& setting = analysis_.settings[index];
+    const Measured &s = setting.cost.seconds, &e = setting.cost.error;
+    const Point2d at{x_(s.value), y_(e.value)};
+    if (std::isfinite(e.error)) {
+      const double low = std::max(e.value - e.error, y_.Low());
+      text_ += SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "bar " + Color(line));
+    }
+    if (std::isfinite(s.error) && s.error < s.value)
+      text_ += SvgLine({x_(s.value - s.error), at.y}, {x_(s.value + s.error), at.y},
+                       "bar " + Color(line));
+    const std::string title = analysis_.lines[line].label + ", " +
+                              results_.settings[setting.setting].Text() + ": " +
+                              SecondsText(s.value) + ", " + ShortNumber(e.value);
+    text_ += SvgMarker(int(line), at, isFront ? 5 : 4,
+                       std::string(isFront ? "point " : "point hollow ") + Color(line), title);
+  }
+
+  void AddNumbers() {
+    int number = 0;
+    for (const std::size_t i : FrontOf(analysis_)) {
+      const CostPoint& cost = analysis_.settings[i].cost;
+      text_ += SvgText({x_(cost.seconds.value) - 7, y_(cost.error.value) + 16},
+                       std::to_string(++number), "end", "number");
+    }
+  }
+
+  static std::string Color(std::size_t line) {
+    return "c" + std::to_string(line % std::size_t(kSeriesColors));
+  }
+
+  const Results& results_;
+  const Analysis& analysis_;
+  LogScale x_, y_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> FrontOf(const Analysis& analysis) {
+  return ParetoFront(analysis.Points());
+}
+
+std::string CostChart(const Results& results, const Analysis& analysis) {
+  double lowX = 1e300, highX = 0, lowY = 1e300, highY = 0;
+  for (const SettingResult& setting : analysis.settings) {
+    const CostPoint& p = setting.cost;
+    if (!IsShown(p)) continue;
+    lowX = std::min(lowX, p.seconds.value);
+    highX = std::max(highX, p.seconds.value);
+    lowY = std::min(lowY, p.error.value);
+    highY = std::max(highY, p.error.value);
+  }
+  if (highX == 0) return "<p>No setting has an error that can be shown.</p>";
+  return Chart(results, analysis, lowX, highX, lowY, highY).Draw();
+}
+
+}  // namespace exphoton::study
