@@ -99,9 +99,9 @@ class Chart {
       if (!bias.IsKnown() || !std::isfinite(bias.error) || bias.value < 2 * bias.error) continue;
       if (bias.value < .1 * best.cost.error.value || bias.value < y_.Low()) continue;
       const double y = y_(bias.value), x = x_(best.cost.seconds.value);
-      const double start = std::max(kLeft, x - 90);
-      text_ += SvgLine({start, y}, {kWidth - kRight, y}, "floor " + Color(i));
-      text_ += SvgText({start, y - 4}, "bias² of " + analysis_.lines[i].label, "start",
+      const double start = std::max(kLeft, x - 90), end = kWidth - kRight;
+      text_ += SvgLine({start, y}, {end, y}, "floor " + Color(i));
+      text_ += SvgText({end - 4, y - 5}, "bias² of " + analysis_.lines[i].label, "end",
                        "note text" + Color(i));
     }
   }

@@ -21,12 +21,13 @@ std::string PathOf(const std::string& folder, const std::string& name) {
   return std::filesystem::path(name).is_absolute() ? name : folder + "/" + name;
 }
 
-// The setting of a line whose time, or error, is nearest to a value.
+// The setting on a line's front whose time, or error, is nearest to a value.
 std::size_t Nearest(const Analysis& analysis, const Line& line, double value,
                     Measured CostPoint::*member) {
   std::size_t nearest = line.settings.front();
   double least = 1e300;
-  for (const std::size_t s : line.settings) {
+  for (const std::size_t i : ParetoFront(analysis.Points(line))) {
+    const std::size_t s = line.settings[i];
     const double v = (analysis.settings[s].cost.*member).value;
     const double distance = v > 0 ? std::abs(std::log(v / value)) : 1e299;
     if (distance < least) least = distance, nearest = s;

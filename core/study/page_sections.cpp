@@ -57,6 +57,12 @@ std::string ReferenceNote(const Results& results) {
          Escape(results.scene) + "</code>.</p>";
 }
 
+std::size_t LineNumber(const Analysis& analysis, const std::string& label) {
+  std::size_t i = 0;
+  while (i + 1 < analysis.lines.size() && analysis.lines[i].label != label) ++i;
+  return i;
+}
+
 struct Bar {
   double share;  // of the full width
   std::string classes, title;
@@ -184,9 +190,10 @@ std::string CurveSection(const Results& results, const Analysis& analysis) {
   int number = 0;
   for (const std::size_t i : FrontOf(analysis)) {
     const SettingResult& s = analysis.settings[i];
-    rows += Row(Cell(std::to_string(++number)) + Cell(Escape(results.settings[s.setting].label)) +
-                Cell(SettingText(results, s), "wrap") + Cell(MeasuredText(s.cost.seconds)) +
-                Cell(MeasuredText(s.cost.error)));
+    rows +=
+        Row(Cell(std::to_string(++number)) + Cell(Escape(results.settings[s.setting].label), "t") +
+            Cell(SettingText(results, s), "wrap t") + Cell(MeasuredText(s.cost.seconds)) +
+            Cell(MeasuredText(s.cost.error)));
   }
   return SectionOf(
       "Error against time",
@@ -194,8 +201,8 @@ std::string CurveSection(const Results& results, const Analysis& analysis) {
       "for their time. The numbers are the settings that nothing beats in both time and error:"
       "</p>\n" +
           keys + "<div class=\"scroll\">" + CostChart(results, analysis) + "</div>\n" +
-          Table("<th>#</th><th>line</th><th>setting</th><th>" + ClockName(results) +
-                    "</th><th>error</th>",
+          Table("<th>#</th><th class=\"t\">line</th><th class=\"t\">setting</th><th>" +
+                    ClockName(results) + "</th><th>error</th>",
                 rows));
 }
 
@@ -291,18 +298,20 @@ std::string PriceSection(const Results& results, const Analysis& analysis) {
          for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
          return points;
        }()))
-    knobs += Row(Cell(Escape(knob.label)) + Cell(Escape(knob.parameter)) +
+    knobs += Row(Cell(ColorDot(LineNumber(analysis, knob.label)) + Escape(knob.label)) +
+                 Cell(Escape(knob.parameter), "t") +
                  Cell((knob.secondsPerDoubling >= 0 ? "+" : "−") +
                       SecondsText(std::abs(knob.secondsPerDoubling))) +
                  Cell((knob.errorFactor >= 1 ? "+" : "−") +
                       ShortNumber(100 * std::abs(knob.errorFactor - 1)) + " %") +
                  Cell(std::to_string(knob.pairs)));
   if (!knobs.empty())
-    text += "<h3>What doubling a parameter does</h3>\n" +
-            Table(
-                "<th>line</th><th>doubling</th><th>costs</th><th>changes the error by</th>"
-                "<th>pairs</th>",
-                knobs);
+    text +=
+        "<h3>What doubling a parameter does</h3>\n" +
+        Table(
+            "<th>line</th><th class=\"t\">doubling</th><th>costs</th><th>changes the error by</th>"
+            "<th>pairs</th>",
+            knobs);
   return SectionOf("Price list", text);
 }
 

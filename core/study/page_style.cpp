@@ -23,7 +23,7 @@ body{margin:0;background:var(--bg);color:var(--ink);
 font:16px/1.55 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue","DejaVu Sans",sans-serif}
 main{max-width:68rem;margin:0 auto;padding:2.2rem 1.2rem 4rem}
 header p.kicker{margin:0;color:var(--soft);letter-spacing:.06em;text-transform:uppercase;font-size:.78rem}
-h1{font-size:clamp(1.35rem,1rem + 1.9vw,2.15rem);line-height:1.28;font-weight:650;margin:.4rem 0 1rem;
+h1{font-size:clamp(1.3rem,1rem + 1.5vw,1.85rem);line-height:1.28;font-weight:650;margin:.4rem 0 1rem;
 text-wrap:balance;letter-spacing:-.012em}
 h2{font-size:1.2rem;margin:0 0 .35rem;letter-spacing:-.005em}
 h3{font-size:1rem;margin:1.4rem 0 .5rem}
@@ -40,6 +40,7 @@ table{border-collapse:collapse;width:100%;font-size:.88rem;font-variant-numeric:
 th,td{padding:.34rem .7rem .34rem 0;text-align:right;white-space:nowrap;border-bottom:1px solid var(--rule)}
 th{font-weight:600;color:var(--soft);border-bottom-color:var(--soft)}
 th:first-child,td:first-child{text-align:left}
+td.t,th.t{text-align:left}
 td.wrap{white-space:normal;min-width:9rem}
 td.bar{width:24%;min-width:8rem;padding-right:.4rem}
 td small,th small{color:var(--soft);font-weight:400}

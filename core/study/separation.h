@@ -37,6 +37,8 @@ Reference MakeReference(const Image& a, const Image& b);  // throws ImageError a
 // and error = relMse - var(r) = variance + bias2, what an exact reference would show. Standard
 // errors: of relMse from its spread over the seeds; of the others by the jackknife over the seeds,
 // with the reference's share added; unknown for fewer than three seeds. bias2 can come out below 0.
+// The weights are those of the noisy reference, which shifts bias2 by a share of var(r): a reason
+// to ask for references with little noise (kMaxReferenceShare).
 struct Separation {
   int seeds = 0;
   Measured relMse, error, variance, bias2;
