@@ -4,6 +4,8 @@
 
 #include <csignal>
 
+#include "core/imaging/atomic_file.h"
+
 namespace exphoton::cli {
 namespace {
 
@@ -12,8 +14,13 @@ std::atomic<int> number{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 void Handle(int signal) {
-  number = signal;
-  stop = true;
+  if (!stop.exchange(true)) {
+    number = signal;
+    return;
+  }
+  RemovePartialFiles();
+  std::signal(signal, SIG_DFL);
+  raise(signal);  // arrives when this handler returns
 }
 
 }  // namespace
@@ -21,7 +28,6 @@ void Handle(int signal) {
 void WatchSignals() {
   struct sigaction action {};
   action.sa_handler = Handle;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Interrupts: the first SIGINT or SIGTERM asks the render to stop, a second one ends the process.
+// Interrupts: the first SIGINT or SIGTERM asks the render to stop, a second one ends the process and
+// leaves no unfinished file.
 #pragma once
 
 #include <atomic>

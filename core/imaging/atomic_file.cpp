@@ -6,9 +6,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 #include "core/base/error.h"
 
@@ -24,6 +26,32 @@ std::string Resolve(const std::string& path) {
   return result;
 }
 
+// Names of unfinished files where a signal handler may read them: they belong to the process, like
+// the signals. A file that finds no slot is merely not removed.
+enum class SlotState { Free, Taken, Used };
+struct Slot {
+  std::atomic<SlotState> state{SlotState::Free};
+  char path[4096];
+};
+Slot slots[8];
+static_assert(std::atomic<SlotState>::is_always_lock_free);
+
+int TakeSlot(const std::string& path) {
+  if (path.size() >= sizeof(Slot::path)) return -1;
+  for (int i = 0; i < int(std::size(slots)); ++i) {
+    SlotState expected = SlotState::Free;
+    if (!slots[i].state.compare_exchange_strong(expected, SlotState::Taken)) continue;
+    std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
+    slots[i].state = SlotState::Used;
+    return i;
+  }
+  return -1;
+}
+
+void FreeSlot(int slot) {
+  if (slot >= 0) slots[slot].state = SlotState::Free;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : target_(Resolve(path)) {
@@ -35,12 +63,16 @@ AtomicFile::AtomicFile(const std::string& path) : target_(Resolve(path)) {
   }
   partial_ = target_ + "." + std::to_string(getpid()) + ".partial";
   unlink(partial_.c_str());
+  slot_ = TakeSlot(partial_);
   const int descriptor = open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) Fail("cannot create");
+  if (descriptor < 0) {
+    FreeSlot(slot_);
+    Fail("cannot create");
+  }
   stream_ = fdopen(descriptor, "wb");
   if (!stream_) {
     close(descriptor);
-    unlink(partial_.c_str());
+    RemovePartial();
     Fail("cannot create");
   }
 }
@@ -48,7 +80,12 @@ AtomicFile::AtomicFile(const std::string& path) : target_(Resolve(path)) {
 AtomicFile::~AtomicFile() {
   if (!stream_) return;
   std::fclose(stream_);
+  RemovePartial();
+}
+
+void AtomicFile::RemovePartial() {
   unlink(partial_.c_str());
+  FreeSlot(slot_);
 }
 
 void AtomicFile::Fail(const std::string& what) {
@@ -77,10 +114,16 @@ void AtomicFile::Commit() {
   stream_ = nullptr;
   if (std::fclose(stream) != 0 || std::rename(partial_.c_str(), target_.c_str()) != 0) {
     const int reason = errno;
-    unlink(partial_.c_str());
+    RemovePartial();
     errno = reason;
     Fail("cannot write");
   }
+  FreeSlot(slot_);
+}
+
+void RemovePartialFiles() {
+  for (const Slot& slot : slots)
+    if (slot.state == SlotState::Used) unlink(slot.path);
 }
 
 }  // namespace exphoton

@@ -28,10 +28,16 @@ class AtomicFile {
 
  private:
   [[noreturn]] void Fail(const std::string& what);
+  void RemovePartial();
 
   std::string target_, partial_;
   std::FILE* stream_ = nullptr;
+  int slot_ = -1;    // where RemovePartialFiles finds it
   int failure_ = 0;  // errno of the first failure: a caller that swallowed it cannot Commit
 };
+
+// Removes the unfinished files of this process, for a handler of a signal that ends it: calls only
+// what is safe there. Up to a few files, whose names are not absurdly long.
+void RemovePartialFiles();
 
 }  // namespace exphoton

@@ -44,12 +44,16 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
   renderOptions.tileSize = options.tileSize;
   renderOptions.tileOrder = options.tileOrder;
   renderOptions.isStrict = options.isStrict;
+  std::optional<LayerFilm> layers;
+  if (!options.layers.IsEmpty())
+    renderOptions.layers = &layers.emplace(setup.crop, options.layers);
 
   TestRender render;
   render.result = Render({*setup.scene, *setup.integrator, *setup.sampler, *setup.filter,
                           *setup.camera, film, threads, *scene.log, progress, statistics},
                          renderOptions);
   render.image = film.ToImage(setup.film.premultiplyAlpha);
+  if (layers) layers->AppendTo(film, setup.film.premultiplyAlpha, &render.image);
   render.messages = scene.log->Messages();
   render.counters = statistics.Counters();
   render.rays = statistics.Rays();

@@ -23,6 +23,7 @@ struct TestRenderOptions {
   int tileSize = 16;
   TileOrder tileOrder = TileOrder::Scanline;
   bool isStrict = true;  // a non-finite sample throws
+  LayerSet layers;       // appended to the image's channels
 };
 
 struct TestRender {

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Stopping rules, halves and layers as users meet them on the command line.
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "core/imaging/exr.h"
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// A lamp that casts soft shadows, so that there is noise.
+std::string NoisyScene(const std::string& integrator = "\"path\"") {
+  return "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16 \"string filename\" "
+         "\"out.exr\"\nCamera \"perspective\"\nPixelFilter \"box\"\nSurfaceIntegrator " +
+         integrator +
+         "\nWorldBegin\nAttributeBegin AreaLightSource \"area\" \"color L\" [5 5 5] Translate 0 3 "
+         "4 "
+         "Shape \"sphere\" \"float radius\" 1 AttributeEnd\nTranslate 0 0 4 Shape \"sphere\"\n"
+         "WorldEnd\n";
+}
+
+class StoppingTest : public ProgramTest {
+ protected:
+  ProgramResult RunScene(Names arguments, const std::string& integrator = "\"path\"") {
+    Write("scene.pbrt", NoisyScene(integrator));
+    arguments.push_back("scene.pbrt");
+    return Run(arguments);
+  }
+  static void ExpectIn(const std::string& part, const std::string& text) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
+  }
+};
+
+TEST_F(StoppingTest, SaysWhatATargetReached) {
+  const ProgramResult result =
+      RunScene({"--target-error", "0.01", "--stats-json", "s.json", "--stats"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  ExpectIn("reached the target error 0.01: ", result.err);
+  ExpectIn("(bias not included)", result.err);
+  ExpectIn("noise ", result.out);
+  const std::string json = Read("s.json");
+  ExpectIn("\"stoppedBy\":\"target-error\",\"noise\":0.00", json);
+  ExpectIn("\"targetError\":0.01", json);
+  ExpectIn("\"timeLimit\":null", json);
+  const auto attributes = ReadExr(Path("out.exr")).attributes;
+  EXPECT_EQ(std::get<std::string>(attributes.at("stoppedBy")), "target-error");
+  EXPECT_LE(std::get<float>(attributes.at("noise")), .01f);
+  EXPECT_GE(std::get<int>(attributes.at("passes")), 2);
+}
+
+TEST_F(StoppingTest, GivesEqualFilesForEqualTargets) {
+  for (const char* integrator :
+       {"\"path\"",
+        "\"exphotonmap\" \"integer indirectphotons\" 500 \"integer causticphotons\" 0"}) {
+    RunScene({"--target-error", ".01", "--reproducible", "--nthreads", "1"}, integrator);
+    const std::string one = Read("out.exr");
+    RunScene({"--target-error", ".01", "--reproducible", "--nthreads", "3"}, integrator);
+    EXPECT_EQ(one, Read("out.exr"));
+  }
+}
+
+TEST_F(StoppingTest, StopsInTime) {
+  const ProgramResult result =
+      RunScene({"--time-limit", "0.3s", "--stats-json", "s.json", "--nthreads", "1"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  ExpectIn("stopped at the last whole pass within 0.3 s", result.err);
+  ExpectIn("\"stoppedBy\":\"time-limit\"", Read("s.json"));
+  ExpectIn("\"timeLimit\":0.29999", Read("s.json"));
+}
+
+TEST_F(StoppingTest, StopsAtWhicheverComesFirst) {
+  RunScene({"--time-limit", "1h", "--target-error", ".05", "--stats-json", "s.json"});
+  ExpectIn("\"stoppedBy\":\"target-error\"", Read("s.json"));
+  RunScene(
+      {"--time-limit", "1h", "--target-error", "1e-9", "--spp", "6", "--stats-json", "s.json"});
+  ExpectIn("\"stoppedBy\":\"samples\"", Read("s.json"));
+  ExpectIn("\"samplesPerPixel\":6", Read("s.json"));
+}
+
+TEST_F(StoppingTest, KeepsThePassesThatAreDoneWhenInterrupted) {
+  Write("scene.pbrt", NoisyScene());
+  const pid_t process = Start({"scene.pbrt", "--time-limit", "1h", "--nthreads", "1"});
+  ASSERT_TRUE(WaitForMessage("effects"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ASSERT_EQ(kill(process, SIGINT), 0);
+  const ProgramResult result = Wait(process);
+  EXPECT_EQ(result.status, 130) << result.err;
+  ExpectIn("stopped by a signal", result.err);
+  EXPECT_EQ(Files(), (Names{"out.partial.exr", "scene.pbrt"}));
+}
+
+TEST_F(StoppingTest, WritesTwoHalves) {
+  const ProgramResult result = RunScene({"--two-halves", "--float", "--spp", "8"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  ExpectIn("two independent halves: 8 samples a pixel in 2 passes; noise \u00b1", result.err);
+  ExpectIn("(bias not included)", result.err);
+  const Image image = ReadExr(Path("out.exr"));
+  const int whole = image.FindChannel("R"), one = image.FindChannel("half1.R"),
+            two = image.FindChannel("half2.R");
+  ASSERT_GE(one, 0);
+  ASSERT_GE(two, 0);
+  double difference = 0;
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      const float a = image.At(x, y, one), b = image.At(x, y, two);
+      difference += std::abs(double(a - b));
+      if (image.At(x, y, image.FindChannel("A")) < 1) continue;
+      EXPECT_NEAR(image.At(x, y, whole), (a + b) / 2, 1e-4 * double(1 + a));
+    }
+  }
+  EXPECT_GT(difference, .1);
+}
+
+TEST_F(StoppingTest, WritesLayersInHalfAndFloat) {
+  for (const char* format : {"--half", "--float"}) {
+    EXPECT_EQ(RunScene({"--aov", "Albedo,N,P,Variance,light,time,samples", format}).status, 0);
+    const Image image = ReadExr(Path("out.exr"));
+    for (const char* channel :
+         {"R", "A", "Albedo.G", "N.Z", "P.X", "Variance.B", "emission.R", "direct.G", "caustic.B",
+          "indirect.R", "specular.R", "time.ms", "samples.count"})
+      EXPECT_GE(image.FindChannel(channel), 0) << channel;
+  }
+}
+
+TEST_F(StoppingTest, NamesTheLayersThatThereAre) {
+  ProgramResult result = RunScene({"--aov", "dirct"});
+  EXPECT_EQ(result.status, 1);
+  ExpectIn("unknown layer \"dirct\"", result.err);
+  ExpectIn("radiancedistance", result.err);
+  ExpectIn("direct", result.err);
+  result = RunScene({"--aov", "photondensity,N"});
+  EXPECT_EQ(result.status, 1);
+  ExpectIn("integrator \"path\" with these parameters has no layer photondensity", result.err);
+  EXPECT_EQ(Files(), Names{"scene.pbrt"});
+}
+
+TEST_F(StoppingTest, NoticesASampleCountThatIsRounded) {
+  ExpectIn("sampler \"lowdiscrepancy\" takes 8 samples a pixel instead of 5",
+           RunScene({"--spp", "5"}).err);
+}
+
+TEST_F(StoppingTest, CallsAFolderThatIsGoneStatus3) {
+  mkdir(Path("gone").c_str(), 0700);
+  Write("scene.pbrt", NoisyScene());
+  const std::string command =
+      "cd '" + Path("gone") + "' && rmdir ../gone && '" + EXPHOTON_BINARY_DIR + "/bin/exphoton' ";
+  for (const char* arguments : {"../scene.pbrt", "/nonexistent/x.pbrt", "- </dev/null"}) {
+    mkdir(Path("gone").c_str(), 0700);
+    const int status = std::system((command + arguments + " 2>'" + Path("message") + "'").c_str());
+    EXPECT_GE(WEXITSTATUS(status), 2) << arguments;
+    EXPECT_LE(WEXITSTATUS(status), 3) << arguments << Read("message");
+  }
+}
+
+TEST_F(StoppingTest, LeavesNoPartialFileWhenInterruptedTwice) {
+  // A picture that takes a while to write.
+  Write("scene.pbrt", NoisyScene("\"whitted\""));
+  for (const int delay : {0, 30, 90}) {
+    const pid_t process =
+        Start({"scene.pbrt", "--nthreads", "1", "--spp", "1", "--float", "--quiet", "--set",
+               "Film.xresolution=1500", "--set", "Film.yresolution=1500"});
+    bool isWriting = false;
+    for (int i = 0; i < 6000 && !isWriting; ++i) {
+      for (const std::string& name : Files())
+        isWriting |= name.find(".partial") != std::string::npos;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(isWriting);
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+    kill(process, SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    kill(process, SIGINT);
+    Wait(process);
+    for (const std::string& name : Files())
+      EXPECT_EQ(name.find(std::to_string(process)), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
