@@ -63,8 +63,16 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
   if (!chosen) return {};
   study::Setting setting = *chosen;
   std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
-  const study::RunRow row =
-      runner.RunOne(setting, 1, {"--aov", "time,photondensity,radiancedistance"});
+  // Photons have maps only in some integrators, and with some of their switches.
+  study::RunRow row;
+  for (const char* layers : {"time,photondensity,radiancedistance", "time,photondensity", "time"}) {
+    try {
+      row = runner.RunOne(setting, 1, {"--aov", layers});
+      break;
+    } catch (const Error& error) {
+      if (error.Status() != ExitStatus::CommandLine) throw;
+    }
+  }
   const std::string of = " (" + setting.label + ", " + setting.Text() + ")";
   return {{row.image, "time.ms", "Cost of each pixel" + of, "ms"},
           {row.image, "photondensity.Y", "Photon density" + of, "photons per unit of area"},

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Studies as a user meets them: a folder of results, going on after an interruption, the same
+// pictures again, and a page that needs nothing from outside.
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+#include "core/imaging/exr.h"
+#include "core/study/results.h"
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StudyTest : public ProgramTest {
+ protected:
+  StudyTest() {
+    Write("box.pbrt", SmallScene("Sampler \"random\" \"integer pixelsamples\" 4",
+                                 "Translate 0 -1 4 Shape \"disk\" \"float radius\" 9 "
+                                 "Translate 0 1 -4"));
+  }
+  // Two integrators at two settings each, with three seeds: 12 renders of some 20 ms.
+  std::vector<std::string> Options(const std::string& folder) const {
+    return {"study",       "box.pbrt",   "--integrators", "directlighting,path",
+            "--vary",      "spp=1,4",    "--seeds",       "3",
+            "--nthreads",  "1",          "--reference",   "half-a.exr",
+            "--reference", "half-b.exr", "--title",       "box",
+            "--out",       folder};
+  }
+  // The same, slow enough to be interrupted.
+  std::vector<std::string> SlowOptions(const std::string& folder) const {
+    std::vector<std::string> options{"study",      "box.pbrt",    "--integrators", "path",
+                                     "--vary",     "spp=128,192", "--seeds",       "6",
+                                     "--nthreads", "1",           "--resolution",  "48x36",
+                                     "--no-maps",  "--out",       folder};
+    return options;
+  }
+  void MakeReference() const {
+    for (const char* half : {"a", "b"})
+      ASSERT_EQ(Run({"box.pbrt", "--integrator", "path", "--spp", "256", "--seed",
+                     half[0] == 'a' ? "100" : "101", "--float", "-o",
+                     std::string("half-") + half + ".exr"})
+                    .status,
+                0);
+  }
+  study::Results ReadResults(const std::string& folder) const {
+    return study::FromJson(Read(folder + "/results.json"));
+  }
+  // The bytes of every picture of a study, in the order of its rows.
+  std::vector<std::string> Pictures(const std::string& folder) const {
+    std::vector<std::string> bytes;
+    for (const study::RunRow& row : ReadResults(folder).runs)
+      bytes.push_back(Read(folder + "/" + row.image));
+    return bytes;
+  }
+  std::size_t CountFiles(const std::string& folder, const std::string& end) const {
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(Path(folder)))
+      count += entry.path().string().ends_with(end);
+    return count;
+  }
+};
+
+TEST_F(StudyTest, MakesRowsPicturesAndAPage) {
+  MakeReference();
+  const ProgramResult result = Run(Options("out"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.substr(0, 7), "On box,") << result.out;
+  EXPECT_NE(result.err.find("[12/12] path, spp=4, seed 3"), std::string::npos) << result.err;
+  const study::Results results = ReadResults("out");
+  EXPECT_EQ(results.settings.size(), 4u);
+  ASSERT_EQ(results.runs.size(), 12u);
+  for (const study::RunRow& row : results.runs) {
+    EXPECT_GT(row.wallSeconds, 0);
+    EXPECT_GT(row.peakMemory, 1e6);
+    EXPECT_FALSE(row.phases.empty());
+    EXPECT_EQ(ReadExr(Path("out/" + row.image)).Width(), 8);
+  }
+  const std::string csv = Read("out/results.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
+  EXPECT_NE(csv.find("relMSE,trimmedRelMSE,MSE"), std::string::npos) << csv.substr(0, 500);
+}
+
+TEST_F(StudyTest, ThePageHoldsEverythingItShowsAndNoScript) {
+  MakeReference();
+  ASSERT_EQ(Run(Options("out")).status, 0);
+  const std::string page = Read("out/report.html");
+  for (const char* part :
+       {"<h1>On box,", "<svg class=\"chart\"", "data:image/png;base64,", "What each second bought",
+        "Price list", "prefers-color-scheme:dark", "@media print", "width=device-width"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const char* part : {"http:", "https:", "<script", "url(", "@import", "javascript:", "NaN<"})
+    EXPECT_EQ(page.find(part), std::string::npos) << part;
+  for (std::size_t at = 0; (at = page.find(" src=", at)) != std::string::npos; ++at)
+    EXPECT_EQ(page.substr(at, 10), " src=\"data");
+}
+
+TEST_F(StudyTest, DoesNotRepeatWhatIsDone) {
+  MakeReference();
+  ASSERT_EQ(Run(Options("out")).status, 0);
+  const std::string rows = Read("out/results.csv"), page = Read("out/report.html");
+  const ProgramResult again = Run(Options("out"));
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.err.find("12 renders were there already"), std::string::npos) << again.err;
+  EXPECT_EQ(Read("out/results.csv"), rows);
+  EXPECT_EQ(Read("out/report.html"), page);
+  fs::remove(Path("out/report.html"));
+  EXPECT_EQ(Run({"report", "out"}).status, 0);
+  EXPECT_EQ(Read("out/report.html"), page);
+}
+
+TEST_F(StudyTest, GoesOnAfterAnInterruptionWithTheSamePictures) {
+  ASSERT_EQ(Run(SlowOptions("whole")).status, 0);
+  const pid_t process = Start(SlowOptions("broken"));
+  ASSERT_TRUE(WaitForMessage("[2/12]"));
+  kill(process, SIGINT);
+  const ProgramResult stopped = Wait(process);
+  EXPECT_EQ(stopped.status, 128 + SIGINT);
+  EXPECT_NE(stopped.err.find("goes on where this stopped"), std::string::npos) << stopped.err;
+  EXPECT_LT(CountFiles("broken/images", ".json"), 12u);
+  const ProgramResult again = Run(SlowOptions("broken"));
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.err.find("renders were there already"), std::string::npos) << again.err;
+  EXPECT_EQ(Pictures("broken"), Pictures("whole"));
+}
+
+TEST_F(StudyTest, GoesOnAfterItWasKilled) {
+  const pid_t process = Start(SlowOptions("out"));
+  ASSERT_TRUE(WaitForMessage("[3/12]"));
+  kill(process, SIGKILL);
+  EXPECT_EQ(Wait(process).status, 128 + SIGKILL);
+  EXPECT_EQ(Run(SlowOptions("out")).status, 0);
+  EXPECT_EQ(ReadResults("out").runs.size(), 12u);
+  for (const auto& entry : fs::directory_iterator(Path("out")))
+    EXPECT_NE(entry.path().filename().string().substr(0, 7), "running");
+}
+
+TEST_F(StudyTest, RendersADamagedPictureAgain) {
+  MakeReference();
+  ASSERT_EQ(Run(Options("out")).status, 0);
+  const std::vector<std::string> pictures = Pictures("out");
+  Write("out/" + ReadResults("out").runs[5].image, "no picture");
+  const ProgramResult again = Run(Options("out"));
+  EXPECT_NE(again.err.find("11 renders were there already"), std::string::npos) << again.err;
+  EXPECT_EQ(Pictures("out"), pictures);
+}
+
+TEST_F(StudyTest, ASceneThatChangedIsRenderedAnew) {
+  ASSERT_EQ(
+      Run({"study", "box.pbrt", "--integrators", "path", "--seeds", "1", "--out", "out"}).status,
+      0);
+  Write("box.pbrt", SmallScene("", "Scale 2 2 2"));
+  const ProgramResult again =
+      Run({"study", "box.pbrt", "--integrators", "path", "--seeds", "1", "--out", "out"});
+  EXPECT_EQ(again.err.find("there already"), std::string::npos) << again.err;
+}
+
+TEST_F(StudyTest, WithoutAReferenceSpeaksOfNoiseOnly) {
+  const ProgramResult result =
+      Run({"study", "box.pbrt", "--integrators", "path", "--vary", "spp=1,4", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(Read("out/report.html").find("bias is not included"), std::string::npos);
+}
+
+TEST_F(StudyTest, MakesAReferenceInTwoHalvesAndGoesOnWithIt) {
+  const std::vector<std::string> options{"study",
+                                         "box.pbrt",
+                                         "--integrators",
+                                         "path",
+                                         "--vary",
+                                         "spp=1,4",
+                                         "--no-maps",
+                                         "--make-reference",
+                                         "path",
+                                         "--reference-time",
+                                         "1s",
+                                         "--seeds",
+                                         "2",
+                                         "--out",
+                                         "out"};
+  const ProgramResult first = Run(options);
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_NE(first.err.find("reference: "), std::string::npos) << first.err;
+  EXPECT_EQ(CountFiles("out/reference", ".exr"), 2u);
+  const study::ReferenceRecord record = ReadResults("out").reference;
+  EXPECT_GT(record.samplesPerPixel, 0);
+  EXPECT_NE(Read("out/" + record.a), Read("out/" + record.b));
+  const ProgramResult again = Run(options);
+  EXPECT_EQ(again.err.find("reference: "), std::string::npos) << again.err;
+}
+
+TEST_F(StudyTest, ReadsStudyFilesWithPathsOfTheirOwnFolder) {
+  fs::create_directories(Path("sub"));
+  fs::rename(Path("box.pbrt"), Path("sub/box.pbrt"));
+  Write("sub/small.study",
+        "# a comment\nscene box.pbrt\nseeds 2\nsetting one bounce: path maxdepth=1 spp=2\n"
+        "setting five: path maxdepth=5 spp=2\nno-maps\n");
+  const ProgramResult result = Run({"study", "sub/small.study", "--seeds", "1", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const study::Results results = ReadResults("out");
+  EXPECT_EQ(results.seeds, 1);  // the command line wins
+  ASSERT_EQ(results.settings.size(), 2u);
+  EXPECT_EQ(results.settings[0].label, "one bounce");
+}
+
+TEST_F(StudyTest, SaysWhatIsWrong) {
+  EXPECT_EQ(Run({"study"}).status, 1);
+  EXPECT_EQ(Run({"study", "box.pbrt"}).status, 1);
+  EXPECT_EQ(Run({"study", "none.pbrt", "--out", "out"}).status, 3);
+  EXPECT_EQ(Run({"study", "none.study", "--out", "out"}).status, 3);
+  EXPECT_EQ(Run({"study", "box.pbrt", "--integrators", "nosuch", "--out", "out"}).status, 2);
+  const ProgramResult knob = Run({"study", "box.pbrt", "--vary", "nosuch=1", "--out", "out"});
+  EXPECT_EQ(knob.status, 1);
+  EXPECT_NE(knob.err.find("\"nosuch\""), std::string::npos) << knob.err;
+  EXPECT_EQ(Run({"report", "out"}).status, 3);
+  const ProgramResult value =
+      Run({"study", "box.pbrt", "--integrators", "path", "--vary", "maxdepth=-3", "--out", "out"});
+  EXPECT_EQ(value.status, 1) << value.err;
+  EXPECT_NE(value.err.find("a render of the study failed"), std::string::npos) << value.err;
+}
+
+}  // namespace
+}  // namespace exphoton
