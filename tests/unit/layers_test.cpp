@@ -163,8 +163,7 @@ TEST(LightLayers, AgreeBetweenPathTracingAndPhotonMapping) {
       "\"exphotonmap\" \"integer causticphotons\" 20000 \"integer maxdepth\" 12 "
       "\"integer indirectphotons\" 10000 \"integer finalgathersamples\" 8",
       32);
-  // The caustic of a small lamp is what path tracing finds worst: and what shines in mirrors: noise
-  // is 10 % there.
+  // The caustic of a small lamp and what shines in mirrors are found worst: noise is 10 % there.
   for (const auto& [layer, tolerance] : {std::pair<const char*, double>{"emission.G", .1},
                                          {"direct.G", .06},
                                          {"caustic.G", .3},
