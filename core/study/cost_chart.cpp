@@ -34,6 +34,7 @@ class Chart {
     AddFloors();
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddLine(i);
     AddNumbers();
+    for (const auto& [number, end] : ends_) AddName(number, end);
     return "<svg class=\"chart\" viewBox=\"0 0 " + Coordinate(kWidth) + " " + Coordinate(kHeight) +
            "\" role=\"img\" aria-label=\"Error against seconds\">" + text_ + "</svg>";
   }
@@ -68,21 +69,20 @@ class Chart {
                      "below: the reference is too noisy to compare", "end", "note");
   }
 
-  // Through the middle of the first line's front: error ~ 1 / seconds.
+  // Below all points: error ~ 1 / seconds.
   void AddSlope() {
-    if (analysis_.lines.empty()) return;
-    const auto points = analysis_.Points(analysis_.lines.front());
-    const auto front = ParetoFront(points);
-    if (front.empty()) return;
-    const CostPoint& through = points[front[front.size() / 2]];
-    const double product = 2.2 * through.seconds.value * through.error.value;
+    double product = 1e300;
+    for (const SettingResult& setting : analysis_.settings)
+      if (IsShown(setting.cost))
+        product = std::min(product, setting.cost.seconds.value * setting.cost.error.value);
+    product *= .7;
     const double left = std::max(x_.Low(), product / y_.High());
     const double right = std::min(x_.High(), product / y_.Low());
     if (!(left < right)) return;
     const Point2d a{x_(left), y_(product / left)}, b{x_(right), y_(product / right)};
     text_ += SvgLine(a, b, "slope");
     const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / 3.14159265358979;
-    const Point2d at{a.x + .3 * (b.x - a.x), a.y + .3 * (b.y - a.y) - 6};
+    const Point2d at{a.x + .4 * (b.x - a.x), a.y + .4 * (b.y - a.y) + 16};
     text_ += "<text class=\"note\" text-anchor=\"middle\" transform=\"translate(" +
              Coordinate(at.x) + " " + Coordinate(at.y) + ") rotate(" + Coordinate(angle) +
              ")\">pure noise: its root falls with slope −1/2</text>";
@@ -119,11 +119,28 @@ class Chart {
       const bool isFront = std::find(front.begin(), front.end(), i) != front.end();
       AddPoint(number, line.settings[i], isFront);
     }
-    if (corners.empty()) return;
-    const Point2d end = corners.back();
-    const bool isRight = end.x > kWidth - 150;
-    text_ += SvgText({isRight ? end.x + 4 : end.x + 11, isRight ? end.y + 20 : end.y + 4},
-                     line.label, isRight ? "end" : "start", "name text" + Color(number));
+    if (!corners.empty()) ends_.emplace_back(number, corners.back());
+  }
+
+  // The line's name at its end, moved where it would lie on another.
+  void AddName(std::size_t number, Point2d end) {
+    constexpr double kHeightOfText = 14, kWidthOfLetter = 7.6;
+    const std::string& label = analysis_.lines[number].label;
+    const double width = kWidthOfLetter * double(label.size());
+    const bool isRight = end.x + 11 + width > kWidth - kRight;
+    Point2d at{isRight ? end.x - width : end.x + 11, isRight ? end.y + 20 : end.y + 4};
+    const auto overlaps = [&](const Point2d& p, double otherWidth) {
+      return at.x < p.x + otherWidth && p.x < at.x + width && std::abs(at.y - p.y) < kHeightOfText;
+    };
+    for (int tries = 0; tries < 12; ++tries) {
+      const auto hit = std::find_if(taken_.begin(), taken_.end(), [&](const auto& name) {
+        return overlaps(name.first, name.second);
+      });
+      if (hit == taken_.end()) break;
+      at.y = hit->first.y + kHeightOfText + 1;
+    }
+    taken_.emplace_back(at, width);
+    text_ += SvgText(at, label, "start", "name text" + Color(number));
   }
 
   void AddPoint(std::size_t line, std::size_t index, bool isFront) {
@@ -132,11 +149,12 @@ class Chart {
     const Point2d at{x_(s.value), y_(e.value)};
     if (std::isfinite(e.error)) {
       const double low = std::max(e.value - e.error, y_.Low());
-      text_ += SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "bar " + Color(line));
+      text_ += SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "whisker " + Color(line));
     }
     if (std::isfinite(s.error) && s.error < s.value)
       text_ += SvgLine({x_(s.value - s.error), at.y}, {x_(s.value + s.error), at.y},
-                       "bar " + Color(line));
+                       "whisker " + Color(line));
+    taken_.emplace_back(Point2d{at.x - 5, at.y + 4}, 10);
     const std::string title = analysis_.lines[line].label + ", " +
                               results_.settings[setting.setting].Text() + ": " +
                               SecondsText(s.value) + ", " + ShortNumber(e.value);
@@ -161,6 +179,9 @@ class Chart {
   const Analysis& analysis_;
   LogScale x_, y_;
   std::string text_;
+  // Where something stands that a name must not cover, and how wide it is.
+  std::vector<std::pair<Point2d, double>> taken_;
+  std::vector<std::pair<std::size_t, Point2d>> ends_;  // of the lines, by their numbers
 };
 
 }  // namespace

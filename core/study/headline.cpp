@@ -109,6 +109,27 @@ std::string WithoutTarget(const Results& results, const Analysis& analysis) {
   return text + ".";
 }
 
+// Where every line is one setting: how much each is worth, relative to the first.
+std::string Efficiencies(const Results& results, const Analysis& analysis) {
+  const SettingResult& first = analysis.settings[analysis.lines.front().settings.front()];
+  std::string text = "On " + results.title + ", efficiency (1 / (error × time)) relative to " +
+                     analysis.lines.front().label + ": ";
+  for (std::size_t i = 1; i < analysis.lines.size(); ++i) {
+    const SettingResult& setting = analysis.settings[analysis.lines[i].settings.front()];
+    const Measured ratio = RelativeEfficiency(analysis, setting, first);
+    text += analysis.lines[i].label + " " +
+            (ratio.IsKnown() ? Plus(ratio, ratio.value < 10 ? "%.2f" : "%.0f") + "×" : "unknown");
+    text += i + 1 < analysis.lines.size() ? ", " : ".";
+  }
+  return text;
+}
+
+bool HasOnlySingleSettings(const Analysis& analysis) {
+  return analysis.lines.size() > 1 &&
+         std::all_of(analysis.lines.begin(), analysis.lines.end(),
+                     [](const Line& line) { return line.settings.size() == 1; });
+}
+
 // The least error of any line must be told from the reference's noise.
 bool IsTooNoisy(const Analysis& analysis) {
   double largest = 0;
@@ -128,6 +149,7 @@ std::string SecondsText(double seconds) {
 
 std::string ShortNumber(double value, int digits) {
   if (!std::isfinite(value)) return "–";
+  if (value < 0) return "−" + ShortNumber(-value, digits);
   if (value == 0) return "0";
   const double size = std::abs(value);
   if (size >= 1e-4 && size < 1e5) {
@@ -156,12 +178,26 @@ std::string ShortfallText(const Reference& reference, double error) {
          ShortNumber(std::max(1.1, factor)) + " times as long would do";
 }
 
+Measured RelativeEfficiency(const Analysis& analysis, const SettingResult& setting,
+                            const SettingResult& base) {
+  for (const SettingResult* one : {&setting, &base})
+    if (!(ReferenceShortfall(analysis.reference, one->cost.error.value) <= 1)) return {};
+  const Measured error = Ratio(base.cost.error, setting.cost.error);
+  const Measured time = Ratio(base.cost.seconds, setting.cost.seconds);
+  const double value = error.value * time.value;
+  return {value, value * std::hypot(error.error / error.value, time.error / time.value)};
+}
+
 void WriteHeadline(const Results& results, Analysis* analysis) {
   analysis->target = ChooseTarget(*analysis);
   analysis->targetIsTooFine = !analysis->target && IsTooNoisy(*analysis);
   if (analysis->target)
     for (Line& line : analysis->lines)
       line.toTarget = FindTimeToError(analysis->Points(line), *analysis->target);
+  if (HasOnlySingleSettings(*analysis)) {
+    analysis->headline = Efficiencies(results, *analysis);
+    return;
+  }
   analysis->headline =
       analysis->target ? Sentence(results, *analysis) : WithoutTarget(results, *analysis);
 }

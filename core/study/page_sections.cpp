@@ -69,6 +69,9 @@ struct Bar {
 };
 
 std::string BarCell(const std::vector<Bar>& bars) {
+  double total = 0;
+  for (const Bar& bar : bars) total += bar.share;
+  const bool isCut = total > 1.001;
   std::string text = "<td class=\"bar bars\"><svg role=\"img\">";
   double at = 0;
   for (const Bar& bar : bars) {
@@ -79,6 +82,7 @@ std::string BarCell(const std::vector<Bar>& bars) {
             "</title></rect>";
     at += width;
   }
+  if (isCut) text += "<text x=\"99%\" y=\"11\" text-anchor=\"end\" class=\"cut\">▸</text>";
   return text + "</svg></td>";
 }
 
@@ -108,10 +112,14 @@ std::string PhaseClass(std::size_t i) {
   return "p" + std::to_string(i % std::size_t(kPhaseColors));
 }
 
-std::string CutMark(double value, double full) { return value > full * 1.001 ? " ▸" : ""; }
+struct BarScales {
+  std::vector<std::string> phases;
+  double fullTime, fullError;
+};
 
-std::string BarRow(const Results& results, const SettingResult& setting,
-                   const std::vector<std::string>& names, double fullTime, double fullError) {
+std::string BarRow(const Analysis& analysis, const SettingResult& setting, const std::string& label,
+                   const BarScales& scales) {
+  const auto& [names, fullTime, fullError] = scales;
   std::vector<Bar> time;
   for (std::size_t i = 0; i < names.size(); ++i)
     for (const auto& [name, seconds] : setting.phases)
@@ -122,11 +130,10 @@ std::string BarRow(const Results& results, const SettingResult& setting,
   const double noise = s.variance.IsKnown() ? s.variance.value : setting.cost.error.value;
   const std::vector<Bar> error{{noise / fullError, "noise", "noise: " + ShortNumber(noise)},
                                {bias / fullError, "bias", "bias²: " + ShortNumber(bias)}};
-  const double seconds = setting.cost.seconds.value;
-  return Row(Cell(SettingText(results, setting), "wrap") + BarCell(time) +
-             Cell(SecondsText(seconds) + CutMark(seconds, fullTime)) + BarCell(error) +
-             Cell(MeasuredText(s.variance) + CutMark(noise + bias, fullError)) +
-             Cell(MeasuredText(s.bias2)));
+  const Measured worth = RelativeEfficiency(analysis, setting, analysis.settings.front());
+  return Row(Cell(label, "wrap") + BarCell(time) + Cell(SecondsText(setting.cost.seconds.value)) +
+             BarCell(error) + Cell(MeasuredText(s.variance)) + Cell(MeasuredText(s.bias2)) +
+             Cell(worth.IsKnown() ? ShortNumber(worth.value) + "×" : "–"));
 }
 
 }  // namespace
@@ -213,7 +220,7 @@ std::string BarSection(const Results& results, const Analysis& analysis) {
     times.push_back(s.cost.seconds.value);
     errors.push_back(s.cost.error.value);
   }
-  const double fullTime = FullWidth(times), fullError = FullWidth(errors);
+  const BarScales scales{names, FullWidth(times), FullWidth(errors)};
   std::string keys = "<div class=\"keys\">";
   for (std::size_t i = 0; i < names.size(); ++i)
     keys += "<span><i class=\"key " + PhaseClass(i) + "\"></i>" + Escape(names[i]) + "</span>";
@@ -222,26 +229,23 @@ std::string BarSection(const Results& results, const Analysis& analysis) {
       "</span><span><i class=\"key bias\"></i>bias²</span></div>\n";
   std::string rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i) {
-    if (analysis.lines.size() < analysis.settings.size())
-      rows += "<tr class=\"group\"><td colspan=\"6\">" + ColorDot(i) +
-              Escape(analysis.lines[i].label) + "</td></tr>\n";
-    for (const std::size_t s : analysis.lines[i].settings) {
-      std::string row = BarRow(results, analysis.settings[s], names, fullTime, fullError);
-      if (analysis.lines.size() == analysis.settings.size())
-        row.replace(row.find('>', row.find("<td")) + 1,
-                    SettingText(results, analysis.settings[s]).size(),
-                    ColorDot(i) + Escape(analysis.lines[i].label));
-      rows += row;
+    const bool isGroup = analysis.lines.size() < analysis.settings.size();
+    const std::string name = ColorDot(i) + Escape(analysis.lines[i].label);
+    if (isGroup) rows += "<tr class=\"group\"><td colspan=\"7\">" + name + "</td></tr>\n";
+    for (const std::size_t index : analysis.lines[i].settings) {
+      const SettingResult& setting = analysis.settings[index];
+      rows += BarRow(analysis, setting, isGroup ? SettingText(results, setting) : name, scales);
     }
   }
   return SectionOf("What each second bought",
                    "<p>Left, where the time went; right, what error it left: noise, which another "
                    "seed changes, and bias², which it does not. Noise, bias² and the reference's "
                    "noise add up to the measured relMSE. A bias² below 0 is 0 within its error; ▸ "
-                   "marks bars that go on.</p>\n" +
+                   "marks bars that go on. Efficiency is 1 / (error × time), relative to the first "
+                   "row; – where the reference is too noisy to tell.</p>\n" +
                        keys +
                        Table("<th>setting</th><th colspan=\"2\">" + ClockName(results) +
-                                 "</th><th></th><th>noise</th><th>bias²</th>",
+                                 "</th><th></th><th>noise</th><th>bias²</th><th>efficiency</th>",
                              rows));
 }
 
@@ -283,7 +287,7 @@ std::string PriceSection(const Results& results, const Analysis& analysis) {
               ShortNumber(best->peakMemory / (1 << 20), 3) + " MiB" +
               (best->photonsStored > 0 ? ", " + CountText(best->photonsStored) + " photons" : "") +
               "</small>";
-      cells += Cell(text);
+      cells += Cell(text, "wide");
     }
     rows += Row(cells);
   }
@@ -292,12 +296,14 @@ std::string PriceSection(const Results& results, const Analysis& analysis) {
       "photons. "
       "–: none of the settings tried.</p>\n" +
       Table(head, rows);
+  std::vector<CostPoint> points(results.settings.size());
+  for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
+  std::vector<KnobCost> costs = FindKnobCosts(results.settings, points);
+  std::stable_sort(costs.begin(), costs.end(), [&](const KnobCost& a, const KnobCost& b) {
+    return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
+  });
   std::string knobs;
-  for (const KnobCost& knob : FindKnobCosts(results.settings, [&] {
-         std::vector<CostPoint> points(results.settings.size());
-         for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
-         return points;
-       }()))
+  for (const KnobCost& knob : costs)
     knobs += Row(Cell(ColorDot(LineNumber(analysis, knob.label)) + Escape(knob.label)) +
                  Cell(Escape(knob.parameter), "t") +
                  Cell((knob.secondsPerDoubling >= 0 ? "+" : "−") +

@@ -10,12 +10,12 @@ std::string PageStyle() {
 :root{color-scheme:light dark;--bg:#fbfaf8;--card:#fff;--ink:#1c1b19;--soft:#6a665f;--rule:#e3dfd8;
 --accent:#0b5fa5;--limit:#b9b2a61f;
 --c0:#0072b2;--c1:#d55e00;--c2:#009e73;--c3:#b0568f;--c4:#8a6d00;--c5:#4a90c2;
---p0:#7b8794;--p1:#a3adb8;--p2:#e69f00;--p3:#c8791a;--p4:#009e73;--p5:#0072b2;--p6:#cc79a7;--p7:#56b4e9;
+--p0:#7b8794;--p1:#a3adb8;--p2:#e69f00;--p3:#c8791a;--p4:#009e73;--p5:#0072b2;--p6:#cc79a7;--p7:#c9cdd2;
 --noise:#56a0d3;--bias:#d55e00}
 @media (prefers-color-scheme:dark){:root{--bg:#141517;--card:#1c1e21;--ink:#ecebe8;--soft:#a19d95;
 --rule:#33363b;--accent:#7cc0ff;--limit:#ffffff0f;
 --c0:#5ab4f0;--c1:#ff9a4d;--c2:#3fd0a4;--c3:#e39bcb;--c4:#e3c34a;--c5:#9cc9ea;
---p0:#8b97a4;--p1:#66707a;--p2:#f0b840;--p3:#d2843a;--p4:#35b890;--p5:#4aa3e0;--p6:#dc93ba;--p7:#8fcdf2;
+--p0:#8b97a4;--p1:#66707a;--p2:#f0b840;--p3:#d2843a;--p4:#35b890;--p5:#4aa3e0;--p6:#dc93ba;--p7:#4a5057;
 --noise:#5aa9df;--bias:#ff8a3d}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
@@ -42,6 +42,8 @@ th{font-weight:600;color:var(--soft);border-bottom-color:var(--soft)}
 th:first-child,td:first-child{text-align:left}
 td.t,th.t{text-align:left}
 td.wrap{white-space:normal;min-width:9rem}
+td.wide{white-space:normal;min-width:8.5rem}
+.cut{fill:var(--card);font-size:12px}
 td.bar{width:24%;min-width:8rem;padding-right:.4rem}
 td small,th small{color:var(--soft);font-weight:400}
 tr.group td{padding-top:.9rem;font-weight:600;border-bottom:0}
@@ -58,7 +60,7 @@ tr:last-child td{border-bottom:0}
 .slope{stroke:var(--soft);stroke-width:1;stroke-dasharray:2 5}
 .floor{stroke-width:1.2;stroke-dasharray:7 4;opacity:.8}
 .series{fill:none;stroke-width:2.2;stroke-linejoin:round}
-.bar{stroke-width:1.3;opacity:.75}
+.whisker{stroke-width:1.3;opacity:.75}
 .point{stroke:var(--card);stroke-width:1}
 .point.hollow{fill:var(--card);stroke-width:1.5}
 line.c0,polyline.c0,.hollow.c0{stroke:var(--c0)}line.c1,polyline.c1,.hollow.c1{stroke:var(--c1)}
@@ -94,8 +96,10 @@ details{margin:.6rem 0}summary{cursor:pointer;font-weight:600}
 pre{overflow-x:auto;font:.8rem/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,"DejaVu Sans Mono",monospace;
 background:var(--bg);border:1px solid var(--rule);border-radius:8px;padding:.8rem}
 footer{color:var(--soft);font-size:.82rem;margin-top:1.6rem}
-@media (max-width:40rem){main{padding:1.2rem .7rem 3rem}section{padding:1rem .85rem;border-radius:10px}}
-@media print{:root{color-scheme:light;--bg:#fff;--card:#fff;--ink:#000;--soft:#555;--rule:#ccc;--accent:#0b5fa5;
+@media (max-width:40rem){main{padding:1.2rem .7rem 3rem}section{padding:1rem .85rem;border-radius:10px}
+table{font-size:.8rem}td.bar{min-width:4.6rem}td.wrap{min-width:6.6rem}th,td{padding-right:.5rem}}
+@media print{.pictures{grid-template-columns:repeat(auto-fill,minmax(7.6rem,1fr));gap:.6rem}
+:root{color-scheme:light;--bg:#fff;--card:#fff;--ink:#000;--soft:#555;--rule:#ccc;--accent:#0b5fa5;
 --limit:#0000000f;--c0:#0072b2;--c1:#d55e00;--c2:#009e73;--c3:#b0568f;--c4:#8a6d00;--c5:#4a90c2;
 --noise:#56a0d3;--bias:#d55e00}
 *{print-color-adjust:exact;-webkit-print-color-adjust:exact}
