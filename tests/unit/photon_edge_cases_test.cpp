@@ -36,10 +36,10 @@ TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
 
 TEST(PhotonEdgeCases, WithoutIndirectPhotonsTheGatherStillReadsDirectAndCausticLight) {
   const auto render = [](const std::string& counts) {
-    return MeanRadiance(
-        RenderSceneText(Sphere("\"exphotonmap\" " + counts, kPoint, kMatte)).image);
+    return MeanRadiance(RenderSceneText(Sphere("\"exphotonmap\" " + counts, kPoint, kMatte)).image);
   };
-  const double direct = MeanRadiance(RenderSceneText(Sphere("\"directlighting\"", kPoint, kMatte)).image);
+  const double direct =
+      MeanRadiance(RenderSceneText(Sphere("\"directlighting\"", kPoint, kMatte)).image);
   const double once = render("\"integer indirectphotons\" [0] \"integer directphotons\" [20000]");
   // One bounce more than direct light: the indirect map would add the further ones.
   EXPECT_NEAR(once / direct, 1.5, .05);
@@ -95,9 +95,11 @@ TEST(PhotonEdgeCases, ComplementaryColoursEndPathsWithoutNan) {
 
 TEST(PhotonEdgeCases, TheDepthLimitWarnsWhereItCutsPower) {
   const auto render = [](int depth) {
-    return RenderSceneText(Sphere("\"exphotonmap\" \"integer indirectphotons\" [2000] \"integer "
-                                  "maxphotondepth\" [" + std::to_string(depth) + "]",
-                                  kPoint, "\"matte\" \"color Kd\" [.9 .9 .9]"));
+    return RenderSceneText(
+        Sphere("\"exphotonmap\" \"integer indirectphotons\" [2000] \"integer "
+               "maxphotondepth\" [" +
+                   std::to_string(depth) + "]",
+               kPoint, "\"matte\" \"color Kd\" [.9 .9 .9]"));
   };
   EXPECT_TRUE(render(5).Says("maxphotondepth 5 cut"));
   EXPECT_FALSE(render(1024).Says("maxphotondepth"));
@@ -105,9 +107,11 @@ TEST(PhotonEdgeCases, TheDepthLimitWarnsWhereItCutsPower) {
 
 TEST(PhotonEdgeCases, TheCamerasDepthLimitWarnsWhereItCuts) {
   const auto render = [](int depth) {
-    return RenderSceneText(Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"integer "
-                                  "maxdepth\" [" + std::to_string(depth) + "]",
-                                  kPoint, "\"mirror\" \"color Kr\" [.2 .2 .2]"));
+    return RenderSceneText(
+        Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"integer "
+               "maxdepth\" [" +
+                   std::to_string(depth) + "]",
+               kPoint, "\"mirror\" \"color Kr\" [.2 .2 .2]"));
   };
   EXPECT_TRUE(render(1).Says("the depth limit cut specular paths"));
   EXPECT_FALSE(render(10).Says("the depth limit cut specular paths"));
@@ -116,18 +120,22 @@ TEST(PhotonEdgeCases, TheCamerasDepthLimitWarnsWhereItCuts) {
 TEST(PhotonEdgeCases, EveryShownMapRenders) {
   for (const char* integrator : {"photonmap", "exphotonmap"})
     for (const char* show : {"radiancephotons", "directphotons", "indirectphotons"}) {
-      const TestRender render = RenderSceneText(
-          Sphere(std::string("\"") + integrator + "\" \"integer indirectphotons\" [2000] \"string "
-                 "show\" \"" + show + "\"", kPoint, kMatte));
+      const TestRender render =
+          RenderSceneText(Sphere(std::string("\"") + integrator +
+                                     "\" \"integer indirectphotons\" [2000] \"string "
+                                     "show\" \"" +
+                                     show + "\"",
+                                 kPoint, kMatte));
       EXPECT_GT(MeanRadiance(render.image), 0) << integrator << " " << show;
     }
 }
 
 TEST(PhotonEdgeCases, GatherAnglesOutsideTheirRangeAreErrors) {
   for (const char* angle : {"0", "91", "180", "-5"})
-    EXPECT_THROW(RenderSceneText(Sphere(std::string("\"exphotonmap\" \"float gatherangle\" [") +
-                                            angle + "]", kPoint, kMatte)),
-                 Error)
+    EXPECT_THROW(
+        RenderSceneText(Sphere(std::string("\"exphotonmap\" \"float gatherangle\" [") + angle + "]",
+                               kPoint, kMatte)),
+        Error)
         << angle;
   EXPECT_NO_THROW(RenderSceneText(
       Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"float gatherangle\" [90]", kPoint,
@@ -142,6 +150,67 @@ TEST(PhotonEdgeCases, LightThatHitsNothingEndsWithinItsBudget) {
   const TestRender render = RenderSceneText(scene);
   EXPECT_TRUE(render.Says("indirect map: 0 of 1000 photons"));
   EXPECT_EQ(MeanRadiance(render.image), 0);
+}
+
+// 4 pi times this is more than a Real holds.
+constexpr const char* kTooBright = "LightSource \"point\" \"color I\" [3e38 3e38 3e38]";
+
+TEST(PhotonEdgeCases, PhotonsWithoutFinitePowerAreCountedAndUnderStrictAnError) {
+  const std::string text = Sphere(
+      "\"photonmap\" \"integer indirectphotons\" 100 "
+      "\"integer maxphotonpaths\" 256",
+      kTooBright, kMatte);
+  TestRenderOptions options;
+  options.isStrict = false;
+  const TestRender render = RenderSceneText(text, options);
+  EXPECT_TRUE(render.Says("photons had no finite power"));
+  EXPECT_EQ(render.Counter("photons/non-finite"), render.Counter("photons/shot"));
+  options.isStrict = true;
+  options.seed = 17;
+  try {
+    RenderSceneText(text, options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Status(), ExitStatus::Internal);
+    EXPECT_STREQ(error.what(), "photon path 0 of seed 17 has a power that is not finite");
+  }
+}
+
+// Each shows one map, so no other is worth shooting.
+TEST(PhotonEdgeCases, ShowingAMapShootsThatMapAlone) {
+  const std::string world =
+      "WorldBegin\n" + std::string(kPoint) +
+      "\nMaterial \"matte\"\nReverseOrientation\nShape \"sphere\" \"float radius\" 3\n"
+      "Material \"glass\" Translate 0 0 1.5 Shape \"sphere\" \"float radius\" .5\nWorldEnd\n";
+  const std::vector<std::string> maps{"direct", "caustic", "indirect"};
+  for (const std::string& shown : maps) {
+    const TestRender render = RenderSceneText(
+        TestHeader("\"exphotonmap\" \"integer causticphotons\" 500 \"integer indirectphotons\" "
+                   "500 \"string show\" \"" +
+                       shown + "photons\"",
+                   8, 8, 1) +
+        world);
+    for (const std::string& map : maps)
+      EXPECT_EQ(render.Counter("photons/" + map + " stored") >= 500, map == shown)
+          << map << " while showing " << shown;
+    EXPECT_GT(MeanRadiance(render.image), 0) << shown;
+  }
+}
+
+TEST(PhotonEdgeCases, SaysWhatTheDepthLimitCutsOffGatherRays) {
+  const auto render = [](int maxDepth) {
+    return RenderSceneText(
+        TestHeader("\"photonmap\" \"integer causticphotons\" 0 \"integer indirectphotons\" 2000 "
+                   "\"integer maxdepth\" " +
+                       std::to_string(maxDepth),
+                   8, 8, 1) +
+        "WorldBegin\n" + kPoint +
+        "\nMaterial \"matte\" Translate 0 0 4 Shape \"disk\" \"float radius\" 9\n"
+        "Material \"mirror\" Translate 0 0 -6 Shape \"disk\" \"float radius\" 50\nWorldEnd\n");
+  };
+  EXPECT_TRUE(render(0).Says("of what gather rays could see"));
+  EXPECT_FALSE(render(0).Says("of what the camera could see"));
+  EXPECT_FALSE(render(20).Says("could see"));
 }
 
 }  // namespace
