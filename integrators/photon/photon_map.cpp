@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/photon/nearest_set.h"
+#include "core/spatial/nearest_set.h"
 
 namespace exphoton {
 

@@ -79,25 +79,45 @@ RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMap
     sides_.push_back({entries[i].n, Square(settings.radianceReach * entries[i].radius)});
     maxReach2_ = std::max(maxReach2_, sides_.back().reach2);
   }
+  std::vector<Normal3> normals;
+  normals.reserve(sides_.size());
+  for (const Side& side : sides_) normals.push_back(side.n);
+  cells_ = NearestCells(tree_, normals, context.threads);
 }
 
 std::size_t RadianceMap::MemoryBytes() const {
-  return tree_.MemoryBytes() + entries_.capacity() * sizeof(Entry) +
+  return tree_.MemoryBytes() + cells_.MemoryBytes() + entries_.capacity() * sizeof(Entry) +
          sides_.capacity() * sizeof(Side);
 }
 
+NearPoint RadianceMap::NearestListed(const NearestCells::Cell& cell, const Point3& p,
+                                     const Normal3& n) const {
+  constexpr int kCount = NearestCells::kListed;
+  Real distance2[kCount];
+  for (int j = 0; j < kCount; ++j) distance2[j] = DistanceSquared(tree_.Point(cell.ids[j]), p);
+  for (;;) {
+    int best = 0;
+    for (int j = 1; j < kCount; ++j) best = distance2[j] < distance2[best] ? j : best;
+    if (!(distance2[best] < kInfinity)) return {kInfinity, kNone};
+    if (Serves(cell.ids[best], distance2[best], n)) return {distance2[best], cell.ids[best]};
+    distance2[best] = kInfinity;
+  }
+}
+
 const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
-  Real radius2 = maxReach2_;
-  std::uint32_t nearest = kNone;
-  tree_.Search(p, &radius2, [&](std::uint32_t i, Real distance2) {
-    const Side& side = sides_[i];
-    if (distance2 > side.reach2 || !(Dot(side.n, n) > minCosine_)) return;
+  NearPoint nearest{maxReach2_, kNone};
+  if (const NearestCells::Cell* cell = cells_.Around(p)) {
+    const NearPoint listed = NearestListed(*cell, p, n);
+    if (cell->Proves(listed.distance2, p)) return &entries_[listed.index];
+    if (listed.index != kNone) nearest = listed;
+  }
+  tree_.Search(p, &nearest.distance2, [&](std::uint32_t i, Real distance2) {
+    if (!Serves(i, distance2, n)) return;
     // Ties go to the lower index, in whatever order they are met.
-    if (distance2 == radius2 && i > nearest) return;
-    nearest = i;
-    radius2 = distance2;
+    if (distance2 == nearest.distance2 && i > nearest.index) return;
+    nearest = {distance2, i};
   });
-  return nearest == kNone ? nullptr : &entries_[nearest];
+  return nearest.index == kNone ? nullptr : &entries_[nearest.index];
 }
 
 }  // namespace exphoton

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/spatial/point_kdtree.h"
+#include "core/spatial/nearest_cells.h"
 #include "integrators/photon/photon_maps.h"
 
 namespace exphoton {
@@ -41,7 +41,15 @@ class RadianceMap {
   }
 
  private:
+  bool Serves(std::uint32_t i, Real distance2, const Normal3& n) const {
+    const Side& side = sides_[i];
+    return distance2 <= side.reach2 && Dot(side.n, n) > minCosine_;
+  }
+  // The nearest listed entry that serves; kInfinity and no index where none does.
+  NearPoint NearestListed(const NearestCells::Cell& cell, const Point3& p, const Normal3& n) const;
+
   PointKdTree tree_;
+  NearestCells cells_;
   // What a search looks at, apart from what it brings; both in tree order.
   struct Side {
     Normal3 n;

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/math/random.h"
-#include "integrators/photon/nearest_set.h"
+#include "core/spatial/nearest_set.h"
 #include "integrators/photon/photon_map.h"
 
 namespace exphoton {
