@@ -17,16 +17,19 @@ constexpr std::size_t kFewPoints = 256;  // a tree of so few is fast enough
 // surface, if no point is listed within d - s / sqrt(2) of them in a few of a hundred cases only.
 constexpr Real kSideByReach = Real(.8);
 
-// The k nearest points, in a buffer that is used again and again.
+// The k nearest points, in a buffer that is used again and again. Of points equally far any may be
+// found, so that many on one spot need not all be looked at.
 class Neighbours {
  public:
   explicit Neighbours(const PointKdTree& tree) : tree_(tree) {}
   std::span<const NearPoint> Find(const Point3& p, int k) {
-    buffer_.resize(NearestSet::BufferSize(k));
-    NearestSet nearest(buffer_, k);
+    buffer_.resize(NearestSet<KeepAll>::BufferSize(k));
+    NearestSet nearest(std::span<NearPoint>(buffer_), k, KeepAll());
     Real radius2 = kInfinity;
-    tree_.Search(p, &radius2, [&](std::uint32_t i, Real distance2) {
-      nearest.Offer({distance2, i}, &radius2);
+    tree_.SearchLeaves(p, &radius2, [&](const PointKdTree::Leaf& leaf, const Real* distance2) {
+      const Real before2 = radius2;
+      nearest.OfferLeaf(leaf, distance2, &radius2);
+      if (radius2 < before2) radius2 = radius2 > 0 ? NextDown(radius2) : -1;
     });
     return nearest.Finish();
   }
@@ -48,7 +51,8 @@ struct Disk {
     if (offset.x > half + extent.x || offset.y > half + extent.y || offset.z > half + extent.z)
       return false;
     const Real reach = half * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    return std::abs(Dot(n, middle - p)) <= reach * (1 + Gamma(32)) + Gamma(8) * MaxComponent(offset);
+    return std::abs(Dot(n, middle - p)) <=
+           reach * (1 + Gamma(32)) + Gamma(8) * MaxComponent(offset);
   }
 };
 
@@ -163,7 +167,8 @@ NearestCells::NearestCells(const PointKdTree& tree, std::span<const Normal3> nor
     for (int z = low[2]; z <= high[2]; ++z)
       for (int y = low[1]; y <= high[1]; ++y)
         for (int x = low[0]; x <= high[0]; ++x)
-          if (disk.Meets(topMiddle(x, y, z), half)) inTop[(z * kTop + y) * kTop + x].push_back(disk);
+          if (disk.Meets(topMiddle(x, y, z), half))
+            inTop[(z * kTop + y) * kTop + x].push_back(disk);
   }
 
   std::vector<NearestCellsBuilder::Part> parts(inTop.size());

@@ -34,8 +34,8 @@ class NearestCells {
   };
 
   NearestCells() = default;  // no cell
-  // normals: of the surface at each point of the tree, in tree order, unit (either side). Points are
-  // taken to have neighbours within the surface as far apart as their nearest ones.
+  // normals: of the surface at each point of the tree, in tree order, unit (either side). Points
+  // are taken to have neighbours within the surface as far apart as their nearest ones.
   NearestCells(const PointKdTree& tree, std::span<const Normal3> normals, ThreadPool& threads);
 
   // The cell that p lies in; null where no surface is known to pass.
@@ -50,7 +50,7 @@ class NearestCells {
   using Node = std::array<std::uint32_t, 8>;
 
   Point3 origin_;
-  Real scale_ = 0;  // to cells of the finest level
+  Real scale_ = 0;                  // to cells of the finest level
   std::vector<std::uint32_t> top_;  // 2^kTopLevels cells an axis
   std::vector<Node> nodes_;         // [0] stands for none
   std::vector<Cell> cells_;
@@ -65,8 +65,7 @@ inline const NearestCells::Cell* NearestCells::Around(const Point3& p) const {
     return nullptr;
   const auto ix = std::uint32_t(x), iy = std::uint32_t(y), iz = std::uint32_t(z);
   int shift = kMaxLevels - kTopLevels;
-  std::uint32_t at =
-      top_[((iz >> shift) << kTopLevels | iy >> shift) << kTopLevels | ix >> shift];
+  std::uint32_t at = top_[((iz >> shift) << kTopLevels | iy >> shift) << kTopLevels | ix >> shift];
   while (at != 0 && !(at & kIsCell)) {
     --shift;
     at = nodes_[at][(iz >> shift & 1) << 2 | (iy >> shift & 1) << 1 | (ix >> shift & 1)];

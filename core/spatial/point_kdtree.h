@@ -27,7 +27,7 @@ struct NearPoint {
 
 class PointKdTree {
  public:
-  static constexpr std::uint32_t kMaxLeafPoints = 8;
+  static constexpr std::uint32_t kMaxLeafPoints = 16;
   static constexpr std::size_t kMaxPoints = std::size_t(1) << 31;
 
   PointKdTree() = default;  // no points: finds nothing
@@ -40,6 +40,35 @@ class PointKdTree {
   Point3 Point(std::uint32_t index) const { return {x_[index], y_[index], z_[index]}; }
   const Bounds3& Bounds() const { return bounds_; }
   std::size_t MemoryBytes() const;
+
+  // The tree's cells at a level, 0 to Levels(), are numbered from 0 to 2^level - 1: the one that p
+  // is in, and a point in the middle of one's points.
+  int Levels() const { return levels_; }
+  std::uint32_t CellAt(const Point3& p, int level) const {
+    std::uint32_t node = 0;
+    for (int i = 0; i < level; ++i)
+      node = 2 * node + 1 + std::uint32_t(!(p[int(nodes_[node].axis)] < nodes_[node].split));
+    return node - ((std::uint32_t(1) << level) - 1);
+  }
+  std::uint32_t MiddleOf(std::uint32_t cell, int level) const {
+    std::uint32_t begin = 0, end = std::uint32_t(order_.size());
+    for (int i = level - 1; i >= 0; --i) {
+      const std::uint32_t middle = begin + (end - begin) / 2;
+      (cell >> i & 1 ? begin : end) = middle;
+    }
+    return begin + (end - begin) / 2;
+  }
+
+  // Points that lie together, at most kMaxLeafPoints: indices begin to begin + count. Their
+  // coordinates may be read as if there were kMaxLeafPoints.
+  struct Leaf {
+    std::uint32_t begin, count;
+    const Real *x, *y, *z;
+  };
+  // Calls visit(leaf, distance2) for every leaf that may hold points whose squared distance from p
+  // is at most *radius2; distance2 has kMaxLeafPoints values. visit may lower *radius2.
+  template <class VisitLeaf>
+  void SearchLeaves(const Point3& p, Real* radius2, VisitLeaf&& visit) const;
 
   // Calls visit(index, distance2) for every point whose squared distance from p is at most
   // *radius2. visit may lower *radius2 as it finds what it wants; nothing beyond it is visited
@@ -65,6 +94,14 @@ class PointKdTree {
 
 template <class Visit>
 void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
+  SearchLeaves(p, radius2, [&](const Leaf& leaf, const Real* distance2) {
+    for (std::uint32_t j = 0; j < leaf.count; ++j)
+      if (distance2[j] <= *radius2) visit(leaf.begin + j, distance2[j]);
+  });
+}
+
+template <class VisitLeaf>
+void PointKdTree::SearchLeaves(const Point3& p, Real* radius2, VisitLeaf&& visit) const {
   // A subtree to be searched, with the offset of its region from p on each axis; the sum of their
   // squares is a lower bound of every distance in it (Arya and Mount 1993).
   struct Pending {
@@ -101,14 +138,12 @@ void PointKdTree::Search(const Point3& p, Real* radius2, Visit&& visit) const {
     }
     // A fixed number of lanes, some of them beyond the leaf: no branch until they are compared.
     Real distance2[kMaxLeafPoints];
+    const Leaf leaf{at.begin, at.end - at.begin, &x_[at.begin], &y_[at.begin], &z_[at.begin]};
     for (std::uint32_t j = 0; j < kMaxLeafPoints; ++j) {
-      const Real dx = x_[at.begin + j] - p.x, dy = y_[at.begin + j] - p.y;
-      const Real dz = z_[at.begin + j] - p.z;
+      const Real dx = leaf.x[j] - p.x, dy = leaf.y[j] - p.y, dz = leaf.z[j] - p.z;
       distance2[j] = dx * dx + dy * dy + dz * dz;
     }
-    const std::uint32_t count = at.end - at.begin;
-    for (std::uint32_t j = 0; j < count; ++j)
-      if (distance2[j] <= *radius2) visit(at.begin + j, distance2[j]);
+    visit(leaf, distance2);
     do {
       if (depth == 0) return;
       at = stack[--depth];

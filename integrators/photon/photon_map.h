@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/arena.h"
-#include "core/spatial/point_kdtree.h"
+#include "core/spatial/nearest_set.h"
 #include "integrators/photon/photon.h"
 
 namespace exphoton {
@@ -69,7 +69,16 @@ class PhotonMap {
   Real TypicalRadius(int k, Arena* arena) const;
 
  private:
+  void MeasureSpacing();
+  // Squared radius in which k photons are to be expected round p; infinite where it is not known.
+  Real ExpectedRadius2(const Point3& p, int k) const;
+  template <class Set, class Measure>
+  void SearchFrom(const Point3& p, int k, Real maxRadius2, Set* nearest, Measure&& measure) const;
+
   PointKdTree tree_;
+  // Where searches begin: squared radius for each photon found, by the cells of one level.
+  std::vector<Real> spacing2_;
+  int spacingLevel_ = 0;
   std::vector<Vector3> directions_;  // in tree order
   std::vector<Spectrum> alphas_;
   std::int64_t paths_ = 0;

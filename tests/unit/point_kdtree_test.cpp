@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <set>
 
 #include "core/math/random.h"
@@ -21,11 +22,21 @@ std::vector<Point3> MakePoints(Layout layout, int count, RandomStream* random) {
   for (int i = 0; i < count; ++i) {
     const Point3 p{random->Uniform(), random->Uniform(), random->Uniform()};
     switch (layout) {
-      case Layout::Random: points.push_back(p); break;
-      case Layout::Grid: points.push_back({Real(i % 7), Real(i / 7 % 7), Real(i / 49)}); break;
-      case Layout::Collinear: points.push_back({p.x, 2 * p.x, 1}); break;
-      case Layout::Coincident: points.push_back({1, 2, 3}); break;
-      case Layout::Huge: points.push_back(p * Real(1e6)); break;
+      case Layout::Random:
+        points.push_back(p);
+        break;
+      case Layout::Grid:
+        points.push_back({Real(i % 7), Real(i / 7 % 7), Real(i / 49)});
+        break;
+      case Layout::Collinear:
+        points.push_back({p.x, 2 * p.x, 1});
+        break;
+      case Layout::Coincident:
+        points.push_back({1, 2, 3});
+        break;
+      case Layout::Huge:
+        points.push_back(p * Real(1e6));
+        break;
     }
   }
   return points;
@@ -41,10 +52,12 @@ std::vector<NearPoint> BruteForce(const PointKdTree& tree, const Point3& p, std:
 }
 
 std::vector<NearPoint> Search(const PointKdTree& tree, const Point3& p, int k) {
-  std::vector<NearPoint> buffer(NearestSet::BufferSize(k));
-  NearestSet nearest(buffer, k);
+  std::vector<NearPoint> buffer(NearestSet<KeepAll>::BufferSize(k));
+  NearestSet nearest(std::span<NearPoint>(buffer), k, KeepAll());
   Real radius2 = kInfinity;
-  tree.Search(p, &radius2, [&](std::uint32_t i, Real d2) { nearest.Offer({d2, i}, &radius2); });
+  tree.SearchLeaves(p, &radius2, [&](const PointKdTree::Leaf& leaf, const Real* d2) {
+    nearest.OfferLeaf(leaf, d2, &radius2);
+  });
   const auto found = nearest.Finish();
   std::vector<NearPoint> sorted(found.begin(), found.end());
   std::sort(sorted.begin(), sorted.end());
@@ -53,8 +66,8 @@ std::vector<NearPoint> Search(const PointKdTree& tree, const Point3& p, int k) {
 
 TEST(PointKdTree, FindsTheSameNeighboursAsBruteForce) {
   RandomStream random(7);
-  for (Layout layout : {Layout::Random, Layout::Grid, Layout::Collinear, Layout::Coincident,
-                        Layout::Huge})
+  for (Layout layout :
+       {Layout::Random, Layout::Grid, Layout::Collinear, Layout::Coincident, Layout::Huge})
     for (int count : {0, 1, 2, 8, 9, 17, 100, 343}) {
       const auto points = MakePoints(layout, count, &random);
       const PointKdTree tree(points);
@@ -76,14 +89,34 @@ TEST(PointKdTree, FindsTheSameNeighboursAsBruteForce) {
     }
 }
 
+TEST(SelectNearest, PutsTheNearestFirstWhateverTheirDistances) {
+  RandomStream random(23);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::size_t count = 1 + std::size_t(random.Uniform() * 200);
+    const std::size_t k = 1 + std::size_t(random.Uniform() * Real(count - 1));
+    std::vector<NearPoint> points(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Real u = random.Uniform();
+      const Real values[] = {u, std::floor(u * 4), 0, std::pow(u, Real(30)) * Real(1e30)};
+      points[i] = {values[trial % 4], i};
+    }
+    std::shuffle(points.begin(), points.end(), std::minstd_rand(unsigned(trial)));
+    auto expected = points;
+    std::sort(expected.begin(), expected.end());
+    SelectNearest(points, k);
+    EXPECT_EQ(points[k - 1].index, expected[k - 1].index) << trial;
+    std::sort(points.begin(), points.begin() + std::ptrdiff_t(k));
+    for (std::size_t i = 0; i < k; ++i) ASSERT_EQ(points[i].index, expected[i].index) << trial;
+  }
+}
+
 TEST(PointKdTree, HoldsEveryPointOnce) {
   RandomStream random(11);
   const auto points = MakePoints(Layout::Random, 1000, &random);
   const PointKdTree tree(points);
   std::set<std::uint32_t> seen(tree.Order().begin(), tree.Order().end());
   EXPECT_EQ(seen.size(), points.size());
-  for (std::uint32_t i = 0; i < tree.Size(); ++i)
-    EXPECT_EQ(tree.Point(i), points[tree.Order()[i]]);
+  for (std::uint32_t i = 0; i < tree.Size(); ++i) EXPECT_EQ(tree.Point(i), points[tree.Order()[i]]);
 }
 
 TEST(PointKdTree, WithoutPointsOrWithANanQueryFindsNothing) {
