@@ -47,6 +47,10 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
         Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",
              100 * harvest.cutPower / harvest.emittedPower, " % of the emitted power"),
         {}, "raise \"maxphotondepth\", or lower reflectances that are (nearly) 1");
+  if (harvest.overgrownPaths > 0)
+    context.log.Warning(
+        Text(harvest.overgrownPaths, " photon paths were ended: their power grew without bound"), {},
+        "a surface reflects more light than it receives");
   if (harvest.droppedPhotons == 0) return;
   context.statistics.AddToCounter("photons/non-finite", double(harvest.droppedPhotons),
                                   "photons lost because their power was not finite");

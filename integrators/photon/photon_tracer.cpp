@@ -14,12 +14,17 @@
 
 namespace exphoton {
 
+// A photon that has grown by so much since its light has met surfaces that reflect more than they
+// receive, over and over; sums over maps with such photons would overflow. No roulette comes near.
+constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
+
 // What one piece of work leaves behind.
 struct PhotonTracer::Chunk {
   std::array<std::vector<Photon>, kPhotonKindCount> photons;
   std::array<std::vector<RadianceSeed>, kPhotonKindCount> seeds;  // by the map of their photon
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
+  std::int64_t overgrown = 0;
 };
 
 // One photon path: follows it to its end and stores into the chunk what `open` maps want.
@@ -64,6 +69,7 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
+    mostPower_ = alpha_.MaxComponent() * kMostGrowth;
     chunk_->emittedPower += double(alpha_.Y());
     *ray = RayDifferential(emission->ray);
     return alpha_.MaxComponent() > 0;
@@ -105,6 +111,10 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
+    if (alpha_.MaxComponent() > mostPower_) {
+      ++chunk_->overgrown;
+      return false;
+    }
     if (hits >= tracer_.settings_.maxPhotonDepth) {
       chunk_->cutPower += double(alpha_.Y());
       return false;
@@ -135,6 +145,7 @@ class PhotonTracer::Path {
   Real radianceFraction_;
   Chunk* chunk_;
   Spectrum alpha_;
+  Real mostPower_ = 0;
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
 
@@ -203,6 +214,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
       harvest.cutPower += chunk.cutPower;
       if (harvest.droppedPhotons == 0) harvest.firstDroppedPath = chunk.firstDropped;
       harvest.droppedPhotons += chunk.dropped;
+      harvest.overgrownPaths += chunk.overgrown;
     }
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
       if (!open[m]) continue;

@@ -32,6 +32,7 @@ struct PhotonHarvest {
   double cutPower = 0;              // of it, cut by the depth limit
   std::int64_t droppedPhotons = 0;  // whose power was not finite
   std::int64_t firstDroppedPath = -1;
+  std::int64_t overgrownPaths = 0;  // ended because surfaces kept multiplying their power
 
   PhotonHaul& operator[](PhotonKind kind) { return hauls[std::size_t(kind)]; }
   const PhotonHaul& operator[](PhotonKind kind) const { return hauls[std::size_t(kind)]; }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Runs a case's scenes and scripts and compares what came out with what the case asks for.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/imaging/image.h"
+#include "tests/hardcases/case_file.h"
+#include "tests/hardcases/process.h"
+
+namespace exphoton::hardcases {
+
+struct Verdict {
+  std::vector<std::string> seen;      // for the table, in few words
+  std::vector<std::string> failures;  // none: passed
+  double seconds = 0, megabytes = 0;  // together; the most of any process
+};
+
+struct Programs {
+  std::string folder;        // holds exphoton and test_*
+  double patience = 1;       // multiplies time and memory limits (sanitizers)
+  std::uint64_t seed = 1;    // first seed
+  bool isFull = false;       // slow runs too
+};
+
+class Judge {
+ public:
+  Judge(const Case& asked, const Programs& programs) : asked_(asked), programs_(programs) {}
+  Verdict Run();
+
+ private:
+  struct Pictures {
+    std::vector<Image> images;  // one a seed
+    Outcome last;
+  };
+
+  void RunScene(const hardcases::Run& run);
+  Outcome RunSeed(const hardcases::Run& run, int seed, Pictures* pictures);
+  void CheckFiles(const hardcases::Run& run, const Outcome& outcome, const Folder& folder,
+                  Pictures* pictures);
+  void CheckFailure(const hardcases::Run& run, const Outcome& outcome, const Folder& folder);
+  void CheckMessages(const hardcases::Run& run, const Outcome& outcome);
+  void CheckPictures(const hardcases::Run& run);
+  void RunScript(const Script& script);
+  void Count(const Outcome& outcome);
+  void Fail(const std::string& where, const std::string& what);
+  // Of an earlier run of the case, or null with a failure.
+  const Pictures* Of(const std::string& where, const std::string& name);
+
+  const Case& asked_;
+  const Programs& programs_;
+  std::map<std::string, Pictures> pictures_;
+  std::map<int, int> statuses_;  // how many runs ended with which
+  Verdict verdict_;
+};
+
+}  // namespace exphoton::hardcases
