@@ -41,6 +41,11 @@ class PhotonIntegrator final : public SurfaceIntegrator {
 
   LayerSet Layers() const override { return photons_.Layers(); }
 
+  std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
+                                        int count) const override {
+    return photons_.PhotonsNear(p, map, count);
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
       if (settings_.show != ShowMap::Nothing)

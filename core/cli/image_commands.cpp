@@ -13,6 +13,7 @@
 #include "core/cli/arguments.h"
 #include "core/cli/errors.h"
 #include "core/cli/output_files.h"
+#include "core/cli/photons_command.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
 #include "core/imaging/png.h"
@@ -93,7 +94,13 @@ bool EndsWith(const std::string& text, const std::string& end) {
 
 int RunInfo(const std::vector<std::string>& arguments) {
   return Guarded([&] {
-    CLI::App app("Prints windows, channels, attributes and ranges of pictures.", "exphoton info");
+    const auto isPhotons = [](const std::string& a) { return a.starts_with("--photons-at"); };
+    if (std::any_of(arguments.begin(), arguments.end(), isPhotons))
+      return PrintPhotonsAt(arguments);
+    CLI::App app(
+        "Prints windows, channels, attributes and ranges of pictures; with --photons-at x,y SCENE "
+        "the photons around what a pixel shows (see its --help).",
+        "exphoton info");
     std::vector<std::string> files;
     app.add_option("files", files, "EXR or PNG files")->required();
     ParseArguments(app, arguments);

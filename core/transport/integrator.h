@@ -59,6 +59,15 @@ struct LiContext {
   }
 };
 
+// A photon that an integrator has stored, for people to look at.
+struct StoredPhoton {
+  std::string map;    // "indirect"
+  Point3 p;
+  Vector3 wi;         // where it came from
+  Spectrum power;
+  Real distance = 0;  // from the point that was asked about
+};
+
 class SurfaceIntegrator {
  public:
   virtual ~SurfaceIntegrator() = default;
@@ -84,6 +93,14 @@ class SurfaceIntegrator {
   virtual LayerSet Layers() const { return {}; }
   // Radiance arriving along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
+
+  // The photons of a map ("direct", "caustic" or "indirect") nearest to a point, nearest first,
+  // after Preprocess. Empty where there are none.
+  virtual std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
+                                                int count) const {
+    (void)p, (void)map, (void)count;
+    return {};
+  }
 };
 
 }  // namespace exphoton

@@ -3,6 +3,7 @@
 #include "integrators/photon/photon_lighting.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrators/photon/gather_radiance.h"
 #include "integrators/photon/photon_report.h"
@@ -146,6 +147,23 @@ void PhotonLighting::Describe(const ShadingPoint& point, LiContext& context) con
   if (!context.layers || point.depth != 0) return;
   if (context.layers->wanted.Has(Layer::PhotonDensity))
     context.layers->photonDensity = maps_.PhotonDensity(point, &context.arena);
+}
+
+std::vector<StoredPhoton> PhotonLighting::PhotonsNear(const Point3& p, const std::string& map,
+                                                      int count) const {
+  std::vector<StoredPhoton> photons;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    const PhotonMap& stored = maps_.Map(kind);
+    if (map != PhotonKindName(kind) || stored.IsEmpty()) continue;
+    Arena arena;
+    const auto nearest = stored.Nearest(p, count, &arena);
+    std::vector<NearPoint> sorted(nearest.begin(), nearest.end());
+    std::sort(sorted.begin(), sorted.end());
+    for (const NearPoint& near : sorted)
+      photons.push_back({map, stored.Position(near.index), stored.Direction(near.index),
+                         stored.Alpha(near.index), std::sqrt(near.distance2)});
+  }
+  return photons;
 }
 
 }  // namespace exphoton

@@ -38,6 +38,8 @@ class PhotonLighting {
   LayerSet Layers() const;
   // Fills the density of photons at the camera's own surface, where that layer is wanted.
   void Describe(const ShadingPoint& point, LiContext& context) const;
+  // As SurfaceIntegrator::PhotonsNear.
+  std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map, int count) const;
 
  private:
   static constexpr std::uint64_t kGatherStream = 0x726164ull;

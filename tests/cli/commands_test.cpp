@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The commands that do not render: help, version, plugins, info, convert, compare.
+#include <algorithm>
 #include <limits>
 
 #include "core/imaging/exr.h"
@@ -27,6 +28,8 @@ TEST_F(CommandTest, PrintHelpAndVersionToStandardOutput) {
                                              {"info", "--help"},
                                              {"convert", "--help"},
                                              {"compare", "--help"},
+                                             {"study", "--help"},
+                                             {"report", "--help"},
                                              {"explain", "--help"}}) {
     const ProgramResult result = Run(arguments);
     EXPECT_EQ(result.status, 0);
@@ -53,6 +56,28 @@ TEST_F(CommandTest, ShowWhatAPictureHolds) {
     EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
   EXPECT_EQ(Run({"info", "none.exr"}).status, 3);
   EXPECT_EQ(Run({"info"}).status, 1);
+}
+
+TEST_F(CommandTest, ShowThePhotonsAroundWhatAPixelShows) {
+  Write("room.pbrt",
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 6\nCamera "
+        "\"perspective\"\nSurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 500\n"
+        "WorldBegin\nLightSource \"point\"\nMaterial \"matte\"\nReverseOrientation\n"
+        "Shape \"sphere\" \"float radius\" 3\nWorldEnd\n");
+  const ProgramResult result =
+      Run({"info", "--photons-at", "4,3", "room.pbrt", "--count", "20", "--plot", "plot.svg"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 22) << result.out;
+  EXPECT_EQ(result.out.substr(0, 8), "# point ");
+  const std::string plot = Read("plot.svg");
+  std::size_t dots = 0;
+  for (std::size_t at = 0; (at = plot.find("class=\"dot\"", at)) != std::string::npos; ++at) ++dots;
+  EXPECT_EQ(dots, 20u);
+  const ProgramResult none = Run({"info", "--photons-at=4,3", "room.pbrt", "--integrator", "path"});
+  EXPECT_EQ(none.status, 0);
+  EXPECT_NE(none.err.find("has no indirect photons"), std::string::npos) << none.err;
+  EXPECT_EQ(Run({"info", "--photons-at", "8,3", "room.pbrt"}).status, 1);
+  EXPECT_EQ(Run({"info", "--photons-at", "4", "room.pbrt"}).status, 1);
 }
 
 TEST_F(CommandTest, ConvertToPngAndBack) {

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Loads the scene, shoots its photons, follows one camera ray through the middle of a pixel and
+// asks the integrator what lies around the point it meets. A table, and a plot of directions on the
+// hemisphere over that point.
+#include "core/cli/photons_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/cli/arguments.h"
+#include "core/cli/output_files.h"
+#include "core/cli/signals.h"
+#include "core/cli/values.h"
+#include "core/parser/render_setup.h"
+#include "core/plugins/registry.h"
+#include "core/study/markup.h"
+
+namespace exphoton::cli {
+namespace {
+
+struct Options {
+  std::string scene, pixel, map = "indirect", plotFile, integrator;
+  std::vector<std::string> sets, pluginFolders;
+  int count = 50, threads = 0;
+  std::uint64_t seed = 0;
+};
+
+Options Parse(const std::vector<std::string>& arguments) {
+  Options options;
+  CLI::App app("Prints the photons nearest to what a pixel shows.", "exphoton info --photons-at");
+  app.add_option("--photons-at", options.pixel, "the pixel")->required()->type_name("x,y");
+  app.add_option("scene", options.scene, "the scene")->required();
+  app.add_option("--map", options.map, "indirect (default), direct or caustic")
+      ->check(CLI::IsMember({"indirect", "direct", "caustic"}));
+  app.add_option("--count", options.count, "so many photons (default 50)")
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--plot", options.plotFile, "also plot their directions to this file")
+      ->type_name("FILE.svg");
+  app.add_option("--integrator", options.integrator, "as in exphoton render");
+  app.add_option("--set", options.sets, "as in exphoton render")->allow_extra_args(false);
+  app.add_option("--seed", options.seed, "other photons");
+  app.add_option("--nthreads,--ncores", options.threads, "threads; 0: all cores")
+      ->check(CLI::Range(0, 4096));
+  app.add_option("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
+      ->allow_extra_args(false);
+  ParseArguments(app, arguments);
+  return options;
+}
+
+LoadOptions SceneOptions(const Options& options) {
+  LoadOptions load;
+  load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
+  load.stop = &StopFlag();
+  if (!options.integrator.empty()) load.integrator = options.integrator;
+  for (const std::string& set : options.sets) load.parameters.push_back(ParseOverride(set));
+  return load;
+}
+
+// A surface point with its frame: n towards the viewer, and two directions along the surface.
+struct Place {
+  Point3 p;
+  Normal3 n;
+  Vector3 s, t;
+
+  // Angle to the normal and about it, in degrees, and whether it is above the surface.
+  double Polar(const Vector3& w) const {
+    return std::acos(std::clamp(double(Dot(w, n)), -1., 1.)) * 180 / 3.14159265358979;
+  }
+  double Azimuth(const Vector3& w) const {
+    return std::atan2(double(Dot(w, t)), double(Dot(w, s))) * 180 / 3.14159265358979;
+  }
+};
+
+Place FindPlace(const RenderSetup& setup, const PixelBounds& pixel) {
+  if (pixel.x1 > setup.film.xResolution || pixel.y1 > setup.film.yResolution)
+    FailUsage("--photons-at lies outside the picture");
+  CameraSample sample;
+  sample.film = {Real(pixel.x0) + Real(.5), Real(pixel.y0) + Real(.5)};
+  sample.lens = {Real(.5), Real(.5)};
+  const RayDifferential ray = setup.camera->GenerateRay(sample, false);
+  const auto hit = setup.scene->Intersect(ray);
+  if (!hit) FailUsage("nothing is seen at this pixel");
+  Place place{hit->p, FaceForward(hit->ng, -ray.d), {}, {}};
+  // s along the world's x axis, or its z axis where the surface faces x.
+  const Vector3 n(place.n);
+  const Vector3 axis = std::abs(n.x) < Real(.9) ? Vector3(1, 0, 0) : Vector3(0, 0, 1);
+  place.s = Normalize(axis - n * Dot(axis, n));
+  place.t = Cross(n, place.s);
+  return place;
+}
+
+std::string TableText(const Place& place, const std::vector<StoredPhoton>& photons) {
+  char line[256];
+  std::snprintf(line, sizeof line, "# point %.6g %.6g %.6g, normal %.4f %.4f %.4f\n",
+                double(place.p.x), double(place.p.y), double(place.p.z), double(place.n.x),
+                double(place.n.y), double(place.n.z));
+  std::string text = line;
+  text +=
+      "# distance; direction to where it came from: x y z, degrees from the normal, degrees about "
+      "it; power R G B\n";
+  for (const StoredPhoton& photon : photons) {
+    std::snprintf(line, sizeof line, "%-12.6g %8.4f %8.4f %8.4f %7.2f %8.2f  %.5g %.5g %.5g\n",
+                  double(photon.distance), double(photon.wi.x), double(photon.wi.y),
+                  double(photon.wi.z), place.Polar(photon.wi), place.Azimuth(photon.wi),
+                  double(photon.power[0]), double(photon.power[1]), double(photon.power[2]));
+    text += line;
+  }
+  return text;
+}
+
+// Directions on the unit disk, where areas are solid angles (Lambert's projection); a photon's area
+// is its power.
+std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photons) {
+  using study::Coordinate;
+  constexpr double kSize = 360, kRadius = 150, kDegree = 3.14159265358979 / 180;
+  const auto radius = [](double polar) {
+    return kRadius * std::sqrt(2.) * std::sin(polar * kDegree / 2);
+  };
+  std::string text =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + Coordinate(kSize) + " " +
+      Coordinate(kSize) +
+      "\" width=\"360\" height=\"360\"><style>text{font:11px sans-serif;fill:#777}"
+      "circle.ring{fill:none;stroke:#9a9a9a;stroke-width:.7}"
+      "circle.dot{fill:#0b5fa5;fill-opacity:.55;stroke:#0b5fa5}"
+      "@media (prefers-color-scheme:dark){circle.dot{fill:#7cc0ff;stroke:#7cc0ff}}</style>\n";
+  for (const double polar : {30., 60., 90.}) {
+    const double r = radius(polar);
+    text += "<circle class=\"ring\" cx=\"180\" cy=\"180\" r=\"" + Coordinate(r) + "\"/>";
+    text += study::SvgText({180, 180 - r - 3}, Coordinate(polar) + "°", "middle") + "\n";
+  }
+  double mean = 0;
+  for (const StoredPhoton& photon : photons)
+    mean += double(photon.power.Y()) / double(photons.size());
+  for (const StoredPhoton& photon : photons) {
+    const double r = radius(place.Polar(photon.wi)), angle = place.Azimuth(photon.wi) * kDegree;
+    const double size = 4 * std::sqrt(std::max(0., double(photon.power.Y()) / mean));
+    text += "<circle class=\"dot\" cx=\"" + Coordinate(180 + r * std::cos(angle)) + "\" cy=\"" +
+            Coordinate(180 - r * std::sin(angle)) + "\" r=\"" + Coordinate(size) + "\"/>\n";
+  }
+  return text + "</svg>\n";
+}
+
+}  // namespace
+
+void PrintPhotonsAt(const std::vector<std::string>& arguments) {
+  const Options options = Parse(arguments);
+  const PixelBounds pixel = ParsePixel(options.pixel);
+  Log log(Log::Level::Quiet);
+  FileSource source;
+  const auto setups = LoadScenes(source, options.scene, SceneOptions(options), log);
+  const RenderSetup& setup = *setups.front();
+  const Place place = FindPlace(setup, pixel);
+  ThreadPool threads(options.threads);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  SampleLayout layout;
+  setup.integrator->RequestSamples(*setup.scene, *setup.sampler, &layout);
+  PreprocessContext context{threads, options.seed, log, progress, statistics};
+  setup.integrator->Preprocess(*setup.scene, context);
+  const auto photons = setup.integrator->PhotonsNear(place.p, options.map, options.count);
+  if (photons.empty())
+    log.Warning("integrator \"" + setup.integratorName + "\" has no " + options.map +
+                " photons in this scene");
+  PrintOut(TableText(place, photons));
+  if (!options.plotFile.empty())
+    WriteTextFile(ResolveOutput(options.plotFile), PlotText(place, photons));
+}
+
+}  // namespace exphoton::cli
