@@ -10,6 +10,8 @@
 
 #include "core/base/log.h"
 #include "core/imaging/exr.h"
+#include "core/imaging/metrics.h"
+#include "core/imaging/png.h"
 #include "tests/support/equivalence.h"
 
 namespace exphoton {
@@ -94,17 +96,14 @@ Image MeanOf(const std::vector<Image>& pictures) {
 }  // namespace
 
 Reference LoadReference(const std::string& name) {
-  const Image a = ReadExr(kReferenceFolder + name + "-a.exr");
-  const Image b = ReadExr(kReferenceFolder + name + "-b.exr");
-  if (a.channels != b.channels || a.data != b.data)
-    throw std::runtime_error("the halves of reference " + name + " do not match");
-  Reference reference{MeanOf({a, b}), {}, {}};
+  const study::Reference measured = study::MakeReference(
+      ReadExr(kReferenceFolder + name + "-a.exr"), ReadExr(kReferenceFolder + name + "-b.exr"));
+  Reference reference{measured.mean, {}, {}, measured};
   reference.counts = FindCounting(reference.image);
-  for (int y = 0; y < a.Height(); ++y) {
-    for (int x = 0; x < a.Width(); ++x) {
-      const double half = (Grey(a, x, y) - Grey(b, x, y)) / 2;
-      reference.variance.push_back(half * half);
-    }
+  const std::vector<float>& half = measured.halfDifference;
+  for (std::size_t i = 0; i < half.size(); i += 3) {
+    const double grey = (double(half[i]) + double(half[i + 1]) + double(half[i + 2])) / 3;
+    reference.variance.push_back(grey * grey);
   }
   return reference;
 }
@@ -176,11 +175,10 @@ double LargestFirefly(const Reference& reference, const std::vector<Image>& pict
 
 long long CountNonFinite(const std::vector<Image>& pictures) {
   long long count = 0;
-  for (const Image& picture : pictures)
-    for (int y = 0; y < picture.Height(); ++y)
-      for (int x = 0; x < picture.Width(); ++x)
-        for (int c = 0; c < 3; ++c)
-          count += !(std::isfinite(picture.At(x, y, c)) && picture.At(x, y, c) >= 0);
+  for (const Image& picture : pictures) {
+    count += CompareImages(picture, picture).nonFinitePixels;
+    for (const float value : picture.pixels) count += value < 0;
+  }
   return count;
 }
 
@@ -192,17 +190,10 @@ std::string WriteFailure(const std::string& name, const Reference& reference,
   std::filesystem::create_directories(folder);
   const std::string base = (folder / file).string();
   const Image mean = MeanOf(pictures);
-  Image difference(mean.Width(), mean.Height(), {"R", "G", "B"});
-  for (int y = 0; y < mean.Height(); ++y)
-    for (int x = 0; x < mean.Width(); ++x)
-      for (int c = 0; c < 3; ++c) {
-        const int from = reference.image.FindChannel(difference.channels[std::size_t(c)]);
-        const int to = mean.FindChannel(difference.channels[std::size_t(c)]);
-        difference.At(x, y, c) = mean.At(x, y, to) - reference.image.At(x, y, from);
-      }
   WriteExr(base + ".exr", mean, false);
   WriteExr(base + "-reference.exr", reference.image, false);
-  WriteExr(base + "-difference.exr", difference, false);
+  WriteExr(base + "-difference.exr", DifferenceImage(reference.image, mean), false);
+  WritePng(base + "-difference.png", SignedErrorImage(reference.image, mean, .5));
   return base + ".exr";
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/imaging/image.h"
+#include "core/study/separation.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
@@ -22,6 +23,7 @@ struct Reference {
   Image image;
   std::vector<double> variance;  // ((a - b) / 2)^2
   std::vector<bool> counts;
+  study::Reference measured;  // the same for relMSE, noise and bias
 };
 Reference LoadReference(const std::string& name);
 
@@ -45,9 +47,10 @@ std::vector<PixelBounds> Blocks(const Image& image);  // 4 x 3, row by row
 // its eight neighbours plus a tenth of the picture's mean (so that black may be grey).
 double LargestFirefly(const Reference& reference, const std::vector<Image>& pictures);
 
-long long CountNonFinite(const std::vector<Image>& pictures);  // pixels; negative ones too
+// Pixels, and negative values.
+long long CountNonFinite(const std::vector<Image>& pictures);
 
-// Writes the pictures' mean, the reference and the signed difference to failed-images/NAME*.exr in
+// Writes the pictures' mean, the reference and the differences (of exphoton compare) to failed-images/NAME* in
 // the working directory; returns the path of the first.
 std::string WriteFailure(const std::string& name, const Reference& reference,
                          const std::vector<Image>& pictures);

@@ -117,6 +117,10 @@ TEST_P(Picture, AgreesWithPathTracing) {
   std::printf("%s: error %+.2f %% +- %.2f %%, worst block %.2f %%, brightest pixel %.1f x\n",
               picture.Path().c_str(), 100 * (whole.mean / whole.truth - 1),
               100 * whole.halfWidth / whole.truth, 100 * worst, firefly);
+  const study::Separation separation = study::Separate(pictures, reference.measured);
+  std::printf("relMSE %.3g: noise %.3g, bias^2 %.2g +- %.2g, of the reference %.2g\n",
+              separation.relMse.value, separation.variance.value, separation.bias2.value,
+              separation.bias2.error, reference.measured.variance.value);
   if (HasFailure())
     std::printf("see %s\n", WriteFailure(picture.Path(), reference, pictures).c_str());
 }
