@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light "point": the same intensity in every direction from one point. Closer to a surface than
-// 2^-20 of the world's radius it acts as from that distance, so that a light on a surface stays
-// finite; the radius scales with the scene, so this is no absolute length.
+// Light "point": the same intensity in every direction from one point. Very near to a surface it
+// acts as from a least distance (core/lights/least_distance.h), so that one on a surface stays
+// finite.
+#include "core/lights/least_distance.h"
 #include "core/math/sampling.h"
 #include "core/plugin.h"
 
@@ -27,9 +28,7 @@ class PointLight final : public Light {
   PointLight(const Point3& position, const Spectrum& intensity)
       : position_(position), intensity_(intensity) {}
 
-  void Prepare(const Sphere3& world) override {
-    minDistance2_ = Square(world.radius * Real(0x1p-20));
-  }
+  void Prepare(const Sphere3& world) override { leastDistance_ = LeastDistance(world); }
   bool IsDelta() const override { return true; }
   bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
   Spectrum Power() const override { return intensity_ * (4 * kPi); }
@@ -37,7 +36,8 @@ class PointLight final : public Light {
   std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
     const Vector3 toLight = position_ - ref.p;
     const Vector3 wi = NormalizeOr(toLight, {});
-    const Real distance2 = std::max(LengthSquared(toLight), minDistance2_);
+    const Real distance2 =
+        std::max(LengthSquared(toLight), leastDistance_.Squared(ref.p, position_));
     if (wi == Vector3{} || !(distance2 > 0)) return std::nullopt;
     return DirectSample{wi, intensity_ / distance2, 1, SpawnRayTo(ref, {position_, {}, {}})};
   }
@@ -56,7 +56,7 @@ class PointLight final : public Light {
  private:
   Point3 position_;
   Spectrum intensity_;
-  Real minDistance2_ = 0;
+  LeastDistance leastDistance_;
 };
 
 std::unique_ptr<Light> Create(const Settings& settings, const LightContext& context) {

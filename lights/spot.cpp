@@ -2,6 +2,7 @@
 // Light "spot": a point light confined to a cone. Full intensity within coneangle - conedeltaangle
 // of the axis, then a quartic fall to 0 at coneangle. All angles are compared by 1 - cos, which
 // keeps narrow cones exact; photons leave in proportion to the falloff, so all weigh the same.
+#include "core/lights/least_distance.h"
 #include "core/math/sampling.h"
 #include "core/plugin.h"
 
@@ -51,9 +52,7 @@ class SpotLight final : public Light {
         rim_(Real(2 * std::sin((totalAngle + innerAngle) / 2) *
                   std::sin((totalAngle - innerAngle) / 2))) {}
 
-  void Prepare(const Sphere3& world) override {
-    minDistance2_ = Square(world.radius * Real(0x1p-20));
-  }
+  void Prepare(const Sphere3& world) override { leastDistance_ = LeastDistance(world); }
   bool IsDelta() const override { return true; }
   bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
   // 2 pi I [(1 - cos inner) + (cos inner - cos total) / 5]: the integral of the falloff.
@@ -62,8 +61,8 @@ class SpotLight final : public Light {
   std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
     const Vector3 toLight = position_ - ref.p;
     const Vector3 wi = NormalizeOr(toLight, {});
-    // As the point light: never nearer than 2^-20 of the world's radius.
-    const Real distance2 = std::max(LengthSquared(toLight), minDistance2_);
+    const Real distance2 =
+        std::max(LengthSquared(toLight), leastDistance_.Squared(ref.p, position_));
     if (wi == Vector3{} || !(distance2 > 0)) return std::nullopt;
     const Real falloff = Falloff(-wi);
     if (falloff == 0) return std::nullopt;
@@ -113,7 +112,7 @@ class SpotLight final : public Light {
   Spectrum intensity_;
   Real inner_;  // 1 - cos(inner angle)
   Real rim_;    // cos(inner angle) - cos(total angle)
-  Real minDistance2_ = 0;
+  LeastDistance leastDistance_;
 };
 
 std::unique_ptr<Light> Create(const Settings& settings, const LightContext& context) {

@@ -193,10 +193,9 @@ class Reader {
     } else if (keyword == "memory") {
       run.memoryLimit = Number(Word(words, 1));
     } else {
-      static const std::set<std::string> known{"says",   "silent", "warnings", "mean",
-                                               "region", "same",   "scaled",   "near",
-                                               "equals", "spread", "atleast",  "atmost",
-                                               "permuted", "ratio"};
+      static const std::set<std::string> known{"says",    "silent", "warnings", "mean",   "region",
+                                               "same",    "scaled", "near",     "equals", "spread",
+                                               "atleast", "atmost", "permuted", "ratio"};
       if (!known.contains(keyword)) Fail("unknown word \"" + keyword + "\"");
       const bool isText = keyword == "says" || keyword == "silent";
       run.checks.push_back(

@@ -26,9 +26,9 @@ struct Run {
   int status = 0;
   int seeds = 1;  // independent pictures; 8 where a mean is asked for
   bool isStrict = true;
-  bool isSlow = false;         // of a case that is not
-  double timeLimit = 60;       // seconds
-  double memoryLimit = 1000;   // megabytes
+  bool isSlow = false;        // of a case that is not
+  double timeLimit = 60;      // seconds
+  double memoryLimit = 1000;  // megabytes
   std::vector<Check> checks;
 };
 

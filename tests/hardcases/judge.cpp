@@ -83,8 +83,13 @@ Outcome Judge::RunSeed(const hardcases::Run& run, int seed, Pictures* pictures) 
   command.folder = folder.Path();
   command.timeLimit = run.timeLimit * programs_.patience;
   command.environment = run.environment;
-  command.words = {programs_.folder + "/exphoton", "--float", "--no-progress", "-o", "out.exr",
-                   "--seed", std::to_string(programs_.seed + 1000 * std::uint64_t(seed))};
+  command.words = {programs_.folder + "/exphoton",
+                   "--float",
+                   "--no-progress",
+                   "-o",
+                   "out.exr",
+                   "--seed",
+                   std::to_string(programs_.seed + 1000 * std::uint64_t(seed))};
   if (std::find(run.arguments.begin(), run.arguments.end(), "--nthreads") == run.arguments.end())
     command.words.insert(command.words.end(), {"--nthreads", "1"});
   if (run.isStrict) command.words.push_back("--strict");
@@ -123,8 +128,7 @@ void Judge::CheckFiles(const hardcases::Run& run, const Outcome& outcome, const 
   }
 }
 
-void Judge::CheckFailure(const hardcases::Run& run, const Outcome& outcome,
-                         const Folder& folder) {
+void Judge::CheckFailure(const hardcases::Run& run, const Outcome& outcome, const Folder& folder) {
   if (ReadFile(folder.File("out.exr")) != kOlder) Fail(run.name, "the older picture is gone");
   static const std::regex place("(^|\n)[^\n]*scene.pbrt:[0-9]+:[0-9]+: error: ");
   const bool hasError = run.status == 2 ? std::regex_search(outcome.err, place)

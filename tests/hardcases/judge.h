@@ -19,10 +19,10 @@ struct Verdict {
 };
 
 struct Programs {
-  std::string folder;        // holds exphoton and test_*
-  double patience = 1;       // multiplies time and memory limits (sanitizers)
-  std::uint64_t seed = 1;    // first seed
-  bool isFull = false;       // slow runs too
+  std::string folder;      // holds exphoton and test_*
+  double patience = 1;     // multiplies time and memory limits (sanitizers)
+  std::uint64_t seed = 1;  // first seed
+  bool isFull = false;     // slow runs too
 };
 
 class Judge {

@@ -61,11 +61,11 @@ void NamedTests::Run(int jobs) {
   const auto work = [&] {
     for (std::size_t i; (i = next++) < list.size();) {
       const Folder folder;
-      const Outcome outcome = Execute({{folder_ + "/test_" + list[i].first,
-                                        "--gtest_filter=" + list[i].second},
-                                       {},
-                                       folder.Path(),
-                                       600});
+      const Outcome outcome =
+          Execute({{folder_ + "/test_" + list[i].first, "--gtest_filter=" + list[i].second},
+                   {},
+                   folder.Path(),
+                   600});
       const std::lock_guard guard(lock);
       if (outcome.status == 0) passed_.insert(list[i].first + ":" + list[i].second);
     }

@@ -10,10 +10,14 @@ namespace {
 
 const char* WordFor(State state) {
   switch (state) {
-    case State::Passed: return "pass";
-    case State::Failed: return "FAIL";
-    case State::Open: return "open";
-    case State::LeftOut: return "-";
+    case State::Passed:
+      return "pass";
+    case State::Failed:
+      return "FAIL";
+    case State::Open:
+      return "open";
+    case State::LeftOut:
+      return "-";
   }
   return "";
 }

@@ -76,6 +76,18 @@ TEST(PointLight, OnASurfaceStaysFinite) {
   EXPECT_TRUE(near->Li.IsFinite());
 }
 
+TEST(PointLight, KeepsItsLightInAHugeWorld) {
+  TestPlugins plugins;
+  for (const char* text : {R"("point" "point from" [1 2 3])",
+                           R"("spot" "point from" [1 2 3] "point to" [1 2 2])"}) {
+    const auto light = plugins.MakeLight(text);
+    light->Prepare({{0, 0, 0}, Real(1e12)});
+    const auto sample = Direct(*light, {1, 2, Real(2.5)});
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->Li, Spectrum(4));
+  }
+}
+
 TEST(SpotLight, FallsOffByTheFourthPowerBetweenItsCones) {
   TestPlugins plugins;
   const auto light = plugins.MakeLight(
