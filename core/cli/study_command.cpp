@@ -90,12 +90,22 @@ void WriteResults(const std::string& folder, study::Results* results) {
   PrintOut(analysis.headline + "\n" + folder + "/report.html\n");
 }
 
+std::string PlanText(const StudyOptions& options, const std::vector<study::Setting>& settings) {
+  std::string text = std::to_string(settings.size()) + " settings, " +
+                     std::to_string(options.seeds) + " seeds each\n";
+  for (const study::Setting& setting : settings)
+    text += setting.label + ": " +
+            CommandText(RenderArguments(options, options.scene, setting, 1)) + "\n";
+  return text;
+}
+
 void Study(const std::vector<std::string>& arguments, const std::string& commandLine) {
   StudyOptions options = ParseStudyOptions(arguments);
   options.commandLine = commandLine;
   const SceneFacts scene = ExamineScene(options.scene, options);
   study::Results results = Describe(options, scene, ExamineProgram(options));
   results.settings = PlanSettings(options);
+  if (options.onlyPlans) return PrintOut(PlanText(options, results.settings));
   MakeFolder(options.folder + "/images");
   RemoveLeftovers(options.folder);
   StudyRunner runner(options, scene, ExamineProgram(options));

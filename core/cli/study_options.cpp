@@ -116,6 +116,7 @@ void AddRender(CLI::App& app, StudyOptions& options, RawOptions& raw) {
       ->allow_extra_args(false);
   app.add_flag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
   app.add_flag("--quiet", options.isQuiet, "no progress");
+  app.add_flag("--plan", options.onlyPlans, "print what would be rendered, and render nothing");
 }
 
 void TakeResolution(const std::string& text, StudyOptions* options) {
@@ -166,7 +167,7 @@ void TakePlan(const RawOptions& raw, StudyOptions* options) {
 
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
-  if (options.folder.empty()) FailUsage("exphoton study needs --out FOLDER");
+  if (options.folder.empty() && !options.onlyPlans) FailUsage("exphoton study needs --out FOLDER");
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");

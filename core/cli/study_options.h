@@ -27,6 +27,7 @@ struct StudyOptions {
   std::vector<double> targets{.1, .03, .01, .003};
   bool makesMaps = true;
   bool isQuiet = false;
+  bool onlyPlans = false;  // print the renders instead of doing them
   std::string commandLine;
 };
 

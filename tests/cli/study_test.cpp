@@ -205,6 +205,22 @@ TEST_F(StudyTest, ReadsStudyFilesWithPathsOfTheirOwnFolder) {
   EXPECT_EQ(results.settings[0].label, "one bounce");
 }
 
+TEST_F(StudyTest, ThatComeWithTheScenesAreValid) {
+  const std::string folder = std::string(EXPHOTON_SOURCE_DIR) + "/scenes/skylight-room/";
+  const ProgramResult accuracy = Run({"study", folder + "accuracy.study", "--plan"});
+  ASSERT_EQ(accuracy.status, 0) << accuracy.err;
+  for (const char* integrator : {"exphotonmap", "photonmap", "path", "directlighting"}) {
+    int settings = 0;
+    const std::string start = "\n" + std::string(integrator) + ": exphoton render";
+    for (std::size_t at = 0; (at = accuracy.out.find(start, at)) != std::string::npos; ++at)
+      ++settings;
+    EXPECT_GE(settings, 4) << accuracy.out;
+  }
+  const ProgramResult ablation = Run({"study", folder + "ablation.study", "--plan"});
+  EXPECT_EQ(ablation.out.substr(0, 27), "13 settings, 4 seeds each\np") << ablation.err;
+  EXPECT_EQ(Files(), (std::vector<std::string>{"box.pbrt"}));
+}
+
 TEST_F(StudyTest, SaysWhatIsWrong) {
   EXPECT_EQ(Run({"study"}).status, 1);
   EXPECT_EQ(Run({"study", "box.pbrt"}).status, 1);
