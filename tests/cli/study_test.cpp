@@ -216,6 +216,7 @@ TEST_F(StudyTest, ThatComeWithTheScenesAreValid) {
       ++settings;
     EXPECT_GE(settings, 4) << accuracy.out;
   }
+  EXPECT_EQ(Run({"study", folder + "maps.study", "--plan"}).status, 0);
   const ProgramResult ablation = Run({"study", folder + "ablation.study", "--plan"});
   EXPECT_EQ(ablation.out.substr(0, 27), "13 settings, 4 seeds each\np") << ablation.err;
   EXPECT_EQ(Files(), (std::vector<std::string>{"box.pbrt"}));
