@@ -49,46 +49,58 @@ struct PathState {
       true;  // whether only this ray can find emission: the camera's or a delta lobe's
 };
 
-// Which light layer a path's contributions belong to: by its first bounce, and by whether all later
-// ones were specular.
-class PathLayers {
+// What kind of light a path carries, by its bounces so far: which light layer its contributions
+// belong to, and which of them the plan of effects leaves out. Indirect light has scattered twice
+// by non-specular lobes, a caustic has gone from the last of them to the light over specular ones.
+class PathHistory {
  public:
-  explicit PathLayers(LayerSample* layers) : layers_(layers) {}
+  PathHistory(const EffectPlan& effects, LayerSample* layers)
+      : hasIndirect_(effects.Needs(Effect::Indirect)),
+        hasCaustics_(effects.Needs(Effect::Caustics)),
+        layers_(layers) {}
 
-  void Emission(int depth, const Spectrum& radiance) const {
+  void Bounce(bool isSpecular) {
+    isLastSpecular_ = isSpecular;
+    if (bounces_++ == 0) isFirstSpecular_ = isSpecular;
+    if (!isSpecular) ++scatterings_;
+  }
+  // Whether emission at the end of the path counts.
+  bool TakesEmission() const { return scatterings_ == 0 || !isLastSpecular_ || hasCaustics_; }
+  // Whether light that is sampled at the path's end, by non-specular lobes, counts.
+  bool TakesDirect() const { return scatterings_ == 0 || hasIndirect_; }
+  // By which lobes the path may go on.
+  LobeSet Lobes(LobeSet all) const {
+    return scatterings_ == 0 || hasIndirect_ ? all : all & LobeSet::Specular;
+  }
+
+  void AddEmission(const Spectrum& radiance) const {
     if (!layers_) return;
-    if (depth == 0) {
+    if (bounces_ == 0) {
       layers_->emission += radiance;
     } else if (isFirstSpecular_) {
       layers_->specular += radiance;
-    } else if (depth == 1) {
+    } else if (bounces_ == 1) {
       layers_->direct += radiance;
-    } else if (isRestSpecular_) {
+    } else if (scatterings_ == 1) {
       layers_->caustic += radiance;
     } else {
       layers_->indirect += radiance;
     }
   }
-  // Of a light sample at the vertex of this depth.
-  void Direct(int depth, const Spectrum& radiance) const {
+  void AddDirect(const Spectrum& radiance) const {
     if (!layers_) return;
-    if (depth == 0) {
+    if (bounces_ == 0) {
       layers_->direct += radiance;
     } else {
       (isFirstSpecular_ ? layers_->specular : layers_->indirect) += radiance;
     }
   }
-  void Bounce(int depth, bool isSpecular) {
-    if (depth == 0) {
-      isFirstSpecular_ = isSpecular;
-    } else {
-      isRestSpecular_ &= isSpecular;
-    }
-  }
 
  private:
-  LayerSample* layers_;  // null: no layer was asked for
-  bool isFirstSpecular_ = false, isRestSpecular_ = true;
+  bool hasIndirect_, hasCaustics_;
+  LayerSample* layers_;                // null: no layer was asked for
+  int bounces_ = 0, scatterings_ = 0;  // the latter by non-specular lobes
+  bool isFirstSpecular_ = false, isLastSpecular_ = false;
 };
 
 class PathIntegrator final : public SurfaceIntegrator {
@@ -115,13 +127,16 @@ class PathIntegrator final : public SurfaceIntegrator {
     PathState path;
     path.ray = ray;
     Spectrum sum;
-    PathLayers layers(context.layers);
+    PathHistory history(context.scene.Effects(), context.layers);
+    const LobeSet lobes = Lobes(context.scene);
     RandomStream random = context.Stream(kPathStream);
     for (int depth = 0;; ++depth) {
       const auto hit = context.Intersect(path.ray, KindOf(path, depth));
-      const Spectrum emission = path.beta * Emission(path, hit ? &*hit : nullptr, context.scene);
-      sum += emission;
-      layers.Emission(depth, emission);
+      if (history.TakesEmission()) {
+        const Spectrum emission = path.beta * Emission(path, hit ? &*hit : nullptr, context.scene);
+        sum += emission;
+        history.AddEmission(emission);
+      }
       if (!hit) {
         if (depth == 0) context.alpha = sum.IsBlack() ? 0 : 1;
         break;
@@ -132,11 +147,13 @@ class PathIntegrator final : public SurfaceIntegrator {
       const ShadingPoint point =
           MakeShadingPoint(*hit, path.ray, depth, TransportMode::Radiance, &context.arena);
       const VertexSample sample = MakeVertexSample(depth, context, &random);
-      const Spectrum direct = path.beta * DirectLight(point, sample, context);
-      sum += direct;
-      layers.Direct(depth, direct);
-      const bool goesOn = Continue(point, sample, Lobes(context.scene), &path);
-      layers.Bounce(depth, path.isSpecular);
+      if (history.TakesDirect()) {
+        const Spectrum direct = path.beta * DirectLight(point, sample, context);
+        sum += direct;
+        history.AddDirect(direct);
+      }
+      const bool goesOn = Continue(point, sample, history.Lobes(lobes), &path);
+      history.Bounce(path.isSpecular);
       context.arena.Rewind(mark);
       if (!goesOn) break;
     }

@@ -17,6 +17,13 @@ Scene::Scene(SceneParts parts)
 
 Scene::~Scene() = default;
 
+void Scene::SetEffects(EffectPlan plan) {
+  effects_ = std::move(plan);
+  if (effects_.Needs(Effect::Environment)) return;
+  std::erase_if(parts_.lights, [](const auto& light) { return light->IsInfinite(); });
+  infiniteLights_.clear();
+}
+
 std::optional<SurfaceInteraction> Scene::Intersect(const RayDifferential& ray) const {
   const Hit hit = aggregate_->Intersect(ray);
   if (!hit.IsHit()) return std::nullopt;

@@ -56,7 +56,8 @@ class Scene {
   const Aggregate& Accelerator() const { return *aggregate_; }
 
   const EffectPlan& Effects() const { return effects_; }
-  void SetEffects(EffectPlan plan) { effects_ = std::move(plan); }
+  // Before anything refers to lights: without Effect::Environment infinite lights are taken out.
+  void SetEffects(EffectPlan plan);
 
   int MediaCount() const { return parts_.mediaCount; }
 

@@ -13,11 +13,12 @@ FinalGather::FinalGather(const PhotonSettings& settings)
   bsdfCount_ = settings.finalGatherSamples - photonCount_;
 }
 
-void FinalGather::RequestSamples(SampleLayout* layout) {
-  bsdfDirections_ = layout->Request2D(bsdfCount_);
-  bsdfLobes_ = layout->Request1D(bsdfCount_);
-  photonDirections_ = layout->Request2D(photonCount_);
-  photonAxes_ = layout->Request1D(photonCount_);
+void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
+  const int bsdf = gathers ? bsdfCount_ : 0, photons = gathers ? photonCount_ : 0;
+  bsdfDirections_ = layout->Request2D(bsdf);
+  bsdfLobes_ = layout->Request1D(bsdf);
+  photonDirections_ = layout->Request2D(photons);
+  photonAxes_ = layout->Request1D(photons);
 }
 
 ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const PhotonMap& guide,

@@ -19,7 +19,8 @@ class FinalGather {
   FinalGather() = default;
   explicit FinalGather(const PhotonSettings& settings);
 
-  void RequestSamples(SampleLayout* layout);
+  // Where nothing will be gathered the requests are empty, and leave those of others as they are.
+  void RequestSamples(bool gathers, SampleLayout* layout);
 
   // Integral over the non-specular lobes of f * incident * |cos|. `incident` is called as
   // Spectrum(const Ray&) for rays with 0 < t < infinity.

@@ -31,12 +31,14 @@ std::optional<SpecularChoice> FollowSpecular(const ShadingPoint& point, RandomSt
 
 Spectrum GatherRadiance::Along(RayDifferential ray, LiContext& context, RandomStream* random,
                                int shortBounces) const {
+  const bool followsSpecular = context.scene.Effects().Needs(Effect::Specular);
   Spectrum sum, throughput(1);
   for (int depth = 0;; ++depth) {
     const auto hit = context.IntersectPoint(ray, RayKind::Gather);
     if (!hit || !hit->material) return sum;
     sum += throughput * NonSpecular(*hit, ray, context, random, shortBounces);
-    if (!Intersects(hit->material->PossibleLobes(), LobeSet::Specular)) return sum;
+    if (!followsSpecular || !Intersects(hit->material->PossibleLobes(), LobeSet::Specular))
+      return sum;
     const Arena::Mark mark = context.arena.GetMark();
     const ShadingPoint point = Shade(*hit, ray, context);
     if (depth == settings_.maxDepth) {
@@ -93,7 +95,9 @@ Spectrum GatherRadiance::Reflected(const Scene::HitPoint& hit, const RayDifferen
   const Arena::Mark mark = context.arena.GetMark();
   const ShadingPoint point = Shade(hit, ray, context);
   Spectrum radiance = point.bsdf.Rho(LobeSet::NonSpecularReflection) * front.value * kInvPi;
-  const Spectrum transmittance = point.bsdf.Rho(LobeSet::NonSpecularTransmission);
+  const Spectrum transmittance = context.scene.Effects().Needs(Effect::Transmission)
+                                     ? point.bsdf.Rho(LobeSet::NonSpecularTransmission)
+                                     : Spectrum();
   if (!transmittance.IsBlack()) {
     const Normal3 back = -FaceForward(hit.point.ng, -ray.d);
     const RadianceMap::Entry* entry = radianceMap_->Find(hit.point.p, back);

@@ -33,7 +33,9 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   const bool gathers = Gathers(scene), showsRadiance = show == ShowMap::Radiance;
   const bool hasIndirect = scene.Effects().Needs(Effect::Indirect);
   PhotonTargets targets;
-  if (scene.Effects().Needs(Effect::Caustics) && (showsAll || show == ShowMap::Caustic))
+  const bool hasCaustics =
+      scene.Effects().Needs(Effect::Caustics) && scene.Effects().Needs(Effect::Specular);
+  if (hasCaustics && (showsAll || show == ShowMap::Caustic))
     targets[PhotonKind::Caustic] = settings_.causticPhotons;
   if (hasIndirect && (showsAll || show == ShowMap::Indirect))
     targets[PhotonKind::Indirect] = settings_.indirectPhotons;
@@ -63,14 +65,16 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
   }
   if (targets.radianceFraction > 0) {
     const PhaseTimer timer(context.statistics, "radiance");
-    radianceMap_ = std::make_unique<RadianceMap>(harvest.seeds, maps_, settings_, context);
+    radianceMap_ = std::make_unique<RadianceMap>(
+        harvest.seeds, maps_, settings_, scene.Effects().Needs(Effect::Transmission), context);
   }
   ReportMaps(maps_, radianceMap_.get(), settings_, context);
 }
 
 void PhotonLighting::RequestSamples(const Scene& scene, SampleLayout* layout) {
   gather_ = FinalGather(settings_);
-  if (Gathers(scene)) gather_.RequestSamples(layout);
+  if (settings_.finalGather && settings_.show == ShowMap::Nothing)
+    gather_.RequestSamples(Gathers(scene), layout);
 }
 
 std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {

@@ -97,7 +97,7 @@ class PhotonTracer::Path {
   // Bsdf sampling (eq. 5 and 6) and Russian roulette (eq. 7); false where the path ends.
   bool Scatter(const ShadingPoint& point, int hits, RayDifferential* ray) {
     const Point2 u = samples_.Next2D(), uChoice = samples_.Next2D();
-    const auto sample = point.bsdf.Sample(point.Wo(), u, uChoice.x);
+    const auto sample = point.bsdf.Sample(point.Wo(), u, uChoice.x, tracer_.lobes_);
     if (!sample) return false;
     isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_);
     if (!IsWantedAfter(isSpecularPath_)) return false;
@@ -153,7 +153,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
     : scene_(scene),
       settings_(settings),
       seed_(seed),
-      lights_(scene.Lights(), settings.lightSelection) {}
+      lights_(scene.Lights(), settings.lightSelection),
+      lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular) {}
 
 PhotonTracer::Chunk PhotonTracer::TraceChunk(std::int64_t firstPath,
                                              const std::array<bool, kPhotonKindCount>& open,

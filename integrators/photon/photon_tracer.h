@@ -62,6 +62,7 @@ class PhotonTracer {
   PhotonSettings settings_;
   std::uint64_t seed_;
   LightDistribution lights_;
+  LobeSet lobes_;  // that photons scatter by
 };
 
 }  // namespace exphoton

@@ -19,8 +19,9 @@ struct SeedEntries {
 };
 
 SeedEntries ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, RadianceMode mode,
-                           Arena* arena) {
-  const bool reflects = !seed.reflectance.IsBlack(), transmits = !seed.transmittance.IsBlack();
+                           bool needsTransmission, Arena* arena) {
+  const bool reflects = !seed.reflectance.IsBlack();
+  const bool transmits = needsTransmission && !seed.transmittance.IsBlack();
   SeedEntries result;
   if (!reflects && !transmits) return result;
   const auto front = maps.EstimateIrradiance(seed.p, seed.n, arena);
@@ -47,7 +48,8 @@ SeedEntries ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, Rad
 }  // namespace
 
 RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
-                         const PhotonSettings& settings, PreprocessContext& context)
+                         const PhotonSettings& settings, bool needsTransmission,
+                         PreprocessContext& context)
     : minCosine_(settings.radianceNormal) {
   constexpr std::size_t kChunk = 256;
   const std::size_t chunks = (seeds.size() + kChunk - 1) / kChunk;
@@ -58,8 +60,8 @@ RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMap
     const std::size_t begin = std::size_t(chunk) * kChunk;
     const std::size_t end = std::min(begin + kChunk, seeds.size());
     for (std::size_t i = begin; i < end; ++i)
-      computed[i] =
-          ComputeEntries(seeds[i], maps, settings.radianceMode, &arenas[std::size_t(worker)]);
+      computed[i] = ComputeEntries(seeds[i], maps, settings.radianceMode, needsTransmission,
+                                   &arenas[std::size_t(worker)]);
     context.progress.Advance();
   });
   context.progress.End();

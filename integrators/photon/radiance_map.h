@@ -24,9 +24,10 @@ class RadianceMap {
 
   RadianceMap() = default;  // empty: finds nothing
   // Computes all entries in parallel (docs/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n) + rho_t
-  // / pi E(p, -n), and for the other side too where something is transmitted.
+  // / pi E(p, -n), and for the other side too where something is transmitted. Without
+  // needsTransmission (Effect::Transmission) rho_t counts as 0.
   RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
-              const PhotonSettings& settings, PreprocessContext& context);
+              const PhotonSettings& settings, bool needsTransmission, PreprocessContext& context);
 
   std::size_t Size() const { return tree_.Size(); }
   std::size_t MemoryBytes() const;

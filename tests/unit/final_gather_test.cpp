@@ -36,7 +36,7 @@ Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleD
   settings.finalGatherSamples = 32;
   FinalGather gather(settings);
   SampleLayout layout;
-  gather.RequestSamples(&layout);
+  gather.RequestSamples(true, &layout);
   CameraSamples samples(layout);
 
   Arena arena;
