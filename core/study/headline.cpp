@@ -109,19 +109,27 @@ std::string WithoutTarget(const Results& results, const Analysis& analysis) {
   return text + ".";
 }
 
-// Where every line is one setting: how much each is worth, relative to the first.
+// Where every line is one setting: the most efficient ones, relative to the first.
 std::string Efficiencies(const Results& results, const Analysis& analysis) {
+  constexpr std::size_t kNamed = 3;
+  const std::string& base = analysis.lines.front().label;
   const SettingResult& first = analysis.settings[analysis.lines.front().settings.front()];
-  std::string text = "On " + results.title + ", efficiency (1 / (error × time)) relative to " +
-                     analysis.lines.front().label + ": ";
+  std::vector<std::pair<Measured, std::string>> ratios;
   for (std::size_t i = 1; i < analysis.lines.size(); ++i) {
     const SettingResult& setting = analysis.settings[analysis.lines[i].settings.front()];
     const Measured ratio = RelativeEfficiency(analysis, setting, first);
-    text += analysis.lines[i].label + " " +
-            (ratio.IsKnown() ? Plus(ratio, ratio.value < 10 ? "%.2f" : "%.0f") + "×" : "unknown");
-    text += i + 1 < analysis.lines.size() ? ", " : ".";
+    if (ratio.IsKnown()) ratios.emplace_back(ratio, analysis.lines[i].label);
   }
-  return text;
+  if (ratios.empty()) return WithoutTarget(results, analysis);
+  std::stable_sort(ratios.begin(), ratios.end(),
+                   [](const auto& a, const auto& b) { return a.first.value > b.first.value; });
+  std::string text = "On " + results.title + ", “" + ratios[0].second + "” is " +
+                     Plus(ratios[0].first, "%.1f") +
+                     " times as efficient (1 / (error × seconds)) as " + base;
+  for (std::size_t i = 1; i < std::min(kNamed, ratios.size()); ++i)
+    text += (i == 1 ? "; next are “" : ", “") + ratios[i].second + "” with " +
+            Plus(ratios[i].first, "%.1f");
+  return text + ".";
 }
 
 bool HasOnlySingleSettings(const Analysis& analysis) {

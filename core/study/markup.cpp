@@ -100,7 +100,7 @@ std::string SvgPolyline(const std::vector<Point2d>& points, const std::string& c
 std::string SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                       const std::string& title) {
   const std::string end = "><title>" + Escape(title) + "</title></";
-  const int kind = shape % kSeriesColors;
+  const int kind = (shape + shape / kSeriesColors) % kSeriesColors;  // another one in another round
   if (kind == 0)
     return "<circle" + At("cx", "cy", at) + " r=\"" + Coordinate(size) + "\"" + Class(classes) +
            end + "circle>";
@@ -126,10 +126,17 @@ double LogScale::operator()(double value) const {
 }
 
 std::vector<LogScale::Tick> LogScale::Ticks() const {
+  constexpr std::size_t kFewest = 4;
+  std::vector<Tick> ticks = TicksAt({1, 2, 5});
+  if (ticks.size() < kFewest) ticks = TicksAt({1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9});
+  return ticks;
+}
+
+std::vector<LogScale::Tick> LogScale::TicksAt(const std::vector<double>& digits) const {
   std::vector<Tick> ticks;
   const int first = int(std::floor(std::log10(low_))), last = int(std::ceil(std::log10(high_)));
   for (int power = first; power <= last; ++power) {
-    for (const int digit : {1, 2, 5}) {
+    for (const double digit : digits) {
       const double value = digit * std::pow(10., power);
       if (value >= low_ && value <= high_) ticks.push_back({value, digit == 1});
     }

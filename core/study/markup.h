@@ -32,7 +32,7 @@ std::string SvgPolyline(const std::vector<Point2d>& points, const std::string& c
 std::string SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                       const std::string& title);
 
-// A logarithmic scale from data to pixels, with ticks at 1, 2 and 5.
+// A logarithmic scale from data to pixels, with ticks at 1, 2 and 5, or closer.
 class LogScale {
  public:
   // Covers [low, high] and some space around it.
@@ -47,6 +47,7 @@ class LogScale {
   std::vector<Tick> Ticks() const;
 
  private:
+  std::vector<Tick> TicksAt(const std::vector<double>& digits) const;
   double low_, high_, pixelLow_, pixelHigh_;
 };
 

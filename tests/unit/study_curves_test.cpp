@@ -135,6 +135,17 @@ TEST(StudyHeadline, RefusesRatiosThatTheReferencesNoiseDoesNotAllow) {
             "the reference's noise is 200 % of this; one rendered 20 times as long would do");
 }
 
+TEST(StudyHeadline, OfSingleSettingsNamesTheMostEfficient) {
+  Analysis analysis = TwoLines({At(1, .1)}, {At(2, .01)});
+  analysis.reference.variance = {.0001, .00001};
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_EQ(analysis.headline,
+            "On room, “slow” is 5.0 ± 0.0 times as efficient (1 / (error × seconds)) as fast.");
+  analysis.reference.variance = {.002, .0001};  // a fifth of the second error
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_EQ(analysis.headline.find("efficient"), std::string::npos) << analysis.headline;
+}
+
 TEST(StudyMarkup, EncodesBase64AsRfc4648DoesInItsExamples) {
   EXPECT_EQ(Base64(""), "");
   EXPECT_EQ(Base64("f"), "Zg==");
