@@ -12,7 +12,7 @@
 #include "core/cli/signals.h"
 #include "core/cli/study_runner.h"
 #include "core/cli/values.h"
-#include "core/imaging/exr.h"
+#include "core/imaging/metrics.h"
 #include "core/study/report.h"
 
 namespace exphoton::cli {
@@ -90,6 +90,21 @@ void WriteResults(const std::string& folder, study::Results* results) {
   PrintOut(analysis.headline + "\n" + folder + "/report.html\n");
 }
 
+// Before hours of rendering: it must have the size of what is rendered, and R, G and B.
+void CheckReference(const StudyOptions& options, const SceneFacts& scene,
+                    const study::ReferenceRecord& reference) {
+  for (const std::string& name : {reference.a, reference.b}) {
+    if (name.empty()) continue;
+    const std::string path = fs::path(name).is_absolute() ? name : options.folder + "/" + name;
+    const Image image = ReadImage(path);
+    FindColors(image, path);
+    if (image.Width() == scene.width && image.Height() == scene.height) continue;
+    throw ImageError(path + " has " + std::to_string(image.Width()) + " x " +
+                     std::to_string(image.Height()) + " pixels, the study's pictures " +
+                     std::to_string(scene.width) + " x " + std::to_string(scene.height));
+  }
+}
+
 std::string PlanText(const StudyOptions& options, const std::vector<study::Setting>& settings) {
   std::string text = std::to_string(settings.size()) + " settings, " +
                      std::to_string(options.seeds) + " seeds each\n";
@@ -110,6 +125,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   RemoveLeftovers(options.folder);
   StudyRunner runner(options, scene, ExamineProgram(options));
   results.reference = PrepareReference(options, runner);
+  CheckReference(options, scene, results.reference);
   results.runs = runner.RunAll(results.settings);
   results.maps = MakeMaps(options, results.settings, runner);
   WriteResults(options.folder, &results);

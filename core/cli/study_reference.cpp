@@ -13,7 +13,6 @@
 #include "core/cli/study_runner.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
-#include "core/imaging/metrics.h"
 
 namespace exphoton::cli {
 namespace {
@@ -168,7 +167,6 @@ study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner
   if (options.references.size() > 1)
     record.b = fs::absolute(options.references[1]).lexically_normal().string();
   const Image image = ReadImage(record.a);
-  FindColors(image, record.a);
   const auto text = [&](const char* name) {
     const auto found = image.attributes.find(name);
     const auto* value =
