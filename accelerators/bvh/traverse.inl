@@ -13,41 +13,40 @@ struct BoxRay {
   Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
   int nearRow[3], farRow[3];
 
-  BoxRay(const Ray& ray, const Bounds3& world) {
-    constexpr Real kLargest = std::numeric_limits<Real>::max();
-    constexpr double kDown = 1 - double(Gamma(4)), kUp = 1 + double(Gamma(4));
+  BoxRay(const Ray& ray, int major, const Bounds3& world) {
     const Vector3 size = Abs(ray.d);
-    const int major = MaxDimension(size);
-    const double slope = double(kBvhMargin) * double(size[major]);
+    const Real slope = kBvhMargin * size[major];
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool isBackward = std::signbit(ray.d[axis]);
+      nearRow[axis] = 2 * axis + isBackward;
+      farRow[axis] = 2 * axis + !isBackward;
+      // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
+      const Real inverse = 1 / ray.d[axis], x = slope * std::abs(inverse);
+      nearOrigin[axis] = farOrigin[axis] = Real8::All(ray.o[axis]);
+      nearInverse[axis] = Real8::All(inverse * (1 - x - Gamma(6)));
+      farInverse[axis] = Real8::All(inverse * (1 + 2 * x + Gamma(6)));
+      if (!(x < Real(.25))) [[unlikely]]
+        SetPerpendicular(ray, axis, major, world);
+    }
+  }
+
+  // For an axis to which the ray is (nearly) perpendicular: either never crosses a plane, or has
+  // done so for good. It strays by less than 5/8 of the spread: what it may hit begins behind one
+  // moved origin and ends ahead of the other. 0 * infinity leaves an axis out of Meet, which only
+  // enters more boxes.
+  [[gnu::noinline]] void SetPerpendicular(const Ray& ray, int axis, int major,
+                                          const Bounds3& world) {
+    constexpr double kMargin = double(kBvhMargin);
     // The farthest that any hit can be along the major axis.
     const double reach = std::max(std::abs(double(world.min[major]) - double(ray.o[major])),
                                   std::abs(double(world.max[major]) - double(ray.o[major])));
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool isBackward = std::signbit(ray.d[axis]);
-      const Real sign = isBackward ? Real(-1) : Real(1);
-      nearRow[axis] = 2 * axis + isBackward;
-      farRow[axis] = 2 * axis + !isBackward;
-      const double d = double(size[axis]);
-      double first, last, spread = 0;
-      if (d > 2 * slope) {
-        first = kDown / (d + slope), last = kUp / (d - slope);
-      } else {
-        // The ray strays by less than 3/8 of the spread. What it may hit begins behind one moved
-        // origin, and ends so far ahead of the other that it is crossed beyond the scene's end.
-        spread = 8 * double(kBvhMargin) * reach;
-        first = last = 1 / slope;
-      }
-      const auto inverse = [&](double value) {
-        return Real8::All(sign * Real(std::min(value, double(kLargest))));
-      };
-      const auto moved = [&](double shift) {
-        if (shift == 0) return Real8::All(ray.o[axis]);
-        const Real o = Real(double(ray.o[axis]) + shift);
-        return Real8::All(shift > 0 ? NextUp(o) : NextDown(o));
-      };
-      nearOrigin[axis] = moved(double(sign) * spread), nearInverse[axis] = inverse(first);
-      farOrigin[axis] = moved(double(-sign) * spread), farInverse[axis] = inverse(last);
-    }
+    const double spread = 8 * kMargin * reach;
+    const bool isBackward = std::signbit(ray.d[axis]);
+    nearInverse[axis] = farInverse[axis] = Real8::All(isBackward ? -kInfinity : kInfinity);
+    const Real above = NextUp(Real(double(ray.o[axis]) + spread));
+    const Real below = NextDown(Real(double(ray.o[axis]) - spread));
+    nearOrigin[axis] = Real8::All(isBackward ? below : above);
+    farOrigin[axis] = Real8::All(isBackward ? above : below);
   }
 
   // Where the ray enters the eight boxes of a node; the mask has those that it meets by tMax.
@@ -114,12 +113,12 @@ constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) +
 // Walks the tree from near to far. visit(child) deals with a leaf and returns the t beyond which
 // nothing matters any more (ties at it do); a negative one ends the walk.
 template <class Visit>
-inline void Walk(const BvhArrays& arrays, const Ray& worldRay, const Visit& visit) {
+inline void Walk(const BvhArrays& arrays, const TraceRay& trace, const Visit& visit) {
   if (arrays.nodes.empty()) return;
-  const BoxRay ray(worldRay, arrays.bounds);
+  const BoxRay ray(trace.ray, trace.triangle.kz, arrays.bounds);
   StackEntry stack[kStackSize];
   StackEntry* top = stack;
-  Real tMax = worldRay.tMax;
+  Real tMax = trace.ray.tMax;
   BvhChild child(BvhChild::Kind::Node, 0);
   for (;;) {
     if (child.IsNode()) {
@@ -161,7 +160,7 @@ Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   hit.t = ray.tMax;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  Walk(arrays, ray, [&](BvhChild leaf) {
+  Walk(arrays, trace, [&](BvhChild leaf) {
     if (!leaf.IsTriangles()) {
       const std::uint32_t* list = arrays.others.data() + leaf.Index();
       for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
@@ -207,7 +206,7 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
     }
   };
   bool isOccluded = false;
-  Walk(arrays, ray, [&](BvhChild leaf) {
+  Walk(arrays, trace, [&](BvhChild leaf) {
     isOccluded = isBlocked(leaf);
     return isOccluded ? Real(-1) : ray.tMax;
   });
