@@ -145,6 +145,11 @@ NearestCells::NearestCells(const PointKdTree& tree, std::span<const Normal3> nor
   scale_ = Real(1 << (kMaxLevels - kTopLevels)) / side;
   if (!(scale_ > 0) || !std::isfinite(scale_)) return;
 
+  places_.reserve(tree.Size());
+  for (std::uint32_t i = 0; i < tree.Size(); ++i) {
+    const Point3 p = tree.Point(i);
+    places_.push_back({{p.x, p.y, p.z, 0}});
+  }
   constexpr std::int64_t kChunk = 1024;
   std::vector<Disk> disks(tree.Size());
   const auto count = std::int64_t(tree.Size());
@@ -196,7 +201,7 @@ NearestCells::NearestCells(const PointKdTree& tree, std::span<const Normal3> nor
 
 std::size_t NearestCells::MemoryBytes() const {
   return top_.capacity() * sizeof(std::uint32_t) + nodes_.capacity() * sizeof(Node) +
-         cells_.capacity() * sizeof(Cell);
+         cells_.capacity() * sizeof(Cell) + places_.capacity() * sizeof(Place);
 }
 
 }  // namespace exphoton

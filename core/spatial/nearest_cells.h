@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,8 @@ class NearestCells {
 
   // The cell that p lies in; null where no surface is known to pass.
   const Cell* Around(const Point3& p) const;
+  // Squared distances from p of what a cell lists.
+  void Distances2(const Cell& cell, const Point3& p, Real (&distance2)[kListed]) const;
   std::size_t MemoryBytes() const;
 
  private:
@@ -54,7 +57,36 @@ class NearestCells {
   std::vector<std::uint32_t> top_;  // 2^kTopLevels cells an axis
   std::vector<Node> nodes_;         // [0] stands for none
   std::vector<Cell> cells_;
+  // The points of the tree once more, x, y, z and 0 together: one read each.
+  struct alignas(4 * sizeof(Real)) Place {
+    Real coordinates[4];
+  };
+  std::vector<Place> places_;
 };
+
+// Four points at a time: their coordinates are read as rows and turned into columns.
+inline void NearestCells::Distances2(const Cell& cell, const Point3& p,
+                                     Real (&distance2)[kListed]) const {
+  using Real4 = Real __attribute__((vector_size(4 * sizeof(Real))));
+  const Real4 from{p.x, p.y, p.z, 0};
+  const auto offset = [&](int j) {
+    Real4 place;
+    std::memcpy(&place, places_[cell.ids[j]].coordinates, sizeof place);
+    return place - from;
+  };
+  for (int j = 0; j < kListed; j += 4) {
+    const Real4 a = offset(j), b = offset(j + 1), c = offset(j + 2), d = offset(j + 3);
+    const Real4 abLow = __builtin_shufflevector(a, b, 0, 4, 1, 5);   // xa xb ya yb
+    const Real4 cdLow = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Real4 abHigh = __builtin_shufflevector(a, b, 2, 6, 2, 6);  // za zb
+    const Real4 cdHigh = __builtin_shufflevector(c, d, 2, 6, 2, 6);
+    const Real4 x = __builtin_shufflevector(abLow, cdLow, 0, 1, 4, 5);
+    const Real4 y = __builtin_shufflevector(abLow, cdLow, 2, 3, 6, 7);
+    const Real4 z = __builtin_shufflevector(abHigh, cdHigh, 0, 1, 4, 5);
+    const Real4 sum = x * x + y * y + z * z;
+    std::memcpy(distance2 + j, &sum, sizeof sum);
+  }
+}
 
 inline const NearestCells::Cell* NearestCells::Around(const Point3& p) const {
   constexpr Real kEnd = Real(1 << kMaxLevels);

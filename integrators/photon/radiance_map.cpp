@@ -3,6 +3,7 @@
 #include "integrators/photon/radiance_map.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
@@ -11,6 +12,10 @@ namespace exphoton {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
+
+// A distance with a place in a list of up to 31.
+using Key = std::conditional_t<sizeof(Real) == 4, std::uint64_t, unsigned __int128>;
+constexpr int kPlaceBits = 5;
 
 // The entries of one seed: one, or two where the surface transmits; none where it is black.
 struct SeedEntries {
@@ -50,7 +55,7 @@ SeedEntries ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, Rad
 RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMaps& maps,
                          const PhotonSettings& settings, bool needsTransmission,
                          PreprocessContext& context)
-    : minCosine_(settings.radianceNormal) {
+    : minCosine_(settings.radianceNormal), reach_(settings.radianceReach) {
   constexpr std::size_t kChunk = 256;
   const std::size_t chunks = (seeds.size() + kChunk - 1) / kChunk;
   std::vector<SeedEntries> computed(seeds.size());
@@ -75,34 +80,39 @@ RadianceMap::RadianceMap(const std::vector<RadianceSeed>& seeds, const PhotonMap
     }
   tree_ = PointKdTree(points);
   entries_.reserve(entries.size());
-  sides_.reserve(entries.size());
   for (std::uint32_t i : tree_.Order()) {
     entries_.push_back(entries[i]);
-    sides_.push_back({entries[i].n, Square(settings.radianceReach * entries[i].radius)});
-    maxReach2_ = std::max(maxReach2_, sides_.back().reach2);
+    maxReach2_ = std::max(maxReach2_, Square(reach_ * entries[i].radius));
   }
   std::vector<Normal3> normals;
-  normals.reserve(sides_.size());
-  for (const Side& side : sides_) normals.push_back(side.n);
+  normals.reserve(entries_.size());
+  for (const Entry& entry : entries_) normals.push_back(entry.n);
   cells_ = NearestCells(tree_, normals, context.threads);
 }
 
 std::size_t RadianceMap::MemoryBytes() const {
-  return tree_.MemoryBytes() + cells_.MemoryBytes() + entries_.capacity() * sizeof(Entry) +
-         sides_.capacity() * sizeof(Side);
+  return tree_.MemoryBytes() + cells_.MemoryBytes() + entries_.capacity() * sizeof(Entry);
 }
 
 NearPoint RadianceMap::NearestListed(const NearestCells::Cell& cell, const Point3& p,
                                      const Normal3& n) const {
   constexpr int kCount = NearestCells::kListed;
   Real distance2[kCount];
-  for (int j = 0; j < kCount; ++j) distance2[j] = DistanceSquared(tree_.Point(cell.ids[j]), p);
+  cells_.Distances2(cell, p, distance2);
+  // Bits of distances order as they do; the place in the list, below them, decides ties. Ids
+  // ascend, so that of equal distances the lower id wins. Four minima at a time.
+  Key keys[kCount];
+  for (int j = 0; j < kCount; ++j)
+    keys[j] = Key(std::bit_cast<RealBits>(distance2[j])) << kPlaceBits | Key(j);
   for (;;) {
-    int best = 0;
-    for (int j = 1; j < kCount; ++j) best = distance2[j] < distance2[best] ? j : best;
-    if (!(distance2[best] < kInfinity)) return {kInfinity, kNone};
-    if (Serves(cell.ids[best], distance2[best], n)) return {distance2[best], cell.ids[best]};
-    distance2[best] = kInfinity;
+    Key best[4] = {keys[0], keys[1], keys[2], keys[3]};
+    for (int j = 4; j < kCount; j += 4)
+      for (int lane = 0; lane < 4; ++lane) best[lane] = std::min(best[lane], keys[j + lane]);
+    const Key nearest = std::min(std::min(best[0], best[1]), std::min(best[2], best[3]));
+    const auto place = int(nearest & ((1 << kPlaceBits) - 1));
+    if (place >= kCount) return {kInfinity, kNone};
+    if (Serves(cell.ids[place], distance2[place], n)) return {distance2[place], cell.ids[place]};
+    keys[place] = ~Key(0);
   }
 }
 

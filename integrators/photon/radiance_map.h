@@ -43,23 +43,18 @@ class RadianceMap {
 
  private:
   bool Serves(std::uint32_t i, Real distance2, const Normal3& n) const {
-    const Side& side = sides_[i];
-    return distance2 <= side.reach2 && Dot(side.n, n) > minCosine_;
+    const Entry& entry = entries_[i];
+    return distance2 <= Square(reach_ * entry.radius) && Dot(entry.n, n) > minCosine_;
   }
   // The nearest listed entry that serves; kInfinity and no index where none does.
   NearPoint NearestListed(const NearestCells::Cell& cell, const Point3& p, const Normal3& n) const;
 
   PointKdTree tree_;
   NearestCells cells_;
-  // What a search looks at, apart from what it brings; both in tree order.
-  struct Side {
-    Normal3 n;
-    Real reach2;  // squared distance within which the entry serves
-  };
-  std::vector<Side> sides_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  // in tree order
   Real minCosine_ = 0;
-  Real maxReach2_ = 0;  // of any entry
+  Real reach_ = 0;      // an entry serves within so many of its radii
+  Real maxReach2_ = 0;  // squared reach of any entry
 };
 
 }  // namespace exphoton
