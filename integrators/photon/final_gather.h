@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // FinalGather: indirect light at a point by rays over its hemisphere, half of them drawn by the
 // BSDF, half round the directions of nearby photons, combined with the power heuristic
-// (Veach 1997, section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is any
-// callable's affair.
+// (Veach 1997, section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is another's
+// affair.
 #pragma once
 
 #include "core/math/mis.h"
@@ -22,11 +22,13 @@ class FinalGather {
   // Where nothing will be gathered the requests are empty, and leave those of others as they are.
   void RequestSamples(bool gathers, SampleLayout* layout);
 
-  // Integral over the non-specular lobes of f * incident * |cos|. `incident` is called as
-  // Spectrum(const Ray&) for rays with 0 < t < infinity.
+  // Integral over the non-specular lobes of f * incident * |cos|, by rays with 0 < t < infinity.
+  // All are traced before the first is read, so that memory can be asked for ahead:
+  // incident.Trace(ray) gives an Incident::Segment, incident.Ready(segment) is called shortly
+  // before incident.Read(segment), which gives the radiance.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
-                  Incident&& incident) const;
+                  const Incident& incident) const;
 
  private:
   // Fixed once a gather, and the same for f, Pdf and Sample.
@@ -52,7 +54,7 @@ class FinalGather {
 
 template <class Incident>
 Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
-                             Incident&& incident) const {
+                             const Incident& incident) const {
   const Bsdf& bsdf = point.bsdf;
   if (!bsdf.Has(kLobes)) return {};
   const Arena::Mark mark = context.arena.GetMark();
@@ -64,7 +66,19 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
   const Vector3& wo = point.Wo();
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
-  Spectrum byBsdf;
+  struct Pending {
+    typename Incident::Segment segment;
+    Spectrum weight;
+  };
+  const std::span<Pending> pending = context.arena.template MakeArray<Pending>(
+      std::size_t(bsdfRays + photonRays));
+  std::size_t count = 0;
+  const auto add = [&](const Vector3& w, const Spectrum& contribution, int rays) {
+    const Real factor = SurvivalFactor(contribution.Y(), &roulette);
+    if (factor > 0)
+      pending[count++] = {incident.Trace(SpawnRay(point.surface, w)),
+                          contribution * (factor / Real(rays))};
+  };
   for (int i = 0; i < bsdfRays; ++i) {
     const bool isOwn = i < bsdfCount_;
     const auto at = std::size_t(isOwn ? i : i - bsdfCount_);
@@ -75,12 +89,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
     const Real weight =
         isGuided ? PowerHeuristic(bsdfRays, sample->pdf, photonRays, cones.Pdf(sample->wi))
                  : Real(1);
-    const Spectrum contribution = sample->throughput * weight;
-    const Real factor = SurvivalFactor(contribution.Y(), &roulette);
-    if (factor > 0) byBsdf += contribution * factor * incident(SpawnRay(point.surface, sample->wi));
+    add(sample->wi, sample->throughput * weight, bsdfRays);
   }
-
-  Spectrum byPhotons;
   for (int i = 0; i < photonRays; ++i) {
     const auto at = std::size_t(i);
     const auto sample = cones.Draw(context.samples.Array1D(photonAxes_)[at],
@@ -89,14 +99,17 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
     if (f.IsBlack()) continue;
     const Real weight =
         PowerHeuristic(photonRays, sample.pdf, bsdfRays, bsdf.Pdf(wo, sample.w, kLobes));
-    const Spectrum contribution = f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf);
-    const Real factor = SurvivalFactor(contribution.Y(), &roulette);
-    if (factor > 0)
-      byPhotons += contribution * factor * incident(SpawnRay(point.surface, sample.w));
+    add(sample.w, f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), photonRays);
+  }
+
+  constexpr std::size_t kAhead = 2;
+  Spectrum gathered;
+  for (std::size_t i = 0; i < count + kAhead; ++i) {
+    if (i < count) incident.Ready(pending[i].segment);
+    if (i >= kAhead)
+      gathered += pending[i - kAhead].weight * incident.Read(pending[i - kAhead].segment);
   }
   context.arena.Rewind(mark);
-  Spectrum gathered = byBsdf / Real(bsdfRays);
-  if (photonRays > 0) gathered += byPhotons / Real(photonRays);
   return gathered;
 }
 

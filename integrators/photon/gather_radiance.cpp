@@ -29,102 +29,104 @@ std::optional<SpecularChoice> FollowSpecular(const ShadingPoint& point, RandomSt
 
 }  // namespace
 
-Spectrum GatherRadiance::Along(RayDifferential ray, LiContext& context, RandomStream* random,
-                               int shortBounces) const {
-  const bool followsSpecular = context.scene.Effects().Needs(Effect::Specular);
+GatherRadiance::Segment GatherRadiance::Trace(const Ray& ray) const {
+  Segment segment{ray, context_.IntersectPoint(ray, RayKind::Gather)};
+  if (radianceMap_ && segment.hit) segment.place = radianceMap_->Locate(segment.hit->point.p);
+  return segment;
+}
+
+Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
+  const bool followsSpecular = context_.scene.Effects().Needs(Effect::Specular);
   Spectrum sum, throughput(1);
   for (int depth = 0;; ++depth) {
-    const auto hit = context.IntersectPoint(ray, RayKind::Gather);
+    const auto& hit = segment.hit;
     if (!hit || !hit->material) return sum;
-    sum += throughput * NonSpecular(*hit, ray, context, random, shortBounces);
+    sum += throughput * NonSpecular(segment, shortBounces);
     if (!followsSpecular || !Intersects(hit->material->PossibleLobes(), LobeSet::Specular))
       return sum;
-    const Arena::Mark mark = context.arena.GetMark();
-    const ShadingPoint point = Shade(*hit, ray, context);
+    const Arena::Mark mark = context_.arena.GetMark();
+    const ShadingPoint point = Shade(segment);
     if (depth == settings_.maxDepth) {
-      context.rays.cutGatherThroughput +=
+      context_.rays.cutGatherThroughput +=
           double((throughput * point.bsdf.Rho(LobeSet::Specular)).Y());
-      context.arena.Rewind(mark);
+      context_.arena.Rewind(mark);
       return sum;
     }
-    const auto bounce = FollowSpecular(point, random);
-    context.arena.Rewind(mark);
+    const auto bounce = FollowSpecular(point, random_);
+    context_.arena.Rewind(mark);
     if (!bounce) return sum;
     throughput *= bounce->throughput;
-    ray = SpawnRay(hit->point, bounce->wi, ray.time);
+    segment = Trace(SpawnRay(hit->point, bounce->wi, segment.ray.time));
   }
 }
 
-ShadingPoint GatherRadiance::Shade(const Scene::HitPoint& hit, const RayDifferential& ray,
-                                   LiContext& context) const {
-  return MakeShadingPoint(context.scene.Complete(ray, hit.hit), ray, 0, TransportMode::Radiance,
-                          &context.arena);
+ShadingPoint GatherRadiance::Shade(const Segment& segment) const {
+  return MakeShadingPoint(context_.scene.Complete(segment.ray, segment.hit->hit), segment.ray, 0,
+                          TransportMode::Radiance, &context_.arena);
 }
 
-Spectrum GatherRadiance::NonSpecular(const Scene::HitPoint& hit, const RayDifferential& ray,
-                                     LiContext& context, RandomStream* random,
-                                     int shortBounces) const {
+Spectrum GatherRadiance::NonSpecular(const Segment& segment, int shortBounces) const {
+  const Scene::HitPoint& hit = *segment.hit;
   if (!Intersects(hit.material->PossibleLobes(), LobeSet::NonSpecular)) return {};
   bool isShort = false;
   if (radianceMap_) {
-    const Normal3 n = FaceForward(hit.point.ng, -ray.d);
-    const RadianceMap::Entry* entry = radianceMap_->Find(hit.point.p, n);
+    const Point3 p = hit.point.p;
+    const Normal3 n = FaceForward(hit.point.ng, -segment.ray.d);
+    const RadianceMap::Entry* entry = radianceMap_->Find(p, n, segment.place);
     isShort =
-        entry && DistanceSquared(ray.o, hit.point.p) < Square(settings_.shortRays * entry->radius);
+        entry && DistanceSquared(segment.ray.o, p) < Square(settings_.shortRays * entry->radius);
     if (entry && !isShort) {
-      if (context.layers) {
-        context.layers->radianceDistance += double(radianceMap_->DistanceTo(*entry, hit.point.p));
-        ++context.layers->radiancePhotonsRead;
+      if (context_.layers) {
+        context_.layers->radianceDistance += double(radianceMap_->DistanceTo(*entry, p));
+        ++context_.layers->radiancePhotonsRead;
       }
       if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
-      return Reflected(hit, ray, *entry, context);
+      return Reflected(segment, *entry);
     }
   }
-  const Arena::Mark mark = context.arena.GetMark();
-  const ShadingPoint point = Shade(hit, ray, context);
+  const Arena::Mark mark = context_.arena.GetMark();
+  const ShadingPoint point = Shade(segment);
   const bool goesOn =
       isShort && settings_.shortGather == ShortGather::Gather && shortBounces < kMaxShortBounces;
-  const Spectrum radiance = goesOn ? OneMoreBounce(point, context, random, shortBounces)
-                                   : maps_.Radiance(point, &context.arena);
-  context.arena.Rewind(mark);
+  const Spectrum radiance =
+      goesOn ? OneMoreBounce(point, shortBounces) : maps_.Radiance(point, &context_.arena);
+  context_.arena.Rewind(mark);
   return radiance;
 }
 
-Spectrum GatherRadiance::Reflected(const Scene::HitPoint& hit, const RayDifferential& ray,
-                                   const RadianceMap::Entry& front, LiContext& context) const {
-  const Arena::Mark mark = context.arena.GetMark();
-  const ShadingPoint point = Shade(hit, ray, context);
+Spectrum GatherRadiance::Reflected(const Segment& segment, const RadianceMap::Entry& front) const {
+  const Arena::Mark mark = context_.arena.GetMark();
+  const ShadingPoint point = Shade(segment);
   Spectrum radiance = point.bsdf.Rho(LobeSet::NonSpecularReflection) * front.value * kInvPi;
   const Spectrum transmittance = context.scene.Effects().Needs(Effect::Transmission)
                                      ? point.bsdf.Rho(LobeSet::NonSpecularTransmission)
                                      : Spectrum();
   if (!transmittance.IsBlack()) {
-    const Normal3 back = -FaceForward(hit.point.ng, -ray.d);
-    const RadianceMap::Entry* entry = radianceMap_->Find(hit.point.p, back);
-    const Spectrum e =
-        entry ? entry->value : maps_.EstimateIrradiance(hit.point.p, back, &context.arena).e;
+    const Point3 p = segment.hit->point.p;
+    const Normal3 back = -FaceForward(segment.hit->point.ng, -segment.ray.d);
+    const RadianceMap::Entry* entry = radianceMap_->Find(p, back, segment.place);
+    const Spectrum e = entry ? entry->value : maps_.EstimateIrradiance(p, back, &context_.arena).e;
     radiance += transmittance * e * kInvPi;
   }
-  context.arena.Rewind(mark);
+  context_.arena.Rewind(mark);
   return radiance;
 }
 
-Spectrum GatherRadiance::OneMoreBounce(const ShadingPoint& point, LiContext& context,
-                                       RandomStream* random, int shortBounces) const {
-  Spectrum sum = maps_.Radiance(PhotonKind::Caustic, point, &context.arena);
+Spectrum GatherRadiance::OneMoreBounce(const ShadingPoint& point, int shortBounces) const {
+  Spectrum sum = maps_.Radiance(PhotonKind::Caustic, point, &context_.arena);
   if (!lights_.IsEmpty()) {
-    const auto choice = lights_.Sample(random->Uniform());
+    const auto choice = lights_.Sample(random_->Uniform());
     DirectLightSample sample;
-    sample.light = {random->Uniform(), random->Uniform()};
-    sample.lightPart = random->Uniform();
-    sample.bsdf = {random->Uniform(), random->Uniform()};
-    sample.bsdfLobe = random->Uniform();
-    sum += EstimateDirect(point, *choice.light, sample, context) / choice.probability;
+    sample.light = {random_->Uniform(), random_->Uniform()};
+    sample.lightPart = random_->Uniform();
+    sample.bsdf = {random_->Uniform(), random_->Uniform()};
+    sample.bsdfLobe = random_->Uniform();
+    sum += EstimateDirect(point, *choice.light, sample, context_) / choice.probability;
   }
-  const Point2 u{random->Uniform(), random->Uniform()};
-  if (const auto bounce = point.bsdf.Sample(point.Wo(), u, random->Uniform(), LobeSet::NonSpecular))
-    sum += bounce->throughput *
-           Along(SpawnRay(point.surface, bounce->wi), context, random, shortBounces + 1);
+  const Point2 u{random_->Uniform(), random_->Uniform()};
+  if (const auto bounce =
+          point.bsdf.Sample(point.Wo(), u, random_->Uniform(), LobeSet::NonSpecular))
+    sum += bounce->throughput * Along(Trace(SpawnRay(point.surface, bounce->wi)), shortBounces + 1);
   return sum;
 }
 

@@ -12,40 +12,48 @@ namespace exphoton {
 
 class GatherRadiance {
  public:
-  // Both maps must outlive this. Without radiance photons (radianceMap null) every hit takes the
-  // three density estimates.
-  GatherRadiance(const PhotonMaps& maps, const RadianceMap* radianceMap,
-                 const PhotonSettings& settings, const LightDistribution& lights)
-      : maps_(maps), radianceMap_(radianceMap), settings_(settings), lights_(lights) {}
+  struct Segment {
+    Ray ray;
+    std::optional<Scene::HitPoint> hit;
+    RadianceMap::Place place{};
+  };
 
-  // Radiance arriving along the ray, by the light that maps hold. `random`: of this shading point.
-  Spectrum operator()(const Ray& ray, LiContext& context, RandomStream* random) const {
-    return Along(ray, context, random, 0);
+  // Everything must outlive this. Without radiance photons (radianceMap null) every hit takes the
+  // three density estimates. `random`: of the shading point that gathers.
+  GatherRadiance(const PhotonMaps& maps, const RadianceMap* radianceMap,
+                 const PhotonSettings& settings, const LightDistribution& lights,
+                 LiContext& context, RandomStream* random)
+      : maps_(maps), radianceMap_(radianceMap), settings_(settings), lights_(lights),
+        context_(context), random_(random) {}
+
+  Segment Trace(const Ray& ray) const;
+  // Fetches what Read will want.
+  void Ready(const Segment& segment) const {
+    if (radianceMap_) radianceMap_->Prefetch(segment.place);
   }
+  // Radiance arriving along the ray, by the light that maps hold.
+  Spectrum Read(const Segment& segment) const { return Along(segment, 0); }
 
  private:
   // How often short rays may be followed by one more bounce.
   static constexpr int kMaxShortBounces = 3;
 
-  Spectrum Along(RayDifferential ray, LiContext& context, RandomStream* random,
-                 int shortBounces) const;
+  Spectrum Along(Segment segment, int shortBounces) const;
   // The non-specular part of what leaves the hit towards the ray's origin.
-  Spectrum NonSpecular(const Scene::HitPoint& hit, const RayDifferential& ray, LiContext& context,
-                       RandomStream* random, int shortBounces) const;
+  Spectrum NonSpecular(const Segment& segment, int shortBounces) const;
   // The whole record of a hit, with its BSDF in the context's arena.
-  ShadingPoint Shade(const Scene::HitPoint& hit, const RayDifferential& ray,
-                     LiContext& context) const;
+  ShadingPoint Shade(const Segment& segment) const;
   // Irradiance mode: what the hit makes of the irradiance on its two sides.
-  Spectrum Reflected(const Scene::HitPoint& hit, const RayDifferential& ray,
-                     const RadianceMap::Entry& front, LiContext& context) const;
+  Spectrum Reflected(const Segment& segment, const RadianceMap::Entry& front) const;
   // One more bounce instead of a blurred estimate: direct light, caustics, one gather ray.
-  Spectrum OneMoreBounce(const ShadingPoint& point, LiContext& context, RandomStream* random,
-                         int shortBounces) const;
+  Spectrum OneMoreBounce(const ShadingPoint& point, int shortBounces) const;
 
   const PhotonMaps& maps_;
   const RadianceMap* radianceMap_;
   const PhotonSettings& settings_;
   const LightDistribution& lights_;
+  LiContext& context_;
+  RandomStream* random_;
 };
 
 }  // namespace exphoton

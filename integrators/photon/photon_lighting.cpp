@@ -104,10 +104,10 @@ Spectrum PhotonLighting::Caustic(const ShadingPoint& point, LiContext& context) 
 
 Spectrum PhotonLighting::Indirect(const ShadingPoint& point, LiContext& context) const {
   if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
-  const GatherRadiance radiance(maps_, radianceMap_.get(), settings_, lights_);
   RandomStream random = context.Stream(kGatherStream + std::uint64_t(point.depth));
-  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context,
-                        [&](const Ray& ray) { return radiance(ray, context, &random); });
+  return gather_.Gather(
+      point, maps_.Map(PhotonKind::Indirect), context,
+      GatherRadiance(maps_, radianceMap_.get(), settings_, lights_, context, &random));
 }
 
 SurfaceLight PhotonLighting::Shown(const ShadingPoint& point, LiContext& context) const {
@@ -134,7 +134,7 @@ SurfaceLight PhotonLighting::Shown(const ShadingPoint& point, LiContext& context
 Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
   if (!radianceMap_) return {};
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-  const auto* entry = radianceMap_->Find(point.surface.p, n);
+  const auto* entry = radianceMap_->Find(point.surface.p, n, radianceMap_->Locate(point.surface.p));
   if (!entry) return {};
   if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
   return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;

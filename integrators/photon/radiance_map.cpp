@@ -116,11 +116,12 @@ NearPoint RadianceMap::NearestListed(const NearestCells::Cell& cell, const Point
   }
 }
 
-const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n) const {
+const RadianceMap::Entry* RadianceMap::Find(const Point3& p, const Normal3& n,
+                                            Place place) const {
   NearPoint nearest{maxReach2_, kNone};
-  if (const NearestCells::Cell* cell = cells_.Around(p)) {
-    const NearPoint listed = NearestListed(*cell, p, n);
-    if (cell->Proves(listed.distance2, p)) return &entries_[listed.index];
+  if (place) {
+    const NearPoint listed = NearestListed(*place, p, n);
+    if (place->Proves(listed.distance2, p)) return &entries_[listed.index];
     if (listed.index != kNone) nearest = listed;
   }
   tree_.Search(p, &nearest.distance2, [&](std::uint32_t i, Real distance2) {

@@ -32,10 +32,21 @@ class RadianceMap {
   std::size_t Size() const { return tree_.Size(); }
   std::size_t MemoryBytes() const;
 
+  // Where to look for what serves p. Null: nowhere in particular. The cell is on its way to the
+  // cache then, and after Prefetch what the cell lists.
+  using Place = const NearestCells::Cell*;
+  Place Locate(const Point3& p) const {
+    const Place place = cells_.Around(p);
+    if (place) NearestCells::Prefetch(*place);
+    return place;
+  }
+  void Prefetch(Place place) const {
+    if (place) cells_.PrefetchListed(*place);
+  }
   // The nearest entry that speaks for a surface point p with unit normal n (turned towards where
   // the radiance goes): its normal agrees and p lies within its reach (eq. 14). Null where there is
-  // none.
-  const Entry* Find(const Point3& p, const Normal3& n) const;
+  // none. place: Locate(p).
+  const Entry* Find(const Point3& p, const Normal3& n, Place place) const;
   // How far an entry that Find gave lies from a point.
   Real DistanceTo(const Entry& entry, const Point3& p) const {
     return Distance(tree_.Point(std::uint32_t(&entry - entries_.data())), p);

@@ -15,6 +15,14 @@
 namespace exphoton {
 namespace {
 
+// Radiance 1 along every ray.
+struct UniformSky {
+  struct Segment {};
+  Segment Trace(const Ray&) const { return {}; }
+  void Ready(const Segment&) const {}
+  Spectrum Read(const Segment&) const { return Spectrum(1); }
+};
+
 struct Gathered {
   double mean, error;  // 4 standard errors
 };
@@ -57,8 +65,7 @@ Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleD
     ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
     addLobes(&point.bsdf, &arena);
     LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
-    const double x =
-        double(gather.Gather(point, guide, context, [](const Ray&) { return Spectrum(1); }).g);
+    const double x = double(gather.Gather(point, guide, context, UniformSky()).g);
     sum += x;
     sum2 += x * x;
   }
