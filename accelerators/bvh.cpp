@@ -12,7 +12,7 @@ namespace {
 enum class Vectors { Auto, Portable };
 
 struct Settings {
-  int maxPrimitives = 8;
+  int maxPrimitives = 4;
   Vectors vectors = Vectors::Auto;
 };
 

@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 
 size=(--set Film.xresolution=128 --set Film.yresolution=96)
 quiet=(--quiet --no-progress)
-repeats=${REPEATS:-3}
+repeats=${REPEATS:-3} reference_spp=${REFERENCE_SPP:-1024}
 
 # seconds NAME OPTIONS...: CPU seconds of a render to $work/NAME.exr
 seconds() {
@@ -27,33 +27,36 @@ median() { sort -g | awk '{v[NR] = $1} END {print v[int((NR + 1) / 2)]}'; }
 metric() { "$program" compare "$work/reference.exr" "$1" | awk -v key="$2" 'index($0, key) == 1 {
   print $(key == "relative mean error" ? 4 : 2)}'; }
 
-# row NAME INTEGRATOR OPTIONS...: times alternate with the other rows of the same call
-speed() {
-  echo "reference: path on emitters.pbrt, ${REFERENCE_SPP:=1024} samples a pixel" >&2
-  "$program" render "$scenes/emitters.pbrt" "${size[@]}" "${quiet[@]}" --spp "$REFERENCE_SPP" \
+# pair LABEL WIDTH HEIGHT OPTIONS...: both integrators with the same settings, in turn.
+pair() {
+  local label=$1 integrator r
+  local scale=(--set "Film.xresolution=$2" --set "Film.yresolution=$3")
+  shift 3
+  echo "$label: reference, path on emitters.pbrt, $reference_spp samples a pixel" >&2
+  "$program" render "$scenes/emitters.pbrt" "${scale[@]}" "${quiet[@]}" --spp "$reference_spp" \
     -o "$work/reference.exr"
-  local settings=("${size[@]}" --nthreads 1 --set SurfaceIntegrator.rrthreshold=0)
-  local labels=("defaults" "the published room's")
-  local options=("" "--set SurfaceIntegrator.nused=75 --set SurfaceIntegrator.finalgathersamples=64 \
-    --set SurfaceIntegrator.indirectphotons=400000 --spp 8")
-  local integrator i r
-  printf '%-22s %-13s %12s %10s %12s\n' settings integrator "CPU seconds" relMSE "mean error %"
-  for i in 0 1; do
-    for ((r = 0; r < repeats; ++r)); do
-      for integrator in photonmap exphotonmap; do
-        # shellcheck disable=SC2086  # options are words
-        seconds "$integrator" "$scenes/$integrator.pbrt" "${settings[@]}" ${options[i]} \
-          >>"$work/$i-$integrator"
-      done
-    done
+  rm -f "$work"/*.seconds
+  for ((r = 0; r < repeats; ++r)); do
     for integrator in photonmap exphotonmap; do
-      printf '%-22s %-13s %12s %10.5f %12s\n' "${labels[i]}" "$integrator" \
-        "$(median <"$work/$i-$integrator")" "$(metric "$work/$integrator.exr" relMSE)" \
-        "$(metric "$work/$integrator.exr" "relative mean error")"
+      seconds "$integrator" "$scenes/$integrator.pbrt" "${scale[@]}" --nthreads 1 \
+        --set SurfaceIntegrator.rrthreshold=0 "$@" >>"$work/$integrator.seconds"
     done
-    paste "$work/$i-exphotonmap" "$work/$i-photonmap" | awk '{print 100 * $1 / $2}' | median |
-      awk '{printf "exphotonmap takes %.1f %% of photonmap'\''s time\n", $1}'
   done
+  for integrator in photonmap exphotonmap; do
+    printf '%-22s %-13s %12s %10.5f %12s\n' "$label" "$integrator" \
+      "$(median <"$work/$integrator.seconds")" "$(metric "$work/$integrator.exr" relMSE)" \
+      "$(metric "$work/$integrator.exr" "relative mean error")"
+  done
+  paste "$work/exphotonmap.seconds" "$work/photonmap.seconds" | awk '{print 100 * $1 / $2}' |
+    median | awk '{printf "exphotonmap takes %.1f %% of photonmap'\''s time\n", $1}'
+}
+
+# The published room has 450x270 pixels, 8 samples, 64 gather rays, 400000 photons, 75 an estimate.
+speed() {
+  printf '%-22s %-13s %12s %10s %12s\n' settings integrator "CPU seconds" relMSE "mean error %"
+  pair "defaults, 128x96" 128 96
+  pair "as published, 450x270" 450 270 --spp 8 --set SurfaceIntegrator.finalgathersamples=64 \
+    --set SurfaceIntegrator.indirectphotons=400000 --set SurfaceIntegrator.nused=75
 }
 
 threads() {
