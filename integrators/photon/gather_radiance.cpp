@@ -98,7 +98,7 @@ Spectrum GatherRadiance::Reflected(const Segment& segment, const RadianceMap::En
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = Shade(segment);
   Spectrum radiance = point.bsdf.Rho(LobeSet::NonSpecularReflection) * front.value * kInvPi;
-  const Spectrum transmittance = context.scene.Effects().Needs(Effect::Transmission)
+  const Spectrum transmittance = context_.scene.Effects().Needs(Effect::Transmission)
                                      ? point.bsdf.Rho(LobeSet::NonSpecularTransmission)
                                      : Spectrum();
   if (!transmittance.IsBlack()) {
