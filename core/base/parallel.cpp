@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/fp_traps.h"
+
 namespace exphoton {
 
 struct ThreadPool::State {
@@ -51,6 +53,7 @@ struct ThreadPool::State {
   }
 
   void Sleep(int worker) {
+    ArmFloatingPointTraps();
     std::uint64_t seen = 0;
     std::unique_lock lock(mutex);
     while (true) {

@@ -20,6 +20,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/fp_traps.h"
 #include "core/imaging/atomic_file.h"
 
 namespace exphoton {
@@ -111,6 +112,7 @@ long long WriteHalves(const Image& image, Imf::OutputFile* out) {
 }  // namespace
 
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf) {
+  const UntrappedLibraryCall guard;
   ExrWriteReport report;
   try {
     AtomicFile file(path);

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/base/fp_traps.h"
 #include "core/imaging/exr.h"
 
 namespace exphoton {
@@ -147,6 +148,7 @@ Image Read(const std::string& path) {
 }  // namespace
 
 Image ReadExr(const std::string& path) {
+  const UntrappedLibraryCall guard;
   try {
     return Read(path);
   } catch (const std::bad_alloc&) {

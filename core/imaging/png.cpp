@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "core/base/error.h"
+#include "core/base/fp_traps.h"
 #include "core/imaging/atomic_file.h"
 
 namespace exphoton {
@@ -103,6 +104,7 @@ std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& 
 }  // namespace
 
 std::string EncodePng(const Image& image, float exposure) {
+  const UntrappedLibraryCall guard;
   const std::array<int, 4> from = {image.FindChannel("R"), image.FindChannel("G"),
                                    image.FindChannel("B"), image.FindChannel("A")};
   if (from[0] < 0 || from[1] < 0 || from[2] < 0)
@@ -135,6 +137,7 @@ void WritePng(const std::string& path, const Image& image, float exposure) {
 }
 
 Image ReadPng(const std::string& path) {
+  const UntrappedLibraryCall guard;
   try {
     return Read(path);
   } catch (const std::bad_alloc&) {

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/base/fp_traps.h"
+
 namespace exphoton {
 namespace {
 
@@ -102,6 +104,7 @@ const PluginDescriptor& LoadPluginFile(const std::string& path, const std::strin
   CheckIsWhole(path);
   // A path without a slash would be looked for where the system keeps its libraries.
   const std::string file = fs::absolute(path).string();
+  const UntrappedLibraryCall guard;
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
     const char* reason = dlerror();

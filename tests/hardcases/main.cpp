@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <set>
@@ -33,10 +34,11 @@ struct Options {
 
 constexpr const char* kUsage =
     "usage: hardcases [--full] [--tests] [--only 12,70,T1] [--page FILE.md] [--jobs N]\n"
-    "                 [--patience FACTOR] [--seed N] [--quiet]\n"
+    "                 [--patience FACTOR] [--seed N] [--programs FOLDER] [--quiet]\n"
     "  --full      the slow cases too\n"
     "  --tests     run the named tests as well (default: only look whether they exist)\n"
-    "  --patience  multiplies limits of time and memory, for sanitizers\n";
+    "  --patience  multiplies limits of time and memory, for sanitizers\n"
+    "  --programs  where exphoton and the test programs are, if not in this build\n";
 
 Options OptionsFrom(int argc, char** argv) {
   Options options;
@@ -61,6 +63,8 @@ Options OptionsFrom(int argc, char** argv) {
       options.jobs = std::stoi(value());
     } else if (word == "--patience") {
       options.programs.patience = std::stod(value());
+    } else if (word == "--programs") {
+      options.programs.folder = std::filesystem::absolute(value()).string();
     } else if (word == "--seed") {
       options.programs.seed = std::stoull(value());
     } else {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Any text is directives or an error. Includes find the text itself and a harmless file.
+#include "core/base/log.h"
+#include "core/parser/parser.h"
+#include "tests/fuzz/input.h"
+
+using namespace exphoton;
+
+namespace {
+
+class Nothing final : public DirectiveHandler {
+ public:
+  void Handle(Directive) override {}
+  void Finish(const SourceLocation&) override {}
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  MemorySource source({{"scene.pbrt", std::string(reinterpret_cast<const char*>(data), size)},
+                       {"part.pbrt", "Identity Translate 1 2 3\n"}});
+  Log log(Log::Level::Normal, Log::Sink::Memory);
+  Nothing nothing;
+  try {
+    ParseScene(source, "scene.pbrt", nothing, log);
+  } catch (const Error& error) {
+    fuzz::Require(error.Status() == ExitStatus::Scene || error.Status() == ExitStatus::File,
+                  "a wrong text is the scene's error");
+  }
+  return 0;
+}

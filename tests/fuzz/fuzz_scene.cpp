@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Any text is a scene that renders to a finite picture, or an error; tiny pictures, few photons.
+// Sizes that would only cost time are refused before the render.
+#include "core/base/error.h"
+#include "tests/fuzz/input.h"
+#include "tests/support/test_scene.h"
+
+using namespace exphoton;
+
+namespace {
+
+constexpr int kMostPixels = 64, kMostSamples = 16;
+
+bool IsCheap(const RenderSetup& setup) {
+  return std::int64_t(setup.crop.Width()) * setup.crop.Height() <= kMostPixels &&
+         setup.sampler->SamplesPerPixel() <= kMostSamples;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  TestRenderOptions options;
+  options.load.isQuick = true;
+  try {
+    LoadedScene scene = LoadSceneText(text, options.load);
+    if (IsCheap(*scene.setup)) RenderLoaded(scene, options);
+  } catch (const Error& error) {
+    fuzz::Require(error.Status() != ExitStatus::Internal, "no error is an internal one");
+  } catch (const std::runtime_error&) {  // no scene in the text
+  }
+  return 0;
+}
