@@ -34,10 +34,12 @@ void ScaleDifferentials(RayDifferential* ray, Real scale) {
   ray->yDirection = ray->d + (ray->yDirection - ray->d) * scale;
 }
 
-std::string Describe(const Spectrum& L, const SampleKey& key) {
+// seed: what the user said; that of a pass is made from it.
+std::string Describe(const Spectrum& L, const SampleKey& key, std::uint64_t seed) {
   std::ostringstream text;
   text << "radiance (" << L.r << ", " << L.g << ", " << L.b << ") at pixel " << key.pixel.x << ","
-       << key.pixel.y << ", sample " << key.index << ", seed " << key.seed;
+       << key.pixel.y << ", sample " << key.index << ", seed " << seed;
+  if (key.seed != seed) text << " (of a pass: " << key.seed << ")";
   return text.str();
 }
 
@@ -162,7 +164,7 @@ class TileRenderer {
   }
 
   void Drop(const Spectrum& L, const SampleKey& key, Worker* worker) const {
-    const std::string text = Describe(L, key);
+    const std::string text = Describe(L, key, options_.seed);
     if (options_.isStrict) throw Error(ExitStatus::Internal, "non-finite " + text);
     ++worker->nonFinite;
     log_->Add(key.pixel, key.index, text);
