@@ -14,6 +14,7 @@
 #include "core/cli/values.h"
 #include "core/imaging/metrics.h"
 #include "core/study/report.h"
+#include "core/study/summary.h"
 
 namespace exphoton::cli {
 namespace {
@@ -86,6 +87,7 @@ void WriteResults(const std::string& folder, study::Results* results) {
   const study::Analysis analysis = study::Analyse(folder, *results);
   WriteTextFile(folder + "/results.json", study::ToJson(*results));
   WriteTextFile(folder + "/results.csv", study::ToCsv(*results));
+  WriteTextFile(folder + "/summary.csv", study::SummaryCsv(*results, analysis));
   WriteTextFile(folder + "/report.html", study::MakeReport(folder, *results, analysis));
   PrintOut(analysis.headline + "\n" + folder + "/report.html\n");
 }

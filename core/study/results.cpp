@@ -169,13 +169,6 @@ Results Parse(const std::string& text) {
   return results;
 }
 
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string CsvNumber(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.10g", value);
@@ -197,6 +190,13 @@ double Find(const NamedValues& values, const std::string& name) {
 }
 
 }  // namespace
+
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
 
 double RunRow::Counter(const std::string& name) const { return Find(counters, name); }
 

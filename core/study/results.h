@@ -71,6 +71,7 @@ struct Results {
 std::string ToJson(const Results& results);
 Results FromJson(const std::string& text);
 std::string ToCsv(const Results& results);
+std::string CsvField(const std::string& text);  // quoted where it must be
 
 // One row by itself, for the file beside its picture; without its setting and metrics, which depend
 // on the study.

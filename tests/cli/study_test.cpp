@@ -80,6 +80,9 @@ TEST_F(StudyTest, MakesRowsPicturesAndAPage) {
   }
   const std::string csv = Read("out/results.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
+  const std::string summary = Read("out/summary.csv");
+  EXPECT_EQ(std::count(summary.begin(), summary.end(), '\n'), 5) << summary;
+  EXPECT_NE(summary.find("\r\npath,path,spp=4,3,"), std::string::npos) << summary;
   EXPECT_NE(csv.find("relMSE,trimmedRelMSE,MSE"), std::string::npos) << csv.substr(0, 500);
 }
 
