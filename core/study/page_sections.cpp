@@ -136,6 +136,66 @@ std::string BarRow(const Analysis& analysis, const SettingResult& setting, const
              Cell(worth.IsKnown() ? ShortNumber(worth.value) + "×" : "–"));
 }
 
+// Of a line the cheapest setting that is accurate enough; null where there is none.
+const SettingResult* CheapestOf(const Analysis& analysis, const Line& line, double target) {
+  const SettingResult* best = nullptr;
+  for (const std::size_t s : line.settings) {
+    const SettingResult& setting = analysis.settings[s];
+    if (!(setting.cost.error.value <= target)) continue;
+    if (!best || setting.cost.seconds.value < best->cost.seconds.value) best = &setting;
+  }
+  return best;
+}
+
+std::string PriceCell(const Results& results, const SettingResult* setting, bool isCheapest) {
+  if (!setting) return Cell("–");
+  const std::string seconds = SecondsText(setting->cost.seconds.value);
+  return Cell(
+      (isCheapest ? "<span class=\"best\">" + seconds + "</span>" : seconds) + "<br><small>" +
+          SettingText(results, *setting) + "<br>" +
+          ShortNumber(setting->peakMemory / (1 << 20), 3) + " MiB" +
+          (setting->photonsStored > 0 ? ", " + CountText(setting->photonsStored) + " photons"
+                                      : "") +
+          "</small>",
+      "wide");
+}
+
+std::string PriceRow(const Results& results, const Analysis& analysis, double target) {
+  std::string cells = Cell("<b>" + ShortNumber(target) + "</b>");
+  const std::string shortfall = ShortfallText(analysis.reference, target);
+  if (!shortfall.empty())
+    return Row(cells + "<td class=\"refused wrap t\" colspan=\"" +
+               std::to_string(analysis.lines.size()) + "\">refused: " + shortfall + "</td>");
+  std::vector<const SettingResult*> cheapest;
+  double least = 1e300;
+  for (const Line& line : analysis.lines) {
+    cheapest.push_back(CheapestOf(analysis, line, target));
+    if (cheapest.back()) least = std::min(least, cheapest.back()->cost.seconds.value);
+  }
+  for (const SettingResult* setting : cheapest)
+    cells += PriceCell(results, setting, setting && setting->cost.seconds.value == least);
+  return Row(cells);
+}
+
+std::string KnobRows(const Results& results, const Analysis& analysis) {
+  std::vector<CostPoint> points(results.settings.size());
+  for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
+  std::vector<KnobCost> costs = FindKnobCosts(results.settings, points);
+  std::stable_sort(costs.begin(), costs.end(), [&](const KnobCost& a, const KnobCost& b) {
+    return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
+  });
+  std::string rows;
+  for (const KnobCost& knob : costs)
+    rows += Row(Cell(ColorDot(LineNumber(analysis, knob.label)) + Escape(knob.label)) +
+                Cell(Escape(knob.parameter), "t") +
+                Cell((knob.secondsPerDoubling >= 0 ? "+" : "−") +
+                     SecondsText(std::abs(knob.secondsPerDoubling))) +
+                Cell((knob.errorFactor >= 1 ? "+" : "−") +
+                     ShortNumber(100 * std::abs(knob.errorFactor - 1)) + " %") +
+                Cell(std::to_string(knob.pairs)));
+  return rows;
+}
+
 }  // namespace
 
 std::string SectionOf(const std::string& title, const std::string& content) {
@@ -253,71 +313,18 @@ std::string PriceSection(const Results& results, const Analysis& analysis) {
   std::string head = "<th>error</th>", rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i)
     head += "<th>" + ColorDot(i) + Escape(analysis.lines[i].label) + "</th>";
-  for (const double target : results.targets) {
-    std::string cells = Cell("<b>" + ShortNumber(target) + "</b>");
-    const std::string shortfall = ShortfallText(analysis.reference, target);
-    if (!shortfall.empty()) {
-      rows += Row(cells + "<td class=\"refused wrap\" colspan=\"" +
-                  std::to_string(analysis.lines.size()) + "\">refused: " + shortfall + "</td>");
-      continue;
-    }
-    // Of each line the cheapest setting that is accurate enough; the cheapest of all stands out.
-    std::vector<const SettingResult*> cheapest;
-    double least = 1e300;
-    for (const Line& line : analysis.lines) {
-      const SettingResult* best = nullptr;
-      for (const std::size_t s : line.settings) {
-        const SettingResult& setting = analysis.settings[s];
-        if (!(setting.cost.error.value <= target)) continue;
-        if (!best || setting.cost.seconds.value < best->cost.seconds.value) best = &setting;
-      }
-      cheapest.push_back(best);
-      if (best) least = std::min(least, best->cost.seconds.value);
-    }
-    for (const SettingResult* best : cheapest) {
-      if (!best) {
-        cells += Cell("–");
-        continue;
-      }
-      const double seconds = best->cost.seconds.value;
-      std::string text = seconds == least
-                             ? "<span class=\"best\">" + SecondsText(seconds) + "</span>"
-                             : SecondsText(seconds);
-      text += "<br><small>" + SettingText(results, *best) + "<br>" +
-              ShortNumber(best->peakMemory / (1 << 20), 3) + " MiB" +
-              (best->photonsStored > 0 ? ", " + CountText(best->photonsStored) + " photons" : "") +
-              "</small>";
-      cells += Cell(text, "wide");
-    }
-    rows += Row(cells);
-  }
+  for (const double target : results.targets) rows += PriceRow(results, analysis, target);
   std::string text =
       "<p>The cheapest measured setting with at most this error, its memory and its stored "
       "photons. "
       "–: none of the settings tried.</p>\n" +
       Table(head, rows);
-  std::vector<CostPoint> points(results.settings.size());
-  for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
-  std::vector<KnobCost> costs = FindKnobCosts(results.settings, points);
-  std::stable_sort(costs.begin(), costs.end(), [&](const KnobCost& a, const KnobCost& b) {
-    return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
-  });
-  std::string knobs;
-  for (const KnobCost& knob : costs)
-    knobs += Row(Cell(ColorDot(LineNumber(analysis, knob.label)) + Escape(knob.label)) +
-                 Cell(Escape(knob.parameter), "t") +
-                 Cell((knob.secondsPerDoubling >= 0 ? "+" : "−") +
-                      SecondsText(std::abs(knob.secondsPerDoubling))) +
-                 Cell((knob.errorFactor >= 1 ? "+" : "−") +
-                      ShortNumber(100 * std::abs(knob.errorFactor - 1)) + " %") +
-                 Cell(std::to_string(knob.pairs)));
-  if (!knobs.empty())
-    text +=
-        "<h3>What doubling a parameter does</h3>\n" +
-        Table(
-            "<th>line</th><th class=\"t\">doubling</th><th>costs</th><th>changes the error by</th>"
-            "<th>pairs</th>",
-            knobs);
+  if (const std::string knobs = KnobRows(results, analysis); !knobs.empty())
+    text += "<h3>What doubling a parameter does</h3>\n" +
+            Table(
+                "<th>line</th><th class=\"t\">doubling</th><th>costs</th><th>changes the error "
+                "by</th><th>pairs</th>",
+                knobs);
   return SectionOf("Price list", text);
 }
 

@@ -194,6 +194,16 @@ TEST_F(StudyTest, MakesAReferenceInTwoHalvesAndGoesOnWithIt) {
   EXPECT_EQ(again.err.find("reference: "), std::string::npos) << again.err;
 }
 
+TEST_F(StudyTest, StopsRendersByTimeForBudgets) {
+  const ProgramResult result = Run({"study", "box.pbrt", "--integrators", "path", "--budgets",
+                                    "0.1,0.3s", "--seeds", "2", "--no-maps", "--out", "out"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const study::Results results = ReadResults("out");
+  ASSERT_EQ(results.settings.size(), 2u);
+  EXPECT_EQ(results.settings[1].Text(), "time=0.3");
+  EXPECT_GT(results.runs[1].samplesPerPixel, results.runs[0].samplesPerPixel);
+}
+
 TEST_F(StudyTest, ReadsStudyFilesWithPathsOfTheirOwnFolder) {
   fs::create_directories(Path("sub"));
   fs::rename(Path("box.pbrt"), Path("sub/box.pbrt"));
