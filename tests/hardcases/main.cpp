@@ -34,7 +34,7 @@ struct Options {
 
 constexpr const char* kUsage =
     "usage: hardcases [--full] [--tests] [--only 12,70,T1] [--page FILE.md] [--jobs N]\n"
-    "                 [--patience FACTOR] [--seed N] [--programs FOLDER] [--quiet]\n"
+    "                 [--patience FACTOR] [--seed N] [--programs FOLDER] [--cases FOLDER] [--quiet]\n"
     "  --full      the slow cases too\n"
     "  --tests     run the named tests as well (default: only look whether they exist)\n"
     "  --patience  multiplies limits of time and memory, for sanitizers\n"
@@ -57,6 +57,8 @@ Options OptionsFrom(int argc, char** argv) {
     } else if (word == "--only") {
       std::istringstream list(value());
       for (std::string id; std::getline(list, id, ',');) options.only.insert(id);
+    } else if (word == "--cases") {
+      options.cases = value();
     } else if (word == "--page") {
       options.page = value();
     } else if (word == "--jobs") {
