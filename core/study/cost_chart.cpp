@@ -124,7 +124,7 @@ class Chart {
 
   // The line's name at its end, moved where it would lie on another.
   void AddName(std::size_t number, Point2d end) {
-    constexpr double kHeightOfText = 14, kWidthOfLetter = 7.6;
+    constexpr double kHeightOfText = 14, kWidthOfLetter = 9.8;
     const std::string& label = analysis_.lines[number].label;
     const double width = kWidthOfLetter * double(label.size());
     const bool isRight = end.x + 11 + width > kWidth - kRight;
