@@ -96,9 +96,10 @@ double FullWidth(std::vector<double> values) {
   return std::min(values.back(), 4 * values[values.size() / 2]);
 }
 
-// Phases by name in the order in which they were met; each has a colour.
+// Phases by name, those of a render in their order; each has a colour.
 std::vector<std::string> PhaseNames(const Analysis& analysis) {
-  std::vector<std::string> names;
+  std::vector<std::string> names{"parse",    "accelerator", "shoot", "kd-trees",
+                                 "radiance", "render",      "write"};
   for (const SettingResult& setting : analysis.settings)
     for (const auto& phase : setting.phases)
       if (phase.first != "other" &&
