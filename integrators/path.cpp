@@ -12,6 +12,7 @@
 #include "core/plugin.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular_bounce.h"
+#include "core/transport/volume_integrator.h"
 
 namespace exphoton {
 namespace {
@@ -87,6 +88,15 @@ class PathHistory {
       layers_->indirect += radiance;
     }
   }
+  // What media add to the stretch of the path that begins at the last bounce.
+  void AddMedia(const Spectrum& radiance) const {
+    if (!layers_) return;
+    if (bounces_ == 0) {
+      layers_->emission += radiance;
+    } else {
+      (isFirstSpecular_ ? layers_->specular : layers_->indirect) += radiance;
+    }
+  }
   void AddDirect(const Spectrum& radiance) const {
     if (!layers_) return;
     if (bounces_ == 0) {
@@ -132,6 +142,11 @@ class PathIntegrator final : public SurfaceIntegrator {
     RandomStream random = context.Stream(kPathStream);
     for (int depth = 0;; ++depth) {
       const auto hit = context.Intersect(path.ray, KindOf(path, depth));
+      const MediaSegment media = AlongMedia(path.ray, hit ? &hit->p : nullptr, context);
+      const Spectrum added = path.beta * media.radiance;
+      sum += added;
+      history.AddMedia(added);
+      path.beta *= media.transmittance;
       if (history.TakesEmission()) {
         const Spectrum emission = path.beta * Emission(path, hit ? &*hit : nullptr, context.scene);
         sum += emission;
@@ -237,11 +252,12 @@ class PathIntegrator final : public SurfaceIntegrator {
     if (f.IsBlack()) return {};
     Ray shadowRay = direct->shadowRay;
     shadowRay.time = point.surface.time;
-    if (context.Occluded(shadowRay)) return {};
+    const Spectrum arriving = context.Unoccluded(shadowRay) * direct->Li;
+    if (arriving.IsBlack()) return {};
     const Real pdf = choice.probability * direct->pdf;
-    if (choice.light->IsDelta()) return f * direct->Li / pdf;
+    if (choice.light->IsDelta()) return f * arriving / pdf;
     const Real bsdfPdf = point.bsdf.Pdf(point.Wo(), direct->wi, Lobes(context.scene));
-    return f * direct->Li * (PowerHeuristic(1, pdf, 1, bsdfPdf) / pdf);
+    return f * arriving * (PowerHeuristic(1, pdf, 1, bsdfPdf) / pdf);
   }
 
   // Extends the path by one BSDF sample; false where it ends.

@@ -68,8 +68,9 @@ class WhittedIntegrator final : public SurfaceIntegrator {
     const auto direct = light.SampleDirect(point.surface, u, uPart);
     if (!direct || direct->Li.IsBlack()) return {};
     const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, LobeSet::NonSpecular);
-    if (f.IsBlack() || context.Occluded(direct->shadowRay)) return {};
-    return f * direct->Li * (AbsDot(direct->wi, point.bsdf.Ns()) / direct->pdf);
+    if (f.IsBlack()) return {};
+    return f * context.Unoccluded(direct->shadowRay) * direct->Li *
+           (AbsDot(direct->wi, point.bsdf.Ns()) / direct->pdf);
   }
 
   int maxDepth_;

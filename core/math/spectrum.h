@@ -41,6 +41,7 @@ constexpr Spectrum operator*(Spectrum a, const Spectrum& b) { return a *= b; }
 constexpr Spectrum operator*(Spectrum a, Real s) { return a *= s; }
 constexpr Spectrum operator*(Real s, Spectrum a) { return a *= s; }
 constexpr Spectrum operator/(Spectrum a, Real s) { return a /= s; }
+inline Spectrum Exp(const Spectrum& a) { return {std::exp(a.r), std::exp(a.g), std::exp(a.b)}; }
 inline Spectrum Sqrt(const Spectrum& a) { return {SafeSqrt(a.r), SafeSqrt(a.g), SafeSqrt(a.b)}; }
 constexpr Spectrum Clamp(const Spectrum& a, Real low, Real high) {
   return {std::clamp(a.r, low, high), std::clamp(a.g, low, high), std::clamp(a.b, low, high)};

@@ -13,8 +13,9 @@
 namespace exphoton {
 namespace {
 
-constexpr std::array<std::string_view, 6> kDirectives{
-    "Accelerator", "Camera", "Film", "PixelFilter", "Sampler", "SurfaceIntegrator"};
+constexpr std::array<std::string_view, 7> kDirectives{
+    "Accelerator", "Camera",           "Film", "PixelFilter",
+    "Sampler",     "SurfaceIntegrator", "VolumeIntegrator"};
 struct QuickRule {
   std::string_view parameter;
   int divisor;

@@ -26,18 +26,6 @@ void RequireName(const std::string& what, const std::string& name, const SourceL
   FailAt(where, "unknown " + what + " \"" + name + "\"; known: " + list, DidYouMean(name, known));
 }
 
-struct VolumeIntegratorSettings {
-  Real stepSize = 1;
-};
-
-const ParamTable<VolumeIntegratorSettings>& VolumeIntegratorTable() {
-  static const ParamTable<VolumeIntegratorSettings> table{
-      Param("stepsize", &VolumeIntegratorSettings::stepSize, "length of a step of ray marching")
-          .Above(0)
-          .Unit("scene units")};
-  return table;
-}
-
 }  // namespace
 
 RenderDirectives::RenderDirectives(const LoadOptions& options) : options_(options) {
@@ -84,7 +72,6 @@ void RenderDirectives::Handle(Directive directive, const Transform& current) {
       choice = &integrator_;
       break;
     case DirectiveId::VolumeIntegrator:
-      RequireName("volume integrator", name, directive.Where(), {"emission", "single"});
       choice = &volumeIntegrator_;
       break;
     default:
@@ -180,20 +167,27 @@ void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,
       IntegratorContext{log});
 }
 
-void RenderDirectives::CheckVolumeIntegrator(Log& log) const {
-  if (!volumeIntegrator_.isGiven) return;
-  BindContext bind;
-  bind.log = &log;
-  bind.isStrict = options_.isStrict;
-  bind.what = "volume integrator \"" + volumeIntegrator_.name + "\"";
-  VolumeIntegratorTable().Bind(volumeIntegrator_.params, bind);
-  log.Notice("the scene has no Volume: " + bind.what + " has nothing to do",
-             volumeIntegrator_.params.where);
+void RenderDirectives::CreateVolumeIntegrator(PluginRegistry& registry, Log& log, bool hasMedia,
+                                              RenderSetup* setup) const {
+  if (!hasMedia && !volumeIntegrator_.isGiven) return;
+  const ParamSet params =
+      Overridden("VolumeIntegrator", volumeIntegrator_, PluginKind::VolumeIntegrator, registry);
+  auto integrator = registry.Create<PluginKind::VolumeIntegrator>(
+      volumeIntegrator_.name, params,
+      Bind(PluginKind::VolumeIntegrator, volumeIntegrator_.name, log), NoContext{});
+  if (hasMedia) {
+    setup->volumeIntegrator = std::move(integrator);
+  } else {
+    log.Notice("the scene has no Volume: volume integrator \"" + volumeIntegrator_.name +
+                   "\" has nothing to do",
+               volumeIntegrator_.params.where);
+  }
 }
 
-void RenderDirectives::Create(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
+void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
+                              RenderSetup* setup) const {
   CreateFilm(log, setup);
-  CheckVolumeIntegrator(log);
+  CreateVolumeIntegrator(registry, log, hasMedia, setup);
   const ParamSet camera = Overridden("Camera", camera_, PluginKind::Camera, registry);
   setup->cameraName = camera_.name;
   setup->camera = registry.Create<PluginKind::Camera>(

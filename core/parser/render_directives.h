@@ -26,7 +26,7 @@ class RenderDirectives {
   AcceleratorSpec Accelerator(PluginRegistry& registry) const;
 
   // Makes everything but the scene.
-  void Create(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  void Create(PluginRegistry& registry, Log& log, bool hasMedia, RenderSetup* setup) const;
 
  private:
   struct Choice {
@@ -42,7 +42,8 @@ class RenderDirectives {
   void CreateFilm(Log& log, RenderSetup* setup) const;
   void CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateIntegrator(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
-  void CheckVolumeIntegrator(Log& log) const;
+  void CreateVolumeIntegrator(PluginRegistry& registry, Log& log, bool hasMedia,
+                              RenderSetup* setup) const;
 
   const LoadOptions& options_;
   Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},

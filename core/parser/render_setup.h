@@ -17,6 +17,7 @@
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "core/transport/integrator.h"
+#include "core/transport/volume_integrator.h"
 
 namespace exphoton {
 
@@ -52,6 +53,7 @@ struct RenderSetup {
   std::string sceneName;  // the file
   std::unique_ptr<Scene> scene;
   std::unique_ptr<SurfaceIntegrator> integrator;
+  std::unique_ptr<VolumeIntegrator> volumeIntegrator;  // null where there is no medium
   std::unique_ptr<Sampler> sampler;
   std::unique_ptr<Filter> filter;
   std::unique_ptr<Camera> camera;

@@ -132,8 +132,7 @@ void SceneBuilder::HandleWorld(Directive directive) {
     case DirectiveId::Shape:
       return world_->AddShape(std::move(directive), state_);
     case DirectiveId::Volume:
-      FailAt(directive.Where(), "unknown volume \"" + directive.strings[0] +
-                                    "\"; known volumes: none (this version renders none)");
+      return world_->AddVolume(directive, state_);
     default:
       return;
   }

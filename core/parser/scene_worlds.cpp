@@ -32,8 +32,8 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->sceneName = sceneName_;
   setup->sceneHash = hash_;
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
-  render_->Create(*registry_, log_, setup.get());
   SceneParts parts = world_->Take();
+  render_->Create(*registry_, log_, !parts.media.empty(), setup.get());
   for (const Statistics::Phase& phase : world_->Times().Phases()) {
     setup->acceleratorSeconds += phase.wallSeconds;
     setup->acceleratorCpuSeconds += phase.cpuSeconds;

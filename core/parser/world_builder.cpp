@@ -39,6 +39,15 @@ void WorldBuilder::AddLight(const Directive& directive, const GraphicsState& sta
       LightContext{state.transform, log_, directive.Where()}));
 }
 
+void WorldBuilder::AddVolume(const Directive& directive, const GraphicsState& state) {
+  if (IsInObject())
+    log_.Warning("a volume in an object is not repeated with its instances", directive.Where());
+  const std::string& name = directive.strings[0];
+  parts_.media.push_back(registry_.Create<PluginKind::Volume>(
+      name, directive.params, Bind(PluginKind::Volume, name, state.textures.get()),
+      MediumContext{state.transform, log_, directive.Where()}));
+}
+
 void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* state) {
   const std::string &name = directive.strings[0], &type = directive.strings[1],
                     &plugin = directive.strings[2];

@@ -26,6 +26,7 @@ class WorldBuilder {
   WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict, AcceleratorSpec accelerator);
 
   void AddLight(const Directive& directive, const GraphicsState& state);
+  void AddVolume(const Directive& directive, const GraphicsState& state);
   void AddShape(Directive directive, const GraphicsState& state);
   void DefineTexture(const Directive& directive, GraphicsState* state);
   // Checks the name; the object is made by the first shape that wears it.

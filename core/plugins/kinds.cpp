@@ -28,6 +28,10 @@ const char* PluginKindName(PluginKind kind) {
       return "filter";
     case PluginKind::Camera:
       return "camera";
+    case PluginKind::Volume:
+      return "volume";
+    case PluginKind::VolumeIntegrator:
+      return "volume integrator";
   }
   return "";
 }
@@ -54,6 +58,10 @@ const char* PluginKindFolder(PluginKind kind) {
       return "filters";
     case PluginKind::Camera:
       return "cameras";
+    case PluginKind::Volume:
+      return "volumes";
+    case PluginKind::VolumeIntegrator:
+      return "volumeintegrators";
   }
   return "";
 }

@@ -15,9 +15,11 @@
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/scattering/material.h"
+#include "core/scattering/medium.h"
 #include "core/scattering/texture.h"
 #include "core/scene/aggregate.h"
 #include "core/transport/integrator.h"
+#include "core/transport/volume_integrator.h"
 
 namespace exphoton {
 
@@ -25,9 +27,9 @@ class Log;
 
 enum class PluginKind {
   Integrator, Accelerator, Shape, Light, AreaLight, Material, FloatTexture, ColorTexture, Sampler,
-  Filter, Camera,
+  Filter, Camera, Volume, VolumeIntegrator,
 };
-inline constexpr int kPluginKindCount = 11;
+inline constexpr int kPluginKindCount = 13;
 const char* PluginKindName(PluginKind kind);    // "area light": in messages
 const char* PluginKindFolder(PluginKind kind);  // "lights"
 
@@ -68,6 +70,11 @@ struct MaterialContext {
   Log& log;
   SourceLocation where;
 };
+struct MediumContext {
+  Transform mediumToWorld;
+  Log& log;
+  SourceLocation where;
+};
 struct TextureContext {
   Transform textureToWorld;
   Log& log;
@@ -92,5 +99,7 @@ template <> struct PluginTraits<PluginKind::ColorTexture> : PluginTraitsOf<Color
 template <> struct PluginTraits<PluginKind::Sampler> : PluginTraitsOf<Sampler, SamplerContext> {};
 template <> struct PluginTraits<PluginKind::Filter> : PluginTraitsOf<Filter, NoContext> {};
 template <> struct PluginTraits<PluginKind::Camera> : PluginTraitsOf<Camera, CameraContext> {};
+template <> struct PluginTraits<PluginKind::Volume> : PluginTraitsOf<Medium, MediumContext> {};
+template <> struct PluginTraits<PluginKind::VolumeIntegrator> : PluginTraitsOf<VolumeIntegrator, NoContext> {};
 
 }  // namespace exphoton

@@ -92,7 +92,7 @@ EffectPlan PlanEffects(const Scene& scene, const Camera& camera) {
   const SceneTraits traits(scene);
   EffectPlan plan;
   PlanPhotons(traits, &plan);
-  const bool hasMedia = scene.MediaCount() > 0;
+  const bool hasMedia = !scene.Media().empty();
   plan.Set(Effect::Media, hasMedia,
            hasMedia ? "a participating medium" : "no participating medium");
   plan.Set(Effect::Filtering, traits.needsDifferentials,

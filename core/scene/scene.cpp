@@ -19,6 +19,7 @@ Scene::~Scene() = default;
 
 void Scene::SetEffects(EffectPlan plan) {
   effects_ = std::move(plan);
+  if (!effects_.Needs(Effect::Media)) parts_.media.clear();
   if (effects_.Needs(Effect::Environment)) return;
   std::erase_if(parts_.lights, [](const auto& light) { return light->IsInfinite(); });
   infiniteLights_.clear();
@@ -42,6 +43,13 @@ SurfaceInteraction Scene::Complete(const Ray& ray, const Hit& hit) const {
   surface.wo = NormalizeOr(-ray.d, surface.ng);
   surface.time = ray.time;
   return surface;
+}
+
+Spectrum Scene::TransmittanceOfMedia(const Ray& ray) const {
+  Spectrum depth;
+  for (const auto& medium : parts_.media)
+    if (const auto part = medium->Overlap(ray)) depth += medium->OpticalDepth(ray, *part);
+  return Exp(depth * Real(-1));
 }
 
 Spectrum Scene::EscapedRadiance(const Vector3& w) const {

@@ -9,6 +9,7 @@
 
 #include "core/lights/light.h"
 #include "core/scattering/material.h"
+#include "core/scattering/medium.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/effects.h"
 #include "core/scene/primitive.h"
@@ -25,7 +26,7 @@ struct SceneParts {
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::shared_ptr<const Material>> materials;  // used by any primitive
   std::vector<std::shared_ptr<const EmitterSurface>> emitters;  // referred to by area lights
-  int mediaCount = 0;
+  std::vector<std::unique_ptr<Medium>> media;
 };
 
 class Scene {
@@ -59,9 +60,16 @@ class Scene {
   // Before anything refers to lights: without Effect::Environment infinite lights are taken out.
   void SetEffects(EffectPlan plan);
 
-  int MediaCount() const { return parts_.mediaCount; }
+  // Empty where the plan of effects leaves media out.
+  const std::vector<std::unique_ptr<Medium>>& Media() const { return parts_.media; }
+  // What part of the light gets through all media, over 0 < t < ray.tMax.
+  Spectrum Transmittance(const Ray& ray) const {
+    return parts_.media.empty() ? Spectrum(1) : TransmittanceOfMedia(ray);
+  }
 
  private:
+  Spectrum TransmittanceOfMedia(const Ray& ray) const;
+
   SceneParts parts_;
   const Aggregate* aggregate_;
   Bounds3 bounds_;

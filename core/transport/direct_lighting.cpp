@@ -20,11 +20,11 @@ Spectrum FromLightSample(const ShadingPoint& point, const Light& light,
   if (f.IsBlack()) return {};
   Ray shadowRay = direct->shadowRay;
   shadowRay.time = point.surface.time;
-  if (context.Occluded(shadowRay)) return {};
-  if (light.IsDelta()) return f * direct->Li;
+  const Spectrum arriving = context.Unoccluded(shadowRay) * direct->Li;
+  if (arriving.IsBlack() || light.IsDelta()) return f * arriving;
   const Real weight =
       PowerHeuristic(1, direct->pdf, 1, point.bsdf.Pdf(point.Wo(), direct->wi, kLobes));
-  return f * direct->Li * (weight / direct->pdf);
+  return f * arriving * (weight / direct->pdf);
 }
 
 // A direction sampled from the BSDF that happens to meet the light.
@@ -42,6 +42,9 @@ Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
     radiance = light.Le(scattered->wi);
   }
   if (radiance.IsBlack()) return {};
+  Ray stretch = ray;
+  if (hit) stretch.tMax = Distance(ray.o, hit->p) / Length(ray.d);
+  radiance *= context.scene.Transmittance(stretch);
   const SurfacePoint* on = hit ? &*hit : nullptr;
   const Real lightPdf = light.PdfDirect(point.surface, scattered->wi, on);
   return scattered->throughput * radiance * PowerHeuristic(1, scattered->pdf, 1, lightPdf);

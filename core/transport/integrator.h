@@ -20,6 +20,7 @@ namespace exphoton {
 class Log;
 class ThreadPool;
 class ProgressReporter;
+class VolumeIntegrator;
 
 // What Preprocess works with.
 struct PreprocessContext {
@@ -41,6 +42,8 @@ struct LiContext {
   Real alpha = 1;      // set to 0 by Li where the camera ray escapes and sees nothing
   // Where Li leaves what it says of layers besides the radiance; null where no layer was asked for.
   LayerSample* layers = nullptr;
+  const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
+  std::uint64_t mediaSegments = 0;           // stretches of rays through media so far
 
   // Random numbers for one purpose (`stream`: a constant of the integrator's) at this sample.
   RandomStream Stream(std::uint64_t stream) const { return RandomStream(HashKey({key, stream})); }
@@ -56,6 +59,10 @@ struct LiContext {
   bool Occluded(const Ray& ray) {
     rays.Count(RayKind::Shadow);
     return scene.Occluded(ray);
+  }
+  // What part of the light gets through along a shadow ray: 0 where a surface blocks it.
+  Spectrum Unoccluded(const Ray& ray) {
+    return Occluded(ray) ? Spectrum() : scene.Transmittance(ray);
   }
 };
 

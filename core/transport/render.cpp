@@ -142,6 +142,7 @@ class TileRenderer {
     LiContext context{job_.scene, samples, worker->arena, worker->rays,
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
+    context.volume = job_.volume;
     LayerSample layers;
     if (layers_) {
       layers.wanted = layers_->Wanted();
@@ -234,6 +235,7 @@ struct PassRenderer::State {
     Log& log = passes == 0 ? job.log : unheard;
     PreprocessContext context{job.threads, seed, log, progress, job.statistics, options.isStrict};
     job.integrator.Preprocess(job.scene, context);
+    if (job.volume) job.volume->Preprocess(job.scene);
   }
 
   const RenderJob& job;

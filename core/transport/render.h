@@ -19,6 +19,7 @@
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/transport/integrator.h"
+#include "core/transport/volume_integrator.h"
 
 namespace exphoton {
 
@@ -45,6 +46,7 @@ struct RenderJob {
   Log& log;
   ProgressReporter& progress;
   Statistics& statistics;
+  VolumeIntegrator* volume = nullptr;  // light that media add; null: none
 };
 
 struct RenderResult {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/transport/specular_bounce.h"
+#include "core/transport/volume_integrator.h"
 
 namespace exphoton {
 
@@ -43,14 +44,33 @@ class SpecularTree {
   Spectrum Along(const RayDifferential& ray, const Spectrum& throughput, int depth,
                  const Shade& shade) {
     const auto hit = context_.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
+    const MediaSegment media = AlongMedia(ray, hit ? &hit->p : nullptr, context_);
     if (!hit) {
-      const Spectrum sky = context_.scene.EscapedRadiance(ray.d);
+      const Spectrum sky =
+          media.transmittance * context_.scene.EscapedRadiance(ray.d) + media.radiance;
       if (depth == 0) context_.alpha = sky.IsBlack() ? 0 : 1;
       if (depth == 0 && context_.layers) context_.layers->emission = sky;
       return sky;
     }
+    const Spectrum light = Leaving(*hit, ray, throughput * media.transmittance, depth, shade);
+    if (depth == 0 && context_.layers) Cover(media, context_.layers);
+    return media.transmittance * light + media.radiance;
+  }
+
+  // What media between the camera and its surface do to the layers; their own light is emission.
+  static void Cover(const MediaSegment& media, LayerSample* layers) {
+    for (Spectrum* layer : {&layers->emission, &layers->direct, &layers->caustic,
+                            &layers->indirect, &layers->specular})
+      *layer *= media.transmittance;
+    layers->emission += media.radiance;
+  }
+
+  // Radiance leaving the hit towards the ray's origin.
+  template <class Shade>
+  Spectrum Leaving(const SurfaceInteraction& hit, const RayDifferential& ray,
+                   const Spectrum& throughput, int depth, const Shade& shade) {
     const ShadingPoint point =
-        MakeShadingPoint(*hit, ray, depth, TransportMode::Radiance, &context_.arena);
+        MakeShadingPoint(hit, ray, depth, TransportMode::Radiance, &context_.arena);
     Spectrum radiance = shade(point);
     if (!context_.scene.Effects().Needs(Effect::Specular)) return radiance;
     if (depth == maxDepth_) {

@@ -3,6 +3,7 @@
 #include "integrators/photon/gather_radiance.h"
 
 #include "core/transport/direct_lighting.h"
+#include "core/transport/volume_integrator.h"
 
 namespace exphoton {
 namespace {
@@ -40,6 +41,9 @@ Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
   Spectrum sum, throughput(1);
   for (int depth = 0;; ++depth) {
     const auto& hit = segment.hit;
+    const MediaSegment media = AlongMedia(segment.ray, hit ? &hit->point.p : nullptr, context_);
+    sum += throughput * media.radiance;
+    throughput *= media.transmittance;
     if (!hit || !hit->material) return sum;
     sum += throughput * NonSpecular(segment, shortBounces);
     if (!followsSpecular || !Intersects(hit->material->PossibleLobes(), LobeSet::Specular))

@@ -46,6 +46,8 @@ class PhotonTracer::Path {
       rays->Count(RayKind::Photon);
       const auto surface = tracer_.scene_.Intersect(ray);
       if (!surface) return;
+      Absorb(ray, surface->p);
+      if (!(alpha_.MaxComponent() > 0)) return;
       const ShadingPoint point =
           MakeShadingPoint(*surface, ray, hits, TransportMode::Importance, arena);
       const PhotonKind kind = hits == 1         ? PhotonKind::Direct
@@ -58,6 +60,14 @@ class PhotonTracer::Path {
   }
 
  private:
+  // What media take from the photon on its way to p.
+  void Absorb(const Ray& ray, const Point3& p) {
+    if (tracer_.scene_.Media().empty()) return;
+    Ray stretch = ray;
+    stretch.tMax = Distance(ray.o, p) / Length(ray.d);
+    alpha_ *= tracer_.scene_.Transmittance(stretch);
+  }
+
   bool Emit(RayDifferential* ray) {
     const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
     const Point2 uDirection = samples_.Next2D();

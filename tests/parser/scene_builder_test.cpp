@@ -83,12 +83,6 @@ INSTANTIATE_TEST_SUITE_P(
         Case{kBegin + "Texture \"t\" \"colour\" \"constant\"",
              "2:1: texture \"t\" has type \"colour\"; types of textures are \"float\" and "
              "\"color\""},
-        Case{kBegin + "Volume \"homogeneous\"",
-             "2:1: unknown volume \"homogeneous\"; known volumes: none (this version renders "
-             "none)"},
-        Case{"VolumeIntegrator \"singel\"",
-             "1:1: unknown volume integrator \"singel\"; known: \"emission\", \"single\" | did you "
-             "mean \"single\"?"},
         Case{"Film \"rgb\"", "1:1: unknown film \"rgb\"; known: \"image\""},
         Case{"Renderer \"metropolis\"", "1:1: unknown renderer \"metropolis\"; known: \"sampler\""},
         Case{"ActiveTransform Alll",
@@ -298,6 +292,21 @@ TEST(SceneBuilder, AcceptsVolumeIntegratorsWithoutEffect) {
   EXPECT_NE(built.Messages().find("the scene has no Volume: volume integrator \"single\" has "
                                   "nothing to do"),
             std::string::npos);
+}
+
+TEST(SceneBuilder, NamesTheVolumesAndVolumeIntegratorsThatThereAre) {
+  const BuiltScene volume = BuildText(kBegin + "Volume \"homogenous\"\nWorldEnd");
+  EXPECT_NE(
+      volume.error.find("2:1: error: there is no volume \"homogenous\"; those that there are: "
+                        "exponential, homogeneous, volumegrid"),
+      std::string::npos)
+      << volume.error;
+  const BuiltScene integrator = BuildText("VolumeIntegrator \"singel\"\n" + kBegin + "WorldEnd");
+  EXPECT_NE(
+      integrator.error.find("1:1: error: there is no volume integrator \"singel\"; those that "
+                            "there are: emission, single"),
+      std::string::npos)
+      << integrator.error;
 }
 
 TEST(SceneBuilder, WarnsOfASceneWithoutLight) {

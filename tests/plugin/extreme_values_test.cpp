@@ -119,6 +119,10 @@ class ExtremeValues : public ::testing::TestWithParam<int> {
         return MakeOne<PluginKind::Filter>(name, params, {});
       case PluginKind::Camera:
         return MakeOne<PluginKind::Camera>(name, params, {{}, 4, 3});
+      case PluginKind::Volume:
+        return MakeOne<PluginKind::Volume>(name, params, {{}, plugins_.GetLog(), {}});
+      case PluginKind::VolumeIntegrator:
+        return MakeOne<PluginKind::VolumeIntegrator>(name, params, {});
     }
   }
   template <PluginKind kind>

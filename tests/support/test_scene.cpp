@@ -45,13 +45,13 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
   renderOptions.tileOrder = options.tileOrder;
   renderOptions.isStrict = options.isStrict;
   std::optional<LayerFilm> layers;
-  if (!options.layers.IsEmpty())
-    renderOptions.layers = &layers.emplace(setup.crop, options.layers);
+  if (!options.layers.IsEmpty()) renderOptions.layers = &layers.emplace(setup.crop, options.layers);
 
   TestRender render;
-  render.result = Render({*setup.scene, *setup.integrator, *setup.sampler, *setup.filter,
-                          *setup.camera, film, threads, *scene.log, progress, statistics},
-                         renderOptions);
+  render.result =
+      Render({*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, film,
+              threads, *scene.log, progress, statistics, setup.volumeIntegrator.get()},
+             renderOptions);
   render.image = film.ToImage(setup.film.premultiplyAlpha);
   if (layers) layers->AppendTo(film, setup.film.premultiplyAlpha, &render.image);
   render.messages = scene.log->Messages();

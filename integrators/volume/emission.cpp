@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Volume integrator "emission": what media emit themselves; light that they scatter is lost.
+#include "integrators/volume/common/march.h"
+
+namespace exphoton {
+namespace {
+
+class EmissionIntegrator final : public VolumeIntegrator {
+ public:
+  explicit EmissionIntegrator(const MarchSettings& settings) : stepSize_(settings.stepSize) {}
+
+  Spectrum Li(const Ray& ray, LiContext& context, RandomStream random) const override {
+    const Scene& scene = context.scene;
+    return March(ray, scene, stepSize_, random.Uniform(), [&](const Point3& p) {
+      Spectrum emission;
+      for (const auto& medium : scene.Media()) emission += medium->At(p).emission;
+      return emission;
+    });
+  }
+
+ private:
+  Real stepSize_;
+};
+
+std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const NoContext&) {
+  return std::make_unique<EmissionIntegrator>(settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("emission", "media emit and absorb",
+                exphoton::MakeForm<exphoton::PluginKind::VolumeIntegrator>(
+                    exphoton::MarchParameters(), exphoton::Create))

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Volume integrator "single": what media emit, and light that comes straight from a light and is
+// scattered once. At each step one light is chosen by power and sampled at one point.
+#include "core/lights/light_distribution.h"
+#include "integrators/volume/common/march.h"
+
+namespace exphoton {
+namespace {
+
+class SingleScattering final : public VolumeIntegrator {
+ public:
+  explicit SingleScattering(const MarchSettings& settings) : stepSize_(settings.stepSize) {}
+
+  void Preprocess(const Scene& scene) override {
+    lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
+  }
+
+  Spectrum Li(const Ray& ray, LiContext& context, RandomStream random) const override {
+    const Scene& scene = context.scene;
+    const Real offset = random.Uniform();
+    return March(ray, scene, stepSize_, offset, [&](const Point3& p) {
+      Spectrum source;
+      for (const auto& medium : scene.Media()) source += medium->At(p).emission;
+      return source + Scattered(p, ray, context, &random);
+    });
+  }
+
+ private:
+  static constexpr double kUniformShare = 0.5;
+
+  // Sum over the media of scattering * phase, times the light that arrives from one light.
+  Spectrum Scattered(const Point3& p, const Ray& ray, LiContext& context,
+                     RandomStream* random) const {
+    // The same numbers whether they are needed or not: what follows does not move.
+    const Real uLight = random->Uniform(), uPart = random->Uniform(), u = random->Uniform();
+    const Point2 uPoint{u, random->Uniform()};
+    if (lights_.IsEmpty()) return {};
+    const auto choice = lights_.Sample(uLight);
+    const SurfacePoint at{p, Abs(p) * Gamma(3), Normal3()};
+    const auto direct = choice.light->SampleDirect(at, uPoint, uPart);
+    if (!direct || direct->Li.IsBlack()) return {};
+    Spectrum scattering;
+    for (const auto& medium : context.scene.Media())
+      scattering += medium->At(p).scattering * medium->Phase(-ray.d, direct->wi);
+    if (scattering.IsBlack()) return {};
+    Ray shadowRay = direct->shadowRay;
+    shadowRay.time = ray.time;
+    const Spectrum arriving = context.Unoccluded(shadowRay);
+    return scattering * arriving * direct->Li / (direct->pdf * choice.probability);
+  }
+
+  Real stepSize_;
+  LightDistribution lights_;
+};
+
+std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const NoContext&) {
+  return std::make_unique<SingleScattering>(settings);
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("single", "media emit, absorb and scatter light once",
+                exphoton::MakeForm<exphoton::PluginKind::VolumeIntegrator>(
+                    exphoton::MarchParameters(), exphoton::Create))

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// BoxMedium: what the volume plugins share: a box p0 to p1 in the space of the Volume directive,
+// with the same coefficients everywhere, times a density that the plugin defines.
+#pragma once
+
+#include <cmath>
+
+#include "core/plugin.h"
+
+namespace exphoton {
+
+struct MediumSettings {
+  Spectrum absorption{0}, scattering{0}, emission{0};
+  Real g = 0;
+  Point3 p0{0, 0, 0}, p1{1, 1, 1};
+};
+
+inline const ParamTable<MediumSettings>& MediumParameters() {
+  using S = MediumSettings;
+  static const ParamTable<S> table{
+      Param("sigma_a", &S::absorption, "absorption").AtLeast(0).Unit("1/scene unit"),
+      Param("sigma_s", &S::scattering, "scattering").AtLeast(0).Unit("1/scene unit"),
+      Param("Le", &S::emission, "radiance emitted per unit of length").AtLeast(0),
+      Param("g", &S::g, "forward (1) or backward (-1) scattering; Henyey and Greenstein")
+          .Above(-1)
+          .Below(1),
+      Param("p0", &S::p0, "a corner of the box that it fills"),
+      Param("p1", &S::p1, "the opposite corner")};
+  return table;
+}
+
+// Density: At(p), at a point of the box, and Integral(o, d, part), of the density over t along
+// o + t d for a part inside; both in the space of the box.
+template <class Density>
+class BoxMedium final : public Medium {
+ public:
+  BoxMedium(const MediumSettings& settings, const MediumContext& context, Density density)
+      : settings_(settings),
+        box_(settings.p0, settings.p1),
+        toMedium_(context.mediumToWorld.Inverted()),
+        density_(std::move(density)) {}
+
+  std::optional<Interval> Overlap(const Ray& ray) const override {
+    const auto part =
+        IntersectBox(box_, toMedium_.ApplyPoint(ray.o), toMedium_.ApplyVector(ray.d), ray.tMax);
+    if (!part || !(part->max > part->min) || !std::isfinite(part->max)) return std::nullopt;
+    return part;
+  }
+
+  MediumPoint At(const Point3& world) const override {
+    const Point3 p = toMedium_.ApplyPoint(world);
+    if (!box_.Contains(p)) return {};
+    const auto density = Real(density_.At(p));
+    return {settings_.absorption * density, settings_.scattering * density,
+            settings_.emission * density};
+  }
+
+  Spectrum OpticalDepth(const Ray& ray, Interval part) const override {
+    const auto inside = Overlap(ray);
+    if (!inside) return {};
+    part = {std::max(part.min, inside->min), std::min(part.max, inside->max)};
+    if (!(part.max > part.min)) return {};
+    const double along =
+        density_.Integral(toMedium_.ApplyPoint(ray.o), toMedium_.ApplyVector(ray.d), part);
+    const Real depth = Real(along * double(Length(ray.d)));
+    // Per channel: nothing times infinitely much is nothing.
+    const auto channel = [&](Real coefficient) {
+      return coefficient > 0 ? coefficient * depth : 0;
+    };
+    const Spectrum sum = settings_.absorption + settings_.scattering;
+    return {channel(sum.r), channel(sum.g), channel(sum.b)};
+  }
+
+  Real Phase(const Vector3& wo, const Vector3& wi) const override {
+    return HenyeyGreenstein(settings_.g, wo, wi);
+  }
+
+ private:
+  MediumSettings settings_;
+  Bounds3 box_;
+  Transform toMedium_;
+  Density density_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Volume "exponential": density a exp(-b h) at height h above p0 along updir, as of air or ground
+// fog. Its integral along a ray is known: no marching.
+#include "materials/media/common/box_medium.h"
+
+namespace exphoton {
+namespace {
+
+struct Settings : MediumSettings {
+  Real a = 1, b = 1;
+  Vector3 up{0, 1, 0};
+
+  void Validate() const {
+    if (up == Vector3()) throw ParamError{"updir", "must not be 0", ""};
+  }
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      MediumParameters(), Param("a", &Settings::a, "density at p0").AtLeast(0),
+      Param("b", &Settings::b, "how fast it falls with height; the height of 1/e is 1 / b"),
+      Param("updir", &Settings::up, "where height grows; its length counts").As(ParamType::Vector)};
+  return table;
+}
+
+class Exponential {
+ public:
+  explicit Exponential(const Settings& s)
+      : a_(double(s.a)), b_(double(s.b)), bottom_(Min(s.p0, s.p1)), up_(s.up) {}
+
+  double At(const Point3& p) const { return a_ * std::exp(-b_ * Height(p)); }
+
+  // With the exponent falling by x over the part: density at its beginning times (1 - e^-x) / x.
+  double Integral(const Point3& o, const Vector3& d, Interval part) const {
+    const double length = double(part.max) - double(part.min);
+    const double slope =
+        double(d.x) * double(up_.x) + double(d.y) * double(up_.y) + double(d.z) * double(up_.z);
+    const double x = b_ * slope * length;
+    const double first = a_ * std::exp(-b_ * (Height(o) + slope * double(part.min)));
+    const double mean = std::abs(x) < 1e-12 ? 1 : -std::expm1(-x) / x;
+    return first > 0 ? first * mean * length : 0;
+  }
+
+ private:
+  double Height(const Point3& p) const {
+    return (double(p.x) - double(bottom_.x)) * double(up_.x) +
+           (double(p.y) - double(bottom_.y)) * double(up_.y) +
+           (double(p.z) - double(bottom_.z)) * double(up_.z);
+  }
+
+  double a_, b_;
+  Point3 bottom_;
+  Vector3 up_;
+};
+
+std::unique_ptr<Medium> Create(const Settings& settings, const MediumContext& context) {
+  return std::make_unique<BoxMedium<Exponential>>(settings, context, Exponential(settings));
+}
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("exponential", "a medium whose density falls with height",
+                exphoton::MakeForm<exphoton::PluginKind::Volume>(exphoton::Parameters(),
+                                                                 exphoton::Create))

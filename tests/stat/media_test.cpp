@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Participating media against closed forms: Beer and Lambert's law for every kind of ray and of
+// density, emission, and single scattering in a slab under parallel light.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/equivalence.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+// A narrow orthographic view along +z from the origin. The medium fills 1 <= z <= 4, far wider.
+std::string Header(const std::string& integrator, const std::string& volumeIntegrator) {
+  return "Camera \"orthographic\" \"float screenwindow\" [-.1 .1 -.1 .1]\n"
+         "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+         "PixelFilter \"box\"\nSampler \"random\" \"integer xsamples\" 4 \"integer ysamples\" 4\n"
+         "SurfaceIntegrator " +
+         integrator + "\nVolumeIntegrator " + volumeIntegrator + "\nWorldBegin\n";
+}
+std::string Slab(const std::string& kind, const std::string& parameters) {
+  return "Volume \"" + kind + "\" \"point p0\" [-50 -50 1] \"point p1\" [50 50 4] " + parameters +
+         "\n";
+}
+// A disk at z = 5 that faces the camera.
+const std::string kDisk =
+    "AttributeBegin Translate 0 0 5 ReverseOrientation Shape \"disk\" \"float radius\" 3 "
+    "AttributeEnd\n";
+const std::string kEmitter = "AreaLightSource \"area\" \"color L\" [2 2 2]\n" + kDisk;
+const std::string kBlackDisk = "Material \"matte\" \"color Kd\" [0 0 0]\n" + kDisk;
+
+const char* const kIntegrators[] = {"\"whitted\"", "\"directlighting\"", "\"path\"",
+                                    "\"photonmap\" \"integer indirectphotons\" 100",
+                                    "\"exphotonmap\" \"integer indirectphotons\" 100"};
+
+// The three densities with their integrals along the view.
+struct Density {
+  std::string kind, parameters;
+  double integral;
+};
+std::vector<Density> Densities() {
+  return {
+      {"homogeneous", "", 3},
+      {"exponential", "\"float a\" 2 \"float b\" .5 \"vector updir\" [0 0 1]",
+       4 * (1 - std::exp(-1.5))},
+      {"exponential", "\"float a\" 2 \"float b\" .5 \"vector updir\" [0 1 0]", 6 * std::exp(-25.0)},
+      // Linear between the middles 1.5, 2.5 and 3.5, constant beyond.
+      {"volumegrid", "\"integer nz\" 3 \"float density\" [1 2 .5]", .5 + 1.5 + 1.25 + .25}};
+}
+
+TEST(Media, AbsorbWhatTheCameraSeesThroughThem) {
+  for (const Density& density : Densities()) {
+    for (const char* integrator : kIntegrators) {
+      const TestRender render =
+          RenderSceneText(Header(integrator, "\"emission\"") +
+                          Slab(density.kind, "\"color sigma_a\" [.1 .2 .4] " + density.parameters) +
+                          kEmitter + "WorldEnd\n");
+      const double sigma[] = {.1, .2, .4};
+      for (int c = 0; c < 3; ++c) {
+        const double expected = 2 * std::exp(-sigma[c] * density.integral);
+        EXPECT_NEAR(MeanChannel(render.image, std::string(1, "RGB"[c])), expected, 1e-5 * expected)
+            << density.kind << " " << integrator << " channel " << c;
+      }
+    }
+  }
+}
+
+TEST(Media, AbsorbTheSameAtEverySlant) {
+  // Turned and scaled with the transformation of the Volume, seen along a diagonal.
+  const TestRender render = RenderSceneText(
+      "LookAt 0 0 0  0 .6 .8  0 1 0\n" + Header("\"directlighting\"", "\"emission\"") +
+      "AttributeBegin Scale 2 2 2 Volume \"volumegrid\" \"point p0\" [-50 -50 .5] "
+      "\"point p1\" [50 50 2] \"color sigma_a\" [.3 .3 .3] \"integer nz\" 3 "
+      "\"float density\" [1 2 .5] AttributeEnd\n"
+      "LightSource \"infinite\" \"color L\" [1 1 1]\nWorldEnd\n");
+  EXPECT_NEAR(MeanRadiance(render.image), std::exp(-.3 * 3.5 / .8), 2e-4);
+}
+
+TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
+  const std::string world = Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") +
+                            "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+                            "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
+                            kDisk + "WorldEnd\n";
+  const double expected = .5 / 3.14159265358979 * std::exp(-.9) * std::exp(-.9);
+  for (const char* integrator : kIntegrators) {
+    const TestRender render = RenderSceneText(Header(integrator, "\"emission\"") + world);
+    EXPECT_NEAR(MeanRadiance(render.image), expected, 1e-4 * expected) << integrator;
+  }
+  // And photons on their way to the surface.
+  const auto measure = [&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    return MeanRadiance(
+        RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
+                               "\"integer directphotons\" 100000 \"integer nused\" 8000 "
+                               "\"float maxdist\" 1",
+                               "\"emission\"") +
+                            world,
+                        options)
+            .image);
+  };
+  EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected));
+}
+
+TEST(Media, EmitWithoutBias) {
+  const double sigma = .7;
+  const auto measure = [&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    return MeanRadiance(
+        RenderSceneText(Header("\"directlighting\"", "\"emission\" \"float stepsize\" .3") +
+                            Slab("homogeneous",
+                                 "\"color sigma_a\" [.7 .7 .7] \"color Le\" "
+                                 "[1 1 1]") +
+                            kBlackDisk + "WorldEnd\n",
+                        options)
+            .image);
+  };
+  EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), (1 - std::exp(-3 * sigma)) / sigma));
+}
+
+// Light travels at angle theta to the view and is scattered once: over the depth s the radiance is
+// the integral of E sigma_s p exp(-sigma_t s (1 + 1 / cos theta)).
+TEST(Media, ScatterParallelLightOnceAsTheSlabFormulaSays) {
+  for (const double g : {0.0, .5, -.4}) {
+    const double sigmaS = .3, sigmaT = .5, cosine = .8;
+    const double base = 1 + g * g + 2 * g * cosine;
+    const double phase = (1 - g * g) / (4 * 3.14159265358979 * base * std::sqrt(base));
+    const double rate = sigmaT * (1 + 1 / cosine);
+    const double expected = sigmaS * phase * (1 - std::exp(-3 * rate)) / rate;
+    for (const char* integrator : {"\"directlighting\"", "\"path\""}) {
+      const auto measure = [&](std::uint64_t seed) {
+        TestRenderOptions options;
+        options.seed = seed;
+        const std::string coefficients =
+            "\"color sigma_s\" [.3 .3 .3] \"color sigma_a\" "
+            "[.2 .2 .2] \"float g\" " +
+            std::to_string(g);
+        return MeanRadiance(
+            RenderSceneText(
+                Header(integrator, "\"single\" \"float stepsize\" .25") +
+                    Slab("homogeneous", coefficients) +
+                    "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [.6 0 .8]\n" +
+                    kBlackDisk + "WorldEnd\n",
+                options)
+                .image);
+      };
+      EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected)) << g << integrator;
+    }
+  }
+}
+
+TEST(Media, LeftOutOfThePlanLeaveTheSceneAsItIsWithoutThem) {
+  const std::string head = Header("\"path\"", "\"single\"");
+  TestRenderOptions off;
+  off.load.effects = "media=off";
+  const std::string slab = Slab("homogeneous", "\"color sigma_s\" [.3 .3 .3]");
+  const TestRender without = RenderSceneText(head + kEmitter + "WorldEnd\n");
+  const TestRender left = RenderSceneText(head + slab + kEmitter + "WorldEnd\n", off);
+  EXPECT_EQ(without.image.pixels, left.image.pixels);
+  EXPECT_TRUE(left.Says("media"));
+}
+
+TEST(Media, AreFiniteAtExtremeDensities) {
+  for (const char* sigma : {"1e30", "1e-30", "0"}) {
+    for (const Density& density : Densities()) {
+      const std::string s(sigma);
+      const TestRender render =
+          RenderSceneText(Header("\"path\"", "\"single\" \"float stepsize\" 1e-2") +
+                          Slab(density.kind, "\"color sigma_s\" [" + s + " " + s + " " + s + "] " +
+                                                 density.parameters) +
+                          kEmitter + "WorldEnd\n");
+      EXPECT_EQ(render.result.nonFiniteSamples, 0);
+      EXPECT_GE(MeanRadiance(render.image), 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
