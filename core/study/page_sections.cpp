@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "core/study/cost_chart.h"
@@ -46,15 +47,21 @@ std::string ReferenceFacts(const Results& results, const Analysis& analysis) {
   return facts;
 }
 
+// A file with its folder: enough to tell it from others; the whole path stands with the commands.
+std::string FileInFolder(const std::string& path) {
+  const std::filesystem::path file(path);
+  return (file.parent_path().filename() / file.filename()).string();
+}
+
 // What a reader must know of a reference that shows another scene file.
 std::string ReferenceNote(const Results& results) {
   const ReferenceRecord& r = results.reference;
   if (r.scene.empty() || r.scene == results.scene || r.sceneHash == results.sceneHash) return "";
   return "<p class=\"lead\">The reference was rendered from a variant of the scene, <code>" +
-         Escape(r.scene) +
+         Escape(FileInFolder(r.scene)) +
          "</code>, which has the same picture but light that path tracing finds; the other runs "
          "render <code>" +
-         Escape(results.scene) + "</code>.</p>";
+         Escape(FileInFolder(results.scene)) + "</code>.</p>";
 }
 
 std::size_t LineNumber(const Analysis& analysis, const std::string& label) {

@@ -91,6 +91,7 @@ TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
   const auto measure = [&](std::uint64_t seed) {
     TestRenderOptions options;
     options.seed = seed;
+    options.load.samplesPerPixel = 1;
     return MeanRadiance(
         RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
                                "\"integer directphotons\" 100000 \"integer nused\" 8000 "
@@ -160,6 +161,28 @@ TEST(Media, LeftOutOfThePlanLeaveTheSceneAsItIsWithoutThem) {
   const TestRender left = RenderSceneText(head + slab + kEmitter + "WorldEnd\n", off);
   EXPECT_EQ(without.image.pixels, left.image.pixels);
   EXPECT_TRUE(left.Says("media"));
+}
+
+TEST(Media, LeaveLightLayersThatSumToThePicture) {
+  TestRenderOptions options;
+  options.layers = kLightLayers;
+  for (const char* integrator : kIntegrators) {
+    const TestRender render = RenderSceneText(
+        Header(integrator, "\"single\"") +
+            Slab("homogeneous", "\"color sigma_s\" [.1 .2 .3] \"color Le\" [.1 .1 .1]") +
+            "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [.6 0 .8]\n"
+            "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
+            kDisk + "WorldEnd\n",
+        options);
+    for (const std::string channel : {"R", "G", "B"}) {
+      double sum = 0;
+      for (const char* layer : {"emission.", "direct.", "caustic.", "indirect.", "specular."})
+        sum += MeanChannel(render.image, layer + channel);
+      const double picture = MeanChannel(render.image, channel);
+      EXPECT_GT(picture, 0);
+      EXPECT_NEAR(sum, picture, 1e-5 * picture) << integrator;
+    }
+  }
 }
 
 TEST(Media, AreFiniteAtExtremeDensities) {
