@@ -103,8 +103,8 @@ class SpotLight final : public Light {
   Real Falloff(const Vector3& w) const {
     const Real oneMinusCos = LengthSquared(w - axis_) / 2;
     if (oneMinusCos <= inner_) return 1;
-    const Real delta = (inner_ + rim_ - oneMinusCos) / rim_;
-    return delta > 0 ? Square(Square(delta)) : 0;  // also where the rim has no width
+    const Real left = inner_ + rim_ - oneMinusCos;
+    return left > 0 ? Square(Square(left / rim_)) : 0;  // also where the rim has no width
   }
 
   Point3 position_;

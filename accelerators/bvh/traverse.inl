@@ -21,7 +21,9 @@ struct BoxRay {
       nearRow[axis] = 2 * axis + isBackward;
       farRow[axis] = 2 * axis + !isBackward;
       // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
-      const Real inverse = 1 / ray.d[axis], x = slope * std::abs(inverse);
+      const Real d = ray.d[axis];
+      const Real inverse = d == 0 ? std::copysign(kInfinity, d) : 1 / d;  // traps stay silent
+      const Real x = slope * std::abs(inverse);
       nearOrigin[axis] = farOrigin[axis] = Real8::All(ray.o[axis]);
       nearInverse[axis] = Real8::All(inverse * (1 - x - Gamma(6)));
       farInverse[axis] = Real8::All(inverse * (1 + 2 * x + Gamma(6)));

@@ -83,7 +83,7 @@ Outcome Judge::RunSeed(const hardcases::Run& run, int seed, Pictures* pictures) 
   command.folder = folder.Path();
   command.timeLimit = run.timeLimit * programs_.patience;
   command.environment = run.environment;
-  command.words = {programs_.folder + "/exphoton",
+  command.words = {programs_.exphoton,
                    "--float",
                    "--no-progress",
                    "-o",
@@ -187,7 +187,7 @@ void Judge::RunScript(const Script& script) {
   Command command;
   command.folder = folder.Path();
   command.timeLimit = script.timeLimit * programs_.patience;
-  command.environment = {"EXPHOTON=" + programs_.folder + "/exphoton"};
+  command.environment = {"EXPHOTON=" + programs_.exphoton};
   command.words = {"bash", "-e", "-u", "-o", "pipefail", "-c", script.text};
   const Outcome outcome = Execute(command);
   Count(outcome);

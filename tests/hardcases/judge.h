@@ -19,7 +19,8 @@ struct Verdict {
 };
 
 struct Programs {
-  std::string folder;      // holds exphoton and test_*
+  std::string folder;      // holds test_*
+  std::string exphoton;    // the program under test
   double patience = 1;     // multiplies time and memory limits (sanitizers)
   std::uint64_t seed = 1;  // first seed
   bool isFull = false;     // slow runs too

@@ -25,7 +25,8 @@ namespace {
 
 struct Options {
   std::string cases = std::string(EXPHOTON_SOURCE_DIR) + "/tests/hardcases/cases";
-  Programs programs{std::string(EXPHOTON_BINARY_DIR) + "/bin"};
+  Programs programs{std::string(EXPHOTON_BINARY_DIR) + "/bin",
+                    std::string(EXPHOTON_BINARY_DIR) + "/bin/exphoton"};
   std::set<std::string> only;
   std::string page;
   int jobs = 2;
@@ -34,11 +35,11 @@ struct Options {
 
 constexpr const char* kUsage =
     "usage: hardcases [--full] [--tests] [--only 12,70,T1] [--page FILE.md] [--jobs N]\n"
-    "                 [--patience FACTOR] [--seed N] [--programs FOLDER] [--cases FOLDER] [--quiet]\n"
+    "                 [--patience FACTOR] [--seed N] [--program PATH] [--cases FOLDER] [--quiet]\n"
     "  --full      the slow cases too\n"
     "  --tests     run the named tests as well (default: only look whether they exist)\n"
     "  --patience  multiplies limits of time and memory, for sanitizers\n"
-    "  --programs  where exphoton and the test programs are, if not in this build\n";
+    "  --program   the exphoton to test, if not the one of this build\n";
 
 Options OptionsFrom(int argc, char** argv) {
   Options options;
@@ -65,8 +66,8 @@ Options OptionsFrom(int argc, char** argv) {
       options.jobs = std::stoi(value());
     } else if (word == "--patience") {
       options.programs.patience = std::stod(value());
-    } else if (word == "--programs") {
-      options.programs.folder = std::filesystem::absolute(value()).string();
+    } else if (word == "--program") {
+      options.programs.exphoton = std::filesystem::absolute(value()).string();
     } else if (word == "--seed") {
       options.programs.seed = std::stoull(value());
     } else {

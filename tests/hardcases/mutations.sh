@@ -45,7 +45,7 @@ while IFS='|' read -r name file text instead targets cases; do
   elif output=$("$build/bin/hardcases" --tests --only "$cases" --quiet); then
     echo "$name: NOT CAUGHT by case $cases"; missed=1
   else
-    echo "$name: caught by case $cases: $(printf '%s\n' "$output" | grep '^      ' | head -1 | sed 's/^ *//')"
+    echo "$name: caught by case $cases: $(printf '%s\n' "$output" | grep '^      [^ ]' | head -1 | sed 's/^ *//')"
   fi
   mv "$copy/$file.whole" "$copy/$file"
   touch "$copy/$file"
