@@ -30,9 +30,10 @@ const std::string kDisk =
 const std::string kEmitter = "AreaLightSource \"area\" \"color L\" [2 2 2]\n" + kDisk;
 const std::string kBlackDisk = "Material \"matte\" \"color Kd\" [0 0 0]\n" + kDisk;
 
-const char* const kIntegrators[] = {"\"whitted\"", "\"directlighting\"", "\"path\"",
-                                    "\"photonmap\" \"integer indirectphotons\" 100",
-                                    "\"exphotonmap\" \"integer indirectphotons\" 100"};
+const char* const kIntegrators[] = {
+    "\"whitted\"", "\"directlighting\"", "\"path\"",
+    "\"photonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\"",
+    "\"exphotonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\""};
 
 // The three densities with their integrals along the view.
 struct Density {
@@ -92,14 +93,14 @@ TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
     TestRenderOptions options;
     options.seed = seed;
     options.load.samplesPerPixel = 1;
-    return MeanRadiance(
-        RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
-                               "\"integer directphotons\" 100000 \"integer nused\" 8000 "
-                               "\"float maxdist\" 1",
-                               "\"emission\"") +
-                            world,
-                        options)
-            .image);
+    return MeanRadiance(RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
+                                               "\"integer directphotons\" 100000 \"integer "
+                                               "indirectphotons\" 0 \"integer nused\" 8000 "
+                                               "\"float maxdist\" 1",
+                                               "\"emission\"") +
+                                            world,
+                                        options)
+                            .image);
   };
   EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected));
 }
