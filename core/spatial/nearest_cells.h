@@ -20,6 +20,8 @@ namespace exphoton {
 class NearestCells {
  public:
   static constexpr int kListed = 24;
+  // Memory for each point, as measured in rooms; it depends on the surfaces.
+  static constexpr std::size_t kTypicalBytesPerPoint = 85;
 
   struct Cell {
     std::uint32_t ids[kListed];  // in tree order, ascending
@@ -85,7 +87,7 @@ inline void NearestCells::Distances2(const Cell& cell, const Point3& p,
   };
   for (int j = 0; j < kListed; j += 4) {
     const Real4 a = offset(j), b = offset(j + 1), c = offset(j + 2), d = offset(j + 3);
-    const Real4 abLow = __builtin_shufflevector(a, b, 0, 4, 1, 5);   // xa xb ya yb
+    const Real4 abLow = __builtin_shufflevector(a, b, 0, 4, 1, 5);  // xa xb ya yb
     const Real4 cdLow = __builtin_shufflevector(c, d, 0, 4, 1, 5);
     const Real4 abHigh = __builtin_shufflevector(a, b, 2, 6, 2, 6);  // za zb
     const Real4 cdHigh = __builtin_shufflevector(c, d, 2, 6, 2, 6);

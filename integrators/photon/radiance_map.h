@@ -20,7 +20,7 @@ class RadianceMap {
   };
 
   static constexpr std::size_t kBytesPerEntry =
-      sizeof(Point3) + sizeof(std::uint32_t) + sizeof(Entry);
+      sizeof(Point3) + sizeof(std::uint32_t) + sizeof(Entry) + NearestCells::kTypicalBytesPerPoint;
 
   RadianceMap() = default;  // empty: finds nothing
   // Computes all entries in parallel (docs/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n) + rho_t
