@@ -37,6 +37,7 @@ void WorldBuilder::AddLight(const Directive& directive, const GraphicsState& sta
   parts_.lights.push_back(registry_.Create<PluginKind::Light>(
       name, directive.params, Bind(PluginKind::Light, name, state.textures.get()),
       LightContext{state.transform, log_, directive.Where()}));
+  parts_.lightOrigins.push_back({name, directive.Where()});
 }
 
 void WorldBuilder::AddVolume(const Directive& directive, const GraphicsState& state) {
@@ -151,6 +152,7 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
       AreaLightContext{std::move(surface), log_, spec->params.where});
   const AreaLight* made = light.get();
   parts_.lights.push_back(std::move(light));
+  parts_.lightOrigins.push_back({spec->name, shape.Where()});
   return made;
 }
 

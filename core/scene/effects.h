@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/effect_mask.h"
+
 namespace exphoton {
 
 enum class Effect {
@@ -33,7 +35,10 @@ class EffectPlan {
   };
 
   EffectPlan();  // everything on: what --effects all gives
-  bool Needs(Effect effect) const { return rows_[std::size_t(effect)].on; }
+  static constexpr bool IsCompiled(Effect effect) {
+    return ((kCompiledEffects >> unsigned(effect)) & 1u) != 0;
+  }
+  bool Needs(Effect effect) const { return IsCompiled(effect) && rows_[std::size_t(effect)].on; }
   const Row& Get(Effect effect) const { return rows_[std::size_t(effect)]; }
   void Set(Effect effect, bool on, std::string reason);
 

@@ -8,6 +8,7 @@ Scene::Scene(SceneParts parts)
     : parts_(std::move(parts)),
       aggregate_(parts_.aggregate.get()),
       bounds_(parts_.primitives->WorldBounds()) {
+  parts_.lightOrigins.resize(parts_.lights.size());
   const Sphere3 world = BoundingSphere(bounds_);
   for (const auto& light : parts_.lights) {
     light->Prepare(world);
@@ -21,7 +22,11 @@ void Scene::SetEffects(EffectPlan plan) {
   effects_ = std::move(plan);
   if (!effects_.Needs(Effect::Media)) parts_.media.clear();
   if (effects_.Needs(Effect::Environment)) return;
-  std::erase_if(parts_.lights, [](const auto& light) { return light->IsInfinite(); });
+  for (std::size_t i = parts_.lights.size(); i-- > 0;) {
+    if (!parts_.lights[i]->IsInfinite()) continue;
+    parts_.lights.erase(parts_.lights.begin() + std::ptrdiff_t(i));
+    parts_.lightOrigins.erase(parts_.lightOrigins.begin() + std::ptrdiff_t(i));
+  }
   infiniteLights_.clear();
 }
 
@@ -54,6 +59,7 @@ Spectrum Scene::TransmittanceOfMedia(const Ray& ray) const {
 
 Spectrum Scene::EscapedRadiance(const Vector3& w) const {
   Spectrum sum;
+  if (!EffectPlan::IsCompiled(Effect::Environment)) return sum;
   for (const Light* light : infiniteLights_) sum += light->Le(w);
   return sum;
 }

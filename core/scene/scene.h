@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/lights/light.h"
 #include "core/scattering/material.h"
 #include "core/scattering/medium.h"
@@ -18,13 +19,20 @@ namespace exphoton {
 
 class Camera;
 
+// Where a light comes from, for what people are told of it; empty where nobody said so.
+struct LightOrigin {
+  std::string plugin;  // "spot"
+  std::optional<SourceLocation> where;
+};
+
 // Everything a scene is made of; the scene takes it over.
 struct SceneParts {
   std::unique_ptr<PrimitiveSet> primitives;
   std::unique_ptr<Aggregate> aggregate;  // over *primitives
   std::vector<std::unique_ptr<ObjectGeometry>> objects;
   std::vector<std::unique_ptr<Light>> lights;
-  std::vector<std::shared_ptr<const Material>> materials;  // used by any primitive
+  std::vector<LightOrigin> lightOrigins;  // of lights, in their order; may be shorter
+  std::vector<std::shared_ptr<const Material>> materials;       // used by any primitive
   std::vector<std::shared_ptr<const EmitterSurface>> emitters;  // referred to by area lights
   std::vector<std::unique_ptr<Medium>> media;
 };
@@ -48,8 +56,10 @@ class Scene {
   // Radiance of every infinite light along a ray that escaped in direction w.
   Spectrum EscapedRadiance(const Vector3& w) const;
 
-  // All lights in the order of the file. Black ones are kept, so that indices are stable; skip them.
+  // All lights in the order of the file. Black ones are kept, so that indices are stable; skip
+  // them.
   const std::vector<std::unique_ptr<Light>>& Lights() const { return parts_.lights; }
+  const LightOrigin& OriginOfLight(std::size_t i) const { return parts_.lightOrigins[i]; }
   const std::vector<const Light*>& InfiniteLights() const { return infiniteLights_; }
   const std::vector<std::shared_ptr<const Material>>& Materials() const { return parts_.materials; }
   const Bounds3& WorldBounds() const { return bounds_; }
@@ -62,9 +72,10 @@ class Scene {
 
   // Empty where the plan of effects leaves media out.
   const std::vector<std::unique_ptr<Medium>>& Media() const { return parts_.media; }
+  bool HasMedia() const { return EffectPlan::IsCompiled(Effect::Media) && !parts_.media.empty(); }
   // What part of the light gets through all media, over 0 < t < ray.tMax.
   Spectrum Transmittance(const Ray& ray) const {
-    return parts_.media.empty() ? Spectrum(1) : TransmittanceOfMedia(ray);
+    return HasMedia() ? TransmittanceOfMedia(ray) : Spectrum(1);
   }
 
  private:

@@ -87,10 +87,8 @@ class TileRenderer {
         log_(log),
         layers_(options.layers),
         differentialScale_(
-            Real(1 / std::sqrt(double(std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1))))),
-        needsFiltering_(job.scene.Effects().Needs(Effect::Filtering)),
-        needsLens_(job.scene.Effects().Needs(Effect::Lens)),
-        needsTime_(job.scene.Effects().Needs(Effect::Motion)) {}
+            Real(1 / std::sqrt(double(std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1))))) {
+  }
 
   void RenderTile(const PixelBounds& tile, Worker* worker) const {
     for (int y = tile.y0; y < tile.y1; ++y) {
@@ -103,6 +101,7 @@ class TileRenderer {
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool Needs(Effect effect) const { return job_.scene.Effects().Needs(effect); }
   bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
   // False where stopped.
@@ -133,9 +132,9 @@ class TileRenderer {
     CameraSample sample;
     sample.film =
         Point2(Real(key.pixel.x) + Real(.5), Real(key.pixel.y) + Real(.5)) + filter.offset;
-    sample.lens = needsLens_ ? samples.lens : Point2(Real(.5), Real(.5));
-    sample.time = needsTime_ ? samples.time : 0;
-    RayDifferential ray = job_.camera.GenerateRay(sample, needsFiltering_);
+    sample.lens = Needs(Effect::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
+    sample.time = Needs(Effect::Motion) ? samples.time : 0;
+    RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Effect::Filtering));
     if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
 
     worker->arena.Reset();
@@ -177,7 +176,6 @@ class TileRenderer {
   NonFiniteLog* log_;
   LayerFilm* layers_;
   Real differentialScale_;
-  bool needsFiltering_, needsLens_, needsTime_;
 };
 
 // A depth limit may cut a little without a word; more is light that the picture lacks.

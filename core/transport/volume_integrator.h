@@ -26,7 +26,7 @@ MediaSegment MarchMedia(const Ray& ray, const Point3* end, LiContext& context);
 
 // `end`: where the ray ends; null: it escapes.
 inline MediaSegment AlongMedia(const Ray& ray, const Point3* end, LiContext& context) {
-  if (context.scene.Media().empty()) [[likely]]
+  if (!context.scene.HasMedia()) [[likely]]
     return {};
   return MarchMedia(ray, end, context);
 }

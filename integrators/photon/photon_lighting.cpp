@@ -59,6 +59,7 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
     harvest = PhotonTracer(scene, settings_, context.seed).Shoot(targets, context);
   }
   ReportHarvest(harvest, targets, settings_, context);
+  ReportLights(harvest, targets, scene, context);
   {
     const PhaseTimer timer(context.statistics, "kd-trees");
     maps_ = PhotonMaps(&harvest, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
@@ -99,6 +100,7 @@ Spectrum PhotonLighting::Direct(const ShadingPoint& point, LiContext& context) c
 }
 
 Spectrum PhotonLighting::Caustic(const ShadingPoint& point, LiContext& context) const {
+  if (!EffectPlan::IsCompiled(Effect::Caustics)) return {};
   return maps_.Radiance(PhotonKind::Caustic, point, &context.arena);
 }
 

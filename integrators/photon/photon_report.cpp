@@ -10,6 +10,12 @@
 namespace exphoton {
 namespace {
 
+// Lights that get rows of their own in the table of counters, and notices.
+constexpr std::size_t kMostListedLights = 64;
+constexpr int kMostVainNotices = 5;
+// Fewer photons than this may miss a small scene by chance.
+constexpr std::int64_t kTellingShots = 1000;
+
 // Power that the depth limit may cut without a word.
 constexpr double kSilentCut = 1e-3;
 
@@ -18,6 +24,36 @@ std::string Text(const Parts&... parts) {
   std::ostringstream out;
   (out << ... << parts);
   return out.str();
+}
+
+// "2 spot": counted from 1, in the order of the file.
+std::string LightName(const Scene& scene, std::size_t i) {
+  const std::string& plugin = scene.OriginOfLight(i).plugin;
+  return Text(i + 1, plugin.empty() ? "" : " ", plugin);
+}
+
+bool HasShotInVain(const LightTally& light, const PhotonTargets& targets) {
+  if (light.shot < kTellingShots || light.stored > 0) return false;
+  // A light without caustics is no news.
+  return light.hit == 0 || targets[PhotonKind::Direct] > 0 || targets[PhotonKind::Indirect] > 0;
+}
+
+void NoticeVainLights(const PhotonHarvest& harvest, const PhotonTargets& targets,
+                      const Scene& scene, Log& log) {
+  int found = 0;
+  for (std::size_t i = 0; i < harvest.lights.size(); ++i) {
+    const LightTally& light = harvest.lights[i];
+    if (!HasShotInVain(light, targets) || ++found > kMostVainNotices) continue;
+    const LightOrigin& origin = scene.OriginOfLight(i);
+    log.Notice(Text("light ", i + 1, origin.plugin.empty() ? "" : " (" + origin.plugin + ")",
+                    " has shot ", light.shot, " photons and none was stored"),
+               origin.where,
+               light.hit == 0
+                   ? "they hit nothing: does the light shine at the scene?"
+                   : "no surface that they met keeps photons of the maps that are wanted");
+  }
+  if (found > kMostVainNotices)
+    log.Notice(Text(found - kMostVainNotices, " more lights shot photons and none was stored"));
 }
 
 }  // namespace
@@ -49,8 +85,8 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
         {}, "raise \"maxphotondepth\", or lower reflectances that are (nearly) 1");
   if (harvest.overgrownPaths > 0)
     context.log.Warning(
-        Text(harvest.overgrownPaths, " photon paths were ended: their power grew without bound"), {},
-        "a surface reflects more light than it receives");
+        Text(harvest.overgrownPaths, " photon paths were ended: their power grew without bound"),
+        {}, "a surface reflects more light than it receives");
   if (harvest.droppedPhotons == 0) return;
   context.statistics.AddToCounter("photons/non-finite", double(harvest.droppedPhotons),
                                   "photons lost because their power was not finite");
@@ -58,6 +94,32 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
     throw Error(ExitStatus::Internal, Text("photon path ", harvest.firstDroppedPath, " of seed ",
                                            context.seed, " has a power that is not finite"));
   context.log.Warning(Text(harvest.droppedPhotons, " photons had no finite power and were lost"));
+}
+
+void ReportLights(const PhotonHarvest& harvest, const PhotonTargets& targets, const Scene& scene,
+                  PreprocessContext& context) {
+  if (harvest.paths == 0) return;
+  LightTally rest;
+  for (std::size_t i = 0; i < harvest.lights.size(); ++i) {
+    const LightTally& light = harvest.lights[i];
+    if (scene.Lights()[i]->IsProvablyBlack()) continue;
+    if (i >= kMostListedLights) {
+      rest.shot += light.shot;
+      rest.stored += light.stored;
+      continue;
+    }
+    const std::string name = "lights/" + LightName(scene, i);
+    context.statistics.AddToCounter(name + " shot", double(light.shot), "paths from this light");
+    context.statistics.AddToCounter(name + " stored", double(light.stored),
+                                    "photons that they left, in all maps");
+  }
+  if (rest.shot > 0) {
+    context.statistics.AddToCounter("lights/further shot", double(rest.shot),
+                                    "paths from lights that are not listed");
+    context.statistics.AddToCounter("lights/further stored", double(rest.stored),
+                                    "photons that they left, in all maps");
+  }
+  NoticeVainLights(harvest, targets, scene, context.log);
 }
 
 void ReportMaps(const PhotonMaps& maps, const RadianceMap* radianceMap,

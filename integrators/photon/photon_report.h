@@ -12,6 +12,9 @@ namespace exphoton {
 // Once the photons are shot, while their hauls are still in the harvest.
 void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
                    const PhotonSettings& settings, PreprocessContext& context);
+// The table of photons by light, and the lights that shot in vain.
+void ReportLights(const PhotonHarvest& harvest, const PhotonTargets& targets, const Scene& scene,
+                  PreprocessContext& context);
 // Once the maps are built. radianceMap may be null.
 void ReportMaps(const PhotonMaps& maps, const RadianceMap* radianceMap,
                 const PhotonSettings& settings, PreprocessContext& context);

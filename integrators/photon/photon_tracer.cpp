@@ -18,6 +18,16 @@ namespace exphoton {
 // receive, over and over; sums over maps with such photons would overflow. No roulette comes near.
 constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
 
+namespace {
+
+struct PathTally {
+  int light = 0;
+  bool hasHit = false;
+  std::int64_t stored = 0;
+};
+
+}  // namespace
+
 // What one piece of work leaves behind.
 struct PhotonTracer::Chunk {
   std::array<std::vector<Photon>, kPhotonKindCount> photons;
@@ -25,6 +35,7 @@ struct PhotonTracer::Chunk {
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
   std::int64_t overgrown = 0;
+  std::array<PathTally, kChunkPaths> paths;
 };
 
 // One photon path: follows it to its end and stores into the chunk what `open` maps want.
@@ -46,6 +57,7 @@ class PhotonTracer::Path {
       rays->Count(RayKind::Photon);
       const auto surface = tracer_.scene_.Intersect(ray);
       if (!surface) return;
+      tally_.hasHit = true;
       Absorb(ray, surface->p);
       if (!(alpha_.MaxComponent() > 0)) return;
       const ShadingPoint point =
@@ -59,10 +71,12 @@ class PhotonTracer::Path {
     }
   }
 
+  const PathTally& Tally() const { return tally_; }
+
  private:
   // What media take from the photon on its way to p.
   void Absorb(const Ray& ray, const Point3& p) {
-    if (tracer_.scene_.Media().empty()) return;
+    if (!tracer_.scene_.HasMedia()) return;
     Ray stretch = ray;
     stretch.tMax = Distance(ray.o, p) / Length(ray.d);
     alpha_ *= tracer_.scene_.Transmittance(stretch);
@@ -72,6 +86,7 @@ class PhotonTracer::Path {
     const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
     const Point2 uDirection = samples_.Next2D();
     const auto choice = tracer_.lights_.Sample(uLight.x);
+    tally_.light = choice.index;
     const auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y);
     if (!emission) return false;
     alpha_ = emission->power / choice.probability;  // docs/exphotonmap.md, eq. 3
@@ -87,6 +102,7 @@ class PhotonTracer::Path {
 
   void Store(PhotonKind kind, const ShadingPoint& point) {
     chunk_->photons[std::size_t(kind)].push_back({point.surface.p, point.Wo(), alpha_});
+    ++tally_.stored;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
     chunk_->seeds[std::size_t(kind)].push_back({point.surface.p,
                                                 FaceForward(point.surface.ng, point.Wo()),
@@ -154,6 +170,7 @@ class PhotonTracer::Path {
   const std::array<bool, kPhotonKindCount>& open_;
   Real radianceFraction_;
   Chunk* chunk_;
+  PathTally tally_;
   Spectrum alpha_;
   Real mostPower_ = 0;
   bool isSpecularPath_ = false;  // every bounce so far was specular
@@ -175,6 +192,7 @@ PhotonTracer::Chunk PhotonTracer::TraceChunk(std::int64_t firstPath,
     Path path(*this, std::uint64_t(firstPath + i), open, radianceFraction, &chunk);
     arena->Reset();
     path.Trace(arena, rays);
+    chunk.paths[std::size_t(i)] = path.Tally();
   }
   return chunk;
 }
@@ -200,6 +218,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
   PhotonHarvest harvest;
   std::array<bool, kPhotonKindCount> open{};
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
+  harvest.lights.resize(scene_.Lights().size());
   if (lights_.IsEmpty()) return harvest;
 
   const auto workers = std::size_t(context.threads.Count());
@@ -220,6 +239,12 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
         auto& photons = harvest.hauls[m].photons;
         photons.insert(photons.end(), chunk.photons[m].begin(), chunk.photons[m].end());
         harvest.seeds.insert(harvest.seeds.end(), chunk.seeds[m].begin(), chunk.seeds[m].end());
+      }
+      for (const PathTally& path : chunk.paths) {
+        LightTally& light = harvest.lights[std::size_t(path.light)];
+        ++light.shot;
+        light.hit += path.hasHit;
+        light.stored += path.stored;
       }
       harvest.emittedPower += chunk.emittedPower;
       harvest.cutPower += chunk.cutPower;

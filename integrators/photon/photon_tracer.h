@@ -24,9 +24,17 @@ struct PhotonTargets {
   std::int64_t operator[](PhotonKind kind) const { return counts[std::size_t(kind)]; }
 };
 
+// What became of the paths that left one light.
+struct LightTally {
+  std::int64_t shot = 0;    // paths
+  std::int64_t hit = 0;     // of them, those that met a surface
+  std::int64_t stored = 0;  // photons, in all maps together
+};
+
 struct PhotonHarvest {
   std::array<PhotonHaul, kPhotonKindCount> hauls;
   std::vector<RadianceSeed> seeds;
+  std::vector<LightTally> lights;   // in the scene's order
   std::int64_t paths = 0;           // traced in all
   double emittedPower = 0;          // luminance, summed over the paths
   double cutPower = 0;              // of it, cut by the depth limit
