@@ -3,6 +3,10 @@
 // same pictures, bit for bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
 #include "tests/images/reference.h"
 
 namespace exphoton {
@@ -41,6 +45,56 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanTest,
                          [](const auto& info) {
                            return info.param.substr(0, info.param.find('-'));
                          });
+
+// The box of cornell-caustic as text, without the blocks that wear one of the materials.
+std::string CausticBoxWithout(const std::vector<std::string>& materials) {
+  std::ifstream file(std::string(EXPHOTON_SOURCE_DIR) + "/scenes/cornell-caustic/geometry.pbrt");
+  std::ostringstream stream;
+  stream << file.rdbuf();
+  std::string text = stream.str();
+  for (const std::string& material : materials) {
+    const std::size_t wears = text.find(material);
+    EXPECT_NE(wears, std::string::npos) << material;
+    const std::size_t begin = text.rfind("AttributeBegin", wears);
+    const std::size_t end = text.find("AttributeEnd", wears) + std::string("AttributeEnd").size();
+    text.erase(begin, end - begin);
+  }
+  return "LookAt 1.5 1.5 7.1 1.5 1.42 0 0 1 0 Camera \"perspective\" \"float fov\" 37.5 Film "
+         "\"image\" \"integer xresolution\" 8 \"integer yresolution\" 6 Sampler \"lowdiscrepancy\" "
+         "\"integer pixelsamples\" 1 SurfaceIntegrator \"exphotonmap\" \"integer "
+         "causticphotons\" 3000 \"integer indirectphotons\" 3000\nWorldBegin\n" +
+         text + "WorldEnd\n";
+}
+
+const std::string kGlassBall = "\"glass\"", kMirrorBall = "\"color Kr\" [ .92 .92 .92 ]",
+                  kGoldRing = "\"color Kr\" [ .95 .72 .35 ]";
+
+TEST(CausticBox, WithoutBallsAndRingShootsNoCausticPhotonAndSaysWhy) {
+  LoadedScene scene = LoadSceneText(CausticBoxWithout({kGlassBall, kMirrorBall, kGoldRing}));
+  const EffectPlan& plan = scene.setup->scene->Effects();
+  EXPECT_FALSE(plan.Needs(Effect::Caustics));
+  EXPECT_EQ(plan.Get(Effect::Caustics).reason, "no specular surface");
+  const TestRender render = RenderLoaded(scene);
+  EXPECT_TRUE(std::isnan(render.Counter("photons/caustic paths")));
+  EXPECT_TRUE(std::isnan(render.Counter("photons/caustic stored")));
+  EXPECT_GE(render.Counter("photons/indirect stored"), 3000);
+  // All photons shot are those that the other two maps ask for.
+  EXPECT_EQ(render.Counter("photons/shot"), std::max(render.Counter("photons/indirect paths"),
+                                                     render.Counter("photons/direct paths")));
+  EXPECT_GT(MeanRadiance(render.image), .01);
+}
+
+TEST(CausticBox, WithoutTheBallsStillHasTheCausticOfTheRing) {
+  LoadedScene scene = LoadSceneText(CausticBoxWithout({kGlassBall, kMirrorBall}));
+  EXPECT_TRUE(scene.setup->scene->Effects().Needs(Effect::Caustics));
+  EXPECT_GE(RenderLoaded(scene).Counter("photons/caustic stored"), 3000);
+}
+
+TEST(CausticBox, AsItIsHasCaustics) {
+  LoadedScene scene = LoadSceneText(CausticBoxWithout({}));
+  EXPECT_TRUE(scene.setup->scene->Effects().Needs(Effect::Caustics));
+  EXPECT_GE(RenderLoaded(scene).Counter("photons/caustic stored"), 3000);
+}
 
 }  // namespace
 }  // namespace exphoton
