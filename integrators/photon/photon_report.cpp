@@ -50,7 +50,7 @@ void NoticeVainLights(const PhotonHarvest& harvest, const PhotonTargets& targets
                origin.where,
                light.hit == 0
                    ? "they hit nothing: does the light shine at the scene?"
-                   : "no surface that they met keeps photons of the maps that are wanted");
+                   : "they met surfaces, but left nothing that the photon maps still wanted");
   }
   if (found > kMostVainNotices)
     log.Notice(Text(found - kMostVainNotices, " more lights shot photons and none was stored"));

@@ -102,22 +102,29 @@ idle() {
   done
 }
 
-# instructions PROGRAM SCENE: retired by a render, without reading the scene.
+# instructions PROGRAM SCENE SPP: retired by a run of the program.
 instructions() {
   valgrind --tool=callgrind --callgrind-out-file="$work/callgrind" "$1" render "$work/$2.pbrt" \
-    --nthreads 1 --quiet --no-progress -o "$work/out.exr" 2>&1 | awk '/Collected/ {print $NF}'
+    --spp "$3" --nthreads 1 --quiet --no-progress -o "$work/out.exr" 2>&1 |
+    awk '/Collected/ {print $NF}'
 }
+# Camera rays alone are the difference of two runs, with 16 and with 4 samples a pixel.
 carried() {
   size=${SIZE:-24}
   scene photons "$photons" "$camera" "$lamp $room"
   scene path "$path" "$camera" "$lamp $room"
-  local integrator with without
+  local integrator spp which
+  printf '%-28s %14s %14s %9s\n' "instructions" "all effects" "indirect only" more
   for integrator in photons path; do
-    with=$(instructions "$program" "$integrator")
-    without=$(instructions "${MASKED:?names the program without the effects}" "$integrator")
-    awk -v name="$integrator" -v a="$with" -v b="$without" 'BEGIN {
-      printf "%-10s %13d instructions, %13d without the effects: %+.3f %%\n", name, a, b,
-        100 * (a / b - 1)}'
+    for spp in 4 16; do
+      for which in "$program" "${MASKED:?names the program without the effects}"; do
+        instructions "$which" "$integrator" "$spp"
+      done
+    done | paste - - - - | awk -v name="$integrator" '
+      function row(label, a, b) {
+        printf "%-28s %14d %14d %+8.3f%%\n", name ", " label, a, b, 100 * (a / b - 1)
+      }
+      {row("whole run", $3, $4); row("12 samples a pixel", $3 - $1, $4 - $2)}'
   done
 }
 
