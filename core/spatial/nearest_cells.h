@@ -21,7 +21,7 @@ class NearestCells {
  public:
   static constexpr int kListed = 24;
   // Memory for each point, as measured in rooms; it depends on the surfaces.
-  static constexpr std::size_t kTypicalBytesPerPoint = 85;
+  static constexpr std::size_t kTypicalBytesPerPoint = 90;
 
   struct Cell {
     std::uint32_t ids[kListed];  // in tree order, ascending

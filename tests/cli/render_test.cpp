@@ -243,7 +243,7 @@ TEST_F(RenderCommandTest, ExplainsPhotonMapsAndTheirMemory) {
   Write("scene.pbrt", SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer directphotons\" 5"));
   const std::string text = Run({"explain", "scene.pbrt"}).out;
   EXPECT_NE(text.find("photons       5 direct, 100000 indirect\n"), std::string::npos) << text;
-  // 100005 photons of 40 bytes, a tenth of them radiance photons of 129: 5.05 MiB, rounded up.
+  // 100005 photons of 40 bytes, a tenth of them radiance photons of 134: 5.09 MiB, rounded up.
   EXPECT_NE(text.find("memory        about 6 MiB for the photon maps\n"), std::string::npos)
       << text;
 }
