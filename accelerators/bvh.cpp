@@ -9,11 +9,9 @@
 namespace exphoton {
 namespace {
 
-enum class Vectors { Auto, Portable };
-
 struct Settings {
   int maxPrimitives = 4;
-  Vectors vectors = Vectors::Auto;
+  BvhVectors vectors = BvhVectors::Widest;
 };
 
 const ParamTable<Settings>& Parameters() {
@@ -21,8 +19,10 @@ const ParamTable<Settings>& Parameters() {
       Param("maxprims", &Settings::maxPrimitives, "a leaf has at most as many triangles")
           .Range(1, 64),
       Param("vectors", &Settings::vectors,
-            "the widest vectors of the machine, or what every machine has; the hits are the same")
-          .OneOf({{"auto", Vectors::Auto}, {"portable", Vectors::Portable}})};
+            "the widest vectors of the machine, or no wider ones than these; the hits are the same")
+          .OneOf({{"auto", BvhVectors::Widest},
+                  {"avx2", BvhVectors::Avx2},
+                  {"portable", BvhVectors::Portable}})};
   return table;
 }
 
@@ -31,7 +31,7 @@ class Bvh final : public Aggregate {
   Bvh(const PrimitiveSet& primitives, const Settings& settings)
       : primitives_(primitives),
         arrays_(BuildBvh(primitives, std::uint32_t(settings.maxPrimitives))),
-        traversal_(settings.vectors == Vectors::Auto ? FastestTraversal() : kPortableTraversal) {}
+        traversal_(FastestTraversal(settings.vectors)) {}
 
   Hit Intersect(const Ray& ray) const override {
     return traversal_.intersect(arrays_, primitives_, ray);

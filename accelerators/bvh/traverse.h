@@ -20,7 +20,8 @@ extern const BvhTraversal kPortableTraversal;
 extern const BvhTraversal kAvx2Traversal;  // call only where the machine has AVX2
 #endif
 
-// The best one for this machine.
-const BvhTraversal& FastestTraversal();
+// The best one for this machine, with no wider vectors than wanted.
+enum class BvhVectors { Portable, Avx2, Widest };
+const BvhTraversal& FastestTraversal(BvhVectors widest);
 
 }  // namespace exphoton

@@ -63,9 +63,9 @@ inline unsigned LessMask(const Real8& a, const Real8& b) {
 
 const BvhTraversal kPortableTraversal{"portable", Intersect, Occluded};
 
-const BvhTraversal& FastestTraversal() {
+const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
 #if defined(EXPHOTON_BVH_AVX2)
-  if (__builtin_cpu_supports("avx2")) return kAvx2Traversal;
+  if (widest >= BvhVectors::Avx2 && __builtin_cpu_supports("avx2")) return kAvx2Traversal;
 #endif
   return kPortableTraversal;
 }

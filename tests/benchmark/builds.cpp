@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// builds: what accelerators and photon trees take to make, with one thread.
+#include "core/spatial/point_kdtree.h"
+#include "tests/benchmark/contest.h"
+#include "tests/benchmark/embree_room.h"
+#include "tests/benchmark/nanoflann_map.h"
+#include "tests/benchmark/parts.h"
+#include "tests/benchmark/room.h"
+#include "tests/benchmark/room_photons.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kRounds = 7;
+
+Contest Accelerators(const std::string& size) {
+  auto plugins = std::make_shared<TestPlugins>();
+  const std::size_t count = TriangleCountOf(size);
+  const std::shared_ptr<PrimitiveSet> room = BenchmarkRoom(count);
+  auto embree = std::make_shared<EmbreeRoom>(*room, true);
+  return {double(room->TriangleCount()) * 1e-6,
+          "Mtriangles",
+          {{"bvh", [=] { plugins->MakeAccelerator(R"("bvh")", *room); }},
+           {"kdtree", [=] { plugins->MakeAccelerator(R"("kdtree")", *room); }},
+           {"embree-robust", [=] { embree->Build(); }}},
+          Clock::Wall};
+}
+
+Contest PhotonTrees(const std::string& size) {
+  auto points = std::make_shared<std::vector<Point3>>();
+  for (const Photon& photon : ShootRoomPhotons(TriangleCountOf(size), 1).photons)
+    points->push_back(photon.p);
+  return {double(points->size()) * 1e-6,
+          "Mphotons",
+          {{"exphoton", [=] { PointKdTree tree(*points); }},
+           {"nanoflann", [=] { NanoflannMap tree(*points); }}},
+          Clock::Wall};
+}
+
+}  // namespace
+
+void AddBuilds() {
+  for (const std::string size : {"266k", "1M"})
+    AddContest("builds/" + size + "-triangles", kRounds, [size] { return Accelerators(size); });
+  for (const std::string size : {"100k", "1M"})
+    AddContest("builds/" + size + "-photons", kRounds, [size] { return PhotonTrees(size); });
+}
+
+}  // namespace exphoton

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// lookups: the k nearest photons and the nearest radiance photon, asked of our maps and of
+// nanoflann, one thread. Before they are timed both must find the same neighbours.
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/base/statistics.h"
+#include "tests/benchmark/contest.h"
+#include "tests/benchmark/nanoflann_map.h"
+#include "tests/benchmark/parts.h"
+#include "tests/benchmark/room.h"
+#include "tests/benchmark/room_photons.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kNearest = 50, kRounds = 15;
+constexpr std::size_t kPlaces = 40000;
+
+struct PhotonArrangement {
+  explicit PhotonArrangement(const std::string& size)
+      : made(ShootRoomPhotons(TriangleCountOf(size), kPlaces)),
+        map(PhotonHaul{made.photons, 1}),
+        opponent(Positions()) {
+    Arena arena;
+    std::vector<Real> radii;
+    for (std::size_t i = 0; i < made.scattered.size(); i += 16) {
+      radii.push_back(
+          std::sqrt(map.Nearest(made.scattered[i].p, kNearest, &arena).back().distance2));
+      arena.Reset();
+    }
+    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
+    tight = radii[radii.size() / 2];
+  }
+  std::vector<Point3> Positions() const {
+    std::vector<Point3> points;
+    for (const Photon& photon : made.photons) points.push_back(photon.p);
+    return points;
+  }
+
+  RoomPhotons made;
+  PhotonMap map;
+  NanoflannMap opponent;
+  Real tight;  // radius that holds k photons at half of the places
+};
+
+const PhotonArrangement& ArrangementOf(const std::string& size) {
+  static std::map<std::string, std::unique_ptr<PhotonArrangement>> made;
+  auto& arrangement = made[size];
+  if (!arrangement) arrangement = std::make_unique<PhotonArrangement>(size);
+  return *arrangement;
+}
+
+struct Found {
+  std::size_t count;
+  Real radius2;
+};
+
+// As PhotonMap::Find: photons from the front, in a region flattened along the normal; of k the
+// farthest gives the radius.
+Found FindWithNanoflann(const PhotonArrangement& a, const SurfacePlace& place, Real radius) {
+  NanoflannMap::Near buffer[kNearest];
+  const auto near = a.opponent.Nearest(
+      place.p, kNearest, radius * radius, buffer, [&](std::uint32_t i, float distance2) {
+        const Photon& photon = a.made.photons[i];
+        const Real height = Dot(photon.p - place.p, place.n);
+        const Real flat2 = Square(height * (1 / PhotonMap::kFlatness));
+        if (!(Dot(photon.wi, place.n) > 0)) return kInfinity;
+        return std::max(distance2, flat2);
+      });
+  if (near.size() < kNearest) return {near.size(), radius * radius};
+  return {near.size() - 1, near[0].distance2};
+}
+
+Found FindWithMap(const PhotonArrangement& a, const SurfacePlace& place, Real radius,
+                  Arena* arena) {
+  const auto around = a.map.Find({place.p, place.n, kNearest, radius, true}, arena);
+  arena->Reset();
+  return {around.photons.size(), around.radius2};
+}
+
+Contest KNearest(const std::string& size, Real radii, bool isInOrder) {
+  const PhotonArrangement& a = ArrangementOf(size);
+  const Real radius = radii * a.tight;
+  auto places = std::make_shared<std::vector<SurfacePlace>>(
+      isInOrder ? InMortonOrder(a.made.scattered) : a.made.scattered);
+  auto arena = std::make_shared<Arena>();
+  for (const SurfacePlace& place : *places) {
+    const Found own = FindWithMap(a, place, radius, arena.get());
+    const Found other = FindWithNanoflann(a, place, radius);
+    if (own.count != other.count || std::abs(own.radius2 / other.radius2 - 1) > Real(1e-4))
+      throw std::runtime_error("other neighbours than nanoflann's");
+  }
+  const auto work = [&a, places, radius](auto&& find) {
+    double sum = 0;
+    for (const SurfacePlace& place : *places) sum += double(find(a, place, radius).radius2);
+    if (sum < 0) throw std::logic_error("negative radii");  // and nothing is left out
+  };
+  return {double(places->size()) * 1e-3,
+          "k",
+          {{"exphoton",
+            [=] {
+              work([&](const auto& m, const auto& place, Real r) {
+                return FindWithMap(m, place, r, arena.get());
+              });
+            }},
+           {"nanoflann", [=] { work(FindWithNanoflann); }}},
+          Clock::Thread};
+}
+
+// A radiance map of as many entries; those that face the right way serve at any distance.
+struct RadianceArrangement {
+  explicit RadianceArrangement(const PhotonArrangement& photons) : made(photons.made) {
+    ThreadPool threads(1);
+    Log log(Log::Level::Normal, Log::Sink::Memory);
+    ProgressReporter progress(ProgressReporter::Mode::Quiet);
+    Statistics statistics;
+    PreprocessContext context{threads, 0, log, progress, statistics};
+    ExtendedPhotonSettings settings;
+    settings.radianceReach = 1000;
+    settings.radianceNormal = 0;
+    settings.nUsed = 2;  // what an entry says is not looked at
+    settings.maxDist = Real(10);
+    PhotonHarvest harvest;
+    harvest[PhotonKind::Direct] = {{made.photons.begin(), made.photons.begin() + 1000}, 1};
+    const PhotonMaps maps(&harvest, settings, 10, context);
+    map = RadianceMap(made.seeds, maps, settings, false, context);
+  }
+  const RoomPhotons& made;
+  RadianceMap map;
+};
+
+const RadianceArrangement& RadianceOf(const std::string& size) {
+  static std::map<std::string, std::unique_ptr<RadianceArrangement>> made;
+  auto& arrangement = made[size];
+  if (!arrangement) arrangement = std::make_unique<RadianceArrangement>(ArrangementOf(size));
+  return *arrangement;
+}
+
+Real NearestWithMap(const RadianceArrangement& radiance, const SurfacePlace& place) {
+  const auto* entry = radiance.map.Find(place.p, place.n, radiance.map.Locate(place.p));
+  return entry ? radiance.map.DistanceTo(*entry, place.p) : kInfinity;
+}
+
+Real NearestWithNanoflann(const PhotonArrangement& a, const SurfacePlace& place) {
+  NanoflannMap::Near buffer[1];
+  const auto near =
+      a.opponent.Nearest(place.p, 1, 1e30f, buffer, [&](std::uint32_t i, float distance2) {
+        return Dot(a.made.seeds[i].n, place.n) > 0 ? distance2 : kInfinity;
+      });
+  return near.empty() ? kInfinity : std::sqrt(near[0].distance2);
+}
+
+Contest OneNearest(const std::string& size, std::vector<SurfacePlace> RoomPhotons::*set) {
+  const PhotonArrangement& a = ArrangementOf(size);
+  const RadianceArrangement& radiance = RadianceOf(size);
+  const std::vector<SurfacePlace>& places = a.made.*set;
+  for (const SurfacePlace& place : places) {
+    const Real own = NearestWithMap(radiance, place), other = NearestWithNanoflann(a, place);
+    if (!(std::abs(own - other) <= Real(1e-4) * other))
+      throw std::runtime_error("another nearest entry than nanoflann's");
+  }
+  const auto work = [&places](auto&& find) {
+    double sum = 0;
+    for (const SurfacePlace& place : places) sum += double(find(place));
+    if (sum < 0) throw std::logic_error("negative distances");
+  };
+  return {double(places.size()) * 1e-3,
+          "k",
+          {{"exphoton",
+            [=, &radiance] {
+              work([&](const auto& place) { return NearestWithMap(radiance, place); });
+            }},
+           {"nanoflann",
+            [=, &a] { work([&](const auto& place) { return NearestWithNanoflann(a, place); }); }}},
+          Clock::Thread};
+}
+
+}  // namespace
+
+void AddLookups() {
+  for (const std::string size : {"100k", "1M"}) {
+    const std::string part = "lookups/" + size;
+    AddContest(part + "/50-tight", kRounds, [size] { return KNearest(size, 1, false); });
+    AddContest(part + "/50-wide", kRounds, [size] { return KNearest(size, 3, false); });
+    AddContest(part + "/50-wide-morton", kRounds, [size] { return KNearest(size, 3, true); });
+    AddContest(part + "/1-scattered", kRounds,
+               [size] { return OneNearest(size, &RoomPhotons::scattered); });
+    AddContest(part + "/1-coherent", kRounds,
+               [size] { return OneNearest(size, &RoomPhotons::coherent); });
+  }
+}
+
+}  // namespace exphoton

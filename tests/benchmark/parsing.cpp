@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// parsing: scene text to directives, for a mesh as exporters write it. The opponent reads the same
+// numbers with strtod and does nothing else.
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+#include "core/base/log.h"
+#include "core/parser/parser.h"
+#include "tests/benchmark/contest.h"
+#include "tests/benchmark/parts.h"
+#include "tests/benchmark/room.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kRounds = 11;
+
+class Counting final : public DirectiveHandler {
+ public:
+  void Handle(Directive) override { ++count; }
+  void Finish(const SourceLocation&) override {}
+  int count = 0;
+};
+
+// The vertices of a room, nine numbers a triangle with six digits each, and indices.
+std::string MeshText(std::size_t triangles) {
+  const auto room = BenchmarkRoom(triangles);
+  std::string text = "WorldBegin\nShape \"trianglemesh\" \"integer indices\" [";
+  char word[64];
+  for (std::uint32_t i = 0; i < 3 * room->TriangleCount(); ++i) {
+    std::snprintf(word, sizeof word, "%u%c", i, i % 12 == 11 ? '\n' : ' ');
+    text += word;
+  }
+  text += "]\n\"point P\" [";
+  for (std::uint32_t i = 0; i < room->TriangleCount(); ++i)
+    for (const Point3& p : room->TriangleVertices(i)) {
+      std::snprintf(word, sizeof word, "%.6g %.6g %.6g\n", double(p.x), double(p.y), double(p.z));
+      text += word;
+    }
+  return text + "]\nWorldEnd\n";
+}
+
+// Keeps the text where it is; a parser asks for a copy of its own.
+class OneText final : public SceneSource {
+ public:
+  explicit OneText(std::string text) : text_(std::move(text)) {}
+  std::string Read(const std::string&, bool) override { return text_; }
+  const std::string& Text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+double SumOfNumbers(const std::string& text) {
+  double sum = 0;
+  for (const char* at = text.c_str(); *at;) {
+    char* end = nullptr;
+    sum += std::strtod(at, &end);
+    at = end == at ? at + 1 : end;
+  }
+  return sum;
+}
+
+Contest Parse() {
+  auto source = std::make_shared<OneText>(MeshText(200000));
+  return {double(source->Text().size()) * 1e-6,
+          "MB",
+          {{"exphoton",
+            [=] {
+              Log log(Log::Level::Normal, Log::Sink::Memory);
+              Counting counting;
+              ParseScene(*source, "mesh.pbrt", counting, log);
+              if (counting.count != 3) throw std::logic_error("directives are missing");
+            }},
+           {"strtod",
+            [=] {
+              if (!(SumOfNumbers(source->Text()) > 0)) throw std::logic_error("no numbers");
+            }}},
+          Clock::Thread};
+}
+
+}  // namespace
+
+void AddParsing() { AddContest("parsing/mesh", kRounds, Parse); }
+
+}  // namespace exphoton
