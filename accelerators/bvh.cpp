@@ -10,13 +10,14 @@ namespace exphoton {
 namespace {
 
 struct Settings {
-  int maxPrimitives = 4;
+  int maxPrimitives = kBvhWidth;
   BvhVectors vectors = BvhVectors::Widest;
 };
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      Param("maxprims", &Settings::maxPrimitives, "a leaf has at most as many triangles")
+      Param("maxprims", &Settings::maxPrimitives,
+            "a leaf has at most as many triangles, and at most eight")
           .Range(1, 64),
       Param("vectors", &Settings::vectors,
             "the widest vectors of the machine, or no wider ones than these; the hits are the same")
@@ -40,8 +41,7 @@ class Bvh final : public Aggregate {
     return traversal_.occluded(arrays_, primitives_, ray);
   }
   std::size_t MemoryBytes() const override {
-    return arrays_.nodes.size() * sizeof(BvhNode) + arrays_.blocks.size() * sizeof(BvhBlock) +
-           arrays_.others.size() * sizeof(std::uint32_t);
+    return arrays_.lines.size() * sizeof(BvhLine) + arrays_.others.size() * sizeof(std::uint32_t);
   }
 
  private:

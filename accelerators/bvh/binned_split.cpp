@@ -81,7 +81,11 @@ BvhRun MakeRun(std::span<BvhItem> items) {
   return run;
 }
 
-std::size_t HalveRun(const BvhRun& run) {
+double LeafCost(const BvhRun& run) {
+  return HalfArea(run.bounds) * Blocks(std::uint32_t(run.items.size()));
+}
+
+BvhSplit HalveRun(const BvhRun& run) {
   const Vector3 extent = run.centroids.max * Real(.5) - run.centroids.min * Real(.5);
   const int axis = MaxDimension(extent);
   const std::size_t half = run.items.size() / 2;
@@ -90,10 +94,10 @@ std::size_t HalveRun(const BvhRun& run) {
                      const Real x = a.Centroid(axis), y = b.Centroid(axis);
                      return x != y ? x < y : a.id < b.id;
                    });
-  return half;
+  return {half, axis, std::numeric_limits<double>::infinity()};
 }
 
-std::size_t SplitRun(const BvhRun& run) {
+BvhSplit SplitRun(const BvhRun& run) {
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
     const Binning binning(run.centroids, axis);
@@ -111,7 +115,7 @@ std::size_t SplitRun(const BvhRun& run) {
   const Binning binning(run.centroids, best.axis);
   const auto middle = std::partition(run.items.begin(), run.items.end(),
                                      [&](const BvhItem& item) { return binning(item) < best.bin; });
-  return std::size_t(middle - run.items.begin());
+  return {std::size_t(middle - run.items.begin()), best.axis, best.cost};
 }
 
 }  // namespace exphoton

@@ -30,11 +30,20 @@ BvhRun MakeRun(std::span<BvhItem> items);
 // Half the surface of a box in double: what no finite box overflows.
 double HalfArea(const Bounds3& bounds);
 
-// Reorders the items and returns how many belong to the first part: at least one, fewer than all.
+// The items are reordered: `count` belong to the first part, at least one, fewer than all, and lie
+// lower on the axis.
+struct BvhSplit {
+  std::size_t count = 0;
+  int axis = 0;
+  double cost = 0;  // half areas times blocks of triangles, of both parts; as if each were a leaf
+};
 // By SAH where the middles differ; otherwise in the middle of the run. At least two items.
-std::size_t SplitRun(const BvhRun& run);
+BvhSplit SplitRun(const BvhRun& run);
 
-// The same by the median of the middles along their longest extent: halves, whatever the shape.
-std::size_t HalveRun(const BvhRun& run);
+// By the median of the middles along their longest extent: halves, whatever the shape.
+BvhSplit HalveRun(const BvhRun& run);
+
+// What a run costs as a leaf, in the same unit.
+double LeafCost(const BvhRun& run);
 
 }  // namespace exphoton

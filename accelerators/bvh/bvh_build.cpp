@@ -4,15 +4,18 @@
 #include "accelerators/bvh/bvh_build.h"
 
 #include <array>
+#include <new>
 
 #include "accelerators/bvh/binned_split.h"
+#include "accelerators/bvh/child_order.h"
 #include "core/base/error.h"
 
 namespace exphoton {
 namespace {
 
 constexpr std::size_t kMaxLeafOthers = 2;
-constexpr int kSahDepth = 40;  // deeper nodes halve their runs: at most 32 levels more
+constexpr Blocking kOtherBlocking{.5, 4};  // of shapes and instances: a guess
+constexpr int kSahDepth = 40;              // deeper nodes halve their runs: at most 32 levels more
 
 // Larger by at least the margin on every side, and by one step of Real where that is more. Finite:
 // nothing is ever hit beyond.
@@ -40,21 +43,31 @@ class Builder {
       if (!bounds.IsEmpty()) items.push_back({Grown(bounds), id});  // empty: instance of nothing
     }
     if (items.empty()) return {};
-    arrays_.nodes.reserve(items.size() / 12 + 1);
-    arrays_.blocks.reserve(items.size() / 5 + 1);
+    arrays_.lines.reserve(items.size() + kBvhNodeLines);
     const BvhRun root = MakeRun(items);
     arrays_.bounds = root.bounds;
     Node(root, 1);
-    arrays_.nodes.shrink_to_fit();
-    arrays_.blocks.shrink_to_fit();
+    arrays_.lines.shrink_to_fit();
     return std::move(arrays_);
   }
 
  private:
+  struct Made {
+    BvhChild child;
+    Blocking blocking;
+  };
+  // The parts that a node's run has been split into: its children.
+  struct Parts {
+    std::array<BvhRun, kBvhWidth> runs;
+    std::array<bool, kBvhWidth> isLeaf{};  // and nothing else
+    int count = 1;
+    NearOrders orders;
+  };
+
   bool IsTriangle(const BvhItem& item) const { return item.id < primitives_.TriangleCount(); }
 
   // Whether a run can be one leaf: few enough, and all of a kind.
-  bool IsLeaf(const BvhRun& run) const {
+  bool CanBeLeaf(const BvhRun& run) const {
     const std::size_t count = run.items.size();
     if (count == 1) return true;
     if (count > std::max(std::size_t(maxLeafTriangles_), kMaxLeafOthers)) return false;
@@ -64,84 +77,117 @@ class Builder {
     return count <= (isTriangle ? maxLeafTriangles_ : kMaxLeafOthers);
   }
 
-  std::size_t Split(const BvhRun& run, int depth) const {
+  BvhSplit Split(const BvhRun& run, int depth) const {
     if (run.items.size() <= maxLeafTriangles_) {  // perhaps two kinds: part them
       const auto middle = std::partition(run.items.begin(), run.items.end(),
                                          [this](const BvhItem& item) { return IsTriangle(item); });
       const std::size_t triangles = std::size_t(middle - run.items.begin());
-      if (triangles > 0 && triangles < run.items.size()) return triangles;
+      if (triangles > 0 && triangles < run.items.size())
+        return {triangles, 0, std::numeric_limits<double>::infinity()};
     }
     return depth > kSahDepth ? HalveRun(run) : SplitRun(run);
   }
 
-  std::uint32_t Node(const BvhRun& whole, int depth) {
-    arrays_.depth = std::max(arrays_.depth, depth);
-    if (depth > kBvhMaxDepth || arrays_.nodes.size() >= BvhChild::kMaxIndex)
-      throw Error(ExitStatus::Resource, "the bounding volume hierarchy is too large");
-    const std::uint32_t index = std::uint32_t(arrays_.nodes.size());
-    arrays_.nodes.emplace_back();
-
-    std::array<BvhRun, kBvhWidth> runs{whole};
-    int count = 1;
-    while (count < kBvhWidth) {
+  // Splits the largest part until there are eight.
+  Parts SplitIntoParts(const BvhRun& whole, int depth) const {
+    Parts parts;
+    parts.runs[0] = whole;
+    parts.isLeaf[0] = whole.items.size() == 1;
+    while (parts.count < kBvhWidth) {
       int widest = -1;
       double area = -1;
-      for (int i = 0; i < count; ++i) {
-        if (const double a = HalfArea(runs[i].bounds); a > area && !IsLeaf(runs[i]))
+      for (int i = 0; i < parts.count; ++i) {
+        if (const double a = HalfArea(parts.runs[i].bounds); a > area && !parts.isLeaf[i])
           area = a, widest = i;
       }
       if (widest < 0) break;
-      const BvhRun run = runs[widest];
-      const std::size_t first = Split(run, depth);
-      runs[widest] = MakeRun(run.items.first(first));
-      runs[count++] = MakeRun(run.items.subspan(first));
+      const BvhRun run = parts.runs[widest];
+      const BvhSplit split = Split(run, depth);
+      if (CanBeLeaf(run) && LeafCost(run) <= split.cost) {
+        parts.isLeaf[widest] = true;
+        continue;
+      }
+      const int added = parts.count++;
+      parts.runs[widest] = MakeRun(run.items.first(split.count));
+      parts.runs[added] = MakeRun(run.items.subspan(split.count));
+      for (const int i : {widest, added}) parts.isLeaf[i] = parts.runs[i].items.size() == 1;
+      parts.orders.Split(widest, added, split.axis);
     }
+    return parts;
+  }
 
-    std::array<BvhChild, kBvhWidth> children{};
-    for (int i = 0; i < count; ++i)
-      children[i] = IsLeaf(runs[i]) ? Leaf(runs[i])
-                                    : BvhChild(BvhChild::Kind::Node, Node(runs[i], depth + 1));
-    BvhNode& node = arrays_.nodes[index];
+  std::uint32_t NewLines(std::uint32_t count) {
+    const std::size_t index = arrays_.lines.size();
+    if (index + count > BvhChild::kMaxIndex)
+      throw Error(ExitStatus::Resource, "the bounding volume hierarchy is too large");
+    arrays_.lines.resize(index + count);
+    return std::uint32_t(index);
+  }
+
+  Made Node(const BvhRun& whole, int depth) {
+    arrays_.depth = std::max(arrays_.depth, depth);
+    if (depth > kBvhMaxDepth)
+      throw Error(ExitStatus::Resource, "the bounding volume hierarchy is too deep");
+    const BvhChild self(BvhChild::Kind::Node, NewLines(kBvhNodeLines));
+    const Parts parts = SplitIntoParts(whole, depth);
+    BvhNode node{};
+    node.orders = parts.orders.Packed();
+    std::array<ChildBlocking, kBvhWidth> blocking;
+    const double area = HalfArea(whole.bounds);
+    // Leaves first: close to their node.
+    for (const bool wantsLeaf : {true, false}) {
+      for (int i = 0; i < parts.count; ++i) {
+        const BvhRun& run = parts.runs[i];
+        if (IsLeaf(parts, i) != wantsLeaf) continue;
+        const Made made = wantsLeaf ? Leaf(run) : Node(run, depth + 1);
+        node.children[i] = made.child;
+        blocking[i] = {made.blocking, area > 0 ? HalfArea(run.bounds) / area : 1};
+      }
+    }
+    const Blocking own = OrderByBlocking(std::span(blocking).first(std::size_t(parts.count)),
+                                         &node.orders[kBvhBlockingOrder]);
     for (int i = 0; i < kBvhWidth; ++i) {
-      const Bounds3 bounds = i < count ? runs[i].bounds : Bounds3();
+      const Bounds3 bounds = i < parts.count ? parts.runs[i].bounds : Bounds3();
       for (int axis = 0; axis < 3; ++axis) {
         node.rows[2 * axis][i] = bounds.min[axis];
         node.rows[2 * axis + 1][i] = bounds.max[axis];
       }
-      node.children[i] = children[i];
     }
-    return index;
+    new (&arrays_.lines[self.Index()]) BvhNode(node);
+    return {self, own};
   }
 
-  BvhChild Leaf(const BvhRun& run) {
+  // Parts that nobody had room to split further are nodes, unless they are small.
+  bool IsLeaf(const Parts& parts, int i) const {
+    return parts.isLeaf[i] || CanBeLeaf(parts.runs[i]);
+  }
+
+  Made Leaf(const BvhRun& run) {
     if (!IsTriangle(run.items[0])) {
       const auto index = std::uint32_t(arrays_.others.size());
       arrays_.others.push_back(std::uint32_t(run.items.size()));
       for (const BvhItem& item : run.items) arrays_.others.push_back(item.id);
-      return BvhChild(BvhChild::Kind::Others, index);
+      return {BvhChild(BvhChild::Kind::Others, index), kOtherBlocking};
     }
     // Lower ids first: of equal hits the first found stays.
     std::sort(run.items.begin(), run.items.end(),
               [](const BvhItem& a, const BvhItem& b) { return a.id < b.id; });
-    const auto index = std::uint32_t(arrays_.blocks.size());
-    for (std::size_t i = 0; i < run.items.size(); i += kBvhWidth)
-      Block(run.items.subspan(i, std::min(run.items.size() - i, std::size_t(kBvhWidth))));
-    arrays_.blocks.back().isLast = 1;
-    return BvhChild(BvhChild::Kind::Triangles, index);
-  }
-
-  void Block(std::span<const BvhItem> items) {
-    BvhBlock& block = arrays_.blocks.emplace_back();
-    block = {};
-    block.validMask = (1u << items.size()) - 1;
+    BvhBlock block{};
+    double area = 0;
     for (int lane = 0; lane < kBvhWidth; ++lane) {
-      const bool isThere = std::size_t(lane) < items.size();
-      block.ids[lane] = isThere ? items[lane].id : kNoId;
+      const bool isThere = std::size_t(lane) < run.items.size();
+      block.ids[lane] = isThere ? run.items[lane].id : kNoId;
       if (!isThere) continue;
-      const auto& vertices = primitives_.TriangleVertices(items[lane].id);
+      const auto& vertices = primitives_.TriangleVertices(run.items[lane].id);
+      area += double(Length(Cross(vertices[1] - vertices[0], vertices[2] - vertices[0]))) / 2;
       for (int v = 0; v < 3; ++v)
         for (int axis = 0; axis < 3; ++axis) block.vertices[v][axis][lane] = vertices[v][axis];
     }
+    const BvhChild self(BvhChild::Kind::Triangles, NewLines(kBvhBlockLines));
+    new (&arrays_.lines[self.Index()]) BvhBlock(block);
+    // A line that meets a convex body of surface 2 h meets a flat piece in it with 2 area / (2 h).
+    const double halfArea = HalfArea(run.bounds);
+    return {self, {halfArea > area ? area / halfArea : 1, 1}};
   }
 
   const PrimitiveSet& primitives_;
@@ -152,7 +198,7 @@ class Builder {
 }  // namespace
 
 BvhArrays BuildBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles) {
-  return Builder(primitives, maxLeafTriangles).Build();
+  return Builder(primitives, std::min(maxLeafTriangles, std::uint32_t(kBvhWidth))).Build();
 }
 
 }  // namespace exphoton

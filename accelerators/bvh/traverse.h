@@ -16,8 +16,9 @@ struct BvhTraversal {
 
 extern const BvhTraversal kPortableTraversal;
 #if defined(__x86_64__) && !defined(EXPHOTON_DOUBLE)
-#define EXPHOTON_BVH_AVX2 1
-extern const BvhTraversal kAvx2Traversal;  // call only where the machine has AVX2
+#define EXPHOTON_BVH_AVX 1
+extern const BvhTraversal kAvx2Traversal;    // call only where the machine has AVX2
+extern const BvhTraversal kAvx512Traversal;  // and only where it has AVX-512 F, VL and DQ
 #endif
 
 // The best one for this machine, with no wider vectors than wanted.

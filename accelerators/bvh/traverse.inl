@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on a vector Real8 that the including file defines (Load, All, Store,
-// + - *, Min, Max, LessEqualMask, LessMask). Included into an unnamed namespace.
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, All,
+// + - *, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met on the
+// stack). Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
@@ -11,15 +12,18 @@
 // The ray as boxes see it.
 struct BoxRay {
   Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
-  int nearRow[3], farRow[3];
+  std::size_t nearRow[3], farRow[3];  // bytes from the node's first
+  unsigned backward = 0;              // a bit an axis
 
   BoxRay(const Ray& ray, int major, const Bounds3& world) {
+    constexpr std::size_t kRow = sizeof(Real) * kBvhWidth;
     const Vector3 size = Abs(ray.d);
     const Real slope = kBvhMargin * size[major];
     for (int axis = 0; axis < 3; ++axis) {
       const bool isBackward = std::signbit(ray.d[axis]);
-      nearRow[axis] = 2 * axis + isBackward;
-      farRow[axis] = 2 * axis + !isBackward;
+      backward |= unsigned(isBackward) << axis;
+      nearRow[axis] = kRow * (2 * std::size_t(axis) + isBackward);
+      farRow[axis] = kRow * (2 * std::size_t(axis) + !isBackward);
       // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
       const Real d = ray.d[axis];
       const Real inverse = d == 0 ? std::copysign(kInfinity, d) : 1 / d;  // traps stay silent
@@ -34,7 +38,7 @@ struct BoxRay {
 
   // For an axis to which the ray is (nearly) perpendicular: either never crosses a plane, or has
   // done so for good. It strays by less than 5/8 of the spread: what it may hit begins behind one
-  // moved origin and ends ahead of the other. 0 * infinity leaves an axis out of Meet, which only
+  // moved origin and ends ahead of the other. 0 * infinity leaves an axis out of Cross, which only
   // enters more boxes.
   [[gnu::noinline]] void SetPerpendicular(const Ray& ray, int axis, int major,
                                           const Bounds3& world) {
@@ -51,19 +55,24 @@ struct BoxRay {
     farOrigin[axis] = Real8::All(isBackward ? above : below);
   }
 
-  // Where the ray enters the eight boxes of a node; the mask has those that it meets by tMax.
-  unsigned Meet(const BvhNode& node, Real8 tMax, Real* enter) const {
+  // Where the ray enters the eight boxes of a node and where it leaves them, at most at tMax: a box
+  // is met where first <= last.
+  struct Crossings {
+    Real8 first, last;
+  };
+  Crossings Cross(const BvhNode& node, Real8 tMax) const {
+    const char* const rows = reinterpret_cast<const char*>(&node);
+    const auto crossing = [&](std::size_t row, Real8 origin, Real8 inverse) {
+      return (Real8::Load(reinterpret_cast<const Real*>(rows + row)) - origin) * inverse;
+    };
     const auto crossNear = [&](int axis) {
-      return (Real8::Load(node.rows[nearRow[axis]]) - nearOrigin[axis]) * nearInverse[axis];
+      return crossing(nearRow[axis], nearOrigin[axis], nearInverse[axis]);
     };
     const auto crossFar = [&](int axis) {
-      return (Real8::Load(node.rows[farRow[axis]]) - farOrigin[axis]) * farInverse[axis];
+      return crossing(farRow[axis], farOrigin[axis], farInverse[axis]);
     };
-    const Real8 first =
-        Max(Max(crossNear(0), crossNear(1)), Max(crossNear(2), Real8::All(Real(0))));
-    const Real8 last = Min(Min(crossFar(0), crossFar(1)), Min(crossFar(2), tMax));
-    first.Store(enter);
-    return LessEqualMask(first, last);
+    return {Max(Max(crossNear(0), crossNear(1)), Max(crossNear(2), Real8::All(Real(0)))),
+            Min(Min(crossFar(0), crossFar(1)), Min(crossFar(2), tMax))};
   }
 };
 
@@ -94,7 +103,7 @@ struct BlockRay {
         LessMask(Min(Min(u, v), w), zero) & LessMask(zero, Max(Max(u, v), w));
     const unsigned far = LessMask(tMax, Min(Min(t[0], t[1]), t[2]));
     const unsigned behind = LessMask(Max(Max(t[0], t[1]), t[2]), zero);
-    return block.validMask & ~(miss | far | behind);
+    return PresentMask(block.ids) & ~(miss | far | behind);
   }
 };
 
@@ -106,53 +115,41 @@ inline Point3 Vertex(const BvhBlock& block, int vertex, int lane) {
 // Vectors compare with a little more than t: what rounding may add to a distance on the way.
 inline Real8 Limit(Real t) { return Real8::All(t * (1 + Gamma(8))); }
 
-struct StackEntry {
-  BvhChild child;
-  Real enter;
-};
-constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + kBvhWidth;
+// A way down leaves at most seven children waiting at each node; and all eight lanes are written.
+constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
 
-// Walks the tree from near to far. visit(child) deals with a leaf and returns the t beyond which
-// nothing matters any more (ties at it do); a negative one ends the walk.
-template <class Visit>
+// Walks the tree from near to far or, where any hit will do, first to where one is likely.
+// visit(child) deals with a leaf and returns the t beyond which nothing matters any more (ties at
+// it do); a negative one ends the walk.
+template <bool kIsAny, class Visit>
 inline void Walk(const BvhArrays& arrays, const TraceRay& trace, const Visit& visit) {
-  if (arrays.nodes.empty()) return;
+  if (arrays.lines.empty()) return;
   const BoxRay ray(trace.ray, trace.triangle.kz, arrays.bounds);
-  StackEntry stack[kStackSize];
-  StackEntry* top = stack;
+  // The stack has the nearest on top; an order for the opposite direction is read backwards.
+  const bool isOpposite = !kIsAny && ray.backward & 4;
+  const PushOrder order(isOpposite);
+  const std::size_t orderIndex = kIsAny ? kBvhBlockingOrder : (isOpposite ? 7 - ray.backward : ray.backward);
+  BvhChild children[kStackSize];
+  Real enters[kStackSize];
+  children[0] = BvhChild(BvhChild::Kind::Node, 0);
+  enters[0] = 0;
+  std::size_t size = 1;
   Real tMax = trace.ray.tMax;
-  BvhChild child(BvhChild::Kind::Node, 0);
-  for (;;) {
+  Real8 limit = Limit(tMax);
+  while (size > 0) {
+    --size;
+    if (!kIsAny && enters[size] > tMax) continue;
+    const BvhChild child = children[size];
     if (child.IsNode()) {
-      const BvhNode& node = arrays.nodes[child.Index()];
-      alignas(32) Real enter[kBvhWidth];
-      unsigned mask = ray.Meet(node, Limit(tMax), enter);
-      if (mask != 0) {
-        // The nearest goes on at once, the others wait in order, the farthest lowest.
-        int lane = std::countr_zero(mask);
-        mask &= mask - 1;
-        StackEntry nearest{node.children[lane], enter[lane]};
-        StackEntry* const base = top;
-        while (mask != 0) {
-          lane = std::countr_zero(mask);
-          mask &= mask - 1;
-          StackEntry other{node.children[lane], enter[lane]};
-          if (other.enter < nearest.enter) std::swap(other, nearest);
-          StackEntry* place = top++;
-          for (; place != base && place[-1].enter < other.enter; --place) *place = place[-1];
-          *place = other;
-        }
-        child = nearest.child;
-        continue;
-      }
+      const BvhNode& node = arrays.Node(child);
+      const BoxRay::Crossings crossings = ray.Cross(node, limit);
+      size += order.Push(node, orderIndex, crossings.first, crossings.last, children + size,
+                         enters + size);
     } else {
       tMax = visit(child);
+      if (tMax < 0) return;
+      if (!kIsAny) limit = Limit(tMax);
     }
-    do {
-      if (top == stack) return;
-      --top;
-    } while (top->enter > tMax);
-    child = top->child;
   }
 }
 
@@ -162,24 +159,22 @@ Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   hit.t = ray.tMax;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  Walk(arrays, trace, [&](BvhChild leaf) {
+  Walk<false>(arrays, trace, [&](BvhChild leaf) {
     if (!leaf.IsTriangles()) {
       const std::uint32_t* list = arrays.others.data() + leaf.Index();
       for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
       return hit.t;
     }
-    const BvhBlock* block = arrays.blocks.data() + leaf.Index();
-    for (;; ++block) {
-      unsigned candidates = blockRay.Candidates(*block, Limit(hit.t));
-      for (; candidates != 0; candidates &= candidates - 1) {
-        const int lane = std::countr_zero(candidates);
-        const auto found = DecideTriangle(trace.triangle, hit.t, Vertex(*block, 0, lane),
-                                          Vertex(*block, 1, lane), Vertex(*block, 2, lane));
-        if (found && Wins(found->t, kNoId, block->ids[lane], hit))
-          hit = {found->t, {found->b1, found->b2}, block->ids[lane], kNoId};
-      }
-      if (block->isLast) return hit.t;
+    const BvhBlock& block = arrays.Block(leaf);
+    unsigned candidates = blockRay.Candidates(block, Limit(hit.t));
+    for (; candidates != 0; candidates &= candidates - 1) {
+      const int lane = std::countr_zero(candidates);
+      const auto found = DecideTriangle(trace.triangle, hit.t, Vertex(block, 0, lane),
+                                        Vertex(block, 1, lane), Vertex(block, 2, lane));
+      if (found && Wins(found->t, kNoId, block.ids[lane], hit))
+        hit = {found->t, {found->b1, found->b2}, block.ids[lane], kNoId};
     }
+    return hit.t;
   });
   return hit;
 }
@@ -195,20 +190,18 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
         if (primitives.Occludes(list[i], trace)) return true;
       return false;
     }
-    const BvhBlock* block = arrays.blocks.data() + leaf.Index();
-    for (;; ++block) {
-      unsigned candidates = blockRay.Candidates(*block, Limit(ray.tMax));
-      for (; candidates != 0; candidates &= candidates - 1) {
-        const int lane = std::countr_zero(candidates);
-        const auto found = DecideTriangle(trace.triangle, ray.tMax, Vertex(*block, 0, lane),
-                                          Vertex(*block, 1, lane), Vertex(*block, 2, lane));
-        if (found && found->t < ray.tMax) return true;
-      }
-      if (block->isLast) return false;
+    const BvhBlock& block = arrays.Block(leaf);
+    unsigned candidates = blockRay.Candidates(block, Limit(ray.tMax));
+    for (; candidates != 0; candidates &= candidates - 1) {
+      const int lane = std::countr_zero(candidates);
+      const auto found = DecideTriangle(trace.triangle, ray.tMax, Vertex(block, 0, lane),
+                                        Vertex(block, 1, lane), Vertex(block, 2, lane));
+      if (found && found->t < ray.tMax) return true;
     }
+    return false;
   };
   bool isOccluded = false;
-  Walk(arrays, trace, [&](BvhChild leaf) {
+  Walk<true>(arrays, trace, [&](BvhChild leaf) {
     isOccluded = isBlocked(leaf);
     return isOccluded ? Real(-1) : ray.tMax;
   });

@@ -2,10 +2,10 @@
 // The traversal for x86-64 machines with AVX2: a vector of eight is one register.
 #include "accelerators/bvh/traverse.h"
 
-#if defined(EXPHOTON_BVH_AVX2)
+#if defined(EXPHOTON_BVH_AVX)
 #include <immintrin.h>
 
-#include <array>
+#include <bit>
 
 #include "core/geometry/triangle_decide.h"
 #include "core/scene/aggregate.h"
@@ -14,10 +14,10 @@
 // From here on, and not for the headers above: an inline function of theirs that was compiled for
 // AVX2 could replace the one that other files use.
 #if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,bmi"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx2,bmi,popcnt"))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC target("avx2,bmi")
+#pragma GCC target("avx2,bmi,popcnt")
 #endif
 
 namespace exphoton {
@@ -28,7 +28,6 @@ struct Real8 {
 
   static Real8 Load(const Real* row) { return {_mm256_load_ps(row)}; }
   static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
-  void Store(Real* row) const { _mm256_store_ps(row, v); }
 };
 
 inline Real8 operator+(Real8 a, Real8 b) { return {_mm256_add_ps(a.v, b.v)}; }
@@ -36,12 +35,55 @@ inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
 inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
 inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
-inline unsigned LessEqualMask(Real8 a, Real8 b) {
-  return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
-}
 inline unsigned LessMask(Real8 a, Real8 b) {
   return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)));
 }
+
+inline unsigned PresentMask(const std::uint32_t* ids) {
+  const __m256i row = _mm256_load_si256(reinterpret_cast<const __m256i*>(ids));
+  const __m256i isMissing = _mm256_cmpeq_epi32(row, _mm256_set1_epi32(-1));
+  return unsigned(~_mm256_movemask_ps(_mm256_castsi256_ps(isMissing))) & 0xff;
+}
+
+// For each mask of lanes those that are set, the lowest first: what moves them together.
+struct Gathering {
+  std::uint64_t lanes[256];  // a byte each
+  constexpr Gathering() : lanes() {
+    for (unsigned mask = 0; mask < 256; ++mask)
+      for (unsigned lane = 0, count = 0; lane < kBvhWidth; ++lane)
+        if (mask >> lane & 1) lanes[mask] |= std::uint64_t(lane) << (8 * count++);
+  }
+};
+constexpr Gathering kGathering;
+
+class PushOrder {
+ public:
+  explicit PushOrder(bool isOpposite)
+      : shifts_(isOpposite ? _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21)
+                           : _mm256_setr_epi32(21, 18, 15, 12, 9, 6, 3, 0)) {}
+
+  // Puts the children where first <= last on the stack, the first of the order on top; returns how
+  // many. Permutations heed the three low bits of an index only.
+  std::size_t Push(const BvhNode& node, std::size_t orderIndex, Real8 first, Real8 last,
+                   BvhChild* children, Real* enters) const {
+    const __m256i order =
+        _mm256_srlv_epi32(_mm256_set1_epi32(int(node.orders[orderIndex])), shifts_);
+    const __m256 firsts = _mm256_permutevar8x32_ps(first.v, order);
+    const __m256 lasts = _mm256_permutevar8x32_ps(last.v, order);
+    const __m256i all = _mm256_permutevar8x32_epi32(
+        _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)), order);
+    const auto mask = unsigned(_mm256_movemask_ps(_mm256_cmp_ps(firsts, lasts, _CMP_LE_OQ)));
+    const __m256i together =
+        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(std::int64_t(kGathering.lanes[mask])));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(children),
+                        _mm256_permutevar8x32_epi32(all, together));
+    _mm256_storeu_ps(enters, _mm256_permutevar8x32_ps(firsts, together));
+    return std::size_t(std::popcount(mask));
+  }
+
+ private:
+  __m256i shifts_;
+};
 
 #include "accelerators/bvh/traverse.inl"
 

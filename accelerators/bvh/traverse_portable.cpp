@@ -45,17 +45,40 @@ EXPHOTON_LANEWISE(Min, x < y ? x : y)  // the second where one is NaN
 EXPHOTON_LANEWISE(Max, x > y ? x : y)
 #undef EXPHOTON_LANEWISE
 
-// A bit a lane where a <= b, or a < b; none for NaN.
-inline unsigned LessEqualMask(const Real8& a, const Real8& b) {
-  unsigned mask = 0;
-  for (int i = 0; i < kBvhWidth; ++i) mask |= unsigned(a.lanes[i] <= b.lanes[i]) << i;
-  return mask;
-}
+// A bit a lane where a < b; none for NaN.
 inline unsigned LessMask(const Real8& a, const Real8& b) {
   unsigned mask = 0;
   for (int i = 0; i < kBvhWidth; ++i) mask |= unsigned(a.lanes[i] < b.lanes[i]) << i;
   return mask;
 }
+inline unsigned PresentMask(const std::uint32_t* ids) {
+  unsigned mask = 0;
+  for (int i = 0; i < kBvhWidth; ++i) mask |= unsigned(ids[i] != kNoId) << i;
+  return mask;
+}
+
+class PushOrder {
+ public:
+  explicit PushOrder(bool isOpposite) : isOpposite_(isOpposite) {}
+
+  // Puts the children where first <= last on the stack, the first of the order on top; returns how
+  // many.
+  std::size_t Push(const BvhNode& node, std::size_t orderIndex, const Real8& first,
+                   const Real8& last, BvhChild* children, Real* enters) const {
+    const BvhOrder order = node.orders[orderIndex];
+    std::size_t count = 0;
+    for (int i = 0; i < kBvhWidth; ++i) {
+      const unsigned lane = order >> (isOpposite_ ? 3 * i : 21 - 3 * i) & 7;
+      children[count] = node.children[lane];
+      enters[count] = first.lanes[lane];
+      count += first.lanes[lane] <= last.lanes[lane];
+    }
+    return count;
+  }
+
+ private:
+  bool isOpposite_;
+};
 
 #include "accelerators/bvh/traverse.inl"
 
@@ -64,8 +87,12 @@ inline unsigned LessMask(const Real8& a, const Real8& b) {
 const BvhTraversal kPortableTraversal{"portable", Intersect, Occluded};
 
 const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
-#if defined(EXPHOTON_BVH_AVX2)
-  if (widest >= BvhVectors::Avx2 && __builtin_cpu_supports("avx2")) return kAvx2Traversal;
+#if defined(EXPHOTON_BVH_AVX)
+  const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+  const bool hasAvx512 = hasAvx2 && __builtin_cpu_supports("avx512f") &&
+                         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+  if (widest >= BvhVectors::Widest && hasAvx512) return kAvx512Traversal;
+  if (widest >= BvhVectors::Avx2 && hasAvx2) return kAvx2Traversal;
 #endif
   return kPortableTraversal;
 }

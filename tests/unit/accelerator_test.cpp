@@ -18,6 +18,7 @@ const char* const kAccelerators[] = {
     R"("kdtree" "integer maxprims" 8 "float emptybonus" 0 "integer intersectcost" 1)",
     R"("bvh")",
     R"("bvh" "string vectors" "portable")",
+    R"("bvh" "string vectors" "avx2")",
     R"("bvh" "integer maxprims" 2)",
     R"("bvh" "integer maxprims" 20)",
 };

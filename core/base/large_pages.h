@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// LargeVector: a vector whose memory lies on large pages where the system has them, for arrays that
+// are read all over: with small pages every read would first miss the table of pages.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace exphoton {
+
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+
+  LargePageAllocator() = default;
+  template <class U>
+  LargePageAllocator(const LargePageAllocator<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < kPage) return static_cast<T*>(::operator new(bytes, kSmall));
+    void* memory = ::operator new(bytes, kLarge);
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is refused nothing changes
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) {
+    ::operator delete(memory, count * sizeof(T) < kPage ? kSmall : kLarge);
+  }
+  friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+
+ private:
+  static constexpr std::size_t kPage = std::size_t(1) << 21;
+  static constexpr auto kLarge = std::align_val_t(kPage);
+  // At least a line of the cache.
+  static constexpr auto kSmall = std::align_val_t(alignof(T) < 64 ? 64 : alignof(T));
+};
+
+template <class T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+}  // namespace exphoton
