@@ -30,6 +30,14 @@ class Arena {
     if (count == 0) return {};
     return {new (Allocate(sizeof(T) * count, alignof(T))) T[count](), count};
   }
+  // The same without values: whoever reads an element must have written it.
+  template <class T>
+  std::span<T> MakeRawArray(std::size_t count) {
+    static_assert(std::is_trivially_default_constructible_v<T> &&
+                  std::is_trivially_destructible_v<T>);
+    if (count == 0) return {};
+    return {new (Allocate(sizeof(T) * count, alignof(T))) T[count], count};
+  }
 
   void Reset() { block_ = 0, used_ = 0; }
 

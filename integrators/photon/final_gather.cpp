@@ -24,16 +24,16 @@ void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
 ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
                                                Arena* arena) const {
   if (photonCount_ == 0 || guide.IsEmpty()) return {};
-  const auto near = guide.Nearest(point.surface.p, guideCount_, arena);
-  const auto x = arena->MakeArray<Real>(near.size()), y = arena->MakeArray<Real>(near.size()),
-             z = arena->MakeArray<Real>(near.size());
+  const NearPoints near = guide.Nearest(point.surface.p, guideCount_, arena);
+  const auto x = arena->MakeRawArray<Real>(near.size()), y = arena->MakeRawArray<Real>(near.size()),
+             z = arena->MakeRawArray<Real>(near.size());
   // Light from below the horizon of a surface that transmits none is no guide.
   const bool isTwoSided = point.bsdf.Has(LobeSet::NonSpecularTransmission);
   const Normal3 ng = FaceForward(point.surface.ng, point.Wo());
   const Normal3 ns = FaceForward(point.bsdf.Ns(), ng);
   std::size_t count = 0;
-  for (const NearPoint& photon : near) {
-    const Vector3& w = guide.Direction(photon.index);
+  for (const std::uint32_t photon : near.index) {
+    const Vector3 w = guide.Direction(photon);
     if (!isTwoSided && !(Dot(w, ng) > 0 && Dot(w, ns) > 0)) continue;
     x[count] = w.x;
     y[count] = w.y;

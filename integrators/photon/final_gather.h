@@ -23,9 +23,8 @@ class FinalGather {
   void RequestSamples(bool gathers, SampleLayout* layout);
 
   // Integral over the non-specular lobes of f * incident * |cos|, by rays with 0 < t < infinity.
-  // All are traced before the first is read, so that memory can be asked for ahead:
-  // incident.Trace(ray) gives an Incident::Segment, incident.Ready(segment) is called shortly
-  // before incident.Read(segment), which gives the radiance.
+  // All are traced before the first is read, so that caches hold the one or the other:
+  // incident.Trace(ray) gives an Incident::Segment, incident.Read(segment) the radiance.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
                   const Incident& incident) const;
@@ -70,8 +69,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
     typename Incident::Segment segment;
     Spectrum weight;
   };
-  const std::span<Pending> pending = context.arena.template MakeArray<Pending>(
-      std::size_t(bsdfRays + photonRays));
+  const std::span<Pending> pending =
+      context.arena.template MakeArray<Pending>(std::size_t(bsdfRays + photonRays));
   std::size_t count = 0;
   const auto add = [&](const Vector3& w, const Spectrum& contribution, int rays) {
     const Real factor = SurvivalFactor(contribution.Y(), &roulette);
@@ -102,13 +101,9 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
     add(sample.w, f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), photonRays);
   }
 
-  constexpr std::size_t kAhead = 2;
   Spectrum gathered;
-  for (std::size_t i = 0; i < count + kAhead; ++i) {
-    if (i < count) incident.Ready(pending[i].segment);
-    if (i >= kAhead)
-      gathered += pending[i - kAhead].weight * incident.Read(pending[i - kAhead].segment);
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    gathered += pending[i].weight * incident.Read(pending[i].segment);
   context.arena.Rewind(mark);
   return gathered;
 }

@@ -31,9 +31,7 @@ std::optional<SpecularChoice> FollowSpecular(const ShadingPoint& point, RandomSt
 }  // namespace
 
 GatherRadiance::Segment GatherRadiance::Trace(const Ray& ray) const {
-  Segment segment{ray, context_.IntersectPoint(ray, RayKind::Gather)};
-  if (radianceMap_ && segment.hit) segment.place = radianceMap_->Locate(segment.hit->point.p);
-  return segment;
+  return {ray, context_.IntersectPoint(ray, RayKind::Gather)};
 }
 
 Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
@@ -76,12 +74,12 @@ Spectrum GatherRadiance::NonSpecular(const Segment& segment, int shortBounces) c
   if (radianceMap_) {
     const Point3 p = hit.point.p;
     const Normal3 n = FaceForward(hit.point.ng, -segment.ray.d);
-    const RadianceMap::Entry* entry = radianceMap_->Find(p, n, segment.place);
+    const auto entry = radianceMap_->Find(p, n);
     isShort =
-        entry && DistanceSquared(segment.ray.o, p) < Square(settings_.shortRays * entry->radius);
+        entry && DistanceSquared(segment.ray.o, p) < Square(settings_.shortRays) * entry->radius2;
     if (entry && !isShort) {
       if (context_.layers) {
-        context_.layers->radianceDistance += double(radianceMap_->DistanceTo(*entry, p));
+        context_.layers->radianceDistance += double(std::sqrt(entry->distance2));
         ++context_.layers->radiancePhotonsRead;
       }
       if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
@@ -108,7 +106,7 @@ Spectrum GatherRadiance::Reflected(const Segment& segment, const RadianceMap::En
   if (!transmittance.IsBlack()) {
     const Point3 p = segment.hit->point.p;
     const Normal3 back = -FaceForward(segment.hit->point.ng, -segment.ray.d);
-    const RadianceMap::Entry* entry = radianceMap_->Find(p, back, segment.place);
+    const auto entry = radianceMap_->Find(p, back);
     const Spectrum e = entry ? entry->value : maps_.EstimateIrradiance(p, back, &context_.arena).e;
     radiance += transmittance * e * kInvPi;
   }

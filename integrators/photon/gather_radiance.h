@@ -15,7 +15,6 @@ class GatherRadiance {
   struct Segment {
     Ray ray;
     std::optional<Scene::HitPoint> hit;
-    RadianceMap::Place place{};
   };
 
   // Everything must outlive this. Without radiance photons (radianceMap null) every hit takes the
@@ -23,14 +22,14 @@ class GatherRadiance {
   GatherRadiance(const PhotonMaps& maps, const RadianceMap* radianceMap,
                  const PhotonSettings& settings, const LightDistribution& lights,
                  LiContext& context, RandomStream* random)
-      : maps_(maps), radianceMap_(radianceMap), settings_(settings), lights_(lights),
-        context_(context), random_(random) {}
+      : maps_(maps),
+        radianceMap_(radianceMap),
+        settings_(settings),
+        lights_(lights),
+        context_(context),
+        random_(random) {}
 
   Segment Trace(const Ray& ray) const;
-  // Fetches what Read will want.
-  void Ready(const Segment& segment) const {
-    if (radianceMap_) radianceMap_->Prefetch(segment.place);
-  }
   // Radiance arriving along the ray, by the light that maps hold.
   Spectrum Read(const Segment& segment) const { return Along(segment, 0); }
 

@@ -86,10 +86,10 @@ std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {
     if (targets[kind] == 0) continue;
     photons +=
         (photons.empty() ? "" : ", ") + std::to_string(targets[kind]) + " " + PhotonKindName(kind);
-    bytes += double(targets[kind]) * double(PhotonMap::kBytesPerPhoton);
+    bytes += double(targets[kind]) * PhotonMap::kBytesPerPhoton;
     stored += double(targets[kind]);
   }
-  bytes += stored * double(targets.radianceFraction) * double(RadianceMap::kBytesPerEntry);
+  bytes += stored * double(targets.radianceFraction) * RadianceMap::kBytesPerEntry;
   const auto mebibytes = std::to_string(std::int64_t(bytes / (1 << 20)) + 1);
   return {"photons       " + (photons.empty() ? "none" : photons),
           "memory        about " + mebibytes + " MiB for the photon maps"};
@@ -136,7 +136,7 @@ SurfaceLight PhotonLighting::Shown(const ShadingPoint& point, LiContext& context
 Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
   if (!radianceMap_) return {};
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-  const auto* entry = radianceMap_->Find(point.surface.p, n, radianceMap_->Locate(point.surface.p));
+  const auto entry = radianceMap_->Find(point.surface.p, n);
   if (!entry) return {};
   if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
   return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;
@@ -162,12 +162,14 @@ std::vector<StoredPhoton> PhotonLighting::PhotonsNear(const Point3& p, const std
     const PhotonMap& stored = maps_.Map(kind);
     if (map != PhotonKindName(kind) || stored.IsEmpty()) continue;
     Arena arena;
-    const auto nearest = stored.Nearest(p, count, &arena);
-    std::vector<NearPoint> sorted(nearest.begin(), nearest.end());
+    const NearPoints nearest = stored.Nearest(p, count, &arena);
+    std::vector<std::pair<Real, std::uint32_t>> sorted;
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+      sorted.emplace_back(nearest.distance2[i], nearest.index[i]);
     std::sort(sorted.begin(), sorted.end());
-    for (const NearPoint& near : sorted)
-      photons.push_back({map, stored.Position(near.index), stored.Direction(near.index),
-                         stored.Alpha(near.index), std::sqrt(near.distance2)});
+    for (const auto& [distance2, photon] : sorted)
+      photons.push_back({map, stored.Position(photon), stored.Direction(photon),
+                         stored.Alpha(photon), std::sqrt(distance2)});
   }
   return photons;
 }

@@ -4,9 +4,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/base/arena.h"
-#include "core/spatial/nearest_set.h"
+#include "core/spatial/point_tree.h"
 #include "integrators/photon/photon.h"
 
 namespace exphoton {
@@ -22,10 +23,12 @@ struct PhotonQuery {
   bool isOneSided = true;
 };
 
-// The photons round a point. `photons` come in no particular order, but always in the same one.
+// The photons round a point: those whose kernel weight is not 0 by construction, in an order that
+// follows from which they are.
 struct PhotonNeighbourhood {
-  std::span<const NearPoint> photons;  // those whose kernel weight is not 0 by construction
-  Real radius2 = 0;                    // of the disk they stand for; > 0 if there are any
+  std::span<const std::uint32_t> photons;
+  std::span<const Real> distance2;  // of each
+  Real radius2 = 0;                 // of the disk they stand for; > 0 if there are any
 };
 
 class PhotonMap {
@@ -34,19 +37,18 @@ class PhotonMap {
   // least h / kFlatness away, which keeps corners and thin walls apart.
   static constexpr Real kFlatness = Real(.5);
 
-  static constexpr std::size_t kBytesPerPhoton =
-      sizeof(Point3) + sizeof(std::uint32_t) + sizeof(Vector3) + sizeof(Spectrum);
+  static constexpr double kBytesPerPhoton =
+      PointTree<PhotonBlock>::kBytesPerPoint + double(sizeof(Real)) / PointTreeView::kSpacingPoints;
 
   PhotonMap() = default;
-  explicit PhotonMap(PhotonHaul haul);
+  PhotonMap(PhotonHaul haul, ThreadPool& threads);
 
   bool IsEmpty() const { return tree_.Size() == 0; }
   std::size_t Size() const { return tree_.Size(); }
   std::int64_t Paths() const { return paths_; }
-  const PointKdTree& Tree() const { return tree_; }
-  Point3 Position(std::uint32_t i) const { return tree_.Point(i); }
-  const Vector3& Direction(std::uint32_t i) const { return directions_[i]; }  // towards the light
-  const Spectrum& Alpha(std::uint32_t i) const { return alphas_[i]; }
+  Point3 Position(std::uint32_t i) const { return tree_.Position(i); }
+  Vector3 Direction(std::uint32_t i) const { return tree_.Direction(i); }  // unit, to the light
+  Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }
   std::size_t MemoryBytes() const;
 
   // The k nearest photons within maxDistance. Where there are k, the farthest is left out and gives
@@ -61,26 +63,23 @@ class PhotonMap {
   };
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena) const;
 
-  // The k nearest photons at any distance and on any side, fewer if the map has fewer.
-  std::span<const NearPoint> Nearest(const Point3& p, int k, Arena* arena) const;
+  // The k nearest photons at any distance and on any side, by ascending index; fewer if the map has
+  // fewer.
+  NearPoints Nearest(const Point3& p, int k, Arena* arena) const;
 
   // Distance within which k photons are found around a typical photon: a high quantile over a fixed
   // sample of the photons. 0 for an empty map.
   Real TypicalRadius(int k, Arena* arena) const;
 
  private:
-  void MeasureSpacing();
-  // Squared radius in which k photons are to be expected round p; infinite where it is not known.
-  Real ExpectedRadius2(const Point3& p, int k) const;
-  template <class Set, class Measure>
-  void SearchFrom(const Point3& p, int k, Real maxRadius2, Set* nearest, Measure&& measure) const;
+  PointTreeView View() const {
+    PointTreeView view = tree_.View();
+    view.spacing2 = spacing2_.data();
+    return view;
+  }
 
-  PointKdTree tree_;
-  // Where searches begin: squared radius for each photon found, by the cells of one level.
-  std::vector<Real> spacing2_;
-  int spacingLevel_ = 0;
-  std::vector<Vector3> directions_;  // in tree order
-  std::vector<Spectrum> alphas_;
+  PointTree<PhotonBlock> tree_;
+  std::vector<Real> spacing2_;  // where searches begin
   std::int64_t paths_ = 0;
   Real minRadius_ = 0;  // what positions resolve
 };

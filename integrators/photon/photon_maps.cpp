@@ -30,15 +30,14 @@ PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, R
                        PreprocessContext& context)
     : nUsed_(settings.nUsed), kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
-  context.threads.For(kPhotonKindCount, [&](std::int64_t m, int) {
-    const auto at = std::size_t(m);
-    maps_[at] = PhotonMap(std::move(harvest->hauls[at]));
-    Arena arena;
+  Arena arena;
+  for (std::size_t at = 0; at < kPhotonKindCount; ++at) {
+    maps_[at] = PhotonMap(std::move(harvest->hauls[at]), context.threads);
     radii_[at] = settings.maxDist.value_or(
         std::max(maps_[at].TypicalRadius(settings.nUsed, &arena),
                  SmallestRadius(maps_[at].Size(), settings.nUsed, sceneRadius)));
     context.progress.Advance();
-  });
+  }
   context.progress.End();
 }
 
@@ -56,11 +55,12 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
   const bool isDiffuse = !bsdf.Has(kGlossy);
   Spectrum front, back, glossy;
-  for (const NearPoint& near : around.photons) {
-    const Vector3& wi = map.Direction(near.index);
-    const Real weight = KernelWeight(kernel_, near.distance2, around.radius2) *
+  for (std::size_t i = 0; i < around.photons.size(); ++i) {
+    const std::uint32_t photon = around.photons[i];
+    const Vector3 wi = map.Direction(photon);
+    const Real weight = KernelWeight(kernel_, around.distance2[i], around.radius2) *
                         GeometricToShading(wi, point.surface.ng, bsdf.Ns());
-    const Spectrum flux = map.Alpha(near.index) * weight;
+    const Spectrum flux = map.Alpha(photon) * weight;
     // As in the BSDF, light that is on different sides of the two normals scatters nothing.
     if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
     if (!isDiffuse) {

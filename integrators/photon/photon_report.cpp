@@ -64,12 +64,12 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
     if (targets[kind] == 0) continue;
     const PhotonHaul& haul = harvest[kind];
     const std::string name = PhotonKindName(kind);
-    context.statistics.AddToCounter("photons/" + name + " stored", double(haul.photons.size()),
+    context.statistics.AddToCounter("photons/" + name + " stored", double(haul.photons.Size()),
                                     "photons in the " + name + " map, of all passes together");
     context.statistics.AddToCounter("photons/" + name + " paths", double(haul.paths),
                                     "paths from the lights that the " + name + " map counts");
-    if (std::int64_t(haul.photons.size()) < targets[kind])
-      context.log.Notice(Text(name, " map: ", haul.photons.size(), " of ", targets[kind],
+    if (std::int64_t(haul.photons.Size()) < targets[kind])
+      context.log.Notice(Text(name, " map: ", haul.photons.Size(), " of ", targets[kind],
                               " photons after ", haul.paths, " paths"));
   }
   context.statistics.AddToCounter("photons/shot", double(harvest.paths),

@@ -28,9 +28,12 @@ struct PathTally {
 
 }  // namespace
 
+// A map that holds this part of its target gets memory for the whole.
+constexpr std::int64_t kShareBeforeReserving = 16;
+
 // What one piece of work leaves behind.
 struct PhotonTracer::Chunk {
-  std::array<std::vector<Photon>, kPhotonKindCount> photons;
+  std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
   std::array<std::vector<RadianceSeed>, kPhotonKindCount> seeds;  // by the map of their photon
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
@@ -101,7 +104,7 @@ class PhotonTracer::Path {
   }
 
   void Store(PhotonKind kind, const ShadingPoint& point) {
-    chunk_->photons[std::size_t(kind)].push_back({point.surface.p, point.Wo(), alpha_});
+    chunk_->photons[std::size_t(kind)].emplace_back(Photon{point.surface.p, point.Wo(), alpha_});
     ++tally_.stored;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
     chunk_->seeds[std::size_t(kind)].push_back({point.surface.p,
@@ -205,7 +208,7 @@ std::int64_t Promille(const PhotonTargets& targets, const PhotonHarvest& harvest
   double least = 1;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (targets.counts[m] == 0) continue;
-    const double filled = double(harvest.hauls[m].photons.size()) / double(targets.counts[m]);
+    const double filled = double(harvest.hauls[m].photons.Size()) / double(targets.counts[m]);
     const double spent = double(harvest.hauls[m].paths) / double(maxPaths);
     least = std::min(least, std::max(filled, spent));
   }
@@ -236,8 +239,11 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
     harvest.paths += batch;
     for (Chunk& chunk : chunks) {
       for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
-        auto& photons = harvest.hauls[m].photons;
-        photons.insert(photons.end(), chunk.photons[m].begin(), chunk.photons[m].end());
+        BlockStore<PhotonBlock>& photons = harvest.hauls[m].photons;
+        photons.Append(chunk.photons[m]);
+        // From here on it will hardly stay empty: memory for all, once, and for the last batch.
+        if (std::int64_t(photons.Size()) >= targets.counts[m] / kShareBeforeReserving)
+          photons.Reserve(std::size_t(targets.counts[m] + targets.counts[m] / 64));
         harvest.seeds.insert(harvest.seeds.end(), chunk.seeds[m].begin(), chunk.seeds[m].end());
       }
       for (const PathTally& path : chunk.paths) {
@@ -256,7 +262,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
       if (!open[m]) continue;
       PhotonHaul& haul = harvest.hauls[m];
       haul.paths = harvest.paths;
-      const auto stored = std::int64_t(haul.photons.size());
+      const auto stored = std::int64_t(haul.photons.Size());
       const bool isFruitless = stored == 0 && haul.paths >= kFruitlessPaths;
       open[m] = stored < targets.counts[m] && haul.paths < settings_.maxPhotonPaths && !isFruitless;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // builds: what accelerators and photon trees take to make, with one thread.
-#include "core/spatial/point_kdtree.h"
+#include "core/spatial/point_tree.h"
 #include "tests/benchmark/contest.h"
 #include "tests/benchmark/embree_room.h"
 #include "tests/benchmark/nanoflann_map.h"
@@ -29,11 +29,21 @@ Contest Accelerators(const std::string& size) {
 
 Contest PhotonTrees(const std::string& size) {
   auto points = std::make_shared<std::vector<Point3>>();
+  auto threads = std::make_shared<ThreadPool>(1);
   for (const Photon& photon : ShootRoomPhotons(TriangleCountOf(size), 1).photons)
     points->push_back(photon.p);
   return {double(points->size()) * 1e-6,
           "Mphotons",
-          {{"exphoton", [=] { PointKdTree tree(*points); }},
+          {{"exphoton",
+            [=] {
+              BlockStore<PointBlock> store;
+              store.Reserve(points->size());
+              for (const Point3& p : *points) {
+                const OrientedPoint point{p, 0};
+                store.Append({&point, 1});
+              }
+              PointTree<PointBlock> tree(std::move(store), *threads);
+            }},
            {"nanoflann", [=] { NanoflannMap tree(*points); }}},
           Clock::Wall};
 }

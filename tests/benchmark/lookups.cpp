@@ -24,13 +24,13 @@ constexpr std::size_t kPlaces = 40000;
 struct PhotonArrangement {
   explicit PhotonArrangement(const std::string& size)
       : made(ShootRoomPhotons(TriangleCountOf(size), kPlaces)),
-        map(PhotonHaul{made.photons, 1}),
+        map(PhotonHaul(made.photons, 1), threads),
         opponent(Positions()) {
     Arena arena;
     std::vector<Real> radii;
     for (std::size_t i = 0; i < made.scattered.size(); i += 16) {
-      radii.push_back(
-          std::sqrt(map.Nearest(made.scattered[i].p, kNearest, &arena).back().distance2));
+      const NearPoints near = map.Nearest(made.scattered[i].p, kNearest, &arena);
+      radii.push_back(std::sqrt(near.distance2[near.farthest]));
       arena.Reset();
     }
     std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
@@ -42,6 +42,7 @@ struct PhotonArrangement {
     return points;
   }
 
+  ThreadPool threads{1};
   RoomPhotons made;
   PhotonMap map;
   NanoflannMap opponent;
@@ -126,9 +127,10 @@ struct RadianceArrangement {
     settings.nUsed = 2;  // what an entry says is not looked at
     settings.maxDist = Real(10);
     PhotonHarvest harvest;
-    harvest[PhotonKind::Direct] = {{made.photons.begin(), made.photons.begin() + 1000}, 1};
+    harvest[PhotonKind::Direct] = PhotonHaul(std::span(made.photons).first(1000), 1);
     const PhotonMaps maps(&harvest, settings, 10, context);
-    map = RadianceMap(made.seeds, maps, settings, false, context);
+    std::vector<RadianceSeed> seeds = made.seeds;
+    map = RadianceMap(seeds, maps, settings, false, context);
   }
   const RoomPhotons& made;
   RadianceMap map;
@@ -142,8 +144,8 @@ const RadianceArrangement& RadianceOf(const std::string& size) {
 }
 
 Real NearestWithMap(const RadianceArrangement& radiance, const SurfacePlace& place) {
-  const auto* entry = radiance.map.Find(place.p, place.n, radiance.map.Locate(place.p));
-  return entry ? radiance.map.DistanceTo(*entry, place.p) : kInfinity;
+  const auto entry = radiance.map.Find(place.p, place.n);
+  return entry ? std::sqrt(entry->distance2) : kInfinity;
 }
 
 Real NearestWithNanoflann(const PhotonArrangement& a, const SurfacePlace& place) {

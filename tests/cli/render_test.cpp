@@ -243,8 +243,8 @@ TEST_F(RenderCommandTest, ExplainsPhotonMapsAndTheirMemory) {
   Write("scene.pbrt", SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer directphotons\" 5"));
   const std::string text = Run({"explain", "scene.pbrt"}).out;
   EXPECT_NE(text.find("photons       5 direct, 100000 indirect\n"), std::string::npos) << text;
-  // 100005 photons of 40 bytes, a tenth of them radiance photons of 134: 5.09 MiB, rounded up.
-  EXPECT_NE(text.find("memory        about 6 MiB for the photon maps\n"), std::string::npos)
+  // 100005 photons of 30 bytes, an eighth of them radiance photons of 34: 3.2 MiB, rounded up.
+  EXPECT_NE(text.find("memory        about 4 MiB for the photon maps\n"), std::string::npos)
       << text;
 }
 

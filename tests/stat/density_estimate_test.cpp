@@ -28,10 +28,11 @@ PhotonMap PoissonMap(Real half, std::uint64_t seed) {
     t -= std::log(1 - double(random.Uniform()));
     if (t > expected) break;
     const Point3 p{half * (2 * random.Uniform() - 1), half * (2 * random.Uniform() - 1), 0};
-    haul.photons.push_back({p, {0, 0, 1}, Spectrum(1)});
+    haul.Add({p, {0, 0, 1}, Spectrum(1)});
   }
   haul.paths = 1;
-  return PhotonMap(std::move(haul));
+  ThreadPool threads(1);
+  return PhotonMap(std::move(haul), threads);
 }
 
 template <class Estimate>
@@ -50,8 +51,8 @@ double KernelEstimate(const PhotonMap& map, DensityKernel kernel, int k, Real ma
   Arena arena;
   const auto around = map.Find({{0, 0, 0}, {0, 0, 1}, k, maxDistance, true}, &arena);
   double sum = 0;
-  for (const NearPoint& near : around.photons)
-    sum += double(KernelWeight(kernel, near.distance2, around.radius2));
+  for (const Real distance2 : around.distance2)
+    sum += double(KernelWeight(kernel, distance2, around.radius2));
   return sum;
 }
 

@@ -34,10 +34,13 @@ TEST_P(Furnace, ShowsEmissionOverOneMinusAlbedo) {
   const std::string scene =
       TestHeader(std::string("\"") + integrator +
                      // A path leaves a geometric number of photons: paths are what counts.
-                     "\" \"integer indirectphotons\" [" + (albedo > .85 ? "500000" : "40000") +
+                     "\" \"integer indirectphotons\" [" +
+                     (albedo > .85  ? "500000"
+                      : albedo > .7 ? "100000"
+                                    : "40000") +
                      "] \"integer directphotons\" [20000] \"integer finalgathersamples\" [16]" +
                      (albedo > .7 ? " \"string photonroulette\" \"luminance\"" : ""),
-                 6, 6, 4) +
+                 10, 10, 4) +
       FurnaceWorld(1, "\"matte\" \"color Kd\" " + Grey(albedo));
   const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
   EXPECT_TRUE(IsWithin(.01, estimate, 1 / (1 - albedo)));

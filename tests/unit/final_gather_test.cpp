@@ -19,7 +19,6 @@ namespace {
 struct UniformSky {
   struct Segment {};
   Segment Trace(const Ray&) const { return {}; }
-  void Ready(const Segment&) const {}
   Spectrum Read(const Segment&) const { return Spectrum(1); }
 };
 
@@ -34,9 +33,10 @@ Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleD
                         const AddLobes& addLobes) {
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   PhotonHaul haul;
-  for (const Vector3& w : guideDirections) haul.photons.push_back({{0, 0, 0}, w, Spectrum(1)});
+  for (const Vector3& w : guideDirections) haul.Add({{0, 0, 0}, w, Spectrum(1)});
   haul.paths = 1;
-  const PhotonMap guide(std::move(haul));
+  ThreadPool threads(1);
+  const PhotonMap guide(std::move(haul), threads);
 
   PhotonSettings settings;
   settings.gatherSampling = GatherSampling::Photons;

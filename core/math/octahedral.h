@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Unit vectors in 32 bits: the sphere is projected onto an octahedron, which is unfolded into a
+// square of 2 x 16 bits. Within 7e-5 radians; the axes are exact.
+// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+inline constexpr Real kOctahedralOne = 32767;
+
+// v: unit, or nearly.
+inline std::uint32_t EncodeOctahedral(const Vector3& v) {
+  const Real scale = 1 / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
+  Real a = v.x * scale, b = v.y * scale;
+  if (v.z < 0) {
+    const Real folded = std::copysign(1 - std::abs(b), a);
+    b = std::copysign(1 - std::abs(a), b);
+    a = folded;
+  }
+  const auto half = [](Real x) {
+    return std::uint32_t(std::uint16_t(std::int16_t(std::lround(x * kOctahedralOne))));
+  };
+  return half(a) | half(b) << 16;
+}
+
+// In the direction that was encoded, and as long as it happens to be: where only a sign is wanted.
+// Components are whole numbers, so every step is exact.
+inline Vector3 DecodeOctahedralLong(std::uint32_t bits) {
+  const Real a = Real(std::int16_t(bits & 0xffff)), b = Real(std::int16_t(bits >> 16));
+  const Real z = kOctahedralOne - std::abs(a) - std::abs(b);
+  const Real fold = z < 0 ? -z : Real(0);
+  return {a - std::copysign(fold, a), b - std::copysign(fold, b), z};
+}
+
+inline Vector3 DecodeOctahedral(std::uint32_t bits) {
+  return Normalize(DecodeOctahedralLong(bits));
+}
+
+}  // namespace exphoton

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The searches, in terms of vectors of sixteen (Real16 and what goes with it), which the including
+// file defines for its instructions. Box distances are rounded as point distances are, step by
+// step, and every step is monotone: a box is never farther than a point in it.
+
+constexpr Real kLargest = std::numeric_limits<Real>::max();
+
+struct Place16 {
+  Real16 x, y, z;
+  explicit Place16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
+};
+
+// Squared distances from p to the children's boxes; infinite for missing ones.
+inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
+  const Real16 zero = Real16::All(0);
+  const auto along = [&](int axis, Real16 at) {
+    return Max(Max(Real16::Load(node.low[axis]) - at, at - Real16::Load(node.high[axis])), zero);
+  };
+  const Real16 dx = along(0, p.x), dy = along(1, p.y), dz = along(2, p.z);
+  return dx * dx + dy * dy + dz * dz;
+}
+
+// The direction of each point dotted with n: times a positive length if kLong.
+inline Real16 DirectionCosine(const PointBlock& block, const Place16& n, Real16* length2) {
+  Real16 a, b;
+  LoadOctahedral(block.direction, &a, &b);
+  const Real16 z = Real16::All(kOctahedralOne) - Abs(a) - Abs(b);
+  const Real16 fold = Max(Real16::All(0) - z, Real16::All(0));
+  const Real16 x = a - CopySign(fold, a), y = b - CopySign(fold, b);
+  *length2 = x * x + y * y + z * z;
+  return x * n.x + y * n.y + z * n.z;
+}
+
+inline const PointBlock& BlockAt(const PointTreeView& view, std::uint32_t block) {
+  return *reinterpret_cast<const PointBlock*>(view.blocks + std::size_t(block) * view.blockBytes);
+}
+
+inline void PrefetchBlock(const PointBlock& block, std::size_t bytes) {
+  const auto* line = reinterpret_cast<const char*>(&block);
+  for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(line + at);
+}
+
+// The block nearest to p, going down to the nearest box at each level: in or beside p's
+// surroundings, which is all that is asked of it.
+inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
+  std::uint32_t node = 0;
+  for (int level = view.tree->Levels() - 1; level >= 0; --level)
+    node = node * kBoxChildren +
+           NearestLane(BoxDistance2(view.tree->Level(level)[node], p), 0xffff);
+  return node;
+}
+
+// Candidates by ascending index, cut back to the k nearest when there is no more room.
+class Candidates {
+ public:
+  Candidates(const NearBuffer& buffer, std::uint32_t k, Real limit2)
+      : distance2_(buffer.distance2.data()),
+        index_(buffer.index.data()),
+        room_(NearBuffer::SizeFor(k) - 2 * kBlockPoints),
+        k_(k),
+        limit2_(limit2) {}
+
+  Real Limit2() const { return limit2_; }
+  std::size_t Count() const { return count_; }
+
+  void Offer(Real16 distance2, unsigned mask, std::uint32_t firstIndex) {
+    AppendLanes(distance2, firstIndex, mask, distance2_ + count_, index_ + count_);
+    count_ += unsigned(__builtin_popcount(mask));
+    if (count_ > room_) Cut();
+  }
+
+  NearPoints Finish() {
+    if (count_ > k_) Cut();
+    NearPoints found{{distance2_, count_}, {index_, count_}, 0};
+    for (std::size_t i = 1; i < count_; ++i)
+      if (distance2_[i] >= distance2_[found.farthest]) found.farthest = i;
+    return found;
+  }
+
+ private:
+  std::size_t CountWithin(Real pivot2) const {
+    std::size_t within = 0;
+    const Real16 pivot = Real16::All(pivot2);
+    for (std::size_t i = 0; i < count_; i += kBlockPoints)
+      within += unsigned(
+          __builtin_popcount(LessEqualMask(Real16::LoadUnaligned(distance2_ + i), pivot)));
+    return within;
+  }
+
+  // The squared distance of the k-th nearest, of more than k. Squared distances are spread about
+  // evenly on a surface, so pivots are interpolated; what they leave is sorted.
+  Real KthDistance2() const {
+    constexpr int kTries = 6;
+    // The k-th is in (low2, high2]; what an earlier cut has left may be just beyond the limit.
+    Real low2 = -1, high2 = NextUp(limit2_);
+    std::size_t below = 0, upTo = count_;
+    for (int i = 0; i < kTries && upTo > k_; ++i) {
+      const Real from2 = low2 < 0 ? Real(0) : low2;
+      const Real share = (Real(k_ - below) - Real(.5)) / Real(upTo - below);
+      const Real pivot2 = from2 + (high2 - from2) * share;
+      if (!(pivot2 > low2 && pivot2 < high2)) break;
+      const std::size_t within = CountWithin(pivot2);
+      if (within >= k_) {
+        high2 = pivot2, upTo = within;
+      } else {
+        low2 = pivot2, below = within;
+      }
+    }
+    if (upTo == k_) return LargestWithin(high2);
+    return KthBetween(low2, high2, k_ - below);
+  }
+
+  Real LargestWithin(Real pivot2) const {
+    Real largest2 = 0;
+    for (std::size_t i = 0; i < count_; ++i)
+      largest2 = distance2_[i] <= pivot2 && distance2_[i] > largest2 ? distance2_[i] : largest2;
+    return largest2;
+  }
+
+  // The rank-th of those in (low2, high2].
+  Real KthBetween(Real low2, Real high2, std::size_t rank) const {
+    constexpr std::size_t kFew = 64;
+    Real few[kFew];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < count_ && count < kFew; ++i) {
+      few[count] = distance2_[i];
+      count += distance2_[i] > low2 && distance2_[i] <= high2;
+    }
+    if (count < kFew) {
+      std::nth_element(few, few + rank - 1, few + count);
+      return few[rank - 1];
+    }
+    // Most are equal, or extremely uneven: halve by bits of the numbers, which are ordered as they.
+    RealBits lowBits = low2 < 0 ? 0 : std::bit_cast<RealBits>(low2) + 1;
+    RealBits highBits = std::bit_cast<RealBits>(high2);
+    while (lowBits < highBits) {
+      const RealBits middle = lowBits + (highBits - lowBits) / 2;
+      if (CountWithin(std::bit_cast<Real>(middle)) >= k_) {
+        highBits = middle;
+      } else {
+        lowBits = middle + 1;
+      }
+    }
+    return std::bit_cast<Real>(lowBits);
+  }
+
+  // Keeps the k nearest. What comes later has a higher index, so it must be nearer than they are.
+  void Cut() {
+    if (count_ <= k_) return;
+    Real16::All(kInfinity).StoreUnaligned(distance2_ + count_);  // for whole vectors
+    const Real kth2 = KthDistance2();
+    std::size_t spare = k_ - CountWithin(NextDownFrom(kth2));  // how many of the k are at kth2
+    std::size_t kept = 0;
+    const Real16 kth = Real16::All(kth2);
+    for (std::size_t i = 0; i < count_; i += kBlockPoints) {
+      const Real16 values = Real16::LoadUnaligned(distance2_ + i);
+      unsigned mask = LessMask(values, kth);
+      for (unsigned equal = EqualMask(values, kth); equal != 0 && spare > 0; equal &= equal - 1) {
+        mask |= equal & -equal;
+        --spare;
+      }
+      kept += KeepLanes(values, mask, index_ + i, distance2_ + kept, index_ + kept);
+    }
+    count_ = kept;
+    limit2_ = NextDownFrom(kth2);
+  }
+  static Real NextDownFrom(Real x) {
+    return x > 0 ? std::bit_cast<Real>(std::bit_cast<RealBits>(x) - 1) : Real(-1);
+  }
+
+  Real* distance2_;
+  std::uint32_t* index_;
+  std::size_t room_, count_ = 0;
+  std::uint32_t k_;
+  Real limit2_;
+};
+
+// Offers every point within the limit; measure(block, &distance2) gives the lanes that count.
+template <class Measure>
+inline void Collect(const PointTreeView& view, const Place16& p, Candidates* candidates,
+                    Measure&& measure) {
+  const int top = view.tree->Levels() - 1;
+  std::uint32_t node[BoxTree::kMaxLevels];
+  unsigned pending[BoxTree::kMaxLevels];
+  int level = top;
+  const auto enter = [&](std::uint32_t entered) {
+    node[level] = entered;
+    pending[level] = LessEqualMask(BoxDistance2(view.tree->Level(level)[entered], p),
+                                   Real16::All(candidates->Limit2()));
+    if (level > 0) return;
+    for (unsigned rest = pending[0]; rest != 0; rest &= rest - 1)
+      PrefetchBlock(BlockAt(view, entered * kBoxChildren + unsigned(__builtin_ctz(rest))),
+                    sizeof(PointBlock));
+  };
+  enter(0);
+  for (;;) {
+    if (pending[level] == 0) {
+      if (level++ == top) return;
+      continue;
+    }
+    const std::uint32_t child =
+        node[level] * kBoxChildren + unsigned(__builtin_ctz(pending[level]));
+    pending[level] &= pending[level] - 1;
+    if (level > 0) {
+      --level;
+      enter(child);
+      continue;
+    }
+    const PointBlock& block = BlockAt(view, child);
+    Real16 distance2;
+    const unsigned lanes = measure(block, &distance2);
+    candidates->Offer(distance2,
+                      lanes & LessEqualMask(distance2, Real16::All(candidates->Limit2())),
+                      child * kBlockPoints);
+  }
+}
+
+inline Real16 PointDistance2(const PointBlock& block, const Place16& p, Real16* dx, Real16* dy,
+                             Real16* dz) {
+  *dx = Real16::Load(block.x) - p.x;
+  *dy = Real16::Load(block.y) - p.y;
+  *dz = Real16::Load(block.z) - p.z;
+  return *dx * *dx + *dy * *dy + *dz * *dz;
+}
+
+// One search with a fixed radius.
+inline void CollectFor(const PointTreeView& view, const NearestQuery& query, const Place16& p,
+                       Candidates* candidates) {
+  if (!query.isFlattened) {
+    Collect(view, p, candidates, [&](const PointBlock& block, Real16* distance2) {
+      Real16 dx, dy, dz;
+      *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
+      return 0xffffu;
+    });
+    return;
+  }
+  const Place16 n(query.n);
+  const Real16 steepness = Real16::All(query.steepness);
+  const unsigned always = query.isOneSided ? 0 : 0xffff;
+  Collect(view, p, candidates, [&](const PointBlock& block, Real16* distance2) {
+    Real16 dx, dy, dz, length2;
+    *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
+    const Real16 height = (dx * n.x + dy * n.y + dz * n.z) * steepness;
+    *distance2 = Max(height * height, *distance2);
+    return always | LessMask(Real16::All(0), DirectionCosine(block, n, &length2));
+  });
+}
+
+// Begins with the radius in which k points are to be expected and goes on with larger ones until
+// they are there, so that far more are rarely looked at.
+NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const NearBuffer& buffer) {
+  if (view.count == 0 || !IsFinite(query.p)) return {};
+  constexpr Real kFirst = Real(1.5), kGrowth = 4;
+  const Place16 p(query.p);
+  const Real max2 = std::min(query.maxRadius2, kLargest);
+  Real radius2 = max2;
+  if (view.spacing2) {
+    const std::uint32_t run =
+        BlockNear(view, p) / (PointTreeView::kSpacingPoints / kBlockPoints);
+    radius2 = view.spacing2[run] * Real(query.k) * kFirst;
+  }
+  for (;; radius2 *= kGrowth) {
+    if (!(radius2 > 0 && radius2 < max2)) radius2 = max2;
+    Candidates candidates(buffer, query.k, radius2);
+    CollectFor(view, query, p, &candidates);
+    if (candidates.Count() >= query.k || radius2 == max2) return candidates.Finish();
+  }
+}
+
+// Nearest boxes first: the first block is nearly always the right one, and few others remain.
+ClosestPoint Closest(const PointTreeView& view, const ClosestQuery& query) {
+  ClosestPoint best;
+  if (view.count == 0 || !IsFinite(query.p)) return best;
+  best.distance2 = std::min(query.maxRadius2, kLargest);
+  const Place16 p(query.p), n(query.n);
+  const Real16 minCosine = Real16::All(query.minCosine);
+  const int top = view.tree->Levels() - 1;
+  std::uint32_t node[BoxTree::kMaxLevels];
+  unsigned pending[BoxTree::kMaxLevels];
+  Real16 boxes[BoxTree::kMaxLevels];
+  int level = top;
+  // Lanes that may hold something better: not farther, or nearer if indices there are higher.
+  const auto promising = [&](unsigned lanes) {
+    lanes &= LessEqualMask(boxes[level], Real16::All(best.distance2));
+    const unsigned equal = lanes & EqualMask(boxes[level], Real16::All(best.distance2));
+    if (equal == 0) return lanes;
+    const std::uint64_t first = std::uint64_t(node[level]) * kBoxChildren;
+    const std::uint64_t at = best.index >> (4 * (level + 1));
+    const std::uint64_t lower = at < first ? 0 : std::min<std::uint64_t>(at - first + 1, kBoxChildren);
+    return lanes & ~(equal & ~((1u << lower) - 1));
+  };
+  const auto enter = [&](std::uint32_t entered) {
+    node[level] = entered;
+    boxes[level] = BoxDistance2(view.tree->Level(level)[entered], p);
+    pending[level] = promising(0xffff);
+  };
+  enter(0);
+  for (;;) {
+    if (pending[level] == 0) {
+      if (level++ == top) return best.index == ClosestPoint::kNone ? ClosestPoint() : best;
+      pending[level] = promising(pending[level]);
+      continue;
+    }
+    const unsigned lane = NearestLane(boxes[level], pending[level]);
+    pending[level] &= ~(1u << lane);
+    const std::uint32_t child = node[level] * kBoxChildren + lane;
+    if (level > 0) {
+      --level;
+      enter(child);
+      continue;
+    }
+    const auto& block = static_cast<const DiskBlock&>(BlockAt(view, child));
+    Real16 dx, dy, dz, length2;
+    const Real16 distance2 = PointDistance2(block, p, &dx, &dy, &dz);
+    unsigned lanes = LessEqualMask(distance2, Real16::All(best.distance2));
+    if (lanes == 0) continue;
+    const Real16 cosine = DirectionCosine(block, n, &length2);
+    lanes &= LessEqualMask(distance2, Real16::Load(block.reach2)) &
+             LessMask(minCosine * Sqrt(length2), cosine);
+    if (lanes == 0) continue;
+    const Real nearest2 = LeastOf(distance2, lanes);
+    const std::uint32_t index =
+        child * kBlockPoints +
+        unsigned(__builtin_ctz(lanes & EqualMask(distance2, Real16::All(nearest2))));
+    if (nearest2 < best.distance2 || index < best.index) best = {nearest2, index};
+    pending[0] = promising(pending[0]);
+  }
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The searches for x86-64 machines with AVX-512: a vector of sixteen is one register. Lanes are
+// compressed in registers and stored whole: compressing stores are slow on some machines.
+#include "core/spatial/nearest_search.h"
+
+#if defined(EXPHOTON_WIDE_SEARCH)
+#include <immintrin.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#if !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC bug 105593: in its own intrinsics
+#endif
+
+// From here on, and not for the headers above: an inline function of theirs that was compiled for
+// AVX-512 could replace the one that other files use.
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx2,bmi,popcnt"))), \
+                             apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx2,bmi,popcnt")
+#endif
+
+namespace exphoton {
+namespace {
+
+struct Real16 {
+  __m512 v;
+
+  static Real16 Load(const Real* row) { return {_mm512_load_ps(row)}; }
+  static Real16 LoadUnaligned(const Real* row) { return {_mm512_loadu_ps(row)}; }
+  static Real16 All(Real x) { return {_mm512_set1_ps(x)}; }
+  void StoreUnaligned(Real* row) const { _mm512_storeu_ps(row, v); }
+};
+
+inline Real16 operator+(Real16 a, Real16 b) { return {_mm512_add_ps(a.v, b.v)}; }
+inline Real16 operator-(Real16 a, Real16 b) { return {_mm512_sub_ps(a.v, b.v)}; }
+inline Real16 operator*(Real16 a, Real16 b) { return {_mm512_mul_ps(a.v, b.v)}; }
+inline Real16 Max(Real16 a, Real16 b) { return {_mm512_max_ps(a.v, b.v)}; }
+inline Real16 Sqrt(Real16 a) { return {_mm512_sqrt_ps(a.v)}; }
+inline Real16 Abs(Real16 a) { return {_mm512_abs_ps(a.v)}; }
+// The magnitude of a, which is not negative, with the sign of b.
+inline Real16 CopySign(Real16 a, Real16 b) {
+  const __m512i sign = _mm512_and_si512(_mm512_castps_si512(b.v), _mm512_set1_epi32(int(1u << 31)));
+  return {_mm512_castsi512_ps(_mm512_or_si512(_mm512_castps_si512(a.v), sign))};
+}
+inline unsigned LessEqualMask(Real16 a, Real16 b) {
+  return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ);
+}
+inline unsigned LessMask(Real16 a, Real16 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
+inline unsigned EqualMask(Real16 a, Real16 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ); }
+
+inline void LoadOctahedral(const std::uint32_t* bits, Real16* a, Real16* b) {
+  const __m512i words = _mm512_load_si512(bits);
+  a->v = _mm512_cvtepi32_ps(_mm512_srai_epi32(_mm512_slli_epi32(words, 16), 16));
+  b->v = _mm512_cvtepi32_ps(_mm512_srai_epi32(words, 16));
+}
+
+// The lane of the mask (not 0) with the least value, but for its last four bits, of which the place
+// takes the room. Values are not negative, so their bits are ordered as they are.
+inline unsigned NearestLane(Real16 values, unsigned mask) {
+  const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i keys = _mm512_or_si512(
+      _mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(values.v)), places);
+  return unsigned(_mm512_mask_reduce_min_epi32(__mmask16(mask), keys)) & 15;
+}
+inline Real LeastOf(Real16 values, unsigned mask) {
+  return std::bit_cast<Real>(
+      _mm512_mask_reduce_min_epi32(__mmask16(mask), _mm512_castps_si512(values.v)));
+}
+
+// Writes the lanes of the mask, and their indices, one after the other; and sixteen in all.
+inline void AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask, Real* distance2,
+                        std::uint32_t* index) {
+  const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i indices = _mm512_add_epi32(_mm512_set1_epi32(int(firstIndex)), places);
+  _mm512_storeu_ps(distance2, _mm512_maskz_compress_ps(__mmask16(mask), values.v));
+  _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(__mmask16(mask), indices));
+}
+// The same with given indices; how many there were.
+inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* from,
+                             Real* distance2, std::uint32_t* index) {
+  const __m512i indices = _mm512_loadu_si512(from);
+  _mm512_storeu_ps(distance2, _mm512_maskz_compress_ps(__mmask16(mask), values.v));
+  _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(__mmask16(mask), indices));
+  return unsigned(__builtin_popcount(mask));
+}
+
+#include "core/spatial/nearest_search.inl"
+
+}  // namespace
+
+const NearestSearch kAvx512NearestSearch{"AVX-512", Nearest, Closest};
+
+}  // namespace exphoton
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Trees of points for tests of searches, and what looking at every point finds.
+#pragma once
+
+#include <vector>
+
+#include "core/spatial/point_spacing.h"
+#include "core/spatial/point_tree.h"
+
+namespace exphoton {
+
+struct TestDisk {
+  Point3 p;
+  std::uint32_t direction = EncodeOctahedral({0, 0, 1});
+  Real reach2 = kInfinity;
+};
+struct TestDiskBlock : DiskBlock {
+  using Record = TestDisk;
+  void Set(std::uint32_t lane, const TestDisk& disk) {
+    PointBlock::Set(lane, {disk.p, disk.direction});
+    reach2[lane] = disk.reach2;
+  }
+  void SetMissing(std::uint32_t lane) { Set(lane, {Point3(kInfinity), 0, 0}); }
+};
+
+class TestPointTree {
+ public:
+  explicit TestPointTree(const std::vector<TestDisk>& disks, int threads = 1);
+  explicit TestPointTree(const std::vector<Point3>& points, int threads = 1);
+
+  const PointTree<TestDiskBlock>& Tree() const { return tree_; }
+  PointTreeView View() const;
+
+  struct Near {
+    Real distance2;
+    std::uint32_t index;
+    friend auto operator<=>(const Near&, const Near&) = default;
+  };
+  // Nearest first.
+  std::vector<Near> Nearest(const NearestSearch& search, const NearestQuery& query) const;
+  std::vector<Near> NearestByBruteForce(const NearestQuery& query) const;
+  ClosestPoint ClosestByBruteForce(const ClosestQuery& query) const;
+
+ private:
+  PointTree<TestDiskBlock> tree_;
+  std::vector<Real> spacing2_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The photon map's search: which photons count, and what their radius is.
+#include "integrators/photon/photon_map.h"
+
+#include <gtest/gtest.h>
+
+#include "core/math/random.h"
+
+namespace exphoton {
+namespace {
+
+PhotonMap MapOf(const std::vector<Photon>& photons, std::int64_t paths) {
+  ThreadPool threads(1);
+  return PhotonMap(PhotonHaul(photons, paths), threads);
+}
+
+TEST(PhotonMap, WithoutPhotonsAnswersZero) {
+  Arena arena;
+  const PhotonMap map;
+  const auto e = map.EstimateIrradiance({{0, 0, 0}, {0, 0, 1}, 50, 1, true}, &arena);
+  EXPECT_TRUE(e.e.IsBlack());
+  EXPECT_EQ(map.Nearest({0, 0, 0}, 50, &arena).size(), 0u);
+  EXPECT_EQ(map.TypicalRadius(50, &arena), 0);
+}
+
+TEST(PhotonMap, OfCoincidentPhotonsStaysFinite) {
+  Arena arena;
+  std::vector<Photon> photons(100, Photon{{1, 2, 3}, {0, 0, 1}, Spectrum(1)});
+  const PhotonMap map = MapOf(photons, 10);
+  const auto e = map.EstimateIrradiance({{1, 2, 3}, {0, 0, 1}, 50, 1, true}, &arena);
+  EXPECT_TRUE(e.e.IsFinite());
+  EXPECT_GT(e.e.r, 0);
+  EXPECT_GT(e.radius, 0);
+}
+
+TEST(PhotonMap, IgnoresPhotonsThatArrivedOnTheOtherSide) {
+  Arena arena;
+  std::vector<Photon> photons;
+  RandomStream random(17);
+  for (int i = 0; i < 400; ++i) {
+    const Point3 p{random.Uniform(), random.Uniform(), 0};
+    photons.push_back({p, {0, 0, i % 2 ? Real(1) : Real(-1)}, i % 2 ? Spectrum(1) : Spectrum(100)});
+  }
+  const PhotonMap map = MapOf(photons, 200);
+  const PhotonQuery query{{Real(.5), Real(.5), 0}, {0, 0, 1}, 50, Real(.4), true};
+  const auto around = map.Find(query, &arena);
+  ASSERT_EQ(around.photons.size(), 49u);
+  for (const std::uint32_t i : around.photons) EXPECT_EQ(map.Alpha(i).r, 1);
+}
+
+TEST(PhotonMap, CountsPhotonsOfAFlattenedRegionOnly) {
+  Arena arena;
+  // One photon straight above at a height, one on the plane at the same distance.
+  const std::vector<Photon> photons{{{0, 0, Real(.9)}, {0, 0, 1}, Spectrum(1)},
+                                    {{Real(.9), 0, 0}, {0, 0, 1}, Spectrum(1)}};
+  const PhotonMap map = MapOf(photons, 1);
+  const auto around = map.Find({{0, 0, 0}, {0, 0, 1}, 50, 1, true}, &arena);
+  ASSERT_EQ(around.photons.size(), 1u);
+  EXPECT_EQ(map.Position(around.photons[0]).z, 0);
+}
+
+TEST(PhotonMap, HoldsPowersAsTheyAreAndDirectionsToATenThousandthOfARadian) {
+  RandomStream random(19);
+  std::vector<Photon> photons;
+  for (int i = 0; i < 1000; ++i) {
+    const auto u = [&] { return 2 * random.Uniform() - 1; };
+    photons.push_back({{Real(i), 0, 0}, NormalizeOr({u(), u(), u()}, {0, 0, 1}), {u(), u(), u()}});
+  }
+  const PhotonMap map = MapOf(photons, 1);
+  ASSERT_EQ(map.Size(), photons.size());
+  for (std::uint32_t i = 0; i < map.Size(); ++i) {
+    const Photon& photon = photons[std::size_t(map.Position(i).x)];
+    EXPECT_EQ(map.Alpha(i), photon.alpha);
+    EXPECT_LT(Distance(map.Direction(i), photon.wi), 1e-4);
+  }
+}
+
+TEST(PhotonMap, TakesAtMost32BytesAPhoton) {
+  if (sizeof(Real) != 4) GTEST_SKIP();
+  RandomStream random(29);
+  std::vector<Photon> photons;
+  for (int i = 0; i < 20000; ++i)
+    photons.push_back({{random.Uniform(), random.Uniform(), 0}, {0, 0, 1}, Spectrum(1)});
+  const PhotonMap map = MapOf(photons, 1);
+  EXPECT_LE(double(map.MemoryBytes()), 32 * 20000);
+  EXPECT_NEAR(double(map.MemoryBytes()), PhotonMap::kBytesPerPhoton * 20000, 20000);
+}
+
+}  // namespace
+}  // namespace exphoton
