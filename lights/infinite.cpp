@@ -145,6 +145,7 @@ class InfiniteLight final : public Light {
 
   void Prepare(const Sphere3& world) override { world_ = world; }
   bool IsInfinite() const override { return true; }
+  bool IsFar() const override { return true; }
   bool IsProvablyBlack() const override {
     return radiance_.IsBlack() || (map_ && (radiance_ * map_->Integral()).IsBlack());
   }

@@ -159,7 +159,14 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
   Statistics statistics;
   SampleLayout layout;
   setup.integrator->RequestSamples(*setup.scene, *setup.sampler, &layout);
-  PreprocessContext context{threads, options.seed, log, progress, statistics};
+  PreprocessContext context{threads,
+                            options.seed,
+                            log,
+                            progress,
+                            statistics,
+                            false,
+                            setup.camera.get(),
+                            {setup.film.xResolution, setup.film.yResolution}};
   setup.integrator->Preprocess(*setup.scene, context);
   const auto photons = setup.integrator->PhotonsNear(place.p, options.map, options.count);
   if (photons.empty())

@@ -14,7 +14,8 @@ double UsablePower(const Light& light) {
 }  // namespace
 
 LightDistribution::LightDistribution(const std::vector<std::unique_ptr<Light>>& lights,
-                                     LightSelection selection, double uniformShare) {
+                                     LightSelection selection, double uniformShare,
+                                     std::span<const double> powerFactors) {
   std::vector<double> power(lights.size(), 0.0);
   double sum = 0;
   int shining = 0;
@@ -22,7 +23,7 @@ LightDistribution::LightDistribution(const std::vector<std::unique_ptr<Light>>& 
     lights_.push_back(lights[i].get());
     if (lights[i]->IsProvablyBlack()) continue;
     ++shining;
-    power[i] = UsablePower(*lights[i]);
+    power[i] = UsablePower(*lights[i]) * (powerFactors.empty() ? 1 : powerFactors[i]);
     sum += power[i];
   }
   const bool byPower = selection == LightSelection::Power && sum > 0;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/lights/light.h"
@@ -20,9 +21,11 @@ class LightDistribution {
   static constexpr double kUniformShare = 0.05;
 
   LightDistribution() = default;
-  // uniformShare, in [0,1]: what part of the choices by Power is uniform.
+  // uniformShare, in [0,1]: what part of the choices by Power is uniform. powerFactors: what each
+  // light's power is multiplied by first; empty: 1.
   LightDistribution(const std::vector<std::unique_ptr<Light>>& lights, LightSelection selection,
-                    double uniformShare = kUniformShare);
+                    double uniformShare = kUniformShare,
+                    std::span<const double> powerFactors = {});
 
   bool IsEmpty() const { return distribution_.IsEmpty(); }  // every light is black
 

@@ -17,6 +17,7 @@
 
 namespace exphoton {
 
+class Camera;
 class Log;
 class ThreadPool;
 class ProgressReporter;
@@ -30,6 +31,8 @@ struct PreprocessContext {
   ProgressReporter& progress;  // one bar a phase
   Statistics& statistics;
   bool isStrict = false;  // what is not finite ends the render: throw Error(Internal)
+  const Camera* camera = nullptr;  // for what depends on the view; null: nothing may
+  Point2i resolution;              // of the full image, whatever part of it is rendered
 };
 
 // What one camera sample works with; lives on the stack of the thread that renders it.

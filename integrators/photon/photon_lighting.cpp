@@ -7,6 +7,7 @@
 
 #include "integrators/photon/gather_radiance.h"
 #include "integrators/photon/photon_report.h"
+#include "integrators/photon/seen_points.h"
 
 namespace exphoton {
 
@@ -36,7 +37,7 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   const bool hasCaustics =
       scene.Effects().Needs(Effect::Caustics) && scene.Effects().Needs(Effect::Specular);
   if (hasCaustics && (showsAll || show == ShowMap::Caustic))
-    targets[PhotonKind::Caustic] = settings_.causticPhotons;
+    targets[PhotonKind::Caustic] = settings_.CausticPhotons();
   if (hasIndirect && (showsAll || show == ShowMap::Indirect))
     targets[PhotonKind::Indirect] = settings_.indirectPhotons;
   if ((hasIndirect && (gathers || showsRadiance)) ||
@@ -45,6 +46,27 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   if (showsRadiance || (gathers && settings_.radiancePhotons))
     targets.radianceFraction = settings_.radianceFraction;
   return targets;
+}
+
+PhotonAim PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
+                              PreprocessContext& context) const {
+  // Photons that are only a few times denser do not pay for weights that differ.
+  constexpr double kWorthwhileGain = 4;
+  // That start towards the smallest part of what is seen: many estimates' worth, so that no
+  // estimate sees their density change.
+  constexpr double kLeastPhotons = 2000;
+  const auto& lights = scene.Lights();
+  const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
+    return light->IsFar() && !light->IsProvablyBlack();
+  });
+  if (settings_.photonAim == PhotonAiming::Off || !hasFarLight || targets.Least() == 0 ||
+      !context.camera)
+    return {};
+  PhotonAim aim(SeenPoints(scene, *context.camera, context.resolution, context.seed),
+                BoundingSphere(scene.WorldBounds()), kLeastPhotons / double(targets.Least()));
+  if (settings_.photonAim == PhotonAiming::Auto && aim.Gain() < kWorthwhileGain) return {};
+  ReportAim(aim, context);
+  return aim;
 }
 
 void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) {
@@ -56,8 +78,10 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
   PhotonHarvest harvest;
   {
     const PhaseTimer timer(context.statistics, "shoot");
-    harvest = PhotonTracer(scene, settings_, context.seed).Shoot(targets, context);
+    harvest = PhotonTracer(scene, settings_, context.seed, Aim(scene, targets, context))
+                  .Shoot(targets, context);
   }
+  NoticeVainCaustics(targets, settings_, scene, context.log);
   ReportHarvest(harvest, targets, settings_, context);
   ReportLights(harvest, targets, scene, context);
   {
@@ -78,6 +102,14 @@ void PhotonLighting::RequestSamples(const Scene& scene, SampleLayout* layout) {
     gather_.RequestSamples(Gathers(scene), layout);
 }
 
+std::string PhotonLighting::GatherText(const Scene& scene, const PhotonTargets& targets) const {
+  if (!Gathers(scene)) return "off";
+  const std::string rays = std::to_string(settings_.finalGatherSamples) + " rays, ";
+  if (settings_.gatherSampling == GatherSampling::Bsdf) return rays + "BSDF only";
+  if (targets[PhotonKind::Indirect] == 0) return rays + "BSDF only (0 indirect photons)";
+  return rays + "half of them round photons' directions";
+}
+
 std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {
   const PhotonTargets targets = Targets(scene);
   std::string photons;
@@ -92,6 +124,7 @@ std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {
   bytes += stored * double(targets.radianceFraction) * RadianceMap::kBytesPerEntry;
   const auto mebibytes = std::to_string(std::int64_t(bytes / (1 << 20)) + 1);
   return {"photons       " + (photons.empty() ? "none" : photons),
+          "gather        " + GatherText(scene, targets),
           "memory        about " + mebibytes + " MiB for the photon maps"};
 }
 

@@ -10,6 +10,7 @@
 #include "core/transport/integrator.h"
 #include "core/transport/specular_tree.h"
 #include "integrators/photon/final_gather.h"
+#include "integrators/photon/photon_aim.h"
 #include "integrators/photon/photon_maps.h"
 #include "integrators/photon/radiance_map.h"
 
@@ -46,7 +47,10 @@ class PhotonLighting {
 
   Spectrum ShownRadiance(const ShadingPoint& point) const;  // of the radiance photons
   bool Gathers(const Scene& scene) const;
+  std::string GatherText(const Scene& scene, const PhotonTargets& targets) const;
   PhotonTargets Targets(const Scene& scene) const;
+  // Where far lights should shoot; empty: everywhere.
+  PhotonAim Aim(const Scene& scene, const PhotonTargets& targets, PreprocessContext& context) const;
 
   PhotonSettings settings_;
   bool needsDirectMap_;

@@ -2,6 +2,7 @@
 // Notices, warnings and counters of the photon pass.
 #include "integrators/photon/photon_report.h"
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -57,6 +58,23 @@ void NoticeVainLights(const PhotonHarvest& harvest, const PhotonTargets& targets
 }
 
 }  // namespace
+
+void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
+                        const Scene& scene, Log& log) {
+  const EffectPlan& plan = scene.Effects();
+  if (plan.Needs(Effect::Caustics) || targets[PhotonKind::Caustic] > 0) return;
+  if (settings.causticPhotons.value_or(0) == 0) return;
+  log.Notice(Text("causticphotons ", *settings.causticPhotons, ": none is shot (",
+                  plan.Get(Effect::Caustics).reason, ")"));
+}
+
+void ReportAim(const PhotonAim& aim, PreprocessContext& context) {
+  context.statistics.SetCounter("photons/aim gain", aim.Gain(),
+                                "how much denser photons of far lights start towards what is seen");
+  context.log.Notice(Text("photons of far lights start towards what the camera sees, ",
+                          std::llround(aim.Gain()), " times denser than everywhere"),
+                     {}, "\"string photonaim\" \"off\" spreads them over the whole scene");
+}
 
 void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
                    const PhotonSettings& settings, PreprocessContext& context) {

@@ -9,6 +9,11 @@
 
 namespace exphoton {
 
+// Caustic photons that the file asks for in so many words, where the plan has no caustics.
+void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
+                        const Scene& scene, Log& log);
+// Where photons of far lights are aimed.
+void ReportAim(const PhotonAim& aim, PreprocessContext& context);
 // Once the photons are shot, while their hauls are still in the harvest.
 void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
                    const PhotonSettings& settings, PreprocessContext& context);

@@ -11,12 +11,13 @@ ExtendedPhotonSettings::ExtendedPhotonSettings() {
   gatherSampling = GatherSampling::Photons;
   kernel = DensityKernel::Simpson;
   rrThreshold = Real(.05);
+  photonAim = PhotonAiming::Auto;
 }
 
 const ParamTable<PhotonSettings>& PhotonParameters() {
   using S = PhotonSettings;
   static const ParamTable<S> table{
-      Param("causticphotons", &S::causticPhotons, "photons wanted in the caustic map")
+      Param("causticphotons", &S::causticPhotons, "photons wanted in the caustic map; 20000 if absent")
           .Range(0, 1e9),
       Param("directphotons", &S::directPhotons,
             "photons wanted in the direct map; as indirectphotons if absent")
@@ -80,6 +81,12 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .Range(1, 1 << 20),
       Param("maxphotonpaths", &S::maxPhotonPaths, "paths after which a map stays as it is")
           .Range(1, 1e15),
+      Param("photonaim", &S::photonAim,
+            "photons of far lights (sun, sky) start towards what the camera sees; auto: where that "
+            "makes them many times denser there")
+          .OneOf({{"auto", PhotonAiming::Auto},
+                  {"on", PhotonAiming::On},
+                  {"off", PhotonAiming::Off}}),
       Param("show", &S::show, "shows one map directly, for looking at it")
           .OneOf({{"", ShowMap::Nothing},
                   {"radiancephotons", ShowMap::Radiance},

@@ -20,11 +20,16 @@ enum class GatherSampling { Photons, Bsdf };
 enum class DensityKernel { Constant, Simpson };
 enum class RadianceMode { Exitant, Irradiance };
 enum class ShortGather { Estimate, Gather };  // what a short gather ray reads
+enum class PhotonAiming {
+  Auto,  // where it makes photons many times denser on what is seen
+  On,
+  Off,
+};
 enum class ShowMap { Nothing, Radiance, Direct, Caustic, Indirect };
 
 struct PhotonSettings {
-  std::int64_t causticPhotons = 20000;
-  std::optional<std::int64_t> directPhotons;  // absent: as indirectPhotons
+  std::optional<std::int64_t> causticPhotons;  // absent: 20000
+  std::optional<std::int64_t> directPhotons;   // absent: as indirectPhotons
   std::int64_t indirectPhotons = 100000;
   int nUsed = 50;
   int maxDepth = 5;
@@ -49,8 +54,10 @@ struct PhotonSettings {
   ShortGather shortGather = ShortGather::Estimate;
   int maxPhotonDepth = 1024;
   std::int64_t maxPhotonPaths = std::int64_t(1) << 24;
+  PhotonAiming photonAim = PhotonAiming::Off;
   ShowMap show = ShowMap::Nothing;
 
+  std::int64_t CausticPhotons() const { return causticPhotons.value_or(20000); }
   std::int64_t DirectPhotons() const { return directPhotons.value_or(indirectPhotons); }
 };
 

@@ -90,8 +90,10 @@ class PhotonTracer::Path {
     const Point2 uDirection = samples_.Next2D();
     const auto choice = tracer_.lights_.Sample(uLight.x);
     tally_.light = choice.index;
-    const auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y);
+    auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y);
     if (!emission) return false;
+    if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
+      tracer_.aim_.Redirect(&*emission, uPosition);
     alpha_ = emission->power / choice.probability;  // docs/exphotonmap.md, eq. 3
     if (!alpha_.IsFinite()) {
       Drop();
@@ -179,11 +181,27 @@ class PhotonTracer::Path {
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
 
-PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed)
+namespace {
+
+// An aimed light needs fewer photons by as much as they lie denser.
+std::vector<double> ShareFactors(const Scene& scene, const PhotonAim& aim) {
+  std::vector<double> factors(scene.Lights().size(), 1.0);
+  if (aim.IsEmpty()) return factors;
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (scene.Lights()[i]->IsFar()) factors[i] = 1 / std::max(aim.Gain(), 1.0);
+  return factors;
+}
+
+}  // namespace
+
+PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
+                           PhotonAim aim)
     : scene_(scene),
       settings_(settings),
       seed_(seed),
-      lights_(scene.Lights(), settings.lightSelection),
+      aim_(std::move(aim)),
+      lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
+              ShareFactors(scene, aim_)),
       lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular) {}
 
 PhotonTracer::Chunk PhotonTracer::TraceChunk(std::int64_t firstPath,

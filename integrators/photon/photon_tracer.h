@@ -5,12 +5,14 @@
 // stopping at the n-th photon would bias every estimate. Jensen 2001, chapter 5.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "core/transport/integrator.h"
 #include "integrators/photon/photon.h"
+#include "integrators/photon/photon_aim.h"
 #include "integrators/photon/photon_settings.h"
 
 namespace exphoton {
@@ -22,6 +24,12 @@ struct PhotonTargets {
 
   std::int64_t& operator[](PhotonKind kind) { return counts[std::size_t(kind)]; }
   std::int64_t operator[](PhotonKind kind) const { return counts[std::size_t(kind)]; }
+  std::int64_t Least() const {  // of those that are wanted; 0: none is
+    std::int64_t least = 0;
+    for (const std::int64_t count : counts)
+      if (count > 0) least = least > 0 ? std::min(least, count) : count;
+    return least;
+  }
 };
 
 // What became of the paths that left one light.
@@ -48,7 +56,8 @@ struct PhotonHarvest {
 
 class PhotonTracer {
  public:
-  PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed);
+  PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
+               PhotonAim aim = {});
 
   // Shoots until every requested map is full, has had maxphotonpaths, or has stored nothing in its
   // first kFruitlessPaths. Says so once where a map fell short.
@@ -69,6 +78,7 @@ class PhotonTracer {
   const Scene& scene_;
   PhotonSettings settings_;
   std::uint64_t seed_;
+  PhotonAim aim_;
   LightDistribution lights_;
   LobeSet lobes_;  // that photons scatter by
 };

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Measures what the plan of effects saves: CPU time with an effect against without it, in a small
 # scene that needs it, and with the effect switched on for nothing against the plan in a plain
-# diffuse scene. Usage: effects.sh PROGRAM [needed|idle|carried] (the first two without a name).
+# diffuse scene. Usage: effects.sh PROGRAM [needed|idle|aimed|carried] (the first two without a name).
 # Everything is measured in one run, in turn, and given as medians of ratios.
+# "aimed": photons of far lights that start towards what is seen, against photons everywhere.
 # "carried" counts instructions under callgrind instead: PROGRAM against MASKED, the program of a
 # build with -DEXPHOTON_EFFECTS=2 (indirect light is its only effect), see docs/effects.md.
 set -euo pipefail
@@ -128,8 +129,36 @@ carried() {
   done
 }
 
+# A hut on plains of several sizes, under sun and sky, open towards the camera.
+hut() {
+  printf '%s\n' 'LightSource "distant" "point from" [-3 -6 5] "point to" [0 0 0] "color L" [10 9 8]' \
+    'LightSource "infinite" "color L" [.5 .7 1] Material "matte" "color Kd" [.45 .42 .38]' \
+    "Shape \"disk\" \"float radius\" $1" 'Material "matte" "color Kd" [.8 .78 .75]' \
+    'Shape "trianglemesh" "integer indices" [0 1 2 0 2 3 2 3 4 2 4 5 0 3 4 0 4 6 1 2 5 1 5 7]' \
+    '  "point P" [-3 -3 3 3 -3 3 3 3 3 -3 3 3 -3 3 0 3 3 0 -3 -3 0 3 -3 0]'
+}
+# error SCENE: its relMSE against $work/path.exr and the error of its mean, of the last render.
+errors() {
+  "$program" compare "$work/path.exr" "$work/out.exr" | awk '
+    /^relMSE/ {a = $2} /^relative mean/ {b = $4} END {printf "%9.4f %+7.2f %%", a, b}' || true
+}
+aimed() {
+  local look='LookAt 0 -9 2  0 0 1.5  0 0 1' radius aim
+  printf '%-8s %-4s %8s %9s %9s\n' plain aim seconds relMSE mean
+  for radius in 10 100 1000; do
+    scene path 'SurfaceIntegrator "path" "integer maxdepth" 40' "$look $camera" "$(hut $radius)"
+    "$program" render "$work/path.pbrt" --spp "${REFERENCE_SPP:-1024}" --quiet --no-progress --float \
+      -o "$work/path.exr"
+    for aim in off on; do
+      scene hut "SurfaceIntegrator \"exphotonmap\" \"string photonaim\" \"$aim\"" "$look $camera" \
+        "$(hut $radius)"
+      printf '%-8s %-4s %8s %s\n' "$radius m" $aim "$(seconds hut auto)" "$(errors || true)"
+    done
+  done
+}
+
 case "$what" in
   all) needed; idle ;;
-  needed | idle | carried) "$what" ;;
-  *) echo "effects.sh: unknown part \"$what\": needed, idle, carried" >&2; exit 1 ;;
+  needed | idle | aimed | carried) "$what" ;;
+  *) echo "effects.sh: unknown part \"$what\": needed, idle, aimed, carried" >&2; exit 1 ;;
 esac
