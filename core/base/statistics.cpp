@@ -78,11 +78,13 @@ std::vector<Statistics::Phase> Statistics::Phases() const {
   return phases_;
 }
 
+// The phase is entered here, so that the destructor finds it and need not allocate.
 PhaseTimer::PhaseTimer(Statistics& statistics, std::string phase)
-    : statistics_(statistics),
-      phase_(std::move(phase)),
-      wallStart_(std::chrono::steady_clock::now()),
-      cpuStart_(ProcessCpuSeconds()) {}
+    : statistics_(statistics), phase_(std::move(phase)) {
+  statistics_.AddPhase(phase_, 0, 0);
+  wallStart_ = std::chrono::steady_clock::now();
+  cpuStart_ = ProcessCpuSeconds();
+}
 
 PhaseTimer::~PhaseTimer() {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wallStart_;

@@ -72,7 +72,7 @@ class PhaseTimer {
   Statistics& statistics_;
   std::string phase_;
   std::chrono::steady_clock::time_point wallStart_;
-  double cpuStart_;
+  double cpuStart_ = 0;
 };
 
 double ProcessCpuSeconds();

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/base/terminal.h"
 #include "core/cli/options.h"
 #include "core/cli/output_files.h"
@@ -26,9 +27,22 @@ int Fail(ExitStatus status, const std::string& text,
   return int(status);
 }
 
-}  // namespace
+// With nothing that allocates: what fails here has nowhere left to go.
+int FailWithoutMemory() {
+  if (IsRedrawable()) std::fputs("\r\x1b[K", stderr);
+  std::fputs("exphoton: error: ", stderr);
+  std::fputs(OutOfMemoryText(), stderr);
+  std::fputs("\n", stderr);
+  return int(ExitStatus::Resource);
+}
 
-int Guarded(const std::function<void()>& work) {
+int FailBySystem(ExitStatus status, const std::string& text, const std::error_code& code) {
+  if (code == std::errc::not_enough_memory) throw std::bad_alloc();
+  return Fail(status, text);
+}
+
+// Writing the message of a failure may run out of memory itself.
+int Try(const std::function<void()>& work) {
   try {
     work();
     return 0;
@@ -42,17 +56,28 @@ int Guarded(const std::function<void()>& work) {
   } catch (const ImageError& error) {
     return Fail(ExitStatus::File, error.what());
   } catch (const std::bad_alloc&) {
-    return Fail(ExitStatus::Resource, "out of memory");
+    throw;
   } catch (const std::length_error&) {
     return Fail(ExitStatus::Resource, "out of memory: something is larger than any memory");
   } catch (const std::filesystem::filesystem_error& error) {
-    return Fail(ExitStatus::File, std::string("cannot use a file or folder: ") + error.what());
+    return FailBySystem(ExitStatus::File,
+                        std::string("cannot use a file or folder: ") + error.what(), error.code());
   } catch (const std::system_error& error) {
-    return Fail(ExitStatus::Resource, error.what());
+    return FailBySystem(ExitStatus::Resource, error.what(), error.code());
   } catch (const std::exception& error) {
     return Fail(ExitStatus::Internal, std::string("internal error: ") + error.what());
   } catch (...) {
     return Fail(ExitStatus::Internal, "internal error of an unknown kind");
+  }
+}
+
+}  // namespace
+
+int Guarded(const std::function<void()>& work) {
+  try {
+    return Try(work);
+  } catch (const std::bad_alloc&) {
+    return FailWithoutMemory();
   }
 }
 

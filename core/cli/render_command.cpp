@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <set>
 
+#include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/cli/errors.h"
 #include "core/cli/interrupt_watch.h"
@@ -59,13 +61,21 @@ class FileRenderer {
   }
 
  private:
+  // What has been written.
+  struct Picture {
+    std::string path;
+    Image image;
+    ExrWriteReport report;
+  };
+
   Setups Load(const std::string& path);
   std::string OutputOf(const RenderSetup& setup) const;
   void CheckOutputs(const Setups& setups, const std::string& scenePath) const;
   void RenderOne(const RenderSetup& setup);
   void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
-  void Write(const RunRecord& run, Image image, Statistics& statistics);
+  Picture Write(const RunRecord& run, Image image, Statistics& statistics);
+  void Announce(const RunRecord& run, const Picture& picture);
   void Report(const RunRecord& run) const;
 
   const RenderCommand& command_;
@@ -137,8 +147,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   const PassesResult result =
       RenderPicture(command_,
                     {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera,
-                     films.film, threads, log_, progress, statistics,
-                     setup.volumeIntegrator.get()},
+                     films.film, threads, log_, progress, statistics, setup.volumeIntegrator.get()},
                     options, begin.wall, &films);
   watch_.MustFinish() = true;
   RunRecord run(setup, statistics);
@@ -146,12 +155,19 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   run.threads = threads.Count();
   run.renderSeconds = SecondsSince(start);
   TakeResult(result, &run);
-  Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
-  run.wallSeconds = SecondsSince(begin.wall);
-  run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
-  run.peakMemory = PeakMemoryBytes();
-  statistics.SetCounter("memory/peak", run.peakMemory, "most bytes of memory held at any time");
-  Report(run);
+  const Picture picture =
+      Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
+  try {
+    Announce(run, picture);
+    run.wallSeconds = SecondsSince(begin.wall);
+    run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
+    run.peakMemory = PeakMemoryBytes();
+    statistics.SetCounter("memory/peak", run.peakMemory, "most bytes of memory held at any time");
+    Report(run);
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::Resource, "out of memory after the picture \"" + picture.path +
+                                          "\" was written; " + MemoryLimit());
+  }
   if (!run.isComplete) throw Interrupted();
 }
 
@@ -178,23 +194,27 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
 }
 
-void FileRenderer::Write(const RunRecord& run, Image image, Statistics& statistics) {
-  std::string path = OutputOf(run.setup);
-  if (!run.isComplete) path = PartialName(path);
-  image.attributes = PictureAttributes(run, command_.isReproducible);
-  {
-    const PhaseTimer timer(statistics, "write");
-    const ExrWriteReport report = WriteExr(path, image, command_.asHalf);
-    if (report.clampedToHalf > 0)
-      log_.Warning(std::to_string(report.clampedToHalf) +
-                   " values above 65504 were written as 65504; --float stores them as they are");
-    if (!command_.previewFile.empty() && run.isComplete)
-      WritePng(ResolveOutput(command_.previewFile), image);
-  }
+FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
+                                          Statistics& statistics) {
+  const PhaseTimer timer(statistics, "write");
+  Picture picture{OutputOf(run.setup), std::move(image), {}};
+  if (!run.isComplete) picture.path = PartialName(picture.path);
+  picture.image.attributes = PictureAttributes(run, command_.isReproducible);
+  picture.report = WriteExr(picture.path, picture.image, command_.asHalf);
+  return picture;
+}
+
+// What follows once there is a picture.
+void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
+  if (picture.report.clampedToHalf > 0)
+    log_.Warning(std::to_string(picture.report.clampedToHalf) +
+                 " values above 65504 were written as 65504; --float stores them as they are");
+  if (!command_.previewFile.empty() && run.isComplete)
+    WritePng(ResolveOutput(command_.previewFile), picture.image);
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", run.renderSeconds);
-  log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") + path +
-              "\" (rendered in " + seconds + ")");
+  log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") +
+              picture.path + "\" (rendered in " + seconds + ")");
 }
 
 void FileRenderer::Report(const RunRecord& run) const {

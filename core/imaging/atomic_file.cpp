@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
+#include <new>
 
 #include "core/base/error.h"
 
@@ -20,6 +21,7 @@ namespace {
 // A link is followed, so that the file it names is replaced and not the link.
 std::string Resolve(const std::string& path) {
   char* const resolved = realpath(path.c_str(), nullptr);
+  if (!resolved && errno == ENOMEM) throw std::bad_alloc();
   if (!resolved) return path;
   std::string result = resolved;
   std::free(resolved);
@@ -90,6 +92,7 @@ void AtomicFile::RemovePartial() {
 
 void AtomicFile::Fail(const std::string& what) {
   if (failure_ == 0) failure_ = errno;
+  if (failure_ == ENOMEM) throw std::bad_alloc();
   throw Error(ExitStatus::File, what + " \"" + target_ + "\": " + std::strerror(failure_));
 }
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 
 #include "core/base/error.h"
 #include "core/base/fp_traps.h"
@@ -130,6 +131,8 @@ ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf
     }  // here the table of line offsets is written
     file.Commit();
   } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + error.what());

@@ -16,8 +16,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
+#include "core/base/error.h"
 #include "core/base/fp_traps.h"
+#include "core/base/memory.h"
 #include "core/imaging/exr.h"
 
 namespace exphoton {
@@ -152,7 +155,8 @@ Image ReadExr(const std::string& path) {
   try {
     return Read(path);
   } catch (const std::bad_alloc&) {
-    throw ImageError(path + ": not enough memory for this picture");
+    throw Error(ExitStatus::Resource,
+                "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
   } catch (const std::exception& error) {
     const std::string text = error.what();
     throw ImageError(text.find(path) == std::string::npos ? path + ": " + text : text);

@@ -3,25 +3,14 @@
 // pixel, at the end.
 #include "core/imaging/film.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 
 namespace exphoton {
-namespace {
-
-// Bytes of memory that the machine has.
-double PhysicalMemory() { return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)); }
-
-std::string Megabytes(double bytes) {
-  return std::to_string(static_cast<long long>(std::ceil(bytes / 1048576))) + " MB";
-}
-
-}  // namespace
 
 PixelBounds FilmSettings::Crop() const {
   const std::vector<Real> window = cropWindow.value_or(std::vector<Real>{0, 1, 0, 1});
@@ -45,13 +34,12 @@ Film::Film(PixelBounds full, PixelBounds crop) : full_(full), crop_(crop) {
   const std::string text = "a film of " + std::to_string(crop.Width()) + " x " +
                            std::to_string(crop.Height()) + " pixels needs " + Megabytes(need);
   if (need > PhysicalMemory()) {
-    throw Error(ExitStatus::Resource,
-                text + "; this machine has " + Megabytes(PhysicalMemory()) + " of memory");
+    throw Error(ExitStatus::Resource, text + "; " + MemoryLimit());
   }
   try {
     pixels_.resize(std::size_t(crop.Width()) * std::size_t(crop.Height()));
   } catch (const std::bad_alloc&) {
-    throw Error(ExitStatus::Resource, text + ", more than this process may use");
+    throw Error(ExitStatus::Resource, text + "; " + MemoryLimit());
   }
 }
 

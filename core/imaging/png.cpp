@@ -9,9 +9,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <new>
 
 #include "core/base/error.h"
 #include "core/base/fp_traps.h"
+#include "core/base/memory.h"
 #include "core/imaging/atomic_file.h"
 
 namespace exphoton {
@@ -141,7 +143,8 @@ Image ReadPng(const std::string& path) {
   try {
     return Read(path);
   } catch (const std::bad_alloc&) {
-    throw ImageError(path + ": not enough memory for this picture");
+    throw Error(ExitStatus::Resource,
+                "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
   }
 }
 

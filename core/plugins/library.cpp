@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 #include "core/base/fp_traps.h"
 
@@ -39,6 +40,7 @@ void CheckIsReadable(const std::string& path) {
 // are left to dlopen, which refuses them by their header.
 void CheckIsWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  file.exceptions(std::ios::badbit);  // so that a lack of memory is not taken for a short file
   std::error_code error;
   const std::uint64_t size = fs::file_size(path, error);
   Elf64_Ehdr header{};
@@ -74,6 +76,8 @@ const PluginDescriptor& CheckedDescriptor(PluginEntry entry, const std::string& 
   const PluginDescriptor* descriptor = nullptr;
   try {
     descriptor = entry();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw PluginFileError(std::string("fails when asked what it is: ") + error.what());
   } catch (...) {
@@ -105,8 +109,10 @@ const PluginDescriptor& LoadPluginFile(const std::string& path, const std::strin
   // A path without a slash would be looked for where the system keeps its libraries.
   const std::string file = fs::absolute(path).string();
   const UntrappedLibraryCall guard;
+  errno = 0;
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
+    if (errno == ENOMEM) throw std::bad_alloc();  // its words seldom say so
     const char* reason = dlerror();
     throw PluginFileError(std::string("cannot be loaded: ") +
                           (reason ? reason : "no reason given"));

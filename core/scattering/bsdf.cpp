@@ -92,20 +92,28 @@ std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, con
   return sample;
 }
 
+// A direction that a smooth lobe has drawn, in the local frame: as it was drawn, which is where its
+// density is known, and as lobes see it. They differ for a photon that leaves behind the shading
+// normal: the drawn direction fell behind the geometric normal and was turned round. So the whole
+// hemisphere of the geometric normal is covered once, with the density |wi.ns| of the drawn one.
+struct Drawn {
+  Vector3 drawn, seen;
+};
+
 // Replaces the density of the picked lobe by the mean over all chosen ones, and its value by the
 // sum of those that serve this pair of sides.
 void CombineSmooth(const Chosen& chosen, std::size_t picked, LobeSet served, const Vector3& wo,
-                   const Vector3& wi, BsdfSample* sample) {
+                   const Drawn& wi, BsdfSample* sample) {
   Spectrum f;
   Real pdf = 0;
   for (std::size_t i = 0; i < chosen.smoothCount; ++i) {
     const Bxdf& lobe = *chosen.smooth[i];
     if (!lobe.Matches(served)) continue;
-    f += lobe.f(wo, wi);
-    pdf += i == picked ? sample->pdf : lobe.Pdf(wo, wi);
+    f += lobe.f(wo, wi.seen);
+    pdf += i == picked ? sample->pdf : lobe.Pdf(wo, wi.drawn);
   }
   sample->pdf = pdf / Real(chosen.sharpCount + chosen.smoothCount);
-  if (sample->pdf > 0) sample->throughput = f * (std::abs(wi.z) / sample->pdf);
+  if (sample->pdf > 0) sample->throughput = f * (std::abs(wi.drawn.z) / sample->pdf);
 }
 
 }  // namespace
@@ -153,8 +161,8 @@ Real Bsdf::Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   return sum / Real(matching);
 }
 
-std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe,
-                                       LobeSet mask) const {
+std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, LobeSet mask,
+                                       TransportMode mode) const {
   const Chosen chosen(std::span(lobes_.data(), std::size_t(count_)), mask);
   const int count = int(chosen.sharpCount + chosen.smoothCount);
   if (count == 0) return std::nullopt;
@@ -162,32 +170,39 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe,
   if (out.side == 0 || out.wo.z == 0) return std::nullopt;
 
   const Real position = uLobe * Real(count);
-  const bool isSpecular = position < Real(chosen.sharpCount);
-  std::optional<BsdfSample> sample;
-  std::size_t picked = 0;
-  if (isSpecular) {
-    sample = SampleSpecular(chosen.Sharp(), out.wo, position / Real(chosen.sharpCount));
-  } else {
-    picked = std::min(std::size_t(position) - chosen.sharpCount, chosen.smoothCount - 1);
-    const Bxdf& lobe = *chosen.smooth[picked];
-    if (const auto local = lobe.Sample(out.wo, u))
-      sample = BsdfSample{local->wi, local->throughput, local->pdf, lobe.Lobe()};
-  }
-  if (!sample) return std::nullopt;
-  const Vector3 localWi = sample->wi;
-  // Undone for what goes straight through, so that an invisible boundary bends nothing.
-  sample->wi = frame_.ToWorld(
-      out.isMirrored && isSpecular && sample->IsTransmission() ? MirrorZ(localWi) : localWi);
-  const LobeSet served = Served(out.side, Dot(sample->wi, ng_));
-  if (!Intersects(sample->lobe, served)) return std::nullopt;
-  if (isSpecular) {
+  if (position < Real(chosen.sharpCount)) {
+    auto sample = SampleSpecular(chosen.Sharp(), out.wo, position / Real(chosen.sharpCount));
+    if (!sample) return std::nullopt;
+    // Undone for what goes straight through, so that an invisible boundary bends nothing.
+    const bool isUndone = out.isMirrored && sample->IsTransmission();
+    sample->wi = frame_.ToWorld(isUndone ? MirrorZ(sample->wi) : sample->wi);
+    if (!Intersects(sample->lobe, Served(out.side, Dot(sample->wi, ng_)))) return std::nullopt;
     const Real share = Real(chosen.sharpCount) / Real(count);
     sample->pdf *= share;
     sample->throughput /= share;
-  } else if (count > 1) {
-    CombineSmooth(chosen, picked, served, out.wo, localWi, &*sample);
+    if (!(sample->pdf > 0) || !sample->throughput.IsFinite()) return std::nullopt;
+    return sample;
   }
-  if (!(sample->pdf > 0) || !sample->throughput.IsFinite()) return std::nullopt;
+
+  // What f says of light from a direction that is on different sides of the two normals.
+  if (mode == TransportMode::Importance && out.isMirrored) return std::nullopt;
+  const std::size_t picked =
+      std::min(std::size_t(position) - chosen.sharpCount, chosen.smoothCount - 1);
+  const Bxdf& lobe = *chosen.smooth[picked];
+  const auto local = lobe.Sample(out.wo, u);
+  if (!local) return std::nullopt;
+  BsdfSample sample{frame_.ToWorld(local->wi), local->throughput, local->pdf, lobe.Lobe()};
+  Drawn drawn{local->wi, local->wi};
+  const bool isTurned = !Intersects(sample.lobe, Served(out.side, Dot(sample.wi, ng_)));
+  if (isTurned) {
+    if (mode == TransportMode::Radiance) return std::nullopt;
+    sample.wi = -sample.wi;
+    drawn.seen = {-local->wi.x, -local->wi.y, local->wi.z};
+  }
+  const LobeSet served = Served(out.side, Dot(sample.wi, ng_));
+  if (!Intersects(sample.lobe, served)) return std::nullopt;
+  if (count > 1 || isTurned) CombineSmooth(chosen, picked, served, out.wo, drawn, &sample);
+  if (!(sample.pdf > 0) || !sample.throughput.IsFinite()) return std::nullopt;
   return sample;
 }
 

@@ -44,8 +44,13 @@ class Bsdf {
   Real Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
   // Picks one masked lobe by uLobe, uniformly; if a specular one, then again among the specular
   // ones in proportion to what they carry. nullopt: no sample (absorbed).
+  // Importance: wo points to where a photon came from, and smooth lobes scatter by f(wi, wo). Where
+  // the normals differ that is not f(wo, wi): light from behind the shading normal is not scattered
+  // but scattered light goes there, to every direction before the geometric normal. The throughput
+  // is f(wi, wo) |wi.ns| / pdf, still without the ShadingNormalFactor.
   std::optional<BsdfSample> Sample(const Vector3& wo, Point2 u, Real uLobe,
-                                   LobeSet mask = LobeSet::All) const;
+                                   LobeSet mask = LobeSet::All,
+                                   TransportMode mode = TransportMode::Radiance) const;
   // Sum of hemispherical-hemispherical reflectances of the masked lobes.
   Spectrum Rho(LobeSet mask) const;
 

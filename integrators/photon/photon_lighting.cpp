@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
+#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "integrators/photon/gather_radiance.h"
 #include "integrators/photon/photon_report.h"
 #include "integrators/photon/seen_points.h"
@@ -18,6 +21,30 @@ bool HasReceiver(const Scene& scene) {
   return std::any_of(materials.begin(), materials.end(), [](const auto& material) {
     return Intersects(material->PossibleLobes(), LobeSet::NonSpecular);
   });
+}
+
+// "100 direct, 200 indirect"; empty if none.
+std::string TextOf(const PhotonTargets& targets) {
+  std::string text;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (targets[kind] == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(targets[kind]) + " " + PhotonKindName(kind);
+  }
+  return text;
+}
+
+// What the maps take once they hold what was asked for.
+double BytesOf(const PhotonTargets& targets) {
+  double photons = 0;
+  for (const auto count : targets.counts) photons += double(count);
+  return photons * (double(PhotonMap::kBytesPerPhoton) +
+                    double(targets.radianceFraction) * double(RadianceMap::kBytesPerEntry));
+}
+
+[[noreturn]] void FailByMemory(const PhotonTargets& targets) {
+  throw Error(ExitStatus::Resource, "photon maps of " + TextOf(targets) + " photons take " +
+                                        Megabytes(BytesOf(targets)) +
+                                        ", and more while they are built; " + MemoryLimit());
 }
 
 }  // namespace
@@ -75,6 +102,18 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
   radianceMap_.reset();
   maps_ = {};  // of an earlier pass: its memory is wanted
   const PhotonTargets targets = Targets(scene);
+  if (BytesOf(targets) > PhysicalMemory()) FailByMemory(targets);
+  try {
+    Build(scene, targets, context);
+  } catch (const std::bad_alloc&) {
+    if (BytesOf(targets) == 0) throw;
+    maps_ = {};
+    FailByMemory(targets);
+  }
+}
+
+void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
+                           PreprocessContext& context) {
   PhotonHarvest harvest;
   {
     const PhaseTimer timer(context.statistics, "shoot");
@@ -112,17 +151,8 @@ std::string PhotonLighting::GatherText(const Scene& scene, const PhotonTargets& 
 
 std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {
   const PhotonTargets targets = Targets(scene);
-  std::string photons;
-  double bytes = 0, stored = 0;
-  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
-    if (targets[kind] == 0) continue;
-    photons +=
-        (photons.empty() ? "" : ", ") + std::to_string(targets[kind]) + " " + PhotonKindName(kind);
-    bytes += double(targets[kind]) * PhotonMap::kBytesPerPhoton;
-    stored += double(targets[kind]);
-  }
-  bytes += stored * double(targets.radianceFraction) * RadianceMap::kBytesPerEntry;
-  const auto mebibytes = std::to_string(std::int64_t(bytes / (1 << 20)) + 1);
+  const std::string photons = TextOf(targets);
+  const auto mebibytes = std::to_string(std::int64_t(BytesOf(targets) / (1 << 20)) + 1);
   return {"photons       " + (photons.empty() ? "none" : photons),
           "gather        " + GatherText(scene, targets),
           "memory        about " + mebibytes + " MiB for the photon maps"};

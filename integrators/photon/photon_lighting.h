@@ -51,6 +51,7 @@ class PhotonLighting {
   PhotonTargets Targets(const Scene& scene) const;
   // Where far lights should shoot; empty: everywhere.
   PhotonAim Aim(const Scene& scene, const PhotonTargets& targets, PreprocessContext& context) const;
+  void Build(const Scene& scene, const PhotonTargets& targets, PreprocessContext& context);
 
   PhotonSettings settings_;
   bool needsDirectMap_;

@@ -128,7 +128,8 @@ class PhotonTracer::Path {
   // Bsdf sampling (eq. 5 and 6) and Russian roulette (eq. 7); false where the path ends.
   bool Scatter(const ShadingPoint& point, int hits, RayDifferential* ray) {
     const Point2 u = samples_.Next2D(), uChoice = samples_.Next2D();
-    const auto sample = point.bsdf.Sample(point.Wo(), u, uChoice.x, tracer_.lobes_);
+    const auto sample =
+        point.bsdf.Sample(point.Wo(), u, uChoice.x, tracer_.lobes_, TransportMode::Importance);
     if (!sample) return false;
     isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_);
     if (!IsWantedAfter(isSpecularPath_)) return false;

@@ -13,6 +13,10 @@
 namespace exphoton::hardcases {
 namespace {
 
+#ifndef FAILING_ALLOCATIONS
+#define FAILING_ALLOCATIONS ""  // no library to preload in this build
+#endif
+
 constexpr const char* kOlder = "older picture";
 
 std::string LastLine(const std::string& text) {
@@ -44,7 +48,7 @@ void Judge::Fail(const std::string& where, const std::string& what) {
   verdict_.failures.push_back(where + ": " + what);
 }
 
-void Judge::Count(const Outcome& outcome) {
+void Judge::Count(const ProcessResult& outcome) {
   verdict_.seconds += outcome.seconds;
   verdict_.megabytes = std::max(verdict_.megabytes, outcome.megabytes);
 }
@@ -66,7 +70,7 @@ void Judge::RunScene(const hardcases::Run& run) {
   Pictures& pictures = pictures_[run.name];
   const std::size_t failures = verdict_.failures.size();
   for (int seed = 0; seed < run.seeds; ++seed) {
-    const Outcome outcome = RunSeed(run, seed, &pictures);
+    const ProcessResult outcome = RunSeed(run, seed, &pictures);
     if (verdict_.failures.size() > failures) return;
     if (seed == 0) CheckMessages(run, outcome);
     pictures.last = outcome;
@@ -75,11 +79,11 @@ void Judge::RunScene(const hardcases::Run& run) {
   if (run.status == 0) CheckPictures(run);
 }
 
-Outcome Judge::RunSeed(const hardcases::Run& run, int seed, Pictures* pictures) {
-  const Folder folder;
+ProcessResult Judge::RunSeed(const hardcases::Run& run, int seed, Pictures* pictures) {
+  const TestFolder folder;
   WriteFile(folder.File("scene.pbrt"), run.scene);
   WriteFile(folder.File("out.exr"), kOlder);
-  Command command;
+  ProcessCommand command;
   command.folder = folder.Path();
   command.timeLimit = run.timeLimit * programs_.patience;
   command.environment = run.environment;
@@ -95,7 +99,7 @@ Outcome Judge::RunSeed(const hardcases::Run& run, int seed, Pictures* pictures) 
   if (run.isStrict) command.words.push_back("--strict");
   command.words.insert(command.words.end(), run.arguments.begin(), run.arguments.end());
   command.words.push_back("scene.pbrt");
-  const Outcome outcome = Execute(command);
+  const ProcessResult outcome = RunProcess(command);
   Count(outcome);
   if (outcome.isLate) {
     Fail(run.name, "not done after " + std::to_string(int(command.timeLimit)) + " s");
@@ -110,8 +114,8 @@ Outcome Judge::RunSeed(const hardcases::Run& run, int seed, Pictures* pictures) 
   return outcome;
 }
 
-void Judge::CheckFiles(const hardcases::Run& run, const Outcome& outcome, const Folder& folder,
-                       Pictures* pictures) {
+void Judge::CheckFiles(const hardcases::Run& run, const ProcessResult& outcome,
+                       const TestFolder& folder, Pictures* pictures) {
   if (folder.Names() != std::vector<std::string>{"out.exr", "scene.pbrt"})
     Fail(run.name, "left other files behind");
   if (run.status != 0) return CheckFailure(run, outcome, folder);
@@ -128,7 +132,8 @@ void Judge::CheckFiles(const hardcases::Run& run, const Outcome& outcome, const 
   }
 }
 
-void Judge::CheckFailure(const hardcases::Run& run, const Outcome& outcome, const Folder& folder) {
+void Judge::CheckFailure(const hardcases::Run& run, const ProcessResult& outcome,
+                         const TestFolder& folder) {
   if (ReadFile(folder.File("out.exr")) != kOlder) Fail(run.name, "the older picture is gone");
   static const std::regex place("(^|\n)[^\n]*scene.pbrt:[0-9]+:[0-9]+: error: ");
   const bool hasError = run.status == 2 ? std::regex_search(outcome.err, place)
@@ -136,7 +141,7 @@ void Judge::CheckFailure(const hardcases::Run& run, const Outcome& outcome, cons
   if (!hasError) Fail(run.name, "no error with its place: " + LastLine(outcome.err));
 }
 
-void Judge::CheckMessages(const hardcases::Run& run, const Outcome& outcome) {
+void Judge::CheckMessages(const hardcases::Run& run, const ProcessResult& outcome) {
   for (const Check& check : run.checks) {
     const std::string text = check.arguments.empty() ? "" : check.arguments[0];
     if (check.kind == "says" && outcome.err.find(text) == std::string::npos) {
@@ -183,13 +188,15 @@ void Judge::CheckPictures(const hardcases::Run& run) {
 }
 
 void Judge::RunScript(const Script& script) {
-  const Folder folder;
-  Command command;
+  const TestFolder folder;
+  ProcessCommand command;
   command.folder = folder.Path();
   command.timeLimit = script.timeLimit * programs_.patience;
-  command.environment = {"EXPHOTON=" + programs_.exphoton};
+  command.environment = {"EXPHOTON=" + programs_.exphoton,
+                         "FAILING_ALLOCATIONS=" FAILING_ALLOCATIONS,
+                         std::string("FULL=") + (programs_.isFull ? "1" : "")};
   command.words = {"bash", "-e", "-u", "-o", "pipefail", "-c", script.text};
-  const Outcome outcome = Execute(command);
+  const ProcessResult outcome = RunProcess(command);
   Count(outcome);
   if (outcome.isLate) {
     Fail(script.name, "not done after " + std::to_string(int(command.timeLimit)) + " s");

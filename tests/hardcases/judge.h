@@ -8,7 +8,7 @@
 
 #include "core/imaging/image.h"
 #include "tests/hardcases/case_file.h"
-#include "tests/hardcases/process.h"
+#include "tests/support/process.h"
 
 namespace exphoton::hardcases {
 
@@ -34,18 +34,19 @@ class Judge {
  private:
   struct Pictures {
     std::vector<Image> images;  // one a seed
-    Outcome last;
+    ProcessResult last;
   };
 
   void RunScene(const hardcases::Run& run);
-  Outcome RunSeed(const hardcases::Run& run, int seed, Pictures* pictures);
-  void CheckFiles(const hardcases::Run& run, const Outcome& outcome, const Folder& folder,
+  ProcessResult RunSeed(const hardcases::Run& run, int seed, Pictures* pictures);
+  void CheckFiles(const hardcases::Run& run, const ProcessResult& outcome, const TestFolder& folder,
                   Pictures* pictures);
-  void CheckFailure(const hardcases::Run& run, const Outcome& outcome, const Folder& folder);
-  void CheckMessages(const hardcases::Run& run, const Outcome& outcome);
+  void CheckFailure(const hardcases::Run& run, const ProcessResult& outcome,
+                    const TestFolder& folder);
+  void CheckMessages(const hardcases::Run& run, const ProcessResult& outcome);
   void CheckPictures(const hardcases::Run& run);
   void RunScript(const Script& script);
-  void Count(const Outcome& outcome);
+  void Count(const ProcessResult& outcome);
   void Fail(const std::string& where, const std::string& what);
   // Of an earlier run of the case, or null with a failure.
   const Pictures* Of(const std::string& where, const std::string& name);

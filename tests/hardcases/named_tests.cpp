@@ -9,14 +9,14 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/hardcases/process.h"
+#include "tests/support/process.h"
 
 namespace exphoton::hardcases {
 namespace {
 
 std::set<std::string> ListOf(const std::string& program) {
-  const Folder folder;
-  const Outcome outcome = Execute({{program, "--gtest_list_tests"}, {}, folder.Path(), 60});
+  const TestFolder folder;
+  const ProcessResult outcome = RunProcess({{program, "--gtest_list_tests"}, folder.Path()});
   std::set<std::string> names;
   std::istringstream lines(outcome.out);
   std::string suite;
@@ -60,12 +60,11 @@ void NamedTests::Run(int jobs) {
   std::mutex lock;
   const auto work = [&] {
     for (std::size_t i; (i = next++) < list.size();) {
-      const Folder folder;
-      const Outcome outcome =
-          Execute({{folder_ + "/test_" + list[i].first, "--gtest_filter=" + list[i].second},
-                   {},
-                   folder.Path(),
-                   600});
+      const TestFolder folder;
+      ProcessCommand command{
+          {folder_ + "/test_" + list[i].first, "--gtest_filter=" + list[i].second}, folder.Path()};
+      command.timeLimit = 600;
+      const ProcessResult outcome = RunProcess(command);
       const std::lock_guard guard(lock);
       if (outcome.status == 0) passed_.insert(list[i].first + ":" + list[i].second);
     }

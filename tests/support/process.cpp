@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // By fork and wait4; a child that is late is killed with its whole process group.
-#include "tests/hardcases/process.h"
+#include "tests/support/process.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -16,23 +17,25 @@
 #include <stdexcept>
 #include <thread>
 
-namespace exphoton::hardcases {
+namespace exphoton {
 namespace {
 
+constexpr const char* kInputName = ".stdin";
 constexpr const char* kOutName = ".stdout";
 constexpr const char* kErrName = ".stderr";
+constexpr std::array kOwnNames{kInputName, kOutName, kErrName};
 
-void Redirect(const std::string& path, int flags, int target) {
-  const int file = open(path.c_str(), flags, 0600);
+void Redirect(const char* path, int flags, int target) {
+  const int file = open(path, flags, 0600);
   if (file < 0 || dup2(file, target) < 0) _exit(125);
   close(file);
 }
 
-[[noreturn]] void Become(const Command& command, std::vector<char*>& argv) {
+[[noreturn]] void Become(const ProcessCommand& command, const std::vector<char*>& argv) {
   setpgid(0, 0);
   for (const int number : {SIGINT, SIGTERM, SIGPIPE}) std::signal(number, SIG_DFL);
   if (chdir(command.folder.c_str()) != 0) _exit(125);
-  Redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+  Redirect(kInputName, O_RDONLY, STDIN_FILENO);
   Redirect(kOutName, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   Redirect(kErrName, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
   for (const auto& variable : command.environment) putenv(const_cast<char*>(variable.c_str()));
@@ -42,32 +45,42 @@ void Redirect(const std::string& path, int flags, int target) {
 
 }  // namespace
 
-Outcome Execute(const Command& command) {
+pid_t StartProcess(const ProcessCommand& command) {
   std::vector<char*> argv;
   for (const auto& word : command.words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  WriteFile(command.folder + "/" + kInputName, command.input);
+  unlink((command.folder + "/" + kErrName).c_str());  // of a process before
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) Become(command, argv);
-  Outcome outcome;
+  return child;
+}
+
+ProcessResult WaitForProcess(pid_t process, const std::string& folder, double timeLimit) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  ProcessResult result;
   int status = 0;
   rusage usage{};
-  while (wait4(child, &status, WNOHANG, &usage) == 0) {
-    if (elapsed() > command.timeLimit && !outcome.isLate) {
-      outcome.isLate = true;
-      kill(-child, SIGKILL);
+  while (wait4(process, &status, WNOHANG, &usage) == 0) {
+    if (elapsed() > timeLimit && !result.isLate) {
+      result.isLate = true;
+      kill(-process, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(elapsed() < 0.2 ? 1 : 10));
   }
-  outcome.seconds = elapsed();
-  outcome.megabytes = double(usage.ru_maxrss) / 1024;
-  outcome.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  outcome.out = ReadFile(command.folder + "/" + kOutName);
-  outcome.err = ReadFile(command.folder + "/" + kErrName);
-  return outcome;
+  result.seconds = elapsed();
+  result.megabytes = double(usage.ru_maxrss) / 1024;
+  result.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  result.out = ReadFile(folder + "/" + kOutName);
+  result.err = ReadFile(folder + "/" + kErrName);
+  return result;
+}
+
+ProcessResult RunProcess(const ProcessCommand& command) {
+  return WaitForProcess(StartProcess(command), command.folder, command.timeLimit);
 }
 
 std::string ReadFile(const std::string& path) {
@@ -80,25 +93,29 @@ void WriteFile(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "hardcase-XXXXXX").string();
+TestFolder::TestFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "exphoton-XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
   path_ = name;
 }
 
-Folder::~Folder() {
+TestFolder::~TestFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::vector<std::string> Folder::Names() const {
+std::vector<std::string> TestFolder::Names() const {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(path_)) {
     const std::string name = entry.path().filename().string();
-    if (name != kOutName && name != kErrName) names.push_back(name);
+    if (std::find(kOwnNames.begin(), kOwnNames.end(), name) == kOwnNames.end())
+      names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-}  // namespace exphoton::hardcases
+std::string TestFolder::StandardOutput() const { return ReadFile(File(kOutName)); }
+std::string TestFolder::StandardError() const { return ReadFile(File(kErrName)); }
+
+}  // namespace exphoton

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// By sysconf and getrlimit.
+#include "core/base/memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace exphoton {
+namespace {
+
+// The least limit on memory that the process has; infinite without one.
+double ProcessLimit() {
+  double least = HUGE_VAL;
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      least = std::min(least, double(limit.rlim_cur));
+  }
+  return least;
+}
+
+double Rounded(double bytes) { return std::ceil(bytes / 1048576); }
+
+int PrintLimit(char* text, std::size_t size, const char* prefix) {
+  const double limit = ProcessLimit(), physical = PhysicalMemory();
+  if (limit < physical)
+    return std::snprintf(text, size, "%sthis process may use %.0f MB", prefix, Rounded(limit));
+  return std::snprintf(text, size, "%sthis machine has %.0f MB of memory", prefix,
+                       Rounded(physical));
+}
+
+}  // namespace
+
+double PhysicalMemory() { return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)); }
+
+std::string Megabytes(double bytes) {
+  return std::to_string(static_cast<long long>(Rounded(bytes))) + " MB";
+}
+
+std::string MemoryLimit() {
+  char text[100];
+  PrintLimit(text, sizeof text, "");
+  return text;
+}
+
+const char* OutOfMemoryText() {
+  static char text[120];  // no allocation is left to make another
+  PrintLimit(text, sizeof text, "out of memory: ");
+  return text;
+}
+
+}  // namespace exphoton
