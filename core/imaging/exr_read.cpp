@@ -22,6 +22,7 @@
 #include "core/base/fp_traps.h"
 #include "core/base/memory.h"
 #include "core/imaging/exr.h"
+#include "core/imaging/exr_sizes.h"
 
 namespace exphoton {
 namespace {
@@ -130,7 +131,12 @@ bool IsLuminance(const Image& image) {
 
 Image Read(const std::string& path) {
   Imf::StdIFStream stream(path.c_str());
+  CheckExrHeaders(path);
   Image image = CheckHeader(&stream);
+  const double bytes =
+      double(image.Width()) * image.Height() * image.ChannelCount() * sizeof(float);
+  CheckExrPixels(path, bytes);
+  if (bytes > PhysicalMemory()) throw std::bad_alloc();
   Imf::InputFile file(stream, 0);
   image.attributes = ReadAttributes(file.header());
   image.pixels.resize(std::size_t(image.Width()) * std::size_t(image.Height()) *

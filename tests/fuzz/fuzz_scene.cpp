@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Any text is a scene that renders to a finite picture, or an error; tiny pictures, few photons.
-// Sizes that would only cost time are refused before the render.
+// Sizes that would only cost time are refused before the render, and counts are replaced.
+#include <string>
+#include <vector>
+
 #include "core/base/error.h"
 #include "tests/fuzz/input.h"
 #include "tests/support/test_scene.h"
@@ -16,12 +19,24 @@ bool IsCheap(const RenderSetup& setup) {
          setup.sampler->SamplesPerPixel() <= kMostSamples;
 }
 
+// Whatever the text says. For an integrator without such parameters this ends in an error, so only
+// where there seems to be one that has them.
+std::vector<ParameterOverride> FewPhotons(const std::string& text) {
+  const std::string directive = "SurfaceIntegrator";
+  if (text.find("photonmap\"") == std::string::npos) return {};
+  return {{directive, "indirectphotons", "200"},
+          {directive, "causticphotons", "200"},
+          {directive, "directphotons", "500"},
+          {directive, "maxphotonpaths", "20000"},
+          {directive, "finalgathersamples", "4"}};
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   TestRenderOptions options;
-  options.load.isQuick = true;
+  options.load.parameters = FewPhotons(text);
   try {
     LoadedScene scene = LoadSceneText(text, options.load);
     if (IsCheap(*scene.setup)) RenderLoaded(scene, options);

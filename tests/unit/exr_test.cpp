@@ -223,6 +223,27 @@ TEST_F(ExrTest, AHugeDataWindowIsRefusedBeforeAllocating) {
   }
 }
 
+// A size of 2 GB in a file of a few hundred bytes, and as many pixels as only a larger file holds.
+TEST_F(ExrTest, SizesThatTheFileCannotHoldAreRefusedBeforeAllocating) {
+  Image image(16, 16, {"R"});
+  image.attributes["comments"] = std::string("words");
+  WriteExr(Path("good.exr"), image, false);
+  const std::string good = Bytes(Path("good.exr"));
+  const auto read = [&](const std::string& after, std::size_t skip, std::uint32_t value) {
+    std::string bytes = good;
+    const std::size_t at = bytes.find(after) + after.size() + skip;
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = char(value >> (8 * i) & 255);
+    WriteBytes(Path("bad.exr"), bytes);
+    return ReadExr(Path("bad.exr"));
+  };
+  const std::string comments("comments\0string\0", 16);
+  EXPECT_NO_THROW(read(comments, 0, 5));
+  for (const std::uint32_t size : {std::uint32_t(good.size()), 0x7fffffffu, 0xffffffffu})
+    EXPECT_THROW(read(comments, 0, size), ImageError) << size;
+  const std::string window("dataWindow\0box2i\0", 17);
+  EXPECT_THROW(read(window, 4 + 8, (1u << 28) - 1), ImageError);
+}
+
 // Flipped bits anywhere: an error or a picture, never a crash.
 TEST_F(ExrTest, DamagedFilesDoNotCrash) {
   WriteExr(Path("good.exr"), RandomImage({0, 0, 16, 16}, {0, 0, 16, 16}, {"R", "G", "B"}), true);
