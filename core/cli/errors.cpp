@@ -42,12 +42,12 @@ int FailBySystem(ExitStatus status, const std::string& text, const std::error_co
 }
 
 // Writing the message of a failure may run out of memory itself.
-int Try(const std::function<void()>& work) {
+int Try(void (*work)(const void*), const void* context) {
   try {
-    work();
+    work(context);
     return 0;
   } catch (const TextRequest& request) {
-    return Guarded([&] { PrintOut(request.text); });
+    return Guarded([&request] { PrintOut(request.text); });
   } catch (const LoadingStopped&) {
     std::fputs("exphoton: interrupted before anything was rendered\n", stderr);
     return 128 + SignalNumber();
@@ -73,9 +73,9 @@ int Try(const std::function<void()>& work) {
 
 }  // namespace
 
-int Guarded(const std::function<void()>& work) {
+int GuardedCall(void (*work)(const void*), const void* context) {
   try {
-    return Try(work);
+    return Try(work, context);
   } catch (const std::bad_alloc&) {
     return FailWithoutMemory();
   }

@@ -9,7 +9,7 @@ namespace exphoton {
 
 // |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|), wo towards where the photon came from, wi where it goes.
 // 0 where a cosine in the denominator is 0; never above kMaxShadingNormalFactor.
-inline constexpr Real kMaxShadingNormalFactor = 10;
+inline constexpr Real kMaxShadingNormalFactor = 100;
 inline Real ShadingNormalFactor(const Vector3& wo, const Vector3& wi, const Normal3& ng,
                                 const Normal3& ns) {
   if (ng == ns) return 1;
