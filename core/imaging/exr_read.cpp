@@ -2,6 +2,7 @@
 // Reading OpenEXR: scanlines or tiles, any number of channels of any type, as float. Of a file with
 // several parts, the first. Deep and subsampled data are refused. Sizes are checked on the header
 // alone, before anything of the picture's size is allocated.
+#include <IexErrnoExc.h>
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -154,6 +155,11 @@ Image Read(const std::string& path) {
   return IsLuminance(image) ? ExpandLuminance(image) : image;
 }
 
+[[noreturn]] void FailByMemory(const std::string& path) {
+  throw Error(ExitStatus::Resource,
+              "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
+}
+
 }  // namespace
 
 Image ReadExr(const std::string& path) {
@@ -161,8 +167,9 @@ Image ReadExr(const std::string& path) {
   try {
     return Read(path);
   } catch (const std::bad_alloc&) {
-    throw Error(ExitStatus::Resource,
-                "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
+    FailByMemory(path);
+  } catch (const Iex::EnomemExc&) {
+    FailByMemory(path);
   } catch (const std::exception& error) {
     const std::string text = error.what();
     throw ImageError(text.find(path) == std::string::npos ? path + ": " + text : text);

@@ -29,7 +29,7 @@ class HeaderWalk {
   }
 
   void Check() {
-    if (Number() != kMagic) return;
+    if (Number() != kMagic) throw ImageError("not an OpenEXR file");
     const bool hasParts = Number() & kMultiPartFlag;
     while (CheckHeader() > 0 && hasParts && file_) {
     }

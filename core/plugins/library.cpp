@@ -39,8 +39,11 @@ void CheckIsReadable(const std::string& path) {
 // Whether every part that a loader would map lies within the file. Other word sizes and byte orders
 // are left to dlopen, which refuses them by their header.
 void CheckIsWhole(const std::string& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  file.exceptions(std::ios::badbit);  // so that a lack of memory is not taken for a short file
+  // A lack of memory must not be taken for a short file.
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
+  file.exceptions(std::ios::badbit);
   std::error_code error;
   const std::uint64_t size = fs::file_size(path, error);
   Elf64_Ehdr header{};
