@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "core/imaging/image.h"
 
@@ -20,6 +21,20 @@ constexpr unsigned kMultiPartFlag = 0x1000;
 // Deflate makes at most 1032 bytes of one; the lossy methods drop whole blocks besides.
 constexpr double kMostInflation = 65536;
 constexpr double kAlwaysFine = 1 << 26;
+
+// Types of one size. The library reads as many bytes as these have, whatever size is given.
+struct FixedType {
+  std::string_view name;
+  std::uint32_t bytes;
+};
+constexpr FixedType kFixedTypes[] = {{"box2i", 16},      {"box2f", 16},    {"chromaticities", 32},
+                                     {"compression", 1}, {"double", 8},    {"envmap", 1},
+                                     {"float", 4},       {"int", 4},       {"keycode", 28},
+                                     {"m33f", 36},       {"m44f", 64},     {"m33d", 72},
+                                     {"m44d", 128},      {"v2i", 8},       {"v2f", 8},
+                                     {"v2d", 16},        {"v3i", 12},      {"v3f", 12},
+                                     {"v3d", 24},        {"lineOrder", 1}, {"rational", 8},
+                                     {"tiledesc", 9},    {"timecode", 8},  {"deepImageState", 1}};
 
 class HeaderWalk {
  public:
@@ -36,6 +51,8 @@ class HeaderWalk {
   }
 
  private:
+  [[noreturn]] static void Fail() { throw ImageError("an attribute of a wrong size"); }
+
   // Little-endian; 0 at the end of the file.
   std::uint32_t Number() {
     std::array<char, 4> bytes{};
@@ -46,23 +63,45 @@ class HeaderWalk {
     return number;
   }
 
-  // Of a name or type, and past its end.
-  std::size_t Length() {
-    std::size_t length = 0;
-    while (length <= kLongestName && file_ && file_.get() > 0) ++length;
-    return length;
+  // A name or type, and past its end.
+  std::string Text() {
+    std::string text;
+    for (int c; text.size() <= kLongestName && (c = file_.get()) > 0;) text.push_back(char(c));
+    return text;
   }
+
+  std::uint64_t Position() { return std::uint64_t(file_.tellg()); }
 
   // The number of attributes, as far as they can be read.
   int CheckHeader() {
     for (int count = 0;; ++count) {
-      if (Length() == 0) return count;
-      Length();
+      if (Text().empty()) return count;
+      const std::string type = Text();
       const std::uint32_t bytes = Number();
       if (!file_) return count;
-      const std::uint64_t at = std::uint64_t(file_.tellg());
-      if (bytes > size_ - at) throw ImageError("an attribute that is longer than the file");
-      file_.seekg(std::streamoff(at + bytes));
+      const std::uint64_t end = Position() + bytes;
+      if (end > size_) Fail();
+      CheckValue(type, bytes, end);
+      file_.seekg(std::streamoff(end));
+    }
+  }
+
+  void CheckValue(const std::string& type, std::uint32_t bytes, std::uint64_t end) {
+    for (const FixedType& fixed : kFixedTypes)
+      if (type == fixed.name && bytes != fixed.bytes) Fail();
+    if (type == "chlist") {
+      constexpr int kChannelBytes = 16;
+      while (!Text().empty()) file_.seekg(kChannelBytes, std::ios::cur);
+      if (!file_ || Position() != end) Fail();
+    } else if (type == "stringvector") {
+      while (file_ && Position() < end) {
+        const std::uint64_t length = Number();
+        if (!file_ || length > end - Position()) Fail();
+        file_.seekg(std::streamoff(length), std::ios::cur);
+      }
+    } else if (type == "preview") {
+      const std::uint64_t width = Number(), height = Number();
+      if (bytes < 8 || width * height != (bytes - 8) / 4) Fail();
     }
   }
 

@@ -8,8 +8,8 @@
 
 namespace exphoton {
 
-// Throws ImageError if it is no OpenEXR file or an attribute of a header is longer than the file.
-// Other damage is left to the library.
+// Throws ImageError if it is no OpenEXR file or an attribute of a header is longer than the file or
+// has not the size of its type. Other damage is left to the library.
 void CheckExrHeaders(const std::string& path);
 
 // Throws ImageError where a file of this length cannot hold so many bytes of pixels, however well
