@@ -26,7 +26,7 @@ TABLE
 
 if [ ! -d "$copy" ]; then
   git clone -q "$top" "$copy"
-  cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_CXX_FLAGS_RELEASE=-O2 -DEXPHOTON_TESTS=ON >/dev/null
+  cmake -S "$copy" -B "$build" -G Ninja -DEXPHOTON_OPTIMIZE=-O2 -DEXPHOTON_TESTS=ON >/dev/null
 fi
 ninja -C "$build" -j "$jobs" exphoton hardcases test_unit test_stat >/dev/null
 missed=0
