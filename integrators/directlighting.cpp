@@ -2,7 +2,8 @@
 // Integrator "directlighting": emission, light straight from the lights (light and BSDF samples
 // with the power heuristic), and recursion at specular lobes. No interreflection. Strategies: "all"
 // samples every light; "one" picks one light for each camera sample, uniformly; "weighted" picks it
-// in proportion to power. All three have the same mean.
+// in proportion to power; "near" picks one for each point, by power and distance. All have the same
+// mean.
 #include "core/lights/light_distribution.h"
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
@@ -11,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-enum class Strategy { All, One, Weighted };
+enum class Strategy { All, One, Weighted, Near };
 
 struct Settings {
   int maxDepth = 5;
@@ -22,24 +23,28 @@ const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       Param("maxdepth", &Settings::maxDepth, "specular bounces followed").Range(0, 1000),
       Param("strategy", &Settings::strategy,
-            "sample all lights, one at random, or one at random by power")
-          .OneOf(
-              {{"all", Strategy::All}, {"one", Strategy::One}, {"weighted", Strategy::Weighted}})};
+            "sample all lights, one at random, one at random by power, or by power and distance")
+          .OneOf({{"all", Strategy::All},
+                  {"one", Strategy::One},
+                  {"weighted", Strategy::Weighted},
+                  {"near", Strategy::Near}})};
   return table;
 }
 
 class DirectLightingIntegrator final : public SurfaceIntegrator {
  public:
-  explicit DirectLightingIntegrator(const Settings& settings) : settings_(settings) {}
+  explicit DirectLightingIntegrator(const Settings& settings) : settings_(settings) {
+    if (settings.strategy == Strategy::Near) direct_ = DirectLighting(1);
+  }
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
-    if (settings_.strategy == Strategy::All) return;
+    if (!ChoosesForSample()) return;
     const bool byPower = settings_.strategy == Strategy::Weighted;
     distribution_ = LightDistribution(scene.Lights(),
                                       byPower ? LightSelection::Power : LightSelection::Uniform);
   }
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
-    if (settings_.strategy == Strategy::All) {
+    if (!ChoosesForSample()) {
       direct_.RequestSamples(scene, sampler, layout);
     } else {
       arrays_ = {layout->Request1D(1), layout->Request2D(1), layout->Request1D(1),
@@ -60,8 +65,13 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
     int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
 
+  // One light for all points of a camera sample.
+  bool ChoosesForSample() const {
+    return settings_.strategy == Strategy::One || settings_.strategy == Strategy::Weighted;
+  }
+
   Spectrum DirectLight(const ShadingPoint& point, LiContext& context) const {
-    if (settings_.strategy == Strategy::All) return direct_.AllLights(point, context);
+    if (!ChoosesForSample()) return direct_.AllLights(point, context);
     if (distribution_.IsEmpty()) return {};
     const CameraSamples& samples = context.samples;
     const auto choice = distribution_.Sample(samples.Array1D(arrays_.choice1D)[0]);

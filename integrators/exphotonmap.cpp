@@ -19,7 +19,7 @@ const ParamTable<ExtendedPhotonSettings>& Parameters() {
 class ExPhotonIntegrator final : public SurfaceIntegrator {
  public:
   explicit ExPhotonIntegrator(const ExtendedPhotonSettings& settings)
-      : settings_(settings), photons_(settings, false) {}
+      : settings_(settings), direct_(settings.directLights), photons_(settings, false) {}
 
   void Preprocess(const Scene& scene, PreprocessContext& context) override {
     photons_.Preprocess(scene, context);

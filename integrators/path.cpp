@@ -5,9 +5,11 @@
 // sample that continues the path by the power heuristic (Veach 1997, chapters 9 and 10).
 // maxdepth d: light is collected at the first d + 1 surfaces of a path; 0 is emission and direct
 // light only (as in pbrt-v1, whose default 5 is this one's).
+#include <algorithm>
 #include <unordered_map>
 
 #include "core/lights/light_distribution.h"
+#include "core/lights/light_tree.h"
 #include "core/math/mis.h"
 #include "core/plugin.h"
 #include "core/transport/shading_point.h"
@@ -119,6 +121,9 @@ class PathIntegrator final : public SurfaceIntegrator {
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
     lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
+    tree_ = HasMany(scene.Lights())
+                ? LightTree(scene.Lights(), BoundingSphere(scene.WorldBounds()))
+                : LightTree();
     indices_.clear();
     for (std::size_t i = 0; i < scene.Lights().size(); ++i)
       indices_.emplace(scene.Lights()[i].get(), int(i));
@@ -230,7 +235,9 @@ class PathIntegrator final : public SurfaceIntegrator {
     return radiance * BsdfWeight(path, *hit->areaLight, hit);
   }
   Real BsdfWeight(const PathState& path, const Light& light, const SurfacePoint* on) const {
-    const Real choice = lights_.Probability(indices_.at(&light));
+    const int index = indices_.at(&light);
+    const Real choice =
+        tree_.IsEmpty() ? lights_.Probability(index) : tree_.Probability(path.from.p, index);
     const Real lightPdf = choice * light.PdfDirect(path.from, path.ray.d, on);
     return PowerHeuristic(1, path.bsdfPdf, 1, lightPdf);
   }
@@ -240,11 +247,25 @@ class PathIntegrator final : public SurfaceIntegrator {
     return scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular;
   }
 
+  // Few lights are chosen by power alone: what the tree knows of distance is then not worth its
+  // walk.
+  static constexpr int kManyLights = 16;
+  static bool HasMany(const std::vector<std::unique_ptr<Light>>& lights) {
+    return std::count_if(lights.begin(), lights.end(), [](const auto& light) {
+             return !light->IsProvablyBlack();
+           }) >= kManyLights;
+  }
+  LightTree::Choice ChooseLight(const Point3& p, Real u) const {
+    if (!tree_.IsEmpty()) return tree_.Sample(p, u);
+    const auto choice = lights_.Sample(u);
+    return {choice.light, choice.index, choice.probability};
+  }
+
   // Next-event estimation with one light.
   Spectrum DirectLight(const ShadingPoint& point, const VertexSample& sample,
                        LiContext& context) const {
     if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-    const auto choice = lights_.Sample(sample.lightChoice);
+    const auto choice = ChooseLight(point.surface.p, sample.lightChoice);
     const auto direct = choice.light->SampleDirect(point.surface, sample.light, sample.lightPart);
     if (!direct || direct->Li.IsBlack()) return {};
     const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
@@ -294,6 +315,7 @@ class PathIntegrator final : public SurfaceIntegrator {
 
   int maxDepth_;
   LightDistribution lights_;
+  LightTree tree_;  // in its place where lights are many; else empty
   std::unordered_map<const Light*, int> indices_;
   std::array<VertexArrays, kSampledVertices> arrays_;
 };

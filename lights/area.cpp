@@ -33,6 +33,7 @@ class DiffuseAreaLight final : public AreaLight {
 
   bool IsProvablyBlack() const override { return radiance_.IsBlack(); }
   int SampleCount() const override { return sampleCount_; }
+  std::optional<Bounds3> Bounds() const override { return bounds_; }
   Spectrum Power() const override { return radiance_ * (kPi * surface_->Area()); }
   bool MayMeet(const Ray& ray) const override {
     return IntersectBox(bounds_, ray.o, ray.d, ray.tMax).has_value();

@@ -30,6 +30,7 @@ class PointLight final : public Light {
 
   void Prepare(const Sphere3& world) override { leastDistance_ = LeastDistance(world); }
   bool IsDelta() const override { return true; }
+  std::optional<Bounds3> Bounds() const override { return Bounds3(position_); }
   bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
   Spectrum Power() const override { return intensity_ * (4 * kPi); }
 

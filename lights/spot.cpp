@@ -54,6 +54,7 @@ class SpotLight final : public Light {
 
   void Prepare(const Sphere3& world) override { leastDistance_ = LeastDistance(world); }
   bool IsDelta() const override { return true; }
+  std::optional<Bounds3> Bounds() const override { return Bounds3(position_); }
   bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
   // 2 pi I [(1 - cos inner) + (cos inner - cos total) / 5]: the integral of the falloff.
   Spectrum Power() const override { return intensity_ * EffectiveSolidAngle(); }

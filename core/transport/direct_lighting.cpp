@@ -3,6 +3,8 @@
 // lights. The same lobe mask serves f, Pdf and Sample, or the weights would not add up to 1.
 #include "core/transport/direct_lighting.h"
 
+#include <algorithm>
+
 #include "core/math/mis.h"
 
 namespace exphoton {
@@ -62,7 +64,17 @@ Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
 
 void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
                                     SampleLayout* layout) {
-  arrays_.assign(scene.Lights().size(), {});
+  arrays_.clear();
+  many_.reset();
+  const auto& lights = scene.Lights();
+  const auto shining = std::count_if(lights.begin(), lights.end(), [](const auto& light) {
+    return !light->IsProvablyBlack();
+  });
+  if (shining > mostLights_) {
+    many_.emplace().RequestSamples(scene, sampler, mostLights_, layout);
+    return;
+  }
+  arrays_.resize(lights.size());
   for (std::size_t i = 0; i < arrays_.size(); ++i) {
     const Light& light = *scene.Lights()[i];
     if (light.IsProvablyBlack()) continue;
@@ -78,6 +90,7 @@ void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
 }
 
 Spectrum DirectLighting::AllLights(const ShadingPoint& point, LiContext& context) const {
+  if (many_) return many_->Estimate(point, context);
   Spectrum sum;
   if (!point.bsdf.Has(kLobes)) return sum;
   for (std::size_t i = 0; i < arrays_.size(); ++i) {

@@ -3,9 +3,12 @@
 // samples combined with the power heuristic (Veach 1997, chapter 9). Serves every integrator.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/transport/integrator.h"
+#include "core/transport/many_lights.h"
 #include "core/transport/shading_point.h"
 
 namespace exphoton {
@@ -23,9 +26,13 @@ struct DirectLightSample {
 Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
                         const DirectLightSample& sample, LiContext& context);
 
-// Sums over all lights, each with its own number of samples, from arrays of the sampler.
+// Sums over all lights, each with its own number of samples, from arrays of the sampler. Where more
+// than mostLights are not black, so many samples of lights chosen by a tree stand for the sum.
 class DirectLighting {
  public:
+  explicit DirectLighting(int mostLights = std::numeric_limits<int>::max())
+      : mostLights_(mostLights) {}
+
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout);
   // Non-specular lobes only; 0 for a surface that has none.
   Spectrum AllLights(const ShadingPoint& point, LiContext& context) const;
@@ -35,7 +42,9 @@ class DirectLighting {
     int count = 0;  // samples of this light, at least its SampleCount()
     int light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
+  int mostLights_;
   std::vector<LightArrays> arrays_;  // one a light; count 0 for black lights
+  std::optional<ManyLights> many_;   // instead of the arrays
 };
 
 }  // namespace exphoton

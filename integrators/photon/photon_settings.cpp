@@ -25,6 +25,10 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")
           .Range(0, 1e9),
       Param("nused", &S::nUsed, "photons used in a density estimate").Range(2, 100000),
+      Param("directlights", &S::directLights,
+            "lights of which each is sampled; where there are more, so many samples of lights chosen "
+            "by power and distance")
+          .Range(1, 1 << 20),
       Param("maxdepth", &S::maxDepth, "specular bounces followed from the camera").Range(0, 1000),
       Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),
       Param("finalgather", &S::finalGather,

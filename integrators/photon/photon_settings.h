@@ -32,6 +32,7 @@ struct PhotonSettings {
   std::optional<std::int64_t> directPhotons;   // absent: as indirectPhotons
   std::int64_t indirectPhotons = 100000;
   int nUsed = 50;
+  int directLights = 64;
   int maxDepth = 5;
   bool finalGather = true;
   int finalGatherSamples = 32;

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Building the tree by halving the lights along the longest side of their box, and going down.
+#include "core/lights/light_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace exphoton {
+namespace {
+
+// Part of the mean power that every light has besides its own: powers are estimates, even 0.
+constexpr double kUniformShare = .05;
+// Of the choice between near and far lights.
+constexpr double kLeastGroupShare = .1;
+// Of the choice between two children.
+constexpr double kLeastChildShare = 1e-3;
+
+double UsablePower(const Light& light) {
+  const double power = double(light.Power().Y());
+  return std::isfinite(power) && power > 0 ? power : 0;
+}
+
+int LongestAxis(const Vector3& d) { return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2; }
+
+}  // namespace
+
+LightTree::LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sphere3& world)
+    : places_(lights.size()) {
+  std::vector<Leaf> leaves;
+  std::vector<double> irradiances;
+  double sum = 0;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = *lights[i];
+    if (light.IsProvablyBlack()) continue;
+    const double power = UsablePower(light);
+    if (const auto bounds = light.Bounds()) {
+      leaves.push_back({bounds->Center(), *bounds, power, int(i)});
+      sum += power;
+    } else {
+      places_[i].far = int(farLights_.size());
+      farLights_.push_back(int(i));
+      const double disk = double(kPi) * double(world.radius) * double(world.radius);
+      irradiances.push_back(disk > 0 ? power / disk : 0);
+    }
+  }
+  if (leaves.empty() && farLights_.empty()) return;
+  for (const auto& light : lights) lights_.push_back(light.get());
+  for (Leaf& leaf : leaves) {
+    const double mean = sum > 0 ? sum / double(leaves.size()) : 1;
+    leaf.power = (1 - kUniformShare) * leaf.power + kUniformShare * mean;
+  }
+  double farSum = 0;
+  for (const double irradiance : irradiances) farSum += irradiance;
+  for (double& irradiance : irradiances) {
+    const double mean = farSum > 0 ? farSum / double(irradiances.size()) : 1;
+    irradiance = (1 - kUniformShare) * irradiance + kUniformShare * mean;
+  }
+  if (!irradiances.empty()) far_ = DiscreteDistribution(irradiances);
+  nodes_.reserve(2 * leaves.size());
+  if (!leaves.empty()) Build(leaves, {0, 0, -1});
+}
+
+// Returns the number of the subtree's root.
+int LightTree::Build(std::span<Leaf> leaves, Place place) {
+  const int number = int(nodes_.size());
+  nodes_.emplace_back();
+  Bounds3 bounds, centers;
+  double power = 0;
+  for (const Leaf& leaf : leaves) {
+    bounds.Extend(leaf.bounds);
+    centers.Extend(leaf.center);
+    power += leaf.power;
+  }
+  const Sphere3 ball = BoundingSphere(bounds);
+  Node node{ball.center, ball.radius * ball.radius, power, -1, -1};
+  if (leaves.size() == 1) {
+    node.light = leaves[0].light;
+    places_[std::size_t(node.light)] = place;
+    nodes_[std::size_t(number)] = node;
+    return number;
+  }
+  const int axis = LongestAxis(centers.Diagonal());
+  const std::size_t middle = leaves.size() / 2;
+  std::nth_element(leaves.begin(), leaves.begin() + std::ptrdiff_t(middle), leaves.end(),
+                   [axis](const Leaf& a, const Leaf& b) {
+                     return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis]
+                                                             : a.light < b.light;
+                   });
+  Build(leaves.first(middle), {place.turns, place.depth + 1, -1});
+  node.right = Build(leaves.subspan(middle),
+                     {place.turns | std::uint64_t(1) << place.depth, place.depth + 1, -1});
+  nodes_[std::size_t(number)] = node;
+  return number;
+}
+
+double LightTree::Distance2(const Node& node, const Point3& p) {
+  return double(std::max(LengthSquared(node.center - p), node.radius2));
+}
+
+double LightTree::LeftProbability(int node, const Point3& p) const {
+  const Node& left = nodes_[std::size_t(node + 1)];
+  const Node& right = nodes_[std::size_t(nodes_[std::size_t(node)].right)];
+  // Of power / distance^2, multiplied by both distances: p may lie on a light.
+  const double a = left.power * Distance2(right, p), b = right.power * Distance2(left, p);
+  return a + b > 0 ? std::clamp(a / (a + b), kLeastChildShare, 1 - kLeastChildShare) : .5;
+}
+
+double LightTree::FarProbability(const Point3& p) const {
+  if (farLights_.empty()) return 0;
+  if (nodes_.empty()) return 1;
+  const double near = nodes_[0].power / (4 * double(kPi) * Distance2(nodes_[0], p));
+  return std::clamp(far_.Sum() / (far_.Sum() + near), kLeastGroupShare, 1 - kLeastGroupShare);
+}
+
+LightTree::Choice LightTree::Sample(const Point3& p, Real u) const {
+  const double farProbability = FarProbability(p);
+  double rest = double(u);
+  if (rest < farProbability) {
+    const auto choice =
+        far_.Sample(Real(std::min(rest / farProbability, double(kOneMinusEpsilon))));
+    const int index = farLights_[std::size_t(choice.index)];
+    return {lights_[std::size_t(index)], index, Real(farProbability) * choice.probability};
+  }
+  double probability = 1 - farProbability;
+  rest = (rest - farProbability) / probability;
+  int node = 0;
+  while (nodes_[std::size_t(node)].right >= 0) {
+    const double left = LeftProbability(node, p);
+    const bool goesLeft = rest < left;
+    const double share = goesLeft ? left : 1 - left;
+    rest = goesLeft ? rest / share : (rest - left) / share;
+    rest = std::clamp(rest, 0.0, std::nextafter(1.0, 0.0));
+    probability *= share;
+    node = goesLeft ? node + 1 : nodes_[std::size_t(node)].right;
+  }
+  const int index = nodes_[std::size_t(node)].light;
+  return {lights_[std::size_t(index)], index, Real(probability)};
+}
+
+Real LightTree::Probability(const Point3& p, int index) const {
+  if (IsEmpty()) return 0;
+  const Place& place = places_[std::size_t(index)];
+  const double farProbability = FarProbability(p);
+  if (place.far >= 0) return Real(farProbability) * far_.Probability(place.far);
+  if (place.depth < 0) return 0;
+  double probability = 1 - farProbability;
+  int node = 0;
+  for (int depth = 0; depth < place.depth; ++depth) {
+    const double left = LeftProbability(node, p);
+    const bool goesLeft = (place.turns >> depth & 1) == 0;
+    probability *= goesLeft ? left : 1 - left;
+    node = goesLeft ? node + 1 : nodes_[std::size_t(node)].right;
+  }
+  return Real(probability);
+}
+
+}  // namespace exphoton

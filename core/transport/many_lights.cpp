@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Two ways to find light at a point: towards lights that the tree chose, and where the BSDF points.
+#include "core/transport/many_lights.h"
+
+#include <algorithm>
+
+#include "core/math/mis.h"
+
+namespace exphoton {
+namespace {
+
+constexpr LobeSet kLobes = LobeSet::NonSpecular;
+// Light samples for each BSDF sample: most lights among many are small.
+constexpr int kLightsPerBsdf = 8;
+
+}  // namespace
+
+void ManyLights::RequestSamples(const Scene& scene, const Sampler& sampler, int count,
+                                SampleLayout* layout) {
+  tree_ = LightTree(scene.Lights(), BoundingSphere(scene.WorldBounds()));
+  indices_.clear();
+  for (std::size_t i = 0; i < scene.Lights().size(); ++i)
+    indices_.emplace(scene.Lights()[i].get(), int(i));
+  lightCount_ = std::max(1, sampler.RoundCount(count));
+  bsdfCount_ = std::max(1, lightCount_ / kLightsPerBsdf);
+  choice1D_ = layout->Request1D(lightCount_);
+  part1D_ = layout->Request1D(lightCount_);
+  light2D_ = layout->Request2D(lightCount_);
+  bsdf2D_ = layout->Request2D(bsdfCount_);
+  lobe1D_ = layout->Request1D(bsdfCount_);
+}
+
+Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) const {
+  if (tree_.IsEmpty() || !point.bsdf.Has(kLobes)) return {};
+  const CameraSamples& samples = context.samples;
+  const auto choice = samples.Array1D(choice1D_), part = samples.Array1D(part1D_);
+  const auto light = samples.Array2D(light2D_);
+  Spectrum byLights, byBsdf;
+  for (std::size_t i = 0; i < choice.size(); ++i)
+    byLights += FromLight(point, {choice[i], part[i], light[i]}, context);
+  const auto bsdf = samples.Array2D(bsdf2D_);
+  const auto lobe = samples.Array1D(lobe1D_);
+  for (std::size_t i = 0; i < bsdf.size(); ++i)
+    byBsdf += FromBsdf(point, bsdf[i], lobe[i], context);
+  return byLights / Real(lightCount_) + byBsdf / Real(bsdfCount_);
+}
+
+Real ManyLights::LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
+                          const SurfacePoint* on) const {
+  return tree_.Probability(point.surface.p, indices_.at(&light)) *
+         light.PdfDirect(point.surface, wi, on);
+}
+
+Spectrum ManyLights::FromLight(const ShadingPoint& point, const Pick& pick,
+                               LiContext& context) const {
+  const auto choice = tree_.Sample(point.surface.p, pick.choice);
+  const auto direct = choice.light->SampleDirect(point.surface, pick.light, pick.part);
+  if (!direct || direct->Li.IsBlack()) return {};
+  const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
+  const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, kLobes) * cosine;
+  if (f.IsBlack()) return {};
+  Ray shadowRay = direct->shadowRay;
+  shadowRay.time = point.surface.time;
+  const Spectrum arriving = context.Unoccluded(shadowRay) * direct->Li;
+  const Real pdf = choice.probability * direct->pdf;
+  if (arriving.IsBlack() || choice.light->IsDelta()) return f * arriving / pdf;
+  const Real bsdfPdf = point.bsdf.Pdf(point.Wo(), direct->wi, kLobes);
+  return f * arriving * (PowerHeuristic(lightCount_, pdf, bsdfCount_, bsdfPdf) / pdf);
+}
+
+Spectrum ManyLights::FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe,
+                              LiContext& context) const {
+  const auto scattered = point.bsdf.Sample(point.Wo(), u, uLobe, kLobes);
+  if (!scattered || scattered->throughput.IsBlack()) return {};
+  const Ray ray = SpawnRay(point.surface, scattered->wi, point.surface.time);
+  const auto hit = context.Intersect(ray, RayKind::Bsdf);
+  const auto weight = [&](const Light& light, const SurfacePoint* on) {
+    return PowerHeuristic(bsdfCount_, scattered->pdf, lightCount_,
+                          LightPdf(point, light, scattered->wi, on));
+  };
+  Spectrum radiance;
+  if (!hit) {
+    for (const Light* light : context.scene.InfiniteLights())
+      radiance += light->Le(scattered->wi) * weight(*light, nullptr);
+  } else if (hit->areaLight) {
+    radiance = hit->areaLight->L(*hit, hit->uv, hit->wo) * weight(*hit->areaLight, &*hit);
+  }
+  if (radiance.IsBlack()) return {};
+  Ray stretch = ray;
+  if (hit) stretch.tMax = Distance(ray.o, hit->p) / Length(ray.d);
+  return scattered->throughput * radiance * context.scene.Transmittance(stretch);
+}
+
+}  // namespace exphoton
