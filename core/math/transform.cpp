@@ -214,6 +214,8 @@ Bounds3 Transform::ApplyBounds(const Bounds3& b) const {
 
 bool Transform::SwapsHandedness() const { return Determinant3(m_) < 0; }
 
+double Transform::VolumeScale() const { return std::abs(Determinant3(m_)); }
+
 std::optional<Real> Transform::SimilarityScale() const {
   double squared[3];
   for (std::size_t i = 0; i < 3; ++i) {

@@ -43,6 +43,7 @@ class Transform {
   Bounds3 ApplyBounds(const Bounds3& b) const;
 
   bool SwapsHandedness() const;  // negative determinant of the upper 3x3 part
+  double VolumeScale() const;    // its size
   bool IsIdentity() const { return m_ == Matrix4{}; }
   // Uniform scale factor where the transform is a similarity (to 1e-4 relative), else nullopt.
   std::optional<Real> SimilarityScale() const;
