@@ -271,9 +271,7 @@ class PathIntegrator final : public SurfaceIntegrator {
     const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
     const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, Lobes(context.scene)) * cosine;
     if (f.IsBlack()) return {};
-    Ray shadowRay = direct->shadowRay;
-    shadowRay.time = point.surface.time;
-    const Spectrum arriving = context.Unoccluded(shadowRay) * direct->Li;
+    const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
     if (arriving.IsBlack()) return {};
     const Real pdf = choice.probability * direct->pdf;
     if (choice.light->IsDelta()) return f * arriving / pdf;
@@ -308,7 +306,7 @@ class PathIntegrator final : public SurfaceIntegrator {
 
   // Specular rays keep the footprint of the pixel; others have none.
   static RayDifferential NextRay(const ShadingPoint& point, const BsdfSample& scattered) {
-    RayDifferential ray = SpawnRay(point.surface, scattered.wi, point.surface.time);
+    RayDifferential ray = SpawnRay(point.surface, scattered.wi);
     if (scattered.IsSpecular()) AddSpecularDifferentials(point, scattered, &ray);
     return ray;
   }

@@ -56,13 +56,16 @@ class DiffuseAreaLight final : public AreaLight {
     return on ? surface_->PdfToward(ref, wi, *on) : 0;
   }
 
-  // Uniform by area, cosine about the normal: every ray carries the same power.
+  // By area, cosine about the normal: every ray carries the same power (at one time).
   std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
-                                               Real uPart) const override {
-    const SurfacePoint point = surface_->SamplePoint(uPosition, uPart).point;
+                                               Real uPart, Real time) const override {
+    EmitterSample sample = surface_->SamplePoint(uPosition, uPart, time);
+    sample.point.time = time;
     const Vector3 local = SampleCosineHemisphere(uDirection);
-    const Vector3 w = Frame::FromZ(point.ng).ToWorld(local);
-    return EmissionSample{SpawnRay(point, w), Power(), 1 / surface_->Area(),
+    const Vector3 w = Frame::FromZ(sample.point.ng).ToWorld(local);
+    // 1 but for surfaces that are stretched as they move.
+    const Real stretched = 1 / surface_->Area() / sample.pdf;
+    return EmissionSample{SpawnRay(sample.point, w), Power() * stretched, sample.pdf,
                           CosineHemispherePdf(local.z)};
   }
   EmissionPdf PdfEmission(const SurfacePoint& from, const Vector3& w) const override {

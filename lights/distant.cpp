@@ -47,13 +47,14 @@ class DistantLight final : public Light {
   }
 
   // Density per area 1 / (pi r^2).
-  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2, Real) const override {
+  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2, Real,
+                                               Real time) const override {
     if (!(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);
     const Frame frame = Frame::FromZ(toLight_);
     // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
     const Vector3 offset = frame.x * d.x + frame.y * d.y + toLight_ * Real(1.001);
-    const Ray ray{world_.center + offset * world_.radius, -toLight_};
+    const Ray ray{world_.center + offset * world_.radius, -toLight_, kInfinity, time};
     return EmissionSample{ray, Power(), DiskPdf(), 1};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {

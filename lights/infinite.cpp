@@ -170,14 +170,14 @@ class InfiniteLight final : public Light {
 
   // Density DirectionPdf per solid angle times 1 / (pi r^2) per area of the disk.
   std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
-                                               Real) const override {
+                                               Real, Real time) const override {
     const auto w = SampleDirection(uDirection);
     if (!w || !(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);
     const Frame frame = Frame::FromZ(*w);
     // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
     const Vector3 offset = frame.x * d.x + frame.y * d.y + *w * Real(1.001);
-    const Ray ray{world_.center + offset * world_.radius, -*w};
+    const Ray ray{world_.center + offset * world_.radius, -*w, kInfinity, time};
     const Real pdf = DirectionPdf(*w);
     return EmissionSample{ray, Le(*w) * (DiskArea() / pdf), 1 / DiskArea(), pdf};
   }

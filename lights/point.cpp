@@ -46,8 +46,9 @@ class PointLight final : public Light {
     return 0;
   }
 
-  std::optional<EmissionSample> SampleEmission(Point2, Point2 uDirection, Real) const override {
-    const Ray ray{position_, SampleUniformSphere(uDirection)};
+  std::optional<EmissionSample> SampleEmission(Point2, Point2 uDirection, Real,
+                                               Real time) const override {
+    const Ray ray{position_, SampleUniformSphere(uDirection), kInfinity, time};
     return EmissionSample{ray, Power(), 1, kUniformSpherePdf};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {

@@ -75,7 +75,8 @@ class SpotLight final : public Light {
   }
 
   // Density per solid angle: falloff / integral of the falloff.
-  std::optional<EmissionSample> SampleEmission(Point2, Point2 u, Real) const override {
+  std::optional<EmissionSample> SampleEmission(Point2, Point2 u, Real,
+                                               Real time) const override {
     const Real area = inner_ + rim_ / 5;  // over 2 pi
     const Real inInner = u.x * area;
     Real oneMinusCos = inInner, falloff = 1;
@@ -88,7 +89,7 @@ class SpotLight final : public Light {
     }
     const Real sinTheta = SafeSqrt(oneMinusCos * (2 - oneMinusCos));
     const Vector3 local = SphericalDirection(sinTheta, 1 - oneMinusCos, 2 * kPi * u.y);
-    const Ray ray{position_, Frame::FromZ(axis_).ToWorld(local)};
+    const Ray ray{position_, Frame::FromZ(axis_).ToWorld(local), kInfinity, time};
     return EmissionSample{ray, Power(), 1, falloff / EffectiveSolidAngle()};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {

@@ -47,7 +47,7 @@ class Cylinder final : public QuadricShape {
     return objectToWorld_.ApplyBounds({{-r, -r, Real(zMin_)}, {r, r, Real(zMax_)}});
   }
 
-  EmitterSample SamplePoint(Point2 u, Real) const override {
+  EmitterSample SamplePoint(Point2 u, Real, Real) const override {
     const double phi = double(u.y) * phiMax_, z = zMin_ + double(u.x) * (zMax_ - zMin_);
     return MakeSample(Describe({radius_ * std::cos(phi), radius_ * std::sin(phi), z}), 1 / area_);
   }

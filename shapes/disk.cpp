@@ -54,7 +54,7 @@ class Disk final : public QuadricShape {
     return objectToWorld_.ApplyBounds({{-r, -r, h}, {r, r, h}});
   }
 
-  EmitterSample SamplePoint(Point2 u, Real) const override {
+  EmitterSample SamplePoint(Point2 u, Real, Real) const override {
     const double inner2 = innerRadius_ * innerRadius_, outer2 = radius_ * radius_;
     const double r = std::sqrt(inner2 + double(u.x) * (outer2 - inner2));
     const double phi = double(u.y) * phiMax_;

@@ -74,7 +74,7 @@ class Sphere final : public QuadricShape {
     return bounds;
   }
 
-  EmitterSample SamplePoint(Point2 u, Real) const override {
+  EmitterSample SamplePoint(Point2 u, Real, Real) const override {
     const double z = zMin_ + double(u.x) * (zMax_ - zMin_), phi = double(u.y) * phiMax_;
     const double r = std::sqrt(std::max((radius_ - z) * (radius_ + z), 0.0));
     return MakeSample(Describe({r * std::cos(phi), r * std::sin(phi), z}), 1 / area_);

@@ -9,10 +9,10 @@ namespace exphoton {
 
 class Material;
 class AreaLight;
+class Motion;
 
-struct SurfaceInteraction : SurfacePoint {  // p, pError, ng
+struct SurfaceInteraction : SurfacePoint {  // p, pError, ng, time
   Vector3 wo;  // unit, back along the ray
-  Real time = 0;
   Point2 uv;
   Vector3 dpdu, dpdv;  // of the true surface; never 0 nor parallel (a frame round ng replaces such)
   Normal3 dndu, dndv;
@@ -31,6 +31,7 @@ struct SurfaceInteraction : SurfacePoint {  // p, pError, ng
 
   const Material* material = nullptr;    // null: the surface is invisible to transport
   const AreaLight* areaLight = nullptr;  // null: emits nothing
+  const Motion* motion = nullptr;        // of the surface; null: it rests
 
   // Fills the footprint from the ray's neighbours; clears it where anything is not finite.
   void ComputeDifferentials(const RayDifferential& ray);

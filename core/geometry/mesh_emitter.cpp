@@ -27,7 +27,7 @@ class MeshEmitter final : public EmitterSurface {
   Real Area() const override { return area_; }
   Bounds3 Bounds() const override { return bounds_; }
 
-  EmitterSample SamplePoint(Point2 u, Real uPart) const override {
+  EmitterSample SamplePoint(Point2 u, Real uPart, Real) const override {
     const auto triangle = std::uint32_t(byArea_.Sample(uPart).index);
     const Point2 b = SampleTriangle(u);
     const SurfaceInteraction surface = TriangleSurface(mesh_, triangle, b.x, b.y);

@@ -25,15 +25,15 @@ Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w) {
   return origin;
 }
 
-Ray SpawnRay(const SurfacePoint& point, const Vector3& w, Real time) {
+Ray SpawnRay(const SurfacePoint& point, const Vector3& w) {
   Ray ray;
   ray.o = OffsetRayOrigin(point, w);
   ray.d = w;
-  ray.time = time;
+  ray.time = point.time;
   return ray;
 }
 
-Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to, Real time) {
+Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to) {
   const Vector3 between = to.p - from.p;
   Ray ray;
   ray.o = OffsetRayOrigin(from, between);
@@ -42,7 +42,7 @@ Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to, Real time) {
   end.pError += Abs(between) * Gamma(4);
   ray.d = OffsetRayOrigin(end, -between) - ray.o;
   ray.tMax = 1 - Gamma(4);
-  ray.time = time;
+  ray.time = from.time;
   return ray;
 }
 

@@ -33,16 +33,17 @@ struct SurfacePoint {
   Vector3 pError;  // absolute, per axis: the true point lies in p +- pError
   Normal3 ng;      // unit geometric normal, on the outside as the scene file orients it;
                    // 0 for a point that is on no surface (pError 0 then)
+  Real time = 0;   // at which it is there: surfaces may move
 };
 
 // The point just outside the error box of `point`, on the side of the surface that w leaves to.
 Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w);
 
-// The ray from `point` in direction w (any length), tMax infinite.
-Ray SpawnRay(const SurfacePoint& point, const Vector3& w, Real time = 0);
+// The ray from `point` in direction w (any length), at the point's time; tMax infinite.
+Ray SpawnRay(const SurfacePoint& point, const Vector3& w);
 
 // The segment between two surface points, both ends offset towards each other; occluders have
-// 0 < t < tMax (1, less a few roundings).
-Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to, Real time = 0);
+// 0 < t < tMax (1, less a few roundings). At the time of `from`.
+Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to);
 
 }  // namespace exphoton

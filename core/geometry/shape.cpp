@@ -23,7 +23,8 @@ Real SolidAnglePdf(const SurfacePoint& ref, const SurfacePoint& on, Real areaPdf
 
 std::optional<EmitterSample> EmitterSurface::SampleToward(const SurfacePoint& ref, Point2 u,
                                                           Real uPart) const {
-  EmitterSample sample = SamplePoint(u, uPart);
+  EmitterSample sample = SamplePoint(u, uPart, ref.time);
+  sample.point.time = ref.time;
   sample.pdf = SolidAnglePdf(ref, sample.point, sample.pdf);
   if (!(sample.pdf > 0)) return std::nullopt;
   return sample;

@@ -24,18 +24,20 @@ struct EmitterSample {
   Real pdf;  // per area for SamplePoint, per solid angle at the reference for SampleToward; > 0
 };
 
-// A surface that can be sampled. Direction arguments are unit.
+// A surface that can be sampled. Direction arguments are unit. Points that it is asked about or
+// makes belong to one time, that of the reference; only of surfaces that move does it matter.
 class EmitterSurface {
  public:
   virtual ~EmitterSurface() = default;
 
-  virtual Real Area() const = 0;
-  virtual Bounds3 Bounds() const = 0;
+  virtual Real Area() const = 0;  // of one whose area changes: about the mean
+  virtual Bounds3 Bounds() const = 0;  // at all times
   // Why this surface cannot carry an area light, as a sentence; null where it can.
   virtual const char* EmitterProblem() const { return nullptr; }
 
-  // Uniform by area: pdf = 1 / Area(). u chooses the point, uPart the part where there are several.
-  virtual EmitterSample SamplePoint(Point2 u, Real uPart) const = 0;
+  // Uniform by area: pdf = 1 / Area() (where it moves: as its space is stretched then). u chooses
+  // the point, uPart the part where there are several. The caller sets the point's time.
+  virtual EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const = 0;
 
   // A point seen from ref; density per solid angle at ref. nullopt: no sample (edge-on, degenerate).
   // Base class: by area, converted.
@@ -53,7 +55,7 @@ class Shape : public EmitterSurface {
   virtual bool Occludes(const Ray& ray) const { return Intersect(ray).has_value(); }
 
   // The surface at a hit of that ray: p, pError, ng, uv, dpdu, dpdv, dndu, dndv and shading (equal
-  // to the true geometry). The caller sets wo, time, material and light.
+  // to the true geometry). The caller sets wo, time, material, light and motion.
   virtual SurfaceInteraction Surface(const Ray& ray, const ShapeHit& hit) const = 0;
 };
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/geometry/ray.h"
-#include "core/math/transform.h"
+#include "core/math/animated_transform.h"
 
 namespace exphoton {
 
@@ -16,7 +16,7 @@ struct CameraSample {
 
 // What a camera plugin is created with besides its parameters.
 struct CameraContext {
-  Transform cameraToWorld;
+  AnimatedTransform cameraToWorld;
   int xResolution = 0, yResolution = 0;  // of the full image
 };
 
@@ -28,9 +28,12 @@ class Camera {
   // one pixel's step if asked.
   virtual RayDifferential GenerateRay(const CameraSample& sample, bool withDifferentials) const = 0;
 
-  virtual bool HasLens() const { return false; }         // draws lens samples
-  virtual bool HasOpenShutter() const { return false; }  // shutterclose > shutteropen
-  virtual const Transform& CameraToWorld() const = 0;
+  virtual bool HasLens() const { return false; }  // draws lens samples
+  // The times of its rays: from shutteropen to shutterclose.
+  virtual Interval Shutter() const { return {0, 0}; }
+  // Whether it is not the same at all times of the interval.
+  virtual bool MovesWithin(Interval interval) const { return (void)interval, false; }
+  virtual const Transform& CameraToWorld() const = 0;  // as the shutter opens
   // World to normalised device coordinates, for the EXR attribute; identity where there is none.
   virtual Matrix4 WorldToNdc() const { return {}; }
 };

@@ -11,7 +11,7 @@
 
 namespace exphoton {
 
-// One way to light a point.
+// One way to light a point, at the time of the point.
 struct DirectSample {
   Vector3 wi;      // from the point towards the light
   Spectrum Li;     // radiance arriving along wi if nothing blocks it; delta lights: the irradiance
@@ -23,7 +23,8 @@ struct DirectSample {
 // A ray that leaves the light, carrying power.
 struct EmissionSample {
   Ray ray;              // direction unit; origin offset from the light's own surface
-  Spectrum power;       // Le |cos| / (pdfPosition pdfDirection): its mean is Power()
+  Spectrum power;       // Le |cos| / (pdfPosition pdfDirection): its mean is Power() (where a light
+                        // changes its size as it moves, that is about the mean over time)
   Real pdfPosition = 0;   // per area (of the light, or of the disk that covers the scene);
                           // 1 for a light at a point
   Real pdfDirection = 0;  // per solid angle; 1 for a single direction
@@ -63,9 +64,9 @@ class Light {
   // Radiance that a ray escaping in direction w sees.
   virtual Spectrum Le(const Vector3& w) const { (void)w; return {}; }
 
-  // nullopt: a sample without light (counts as a path all the same).
+  // A ray that leaves at a time. nullopt: a sample without light (counts as a path all the same).
   virtual std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
-                                                       Real uPart) const = 0;
+                                                       Real uPart, Real time) const = 0;
   // The densities with which SampleEmission makes a ray that leaves `from` in direction w; for
   // tests. pdfPosition and pdfDirection as in EmissionSample; 0 where they are deltas.
   struct EmissionPdf {

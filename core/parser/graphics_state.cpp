@@ -75,6 +75,7 @@ void StateStack::Pop(Block block, const std::string& name, const SourceLocation&
                       PlaceName(entry.where));
   if (block == Block::Transform) {
     state->transform = entry.state.transform;
+    state->active = entry.state.active;
   } else {
     *state = std::move(entry.state);
   }

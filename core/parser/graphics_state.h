@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/math/transform.h"
 #include "core/params/param_set.h"
+#include "core/parser/moving_transform.h"
 #include "core/scattering/material.h"
 
 namespace exphoton {
@@ -50,7 +50,8 @@ struct AreaLightSpec {
 };
 
 struct GraphicsState {
-  Transform transform;
+  MovingTransform transform;
+  ActiveTimes active = ActiveTimes::All;
   bool reverseOrientation = false;
   std::shared_ptr<MaterialSpec> material;
   std::shared_ptr<const AreaLightSpec> areaLight;  // null: shapes emit nothing

@@ -43,7 +43,7 @@ void RenderDirectives::OverrideIntegrator() {
   integrator_.params.where.column = int(std::string("--integrator ").size()) + 1;
 }
 
-void RenderDirectives::Handle(Directive directive, const Transform& current) {
+void RenderDirectives::Handle(Directive directive, const MovingTransform& current) {
   const std::string& name = directive.strings[0];
   Choice* choice = nullptr;
   switch (directive.spec->id) {
@@ -192,7 +192,9 @@ void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
   setup->cameraName = camera_.name;
   setup->camera = registry.Create<PluginKind::Camera>(
       camera_.name, camera, Bind(PluginKind::Camera, camera_.name, log),
-      CameraContext{worldToCamera_.Inverted(), setup->film.xResolution, setup->film.yResolution});
+      CameraContext{MotionBetween(worldToCamera_.Inverted(), transformTimes_, "the camera",
+                                  camera_.params.where, log),
+                    setup->film.xResolution, setup->film.yResolution});
   const ParamSet filter = Overridden("PixelFilter", filter_, PluginKind::Filter, registry);
   setup->filterName = filter_.name;
   setup->filter = registry.Create<PluginKind::Filter>(

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "core/math/transform.h"
 #include "core/parser/directive.h"
+#include "core/parser/moving_transform.h"
 #include "core/parser/render_setup.h"
 #include "core/parser/world_builder.h"
 #include "core/plugins/registry.h"
@@ -18,7 +18,10 @@ class RenderDirectives {
   explicit RenderDirectives(const LoadOptions& options);
 
   // Camera, Film, Sampler ...: the last one of each wins.
-  void Handle(Directive directive, const Transform& current);
+  void Handle(Directive directive, const MovingTransform& current);
+  // Between which the transformations of moving things run; for all of the scene.
+  void SetTransformTimes(Interval times) { transformTimes_ = times; }
+  Interval TransformTimes() const { return transformTimes_; }
 
   // The place of errors in what the file leaves to the defaults.
   void SetDefaultPlace(const SourceLocation& where);
@@ -49,7 +52,8 @@ class RenderDirectives {
   Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
       accelerator_{"bvh", {}}, integrator_{"directlighting", {}},
       volumeIntegrator_{"emission", {}}, camera_{"perspective", {}}, renderer_{"sampler", {}};
-  Transform worldToCamera_;
+  MovingTransform worldToCamera_;
+  Interval transformTimes_{0, 1};
 };
 
 }  // namespace exphoton

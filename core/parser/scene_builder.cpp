@@ -3,6 +3,7 @@
 #include "core/parser/scene_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -31,7 +32,6 @@ void SceneBuilder::Reset() {
   state_ = GraphicsState();
   stack_.Clear();
   coordinateSystems_.clear();
-  isOneTimeActive_ = false;
   hash_ = 0;
   inputFiles_ = {sceneName_};
 }
@@ -73,7 +73,7 @@ void SceneBuilder::Handle(Directive directive) {
     case DirectiveId::ActiveTransform:
       return SetActiveTransform(directive);
     case DirectiveId::TransformTimes:
-      return;  // nothing moves, so the times do not matter
+      return SetTransformTimes(directive);
     case DirectiveId::CoordinateSystem:
       coordinateSystems_[directive.strings[0]] = state_.transform;
       return;
@@ -144,21 +144,33 @@ void SceneBuilder::EndBlock(StateStack::Block block, const Directive& directive)
 }
 
 void SceneBuilder::ChangeTransform(const Directive& directive) {
-  if (isOneTimeActive_)
-    FailAt(directive.Where(),
-           "a transformation for one end of the shutter only: things that move are not rendered",
-           "write ActiveTransform All before it");
-  state_.transform = ApplyTransform(state_.transform, directive, options_.dialect);
+  MovingTransform& current = state_.transform;
+  if (state_.active != ActiveTimes::End)
+    current.start = ApplyTransform(current.start, directive, options_.dialect);
+  if (state_.active != ActiveTimes::Start)
+    current.end = ApplyTransform(current.end, directive, options_.dialect);
+  if (state_.active != ActiveTimes::All && directive.spec->id == DirectiveId::Rotate &&
+      std::abs(directive.numbers[0]) > 180)
+    log_.Warning("a rotation by more than half a turn: what moves turns the shortest way",
+                 directive.Where());
 }
 
 void SceneBuilder::SetActiveTransform(const Directive& directive) {
   const std::string& when = directive.strings[0];
-  const std::vector<std::string> known{"All", "StartTime", "EndTime"};
-  if (std::find(known.begin(), known.end(), when) == known.end())
+  const std::vector<std::string> known{"All", "StartTime", "EndTime"};  // in ActiveTimes' order
+  const auto found = std::find(known.begin(), known.end(), when);
+  if (found == known.end())
     FailAt(directive.Where(),
            "unknown time \"" + when + "\" of ActiveTransform; known: All, StartTime, EndTime",
            DidYouMean(when, known));
-  isOneTimeActive_ = when != "All";
+  state_.active = ActiveTimes(found - known.begin());
+}
+
+void SceneBuilder::SetTransformTimes(const Directive& directive) {
+  const Interval times{Real(directive.numbers[0]), Real(directive.numbers[1])};
+  if (!(times.min < times.max) || !std::isfinite(times.min) || !std::isfinite(times.max))
+    FailAt(directive.Where(), "TransformTimes: the end must come after the start");
+  render_->SetTransformTimes(times);
 }
 
 void SceneBuilder::UseCoordinateSystem(const Directive& directive) {
@@ -170,7 +182,6 @@ void SceneBuilder::UseCoordinateSystem(const Directive& directive) {
     FailAt(directive.Where(), "no coordinate system \"" + name + "\" has been named",
            DidYouMean(name, known));
   }
-  if (isOneTimeActive_) return ChangeTransform(directive);
   state_.transform = found->second;
 }
 

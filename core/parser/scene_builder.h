@@ -32,6 +32,7 @@ class SceneBuilder final : public DirectiveHandler {
   void CheckScope(const Directive& directive) const;
   void ChangeTransform(const Directive& directive);
   void SetActiveTransform(const Directive& directive);
+  void SetTransformTimes(const Directive& directive);
   void UseCoordinateSystem(const Directive& directive);
   void HandleWorld(Directive directive);
   void SetMaterial(Directive directive);
@@ -54,8 +55,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::optional<SourceLocation> worldBegin_;
   GraphicsState state_;
   StateStack stack_;
-  std::map<std::string, Transform> coordinateSystems_;
-  bool isOneTimeActive_ = false;  // ActiveTransform StartTime or EndTime
+  std::map<std::string, MovingTransform> coordinateSystems_;
   std::uint64_t hash_ = 0;
   std::set<std::string> inputFiles_;
   std::vector<std::unique_ptr<RenderSetup>> setups_;

@@ -11,11 +11,12 @@ namespace exphoton {
 void SceneBuilder::BeginWorld(const Directive& directive) {
   worldBegin_ = directive.Where();
   render_->SetDefaultPlace(directive.Where());
-  world_.emplace(*registry_, log_, options_.isStrict, render_->Accelerator(*registry_));
-  state_.transform = Transform();
-  isOneTimeActive_ = false;
-  if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = Transform();
-  coordinateSystems_["world"] = Transform();
+  world_.emplace(*registry_, log_, options_.isStrict, render_->Accelerator(*registry_),
+                 render_->TransformTimes());
+  state_.transform = MovingTransform();
+  state_.active = ActiveTimes::All;
+  if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = MovingTransform();
+  coordinateSystems_["world"] = MovingTransform();
   state_.material = std::make_shared<MaterialSpec>();  // loaded only if a shape wears it
   state_.material->name = "matte";
   state_.material->params.where = directive.Where();
@@ -40,8 +41,10 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   }
   if (parts.lights.empty()) log_.Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
-  setup->scene->SetEffects(
-      ChooseEffects(PlanEffects(*setup->scene, *setup->camera), options_.effects, log_));
+  EffectPlan plan =
+      ChooseEffects(PlanEffects(*setup->scene, *setup->camera), options_.effects, log_);
+  NoteTimes(*setup->scene, *setup->camera, &plan);
+  setup->scene->SetEffects(std::move(plan), setup->camera->Shutter());
   setup->plugins = registry_->Loaded();
   setups_.push_back(std::move(setup));
   Reset();

@@ -2,8 +2,8 @@
 // The directives that change the current transformation, as a function of the one before.
 #pragma once
 
-#include "core/math/transform.h"
 #include "core/parser/directive.h"
+#include "core/parser/moving_transform.h"
 #include "core/parser/render_setup.h"
 
 namespace exphoton {

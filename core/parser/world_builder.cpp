@@ -8,12 +8,27 @@
 #include <utility>
 
 #include "core/base/log.h"
+#include "core/geometry/moving_emitter.h"
 
 namespace exphoton {
+namespace {
+
+void RequireRest(const GraphicsState& state, const Directive& directive, const std::string& what) {
+  if (!state.transform.Moves()) return;
+  FailAt(directive.Where(),
+         what + " cannot move; shapes, area lights on them, instances and the camera can",
+         "the transformation is not the same at StartTime and EndTime");
+}
+
+}  // namespace
 
 WorldBuilder::WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict,
-                           AcceleratorSpec accelerator)
-    : registry_(registry), log_(log), isStrict_(isStrict), accelerator_(std::move(accelerator)) {
+                           AcceleratorSpec accelerator, Interval transformTimes)
+    : registry_(registry),
+      log_(log),
+      isStrict_(isStrict),
+      accelerator_(std::move(accelerator)),
+      transformTimes_(transformTimes) {
   parts_.primitives = std::make_unique<PrimitiveSet>();
 }
 
@@ -33,20 +48,22 @@ void WorldBuilder::AddLight(const Directive& directive, const GraphicsState& sta
         "a light in an object is not repeated with its instances: it shines once, where "
         "the object is defined",
         directive.Where());
+  RequireRest(state, directive, "a light source");
   const std::string& name = directive.strings[0];
   parts_.lights.push_back(registry_.Create<PluginKind::Light>(
       name, directive.params, Bind(PluginKind::Light, name, state.textures.get()),
-      LightContext{state.transform, log_, directive.Where()}));
+      LightContext{state.transform.start, log_, directive.Where()}));
   parts_.lightOrigins.push_back({name, directive.Where()});
 }
 
 void WorldBuilder::AddVolume(const Directive& directive, const GraphicsState& state) {
   if (IsInObject())
     log_.Warning("a volume in an object is not repeated with its instances", directive.Where());
+  RequireRest(state, directive, "a volume");
   const std::string& name = directive.strings[0];
   parts_.media.push_back(registry_.Create<PluginKind::Volume>(
       name, directive.params, Bind(PluginKind::Volume, name, state.textures.get()),
-      MediumContext{state.transform, log_, directive.Where()}));
+      MediumContext{state.transform.start, log_, directive.Where()}));
 }
 
 void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* state) {
@@ -56,7 +73,10 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
   if (!isColor && type != "float")
     FailAt(directive.Where(), "texture \"" + name + "\" has type \"" + type +
                                   "\"; types of textures are \"float\" and \"color\"");
-  const TextureContext context{state->transform, log_, directive.Where()};
+  if (state->transform.Moves())
+    log_.Warning("a texture does not move: it stays where the transformation starts",
+                 directive.Where());
+  const TextureContext context{state->transform.start, log_, directive.Where()};
   TexturePtr<Real> floats;
   TexturePtr<Spectrum> colors;
   if (isColor)
@@ -163,30 +183,54 @@ void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
   const ParamSet params =
       WithoutMaterialParameters(name, state.material->name, std::exchange(directive.params, {}));
   directive.params.where = where;
+  const std::shared_ptr<const Motion> motion = MotionFor(directive, state);
+  // What moves is made in its own space, a set of its own, and placed by its motion.
+  const Transform toWorld = motion ? Transform() : state.transform.start;
   std::unique_ptr<ShapeGeometry> geometry = registry_.Create<PluginKind::Shape>(
       name, params, Bind(PluginKind::Shape, name, state.textures.get()),
-      ShapeContext{state.transform, state.reverseOrientation, log_, where});
-  AddGeometry(std::move(*geometry), material, directive, state);
+      ShapeContext{toWorld, state.reverseOrientation, log_, where});
+  PrimitiveSet& world = object_ ? *object_->set : *parts_.primitives;
+  if (!motion)
+    return AddGeometry({std::move(*geometry), world, nullptr}, material, directive, state);
+  auto set = std::make_unique<PrimitiveSet>();
+  AddGeometry({std::move(*geometry), *set, motion.get()}, material, directive, state);
+  const Instance instance{motion->Start(), MakeObject(std::move(set)), motion};
+  if (instance.object->Set().Count() == 0) return;
+  if (object_)
+    object_->moving.push_back(instance);
+  else
+    world.AddInstance(instance);
 }
 
-void WorldBuilder::AddGeometry(ShapeGeometry geometry, const Material* material,
-                               const Directive& directive, const GraphicsState& state) {
-  PrimitiveSet& set = object_ ? *object_->set : *parts_.primitives;
+std::shared_ptr<const Motion> WorldBuilder::MotionFor(const Directive& directive,
+                                                      const GraphicsState& state) const {
+  if (!state.transform.Moves()) return nullptr;
+  return std::make_shared<Motion>(MotionBetween(state.transform, transformTimes_,
+                                                directive.strings[0], directive.Where(), log_));
+}
+
+void WorldBuilder::AddGeometry(Placed placed, const Material* material, const Directive& directive,
+                               const GraphicsState& state) {
   const AreaLightSpec* light = state.areaLight.get();
-  if (auto* owned = std::get_if<std::unique_ptr<Shape>>(&geometry)) {
+  const auto lightOn = [&](std::shared_ptr<const EmitterSurface> surface) {
+    if (light && placed.motion && !IsInObject())
+      surface = std::make_shared<MovingEmitter>(std::move(surface), *placed.motion);
+    return AreaLightFor(light, std::move(surface), directive, state);
+  };
+  if (auto* owned = std::get_if<std::unique_ptr<Shape>>(&placed.geometry)) {
     const std::shared_ptr<const Shape> shape = std::move(*owned);
-    set.AddShape(shape, {material, AreaLightFor(light, shape, directive, state)});
+    placed.set.AddShape(shape, {material, lightOn(shape)});
     return;
   }
   const std::shared_ptr<const TriangleMesh> mesh =
-      std::move(std::get<std::unique_ptr<TriangleMesh>>(geometry));
+      std::move(std::get<std::unique_ptr<TriangleMesh>>(placed.geometry));
   if (mesh->TriangleCount() == 0) return;
   std::shared_ptr<const EmitterSurface> surface;
   if (light && !IsInObject()) {
     surface = MakeMeshEmitter(*mesh);
     parts_.emitters.push_back(surface);
   }
-  set.AddMesh(mesh, {material, AreaLightFor(light, surface, directive, state)});
+  placed.set.AddMesh(mesh, {material, lightOn(surface)});
 }
 
 }  // namespace exphoton

@@ -23,7 +23,9 @@ struct AcceleratorSpec {
 
 class WorldBuilder {
  public:
-  WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict, AcceleratorSpec accelerator);
+  // transformTimes: between which what moves does so.
+  WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict, AcceleratorSpec accelerator,
+               Interval transformTimes);
 
   void AddLight(const Directive& directive, const GraphicsState& state);
   void AddVolume(const Directive& directive, const GraphicsState& state);
@@ -47,28 +49,39 @@ class WorldBuilder {
   struct ObjectDefinition {
     std::unique_ptr<PrimitiveSet> set = std::make_unique<PrimitiveSet>();
     const ObjectGeometry* geometry = nullptr;  // once an instance needed it
+    std::vector<Instance> moving;              // parts that move within the object
     SourceLocation where;
   };
 
   BindContext Bind(PluginKind kind, const std::string& name, const TextureLookup* textures) const;
   std::unique_ptr<Aggregate> MakeAggregate(PrimitiveSet& set);
+  const ObjectGeometry* MakeObject(std::unique_ptr<PrimitiveSet> set);
   const Material* MaterialFor(MaterialSpec& spec, const ParamSet& shape,
                               const GraphicsState& state);
   const AreaLight* AreaLightFor(const AreaLightSpec* spec,
                                 std::shared_ptr<const EmitterSurface> surface,
                                 const Directive& shape, const GraphicsState& state);
+  // The shape's motion; null where it rests.
+  std::shared_ptr<const Motion> MotionFor(const Directive& directive,
+                                          const GraphicsState& state) const;
   bool Declares(PluginKind kind, const std::string& plugin, const std::string& parameter,
                 const SourceLocation& where);
   // A shape's parameters without those that only its material knows.
   ParamSet WithoutMaterialParameters(const std::string& shape, const std::string& material,
                                      ParamSet params);
-  void AddGeometry(ShapeGeometry geometry, const Material* material, const Directive& directive,
+  struct Placed {  // what AddGeometry adds, and to what
+    ShapeGeometry geometry;
+    PrimitiveSet& set;
+    const Motion* motion;  // of the set; null: it rests
+  };
+  void AddGeometry(Placed placed, const Material* material, const Directive& directive,
                    const GraphicsState& state);
 
   PluginRegistry& registry_;
   Log& log_;
   bool isStrict_;
   AcceleratorSpec accelerator_;
+  Interval transformTimes_;
   Statistics times_;
   SceneParts parts_;
   std::map<std::string, ObjectDefinition> objects_;

@@ -42,14 +42,23 @@ void WorldBuilder::AddInstance(const Directive& directive, const GraphicsState& 
            DidYouMean(name, known));
   }
   ObjectDefinition& object = found->second;
-  if (!object.geometry) {
-    std::unique_ptr<Aggregate> aggregate = MakeAggregate(*object.set);
-    parts_.objects.push_back(
-        std::make_unique<ObjectGeometry>(std::move(object.set), std::move(aggregate)));
-    object.geometry = parts_.objects.back().get();
+  if (!object.geometry) object.geometry = MakeObject(std::move(object.set));
+  const AnimatedTransform place =
+      MotionBetween(state.transform, transformTimes_, "\"" + name + "\"", directive.Where(), log_);
+  if (object.geometry->Set().Count() > 0)
+    parts_.primitives->AddInstance(
+        {place.Start(), object.geometry,
+         place.Moves() ? std::make_shared<const Motion>(place) : nullptr});
+  for (const Instance& part : object.moving) {
+    const auto motion = std::make_shared<const Motion>(part.motion->PlacedBy(place));
+    parts_.primitives->AddInstance({motion->Start(), part.object, motion});
   }
-  if (object.geometry->Set().Count() == 0) return;
-  parts_.primitives->AddInstance({state.transform, object.geometry});
+}
+
+const ObjectGeometry* WorldBuilder::MakeObject(std::unique_ptr<PrimitiveSet> set) {
+  std::unique_ptr<Aggregate> aggregate = MakeAggregate(*set);
+  parts_.objects.push_back(std::make_unique<ObjectGeometry>(std::move(set), std::move(aggregate)));
+  return parts_.objects.back().get();
 }
 
 SceneParts WorldBuilder::Take() {

@@ -4,6 +4,7 @@
 #include "core/scene/effects.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "core/imaging/camera.h"
 #include "core/scene/scene.h"
@@ -15,6 +16,8 @@ constexpr std::array<const char*, kEffectCount> kEffectNames{
     "caustics",  "indirect", "transmission", "specular",    "media",
     "filtering", "lens",     "motion",       "environment",
 };
+
+constexpr Interval kAlways{-kInfinity, kInfinity};
 
 // What the rules ask of a scene.
 struct SceneTraits {
@@ -64,7 +67,33 @@ void PlanPhotons(const SceneTraits& traits, EffectPlan* plan) {
             hasSpecular ? "a specular surface" : "no specular surface");
 }
 
+// Needed where something is elsewhere when the shutter closes than when it opens.
+void PlanMotion(const Scene& scene, const Camera& camera, EffectPlan* plan) {
+  const Interval shutter = camera.Shutter();
+  const bool isCamera = camera.MovesWithin(shutter);
+  const bool isShape = scene.Primitives().MovesWithin(shutter);
+  const bool movesEver = camera.MovesWithin(kAlways) || scene.Primitives().MovesWithin(kAlways);
+  const bool isOpen = shutter.min < shutter.max;
+  plan->Set(Effect::Motion, isCamera || isShape,
+            isCamera && isShape ? "the camera and a shape move"
+            : isCamera          ? "the camera moves"
+            : isShape           ? "a shape moves"
+            : !isOpen           ? "shutter closed"
+            : movesEver         ? "nothing moves while the shutter is open"
+                                : "nothing moves");
+}
+
 }  // namespace
+
+void NoteTimes(const Scene& scene, const Camera& camera, EffectPlan* plan) {
+  if (!camera.MovesWithin(kAlways) && !scene.Primitives().MovesWithin(kAlways)) return;
+  const Interval shutter = camera.Shutter();
+  std::ostringstream note;
+  note << "time          " << shutter.min;
+  if (plan->Needs(Effect::Motion)) note << " to " << shutter.max;
+  note << " (of camera rays and photons)";
+  plan->notes.push_back(note.str());
+}
 
 const char* EffectName(Effect effect) { return kEffectNames[std::size_t(effect)]; }
 
@@ -99,8 +128,7 @@ EffectPlan PlanEffects(const Scene& scene, const Camera& camera) {
            traits.needsDifferentials ? "a filtered texture or bump map"
                                      : "no filtered texture and no bump map");
   plan.Set(Effect::Lens, camera.HasLens(), camera.HasLens() ? "lens radius > 0" : "pinhole camera");
-  // Nothing in a scene can move, so an open shutter alone blurs nothing.
-  plan.Set(Effect::Motion, false, camera.HasOpenShutter() ? "nothing moves" : "shutter closed");
+  PlanMotion(scene, camera, &plan);
   const bool hasSky = !scene.InfiniteLights().empty();
   plan.Set(Effect::Environment, hasSky, hasSky ? "an infinite light" : "no infinite light");
   plan.notes.push_back(LightsNote(traits));

@@ -4,23 +4,11 @@
 #include "core/scene/primitive.h"
 
 #include "core/base/error.h"
-#include "core/geometry/vec3d.h"
+#include "core/geometry/placement.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
 namespace exphoton {
-namespace {
-
-// A derivative of the unit normal that `n` becomes under the transformation.
-Normal3 ApplyNormalDerivative(const Transform& transform, const Normal3& n, const Normal3& dn) {
-  const Vec3d image(transform.ApplyNormal(n)), derivative(transform.ApplyNormal(dn));
-  const double length = Length(image);
-  if (!(length > 0)) return {};
-  const Vec3d unit = image * (1 / length);
-  return ((derivative - unit * Dot(unit, derivative)) * (1 / length)).ToReal();
-}
-
-}  // namespace
 
 void PrimitiveSet::AddMesh(std::shared_ptr<const TriangleMesh> mesh,
                            PrimitiveAttributes attributes) {
@@ -36,6 +24,7 @@ void PrimitiveSet::AddShape(std::shared_ptr<const Shape> shape, PrimitiveAttribu
 void PrimitiveSet::AddInstance(const Instance& instance) {
   instances_.push_back(instance);
   worldToInstance_.push_back(instance.instanceToWorld.Inverted());
+  instanceBounds_.push_back(InstanceBounds(instance));
 }
 
 void PrimitiveSet::Finish() {
@@ -71,14 +60,19 @@ Bounds3 PrimitiveSet::Bounds(std::uint32_t id) const {
   }
   id -= TriangleCount();
   if (id < shapes_.size()) return shapes_[id]->Bounds();
-  const Instance& instance = instances_[id - shapes_.size()];
-  Bounds3 bounds = instance.instanceToWorld.ApplyBounds(instance.object->Set().WorldBounds());
+  return instanceBounds_[id - shapes_.size()];
+}
+
+Bounds3 PrimitiveSet::InstanceBounds(const Instance& instance) const {
+  const Bounds3 inner = instance.object->Set().WorldBounds();
+  Bounds3 bounds = instance.motion ? instance.motion->ApplyBounds(inner)
+                                   : instance.instanceToWorld.ApplyBounds(inner);
   if (bounds.IsEmpty()) return bounds;
   // The ray is rounded when it enters the object's space, in proportion to its distance from the
   // origin of that space: what lies far from it is uncertain.
-  const Point3 origin = instance.instanceToWorld.ApplyPoint(Point3());
-  const Real reach =
-      std::max(MaxComponent(Abs(bounds.min - origin)), MaxComponent(Abs(bounds.max - origin)));
+  const Bounds3 origins = instance.motion ? instance.motion->ApplyBounds(Bounds3(Point3()))
+                                          : Bounds3(instance.instanceToWorld.ApplyPoint(Point3()));
+  const Real reach = MaxComponent(Max(bounds.max - origins.min, origins.max - bounds.min));
   const Vector3 margin(reach * Gamma(16));
   bounds.min = bounds.min - margin;
   bounds.max = bounds.max + margin;
@@ -106,11 +100,9 @@ void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) co
 
 // The ray in the space of the object; direction not normalised, so that t means the same.
 Ray PrimitiveSet::InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const {
-  Ray local = ray;
-  local.o = worldToInstance_[instance].ApplyPoint(ray.o);
-  local.d = worldToInstance_[instance].ApplyVector(ray.d);
-  local.tMax = tMax;
-  return local;
+  if (const Motion* motion = instances_[instance].motion.get())
+    return RayToLocal(motion->At(ray.time).Inverted(), ray, tMax);
+  return RayToLocal(worldToInstance_[instance], ray, tMax);
 }
 
 void PrimitiveSet::IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const {
@@ -136,10 +128,9 @@ bool PrimitiveSet::Occludes(std::uint32_t id, const TraceRay& ray) const {
 
 PrimitiveAttributes PrimitiveSet::Attributes(const Hit& hit) const {
   if (hit.instance != kNoId) {
-    const std::uint32_t index = hit.instance - TriangleCount() - std::uint32_t(shapes_.size());
     Hit inner = hit;
     inner.instance = kNoId;
-    return instances_[index].object->Set().Attributes(inner);
+    return InstanceOf(hit).object->Set().Attributes(inner);
   }
   if (hit.primitive < triangles_.size()) return meshAttributes_[triangles_[hit.primitive].mesh];
   return shapeAttributes_[hit.primitive - TriangleCount()];
@@ -148,7 +139,9 @@ PrimitiveAttributes PrimitiveSet::Attributes(const Hit& hit) const {
 SurfacePoint PrimitiveSet::Point(const Ray& ray, const Hit& hit) const {
   if (hit.instance != kNoId || hit.primitive >= triangles_.size()) return Surface(ray, hit);
   const Triangle& triangle = triangles_[hit.primitive];
-  return TrianglePoint(*meshes_[triangle.mesh], triangle.index, hit.uv.x, hit.uv.y);
+  SurfacePoint point = TrianglePoint(*meshes_[triangle.mesh], triangle.index, hit.uv.x, hit.uv.y);
+  point.time = ray.time;
+  return point;
 }
 
 SurfaceInteraction PrimitiveSet::Surface(const Ray& ray, const Hit& hit) const {
@@ -171,30 +164,22 @@ SurfaceInteraction PrimitiveSet::Surface(const Ray& ray, const Hit& hit) const {
 SurfaceInteraction PrimitiveSet::InstanceSurface(const Ray& ray, const Hit& hit) const {
   const std::uint32_t index = hit.instance - TriangleCount() - std::uint32_t(shapes_.size());
   const Instance& instance = instances_[index];
-  const Transform& toWorld = instance.instanceToWorld;
   Hit inner = hit;
   inner.instance = kNoId;
   const SurfaceInteraction local =
       instance.object->Set().Surface(InstanceRay(index, ray, kInfinity), inner);
-
-  SurfaceInteraction surface = local;
-  // A ray that leaves this point is rounded once more when it enters the object's space again.
-  const Vector3 error = local.pError + Abs(local.p) * Gamma(3);
-  surface.p = toWorld.ApplyPoint(local.p, error, &surface.pError);
-  surface.ng = NormalizeOr(toWorld.ApplyNormal(local.ng), local.ng);
-  surface.dpdu = toWorld.ApplyVector(local.dpdu);
-  surface.dpdv = toWorld.ApplyVector(local.dpdv);
-  surface.dndu = ApplyNormalDerivative(toWorld, local.ng, local.dndu);
-  surface.dndv = ApplyNormalDerivative(toWorld, local.ng, local.dndv);
-  const auto& shading = local.shading;
-  surface.shading.n =
-      FaceForward(NormalizeOr(toWorld.ApplyNormal(shading.n), surface.ng), surface.ng);
-  surface.shading.dpdu = toWorld.ApplyVector(shading.dpdu);
-  surface.shading.dpdv = toWorld.ApplyVector(shading.dpdv);
-  surface.shading.dndu = ApplyNormalDerivative(toWorld, shading.n, shading.dndu);
-  surface.shading.dndv = ApplyNormalDerivative(toWorld, shading.n, shading.dndv);
+  const Motion* motion = instance.motion.get();
+  SurfaceInteraction surface =
+      SurfaceToWorld(motion ? motion->At(ray.time) : instance.instanceToWorld, local);
   surface.wo = NormalizeOr(-ray.d, Vector3());
+  surface.motion = motion;
   return surface;
+}
+
+bool PrimitiveSet::MovesWithin(Interval interval) const {
+  return std::any_of(instances_.begin(), instances_.end(), [&](const Instance& instance) {
+    return instance.motion && instance.motion->MovesWithin(interval);
+  });
 }
 
 }  // namespace exphoton

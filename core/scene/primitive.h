@@ -9,7 +9,7 @@
 
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle_mesh.h"
-#include "core/math/transform.h"
+#include "core/math/motion.h"
 
 namespace exphoton {
 
@@ -42,8 +42,9 @@ struct PrimitiveAttributes {
 
 // Same geometry in object space, placed by a transformation.
 struct Instance {
-  Transform instanceToWorld;
+  Transform instanceToWorld;  // where it moves: at the start
   const class ObjectGeometry* object = nullptr;
+  std::shared_ptr<const Motion> motion = nullptr;  // null: it rests
 };
 
 class PrimitiveSet {
@@ -81,8 +82,18 @@ class PrimitiveSet {
   // Its first part, at a fraction of the cost for triangles: the same p, pError and ng.
   SurfacePoint Point(const Ray& ray, const Hit& hit) const;
   PrimitiveAttributes Attributes(const Hit& hit) const;
+  // Of what was hit; null where it rests.
+  const Motion* MotionOf(const Hit& hit) const {
+    return hit.instance == kNoId ? nullptr : InstanceOf(hit).motion.get();
+  }
+  // Whether anything is not in the same place at all times of the interval.
+  bool MovesWithin(Interval interval) const;
 
  private:
+  const Instance& InstanceOf(const Hit& hit) const {
+    return instances_[hit.instance - triangles_.size() - shapes_.size()];
+  }
+  Bounds3 InstanceBounds(const Instance& instance) const;
   Ray InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const;
   void IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const;
   SurfaceInteraction InstanceSurface(const Ray& ray, const Hit& hit) const;
@@ -98,6 +109,7 @@ class PrimitiveSet {
   std::vector<PrimitiveAttributes> shapeAttributes_;
   std::vector<Instance> instances_;
   std::vector<Transform> worldToInstance_;
+  std::vector<Bounds3> instanceBounds_;
   Bounds3 bounds_;
 };
 

@@ -18,8 +18,9 @@ Scene::Scene(SceneParts parts)
 
 Scene::~Scene() = default;
 
-void Scene::SetEffects(EffectPlan plan) {
+void Scene::SetEffects(EffectPlan plan, Interval shutter) {
   effects_ = std::move(plan);
+  exposure_ = {shutter.min, effects_.Needs(Effect::Motion) ? shutter.max : shutter.min};
   if (!effects_.Needs(Effect::Media)) parts_.media.clear();
   if (effects_.Needs(Effect::Environment)) return;
   for (std::size_t i = parts_.lights.size(); i-- > 0;) {
@@ -40,7 +41,8 @@ std::optional<Scene::HitPoint> Scene::IntersectPoint(const Ray& ray) const {
   const Hit hit = aggregate_->Intersect(ray);
   if (!hit.IsHit()) return std::nullopt;
   const PrimitiveSet& primitives = *parts_.primitives;
-  return HitPoint{hit, primitives.Point(ray, hit), primitives.Attributes(hit).material};
+  return HitPoint{hit, primitives.Point(ray, hit), primitives.Attributes(hit).material,
+                  primitives.MotionOf(hit)};
 }
 
 SurfaceInteraction Scene::Complete(const Ray& ray, const Hit& hit) const {

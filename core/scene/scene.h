@@ -48,6 +48,7 @@ class Scene {
     Hit hit;
     SurfacePoint point;
     const Material* material;
+    const Motion* motion;  // null: the surface rests
   };
   std::optional<HitPoint> IntersectPoint(const Ray& ray) const;
   SurfaceInteraction Complete(const Ray& ray, const Hit& hit) const;
@@ -68,7 +69,10 @@ class Scene {
 
   const EffectPlan& Effects() const { return effects_; }
   // Before anything refers to lights: without Effect::Environment infinite lights are taken out.
-  void SetEffects(EffectPlan plan);
+  // shutter: when it opens and closes; without Effect::Motion all happens as it opens.
+  void SetEffects(EffectPlan plan, Interval shutter = {0, 0});
+  // The times of all rays: photons spread over them, as camera rays do.
+  Interval Exposure() const { return exposure_; }
 
   // Empty where the plan of effects leaves media out.
   const std::vector<std::unique_ptr<Medium>>& Media() const { return parts_.media; }
@@ -86,9 +90,12 @@ class Scene {
   Bounds3 bounds_;
   std::vector<const Light*> infiniteLights_;
   EffectPlan effects_;
+  Interval exposure_{0, 0};
 };
 
 // The plan for this scene and camera (effects.md's table): decides from materials, lights, camera.
 EffectPlan PlanEffects(const Scene& scene, const Camera& camera);
+// Adds to a plan at which times camera rays and photons are shot, if anything ever moves.
+void NoteTimes(const Scene& scene, const Camera& camera, EffectPlan* plan);
 
 }  // namespace exphoton

@@ -20,9 +20,7 @@ Spectrum FromLightSample(const ShadingPoint& point, const Light& light,
   const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
   const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, kLobes) * cosine;
   if (f.IsBlack()) return {};
-  Ray shadowRay = direct->shadowRay;
-  shadowRay.time = point.surface.time;
-  const Spectrum arriving = context.Unoccluded(shadowRay) * direct->Li;
+  const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
   if (arriving.IsBlack() || light.IsDelta()) return f * arriving;
   const Real weight =
       PowerHeuristic(1, direct->pdf, 1, point.bsdf.Pdf(point.Wo(), direct->wi, kLobes));
@@ -34,7 +32,7 @@ Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
                         const DirectLightSample& sample, LiContext& context) {
   const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, kLobes);
   if (!scattered || scattered->throughput.IsBlack()) return {};
-  const Ray ray = SpawnRay(point.surface, scattered->wi, point.surface.time);
+  const Ray ray = SpawnRay(point.surface, scattered->wi);
   if (!light.MayMeet(ray)) return {};
   const auto hit = context.Intersect(ray, RayKind::Bsdf);
   Spectrum radiance;

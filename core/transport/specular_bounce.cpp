@@ -60,7 +60,7 @@ std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet 
     return std::nullopt;
   }
   SpecularRay result;
-  result.ray = SpawnRay(point.surface, sample->wi, point.surface.time);
+  result.ray = SpawnRay(point.surface, sample->wi);
   result.throughput = sample->throughput;
   result.isTransmission = sample->IsTransmission();
   AddSpecularDifferentials(point, *sample, &result.ray);

@@ -2,6 +2,8 @@
 // FinalGather: sample requests and the choice of guiding photons.
 #include "integrators/photon/final_gather.h"
 
+#include "integrators/photon/rest_pose.h"
+
 namespace exphoton {
 
 FinalGather::FinalGather(const PhotonSettings& settings)
@@ -24,7 +26,8 @@ void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
 ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
                                                Arena* arena) const {
   if (photonCount_ == 0 || guide.IsEmpty()) return {};
-  const NearPoints near = guide.Nearest(point.surface.p, guideCount_, arena);
+  const RestPose rest(point.surface);
+  const NearPoints near = guide.Nearest(rest.Point(point.surface.p), guideCount_, arena);
   const auto x = arena->MakeRawArray<Real>(near.size()), y = arena->MakeRawArray<Real>(near.size()),
              z = arena->MakeRawArray<Real>(near.size());
   // Light from below the horizon of a surface that transmits none is no guide.
@@ -33,7 +36,7 @@ ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const 
   const Normal3 ns = FaceForward(point.bsdf.Ns(), ng);
   std::size_t count = 0;
   for (const std::uint32_t photon : near.index) {
-    const Vector3 w = guide.Direction(photon);
+    const Vector3 w = rest.DirectionBack(guide.Direction(photon));
     if (!isTwoSided && !(Dot(w, ng) > 0 && Dot(w, ns) > 0)) continue;
     x[count] = w.x;
     y[count] = w.y;

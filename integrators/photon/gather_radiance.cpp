@@ -4,6 +4,7 @@
 
 #include "core/transport/direct_lighting.h"
 #include "core/transport/volume_integrator.h"
+#include "integrators/photon/rest_pose.h"
 
 namespace exphoton {
 namespace {
@@ -27,6 +28,8 @@ std::optional<SpecularChoice> FollowSpecular(const ShadingPoint& point, RandomSt
     return SpecularChoice{reflected->wi, reflected->throughput / reflectProbability};
   return SpecularChoice{refracted->wi, refracted->throughput / (1 - reflectProbability)};
 }
+
+RestPose PoseOf(const Scene::HitPoint& hit) { return {hit.motion, hit.point.time}; }
 
 }  // namespace
 
@@ -58,7 +61,7 @@ Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
     context_.arena.Rewind(mark);
     if (!bounce) return sum;
     throughput *= bounce->throughput;
-    segment = Trace(SpawnRay(hit->point, bounce->wi, segment.ray.time));
+    segment = Trace(SpawnRay(hit->point, bounce->wi));
   }
 }
 
@@ -72,11 +75,11 @@ Spectrum GatherRadiance::NonSpecular(const Segment& segment, int shortBounces) c
   if (!Intersects(hit.material->PossibleLobes(), LobeSet::NonSpecular)) return {};
   bool isShort = false;
   if (radianceMap_) {
-    const Point3 p = hit.point.p;
+    const RestPose rest = PoseOf(hit);
     const Normal3 n = FaceForward(hit.point.ng, -segment.ray.d);
-    const auto entry = radianceMap_->Find(p, n);
-    isShort =
-        entry && DistanceSquared(segment.ray.o, p) < Square(settings_.shortRays) * entry->radius2;
+    const auto entry = radianceMap_->Find(rest.Point(hit.point.p), rest.Normal(n));
+    isShort = entry && DistanceSquared(segment.ray.o, hit.point.p) <
+                           Square(settings_.shortRays) * entry->radius2;
     if (entry && !isShort) {
       if (context_.layers) {
         context_.layers->radianceDistance += double(std::sqrt(entry->distance2));
@@ -104,8 +107,10 @@ Spectrum GatherRadiance::Reflected(const Segment& segment, const RadianceMap::En
                                      ? point.bsdf.Rho(LobeSet::NonSpecularTransmission)
                                      : Spectrum();
   if (!transmittance.IsBlack()) {
-    const Point3 p = segment.hit->point.p;
-    const Normal3 back = -FaceForward(segment.hit->point.ng, -segment.ray.d);
+    const SurfacePoint& hit = segment.hit->point;
+    const RestPose rest = PoseOf(*segment.hit);
+    const Point3 p = rest.Point(hit.p);
+    const Normal3 back = rest.Normal(-FaceForward(hit.ng, -segment.ray.d));
     const auto entry = radianceMap_->Find(p, back);
     const Spectrum e = entry ? entry->value : maps_.EstimateIrradiance(p, back, &context_.arena).e;
     radiance += transmittance * e * kInvPi;

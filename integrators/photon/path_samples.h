@@ -26,12 +26,13 @@ class PathSamples {
       return {x, stream_.Uniform()};
     }
     const std::uint64_t key = HashKey({key_, std::uint64_t(pair_++)});
-    // The pair's own order of the points, or the pairs would be functions of each other.
-    const std::uint64_t shuffleKey = MixBits(key);
-    const std::uint32_t low = index_ & (kShuffled - 1);
-    const std::uint32_t permuted =
-        index_ - low + PermuteIndex(low, kShuffled, std::uint32_t(shuffleKey >> 32));
-    return ScrambledSobol2(OwenScramble(permuted, std::uint32_t(shuffleKey)), key);
+    return ScrambledSobol2(Shuffled(key), key);
+  }
+  // In [0,1): when the photon is under way. Well distributed over the paths, and of its own: with it
+  // or without, all other numbers are the same.
+  Real Time() const {
+    const std::uint64_t key = HashKey({key_, kTimeKey});
+    return ScrambledVanDerCorput(Shuffled(key), std::uint32_t(key));
   }
   // From the stream at once.
   Real Independent() { return stream_.Uniform(); }
@@ -41,6 +42,16 @@ class PathSamples {
   static constexpr std::uint32_t kShuffled = 16;  // a power of two
   static constexpr std::uint64_t kSequenceKey = 0x70686f746f6e31ull;
   static constexpr std::uint64_t kStreamKey = 0x70686f746f6e32ull;
+  static constexpr std::uint64_t kTimeKey = 0x70686f746f6e33ull;
+
+  // A pair's own order of the points, or the pairs would be functions of each other.
+  std::uint32_t Shuffled(std::uint64_t key) const {
+    const std::uint64_t shuffleKey = MixBits(key);
+    const std::uint32_t low = index_ & (kShuffled - 1);
+    const std::uint32_t permuted =
+        index_ - low + PermuteIndex(low, kShuffled, std::uint32_t(shuffleKey >> 32));
+    return OwenScramble(permuted, std::uint32_t(shuffleKey));
+  }
 
   std::uint32_t index_;
   std::uint64_t key_;

@@ -10,6 +10,7 @@
 #include "core/base/memory.h"
 #include "integrators/photon/gather_radiance.h"
 #include "integrators/photon/photon_report.h"
+#include "integrators/photon/rest_pose.h"
 #include "integrators/photon/seen_points.h"
 
 namespace exphoton {
@@ -198,8 +199,9 @@ SurfaceLight PhotonLighting::Shown(const ShadingPoint& point, LiContext& context
 
 Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
   if (!radianceMap_) return {};
+  const RestPose rest(point.surface);
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-  const auto entry = radianceMap_->Find(point.surface.p, n);
+  const auto entry = radianceMap_->Find(rest.Point(point.surface.p), rest.Normal(n));
   if (!entry) return {};
   if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
   return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;

@@ -6,6 +6,7 @@
 #include "core/base/progress.h"
 #include "core/transport/shading_normal.h"
 #include "integrators/photon/density_kernel.h"
+#include "integrators/photon/rest_pose.h"
 
 namespace exphoton {
 namespace {
@@ -47,9 +48,10 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
   if (map.IsEmpty() || !bsdf.Has(LobeSet::NonSpecular)) return {};
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !bsdf.Has(LobeSet::NonSpecularTransmission);
+  const RestPose rest(point.surface);
   const Arena::Mark mark = arena->GetMark();
-  const PhotonNeighbourhood around =
-      map.Find({point.surface.p, n, nUsed_, MaxDistance(kind), isOneSided}, arena);
+  const PhotonNeighbourhood around = map.Find(
+      {rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind), isOneSided}, arena);
 
   // Where every lobe is diffuse, powers are summed side by side and reflected once.
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
@@ -57,7 +59,7 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
   Spectrum front, back, glossy;
   for (std::size_t i = 0; i < around.photons.size(); ++i) {
     const std::uint32_t photon = around.photons[i];
-    const Vector3 wi = map.Direction(photon);
+    const Vector3 wi = rest.DirectionBack(map.Direction(photon));
     const Real weight = KernelWeight(kernel_, around.distance2[i], around.radius2) *
                         GeometricToShading(wi, point.surface.ng, bsdf.Ns());
     const Spectrum flux = map.Alpha(photon) * weight;
@@ -87,12 +89,14 @@ Spectrum PhotonMaps::Radiance(const ShadingPoint& point, Arena* arena) const {
 double PhotonMaps::PhotonDensity(const ShadingPoint& point, Arena* arena) const {
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !point.bsdf.Has(LobeSet::NonSpecularTransmission);
+  const RestPose rest(point.surface);
   double density = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
     const Arena::Mark mark = arena->GetMark();
     const PhotonNeighbourhood around =
-        maps_[m].Find({point.surface.p, n, nUsed_, radii_[m], isOneSided}, arena);
+        maps_[m].Find({rest.Point(point.surface.p), rest.Normal(n), nUsed_, radii_[m], isOneSided},
+                      arena);
     density += double(around.photons.size()) / (double(kPi) * double(around.radius2));
     arena->Rewind(mark);
   }

@@ -11,6 +11,7 @@
 #include "core/transport/shading_normal.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/path_samples.h"
+#include "integrators/photon/rest_pose.h"
 
 namespace exphoton {
 
@@ -90,7 +91,10 @@ class PhotonTracer::Path {
     const Point2 uDirection = samples_.Next2D();
     const auto choice = tracer_.lights_.Sample(uLight.x);
     tally_.light = choice.index;
-    auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y);
+    const Interval exposure = tracer_.scene_.Exposure();
+    const Real time =
+        std::clamp(Lerp(samples_.Time(), exposure.min, exposure.max), exposure.min, exposure.max);
+    auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, time);
     if (!emission) return false;
     if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
       tracer_.aim_.Redirect(&*emission, uPosition);
@@ -106,11 +110,14 @@ class PhotonTracer::Path {
   }
 
   void Store(PhotonKind kind, const ShadingPoint& point) {
-    chunk_->photons[std::size_t(kind)].emplace_back(Photon{point.surface.p, point.Wo(), alpha_});
+    const SurfaceInteraction& surface = point.surface;
+    const RestPose rest(surface);
+    const Point3 p = rest.Point(surface.p);
+    const Spectrum power = surface.motion ? alpha_ * rest.PowerScale(surface.ng) : alpha_;
+    chunk_->photons[std::size_t(kind)].emplace_back(Photon{p, rest.Direction(point.Wo()), power});
     ++tally_.stored;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
-    chunk_->seeds[std::size_t(kind)].push_back({point.surface.p,
-                                                FaceForward(point.surface.ng, point.Wo()),
+    chunk_->seeds[std::size_t(kind)].push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())),
                                                 point.bsdf.Rho(LobeSet::NonSpecularReflection),
                                                 point.bsdf.Rho(LobeSet::NonSpecularTransmission)});
   }
@@ -151,7 +158,7 @@ class PhotonTracer::Path {
       chunk_->cutPower += double(alpha_.Y());
       return false;
     }
-    *ray = SpawnRay(point.surface, sample->wi, point.surface.time);
+    *ray = SpawnRay(point.surface, sample->wi);
     return true;
   }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kCameraRays = 1024;
 constexpr int kMostSpecularBounces = 16;
 constexpr std::uint64_t kFilmKey = 0x7365656e31ull, kLensKey = 0x7365656e32ull,
-                        kStreamKey = 0x7365656e33ull;
+                        kStreamKey = 0x7365656e33ull, kTimeKey = 0x7365656e34ull;
 
 class Seer {
  public:
@@ -39,7 +39,7 @@ class Seer {
     const Real x = random_.Uniform(), y = random_.Uniform();
     const auto sample = point.bsdf.Sample(point.Wo(), {x, y}, random_.Uniform(), lobes);
     if (!sample) return std::nullopt;
-    return SpawnRay(point.surface, sample->wi, point.surface.time);
+    return SpawnRay(point.surface, sample->wi);
   }
 
  private:
@@ -48,12 +48,12 @@ class Seer {
   RandomStream random_;
 };
 
-CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed) {
+CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed, bool isMoving) {
   const Point2 film = ScrambledSobol2(i, HashKey({seed, kFilmKey}));
   CameraSample sample;
   sample.film = {film.x * Real(size.x), film.y * Real(size.y)};
   sample.lens = ScrambledSobol2(i, HashKey({seed, kLensKey}));
-  sample.time = Real(.5);
+  if (isMoving) sample.time = ScrambledVanDerCorput(i, std::uint32_t(HashKey({seed, kTimeKey})));
   return sample;
 }
 
@@ -61,12 +61,13 @@ CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed) {
 
 std::vector<Point3> SeenPoints(const Scene& scene, const Camera& camera, Point2i size,
                                std::uint64_t seed) {
+  const bool isMoving = scene.Effects().Needs(Effect::Motion);
   std::vector<Point3> points;
   Arena arena;
   for (std::uint32_t i = 0; i < kCameraRays; ++i) {
     arena.Reset();
     Seer seer(scene, &arena, HashKey({seed, kStreamKey, i}));
-    const auto seen = seer.Follow(camera.GenerateRay(SampleOf(i, size, seed), false));
+    const auto seen = seer.Follow(camera.GenerateRay(SampleOf(i, size, seed, isMoving), false));
     if (!seen) continue;
     points.push_back(seen->surface.p);
     const auto onward = seer.Scattered(*seen, LobeSet::NonSpecular);

@@ -36,16 +36,14 @@ class SingleScattering final : public VolumeIntegrator {
     const Point2 uPoint{u, random->Uniform()};
     if (lights_.IsEmpty()) return {};
     const auto choice = lights_.Sample(uLight);
-    const SurfacePoint at{p, Abs(p) * Gamma(3), Normal3()};
+    const SurfacePoint at{p, Abs(p) * Gamma(3), Normal3(), ray.time};
     const auto direct = choice.light->SampleDirect(at, uPoint, uPart);
     if (!direct || direct->Li.IsBlack()) return {};
     Spectrum scattering;
     for (const auto& medium : context.scene.Media())
       scattering += medium->At(p).scattering * medium->Phase(-ray.d, direct->wi);
     if (scattering.IsBlack()) return {};
-    Ray shadowRay = direct->shadowRay;
-    shadowRay.time = ray.time;
-    const Spectrum arriving = context.Unoccluded(shadowRay);
+    const Spectrum arriving = context.Unoccluded(direct->shadowRay);
     return scattering * arriving * direct->Li / (direct->pdf * choice.probability);
   }
 

@@ -104,10 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
              "1:1: Transform: the matrix is "
              "singular"},
         Case{"ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]",
-             "1:1: ConcatTransform: the matrix is singular"},
-        Case{"ActiveTransform EndTime Translate 1 0 0",
-             "1:25: a transformation for one end of the shutter only: things that move are not "
-             "rendered | write ActiveTransform All before it"}));
+             "1:1: ConcatTransform: the matrix is singular"}));
 
 TEST(SceneBuilder, RefusesAMillionNestedBlocksWithoutOverflow) {
   std::string text = kBegin;

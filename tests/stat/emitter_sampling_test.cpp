@@ -159,7 +159,7 @@ TEST(EmitterArea, IsSampledUniformly) {
     EXPECT_NEAR(double(emitter->Area()) / test.area, 1, 1e-5) << test.name;
     const auto sample = [&](RandomStream& random) -> std::optional<Point2> {
       const Real x = random.Uniform(), y = random.Uniform(), part = random.Uniform();
-      const EmitterSample s = emitter->SamplePoint({x, y}, part);
+      const EmitterSample s = emitter->SamplePoint({x, y}, part, 0);
       EXPECT_EQ(s.pdf, 1 / emitter->Area());
       return test.toSquare(s.point.p);
     };

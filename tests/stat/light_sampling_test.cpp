@@ -69,7 +69,7 @@ class PlainLight : public testing::TestWithParam<Case> {
   std::optional<EmissionSample> Emit(RandomStream& random) const {
     const Point2 position{random.Uniform(), random.Uniform()};
     const Point2 direction{random.Uniform(), random.Uniform()};
-    return light_->SampleEmission(position, direction, random.Uniform());
+    return light_->SampleEmission(position, direction, random.Uniform(), 0);
   }
   // Finer quadrature, since maps have edges.
   static ChiSquareOptions Options() { return {.quadratureDepth = 7}; }
@@ -162,11 +162,11 @@ TEST(AreaLight, EmitsByTheCosineFromItsWholeSurface) {
   TestPlugins plugins;
   const auto surface = plugins.MakeEmitter(R"("disk" "float radius" 2)", Tilted());
   const auto light = plugins.MakeAreaLight(R"("area")", surface);
-  const SurfacePoint on = surface->SamplePoint({Real(.5), Real(.5)}, Real(.5)).point;
+  const SurfacePoint on = surface->SamplePoint({Real(.5), Real(.5)}, Real(.5), 0).point;
   const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
     const auto emission =
         light->SampleEmission({random.Uniform(), random.Uniform()},
-                              {random.Uniform(), random.Uniform()}, random.Uniform());
+                              {random.Uniform(), random.Uniform()}, random.Uniform(), 0);
     EXPECT_GT(Dot(emission->ray.d, on.ng), 0);
     EXPECT_NEAR(double(Dot(emission->ray.o - on.p, on.ng)), 0, 1e-6);
     return emission->ray.d;

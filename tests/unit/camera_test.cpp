@@ -86,7 +86,8 @@ TEST(PerspectiveCamera, TimeRunsOverTheShutter) {
   TestPlugins plugins;
   const auto camera =
       plugins.MakeCamera(R"("perspective" "float shutteropen" 2 "float shutterclose" 4)", {}, 4, 4);
-  EXPECT_TRUE(camera->HasOpenShutter());
+  EXPECT_EQ(camera->Shutter().min, 2);
+  EXPECT_EQ(camera->Shutter().max, 4);
   EXPECT_FALSE(camera->HasLens());
   EXPECT_EQ(camera->GenerateRay({{1, 1}, kLensCentre, Real(.25)}, false).time, Real(2.5));
 }

@@ -31,7 +31,7 @@ void ExpectConstantWeights(const Light& light) {
   for (int i = 0; i < 2000; ++i) {
     const auto sample =
         light.SampleEmission({random.Uniform(), random.Uniform()},
-                             {random.Uniform(), random.Uniform()}, random.Uniform());
+                             {random.Uniform(), random.Uniform()}, random.Uniform(), 0);
     ASSERT_TRUE(sample);
     EXPECT_NEAR(double(sample->power.g), double(power), 1e-4 * double(power));
     EXPECT_NEAR(double(Length(sample->ray.d)), 1, 1e-5);
@@ -137,7 +137,7 @@ TEST(SpotLight, EmitsWhereItLights) {
          "float conedeltaangle" 30)");
   RandomStream random(5);
   for (int i = 0; i < 1000; ++i) {
-    const auto sample = light->SampleEmission({}, {random.Uniform(), random.Uniform()}, 0);
+    const auto sample = light->SampleEmission({}, {random.Uniform(), random.Uniform()}, 0, 0);
     ASSERT_TRUE(sample);
     const auto direct = Direct(*light, sample->ray(1));
     if (!direct) {
@@ -182,7 +182,7 @@ TEST(DistantLight, ShinesFromTowardsToWithUnitDirections) {
   ExpectConstantWeights(*light);
   RandomStream random(3);
   for (int i = 0; i < 100; ++i) {
-    const auto emission = light->SampleEmission({random.Uniform(), random.Uniform()}, {}, 0);
+    const auto emission = light->SampleEmission({random.Uniform(), random.Uniform()}, {}, 0, 0);
     const Vector3 fromCentre = emission->ray.o - Point3(1, 2, 3);
     EXPECT_GE(Length(fromCentre), 4);
     EXPECT_LE(Length(Cross(fromCentre, emission->ray.d)), Real(4.0001));
@@ -195,7 +195,7 @@ TEST(DistantLight, InAnEmptyWorldHasNoPowerAndEmitsNothing) {
     const auto light = plugins.MakeLight(text);
     light->Prepare({});
     EXPECT_EQ(light->Power(), Spectrum());
-    EXPECT_FALSE(light->SampleEmission({Real(.5), Real(.5)}, {Real(.5), Real(.5)}, Real(.5)));
+    EXPECT_FALSE(light->SampleEmission({Real(.5), Real(.5)}, {Real(.5), Real(.5)}, Real(.5), 0));
   }
 }
 
@@ -220,7 +220,7 @@ TEST(AreaLight, EmitsOnTheSideOfItsNormalOnly) {
   TestPlugins plugins;
   const auto surface = plugins.MakeEmitter(R"("disk" "float radius" 2)");
   const auto light = plugins.MakeAreaLight(R"("area" "color L" [5 5 5])", surface);
-  const SurfacePoint on = surface->SamplePoint({Real(.2), Real(.7)}, Real(.5)).point;
+  const SurfacePoint on = surface->SamplePoint({Real(.2), Real(.7)}, Real(.5), 0).point;
   EXPECT_EQ(light->L(on, {}, on.ng), Spectrum(5));
   EXPECT_EQ(light->L(on, {}, -on.ng), Spectrum());
   EXPECT_TRUE(Direct(*light, on.ng * 3));

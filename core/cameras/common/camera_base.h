@@ -66,7 +66,8 @@ class CameraBase : public Camera {
  public:
   CameraBase(const CameraSettings& settings, const CameraContext& context)
       : settings_(settings),
-        cameraToWorld_(context.cameraToWorld),
+        motion_(context.cameraToWorld),
+        cameraToWorld_(motion_.At(settings.shutterOpen)),
         xResolution_(context.xResolution),
         yResolution_(context.yResolution) {
     const double aspect = settings.frameAspectRatio
@@ -79,17 +80,13 @@ class CameraBase : public Camera {
   }
 
   RayDifferential GenerateRay(const CameraSample& sample, bool withDifferentials) const override {
-    RayDifferential ray = ToWorld(Generate(sample.film, sample.lens));
-    ray.time = Lerp(sample.time, settings_.shutterOpen, settings_.shutterClose);
-    if (!withDifferentials) return ray;
-    const Ray x = ToWorld(Generate(sample.film + Point2(1, 0), sample.lens));
-    const Ray y = ToWorld(Generate(sample.film + Point2(0, 1), sample.lens));
-    ray.hasDifferentials = true;
-    ray.xOrigin = x.o, ray.xDirection = x.d;
-    ray.yOrigin = y.o, ray.yDirection = y.d;
-    return ray;
+    const Real time = std::clamp(Lerp(sample.time, settings_.shutterOpen, settings_.shutterClose),
+                                 settings_.shutterOpen, settings_.shutterClose);
+    return motion_.Moves() ? GenerateRay(sample, time, motion_.At(time), withDifferentials)
+                           : GenerateRay(sample, time, cameraToWorld_, withDifferentials);
   }
-  bool HasOpenShutter() const override { return settings_.shutterClose > settings_.shutterOpen; }
+  Interval Shutter() const override { return {settings_.shutterOpen, settings_.shutterClose}; }
+  bool MovesWithin(Interval interval) const override { return motion_.MovesWithin(interval); }
   const Transform& CameraToWorld() const override { return cameraToWorld_; }
 
  protected:
@@ -143,18 +140,31 @@ class CameraBase : public Camera {
   int YResolution() const { return yResolution_; }
 
  private:
+  RayDifferential GenerateRay(const CameraSample& sample, Real time, const Transform& toWorld,
+                              bool withDifferentials) const {
+    RayDifferential ray = ToWorld(toWorld, Generate(sample.film, sample.lens));
+    ray.time = time;
+    if (!withDifferentials) return ray;
+    const Ray x = ToWorld(toWorld, Generate(sample.film + Point2(1, 0), sample.lens));
+    const Ray y = ToWorld(toWorld, Generate(sample.film + Point2(0, 1), sample.lens));
+    ray.hasDifferentials = true;
+    ray.xOrigin = x.o, ray.xDirection = x.d;
+    ray.yOrigin = y.o, ray.yDirection = y.d;
+    return ray;
+  }
   // A camera may be scaled: the direction becomes a unit one again, distances grow with it.
-  Ray ToWorld(const CameraSpaceRay& local) const {
+  static Ray ToWorld(const Transform& toWorld, const CameraSpaceRay& local) {
     Ray ray;
-    ray.o = cameraToWorld_.ApplyPoint(local.o + local.d * local.start);
-    const Vector3 d = cameraToWorld_.ApplyVector(local.d);
+    ray.o = toWorld.ApplyPoint(local.o + local.d * local.start);
+    const Vector3 d = toWorld.ApplyVector(local.d);
     ray.d = NormalizeOr(d, Vector3(0, 0, 1));
     ray.tMax = (local.end - local.start) * std::hypot(d.x, d.y, d.z);
     return ray;
   }
 
   CameraSettings settings_;
-  Transform cameraToWorld_;
+  AnimatedTransform motion_;
+  Transform cameraToWorld_;  // as the shutter opens
   int xResolution_, yResolution_;
   std::array<double, 4> window_;  // x0 x1 y0 y1
 };

@@ -41,7 +41,7 @@ class OpennessIntegrator final : public SurfaceIntegrator {
     int open = 0;
     for (const Point2 u : points) {
       // Directions with density cos / pi per solid angle: each counts alike.
-      Ray probe = SpawnRay(*hit, frame.ToWorld(SampleCosineHemisphere(u)), ray.time);
+      Ray probe = SpawnRay(*hit, frame.ToWorld(SampleCosineHemisphere(u)));
       if (settings_.reach) probe.tMax = *settings_.reach;
       open += !context.Occluded(probe);
     }
