@@ -14,6 +14,13 @@ Matrix3 LinearPart(const Matrix4& a) {
   return b;
 }
 
+bool AllFinite(const Matrix4& a) {
+  for (const auto& row : a.m)
+    for (const double v : row)
+      if (!std::isfinite(v)) return false;
+  return true;
+}
+
 bool IsAffine(const Matrix4& a) {
   return a.m[3][0] == 0 && a.m[3][1] == 0 && a.m[3][2] == 0 && a.m[3][3] == 1;
 }
@@ -40,6 +47,8 @@ std::optional<AnimatedTransform> AnimatedTransform::Between(const Transform& sta
   AnimatedTransform animated(start);
   if (start == end) return animated;
   const auto fail = [&](const char* text) { return *problem = text, std::nullopt; };
+  if (!AllFinite(start.Matrix()) || !AllFinite(end.Matrix()))
+    return fail("its matrix is not finite at one end");
   if (!std::isfinite(times.min) || !std::isfinite(times.max) || times.max <= times.min)
     return fail("its times are not in order");
   if (!IsAffine(start.Matrix()) || !IsAffine(end.Matrix()))

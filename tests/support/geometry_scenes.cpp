@@ -189,6 +189,7 @@ Ray AwkwardRay(const PrimitiveSet& set, RandomStream& random) {
   if (ray.d == Vector3()) ray.d = {0, 0, 1};
   if (random.Uniform() < Real(.5)) ray.d = NormalizeOr(ray.d, {0, 0, 1});
   if (random.Uniform() < Real(.3)) ray.tMax = random.Uniform() * 2;
+  ray.time = random.Uniform();
   return ray;
 }
 
@@ -224,6 +225,12 @@ ShapesAndInstances::ShapesAndInstances(TestPlugins& plugins, const std::string& 
   const Transform twice = transform(1);
   set_.AddInstance({twice, object_.get()});
   set_.AddInstance({twice, object_.get()});
+  for (int i = 0; i < 3; ++i) {
+    const char* problem = "";
+    const auto motion =
+        *AnimatedTransform::Between(transform(2), transform(2), {Real(.2), Real(.8)}, &problem);
+    set_.AddInstance({motion.Start(), object_.get(), std::make_shared<const Motion>(motion)});
+  }
   set_.Finish();
 }
 

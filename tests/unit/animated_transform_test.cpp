@@ -166,6 +166,17 @@ TEST(AnimatedTransform, RefusesWhatWouldBeFlatInBetween) {
   EXPECT_TRUE(Between(Transform(), *Transform::Scale(-1, -1, 1)).IsHalfTurn());
 }
 
+TEST(AnimatedTransform, RefusesWhatIsNoNumber) {
+  Matrix4 matrix;
+  for (std::size_t i = 0; i < 3; ++i) {
+    matrix.m[i][i] = i == 1 ? 1 : std::nan("");
+    matrix.m[0][3] = std::nan("");
+    EXPECT_NE(ProblemOf(Transform(), Transform(matrix, matrix)).find("not finite"),
+              std::string::npos);
+    EXPECT_FALSE(Transform::FromMatrix(matrix));
+  }
+}
+
 TEST(AnimatedTransform, RefusesProjectionsAndTimesOutOfOrder) {
   Matrix4 projective;
   projective.m[3] = {0, 0, 1, 1};

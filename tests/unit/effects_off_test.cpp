@@ -146,7 +146,7 @@ TEST(EffectsOff, LensMakesAPinhole) {
             Render(kPath, world, "lens=off", {}, wide).image.pixels);
 }
 
-// Nothing in a scene can move or scatter between surfaces: these rows change nothing.
+// Nothing in this scene moves or scatters between surfaces: these rows change nothing.
 TEST(EffectsOff, MediaAndMotionHaveNothingToLeaveOut) {
   const std::string world = kLamp + kFloor + kWall;
   const std::vector<float> expected = Render(kPath, world, "auto").image.pixels;

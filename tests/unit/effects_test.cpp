@@ -75,6 +75,37 @@ TEST(EffectPlan, BlursNothingThatDoesNotMove) {
   EXPECT_EQ(open.Get(Effect::Motion).reason, "nothing moves");
 }
 
+const std::string kMovingBall =
+    "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n" + kBall;
+
+TEST(EffectPlan, BlursWhatMovesWhileTheShutterIsOpen) {
+  const EffectPlan shape = PlanOf(kLamp + kMovingBall);
+  EXPECT_TRUE(shape.Needs(Effect::Motion));
+  EXPECT_EQ(shape.Get(Effect::Motion).reason, "a shape moves");
+  EXPECT_EQ(shape.notes.back(), "time          0 to 1 (of camera rays and photons)");
+  const EffectPlan closed = PlanOf(
+      kLamp + kMovingBall, R"("perspective" "float shutteropen" .25 "float shutterclose" .25)");
+  EXPECT_FALSE(closed.Needs(Effect::Motion));
+  EXPECT_EQ(closed.Get(Effect::Motion).reason, "shutter closed");
+  EXPECT_EQ(closed.notes.back(), "time          0.25 (of camera rays and photons)");
+  const EffectPlan late =
+      PlanOf(kLamp + kMovingBall, R"("perspective" "float shutteropen" 1 "float shutterclose" 2)");
+  EXPECT_FALSE(late.Needs(Effect::Motion));
+  EXPECT_EQ(late.Get(Effect::Motion).reason, "nothing moves while the shutter is open");
+}
+
+TEST(EffectPlan, BlursWhatAMovingCameraSees) {
+  const auto plan = [](const std::string& world) {
+    return LoadSceneText(
+               "ActiveTransform EndTime Translate 0 0 1\nCamera \"perspective\"\n"
+               "WorldBegin\n" +
+               world + "WorldEnd\n")
+        .setup->scene->Effects();
+  };
+  EXPECT_EQ(plan(kLamp + kBall).Get(Effect::Motion).reason, "the camera moves");
+  EXPECT_EQ(plan(kLamp + kMovingBall).Get(Effect::Motion).reason, "the camera and a shape move");
+}
+
 TEST(EffectPlan, SeesTheSkyOnlyIfItShines) {
   EXPECT_TRUE(PlanOf("LightSource \"infinite\"\n" + kBall).Needs(Effect::Environment));
   EXPECT_FALSE(
