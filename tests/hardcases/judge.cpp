@@ -180,6 +180,7 @@ void Judge::CheckPictures(const hardcases::Run& run) {
     }
     const PictureResult result = CheckPicture(check, pictures.images, others, region);
     if (!result.isRight) Fail(run.name, result.text);
+    if (result.falseAlarm) verdict_.falseAlarms.push_back(*result.falseAlarm);
     if (result.isRight && !result.text.empty()) {
       const bool isOnlyRun = asked_.runs.size() == 1;
       verdict_.seen.push_back(isOnlyRun ? result.text : run.name + " " + result.text);

@@ -15,6 +15,7 @@ namespace exphoton::hardcases {
 struct Verdict {
   std::vector<std::string> seen;      // for the table, in few words
   std::vector<std::string> failures;  // none: passed
+  std::vector<double> falseAlarms;    // of its means (PictureResult::falseAlarm)
   double seconds = 0, megabytes = 0;  // together; the most of any process
 };
 

@@ -79,6 +79,7 @@ Options OptionsFrom(int argc, char** argv) {
 
 void Fill(const Verdict& verdict, const NamedTests::Result& tests, bool areRun, Line* line) {
   line->failures = verdict.failures;
+  line->falseAlarms = verdict.falseAlarms;
   line->seconds = verdict.seconds;
   line->megabytes = verdict.megabytes;
   constexpr std::size_t kMostSeen = 6;
@@ -144,8 +145,9 @@ int RunCatalogue(const Options& options) {
     std::vector<std::jthread> threads;
     for (int i = 0; i < options.jobs; ++i) threads.emplace_back(work);
   }
-  std::printf("\n%s", Summary(lines).c_str());
-  if (!options.page.empty()) std::ofstream(options.page) << Summary(lines) << Page(lines);
+  const std::string summary = Summary(lines) + "\n" + FalseAlarmText(lines);
+  std::printf("\n%s", summary.c_str());
+  if (!options.page.empty()) std::ofstream(options.page) << summary << Page(lines);
   for (const Line& line : lines)
     if (line.state == State::Failed) return 1;
   return 0;

@@ -45,17 +45,24 @@ PictureResult CheckMean(const Check& check, std::span<const Image> pictures, Pix
   const double tolerance = Tolerance(check.arguments.at(1), truth);
   const SeedEstimate estimate = Estimate(pictures, region);
   const bool isRight = std::abs(estimate.mean - truth) + estimate.halfWidth <= tolerance;
-  return {isRight, Text("mean %.5g ± %.2g (truth %.5g)", estimate.mean, estimate.halfWidth, truth)};
+  return {isRight, Text("mean %.5g ± %.2g (truth %.5g)", estimate.mean, estimate.halfWidth, truth),
+          FalseAlarmRate(estimate, estimate.mean - truth, tolerance)};
 }
 
 PictureResult CheckEquals(const Check& check, std::span<const Image> pictures,
                           std::span<const Image> others, PixelBounds region) {
   const SeedEstimate a = Estimate(pictures, region), b = Estimate(others, region);
-  const double halfWidth = std::hypot(a.halfWidth, b.halfWidth);
-  const bool isRight =
-      std::abs(a.mean - b.mean) + halfWidth <= Tolerance(check.arguments.at(1), b.mean);
-  return {isRight, Text("mean %.5g ± %.2g, %s %.5g ± %.2g", a.mean, a.halfWidth,
-                        check.arguments[0].c_str(), b.mean, b.halfWidth)};
+  SeedEstimate difference;
+  difference.mean = a.mean - b.mean;
+  difference.standardDeviation = std::hypot(a.standardDeviation, b.standardDeviation);
+  difference.halfWidth = std::hypot(a.halfWidth, b.halfWidth);
+  difference.seeds = std::min(a.seeds, b.seeds);
+  const double tolerance = Tolerance(check.arguments.at(1), b.mean);
+  const bool isRight = std::abs(difference.mean) + difference.halfWidth <= tolerance;
+  return {isRight,
+          Text("mean %.5g ± %.2g, %s %.5g ± %.2g", a.mean, a.halfWidth, check.arguments[0].c_str(),
+               b.mean, b.halfWidth),
+          FalseAlarmRate(difference, difference.mean, tolerance)};
 }
 
 PictureResult CheckBound(const Check& check, const Image& picture, PixelBounds region) {

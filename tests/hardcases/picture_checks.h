@@ -3,6 +3,7 @@
 // (tests/support/equivalence.h), so that noise cannot answer yes.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ namespace exphoton::hardcases {
 struct PictureResult {
   bool isRight = false;
   std::string text;  // what was seen
+  // Of a mean over seeds: how often other seeds would fail, if what was measured is the truth.
+  std::optional<double> falseAlarm{};
 };
 
 // x0,x1,y0,y1, the upper ones excluded; empty: the whole picture.

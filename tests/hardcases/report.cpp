@@ -69,6 +69,26 @@ std::string Summary(const std::vector<Line>& lines) {
   return text + Row("**all**", all);
 }
 
+std::string FalseAlarmText(const std::vector<Line>& lines) {
+  double none = 1, most = 0;
+  int count = 0;
+  std::string where;
+  for (const Line& line : lines) {
+    for (const double rate : line.falseAlarms) {
+      ++count;
+      none *= 1 - rate;
+      if (rate > most) most = rate, where = line.asked->id;
+    }
+  }
+  if (count == 0) return "";
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                "%d means over seeds; with other seeds one of them fails by chance in %.2g of all "
+                "runs (most often: case %s, %.2g)\n",
+                count, 1 - none, where.empty() ? "-" : where.c_str(), most);
+  return text.data();
+}
+
 std::string Page(const std::vector<Line>& lines) {
   std::string text;
   const Group* group = nullptr;

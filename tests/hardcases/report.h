@@ -17,10 +17,14 @@ struct Line {
   State state = State::LeftOut;
   std::string seen;
   std::vector<std::string> failures;
+  std::vector<double> falseAlarms;  // of each mean
   double seconds = 0, megabytes = 0;
 };
 
 std::string TerminalLine(const Line& line);
+
+// How often the means that were measured would fail with other seeds, all together.
+std::string FalseAlarmText(const std::vector<Line>& lines);
 
 // A summary by group, and the table of cases.
 std::string Summary(const std::vector<Line>& lines);

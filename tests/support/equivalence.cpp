@@ -2,6 +2,7 @@
 // The equivalence rule. Quantiles of Student's t distribution from the usual tables.
 #include "tests/support/equivalence.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace exphoton {
@@ -22,6 +23,7 @@ double StudentQuantile995(int degrees) {
 SeedEstimate EstimateFrom(std::span<const double> meansOfSeeds) {
   SeedEstimate estimate;
   const double count = double(meansOfSeeds.size());
+  estimate.seeds = int(meansOfSeeds.size());
   for (const double mean : meansOfSeeds) estimate.mean += mean / count;
   double squares = 0;
   for (const double mean : meansOfSeeds) squares += (mean - estimate.mean) * (mean - estimate.mean);
@@ -29,6 +31,28 @@ SeedEstimate EstimateFrom(std::span<const double> meansOfSeeds) {
   const double quantile = StudentQuantile995(int(meansOfSeeds.size()) - 1);
   estimate.halfWidth = quantile * estimate.standardDeviation / std::sqrt(count);
   return estimate;
+}
+
+// The mean of the seeds is normal and independent of their variance, which is chi-square with
+// K - 1 degrees; an integral over the latter by the midpoint rule.
+double FalseAlarmRate(const SeedEstimate& estimate, double offset, double tolerance) {
+  const int degrees = estimate.seeds - 1;
+  const double sigma = estimate.standardDeviation / std::sqrt(double(estimate.seeds));
+  if (!(sigma > 0)) return std::abs(offset) <= tolerance ? 0 : 1;
+  const auto tail = [](double z) { return std::erfc(z / std::sqrt(2.)) / 2; };  // of the normal
+  constexpr int kSteps = 4000;
+  const double end = degrees + 12 * std::sqrt(2. * degrees) + 40, step = end / kSteps;
+  double weights = 0, failing = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = (i + .5) * step;
+    const double weight = std::exp((degrees / 2. - 1) * std::log(x) - x / 2);
+    const double room = tolerance - StudentQuantile995(degrees) * sigma * std::sqrt(x / degrees);
+    const double fails =
+        room < 0 ? 1 : tail((room - offset) / sigma) + tail((room + offset) / sigma);
+    weights += weight;
+    failing += weight * std::min(fails, 1.);
+  }
+  return failing / weights;
 }
 
 testing::AssertionResult IsWithin(double relativeTolerance, const SeedEstimate& estimate,

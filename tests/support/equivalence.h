@@ -18,6 +18,7 @@ struct SeedEstimate {
   double mean = 0;
   double standardDeviation = 0;  // of one seed's mean
   double halfWidth = 0;          // t(0.995, K - 1) s / sqrt(K)
+  int seeds = 0;                 // K
 };
 
 // The quantile t(0.995, degrees) of Student's distribution.
@@ -32,6 +33,10 @@ SeedEstimate EstimateOverSeeds(Measure&& measure, int count = kGateSeeds) {
   for (int k = 0; k < count; ++k) means.push_back(measure(std::uint64_t(k) * 1000 + 1));
   return EstimateFrom(means);
 }
+
+// The probability that as many other seeds fail the rule, where means of seeds are normal with the
+// estimate's standard deviation and a mean that lies `offset` beside the truth.
+double FalseAlarmRate(const SeedEstimate& estimate, double offset, double tolerance);
 
 // tolerance is relative to |truth|.
 testing::AssertionResult IsWithin(double relativeTolerance, const SeedEstimate& estimate,
