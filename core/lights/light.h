@@ -39,7 +39,7 @@ class Light {
 
   virtual bool IsDelta() const { return false; }     // no ray ever hits it
   virtual bool IsInfinite() const { return false; }  // answers Le for rays that escape
-  // Holds every point that emits; nullopt for a light that is nowhere (far away).
+  // Holds every point that emits, at all times; nullopt for a light that is nowhere (far away).
   virtual std::optional<Bounds3> Bounds() const { return std::nullopt; }
   // Photons start on a disk that covers the scene, and are alike at all of its places.
   virtual bool IsFar() const { return false; }

@@ -59,9 +59,7 @@ Spectrum ManyLights::FromLight(const ShadingPoint& point, const Pick& pick,
   const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
   const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, kLobes) * cosine;
   if (f.IsBlack()) return {};
-  Ray shadowRay = direct->shadowRay;
-  shadowRay.time = point.surface.time;
-  const Spectrum arriving = context.Unoccluded(shadowRay) * direct->Li;
+  const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
   const Real pdf = choice.probability * direct->pdf;
   if (arriving.IsBlack() || choice.light->IsDelta()) return f * arriving / pdf;
   const Real bsdfPdf = point.bsdf.Pdf(point.Wo(), direct->wi, kLobes);
@@ -72,7 +70,7 @@ Spectrum ManyLights::FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe,
                               LiContext& context) const {
   const auto scattered = point.bsdf.Sample(point.Wo(), u, uLobe, kLobes);
   if (!scattered || scattered->throughput.IsBlack()) return {};
-  const Ray ray = SpawnRay(point.surface, scattered->wi, point.surface.time);
+  const Ray ray = SpawnRay(point.surface, scattered->wi);
   const auto hit = context.Intersect(ray, RayKind::Bsdf);
   const auto weight = [&](const Light& light, const SurfacePoint* on) {
     return PowerHeuristic(bsdfCount_, scattered->pdf, lightCount_,

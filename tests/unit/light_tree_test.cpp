@@ -30,7 +30,7 @@ class Placed final : public Light {
   Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
     return 0;
   }
-  std::optional<EmissionSample> SampleEmission(Point2, Point2, Real) const override {
+  std::optional<EmissionSample> SampleEmission(Point2, Point2, Real, Real) const override {
     return std::nullopt;
   }
 
