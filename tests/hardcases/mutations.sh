@@ -2,6 +2,7 @@
 # Puts ten deliberate defects into a copy of the sources, one at a time, and runs the cases that must
 # notice: a suite that stays green with a defect in is no suite. Prints what caught each.
 #   tests/hardcases/mutations.sh [NAME ...]
+#   tests/hardcases/mutations.sh --texts    only looks whether the texts to replace are still there
 # Works in build-mutations/, a clone with its own build; the sources here are not touched.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -12,10 +13,10 @@ jobs=${JOBS:-$(nproc)}
 # name | file | text | what stands there instead | targets | cases
 mutations=$(cat <<'TABLE'
 density-as-probability|core/lights/light_distribution.cpp|choice.index, choice.probability,|choice.index, choice.probability * Real(lights_.size()),|exphoton|37
-cosine-dropped|lights/area.cpp|point, w), Power(), 1 / surface_->Area(),|point, w), Power() * (2 * Dot(w, Vector3(point.ng))) * 2, 1 / surface_->Area(),|exphoton|T1
+cosine-dropped|lights/area.cpp|Power() * stretched, sample.pdf,|Power() * stretched * (2 * Dot(w, Vector3(sample.point.ng))) * 2, sample.pdf,|exphoton|T1
 cone-widened|integrators/photon/cone_mixture.h|<= 2 * oneMinusCos_;|<= 2 * (1 - Real(.999) * (1 - oneMinusCos_));|exphoton|81
 mask-dropped|core/scattering/bsdf.cpp|matching += lobe.Matches(mask);|matching += 1;|exphoton|34
-k-for-k-minus-1|integrators/photon/photon_map.cpp|return {found.first(found.size() - 1), farthest2};|return {found, farthest2};|exphoton test_stat|68
+k-for-k-minus-1|integrators/photon/photon_map.cpp|return {found.index.first(last), found.distance2.first(last), farthest2};|return {found.index, found.distance2, farthest2};|exphoton test_stat|68
 reach-unlimited|integrators/photon/radiance_map.cpp|reach_(settings.radianceReach)|reach_(settings.radianceReach * 1000000)|exphoton|77
 no-double-fallback|core/geometry/triangle_decide.h|const double du = c.x * b.y - c.y * b.x, dv = a.x * c.y - a.y * c.x, dw = b.x * a.y - b.y * a.x;|const double du = double(float(c.x) * float(b.y) - float(c.y) * float(b.x)), dv = double(float(a.x) * float(c.y) - float(a.y) * float(c.x)), dw = double(float(b.x) * float(a.y) - float(b.y) * float(a.x)); if (!(du * dw * dv != 0)) return std::nullopt;|exphoton test_unit|7
 absolute-epsilon|core/geometry/ray.cpp|ray.o = OffsetRayOrigin(point, w);|ray.o = OffsetRayOrigin(point, w) + w * Real(1e-3);|exphoton|I1
@@ -24,6 +25,13 @@ order-of-threads|integrators/photon/photon_tracer.cpp|for (Chunk& chunk : chunks
 TABLE
 )
 
+if [ "${1:-}" = --texts ]; then
+  missing=0
+  while IFS='|' read -r name file text _; do
+    grep -qF -- "$text" "$top/$file" || { echo "$name: its text is not in $file"; missing=1; }
+  done <<<"$mutations"
+  exit $missing
+fi
 if [ ! -d "$copy" ]; then
   git clone -q "$top" "$copy"
   cmake -S "$copy" -B "$build" -G Ninja -DEXPHOTON_OPTIMIZE=-O2 -DEXPHOTON_TESTS=ON >/dev/null
