@@ -7,6 +7,7 @@ namespace exphoton {
 namespace {
 
 constexpr int kBins = 32;
+constexpr std::size_t kSweepLimit = 64;  // items up to which every place is tried
 
 struct Bin {
   Bounds3 bounds;
@@ -63,6 +64,40 @@ Split BestSplit(const std::array<Bin, kBins>& bins, int axis) {
   return best;
 }
 
+void SortAlong(std::span<BvhItem> items, int axis) {
+  std::sort(items.begin(), items.end(), [axis](const BvhItem& a, const BvhItem& b) {
+    const Real x = a.Centroid(axis), y = b.Centroid(axis);
+    return x != y ? x < y : a.id < b.id;
+  });
+}
+
+// Few items: every place in their order along each axis.
+BvhSplit SweepRun(const BvhRun& run) {
+  const std::span<BvhItem> items = run.items;
+  std::array<double, kSweepLimit> below;
+  BvhSplit best{0, 0, std::numeric_limits<double>::infinity()};
+  int sorted = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(run.centroids.max[axis] > run.centroids.min[axis])) continue;
+    SortAlong(items, axis);
+    sorted = axis;
+    Bounds3 bounds;
+    for (std::size_t i = 1; i < items.size(); ++i) {
+      bounds.Extend(items[i - 1].bounds);
+      below[i] = HalfArea(bounds) * Blocks(std::uint32_t(i));
+    }
+    bounds = {};
+    for (std::size_t i = items.size() - 1; i > 0; --i) {
+      bounds.Extend(items[i].bounds);
+      const double cost = below[i] + HalfArea(bounds) * Blocks(std::uint32_t(items.size() - i));
+      if (cost < best.cost) best = {i, axis, cost};
+    }
+  }
+  if (best.count == 0) return HalveRun(run);
+  if (sorted != best.axis) SortAlong(items, best.axis);
+  return best;
+}
+
 }  // namespace
 
 double HalfArea(const Bounds3& bounds) {
@@ -98,6 +133,7 @@ BvhSplit HalveRun(const BvhRun& run) {
 }
 
 BvhSplit SplitRun(const BvhRun& run) {
+  if (run.items.size() <= kSweepLimit) return SweepRun(run);
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
     const Binning binning(run.centroids, axis);

@@ -15,7 +15,10 @@ namespace {
 
 constexpr std::size_t kMaxLeafOthers = 2;
 constexpr Blocking kOtherBlocking{.5, 4};  // of shapes and instances: a guess
-constexpr int kSahDepth = 40;              // deeper nodes halve their runs: at most 32 levels more
+// What two leaves must save to be better than one: they take more memory, and to wait for memory is
+// most of the work.
+constexpr double kLeafPreference = 1.5;
+constexpr int kSahDepth = 40;  // deeper nodes halve their runs: at most 32 levels more
 
 // Larger by at least the margin on every side, and by one step of Real where that is more. Finite:
 // nothing is ever hit beyond.
@@ -103,7 +106,7 @@ class Builder {
       if (widest < 0) break;
       const BvhRun run = parts.runs[widest];
       const BvhSplit split = Split(run, depth);
-      if (CanBeLeaf(run) && LeafCost(run) <= split.cost) {
+      if (CanBeLeaf(run) && LeafCost(run) <= kLeafPreference * split.cost) {
         parts.isLeaf[widest] = true;
         continue;
       }

@@ -20,21 +20,45 @@ namespace exphoton {
 inline constexpr int kBvhWidth = 8;
 inline constexpr std::size_t kBvhLine = 64;  // bytes of a line of the cache
 
+struct alignas(kBvhLine) BvhLine {
+  std::byte bytes[kBvhLine];
+};
+struct BvhNode;
+struct BvhBlock;
+
 // What a child is, and where: inner node or block of triangles (the number of their first line), or
 // list of other primitives.
 class BvhChild {
  public:
   enum class Kind : std::uint32_t { Node = 0, Triangles = 1, Others = 2 };
-  static constexpr std::uint32_t kMaxIndex = (std::uint32_t(1) << 30) - 1;
+  static constexpr std::uint32_t kMaxIndex = (std::uint32_t(1) << 29) - 1;
 
   BvhChild() = default;  // no value: stacks of them cost nothing
-  BvhChild(Kind kind, std::uint32_t index) : bits_(index << 2 | std::uint32_t(kind)) {}
-  bool IsNode() const { return (bits_ & 3) == std::uint32_t(Kind::Node); }
-  bool IsTriangles() const { return (bits_ & 3) == std::uint32_t(Kind::Triangles); }
-  Kind GetKind() const { return Kind(bits_ & 3); }
-  std::uint32_t Index() const { return bits_ >> 2; }
+  BvhChild(Kind kind, std::uint32_t index) : bits_(index << kShift | std::uint32_t(kind)) {}
+  bool IsNode() const { return (bits_ & kMask) == std::uint32_t(Kind::Node); }
+  bool IsTriangles() const { return (bits_ & kMask) == std::uint32_t(Kind::Triangles); }
+  Kind GetKind() const { return Kind(bits_ & kMask); }
+  std::uint32_t Index() const { return bits_ >> kShift; }
+
+  // What it stands for, among the lines of its hierarchy.
+  const BvhNode& Node(const BvhLine* lines) const {
+    return *reinterpret_cast<const BvhNode*>(At(lines, bits_));
+  }
+  const BvhBlock& Block(const BvhLine* lines) const {
+    return *reinterpret_cast<const BvhBlock*>(At(lines, bits_ - std::uint32_t(Kind::Triangles)));
+  }
+  void Prefetch(const BvhLine* lines) const {
+    const char* const first = At(lines, bits_ & ~kMask);
+    for (std::size_t i = 0; i < 5; ++i) __builtin_prefetch(first + i * kBvhLine);
+  }
 
  private:
+  // Three bits, so that the address of a node is the bits times 8: no work for a processor.
+  static constexpr std::uint32_t kShift = 3, kMask = (1 << kShift) - 1;
+  static const char* At(const BvhLine* lines, std::uint32_t bits) {
+    return reinterpret_cast<const char*>(lines) + std::size_t(bits) * (kBvhLine >> kShift);
+  }
+
   std::uint32_t bits_;
 };
 
@@ -59,9 +83,6 @@ struct alignas(kBvhLine) BvhBlock {
   std::uint32_t ids[kBvhWidth];
 };
 
-struct alignas(kBvhLine) BvhLine {
-  std::byte bytes[kBvhLine];
-};
 inline constexpr std::uint32_t kBvhNodeLines = sizeof(BvhNode) / kBvhLine;
 inline constexpr std::uint32_t kBvhBlockLines = sizeof(BvhBlock) / kBvhLine;
 
@@ -71,13 +92,6 @@ struct BvhArrays {
   std::vector<std::uint32_t> others;
   Bounds3 bounds;  // of everything, with margins
   int depth = 0;   // nodes on the longest way down
-
-  const BvhNode& Node(BvhChild child) const {
-    return *reinterpret_cast<const BvhNode*>(&lines[child.Index()]);
-  }
-  const BvhBlock& Block(BvhChild child) const {
-    return *reinterpret_cast<const BvhBlock*>(&lines[child.Index()]);
-  }
 };
 
 // Rounding in the intersection tests shifts what is hit, across the ray, by less than this part of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The traversal, written on what the including file defines for its vectors: Real8 (Load, All,
-// + - *, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met on the
+// Store, + - *, MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met on the
 // stack). Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
@@ -9,30 +9,98 @@
 // (plane - o) / (|d_axis| - slope). On an axis to which the ray is perpendicular within the slope,
 // planes are moved by what the cone spreads to on its way through the scene instead.
 
-// The ray as boxes see it.
-struct BoxRay {
-  Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
-  std::size_t nearRow[3], farRow[3];  // bytes from the node's first
-  unsigned backward = 0;              // a bit an axis
+// Of lambdas: a call would put vectors into memory.
+#define EXPHOTON_INLINE __attribute__((always_inline))
 
-  BoxRay(const Ray& ray, int major, const Bounds3& world) {
+// Which way a ray goes through boxes.
+struct BoxRows {
+  std::size_t near[3], far[3];  // bytes from the first row of a node
+  unsigned backward = 0;        // a bit an axis
+
+  explicit BoxRows(const Vector3& d) {
     constexpr std::size_t kRow = sizeof(Real) * kBvhWidth;
-    const Vector3 size = Abs(ray.d);
-    const Real slope = kBvhMargin * size[major];
+    const bool isBackward[3] = {std::signbit(d.x), std::signbit(d.y), std::signbit(d.z)};
     for (int axis = 0; axis < 3; ++axis) {
-      const bool isBackward = std::signbit(ray.d[axis]);
-      backward |= unsigned(isBackward) << axis;
-      nearRow[axis] = kRow * (2 * std::size_t(axis) + isBackward);
-      farRow[axis] = kRow * (2 * std::size_t(axis) + !isBackward);
+      backward |= unsigned(isBackward[axis]) << axis;
+      near[axis] = kRow * (2 * std::size_t(axis) + isBackward[axis]);
+      far[axis] = kRow * (2 * std::size_t(axis) + !isBackward[axis]);
+    }
+  }
+  static Real8 Load(const BvhNode& node, std::size_t row) {
+    return Real8::Load(reinterpret_cast<const Real*>(reinterpret_cast<const char*>(&node) + row));
+  }
+};
+
+// Where a ray enters the eight boxes of a node, and where it leaves them, at most at tMax: a box is
+// met where first <= last.
+struct Crossings {
+  Real8 first, last;
+
+  template <class CrossNear, class CrossFar>
+  static Crossings Of(const CrossNear& crossNear, const CrossFar& crossFar, Real8 tMax) {
+    return {Max(Max(crossNear(0), crossNear(1)), Max(crossNear(2), Real8::All(Real(0)))),
+            Min(Min(crossFar(0), crossFar(1)), Min(crossFar(2), tMax))};
+  }
+};
+
+// The ray as boxes see it, where it is perpendicular to no axis: planes are crossed at
+// plane / d - o / d. What rounding of o / d may shift is added to what rounding of the hit may.
+struct SlantedRay {
+  BoxRows rows;
+  Real8 nearScale[3], nearShift[3], farScale[3], farShift[3];
+  bool isSlanted;  // whether it is; nothing else is set where not
+
+  explicit SlantedRay(const Ray& ray) : rows(ray.d) {
+    const Real o[3] = {ray.o.x, ray.o.y, ray.o.z}, d[3] = {ray.d.x, ray.d.y, ray.d.z};
+    const Vector3 size = Abs(ray.d);
+    const Real slope = kBvhMargin * MaxComponent(size);
+    isSlanted = slope < std::min({size.x, size.y, size.z}) * Real(.25);
+    if (!isSlanted) [[unlikely]]
+      return;
+    for (int axis = 0; axis < 3; ++axis) {
       // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
+      const Real inverse = 1 / d[axis], x = slope * std::abs(inverse);
+      const Real nearest = inverse * (1 - x - Gamma(6));
+      const Real farthest = inverse * (1 + 2 * x + Gamma(6));
+      const Real nearOffset = o[axis] * nearest, farOffset = o[axis] * farthest;
+      nearScale[axis] = Real8::All(nearest);
+      nearShift[axis] = Real8::All(-nearOffset - std::abs(nearOffset) * Gamma(4));
+      farScale[axis] = Real8::All(farthest);
+      farShift[axis] = Real8::All(-farOffset + std::abs(farOffset) * Gamma(4));
+    }
+  }
+
+  Crossings Cross(const BvhNode& node, Real8 tMax) const {
+    return Crossings::Of(
+        [&](int axis) {
+          return MultiplyAdd(BoxRows::Load(node, rows.near[axis]), nearScale[axis],
+                             nearShift[axis]);
+        },
+        [&](int axis) {
+          return MultiplyAdd(BoxRows::Load(node, rows.far[axis]), farScale[axis], farShift[axis]);
+        },
+        tMax);
+  }
+};
+
+// The ray as boxes see it, whatever its direction.
+struct AnyRay {
+  BoxRows rows;
+  Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
+
+  AnyRay(const Ray& ray, int major, const Bounds3& world) : rows(ray.d) {
+    const Real slope = kBvhMargin * MaxComponent(Abs(ray.d));
+    for (int axis = 0; axis < 3; ++axis) {
       const Real d = ray.d[axis];
       const Real inverse = d == 0 ? std::copysign(kInfinity, d) : 1 / d;  // traps stay silent
       const Real x = slope * std::abs(inverse);
+      if (!(x < Real(.25))) {
+        SetPerpendicular(ray, axis, major, world);
+        continue;
+      }
       nearOrigin[axis] = farOrigin[axis] = Real8::All(ray.o[axis]);
       nearInverse[axis] = Real8::All(inverse * (1 - x - Gamma(6)));
       farInverse[axis] = Real8::All(inverse * (1 + 2 * x + Gamma(6)));
-      if (!(x < Real(.25))) [[unlikely]]
-        SetPerpendicular(ray, axis, major, world);
     }
   }
 
@@ -40,8 +108,7 @@ struct BoxRay {
   // done so for good. It strays by less than 5/8 of the spread: what it may hit begins behind one
   // moved origin and ends ahead of the other. 0 * infinity leaves an axis out of Cross, which only
   // enters more boxes.
-  [[gnu::noinline]] void SetPerpendicular(const Ray& ray, int axis, int major,
-                                          const Bounds3& world) {
+  void SetPerpendicular(const Ray& ray, int axis, int major, const Bounds3& world) {
     constexpr double kMargin = double(kBvhMargin);
     // The farthest that any hit can be along the major axis.
     const double reach = std::max(std::abs(double(world.min[major]) - double(ray.o[major])),
@@ -55,24 +122,15 @@ struct BoxRay {
     farOrigin[axis] = Real8::All(isBackward ? above : below);
   }
 
-  // Where the ray enters the eight boxes of a node and where it leaves them, at most at tMax: a box
-  // is met where first <= last.
-  struct Crossings {
-    Real8 first, last;
-  };
   Crossings Cross(const BvhNode& node, Real8 tMax) const {
-    const char* const rows = reinterpret_cast<const char*>(&node);
-    const auto crossing = [&](std::size_t row, Real8 origin, Real8 inverse) {
-      return (Real8::Load(reinterpret_cast<const Real*>(rows + row)) - origin) * inverse;
-    };
-    const auto crossNear = [&](int axis) {
-      return crossing(nearRow[axis], nearOrigin[axis], nearInverse[axis]);
-    };
-    const auto crossFar = [&](int axis) {
-      return crossing(farRow[axis], farOrigin[axis], farInverse[axis]);
-    };
-    return {Max(Max(crossNear(0), crossNear(1)), Max(crossNear(2), Real8::All(Real(0)))),
-            Min(Min(crossFar(0), crossFar(1)), Min(crossFar(2), tMax))};
+    return Crossings::Of(
+        [&](int axis) {
+          return (BoxRows::Load(node, rows.near[axis]) - nearOrigin[axis]) * nearInverse[axis];
+        },
+        [&](int axis) {
+          return (BoxRows::Load(node, rows.far[axis]) - farOrigin[axis]) * farInverse[axis];
+        },
+        tMax);
   }
 };
 
@@ -82,8 +140,7 @@ struct BlockRay {
   int kx, ky, kz;
 
   explicit BlockRay(const TriangleRay& ray)
-      : ox(Real8::All(ray.o[ray.kx])), oy(Real8::All(ray.o[ray.ky])),
-        oz(Real8::All(ray.o[ray.kz])), sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
+      : ox(Real8::All(ray.ox)), oy(Real8::All(ray.oy)), oz(Real8::All(ray.oz)), sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
         sz(Real8::All(ray.sz)), kx(ray.kx), ky(ray.ky), kz(ray.kz) {}
 
   // The triangles of a block that may be hit by tMax. Edges as in MissesTriangle; and the distance
@@ -107,9 +164,9 @@ struct BlockRay {
   }
 };
 
-inline Point3 Vertex(const BvhBlock& block, int vertex, int lane) {
-  const auto& rows = block.vertices[vertex];
-  return {rows[0][lane], rows[1][lane], rows[2][lane]};
+// The triangle of a lane, as DecideTriangle wants it.
+inline auto CornersOf(const BvhBlock& block, int lane) {
+  return TriangleCorners<3 * kBvhWidth, kBvhWidth>{&block.vertices[0][0][lane]};
 }
 
 // Vectors compare with a little more than t: what rounding may add to a distance on the way.
@@ -119,16 +176,17 @@ inline Real8 Limit(Real t) { return Real8::All(t * (1 + Gamma(8))); }
 constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
 
 // Walks the tree from near to far or, where any hit will do, first to where one is likely.
-// visit(child) deals with a leaf and returns the t beyond which nothing matters any more (ties at
-// it do); a negative one ends the walk.
-template <bool kIsAny, class Visit>
-inline void Walk(const BvhArrays& arrays, const TraceRay& trace, const Visit& visit) {
-  if (arrays.lines.empty()) return;
-  const BoxRay ray(trace.ray, trace.triangle.kz, arrays.bounds);
+// visit(child, limit) deals with a leaf, of which nothing beyond the limit matters, and returns the
+// t beyond which nothing matters any more (ties at it do); a negative one ends the walk.
+template <bool kIsAny, class BoxRay, class Visit>
+[[gnu::always_inline]] inline void Walk(const BvhArrays& arrays, const TraceRay& trace,
+                                        const BoxRay& ray, const Visit& visit) {
   // The stack has the nearest on top; an order for the opposite direction is read backwards.
-  const bool isOpposite = !kIsAny && ray.backward & 4;
+  const unsigned backward = ray.rows.backward;
+  const bool isOpposite = !kIsAny && backward & 4;
   const PushOrder order(isOpposite);
-  const std::size_t orderIndex = kIsAny ? kBvhBlockingOrder : (isOpposite ? 7 - ray.backward : ray.backward);
+  const std::size_t orderIndex = kIsAny ? kBvhBlockingOrder : (isOpposite ? 7 - backward : backward);
+  const BvhLine* const lines = arrays.lines.data();
   BvhChild children[kStackSize];
   Real enters[kStackSize];
   children[0] = BvhChild(BvhChild::Kind::Node, 0);
@@ -141,15 +199,28 @@ inline void Walk(const BvhArrays& arrays, const TraceRay& trace, const Visit& vi
     if (!kIsAny && enters[size] > tMax) continue;
     const BvhChild child = children[size];
     if (child.IsNode()) {
-      const BvhNode& node = arrays.Node(child);
-      const BoxRay::Crossings crossings = ray.Cross(node, limit);
+      const BvhNode& node = child.Node(lines);
+      const Crossings crossings = ray.Cross(node, limit);
       size += order.Push(node, orderIndex, crossings.first, crossings.last, children + size,
                          enters + size);
+      if (!kIsAny && size > 1) children[size - 2].Prefetch(lines);
     } else {
-      tMax = visit(child);
+      tMax = visit(child, limit);
       if (tMax < 0) return;
       if (!kIsAny) limit = Limit(tMax);
     }
+  }
+}
+
+template <bool kIsAny, class Visit>
+[[gnu::always_inline]] inline void WalkAs(const BvhArrays& arrays, const TraceRay& trace,
+                                          const Visit& visit) {
+  if (arrays.lines.empty()) return;
+  const SlantedRay slanted(trace.ray);
+  if (slanted.isSlanted) [[likely]] {
+    Walk<kIsAny>(arrays, trace, slanted, visit);
+  } else {
+    Walk<kIsAny>(arrays, trace, AnyRay(trace.ray, trace.triangle.kz, arrays.bounds), visit);
   }
 }
 
@@ -159,20 +230,19 @@ Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   hit.t = ray.tMax;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  Walk<false>(arrays, trace, [&](BvhChild leaf) {
+  WalkAs<false>(arrays, trace, [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
     if (!leaf.IsTriangles()) {
       const std::uint32_t* list = arrays.others.data() + leaf.Index();
       for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
       return hit.t;
     }
-    const BvhBlock& block = arrays.Block(leaf);
-    unsigned candidates = blockRay.Candidates(block, Limit(hit.t));
+    const BvhBlock& block = leaf.Block(arrays.lines.data());
+    unsigned candidates = blockRay.Candidates(block, limit);
     for (; candidates != 0; candidates &= candidates - 1) {
       const int lane = std::countr_zero(candidates);
-      const auto found = DecideTriangle(trace.triangle, hit.t, Vertex(block, 0, lane),
-                                        Vertex(block, 1, lane), Vertex(block, 2, lane));
-      if (found && Wins(found->t, kNoId, block.ids[lane], hit))
-        hit = {found->t, {found->b1, found->b2}, block.ids[lane], kNoId};
+      const auto found = DecideTriangle(trace.triangle, hit.t, CornersOf(block, lane));
+      if (!found || !Wins(found->t, kNoId, block.ids[lane], hit)) continue;
+      hit = {found->t, {found->b1, found->b2}, block.ids[lane], kNoId};
     }
     return hit.t;
   });
@@ -183,27 +253,28 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   if (!IsTraceable(ray)) return false;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  const auto isBlocked = [&](BvhChild leaf) {
+  const auto isBlocked = [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
     if (!leaf.IsTriangles()) {
       const std::uint32_t* list = arrays.others.data() + leaf.Index();
       for (std::uint32_t i = 1; i <= list[0]; ++i)
         if (primitives.Occludes(list[i], trace)) return true;
       return false;
     }
-    const BvhBlock& block = arrays.Block(leaf);
-    unsigned candidates = blockRay.Candidates(block, Limit(ray.tMax));
+    const BvhBlock& block = leaf.Block(arrays.lines.data());
+    unsigned candidates = blockRay.Candidates(block, limit);
     for (; candidates != 0; candidates &= candidates - 1) {
       const int lane = std::countr_zero(candidates);
-      const auto found = DecideTriangle(trace.triangle, ray.tMax, Vertex(block, 0, lane),
-                                        Vertex(block, 1, lane), Vertex(block, 2, lane));
+      const auto found = DecideTriangle(trace.triangle, ray.tMax, CornersOf(block, lane));
       if (found && found->t < ray.tMax) return true;
     }
     return false;
   };
   bool isOccluded = false;
-  Walk<true>(arrays, trace, [&](BvhChild leaf) {
-    isOccluded = isBlocked(leaf);
+  WalkAs<true>(arrays, trace, [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
+    isOccluded = isBlocked(leaf, limit);
     return isOccluded ? Real(-1) : ray.tMax;
   });
   return isOccluded;
 }
+
+#undef EXPHOTON_INLINE

@@ -15,11 +15,11 @@
 // From here on, and not for the headers above: an inline function of theirs that was compiled for
 // AVX-512 could replace the one that other files use.
 #if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx2,bmi,popcnt"))), \
-                             apply_to = function)
+#pragma clang attribute push( \
+    __attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma,bmi,popcnt"))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC target("avx512f,avx512vl,avx512dq,avx2,bmi,popcnt")
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx2,fma,bmi,popcnt")
 #endif
 
 namespace exphoton {
@@ -35,6 +35,7 @@ struct Real8 {
 inline Real8 operator+(Real8 a, Real8 b) { return {_mm256_add_ps(a.v, b.v)}; }
 inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
 inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
+inline Real8 MultiplyAdd(Real8 a, Real8 b, Real8 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
 inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline unsigned LessMask(Real8 a, Real8 b) { return _mm256_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }

@@ -24,9 +24,6 @@ struct Real8 {
     for (Real& lane : r.lanes) lane = x;
     return r;
   }
-  void Store(Real* row) const {
-    for (int i = 0; i < kBvhWidth; ++i) row[i] = lanes[i];
-  }
 };
 
 #define EXPHOTON_LANEWISE(name, expression)           \
@@ -44,6 +41,7 @@ EXPHOTON_LANEWISE(operator*, x* y)
 EXPHOTON_LANEWISE(Min, x < y ? x : y)  // the second where one is NaN
 EXPHOTON_LANEWISE(Max, x > y ? x : y)
 #undef EXPHOTON_LANEWISE
+inline Real8 MultiplyAdd(const Real8& a, const Real8& b, const Real8& c) { return a * b + c; }
 
 // A bit a lane where a < b; none for NaN.
 inline unsigned LessMask(const Real8& a, const Real8& b) {
@@ -88,7 +86,8 @@ const BvhTraversal kPortableTraversal{"portable", Intersect, Occluded};
 
 const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
 #if defined(EXPHOTON_BVH_AVX)
-  const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+  const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                       __builtin_cpu_supports("bmi");
   const bool hasAvx512 = hasAvx2 && __builtin_cpu_supports("avx512f") &&
                          __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
   if (widest >= BvhVectors::Widest && hasAvx512) return kAvx512Traversal;

@@ -12,14 +12,26 @@
 
 namespace exphoton {
 
+// The corners of a triangle: coordinate `axis` of vertex v lies at first[v * vertex + axis * step].
+// A type of its own, as a lambda of code for other instructions could not be inlined here.
+template <int kVertex, int kStep>
+struct TriangleCorners {
+  const Real* first;
+  Real operator()(int v, int axis) const { return first[v * kVertex + axis * kStep]; }
+};
+
 // Whether the plane of the triangle lies ahead of the ray's origin, beyond the rounding error of
 // that decision. In double, from the true vertices: a ray that starts outside the error box of a
 // point on this plane and leaves it is never sent back. `orientation` has the sign of the dot
 // product of normal and ray.
-inline bool PlaneIsAhead(const Point3& o, const Point3& p0, const Point3& p1, const Point3& p2,
-                         double orientation) {
-  const Vec3d a(p0);
-  const Vec3d e1 = Vec3d(p1) - a, e2 = Vec3d(p2) - a, toPlane = a - Vec3d(o);
+template <class Corner>
+[[gnu::always_inline]] inline bool PlaneIsAhead(const Point3& o, const Corner& corner,
+                                                double orientation) {
+  const auto vertex = [&](int v) -> Vec3d {
+    return {double(corner(v, 0)), double(corner(v, 1)), double(corner(v, 2))};
+  };
+  const Vec3d a = vertex(0);
+  const Vec3d e1 = vertex(1) - a, e2 = vertex(2) - a, toPlane = a - Vec3d(o);
   const Vec3d n = Cross(e1, e2);
   const double distance = Dot(n, toPlane);
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
@@ -31,30 +43,30 @@ inline bool PlaneIsAhead(const Point3& o, const Point3& p0, const Point3& p1, co
 }
 
 // IntersectTriangle for a ray that MissesTriangle has not excluded.
-inline std::optional<TriangleHit> DecideTriangle(const TriangleRay& ray, Real tMax,
-                                                 const Point3& p0, const Point3& p1,
-                                                 const Point3& p2) {
+template <class Corner>
+[[gnu::always_inline]] inline std::optional<TriangleHit> DecideTriangle(const TriangleRay& ray,
+                                                                        Real tMax,
+                                                                        const Corner& corner) {
   struct Sheared {
-    double x, y;
+    double x, y, z;  // z: only moved
   };
   const int kx = ray.kx, ky = ray.ky, kz = ray.kz;
-  const auto shear = [&](const Point3& p) -> Sheared {
-    const Real z = p[kz] - ray.o[kz];
-    const Real x = (p[kx] - ray.o[kx]) - ray.sx * z, y = (p[ky] - ray.o[ky]) - ray.sy * z;
-    return {double(x), double(y)};
+  const auto shear = [&](int v) -> Sheared {
+    const Real vertexZ = corner(v, kz), z = vertexZ - ray.oz;
+    const Real x = (corner(v, kx) - ray.ox) - ray.sx * z, y = (corner(v, ky) - ray.oy) - ray.sy * z;
+    return {double(x), double(y), double(vertexZ) - double(ray.oz)};
   };
-  const Sheared a = shear(p0), b = shear(p1), c = shear(p2);
+  const Sheared a = shear(0), b = shear(1), c = shear(2);
   const double du = c.x * b.y - c.y * b.x, dv = a.x * c.y - a.y * c.x, dw = b.x * a.y - b.y * a.x;
   if ((du < 0 || dv < 0 || dw < 0) && (du > 0 || dv > 0 || dw > 0)) return std::nullopt;
   const double determinant = du + dv + dw;
   if (!(std::abs(determinant) > 0)) return std::nullopt;  // edge-on, or NaN
 
-  const double oz = double(ray.o[kz]), inverse = 1 / determinant;
-  const double z =
-      du * (double(p0[kz]) - oz) + dv * (double(p1[kz]) - oz) + dw * (double(p2[kz]) - oz);
+  const double inverse = 1 / determinant;
+  const double z = du * a.z + dv * b.z + dw * c.z;
   const Real t = Real(z * inverse * double(ray.sz));
   if (!(t > 0 && t <= tMax && t < kInfinity)) return std::nullopt;
-  if (!PlaneIsAhead(ray.o, p0, p1, p2, -determinant * double(ray.sz))) return std::nullopt;
+  if (!PlaneIsAhead(ray.o, corner, -determinant * double(ray.sz))) return std::nullopt;
   return TriangleHit{t, Real(dv * inverse), Real(dw * inverse)};
 }
 

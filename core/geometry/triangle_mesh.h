@@ -14,9 +14,9 @@ namespace exphoton {
 struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> indices;
   std::vector<Point3> p;
-  std::vector<Normal3> n;   // empty or one a vertex; unit or 0 (0: use the geometric normal)
-  std::vector<Vector3> s;   // empty or one a vertex: shading tangents
-  std::vector<Point2> uv;   // empty or one a vertex; empty means (0,0) (1,0) (1,1)
+  std::vector<Normal3> n;  // empty or one a vertex; unit or 0 (0: use the geometric normal)
+  std::vector<Vector3> s;  // empty or one a vertex: shading tangents
+  std::vector<Point2> uv;  // empty or one a vertex; empty means (0,0) (1,0) (1,1)
   // The geometric normal is Cross(p1 - p0, p2 - p0), negated if this is set
   // (ReverseOrientation xor a transformation that swaps handedness).
   bool flipNormal = false;
@@ -30,10 +30,23 @@ struct TriangleMesh {
 // Intersection" (JCGT 2:1). The ray's share is computed once and serves all triangles.
 struct TriangleRay {
   Point3 o;
-  int kx, ky, kz;
+  int kx, ky, kz;   // kz: the axis along which the ray runs fastest
+  Real ox, oy, oz;  // origin along these
   Real sx, sy, sz;
 
-  explicit TriangleRay(const Ray& ray);
+  // Axes are looked up, not branched for: those of incoherent rays cannot be predicted.
+  explicit TriangleRay(const Ray& ray) : o(ray.o) {
+    constexpr int kNext[3] = {1, 2, 0};
+    const Real origin[3] = {o.x, o.y, o.z}, d[3] = {ray.d.x, ray.d.y, ray.d.z};
+    kz = MaxDimension(Abs(ray.d));
+    kx = kNext[kz];
+    ky = kNext[kx];
+    ox = origin[kx], oy = origin[ky], oz = origin[kz];
+    const Real dz = d[kz];
+    sz = dz == 0 ? std::numeric_limits<Real>::quiet_NaN() : 1 / dz;
+    sx = dz == 0 ? sz : d[kx] / dz;
+    sy = dz == 0 ? sz : d[ky] / dz;
+  }
 };
 
 struct TriangleHit {
@@ -46,7 +59,7 @@ inline bool MissesTriangle(const TriangleRay& ray, const Point3& p0, const Point
                            const Point3& p2) {
   const auto misses = [&]<int kz>() {
     constexpr int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
-    const Real ox = ray.o[kx], oy = ray.o[ky], oz = ray.o[kz];
+    const Real ox = ray.ox, oy = ray.oy, oz = ray.oz;
     const Real az = p0[kz] - oz, bz = p1[kz] - oz, cz = p2[kz] - oz;
     const Real ax = (p0[kx] - ox) - ray.sx * az, ay = (p0[ky] - oy) - ray.sy * az;
     const Real bx = (p1[kx] - ox) - ray.sx * bz, by = (p1[ky] - oy) - ray.sy * bz;

@@ -73,7 +73,8 @@ inline Vec3 Max(const Vec3& a, const Vec3& b) {
 }
 constexpr Real MaxComponent(const Vec3& a) { return std::max({a.x, a.y, a.z}); }
 constexpr int MaxDimension(const Vec3& a) {
-  return a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+  const bool isX = a.x > a.y;
+  return (isX ? a.x : a.y) > a.z ? int(!isX) : 2;  // without a branch
 }
 // n or -n, whichever is on v's side.
 constexpr Vec3 FaceForward(const Vec3& n, const Vec3& v) { return Dot(n, v) < 0 ? -n : n; }
