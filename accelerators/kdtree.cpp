@@ -12,14 +12,15 @@ namespace exphoton {
 namespace {
 
 struct Settings {
-  int intersectCost = 80, traversalCost = 1;
-  Real emptyBonus = Real(.5);
+  int intersectCost = 1, traversalCost = 2;
+  Real emptyBonus = Real(.2);
   int maxPrimitives = 1, maxDepth = -1;
 };
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      Param("intersectcost", &Settings::intersectCost, "assumed cost of testing a primitive")
+      Param("intersectcost", &Settings::intersectCost,
+            "assumed cost of testing up to eight triangles")
           .Range(1, 1000000),
       Param("traversalcost", &Settings::traversalCost, "assumed cost of a step in the tree")
           .Range(0, 1000000),
@@ -50,9 +51,13 @@ struct KdRay {
       const double d = double(ray.d[i]), size = std::abs(d);
       axis.o = double(ray.o[i]);
       axis.isBackward = d < 0;
-      axis.isParallel = size <= slope;
-      axis.first = std::copysign(1 / (size + slope), d);
-      axis.last = axis.isParallel ? 0 : std::copysign(1 / (size - slope), d);
+      axis.isParallel = size <= 2 * slope;
+      // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
+      const double inverse = 1 / (axis.isParallel ? slope : size), x = slope * inverse;
+      constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+      axis.first =
+          std::copysign(axis.isParallel ? inverse * .33 : inverse * (1 - x - kRounding), d);
+      axis.last = axis.isParallel ? 0 : std::copysign(inverse * (1 + 2 * x + kRounding), d);
     }
   }
 };
@@ -91,10 +96,10 @@ class KdTree final : public Aggregate {
     hit.t = ray.tMax;
     const TraceRay trace(ray);
     Walk(ray, [&](const KdNode& leaf) {
-      ForEach(leaf, [&](std::uint32_t id) {
-        if (!primitives_.Misses(id, trace)) primitives_.Intersect(id, trace, &hit);
-        return false;
-      });
+      test_.intersectBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), trace.triangle,
+                            &hit);
+      if (leaf.HasOthers())
+        for (std::uint32_t id : Others(leaf)) primitives_.Intersect(id, trace, &hit);
       return double(hit.t);
     });
     return hit;
@@ -105,28 +110,25 @@ class KdTree final : public Aggregate {
     const TraceRay trace(ray);
     bool isOccluded = false;
     Walk(ray, [&](const KdNode& leaf) {
-      isOccluded = ForEach(leaf, [&](std::uint32_t id) {
-        return !primitives_.Misses(id, trace) && primitives_.Occludes(id, trace);
-      });
+      isOccluded =
+          test_.occludedByBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), trace);
+      if (!isOccluded && leaf.HasOthers())
+        for (std::uint32_t id : Others(leaf)) isOccluded |= primitives_.Occludes(id, trace);
       return isOccluded ? -1.0 : double(ray.tMax);
     });
     return isOccluded;
   }
 
   std::size_t MemoryBytes() const override {
-    return arrays_.nodes.size() * sizeof(KdNode) + arrays_.entries.size() * sizeof(std::uint32_t);
+    return arrays_.nodes.size() * sizeof(KdNode) + arrays_.blocks.size() * sizeof(BvhBlock) +
+           arrays_.entries.size() * sizeof(std::uint32_t);
   }
 
  private:
-  // Calls visit(id) for the entries of a leaf until one says true.
-  template <class Visit>
-  bool ForEach(const KdNode& leaf, Visit&& visit) const {
-    const std::uint32_t count = leaf.High();
-    if (count == 1) return visit(leaf.offset);
-    const std::uint32_t* entry = arrays_.entries.data() + leaf.offset;
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (visit(entry[i])) return true;
-    return false;
+  std::span<const std::uint32_t> Others(const KdNode& leaf) const {
+    const auto number = std::uint32_t(&leaf - arrays_.nodes.data());
+    const std::uint32_t* list = arrays_.entries.data() + arrays_.others.at(number);
+    return {list + 1, list[0]};
   }
 
   // Visits the leaves along the ray, roughly from front to back. visit(leaf) returns the t beyond
@@ -152,7 +154,7 @@ class KdTree final : public Aggregate {
       if (!node.IsLeaf()) {
         const KdRay::Axis& axis = ray.axes[node.Axis()];
         const double toPlane = double(node.split) - axis.o;
-        std::uint32_t near = index + 1, far = node.High();
+        std::uint32_t near = index + 1, far = node.Above();
         double nearEnd = toPlane * axis.last, farBegin = toPlane * axis.first;
         if (axis.isParallel) [[unlikely]] {
           if (toPlane < 0) std::swap(near, far);
@@ -174,7 +176,7 @@ class KdTree final : public Aggregate {
         }
         continue;
       }
-      if (node.High() > 0) limit = visit(node);
+      if (node.Blocks() > 0 || node.HasOthers()) limit = visit(node);
       do {
         if (depth == 0) return;
         --depth;
@@ -186,6 +188,7 @@ class KdTree final : public Aggregate {
 
   const PrimitiveSet& primitives_;
   KdArrays arrays_;
+  const BvhTraversal& test_ = FastestTraversal(BvhVectors::Widest);
 };
 
 std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorContext& context) {

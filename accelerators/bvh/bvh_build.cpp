@@ -7,6 +7,7 @@
 #include <new>
 
 #include "accelerators/bvh/binned_split.h"
+#include "accelerators/bvh/block_test.h"
 #include "accelerators/bvh/child_order.h"
 #include "core/base/error.h"
 
@@ -175,17 +176,14 @@ class Builder {
     // Lower ids first: of equal hits the first found stays.
     std::sort(run.items.begin(), run.items.end(),
               [](const BvhItem& a, const BvhItem& b) { return a.id < b.id; });
-    BvhBlock block{};
+    std::array<std::uint32_t, kBvhWidth> ids;
     double area = 0;
-    for (int lane = 0; lane < kBvhWidth; ++lane) {
-      const bool isThere = std::size_t(lane) < run.items.size();
-      block.ids[lane] = isThere ? run.items[lane].id : kNoId;
-      if (!isThere) continue;
-      const auto& vertices = primitives_.TriangleVertices(run.items[lane].id);
-      area += double(Length(Cross(vertices[1] - vertices[0], vertices[2] - vertices[0]))) / 2;
-      for (int v = 0; v < 3; ++v)
-        for (int axis = 0; axis < 3; ++axis) block.vertices[v][axis][lane] = vertices[v][axis];
+    for (std::size_t i = 0; i < run.items.size(); ++i) {
+      ids[i] = run.items[i].id;
+      const auto& v = primitives_.TriangleVertices(ids[i]);
+      area += double(Length(Cross(v[1] - v[0], v[2] - v[0]))) / 2;
     }
+    const BvhBlock block = MakeBlock(primitives_, std::span(ids).first(run.items.size()));
     const BvhChild self(BvhChild::Kind::Triangles, NewLines(kBvhBlockLines));
     new (&arrays_.lines[self.Index()]) BvhBlock(block);
     // A line that meets a convex body of surface 2 h meets a flat piece in it with 2 area / (2 h).
@@ -199,6 +197,18 @@ class Builder {
 };
 
 }  // namespace
+
+BvhBlock MakeBlock(const PrimitiveSet& primitives, std::span<const std::uint32_t> ids) {
+  BvhBlock block{};
+  for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+    block.ids[lane] = lane < ids.size() ? ids[lane] : kNoId;
+    if (lane >= ids.size()) continue;
+    const auto& vertices = primitives.TriangleVertices(ids[lane]);
+    for (int v = 0; v < 3; ++v)
+      for (int axis = 0; axis < 3; ++axis) block.vertices[v][axis][lane] = vertices[v][axis];
+  }
+  return block;
+}
 
 BvhArrays BuildBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles) {
   return Builder(primitives, std::min(maxLeafTriangles, std::uint32_t(kBvhWidth))).Build();

@@ -12,6 +12,11 @@ struct BvhTraversal {
   const char* name;
   Hit (*intersect)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   bool (*occluded)(const BvhArrays&, const PrimitiveSet&, const Ray&);
+  // The leaf test by itself, of `count` blocks, for other accelerators: replaces *hit where nearer
+  // (or as near with a lower id); whether any triangle blocks the ray.
+  void (*intersectBlocks)(const BvhBlock* blocks, std::uint32_t count, const TriangleRay&,
+                          Hit* hit);
+  bool (*occludedByBlocks)(const BvhBlock* blocks, std::uint32_t count, const TraceRay&);
 };
 
 extern const BvhTraversal kPortableTraversal;

@@ -224,6 +224,30 @@ template <bool kIsAny, class Visit>
   }
 }
 
+// Tests a block; replaces *hit where a triangle of it wins.
+[[gnu::always_inline]] inline void IntersectBlock(const BvhBlock& block, const BlockRay& blockRay,
+                                                  const TriangleRay& ray, Real8 limit, Hit* hit) {
+  unsigned candidates = blockRay.Candidates(block, limit);
+  for (; candidates != 0; candidates &= candidates - 1) {
+    const int lane = std::countr_zero(candidates);
+    const auto found = DecideTriangle(ray, hit->t, CornersOf(block, lane));
+    if (found && Wins(found->t, kNoId, block.ids[lane], *hit))
+      *hit = {found->t, {found->b1, found->b2}, block.ids[lane], kNoId};
+  }
+}
+
+[[gnu::always_inline]] inline bool IsBlockedBy(const BvhBlock& block, const BlockRay& blockRay,
+                                               const TraceRay& trace, Real8 limit) {
+  const Real tMax = trace.ray.tMax;
+  unsigned candidates = blockRay.Candidates(block, limit);
+  for (; candidates != 0; candidates &= candidates - 1) {
+    const int lane = std::countr_zero(candidates);
+    const auto found = DecideTriangle(trace.triangle, tMax, CornersOf(block, lane));
+    if (found && found->t < tMax) return true;
+  }
+  return false;
+}
+
 Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
   Hit hit;
   if (!IsTraceable(ray)) return hit;
@@ -231,19 +255,12 @@ Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
   WalkAs<false>(arrays, trace, [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
-    if (!leaf.IsTriangles()) {
-      const std::uint32_t* list = arrays.others.data() + leaf.Index();
-      for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
+    if (leaf.IsTriangles()) {
+      IntersectBlock(leaf.Block(arrays.lines.data()), blockRay, trace.triangle, limit, &hit);
       return hit.t;
     }
-    const BvhBlock& block = leaf.Block(arrays.lines.data());
-    unsigned candidates = blockRay.Candidates(block, limit);
-    for (; candidates != 0; candidates &= candidates - 1) {
-      const int lane = std::countr_zero(candidates);
-      const auto found = DecideTriangle(trace.triangle, hit.t, CornersOf(block, lane));
-      if (!found || !Wins(found->t, kNoId, block.ids[lane], hit)) continue;
-      hit = {found->t, {found->b1, found->b2}, block.ids[lane], kNoId};
-    }
+    const std::uint32_t* list = arrays.others.data() + leaf.Index();
+    for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
     return hit.t;
   });
   return hit;
@@ -253,28 +270,32 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   if (!IsTraceable(ray)) return false;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  const auto isBlocked = [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
-    if (!leaf.IsTriangles()) {
-      const std::uint32_t* list = arrays.others.data() + leaf.Index();
-      for (std::uint32_t i = 1; i <= list[0]; ++i)
-        if (primitives.Occludes(list[i], trace)) return true;
-      return false;
-    }
-    const BvhBlock& block = leaf.Block(arrays.lines.data());
-    unsigned candidates = blockRay.Candidates(block, limit);
-    for (; candidates != 0; candidates &= candidates - 1) {
-      const int lane = std::countr_zero(candidates);
-      const auto found = DecideTriangle(trace.triangle, ray.tMax, CornersOf(block, lane));
-      if (found && found->t < ray.tMax) return true;
-    }
-    return false;
-  };
   bool isOccluded = false;
   WalkAs<true>(arrays, trace, [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
-    isOccluded = isBlocked(leaf, limit);
+    if (leaf.IsTriangles()) {
+      isOccluded = IsBlockedBy(leaf.Block(arrays.lines.data()), blockRay, trace, limit);
+    } else {
+      const std::uint32_t* list = arrays.others.data() + leaf.Index();
+      for (std::uint32_t i = 1; i <= list[0] && !isOccluded; ++i)
+        isOccluded = primitives.Occludes(list[i], trace);
+    }
     return isOccluded ? Real(-1) : ray.tMax;
   });
   return isOccluded;
+}
+
+void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const TriangleRay& ray, Hit* hit) {
+  const BlockRay blockRay(ray);
+  for (std::uint32_t i = 0; i < count; ++i)
+    IntersectBlock(blocks[i], blockRay, ray, Limit(hit->t), hit);
+}
+
+bool OccludedByBlocks(const BvhBlock* blocks, std::uint32_t count, const TraceRay& trace) {
+  const BlockRay blockRay(trace.triangle);
+  const Real8 limit = Limit(trace.ray.tMax);
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (IsBlockedBy(blocks[i], blockRay, trace, limit)) return true;
+  return false;
 }
 
 #undef EXPHOTON_INLINE

@@ -90,7 +90,7 @@ class PushOrder {
 
 }  // namespace
 
-const BvhTraversal kAvx2Traversal{"AVX2", Intersect, Occluded};
+const BvhTraversal kAvx2Traversal{"AVX2", Intersect, Occluded, IntersectBlocks, OccludedByBlocks};
 
 }  // namespace exphoton
 

@@ -77,7 +77,8 @@ class PushOrder {
 
 }  // namespace
 
-const BvhTraversal kAvx512Traversal{"AVX-512", Intersect, Occluded};
+const BvhTraversal kAvx512Traversal{"AVX-512", Intersect, Occluded, IntersectBlocks,
+                                    OccludedByBlocks};
 
 }  // namespace exphoton
 

@@ -53,6 +53,7 @@ class Builder {
       Cell(std::move(items), arrays_.bounds, {costs_.maxDepth, 0, budget});
     }
     arrays_.nodes.shrink_to_fit();
+    arrays_.blocks.shrink_to_fit();
     arrays_.entries.shrink_to_fit();
     return std::move(arrays_);
   }
@@ -68,7 +69,7 @@ class Builder {
   void Cell(std::vector<KdItem> items, const Bounds3& cell, Limits limits) {
     if (items.size() <= costs_.maxPrimitives || limits.depth <= 0) return Leaf(items);
     const KdSplit split = FindKdSplit(items, cell, costs_);
-    const double leafCost = costs_.intersect * double(items.size());
+    const double leafCost = costs_.intersect * KdBlocks(items.size());
     if (split.axis < 0) return Leaf(items);
     if (split.cost >= leafCost) {
       // Worse at first may be better later, but only in small cells and within reason.
@@ -130,16 +131,25 @@ class Builder {
 
   void Leaf(const std::vector<KdItem>& items) {
     const std::uint32_t index = NewNode();
-    if (items.size() >= (std::size_t(1) << 30) ||
-        arrays_.entries.size() + items.size() >= (std::size_t(1) << 32))
-      throw Error(ExitStatus::Resource, "the kd-tree has more than 2^32 entries");
-    if (items.size() == 1) {
-      arrays_.nodes[index] = KdNode::Leaf(items[0].id, 1);
-      return;
+    std::vector<std::uint32_t> triangles, others;
+    for (const KdItem& item : items)
+      (item.id < primitives_.TriangleCount() ? triangles : others).push_back(item.id);
+    const std::size_t first = arrays_.blocks.size();
+    for (std::size_t i = 0; i < triangles.size(); i += kBvhWidth) {
+      const std::size_t count = std::min(triangles.size() - i, std::size_t(kBvhWidth));
+      arrays_.blocks.push_back(MakeBlock(primitives_, std::span(triangles).subspan(i, count)));
     }
+    const std::size_t blocks = arrays_.blocks.size() - first;
+    if (blocks >= (std::size_t(1) << 29) || arrays_.blocks.size() >= (std::size_t(1) << 32))
+      throw Error(ExitStatus::Resource, "the kd-tree has more than 2^32 blocks of triangles");
     arrays_.nodes[index] =
-        KdNode::Leaf(std::uint32_t(arrays_.entries.size()), std::uint32_t(items.size()));
-    for (const KdItem& item : items) arrays_.entries.push_back(item.id);
+        KdNode::Leaf(std::uint32_t(first), std::uint32_t(blocks), !others.empty());
+    if (others.empty()) return;
+    if (arrays_.entries.size() + others.size() >= (std::size_t(1) << 32) - 1)
+      throw Error(ExitStatus::Resource, "the kd-tree has more than 2^32 entries");
+    arrays_.others[index] = std::uint32_t(arrays_.entries.size());
+    arrays_.entries.push_back(std::uint32_t(others.size()));
+    arrays_.entries.insert(arrays_.entries.end(), others.begin(), others.end());
   }
 
   const PrimitiveSet& primitives_;

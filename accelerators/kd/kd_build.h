@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
+#include "accelerators/bvh/block_test.h"
 #include "core/scene/primitive.h"
 
 namespace exphoton {
@@ -15,24 +17,31 @@ struct KdNode {  // 8 bytes; the child below the plane follows its parent
   static constexpr std::uint32_t kLeaf = 3;
   union {
     float split;           // inner: position of the plane
-    std::uint32_t offset;  // leaf: of its first entry; with one entry, that entry itself
+    std::uint32_t offset;  // leaf: of its first block
   };
-  std::uint32_t bits;  // two low bits: axis or kLeaf; above them: child above the plane, or count
+  std::uint32_t bits;  // two low bits: axis or kLeaf; above them: child above the plane, or, of a
+                       // leaf, blocks and whether others follow
 
-  static KdNode Leaf(std::uint32_t offset, std::uint32_t count) {
+  static KdNode Leaf(std::uint32_t firstBlock, std::uint32_t blocks, bool hasOthers) {
     KdNode node;
-    node.offset = offset;
-    node.bits = count << 2 | kLeaf;
+    node.offset = firstBlock;
+    node.bits = blocks << 3 | std::uint32_t(hasOthers) << 2 | kLeaf;
     return node;
   }
   bool IsLeaf() const { return (bits & 3) == kLeaf; }
   int Axis() const { return int(bits & 3); }
-  std::uint32_t High() const { return bits >> 2; }  // child above, or count
+  std::uint32_t Above() const { return bits >> 2; }   // inner: child above the plane
+  std::uint32_t Blocks() const { return bits >> 3; }  // leaf: how many
+  bool HasOthers() const { return bits & 4; }         // leaf: shapes or instances in it
 };
 static_assert(sizeof(KdNode) == 8);
 
+// What a cell of so many primitives costs to test, in tests of a block: leaves are tested by
+// eights.
+inline double KdBlocks(std::size_t count) { return double((count + kBvhWidth - 1) / kBvhWidth); }
+
 struct KdCosts {
-  double intersect = 80, traverse = 1;
+  double intersect = 80, traverse = 1;  // of a block, of a step
   double emptyBonus = 0.5;
   std::uint32_t maxPrimitives = 1;
   int maxDepth = 0;
@@ -45,9 +54,13 @@ inline constexpr int kKdMaxDepth = 60;  // the traversal's stack holds as many
 inline constexpr Real kKdMargin = Gamma(16);
 
 struct KdArrays {
-  std::vector<KdNode> nodes;           // [0] is the root; empty for an empty set
-  std::vector<std::uint32_t> entries;  // primitive ids
-  Bounds3 bounds;                      // with margins
+  LargeVector<KdNode> nodes;     // [0] is the root; empty for an empty set
+  LargeVector<BvhBlock> blocks;  // the triangles of leaves, eight at a time
+  // Of a leaf that has shapes or instances: a count and as many ids, at `others` of its node
+  // number.
+  std::vector<std::uint32_t> entries;
+  std::unordered_map<std::uint32_t, std::uint32_t> others;
+  Bounds3 bounds;  // with margins
 };
 KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdCosts& costs);
 

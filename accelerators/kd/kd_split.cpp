@@ -27,7 +27,7 @@ class SplitCost {
     const double pAbove = (ends_ + perLength_ * (low_ + length_ - position)) * inverseArea_;
     const double bonus = below == 0 || above == 0 ? 1 - costs_.emptyBonus : 1;
     const double cost = costs_.traverse + costs_.intersect * bonus *
-                                              (pBelow * double(below) + pAbove * double(above));
+                                              (pBelow * KdBlocks(below) + pAbove * KdBlocks(above));
     if (best->axis < 0 || cost < best->cost) *best = {axis_, float(position), cost};
   }
 
