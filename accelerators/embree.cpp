@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// embree: Intel's ray tracing kernels (version 3) as an accelerator. Embree proposes triangles, in
+// its own rounding; each is decided by the core's test, as for the other accelerators, so that a
+// ray never meets the surface that it leaves. Shapes and instances are Embree's user geometry. Hits
+// may differ from those of the other accelerators where a ray touches an edge of a box, or two
+// surfaces lie at the same distance. Needs the library when the program is built.
+#include "core/plugin.h"
+
+#if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#endif
+
+namespace exphoton {
+namespace {
+
+struct Settings {
+  bool isRobust = true;
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{
+      Param("robust", &Settings::isRobust, "Embree's flag: no ray slips between two triangles")};
+  return table;
+}
+
+#if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)
+
+// What the callbacks need of the ray that is traced; Embree hands its first member to them.
+struct Query {
+  RTCIntersectContext context;
+  const PrimitiveSet& primitives;
+  const TraceRay trace;
+  Hit hit;
+
+  Query(const PrimitiveSet& set, const Ray& ray) : primitives(set), trace(ray) {
+    rtcInitIntersectContext(&context);
+    hit.t = ray.tMax;
+  }
+  static Query& Of(RTCIntersectContext* context) { return *reinterpret_cast<Query*>(context); }
+
+  // Whether primitive `id` is the nearest so far; the hit is kept if so.
+  bool Improves(std::uint32_t id) {
+    const Hit before = hit;
+    primitives.Intersect(id, trace, &hit);
+    return hit.primitive != before.primitive || hit.instance != before.instance ||
+           hit.t != before.t;
+  }
+};
+
+// Embree asks whether a triangle that it has hit counts.
+void FilterClosest(const RTCFilterFunctionNArguments* arguments) {
+  const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+  if (!Query::Of(arguments->context).Improves(hit->primID)) arguments->valid[0] = 0;
+}
+void FilterAny(const RTCFilterFunctionNArguments* arguments) {
+  const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+  const Query& query = Query::Of(arguments->context);
+  if (!query.primitives.Occludes(hit->primID, query.trace)) arguments->valid[0] = 0;
+}
+
+// User geometry: what follows the triangles in the set's numbering.
+void OtherBounds(const RTCBoundsFunctionArguments* arguments) {
+  const auto& set = *static_cast<const PrimitiveSet*>(arguments->geometryUserPtr);
+  const Bounds3 bounds = set.Bounds(set.TriangleCount() + arguments->primID);
+  RTCBounds& out = *arguments->bounds_o;
+  out = {1, 1, 1, 0, -1, -1, -1, 0};  // an instance of nothing: empty, and left out
+  if (bounds.IsEmpty()) return;
+  // Rounding in a test shifts a hit by less than this part of the primitive's size.
+  const Real margin = Gamma(16) * MaxComponent(bounds.Diagonal());
+  out.lower_x = NextDown(bounds.min.x - margin), out.upper_x = NextUp(bounds.max.x + margin);
+  out.lower_y = NextDown(bounds.min.y - margin), out.upper_y = NextUp(bounds.max.y + margin);
+  out.lower_z = NextDown(bounds.min.z - margin), out.upper_z = NextUp(bounds.max.z + margin);
+}
+void OtherClosest(const RTCIntersectFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  Query& query = Query::Of(arguments->context);
+  auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  if (!query.Improves(query.primitives.TriangleCount() + arguments->primID)) return;
+  rayHit.ray.tfar = query.hit.t;
+  rayHit.hit.geomID = arguments->geomID;
+  rayHit.hit.primID = arguments->primID;
+}
+void OtherAny(const RTCOccludedFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  const Query& query = Query::Of(arguments->context);
+  auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+  if (query.primitives.Occludes(query.primitives.TriangleCount() + arguments->primID, query.trace))
+    ray.tfar = -std::numeric_limits<float>::infinity();
+}
+
+RTCRay Converted(const Ray& ray) {
+  RTCRay r;
+  r.org_x = ray.o.x, r.org_y = ray.o.y, r.org_z = ray.o.z;
+  r.dir_x = ray.d.x, r.dir_y = ray.d.y, r.dir_z = ray.d.z;
+  r.tnear = 0, r.tfar = ray.tMax;
+  r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
+  return r;
+}
+
+class EmbreeAccelerator final : public Aggregate {
+ public:
+  EmbreeAccelerator(const PrimitiveSet& primitives, const Settings& settings)
+      : primitives_(primitives), device_(rtcNewDevice("threads=1")) {  // the same tree every time
+    if (!device_) throw Error(ExitStatus::Resource, "Embree cannot start");
+    rtcSetDeviceMemoryMonitorFunction(device_, CountBytes, &bytes_);
+    scene_ = rtcNewScene(device_);
+    rtcSetSceneFlags(scene_, settings.isRobust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    AddTriangles();
+    AddOthers();
+    rtcCommitScene(scene_);
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) {
+      Release();
+      throw Error(ExitStatus::Resource, "Embree cannot build its structure (out of memory?)");
+    }
+  }
+  ~EmbreeAccelerator() override { Release(); }
+
+  Hit Intersect(const Ray& ray) const override {
+    if (!IsTraceable(ray)) return {};
+    Query query(primitives_, ray);
+    RTCRayHit rayHit;
+    rayHit.ray = Converted(ray);
+    rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &query.context, &rayHit);
+    return query.hit.IsHit() ? query.hit : Hit();
+  }
+  bool Occluded(const Ray& ray) const override {
+    if (!IsTraceable(ray)) return false;
+    Query query(primitives_, ray);
+    RTCRay r = Converted(ray);
+    rtcOccluded1(scene_, &query.context, &r);
+    return r.tfar < 0;
+  }
+  std::size_t MemoryBytes() const override { return std::size_t(std::max(bytes_.load(), 0l)); }
+
+ private:
+  static bool CountBytes(void* sum, ssize_t bytes, bool) {
+    *static_cast<std::atomic<long>*>(sum) += bytes;
+    return true;
+  }
+
+  void AddTriangles() {
+    const std::size_t count = primitives_.TriangleCount();
+    if (count == 0) return;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * count));
+    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
+    for (std::uint32_t id = 0; vertex && index && id < count; ++id) {
+      const auto& corners = primitives_.TriangleVertices(id);
+      for (unsigned v = 0; v < 3; ++v) {
+        *index++ = 3 * id + v;
+        for (int axis = 0; axis < 3; ++axis) *vertex++ = corners[v][axis];
+      }
+    }
+    rtcSetGeometryIntersectFilterFunction(geometry, FilterClosest);
+    rtcSetGeometryOccludedFilterFunction(geometry, FilterAny);
+    Attach(geometry);
+  }
+
+  void AddOthers() {
+    const std::uint32_t count = primitives_.Count() - primitives_.TriangleCount();
+    if (count == 0) return;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, count);
+    rtcSetGeometryUserData(geometry, const_cast<PrimitiveSet*>(&primitives_));
+    rtcSetGeometryBoundsFunction(geometry, OtherBounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, OtherClosest);
+    rtcSetGeometryOccludedFunction(geometry, OtherAny);
+    Attach(geometry);
+  }
+
+  void Attach(RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  void Release() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+
+  const PrimitiveSet& primitives_;
+  std::atomic<long> bytes_ = 0;
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorContext& context) {
+  return std::make_unique<EmbreeAccelerator>(context.primitives, settings);
+}
+
+#else
+
+std::unique_ptr<Aggregate> Create(const Settings&, const AcceleratorContext&) {
+  throw Error(ExitStatus::Scene,
+              "this program was built without Embree: install libembree-dev and build it again, or "
+              "use Accelerator \"bvh\"");
+}
+
+#endif
+
+}  // namespace
+}  // namespace exphoton
+
+EXPHOTON_PLUGIN("embree", "Intel's Embree, where the program was built with it",
+                exphoton::MakeForm<exphoton::PluginKind::Accelerator>(exphoton::Parameters(),
+                                                                      exphoton::Create))

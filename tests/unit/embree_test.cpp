@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Accelerator "embree" gives the hits of the other accelerators but for the few rays that touch an
+// edge, and says what to do where the program was built without the library.
+#include <gtest/gtest.h>
+
+#include "core/scene/aggregate.h"
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+#if defined(EXPHOTON_EMBREE)
+
+// Compares with brute force for rays between random places, which rarely touch an edge.
+void ExpectTheSameHits(const PrimitiveSet& set, std::uint64_t seed) {
+  TestPlugins plugins;
+  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", set);
+  const auto tested = plugins.MakeAccelerator(R"("embree")", set);
+  RandomStream random(seed);
+  const Bounds3 world = set.WorldBounds();
+  const auto place = [&] {
+    const Vector3 part(random.Uniform(), random.Uniform(), random.Uniform()),
+        size = world.Diagonal();
+    return world.min + Vector3(part.x * size.x, part.y * size.y, part.z * size.z);
+  };
+  constexpr int kRays = 2000;
+  int hits = 0, differing = 0;
+  for (int i = 0; i < kRays; ++i) {
+    Ray ray;
+    ray.o = place();
+    ray.d = place() - ray.o;
+    if (i % 4 == 0) ray.tMax = 2 * random.Uniform();
+    const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+    hits += expected.IsHit();
+    differing +=
+        expected.IsHit() != found.IsHit() || oracle->Occluded(ray) != tested->Occluded(ray);
+    if (!expected.IsHit() || !found.IsHit()) continue;
+    differing += !(std::abs(found.t - expected.t) <= Real(1e-5) * expected.t);
+    // Of two surfaces at one distance either may be found; of one its parameters are the same.
+    if (found.primitive == expected.primitive && found.instance == expected.instance)
+      EXPECT_EQ(found.uv, expected.uv);
+  }
+  EXPECT_GT(hits, 0);
+  EXPECT_LE(differing, 4) << "of " << kRays;
+}
+
+TEST(Embree, FindsTheHitsOfBruteForceOnTriangles) {
+  for (const std::uint64_t seed : {3, 4, 5}) {
+    TriangleList triangles = SphereTriangles({0, 0, 0}, 20, 30);
+    const TriangleList box = BoxTriangles({-2, -2, -2}, {2, 2, 2});
+    triangles.insert(triangles.end(), box.begin(), box.end());
+    ExpectTheSameHits(*TriangleSet(triangles), seed);
+  }
+}
+
+TEST(Embree, FindsTheHitsOfBruteForceOnShapesAndInstances) {
+  TestPlugins plugins;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const ShapesAndInstances scene(plugins, R"("bvh")", seed);
+    ExpectTheSameHits(scene.Set(), seed);
+  }
+}
+
+TEST(Embree, NeverMeetsTheSurfaceThatARayLeaves) {
+  TestPlugins plugins;
+  const auto set = TriangleSet(SphereTriangles({1, 2, 3}, 40, 60));
+  const auto tested = plugins.MakeAccelerator(R"("embree")", *set);
+  RandomStream random(9);
+  for (int i = 0; i < 5000; ++i) {
+    Ray ray;
+    ray.o = {1, 2, 3};
+    ray.d = RandomVector(random);
+    const Hit hit = tested->Intersect(ray);
+    ASSERT_TRUE(hit.IsHit());
+    const SurfacePoint point = set->Point(ray, hit);
+    // Away from a convex body there is nothing; whatever slips back in is on the first surface.
+    EXPECT_FALSE(tested->Occluded(SpawnRay(point, ray.d)));
+  }
+}
+
+TEST(Embree, IsRightForNothingAndForRaysThatAreNone) {
+  TestPlugins plugins;
+  const auto nothing = TriangleSet({});
+  const auto empty = plugins.MakeAccelerator(R"("embree")", *nothing);
+  Ray ray;
+  ray.d = {0, 0, 1};
+  EXPECT_FALSE(empty->Intersect(ray).IsHit());
+  EXPECT_FALSE(empty->Occluded(ray));
+  const auto box = TriangleSet(BoxTriangles({-1, -1, -1}, {1, 1, 1}));
+  const auto tested = plugins.MakeAccelerator(R"("embree")", *box);
+  EXPECT_TRUE(tested->Intersect(ray).IsHit());
+  ray.d = {};
+  EXPECT_FALSE(tested->Intersect(ray).IsHit());
+  EXPECT_FALSE(tested->Occluded(ray));
+}
+
+#else
+
+TEST(Embree, SaysHowToGetItWhereItIsMissing) {
+  TestPlugins plugins;
+  const auto set = TriangleSet(BoxTriangles({-1, -1, -1}, {1, 1, 1}));
+  try {
+    plugins.MakeAccelerator(R"("embree")", *set);
+    FAIL() << "made something";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("libembree-dev"), std::string::npos) << error.what();
+  }
+}
+
+#endif
+
+}  // namespace
+}  // namespace exphoton
