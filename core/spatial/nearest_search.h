@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/spatial/box_tree.h"
+#include "core/spatial/near_grid.h"
 
 namespace exphoton {
 
@@ -20,6 +21,7 @@ struct PointTreeView {
   // Area round each run of kSpacingPoints points, by the squared radius, in which one point is to
   // be expected: only how long a search takes depends on it. May be null.
   const Real* spacing2 = nullptr;
+  const NearGrid* grid = nullptr;  // for the closest; may be null
 
   static constexpr std::uint32_t kSpacingPoints = 64;
 };
@@ -74,6 +76,8 @@ struct ClosestPoint {
 
 struct NearestSearch {
   const char* name;
+  // A block near p, for a view with points.
+  std::uint32_t (*blockNear)(const PointTreeView&, const Point3& p);
   // The k nearest.
   NearPoints (*nearest)(const PointTreeView&, const NearestQuery&, const NearBuffer&);
   // The nearest disk with an agreeing normal that reaches p. The view's blocks are DiskBlocks.

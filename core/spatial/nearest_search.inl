@@ -20,8 +20,8 @@ inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
   return dx * dx + dy * dy + dz * dz;
 }
 
-// The direction of each point dotted with n: times a positive length if kLong.
-inline Real16 DirectionCosine(const PointBlock& block, const Place16& n, Real16* length2) {
+// The direction of each point, some length long, dotted with n.
+inline Real16 DotDirection(const PointBlock& block, const Place16& n, Real16* length2) {
   Real16 a, b;
   LoadOctahedral(block.direction, &a, &b);
   const Real16 z = Real16::All(kOctahedralOne) - Abs(a) - Abs(b);
@@ -50,6 +50,10 @@ inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
   return node;
 }
 
+inline std::uint32_t FindBlockNear(const PointTreeView& view, const Point3& p) {
+  return BlockNear(view, Place16(p));
+}
+
 // Candidates by ascending index, cut back to the k nearest when there is no more room.
 class Candidates {
  public:
@@ -64,17 +68,20 @@ class Candidates {
   std::size_t Count() const { return count_; }
 
   void Offer(Real16 distance2, unsigned mask, std::uint32_t firstIndex) {
-    AppendLanes(distance2, firstIndex, mask, distance2_ + count_, index_ + count_);
-    count_ += unsigned(__builtin_popcount(mask));
+    count_ += AppendLanes(distance2, firstIndex, mask, distance2_ + count_, index_ + count_);
     if (count_ > room_) Cut();
   }
 
   NearPoints Finish() {
     if (count_ > k_) Cut();
-    NearPoints found{{distance2_, count_}, {index_, count_}, 0};
-    for (std::size_t i = 1; i < count_; ++i)
-      if (distance2_[i] >= distance2_[found.farthest]) found.farthest = i;
-    return found;
+    if (count_ == 0) return {};
+    PadToVector();
+    const Real16 farthest = Real16::All(LargestWithin(kLargest));
+    std::size_t last = (count_ - 1) / kBlockPoints * kBlockPoints;
+    unsigned equal;
+    while ((equal = EqualMask(Real16::LoadUnaligned(distance2_ + last), farthest)) == 0)
+      last -= kBlockPoints;
+    return {{distance2_, count_}, {index_, count_}, last + 31 - unsigned(__builtin_clz(equal))};
   }
 
  private:
@@ -82,10 +89,11 @@ class Candidates {
     std::size_t within = 0;
     const Real16 pivot = Real16::All(pivot2);
     for (std::size_t i = 0; i < count_; i += kBlockPoints)
-      within += unsigned(
-          __builtin_popcount(LessEqualMask(Real16::LoadUnaligned(distance2_ + i), pivot)));
+      within += CountLessEqual(Real16::LoadUnaligned(distance2_ + i), pivot);
     return within;
   }
+  // Infinite distances, so that all can be read as whole vectors.
+  void PadToVector() { Real16::All(kInfinity).StoreUnaligned(distance2_ + count_); }
 
   // The squared distance of the k-th nearest, of more than k. Squared distances are spread about
   // evenly on a surface, so pivots are interpolated; what they leave is sorted.
@@ -111,16 +119,19 @@ class Candidates {
   }
 
   Real LargestWithin(Real pivot2) const {
-    Real largest2 = 0;
-    for (std::size_t i = 0; i < count_; ++i)
-      largest2 = distance2_[i] <= pivot2 && distance2_[i] > largest2 ? distance2_[i] : largest2;
-    return largest2;
+    const Real16 pivot = Real16::All(pivot2);
+    Real16 largest = Real16::All(0);
+    for (std::size_t i = 0; i < count_; i += kBlockPoints)
+      largest = Max(largest, IfLessEqual(Real16::LoadUnaligned(distance2_ + i), pivot));
+    Real lanes[kBlockPoints];
+    largest.StoreUnaligned(lanes);
+    return *std::max_element(lanes, lanes + kBlockPoints);
   }
 
   // The rank-th of those in (low2, high2].
   Real KthBetween(Real low2, Real high2, std::size_t rank) const {
     constexpr std::size_t kFew = 64;
-    Real few[kFew];
+    Real few[kFew] = {};
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_ && count < kFew; ++i) {
       few[count] = distance2_[i];
@@ -146,8 +157,7 @@ class Candidates {
 
   // Keeps the k nearest. What comes later has a higher index, so it must be nearer than they are.
   void Cut() {
-    if (count_ <= k_) return;
-    Real16::All(kInfinity).StoreUnaligned(distance2_ + count_);  // for whole vectors
+    PadToVector();
     const Real kth2 = KthDistance2();
     std::size_t spare = k_ - CountWithin(NextDownFrom(kth2));  // how many of the k are at kth2
     std::size_t kept = 0;
@@ -242,7 +252,7 @@ inline void CollectFor(const PointTreeView& view, const NearestQuery& query, con
     *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
     const Real16 height = (dx * n.x + dy * n.y + dz * n.z) * steepness;
     *distance2 = Max(height * height, *distance2);
-    return always | LessMask(Real16::All(0), DirectionCosine(block, n, &length2));
+    return always | LessMask(Real16::All(0), DotDirection(block, n, &length2));
   });
 }
 
@@ -267,62 +277,104 @@ NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const N
   }
 }
 
-// Nearest boxes first: the first block is nearly always the right one, and few others remain.
-ClosestPoint Closest(const PointTreeView& view, const ClosestQuery& query) {
-  ClosestPoint best;
-  if (view.count == 0 || !IsFinite(query.p)) return best;
-  best.distance2 = std::min(query.maxRadius2, kLargest);
-  const Place16 p(query.p), n(query.n);
-  const Real16 minCosine = Real16::All(query.minCosine);
-  const int top = view.tree->Levels() - 1;
-  std::uint32_t node[BoxTree::kMaxLevels];
-  unsigned pending[BoxTree::kMaxLevels];
-  Real16 boxes[BoxTree::kMaxLevels];
-  int level = top;
-  // Lanes that may hold something better: not farther, or nearer if indices there are higher.
-  const auto promising = [&](unsigned lanes) {
-    lanes &= LessEqualMask(boxes[level], Real16::All(best.distance2));
-    const unsigned equal = lanes & EqualMask(boxes[level], Real16::All(best.distance2));
+// Nearest boxes first; and first of all the block that the grid names, which is nearly always the
+// right one. Then few others remain.
+class ClosestWalk {
+ public:
+  ClosestWalk(const PointTreeView& view, const ClosestQuery& query)
+      : view_(view),
+        p_(query.p),
+        n_(query.n),
+        minCosine_(query.minCosine),
+        top_(view.tree->Levels() - 1) {
+    best_.distance2 = std::min(query.maxRadius2, kLargest);
+  }
+
+  ClosestPoint Walk(std::uint32_t first) {
+    for (int level = 0, shift = 0; level <= top_; ++level, shift += 4)
+      Enter(level, first >> (shift + 4));
+    Scan(first);
+    for (int level = 0, shift = 0; level <= top_; ++level, shift += 4)
+      pending_[level] = Promising(level, 0xffff & ~(1u << (first >> shift & 15)));
+    for (int level = 0;;) {
+      if (pending_[level] == 0) {
+        if (level++ == top_) break;
+        pending_[level] = Promising(level, pending_[level]);
+        continue;
+      }
+      const unsigned lane = NearestLane(boxes_[level], pending_[level]);
+      pending_[level] &= ~(1u << lane);
+      const std::uint32_t child = node_[level] * kBoxChildren + lane;
+      if (level > 0) {
+        --level;
+        Enter(level, child);
+        pending_[level] = Promising(level, 0xffff);
+      } else if (Scan(child)) {
+        pending_[0] = Promising(0, pending_[0]);
+      }
+    }
+    return best_.index == ClosestPoint::kNone ? ClosestPoint() : best_;
+  }
+
+ private:
+  void Enter(int level, std::uint32_t node) {
+    node_[level] = node;
+    boxes_[level] = BoxDistance2(view_.tree->Level(level)[node], p_);
+  }
+
+  // Of the lanes those that may hold something better: not farther, or nearer if indices there are
+  // higher.
+  unsigned Promising(int level, unsigned lanes) const {
+    const Real16 best2 = Real16::All(best_.distance2);
+    lanes &= LessEqualMask(boxes_[level], best2);
+    const unsigned equal = lanes & EqualMask(boxes_[level], best2);
     if (equal == 0) return lanes;
-    const std::uint64_t first = std::uint64_t(node[level]) * kBoxChildren;
-    const std::uint64_t at = best.index >> (4 * (level + 1));
-    const std::uint64_t lower = at < first ? 0 : std::min<std::uint64_t>(at - first + 1, kBoxChildren);
+    const std::uint64_t first = std::uint64_t(node_[level]) * kBoxChildren;
+    const std::uint64_t at = best_.index >> (4 * (level + 1));
+    const std::uint64_t lower =
+        at < first ? 0 : std::min<std::uint64_t>(at - first + 1, kBoxChildren);
     return lanes & ~(equal & ~((1u << lower) - 1));
-  };
-  const auto enter = [&](std::uint32_t entered) {
-    node[level] = entered;
-    boxes[level] = BoxDistance2(view.tree->Level(level)[entered], p);
-    pending[level] = promising(0xffff);
-  };
-  enter(0);
-  for (;;) {
-    if (pending[level] == 0) {
-      if (level++ == top) return best.index == ClosestPoint::kNone ? ClosestPoint() : best;
-      pending[level] = promising(pending[level]);
-      continue;
-    }
-    const unsigned lane = NearestLane(boxes[level], pending[level]);
-    pending[level] &= ~(1u << lane);
-    const std::uint32_t child = node[level] * kBoxChildren + lane;
-    if (level > 0) {
-      --level;
-      enter(child);
-      continue;
-    }
-    const auto& block = static_cast<const DiskBlock&>(BlockAt(view, child));
-    Real16 dx, dy, dz, length2;
-    const Real16 distance2 = PointDistance2(block, p, &dx, &dy, &dz);
-    unsigned lanes = LessEqualMask(distance2, Real16::All(best.distance2));
-    if (lanes == 0) continue;
-    const Real16 cosine = DirectionCosine(block, n, &length2);
-    lanes &= LessEqualMask(distance2, Real16::Load(block.reach2)) &
-             LessMask(minCosine * Sqrt(length2), cosine);
-    if (lanes == 0) continue;
+  }
+
+  unsigned Agreeing(const PointBlock& block) const {
+    Real16 length2;
+    const Real16 along = DotDirection(block, n_, &length2);
+    const Real16 zero = Real16::All(0), least2 = Real16::All(minCosine_ * minCosine_) * length2;
+    if (minCosine_ >= 0) return LessMask(zero, along) & LessMask(least2, along * along);
+    return LessEqualMask(zero, along) | LessMask(along * along, least2);
+  }
+
+  // Whether something better was found.
+  bool Scan(std::uint32_t number) {
+    const auto& block = static_cast<const DiskBlock&>(BlockAt(view_, number));
+    Real16 dx, dy, dz;
+    const Real16 distance2 = PointDistance2(block, p_, &dx, &dy, &dz);
+    unsigned lanes = LessEqualMask(distance2, Real16::All(best_.distance2));
+    if (lanes == 0) return false;
+    lanes &= LessEqualMask(distance2, Real16::Load(block.reach2)) & Agreeing(block);
+    if (lanes == 0) return false;
     const Real nearest2 = LeastOf(distance2, lanes);
     const std::uint32_t index =
-        child * kBlockPoints +
+        number * kBlockPoints +
         unsigned(__builtin_ctz(lanes & EqualMask(distance2, Real16::All(nearest2))));
-    if (nearest2 < best.distance2 || index < best.index) best = {nearest2, index};
-    pending[0] = promising(pending[0]);
+    if (!(nearest2 < best_.distance2 || index < best_.index)) return false;
+    best_ = {nearest2, index};
+    return true;
   }
+
+  const PointTreeView& view_;
+  Place16 p_, n_;
+  Real minCosine_;
+  int top_;
+  ClosestPoint best_;
+  std::uint32_t node_[BoxTree::kMaxLevels];
+  unsigned pending_[BoxTree::kMaxLevels];
+  Real16 boxes_[BoxTree::kMaxLevels];
+};
+
+ClosestPoint Closest(const PointTreeView& view, const ClosestQuery& query) {
+  if (view.count == 0 || !IsFinite(query.p)) return {};
+  const std::uint32_t first =
+      view.grid ? view.grid->BlockNear(query.p) : FindBlockNear(view, query.p);
+  return ClosestWalk(view, query).Walk(first);
 }

@@ -69,6 +69,15 @@ inline unsigned EqualMask(Real16 a, Real16 b) { return CompareMask<_CMP_EQ_OQ>(a
 inline __m256 UpperHalves(__m256i words) {
   return _mm256_cvtepi32_ps(_mm256_srai_epi32(words, 16));
 }
+inline std::size_t CountLessEqual(Real16 a, Real16 b) {
+  return unsigned(__builtin_popcount(LessEqualMask(a, b)));
+}
+// a where a <= b, 0 elsewhere.
+inline Real16 IfLessEqual(Real16 a, Real16 b) {
+  return {_mm256_and_ps(a.low, _mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ)),
+          _mm256_and_ps(a.high, _mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ))};
+}
+
 inline void LoadOctahedral(const std::uint32_t* bits, Real16* a, Real16* b) {
   const auto* words = reinterpret_cast<const __m256i*>(bits);
   const __m256i low = _mm256_load_si256(words), high = _mm256_load_si256(words + 1);
@@ -133,15 +142,16 @@ inline std::size_t KeepSixteen(Real16 values, __m256i low, __m256i high, unsigne
   KeepEight(values.high, high, second, distance2 + count, index + count);
   return count + unsigned(__builtin_popcount(second));
 }
-// Writes the lanes of the mask, and their indices, one after the other; and up to sixteen in all.
-inline void AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask, Real* distance2,
-                        std::uint32_t* index) {
+// Writes the lanes of the mask, and their indices, one after the other, and up to sixteen in all;
+// how many there were.
+inline std::size_t AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask,
+                               Real* distance2, std::uint32_t* index) {
   const __m256i places = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  KeepSixteen(values, _mm256_add_epi32(places, _mm256_set1_epi32(int(firstIndex))),
-              _mm256_add_epi32(places, _mm256_set1_epi32(int(firstIndex + 8))), mask, distance2,
-              index);
+  return KeepSixteen(values, _mm256_add_epi32(places, _mm256_set1_epi32(int(firstIndex))),
+                     _mm256_add_epi32(places, _mm256_set1_epi32(int(firstIndex + 8))), mask,
+                     distance2, index);
 }
-// The same with given indices; how many there were.
+// The same with given indices.
 inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* from,
                              Real* distance2, std::uint32_t* index) {
   const auto* indices = reinterpret_cast<const __m256i*>(from);
@@ -153,7 +163,7 @@ inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* 
 
 }  // namespace
 
-const NearestSearch kAvx2NearestSearch{"AVX2", Nearest, Closest};
+const NearestSearch kAvx2NearestSearch{"AVX2", FindBlockNear, Nearest, Closest};
 
 }  // namespace exphoton
 

@@ -53,6 +53,14 @@ inline unsigned LessEqualMask(Real16 a, Real16 b) {
 inline unsigned LessMask(Real16 a, Real16 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
 inline unsigned EqualMask(Real16 a, Real16 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ); }
 
+inline std::size_t CountLessEqual(Real16 a, Real16 b) {
+  return unsigned(__builtin_popcount(LessEqualMask(a, b)));
+}
+// a where a <= b, 0 elsewhere.
+inline Real16 IfLessEqual(Real16 a, Real16 b) {
+  return {_mm512_maskz_mov_ps(__mmask16(LessEqualMask(a, b)), a.v)};
+}
+
 inline void LoadOctahedral(const std::uint32_t* bits, Real16* a, Real16* b) {
   const __m512i words = _mm512_load_si512(bits);
   a->v = _mm512_cvtepi32_ps(_mm512_srai_epi32(_mm512_slli_epi32(words, 16), 16));
@@ -72,15 +80,17 @@ inline Real LeastOf(Real16 values, unsigned mask) {
       _mm512_mask_reduce_min_epi32(__mmask16(mask), _mm512_castps_si512(values.v)));
 }
 
-// Writes the lanes of the mask, and their indices, one after the other; and sixteen in all.
-inline void AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask, Real* distance2,
-                        std::uint32_t* index) {
+// Writes the lanes of the mask, and their indices, one after the other, and sixteen in all; how
+// many there were.
+inline std::size_t AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask,
+                               Real* distance2, std::uint32_t* index) {
   const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m512i indices = _mm512_add_epi32(_mm512_set1_epi32(int(firstIndex)), places);
   _mm512_storeu_ps(distance2, _mm512_maskz_compress_ps(__mmask16(mask), values.v));
   _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(__mmask16(mask), indices));
+  return unsigned(__builtin_popcount(mask));
 }
-// The same with given indices; how many there were.
+// The same with given indices.
 inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* from,
                              Real* distance2, std::uint32_t* index) {
   const __m512i indices = _mm512_loadu_si512(from);
@@ -93,7 +103,7 @@ inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* 
 
 }  // namespace
 
-const NearestSearch kAvx512NearestSearch{"AVX-512", Nearest, Closest};
+const NearestSearch kAvx512NearestSearch{"AVX-512", FindBlockNear, Nearest, Closest};
 
 }  // namespace exphoton
 

@@ -88,6 +88,19 @@ inline Real LeastOf(const Real16& values, unsigned mask) {
   return values.lanes[NearestLane(values, mask)];
 }
 
+inline std::size_t CountLessEqual(const Real16& a, const Real16& b) {
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < kBlockPoints; ++i) count += a.lanes[i] <= b.lanes[i];
+  return count;
+}
+// a where a <= b, 0 elsewhere.
+inline Real16 IfLessEqual(const Real16& a, const Real16& b) {
+  Real16 r;
+  for (std::uint32_t i = 0; i < kBlockPoints; ++i)
+    r.lanes[i] = a.lanes[i] <= b.lanes[i] ? a.lanes[i] : Real(0);
+  return r;
+}
+
 // The lanes of the mask, one after the other; how many there were.
 inline std::size_t KeepLanes(const Real16& values, unsigned mask, const std::uint32_t* from,
                              Real* distance2, std::uint32_t* index) {
@@ -99,20 +112,22 @@ inline std::size_t KeepLanes(const Real16& values, unsigned mask, const std::uin
   }
   return count;
 }
-inline void AppendLanes(const Real16& values, std::uint32_t firstIndex, unsigned mask,
-                        Real* distance2, std::uint32_t* index) {
-  for (std::size_t count = 0; mask != 0; mask &= mask - 1, ++count) {
+inline std::size_t AppendLanes(const Real16& values, std::uint32_t firstIndex, unsigned mask,
+                               Real* distance2, std::uint32_t* index) {
+  std::size_t count = 0;
+  for (; mask != 0; mask &= mask - 1) {
     const auto lane = unsigned(__builtin_ctz(mask));
     distance2[count] = values.lanes[lane];
-    index[count] = firstIndex + lane;
+    index[count++] = firstIndex + lane;
   }
+  return count;
 }
 
 #include "core/spatial/nearest_search.inl"
 
 }  // namespace
 
-const NearestSearch kPortableNearestSearch{"portable", Nearest, Closest};
+const NearestSearch kPortableNearestSearch{"portable", FindBlockNear, Nearest, Closest};
 
 std::span<const NearestSearch* const> AvailableNearestSearches() {
   static const NearestSearch* const all[] = {

@@ -68,11 +68,12 @@ RadianceMap::RadianceMap(std::span<RadianceSeed> seeds, const PhotonMaps& maps,
   }
   context.progress.End();
   tree_ = PointTree<RadianceBlock>(std::move(entries), context.threads);
+  grid_ = NearGrid(tree_.View(), kGridCellsPerEntry * tree_.Size(), context.threads);
 }
 
 std::optional<RadianceMap::Entry> RadianceMap::Find(const Point3& p, const Normal3& n) const {
   const ClosestPoint closest =
-      FastestNearestSearch().closest(tree_.View(), {p, n, minCosine_, maxReach2_});
+      FastestNearestSearch().closest(View(), {p, n, minCosine_, maxReach2_});
   if (closest.index == ClosestPoint::kNone) return std::nullopt;
   const RadianceBlock& block = tree_.BlockOf(closest.index);
   const std::uint32_t lane = tree_.Lane(closest.index);

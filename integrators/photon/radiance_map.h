@@ -47,7 +47,9 @@ class RadianceMap {
     Real distance2 = 0;  // squared, from the point
   };
 
-  static constexpr double kBytesPerEntry = PointTree<RadianceBlock>::kBytesPerPoint;
+  static constexpr std::size_t kGridCellsPerEntry = 2;
+  static constexpr double kBytesPerEntry =
+      PointTree<RadianceBlock>::kBytesPerPoint + double(kGridCellsPerEntry * sizeof(std::uint32_t));
 
   RadianceMap() = default;  // empty: finds nothing
   // Computes all entries in parallel (docs/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n) + rho_t
@@ -57,14 +59,21 @@ class RadianceMap {
               bool needsTransmission, PreprocessContext& context);
 
   std::size_t Size() const { return tree_.Size(); }
-  std::size_t MemoryBytes() const { return tree_.MemoryBytes(); }
+  std::size_t MemoryBytes() const { return tree_.MemoryBytes() + grid_.MemoryBytes(); }
 
   // The nearest entry that speaks for a surface point p with unit normal n (turned towards where
   // the radiance goes): its normal agrees and p lies within its reach (eq. 14).
   std::optional<Entry> Find(const Point3& p, const Normal3& n) const;
 
  private:
+  PointTreeView View() const {
+    PointTreeView view = tree_.View();
+    view.grid = &grid_;
+    return view;
+  }
+
   PointTree<RadianceBlock> tree_;
+  NearGrid grid_;  // where lookups begin
   Real minCosine_ = 0;
   Real reach_ = 0;      // an entry serves within so many radii of its estimate
   Real maxReach2_ = 0;  // squared reach of any entry

@@ -11,6 +11,7 @@ TestPointTree::TestPointTree(const std::vector<TestDisk>& disks, int threads) {
   store.Append(disks);
   tree_ = PointTree<TestDiskBlock>(std::move(store), pool);
   spacing2_ = MeasureSpacing2(tree_.View(), pool);
+  grid_ = NearGrid(tree_.View(), 2 * tree_.Size(), pool);
 }
 
 TestPointTree::TestPointTree(const std::vector<Point3>& points, int threads)
@@ -25,6 +26,7 @@ TestPointTree::TestPointTree(const std::vector<Point3>& points, int threads)
 PointTreeView TestPointTree::View() const {
   PointTreeView view = tree_.View();
   view.spacing2 = spacing2_.data();
+  view.grid = &grid_;
   return view;
 }
 

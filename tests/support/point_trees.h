@@ -44,6 +44,7 @@ class TestPointTree {
  private:
   PointTree<TestDiskBlock> tree_;
   std::vector<Real> spacing2_;
+  NearGrid grid_;
 };
 
 }  // namespace exphoton
