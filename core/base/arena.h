@@ -30,13 +30,12 @@ class Arena {
     if (count == 0) return {};
     return {new (Allocate(sizeof(T) * count, alignof(T))) T[count](), count};
   }
-  // The same without values: whoever reads an element must have written it.
+  // Room for an array, not yet made: each element is made in its place (new (room + i) T) before it
+  // is read.
   template <class T>
-  std::span<T> MakeRawArray(std::size_t count) {
-    static_assert(std::is_trivially_default_constructible_v<T> &&
-                  std::is_trivially_destructible_v<T>);
-    if (count == 0) return {};
-    return {new (Allocate(sizeof(T) * count, alignof(T))) T[count], count};
+  T* Room(std::size_t count) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    return static_cast<T*>(Allocate(sizeof(T) * count, alignof(T)));
   }
 
   void Reset() { block_ = 0, used_ = 0; }

@@ -63,7 +63,11 @@ struct DiskBlock : PointBlock {
 
 struct ClosestQuery {
   Point3 p;
-  Normal3 n;            // unit
+  Normal3 n;  // unit
+};
+
+// For all queries of a search.
+struct ClosestLimits {
   Real minCosine = 0;   // only points whose direction d has dot(n, d) > minCosine
   Real maxRadius2 = 0;  // none has a larger reach2
 };
@@ -80,8 +84,10 @@ struct NearestSearch {
   std::uint32_t (*blockNear)(const PointTreeView&, const Point3& p);
   // The k nearest.
   NearPoints (*nearest)(const PointTreeView&, const NearestQuery&, const NearBuffer&);
-  // The nearest disk with an agreeing normal that reaches p. The view's blocks are DiskBlocks.
-  ClosestPoint (*closest)(const PointTreeView&, const ClosestQuery&);
+  // For each query the nearest disk with an agreeing normal that reaches p. The view's blocks are
+  // DiskBlocks. Many queries at once take less time each.
+  void (*closest)(const PointTreeView&, const ClosestLimits&, std::span<const ClosestQuery>,
+                  ClosestPoint* found);
 };
 
 extern const NearestSearch kPortableNearestSearch;

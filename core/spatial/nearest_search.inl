@@ -7,6 +7,7 @@ constexpr Real kLargest = std::numeric_limits<Real>::max();
 
 struct Place16 {
   Real16 x, y, z;
+  Place16() = default;
   explicit Place16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
 };
 
@@ -45,8 +46,8 @@ inline void PrefetchBlock(const PointBlock& block, std::size_t bytes) {
 inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
   std::uint32_t node = 0;
   for (int level = view.tree->Levels() - 1; level >= 0; --level)
-    node = node * kBoxChildren +
-           NearestLane(BoxDistance2(view.tree->Level(level)[node], p), 0xffff);
+    node =
+        node * kBoxChildren + NearestLane(BoxDistance2(view.tree->Level(level)[node], p), 0xffff);
   return node;
 }
 
@@ -265,8 +266,7 @@ NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const N
   const Real max2 = std::min(query.maxRadius2, kLargest);
   Real radius2 = max2;
   if (view.spacing2) {
-    const std::uint32_t run =
-        BlockNear(view, p) / (PointTreeView::kSpacingPoints / kBlockPoints);
+    const std::uint32_t run = BlockNear(view, p) / (PointTreeView::kSpacingPoints / kBlockPoints);
     radius2 = view.spacing2[run] * Real(query.k) * kFirst;
   }
   for (;; radius2 *= kGrowth) {
@@ -277,28 +277,43 @@ NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const N
   }
 }
 
-// Nearest boxes first; and first of all the block that the grid names, which is nearly always the
-// right one. Then few others remain.
+// The closest disk, nearest boxes first; and first of all the block that the grid names, which is
+// nearly always the right one. Then few others remain, and often none.
 class ClosestWalk {
  public:
-  ClosestWalk(const PointTreeView& view, const ClosestQuery& query)
-      : view_(view),
-        p_(query.p),
-        n_(query.n),
-        minCosine_(query.minCosine),
-        top_(view.tree->Levels() - 1) {
-    best_.distance2 = std::min(query.maxRadius2, kLargest);
+  // Looks at the first block; whether there may be something better in others. Hardly a branch, so
+  // that a processor works at several queries at a time.
+  [[gnu::always_inline]] bool Begin(const PointTreeView& view, const ClosestLimits& limits,
+                                    const ClosestQuery& query, std::uint32_t first) {
+    view_ = &view;
+    p_ = Place16(query.p);
+    n_ = Place16(query.n);
+    minCosine_ = limits.minCosine;
+    top_ = view.tree->Levels() - 1;
+    best_ = {std::min(limits.maxRadius2, kLargest), ClosestPoint::kNone};
+    const auto& block = static_cast<const DiskBlock&>(BlockAt(view, first));
+    const Real16 distance2 = Distance2(block);
+    const unsigned lanes = Serving(block, distance2);
+    const Real nearest2 = LeastOf(distance2, lanes);
+    const unsigned equal = lanes & EqualMask(distance2, Real16::All(nearest2));
+    const std::uint32_t index =
+        first * kBlockPoints + unsigned(__builtin_ctz(equal | 1u << kBlockPoints));
+    best_.index = lanes != 0 ? index : best_.index;
+    best_.distance2 = lanes != 0 ? nearest2 : best_.distance2;
+    unsigned remaining = 0;
+    for (int level = 0; level <= top_; ++level, first >>= 4) {
+      Enter(level, first >> 4);
+      pending_[level] = Promising(level, 0xffff & ~(1u << (first & 15)));
+      remaining |= pending_[level];
+    }
+    return remaining != 0;
   }
 
-  ClosestPoint Walk(std::uint32_t first) {
-    for (int level = 0, shift = 0; level <= top_; ++level, shift += 4)
-      Enter(level, first >> (shift + 4));
-    Scan(first);
-    for (int level = 0, shift = 0; level <= top_; ++level, shift += 4)
-      pending_[level] = Promising(level, 0xffff & ~(1u << (first >> shift & 15)));
+  // Looks at the others.
+  [[gnu::always_inline]] void Finish() {
     for (int level = 0;;) {
       if (pending_[level] == 0) {
-        if (level++ == top_) break;
+        if (level++ == top_) return;
         pending_[level] = Promising(level, pending_[level]);
         continue;
       }
@@ -313,13 +328,14 @@ class ClosestWalk {
         pending_[0] = Promising(0, pending_[0]);
       }
     }
-    return best_.index == ClosestPoint::kNone ? ClosestPoint() : best_;
   }
+
+  ClosestPoint Best() const { return best_.index == ClosestPoint::kNone ? ClosestPoint() : best_; }
 
  private:
   void Enter(int level, std::uint32_t node) {
     node_[level] = node;
-    boxes_[level] = BoxDistance2(view_.tree->Level(level)[node], p_);
+    boxes_[level] = BoxDistance2(view_->tree->Level(level)[node], p_);
   }
 
   // Of the lanes those that may hold something better: not farther, or nearer if indices there are
@@ -344,14 +360,21 @@ class ClosestWalk {
     return LessEqualMask(zero, along) | LessMask(along * along, least2);
   }
 
+  Real16 Distance2(const PointBlock& block) const {
+    Real16 dx, dy, dz;
+    return PointDistance2(block, p_, &dx, &dy, &dz);
+  }
+  unsigned Serving(const DiskBlock& block, Real16 distance2) const {
+    return LessEqualMask(distance2, Real16::All(best_.distance2)) &
+           LessEqualMask(distance2, Real16::Load(block.reach2)) & Agreeing(block);
+  }
+
   // Whether something better was found.
   bool Scan(std::uint32_t number) {
-    const auto& block = static_cast<const DiskBlock&>(BlockAt(view_, number));
-    Real16 dx, dy, dz;
-    const Real16 distance2 = PointDistance2(block, p_, &dx, &dy, &dz);
-    unsigned lanes = LessEqualMask(distance2, Real16::All(best_.distance2));
-    if (lanes == 0) return false;
-    lanes &= LessEqualMask(distance2, Real16::Load(block.reach2)) & Agreeing(block);
+    const auto& block = static_cast<const DiskBlock&>(BlockAt(*view_, number));
+    const Real16 distance2 = Distance2(block);
+    if (LessEqualMask(distance2, Real16::All(best_.distance2)) == 0) return false;
+    const unsigned lanes = Serving(block, distance2);
     if (lanes == 0) return false;
     const Real nearest2 = LeastOf(distance2, lanes);
     const std::uint32_t index =
@@ -362,7 +385,7 @@ class ClosestWalk {
     return true;
   }
 
-  const PointTreeView& view_;
+  const PointTreeView* view_;
   Place16 p_, n_;
   Real minCosine_;
   int top_;
@@ -372,9 +395,42 @@ class ClosestWalk {
   Real16 boxes_[BoxTree::kMaxLevels];
 };
 
-ClosestPoint Closest(const PointTreeView& view, const ClosestQuery& query) {
-  if (view.count == 0 || !IsFinite(query.p)) return {};
-  const std::uint32_t first =
-      view.grid ? view.grid->BlockNear(query.p) : FindBlockNear(view, query.p);
-  return ClosestWalk(view, query).Walk(first);
+// The block to begin with; none where nothing can be found.
+inline std::uint32_t FirstBlock(const PointTreeView& view, const Point3& p) {
+  if (view.count == 0 || !IsFinite(p)) return ClosestPoint::kNone;
+  return view.grid ? view.grid->BlockNear(p) : FindBlockNear(view, p);
+}
+
+ClosestPoint ClosestToOne(const PointTreeView& view, const ClosestLimits& limits,
+                          const ClosestQuery& query) {
+  const std::uint32_t first = FirstBlock(view, query.p);
+  if (first == ClosestPoint::kNone) return {};
+  ClosestWalk walk;
+  if (walk.Begin(view, limits, query, first)) walk.Finish();
+  return walk.Best();
+}
+
+void Closest(const PointTreeView& view, const ClosestLimits& limits,
+             std::span<const ClosestQuery> queries, ClosestPoint* found) {
+  constexpr std::size_t kAtOnce = 4;
+  if (queries.size() == 1) *found = ClosestToOne(view, limits, queries[0]);
+  if (queries.size() <= 1) return;
+  ClosestWalk walks[kAtOnce];
+  std::uint32_t first[kAtOnce];
+  for (std::size_t begin = 0; begin < queries.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, queries.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      first[i] = FirstBlock(view, queries[begin + i].p);
+      if (first[i] != ClosestPoint::kNone)
+        PrefetchBlock(BlockAt(view, first[i]), sizeof(DiskBlock));
+    }
+    unsigned unfinished = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (first[i] != ClosestPoint::kNone)
+        unfinished |= unsigned(walks[i].Begin(view, limits, queries[begin + i], first[i])) << i;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (unfinished >> i & 1) walks[i].Finish();
+      found[begin + i] = first[i] != ClosestPoint::kNone ? walks[i].Best() : ClosestPoint();
+    }
+  }
 }

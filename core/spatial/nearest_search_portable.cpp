@@ -84,8 +84,12 @@ inline unsigned NearestLane(const Real16& values, unsigned mask) {
   }
   return nearest;
 }
+// The least value; bits of the mask beyond the lanes mean nothing.
 inline Real LeastOf(const Real16& values, unsigned mask) {
-  return values.lanes[NearestLane(values, mask)];
+  Real least = kInfinity;
+  for (std::uint32_t i = 0; i < kBlockPoints; ++i)
+    least = (mask >> i & 1) && values.lanes[i] < least ? values.lanes[i] : least;
+  return least;
 }
 
 inline std::size_t CountLessEqual(const Real16& a, const Real16& b) {

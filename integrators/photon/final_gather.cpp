@@ -28,21 +28,28 @@ ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const 
   if (photonCount_ == 0 || guide.IsEmpty()) return {};
   const RestPose rest(point.surface);
   const NearPoints near = guide.Nearest(rest.Point(point.surface.p), guideCount_, arena);
-  const auto x = arena->MakeRawArray<Real>(near.size()), y = arena->MakeRawArray<Real>(near.size()),
-             z = arena->MakeRawArray<Real>(near.size());
+  const std::size_t room = near.size();
+  Real *const x = arena->Room<Real>(room), *const y = arena->Room<Real>(room),
+              *const z = arena->Room<Real>(room);
   // Light from below the horizon of a surface that transmits none is no guide.
   const bool isTwoSided = point.bsdf.Has(LobeSet::NonSpecularTransmission);
   const Normal3 ng = FaceForward(point.surface.ng, point.Wo());
   const Normal3 ns = FaceForward(point.bsdf.Ns(), ng);
   std::size_t count = 0;
   for (const std::uint32_t photon : near.index) {
-    const Vector3 w = rest.DirectionBack(guide.Direction(photon));
-    if (!isTwoSided && !(Dot(w, ng) > 0 && Dot(w, ns) > 0)) continue;
+    const Vector3 w = rest.DirectionBack(guide.LongDirection(photon));
     x[count] = w.x;
     y[count] = w.y;
-    z[count++] = w.z;
+    z[count] = w.z;
+    count += isTwoSided || (Dot(w, ng) > 0 && Dot(w, ns) > 0);
   }
-  return {x.first(count), y.first(count), z.first(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Real length = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+    x[i] /= length;
+    y[i] /= length;
+    z[i] /= length;
+  }
+  return {{x, count}, {y, count}, {z, count}};
 }
 
 }  // namespace exphoton

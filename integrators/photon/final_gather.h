@@ -24,7 +24,8 @@ class FinalGather {
 
   // Integral over the non-specular lobes of f * incident * |cos|, by rays with 0 < t < infinity.
   // All are traced before the first is read, so that caches hold the one or the other:
-  // incident.Trace(ray) gives an Incident::Segment, incident.Read(segment) the radiance.
+  // incident.Trace(ray) gives an Incident::Segment, incident.Look(segments) then looks at all of
+  // them together, incident.Read(segment) gives the radiance.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
                   const Incident& incident) const;
@@ -65,18 +66,16 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
   const Vector3& wo = point.Wo();
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
-  struct Pending {
-    typename Incident::Segment segment;
-    Spectrum weight;
-  };
-  const std::span<Pending> pending =
-      context.arena.template MakeArray<Pending>(std::size_t(bsdfRays + photonRays));
+  const auto rays = std::size_t(bsdfRays + photonRays);
+  using Segment = typename Incident::Segment;
+  Segment* const segments = context.arena.template Room<Segment>(rays);
+  Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
   std::size_t count = 0;
-  const auto add = [&](const Vector3& w, const Spectrum& contribution, int rays) {
+  const auto add = [&](const Vector3& w, const Spectrum& contribution, int drawn) {
     const Real factor = SurvivalFactor(contribution.Y(), &roulette);
-    if (factor > 0)
-      pending[count++] = {incident.Trace(SpawnRay(point.surface, w)),
-                          contribution * (factor / Real(rays))};
+    if (!(factor > 0)) return;
+    new (segments + count) Segment(incident.Trace(SpawnRay(point.surface, w)));
+    weights[count++] = contribution * (factor / Real(drawn));
   };
   for (int i = 0; i < bsdfRays; ++i) {
     const bool isOwn = i < bsdfCount_;
@@ -101,9 +100,9 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
     add(sample.w, f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), photonRays);
   }
 
+  incident.Look(std::span<Segment>(segments, count));
   Spectrum gathered;
-  for (std::size_t i = 0; i < count; ++i)
-    gathered += pending[i].weight * incident.Read(pending[i].segment);
+  for (std::size_t i = 0; i < count; ++i) gathered += weights[i] * incident.Read(segments[i]);
   context.arena.Rewind(mark);
   return gathered;
 }

@@ -33,8 +33,28 @@ RestPose PoseOf(const Scene::HitPoint& hit) { return {hit.motion, hit.point.time
 
 }  // namespace
 
-GatherRadiance::Segment GatherRadiance::Trace(const Ray& ray) const {
-  return {ray, context_.IntersectPoint(ray, RayKind::Gather)};
+void GatherRadiance::Look(std::span<Segment> segments) const {
+  if (!radianceMap_) return;
+  constexpr std::size_t kAtOnce = 16;
+  RadianceMap::Place places[kAtOnce];
+  Segment* of[kAtOnce];
+  std::optional<RadianceMap::Entry> found[kAtOnce];
+  std::size_t count = 0;
+  const auto look = [&] {
+    radianceMap_->Find({places, count}, found);
+    for (std::size_t i = 0; i < count; ++i) of[i]->entry = found[i];
+    count = 0;
+  };
+  for (Segment& segment : segments) {
+    if (!segment.hit || !segment.hit->material) continue;
+    if (!Intersects(segment.hit->material->PossibleLobes(), LobeSet::NonSpecular)) continue;
+    const SurfacePoint& point = segment.hit->point;
+    const RestPose rest = PoseOf(*segment.hit);
+    places[count] = {rest.Point(point.p), rest.Normal(FaceForward(point.ng, -segment.ray.d))};
+    of[count++] = &segment;
+    if (count == kAtOnce) look();
+  }
+  look();
 }
 
 Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
@@ -61,7 +81,7 @@ Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
     context_.arena.Rewind(mark);
     if (!bounce) return sum;
     throughput *= bounce->throughput;
-    segment = Trace(SpawnRay(hit->point, bounce->wi));
+    segment = TraceAndLook(SpawnRay(hit->point, bounce->wi));
   }
 }
 
@@ -75,9 +95,7 @@ Spectrum GatherRadiance::NonSpecular(const Segment& segment, int shortBounces) c
   if (!Intersects(hit.material->PossibleLobes(), LobeSet::NonSpecular)) return {};
   bool isShort = false;
   if (radianceMap_) {
-    const RestPose rest = PoseOf(hit);
-    const Normal3 n = FaceForward(hit.point.ng, -segment.ray.d);
-    const auto entry = radianceMap_->Find(rest.Point(hit.point.p), rest.Normal(n));
+    const auto& entry = segment.entry;
     isShort = entry && DistanceSquared(segment.ray.o, hit.point.p) <
                            Square(settings_.shortRays) * entry->radius2;
     if (entry && !isShort) {
@@ -111,7 +129,7 @@ Spectrum GatherRadiance::Reflected(const Segment& segment, const RadianceMap::En
     const RestPose rest = PoseOf(*segment.hit);
     const Point3 p = rest.Point(hit.p);
     const Normal3 back = rest.Normal(-FaceForward(hit.ng, -segment.ray.d));
-    const auto entry = radianceMap_->Find(p, back);
+    const auto entry = radianceMap_->Find({p, back});
     const Spectrum e = entry ? entry->value : maps_.EstimateIrradiance(p, back, &context_.arena).e;
     radiance += transmittance * e * kInvPi;
   }
@@ -133,7 +151,8 @@ Spectrum GatherRadiance::OneMoreBounce(const ShadingPoint& point, int shortBounc
   const Point2 u{random_->Uniform(), random_->Uniform()};
   if (const auto bounce =
           point.bsdf.Sample(point.Wo(), u, random_->Uniform(), LobeSet::NonSpecular))
-    sum += bounce->throughput * Along(Trace(SpawnRay(point.surface, bounce->wi)), shortBounces + 1);
+    sum += bounce->throughput *
+           Along(TraceAndLook(SpawnRay(point.surface, bounce->wi)), shortBounces + 1);
   return sum;
 }
 

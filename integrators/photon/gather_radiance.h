@@ -15,6 +15,7 @@ class GatherRadiance {
   struct Segment {
     Ray ray;
     std::optional<Scene::HitPoint> hit;
+    std::optional<RadianceMap::Entry> entry;  // that serves the hit; set by Look
   };
 
   // Everything must outlive this. Without radiance photons (radianceMap null) every hit takes the
@@ -29,14 +30,23 @@ class GatherRadiance {
         context_(context),
         random_(random) {}
 
-  Segment Trace(const Ray& ray) const;
-  // Radiance arriving along the ray, by the light that maps hold.
+  Segment Trace(const Ray& ray) const {
+    return {ray, context_.IntersectPoint(ray, RayKind::Gather), std::nullopt};
+  }
+  // Finds the radiance photons that serve the hits.
+  void Look(std::span<Segment> segments) const;
+  // Radiance arriving along the ray, by the light that maps hold; after Look.
   Spectrum Read(const Segment& segment) const { return Along(segment, 0); }
 
  private:
   // How often short rays may be followed by one more bounce.
   static constexpr int kMaxShortBounces = 3;
 
+  Segment TraceAndLook(const Ray& ray) const {
+    Segment segment = Trace(ray);
+    Look({&segment, 1});
+    return segment;
+  }
   Spectrum Along(Segment segment, int shortBounces) const;
   // The non-specular part of what leaves the hit towards the ray's origin.
   Spectrum NonSpecular(const Segment& segment, int shortBounces) const;

@@ -201,7 +201,7 @@ Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
   if (!radianceMap_) return {};
   const RestPose rest(point.surface);
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-  const auto entry = radianceMap_->Find(rest.Point(point.surface.p), rest.Normal(n));
+  const auto entry = radianceMap_->Find({rest.Point(point.surface.p), rest.Normal(n)});
   if (!entry) return {};
   if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
   return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;

@@ -13,7 +13,7 @@ namespace {
 
 NearBuffer BufferFor(std::size_t k, Arena* arena) {
   const std::size_t size = NearBuffer::SizeFor(k);
-  return {arena->MakeRawArray<Real>(size), arena->MakeRawArray<std::uint32_t>(size)};
+  return {{arena->Room<Real>(size), size}, {arena->Room<std::uint32_t>(size), size}};
 }
 
 }  // namespace

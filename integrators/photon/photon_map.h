@@ -48,6 +48,9 @@ class PhotonMap {
   std::int64_t Paths() const { return paths_; }
   Point3 Position(std::uint32_t i) const { return tree_.Position(i); }
   Vector3 Direction(std::uint32_t i) const { return tree_.Direction(i); }  // unit, to the light
+  Vector3 LongDirection(std::uint32_t i) const {  // the same, of any length
+    return DecodeOctahedralLong(tree_.BlockOf(i).direction[tree_.Lane(i)]);
+  }
   Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }
   std::size_t MemoryBytes() const;
 

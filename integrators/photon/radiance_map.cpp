@@ -71,14 +71,21 @@ RadianceMap::RadianceMap(std::span<RadianceSeed> seeds, const PhotonMaps& maps,
   grid_ = NearGrid(tree_.View(), kGridCellsPerEntry * tree_.Size(), context.threads);
 }
 
-std::optional<RadianceMap::Entry> RadianceMap::Find(const Point3& p, const Normal3& n) const {
-  const ClosestPoint closest =
-      FastestNearestSearch().closest(View(), {p, n, minCosine_, maxReach2_});
-  if (closest.index == ClosestPoint::kNone) return std::nullopt;
-  const RadianceBlock& block = tree_.BlockOf(closest.index);
-  const std::uint32_t lane = tree_.Lane(closest.index);
-  return Entry{block.Value(lane), SafeDivide(block.reach2[lane], Square(reach_), 0),
-               closest.distance2};
+void RadianceMap::Find(std::span<const Place> places, std::optional<Entry>* found) const {
+  constexpr std::size_t kAtOnce = 16;
+  ClosestPoint closest[kAtOnce];
+  for (; !places.empty(); places = places.subspan(std::min(kAtOnce, places.size()))) {
+    const auto some = places.first(std::min(kAtOnce, places.size()));
+    FastestNearestSearch().closest(View(), {minCosine_, maxReach2_}, some, closest);
+    for (std::size_t i = 0; i < some.size(); ++i, ++found) {
+      found->reset();
+      if (closest[i].index == ClosestPoint::kNone) continue;
+      const RadianceBlock& block = tree_.BlockOf(closest[i].index);
+      const std::uint32_t lane = tree_.Lane(closest[i].index);
+      *found = {block.Value(lane), SafeDivide(block.reach2[lane], Square(reach_), 0),
+                closest[i].distance2};
+    }
+  }
 }
 
 }  // namespace exphoton

@@ -144,7 +144,7 @@ const RadianceArrangement& RadianceOf(const std::string& size) {
 }
 
 Real NearestWithMap(const RadianceArrangement& radiance, const SurfacePlace& place) {
-  const auto entry = radiance.map.Find(place.p, place.n);
+  const auto entry = radiance.map.Find({place.p, place.n});
   return entry ? std::sqrt(entry->distance2) : kInfinity;
 }
 

@@ -59,14 +59,15 @@ std::vector<TestPointTree::Near> TestPointTree::NearestByBruteForce(
   return near;
 }
 
-ClosestPoint TestPointTree::ClosestByBruteForce(const ClosestQuery& query) const {
+ClosestPoint TestPointTree::ClosestByBruteForce(const ClosestQuery& query,
+                                                const ClosestLimits& limits) const {
   ClosestPoint best;
   for (std::uint32_t i = 0; i < tree_.Size() && IsFinite(query.p); ++i) {
     const Real distance2 = DistanceSquared(tree_.Position(i), query.p);
     const auto& block = tree_.BlockOf(i);
-    if (!(distance2 <= query.maxRadius2 && distance2 < best.distance2)) continue;
+    if (!(distance2 <= limits.maxRadius2 && distance2 < best.distance2)) continue;
     if (!(distance2 <= block.reach2[tree_.Lane(i)])) continue;
-    if (Dot(tree_.Direction(i), query.n) > query.minCosine) best = {distance2, i};
+    if (Dot(tree_.Direction(i), query.n) > limits.minCosine) best = {distance2, i};
   }
   return best;
 }

@@ -39,7 +39,7 @@ class TestPointTree {
   // Nearest first.
   std::vector<Near> Nearest(const NearestSearch& search, const NearestQuery& query) const;
   std::vector<Near> NearestByBruteForce(const NearestQuery& query) const;
-  ClosestPoint ClosestByBruteForce(const ClosestQuery& query) const;
+  ClosestPoint ClosestByBruteForce(const ClosestQuery& query, const ClosestLimits& limits) const;
 
  private:
   PointTree<TestDiskBlock> tree_;

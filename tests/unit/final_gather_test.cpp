@@ -19,6 +19,7 @@ namespace {
 struct UniformSky {
   struct Segment {};
   Segment Trace(const Ray&) const { return {}; }
+  void Look(std::span<Segment>) const {}
   Spectrum Read(const Segment&) const { return Spectrum(1); }
 };
 

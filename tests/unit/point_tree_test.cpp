@@ -120,16 +120,21 @@ TEST(PointTree, FindsTheDiskThatBruteForceFinds) {
           for (const TestDisk& disk : disks) points.push_back(disk.p);
           tree = std::make_unique<TestPointTree>(disks);
         }
-        const ClosestQuery query{QueryPoint(layout, points, i, &random),
-                                 {0, 0, 1},
-                                 i % 3 == 0 ? Real(-.5) : Real(.7),
-                                 layout == Layout::Huge ? Real(1e11) : Real(.1)};
-        const ClosestPoint expected = tree->ClosestByBruteForce(query);
+        const ClosestQuery query{QueryPoint(layout, points, i, &random), {0, 0, 1}};
+        const ClosestLimits limits{i % 3 == 0 ? Real(-.5) : Real(.7),
+                                   layout == Layout::Huge ? Real(1e11) : Real(.1)};
+        const ClosestPoint expected = tree->ClosestByBruteForce(query, limits);
         found += expected.index != ClosestPoint::kNone;
         for (const NearestSearch* search : AvailableNearestSearches()) {
-          const ClosestPoint closest = search->closest(tree->View(), query);
-          ASSERT_EQ(closest.index, expected.index) << search->name << int(layout);
-          ASSERT_EQ(closest.distance2, expected.distance2);
+          // Alone, and among others.
+          for (const std::size_t queries : {1, 7}) {
+            std::vector<ClosestQuery> all(queries, ClosestQuery{{1, 2, 3}, {0, 0, 1}});
+            all.back() = query;
+            std::vector<ClosestPoint> closest(queries);
+            search->closest(tree->View(), limits, all, closest.data());
+            ASSERT_EQ(closest.back().index, expected.index) << search->name << int(layout);
+            ASSERT_EQ(closest.back().distance2, expected.distance2);
+          }
         }
       }
   EXPECT_GT(found, 150);
@@ -166,8 +171,10 @@ TEST(PointTree, WithoutPointsOrWithANanQueryFindsNothing) {
       NearestQuery wrong = query;
       wrong.p.y = bad;
       EXPECT_TRUE(tree.Nearest(*search, wrong).empty());
-      EXPECT_EQ(search->closest(tree.View(), {wrong.p, {0, 0, 1}, 0, 1}).index,
-                ClosestPoint::kNone);
+      const ClosestQuery place{wrong.p, {0, 0, 1}};
+      ClosestPoint closest;
+      search->closest(tree.View(), {0, 1}, {&place, 1}, &closest);
+      EXPECT_EQ(closest.index, ClosestPoint::kNone);
     }
   }
 }
@@ -183,7 +190,10 @@ TEST(PointTree, OfManyCoincidentPointsFindsTheFirstAtOnce) {
       const auto near = tree.Nearest(FastestNearestSearch(), query);
       ASSERT_EQ(near.size(), 50u);
       ASSERT_EQ(near.back().index, 49u);
-      ASSERT_EQ(FastestNearestSearch().closest(tree.View(), {query.p, {0, 0, 1}, 0, 9}).index, 0u);
+      const ClosestQuery place{query.p, {0, 0, 1}};
+      ClosestPoint closest;
+      FastestNearestSearch().closest(tree.View(), {0, 9}, {&place, 1}, &closest);
+      ASSERT_EQ(closest.index, 0u);
     }
   }
 }
