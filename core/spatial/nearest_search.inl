@@ -21,6 +21,28 @@ inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
   return dx * dx + dy * dy + dz * dz;
 }
 
+// The same as flattened distances: what a point's height over the plane through p with normal n
+// makes of them.
+inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Place16& p, const Place16& n,
+                                    Real16 steepness) {
+  const auto products = [&](int axis, Real16 at, Real16 normal, Real16* least, Real16* most) {
+    const Real16 a = (Real16::Load(node.low[axis]) - at) * normal;
+    const Real16 b = (Real16::Load(node.high[axis]) - at) * normal;
+    *least = Min(a, b);
+    *most = Max(a, b);
+  };
+  Real16 least[3], most[3];
+  products(0, p.x, n.x, &least[0], &most[0]);
+  products(1, p.y, n.y, &least[1], &most[1]);
+  products(2, p.z, n.z, &least[2], &most[2]);
+  const Real16 zero = Real16::All(0);
+  const Real16 lowest = (least[0] + least[1] + least[2]) * steepness;
+  const Real16 highest = (most[0] + most[1] + most[2]) * steepness;
+  const Real16 height = Max(Max(lowest, zero - highest), zero);
+  // Of a missing child the height may be no number: then the second counts, which is infinite.
+  return Max(height * height, BoxDistance2(node, p));
+}
+
 // The direction of each point, some length long, dotted with n.
 inline Real16 DotDirection(const PointBlock& block, const Place16& n, Real16* length2) {
   Real16 a, b;
@@ -186,9 +208,10 @@ class Candidates {
   Real limit2_;
 };
 
-// Offers every point within the limit; measure(block, &distance2) gives the lanes that count.
-template <class Measure>
-inline void Collect(const PointTreeView& view, const Place16& p, Candidates* candidates,
+// Offers every point within the limit. measureBoxes(node) gives squared distances of the children,
+// measure(block, &distance2) the lanes of a block that count.
+template <class MeasureBoxes, class Measure>
+inline void Collect(const PointTreeView& view, Candidates* candidates, MeasureBoxes&& measureBoxes,
                     Measure&& measure) {
   const int top = view.tree->Levels() - 1;
   std::uint32_t node[BoxTree::kMaxLevels];
@@ -196,7 +219,7 @@ inline void Collect(const PointTreeView& view, const Place16& p, Candidates* can
   int level = top;
   const auto enter = [&](std::uint32_t entered) {
     node[level] = entered;
-    pending[level] = LessEqualMask(BoxDistance2(view.tree->Level(level)[entered], p),
+    pending[level] = LessEqualMask(measureBoxes(view.tree->Level(level)[entered]),
                                    Real16::All(candidates->Limit2()));
     if (level > 0) return;
     for (unsigned rest = pending[0]; rest != 0; rest &= rest - 1)
@@ -238,23 +261,28 @@ inline Real16 PointDistance2(const PointBlock& block, const Place16& p, Real16* 
 inline void CollectFor(const PointTreeView& view, const NearestQuery& query, const Place16& p,
                        Candidates* candidates) {
   if (!query.isFlattened) {
-    Collect(view, p, candidates, [&](const PointBlock& block, Real16* distance2) {
-      Real16 dx, dy, dz;
-      *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
-      return 0xffffu;
-    });
+    Collect(
+        view, candidates, [&](const BoxNode& node) { return BoxDistance2(node, p); },
+        [&](const PointBlock& block, Real16* distance2) {
+          Real16 dx, dy, dz;
+          *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
+          return 0xffffu;
+        });
     return;
   }
   const Place16 n(query.n);
   const Real16 steepness = Real16::All(query.steepness);
   const unsigned always = query.isOneSided ? 0 : 0xffff;
-  Collect(view, p, candidates, [&](const PointBlock& block, Real16* distance2) {
-    Real16 dx, dy, dz, length2;
-    *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
-    const Real16 height = (dx * n.x + dy * n.y + dz * n.z) * steepness;
-    *distance2 = Max(height * height, *distance2);
-    return always | LessMask(Real16::All(0), DotDirection(block, n, &length2));
-  });
+  Collect(
+      view, candidates,
+      [&](const BoxNode& node) { return FlattenedBoxDistance2(node, p, n, steepness); },
+      [&](const PointBlock& block, Real16* distance2) {
+        Real16 dx, dy, dz, length2;
+        *distance2 = PointDistance2(block, p, &dx, &dy, &dz);
+        const Real16 height = (dx * n.x + dy * n.y + dz * n.z) * steepness;
+        *distance2 = Max(height * height, *distance2);
+        return always | LessMask(Real16::All(0), DotDirection(block, n, &length2));
+      });
 }
 
 // Begins with the radius in which k points are to be expected and goes on with larger ones until

@@ -44,6 +44,7 @@ struct Real16 {
 EXPHOTON_HALVES(operator+, _mm256_add_ps)
 EXPHOTON_HALVES(operator-, _mm256_sub_ps)
 EXPHOTON_HALVES(operator*, _mm256_mul_ps)
+EXPHOTON_HALVES(Min, _mm256_min_ps)
 EXPHOTON_HALVES(Max, _mm256_max_ps)
 #undef EXPHOTON_HALVES
 inline Real16 Sqrt(Real16 a) { return {_mm256_sqrt_ps(a.low), _mm256_sqrt_ps(a.high)}; }

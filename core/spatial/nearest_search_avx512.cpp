@@ -39,6 +39,7 @@ struct Real16 {
 inline Real16 operator+(Real16 a, Real16 b) { return {_mm512_add_ps(a.v, b.v)}; }
 inline Real16 operator-(Real16 a, Real16 b) { return {_mm512_sub_ps(a.v, b.v)}; }
 inline Real16 operator*(Real16 a, Real16 b) { return {_mm512_mul_ps(a.v, b.v)}; }
+inline Real16 Min(Real16 a, Real16 b) { return {_mm512_min_ps(a.v, b.v)}; }
 inline Real16 Max(Real16 a, Real16 b) { return {_mm512_max_ps(a.v, b.v)}; }
 inline Real16 Sqrt(Real16 a) { return {_mm512_sqrt_ps(a.v)}; }
 inline Real16 Abs(Real16 a) { return {_mm512_abs_ps(a.v)}; }

@@ -41,6 +41,7 @@ struct Real16 {
 EXPHOTON_LANEWISE(operator+, x + y)
 EXPHOTON_LANEWISE(operator-, x - y)
 EXPHOTON_LANEWISE(operator*, x* y)
+EXPHOTON_LANEWISE(Min, x < y ? x : y)
 EXPHOTON_LANEWISE(Max, x > y ? x : y)
 EXPHOTON_LANEWISE(CopySign, std::copysign(x, y))
 #undef EXPHOTON_LANEWISE
