@@ -86,15 +86,19 @@ class PhotonTracer::Path {
     alpha_ *= tracer_.scene_.Transmittance(stretch);
   }
 
+  // Of all of the path.
+  Real Time() const {
+    const auto [open, close] = tracer_.scene_.Exposure();
+    if (open == close) return open;
+    return std::clamp(Lerp(samples_.Time(), open, close), open, close);
+  }
+
   bool Emit(RayDifferential* ray) {
     const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
     const Point2 uDirection = samples_.Next2D();
     const auto choice = tracer_.lights_.Sample(uLight.x);
     tally_.light = choice.index;
-    const Interval exposure = tracer_.scene_.Exposure();
-    const Real time =
-        std::clamp(Lerp(samples_.Time(), exposure.min, exposure.max), exposure.min, exposure.max);
-    auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, time);
+    auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
     if (!emission) return false;
     if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
       tracer_.aim_.Redirect(&*emission, uPosition);

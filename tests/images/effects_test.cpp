@@ -41,7 +41,7 @@ TEST_P(PlanTest, LeavesThePictureAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PlanTest,
                          testing::Values("skylight-room", "cornell-caustic", "furnace",
-                                         "glossy-room", "veach-mis"),
+                                         "glossy-room", "veach-mis", "moving-spheres"),
                          [](const auto& info) {
                            return info.param.substr(0, info.param.find('-'));
                          });

@@ -60,6 +60,9 @@ const PictureCase kCases[] = {
     {"veach-mis", "path", 32, kDeep, {.01, .08, 4}},
     {"veach-mis", "photonmap", 8, Photons("20000", "8"), {.02, .10, 15}},
     {"veach-mis", "exphotonmap", 8, Photons("20000", "8"), {.02, .06, 4}},
+    {"moving-spheres", "path", 32, kDeep, {.01, .08, 6}},
+    {"moving-spheres", "photonmap", 4, Photons("30000", "8", "4000"), {.02, .10, 10}},
+    {"moving-spheres", "exphotonmap", 4, Photons("30000", "16", "4000"), {.02, .10, 10}},
 };
 
 class Picture : public testing::TestWithParam<PictureCase> {};
@@ -137,8 +140,8 @@ INSTANTIATE_TEST_SUITE_P(References, Picture, testing::ValuesIn(kCases), CaseNam
 // directlighting and whitted leave light out: they never exceed the reference. Two threads, tiles
 // of another size and another order give the same bits.
 TEST(Picture, WithoutIndirectLightIsNoBrighterAndAlwaysTheSame) {
-  for (const char* scene :
-       {"skylight-room", "cornell-caustic", "glossy-room", "furnace", "veach-mis"}) {
+  for (const char* scene : {"skylight-room", "cornell-caustic", "glossy-room", "furnace",
+                            "veach-mis", "moving-spheres"}) {
     const double truth = MeanRadiance(LoadReference(scene).image);
     for (const char* variant : {"directlighting", "whitted"}) {
       SCOPED_TRACE(std::string(scene) + "/" + variant);

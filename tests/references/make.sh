@@ -3,7 +3,7 @@
 # Makes the reference pictures of tests/images/ anew, by path tracing: two halves of each scene with
 # different seeds, whose difference tells the noise of their mean. Writes them and README.md here.
 #     tests/references/make.sh [path of the program, default build/bin/exphoton]
-# About 6 minutes of one core. The pictures do not depend on the number of threads.
+# About 7 minutes of one core. The pictures do not depend on the number of threads.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -40,6 +40,7 @@ reference cornell-caustic cornell-caustic/path 4096
 reference glossy-room glossy-room/path 2048
 reference furnace furnace/path 1024
 reference veach-mis veach-mis/path 2048
+reference moving-spheres moving-spheres/path 1024
 
 {
   cat <<'TEXT'
