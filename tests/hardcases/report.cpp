@@ -70,23 +70,27 @@ std::string Summary(const std::vector<Line>& lines) {
 }
 
 std::string FalseAlarmText(const std::vector<Line>& lines) {
-  double none = 1, most = 0;
+  constexpr double kWorthNaming = 1e-3;
+  double none = 1;
   int count = 0;
-  std::string where;
+  std::string tight;
+  std::array<char, 200> text{};
   for (const Line& line : lines) {
-    for (const double rate : line.falseAlarms) {
-      ++count;
-      none *= 1 - rate;
-      if (rate > most) most = rate, where = line.asked->id;
-    }
+    double noneHere = 1;
+    for (const double rate : line.falseAlarms) noneHere *= 1 - rate;
+    count += int(line.falseAlarms.size());
+    none *= noneHere;
+    if (1 - noneHere < kWorthNaming) continue;
+    std::snprintf(text.data(), text.size(), "%s%s %.2g", tight.empty() ? "" : ", ",
+                  line.asked->id.c_str(), 1 - noneHere);
+    tight += text.data();
   }
   if (count == 0) return "";
-  std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(),
-                "%d means over seeds; with other seeds one of them fails by chance in %.2g of all "
-                "runs (most often: case %s, %.2g)\n",
-                count, 1 - none, where.empty() ? "-" : where.c_str(), most);
-  return text.data();
+                "%d means over seeds; with other seeds one or more fail by chance in %.2g of all "
+                "runs",
+                count, 1 - none);
+  return text.data() + (tight.empty() ? "" : "; by case: " + tight) + "\n";
 }
 
 std::string Page(const std::vector<Line>& lines) {
