@@ -25,7 +25,9 @@ struct PhotonArrangement {
   explicit PhotonArrangement(const std::string& size)
       : made(ShootRoomPhotons(TriangleCountOf(size), kPlaces)),
         map(PhotonHaul(made.photons, 1), threads),
-        opponent(Positions()) {
+        directions(Directions()),
+        opponent(Positions()),
+        seedOpponent(SeedPositions()) {
     Arena arena;
     std::vector<Real> radii;
     for (std::size_t i = 0; i < made.scattered.size(); i += 16) {
@@ -36,16 +38,29 @@ struct PhotonArrangement {
     std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
     tight = radii[radii.size() / 2];
   }
+  // As the map has them: it may round positions and directions.
   std::vector<Point3> Positions() const {
     std::vector<Point3> points;
-    for (const Photon& photon : made.photons) points.push_back(photon.p);
+    for (std::uint32_t i = 0; i < map.Size(); ++i) points.push_back(map.Position(i));
+    return points;
+  }
+  std::vector<Vector3> Directions() const {
+    std::vector<Vector3> directions;
+    for (std::uint32_t i = 0; i < map.Size(); ++i) directions.push_back(map.Direction(i));
+    return directions;
+  }
+
+  std::vector<Point3> SeedPositions() const {
+    std::vector<Point3> points;
+    for (const RadianceSeed& seed : made.seeds) points.push_back(seed.p);
     return points;
   }
 
   ThreadPool threads{1};
   RoomPhotons made;
   PhotonMap map;
-  NanoflannMap opponent;
+  std::vector<Vector3> directions;
+  NanoflannMap opponent, seedOpponent;
   Real tight;  // radius that holds k photons at half of the places
 };
 
@@ -67,10 +82,9 @@ Found FindWithNanoflann(const PhotonArrangement& a, const SurfacePlace& place, R
   NanoflannMap::Near buffer[kNearest];
   const auto near = a.opponent.Nearest(
       place.p, kNearest, radius * radius, buffer, [&](std::uint32_t i, float distance2) {
-        const Photon& photon = a.made.photons[i];
-        const Real height = Dot(photon.p - place.p, place.n);
+        const Real height = Dot(a.opponent.At(i) - place.p, place.n);
         const Real flat2 = Square(height * (1 / PhotonMap::kFlatness));
-        if (!(Dot(photon.wi, place.n) > 0)) return kInfinity;
+        if (!(Dot(a.directions[i], place.n) > 0)) return kInfinity;
         return std::max(distance2, flat2);
       });
   if (near.size() < kNearest) return {near.size(), radius * radius};
@@ -120,7 +134,7 @@ struct RadianceArrangement {
     Log log(Log::Level::Normal, Log::Sink::Memory);
     ProgressReporter progress(ProgressReporter::Mode::Quiet);
     Statistics statistics;
-    PreprocessContext context{threads, 0, log, progress, statistics};
+    PreprocessContext context{threads, 0, log, progress, statistics, false, nullptr, Point2i()};
     ExtendedPhotonSettings settings;
     settings.radianceReach = 1000;
     settings.radianceNormal = 0;
@@ -151,7 +165,7 @@ Real NearestWithMap(const RadianceArrangement& radiance, const SurfacePlace& pla
 Real NearestWithNanoflann(const PhotonArrangement& a, const SurfacePlace& place) {
   NanoflannMap::Near buffer[1];
   const auto near =
-      a.opponent.Nearest(place.p, 1, 1e30f, buffer, [&](std::uint32_t i, float distance2) {
+      a.seedOpponent.Nearest(place.p, 1, 1e30f, buffer, [&](std::uint32_t i, float distance2) {
         return Dot(a.made.seeds[i].n, place.n) > 0 ? distance2 : kInfinity;
       });
   return near.empty() ? kInfinity : std::sqrt(near[0].distance2);

@@ -21,6 +21,8 @@ class NanoflannMap {
     tree_.buildIndex();  // leaves of ten: its default
   }
 
+  const Point3& At(std::uint32_t index) const { return cloud_.points[index]; }
+
   struct Near {
     float distance2;
     std::uint32_t index;
