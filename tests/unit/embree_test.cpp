@@ -38,8 +38,9 @@ void ExpectTheSameHits(const PrimitiveSet& set, std::uint64_t seed) {
     if (!expected.IsHit() || !found.IsHit()) continue;
     differing += !(std::abs(found.t - expected.t) <= Real(1e-5) * expected.t);
     // Of two surfaces at one distance either may be found; of one its parameters are the same.
-    if (found.primitive == expected.primitive && found.instance == expected.instance)
+    if (found.primitive == expected.primitive && found.instance == expected.instance) {
       EXPECT_EQ(found.uv, expected.uv);
+    }
   }
   EXPECT_GT(hits, 0);
   EXPECT_LE(differing, 4) << "of " << kRays;
