@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on what the including file defines for its vectors: Real8 (Load, All,
-// Store, + - *, MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met on the
-// stack). Included into an unnamed namespace.
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, All, -, *,
+// MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met on
+// the stack). Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose

@@ -32,7 +32,6 @@ struct Real8 {
   static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
 };
 
-inline Real8 operator+(Real8 a, Real8 b) { return {_mm256_add_ps(a.v, b.v)}; }
 inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
 inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
 inline Real8 MultiplyAdd(Real8 a, Real8 b, Real8 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
