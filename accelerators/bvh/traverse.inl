@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on what the including file defines for its vectors: Real8 (Load, All, -, *,
-// MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met on
-// the stack). Included into an unnamed namespace.
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, All, -,
+// *, MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met
+// on the stack). Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
@@ -140,7 +140,8 @@ struct BlockRay {
   int kx, ky, kz;
 
   explicit BlockRay(const TriangleRay& ray)
-      : ox(Real8::All(ray.ox)), oy(Real8::All(ray.oy)), oz(Real8::All(ray.oz)), sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
+      : ox(Real8::All(ray.ox)), oy(Real8::All(ray.oy)), oz(Real8::All(ray.oz)),
+        sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
         sz(Real8::All(ray.sz)), kx(ray.kx), ky(ray.ky), kz(ray.kz) {}
 
   // The triangles of a block that may be hit by tMax. Edges as in MissesTriangle; and the distance
@@ -185,7 +186,9 @@ template <bool kIsAny, class BoxRay, class Visit>
   const unsigned backward = ray.rows.backward;
   const bool isOpposite = !kIsAny && backward & 4;
   const PushOrder order(isOpposite);
-  const std::size_t orderIndex = kIsAny ? kBvhBlockingOrder : (isOpposite ? 7 - backward : backward);
+  const std::size_t orderIndex = kIsAny       ? kBvhBlockingOrder
+                                 : isOpposite ? 7 - backward
+                                              : backward;
   const BvhLine* const lines = arrays.lines.data();
   BvhChild children[kStackSize];
   Real enters[kStackSize];
@@ -284,7 +287,8 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   return isOccluded;
 }
 
-void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const TriangleRay& ray, Hit* hit) {
+void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const TriangleRay& ray,
+                     Hit* hit) {
   const BlockRay blockRay(ray);
   for (std::uint32_t i = 0; i < count; ++i)
     IntersectBlock(blocks[i], blockRay, ray, Limit(hit->t), hit);
