@@ -59,6 +59,8 @@ void GatherRadiance::Look(std::span<Segment> segments) const {
 
 Spectrum GatherRadiance::Along(Segment segment, int shortBounces) const {
   const bool followsSpecular = context_.scene.Effects().Needs(Effect::Specular);
+  if (!followsSpecular && !context_.scene.HasMedia())  // nothing lies on the way, or beyond
+    return segment.hit && segment.hit->material ? NonSpecular(segment, shortBounces) : Spectrum();
   Spectrum sum, throughput(1);
   for (int depth = 0;; ++depth) {
     const auto& hit = segment.hit;

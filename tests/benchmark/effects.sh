@@ -32,6 +32,8 @@ screen='AttributeBegin Material "translucent" Translate 0 0 5
   Shape "disk" "float radius" 2 AttributeEnd'
 fog='Volume "homogeneous" "color sigma_a" [.02 .02 .02] "color sigma_s" [.03 .03 .03]
   "point p0" [-9 -2 0] "point p1" [9 4 8]'
+moving='AttributeBegin Translate -1 -.8 4.5 ActiveTransform EndTime Translate 2 0 0
+  Shape "sphere" "float radius" 1 AttributeEnd'
 checks='Texture "checks" "color" "checkerboard" Material "matte" "texture Kd" "checks"'
 
 # scene NAME INTEGRATOR CAMERA WORLD: writes $work/NAME.pbrt.
@@ -74,13 +76,14 @@ needed() {
   scene filtering "$path" "$camera" "$lamp $checks ${room#*\]}"
   scene lens "$path" "$camera \"float lensradius\" .1 \"float focaldistance\" 4" "$lamp $room"
   scene environment "$path" "$camera" "$sky $lamp $room"
+  scene motion "$path" "$camera" "$lamp $moving $room"
   printf '%-28s %8s %8s %7s\n' "needed by the scene" on off on/off
   local effect
   for effect in caustics indirect transmission specular media; do
     compare "$effect" "$effect" auto "$effect=off"
   done
   compare "media, single scattering" single auto media=off
-  for effect in filtering lens environment; do
+  for effect in filtering lens motion environment; do
     compare "$effect" "$effect" auto "$effect=off"
   done
 }
