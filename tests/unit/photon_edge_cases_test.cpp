@@ -153,7 +153,9 @@ TEST(PhotonEdgeCases, LightThatHitsNothingEndsWithinItsBudget) {
 }
 
 // 4 pi times this is more than a Real holds.
-constexpr const char* kTooBright = "LightSource \"point\" \"color I\" [3e38 3e38 3e38]";
+constexpr const char* kTooBright =
+    sizeof(Real) == 4 ? "LightSource \"point\" \"color I\" [3e38 3e38 3e38]"
+                      : "LightSource \"point\" \"color I\" [1e308 1e308 1e308]";
 
 TEST(PhotonEdgeCases, PhotonsWithoutFinitePowerAreCountedAndUnderStrictAnError) {
   const std::string text = Sphere(
