@@ -3,6 +3,7 @@
 // map of many points takes no more memory than holding it.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -65,7 +66,7 @@ class BlockStore {
       std::memcpy(records, Raw() + begin, count * sizeof(Record));
       Block block;
       for (std::uint32_t lane = 0; lane < kBlockPoints; ++lane)
-        lane < count ? block.Set(lane, records[lane]) : block.SetMissing(lane);
+        block.Set(lane, records[std::min<std::size_t>(lane, count - 1)]);
       new (bytes_.get() + begin / kBlockPoints * sizeof(Block)) Block(block);
     }
   }

@@ -2,6 +2,8 @@
 // BoxTree: building, from the blocks upwards.
 #include "core/spatial/box_tree.h"
 
+#include <algorithm>
+
 namespace exphoton {
 
 Bounds3 BoxNode::Bounds() const {
@@ -24,7 +26,7 @@ BoxTree::BoxTree(const std::vector<Bounds3>& bounds) {
   for (const std::vector<Bounds3>* below = &bounds; !below->empty();) {
     std::vector<BoxNode> nodes((below->size() + kBoxChildren - 1) / kBoxChildren);
     for (std::size_t i = 0; i < nodes.size() * kBoxChildren; ++i)
-      nodes[i / kBoxChildren].Set(i % kBoxChildren, i < below->size() ? (*below)[i] : Bounds3());
+      nodes[i / kBoxChildren].Set(i % kBoxChildren, (*below)[std::min(i, below->size() - 1)]);
     levels_.push_back(std::move(nodes));
     break;
   }
@@ -32,8 +34,7 @@ BoxTree::BoxTree(const std::vector<Bounds3>& bounds) {
     const std::vector<BoxNode>& below = levels_.back();
     std::vector<BoxNode> nodes((below.size() + kBoxChildren - 1) / kBoxChildren);
     for (std::size_t i = 0; i < nodes.size() * kBoxChildren; ++i)
-      nodes[i / kBoxChildren].Set(i % kBoxChildren,
-                                  i < below.size() ? below[i].Bounds() : Bounds3());
+      nodes[i / kBoxChildren].Set(i % kBoxChildren, below[std::min(i, below.size() - 1)].Bounds());
     levels_.push_back(std::move(nodes));
   }
 }

@@ -16,7 +16,7 @@ namespace exphoton {
 
 inline constexpr std::uint32_t kBoxChildren = 16;
 
-// The bounds of sixteen children. Of a missing child they are empty: nothing in it is near.
+// The bounds of sixteen children. Where there are fewer, the last one is repeated (PointBlock).
 struct alignas(64) BoxNode {
   Real low[3][kBoxChildren], high[3][kBoxChildren];
 

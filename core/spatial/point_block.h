@@ -17,7 +17,9 @@ struct OrientedPoint {
   std::uint32_t direction = 0;  // EncodeOctahedral
 };
 
-// Sources of other things that belong to points derive from it.
+// Sources of other things that belong to points derive from it. Where there are fewer than sixteen
+// points, the last one is repeated: searches know how many there are, and compute with nothing but
+// finite numbers.
 struct alignas(64) PointBlock {
   using Record = OrientedPoint;
 
@@ -32,8 +34,6 @@ struct alignas(64) PointBlock {
     z[lane] = point.p.z;
     direction[lane] = point.direction;
   }
-  // Nothing is near it.
-  void SetMissing(std::uint32_t lane) { Set(lane, {Point3(kInfinity), 0}); }
 };
 
 }  // namespace exphoton

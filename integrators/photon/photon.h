@@ -56,10 +56,6 @@ struct PhotonBlock : PointBlock {
     g[lane] = photon.alpha.g;
     b[lane] = photon.alpha.b;
   }
-  void SetMissing(std::uint32_t lane) {
-    PointBlock::SetMissing(lane);
-    r[lane] = g[lane] = b[lane] = 0;
-  }
 };
 
 // The photons of one map, and the number of paths traced from the lights until it was full.

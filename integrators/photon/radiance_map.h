@@ -32,10 +32,6 @@ struct RadianceBlock : DiskBlock {
     g[lane] = record.value.g;
     b[lane] = record.value.b;
   }
-  void SetMissing(std::uint32_t lane) {
-    Set(lane, {});
-    PointBlock::SetMissing(lane);
-  }
 };
 
 class RadianceMap {

@@ -20,7 +20,6 @@ struct TestDiskBlock : DiskBlock {
     PointBlock::Set(lane, {disk.p, disk.direction});
     reach2[lane] = disk.reach2;
   }
-  void SetMissing(std::uint32_t lane) { Set(lane, {Point3(kInfinity), 0, 0}); }
 };
 
 class TestPointTree {

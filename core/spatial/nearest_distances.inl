@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Part of nearest_search.inl: distances of sixteen boxes or points at a time, and which of the
+// sixteen there are. Box distances are rounded as point distances are, step by step, and every step
+// is monotone: a box is never farther than a point in it.
+
+constexpr Real kLargest = std::numeric_limits<Real>::max();
+
+struct Place16 {
+  Real16 x, y, z;
+  Place16() = default;
+  explicit Place16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
+};
+
+// Squared distances from p to the children's boxes.
+inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
+  const Real16 zero = Real16::All(0);
+  const auto along = [&](int axis, Real16 at) {
+    return Max(Max(Real16::Load(node.low[axis]) - at, at - Real16::Load(node.high[axis])), zero);
+  };
+  const Real16 dx = along(0, p.x), dy = along(1, p.y), dz = along(2, p.z);
+  return dx * dx + dy * dy + dz * dz;
+}
+
+// The same as flattened distances: what a point's height over the plane through p with normal n
+// makes of them.
+inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Place16& p, const Place16& n,
+                                    Real16 steepness) {
+  const auto products = [&](int axis, Real16 at, Real16 normal, Real16* least, Real16* most) {
+    const Real16 a = (Real16::Load(node.low[axis]) - at) * normal;
+    const Real16 b = (Real16::Load(node.high[axis]) - at) * normal;
+    *least = Min(a, b);
+    *most = Max(a, b);
+  };
+  Real16 least[3], most[3];
+  products(0, p.x, n.x, &least[0], &most[0]);
+  products(1, p.y, n.y, &least[1], &most[1]);
+  products(2, p.z, n.z, &least[2], &most[2]);
+  const Real16 zero = Real16::All(0);
+  const Real16 lowest = (least[0] + least[1] + least[2]) * steepness;
+  const Real16 highest = (most[0] + most[1] + most[2]) * steepness;
+  const Real16 height = Max(Max(lowest, zero - highest), zero);
+  return Max(height * height, BoxDistance2(node, p));
+}
+
+// The direction of each point, some length long, dotted with n.
+inline Real16 DotDirection(const PointBlock& block, const Place16& n, Real16* length2) {
+  Real16 a, b;
+  LoadOctahedral(block.direction, &a, &b);
+  const Real16 z = Real16::All(kOctahedralOne) - Abs(a) - Abs(b);
+  const Real16 fold = Max(Real16::All(0) - z, Real16::All(0));
+  const Real16 x = a - CopySign(fold, a), y = b - CopySign(fold, b);
+  *length2 = x * x + y * y + z * z;
+  return x * n.x + y * n.y + z * n.z;
+}
+
+inline Real16 PointDistance2(const PointBlock& block, const Place16& p, Real16* dx, Real16* dy,
+                             Real16* dz) {
+  *dx = Real16::Load(block.x) - p.x;
+  *dy = Real16::Load(block.y) - p.y;
+  *dz = Real16::Load(block.z) - p.z;
+  return *dx * *dx + *dy * *dy + *dz * *dz;
+}
+
+// Those of a node's sixteen children that there are, as a mask; at level -1 the points of a block.
+// The others repeat the last one (BoxTree, BlockStore), so that there is always something finite to
+// compute with.
+inline unsigned Present(const PointTreeView& view, int level, std::uint32_t node) {
+  const std::uint32_t last = (view.count - 1) >> (4 * (level + 1));
+  return node < last >> 4 ? 0xffff : (2u << (last & 15)) - 1;
+}
+
+inline const PointBlock& BlockAt(const PointTreeView& view, std::uint32_t block) {
+  return *reinterpret_cast<const PointBlock*>(view.blocks + std::size_t(block) * view.blockBytes);
+}
+
+inline void PrefetchBlock(const PointBlock& block, std::size_t bytes) {
+  const auto* line = reinterpret_cast<const char*>(&block);
+  for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(line + at);
+}
+
+// The block nearest to p, going down to the nearest box at each level: in or beside p's
+// surroundings, which is all that is asked of it. Children that repeat the last are not nearer than
+// it, and the lowest of equals is taken.
+inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
+  std::uint32_t node = 0;
+  for (int level = view.tree->Levels() - 1; level >= 0; --level)
+    node =
+        node * kBoxChildren + NearestLane(BoxDistance2(view.tree->Level(level)[node], p), 0xffff);
+  return node;
+}
+
+inline std::uint32_t FindBlockNear(const PointTreeView& view, const Point3& p) {
+  return BlockNear(view, Place16(p));
+}
