@@ -207,9 +207,13 @@ TEST(Triangle, DegenerateOnesAreDroppedAtAnyScale) {
     EXPECT_EQ(mesh.DropDegenerate(), 3u);
     EXPECT_EQ(mesh.TriangleCount(), 1u);
     const Normal3 n = TriangleSurface(mesh, 0, 0, 0).ng;
+#ifdef EXPHOTON_DOUBLE  // an ulp: the length of a normal is rounded as it is computed
     EXPECT_EQ(n.x, 0);
     EXPECT_EQ(n.y, 0);
-    EXPECT_NEAR(double(n.z), 1, double(kMachineEpsilon));
+    EXPECT_NEAR(n.z, 1, kMachineEpsilon);
+#else
+    EXPECT_EQ(n, Normal3(0, 0, 1));
+#endif
   }
 }
 
