@@ -3,15 +3,11 @@
 #include "core/lights/light_distribution.h"
 
 namespace exphoton {
-namespace {
 
-// Luminance of a light's power; 0 where it is no usable number (the uniform share then serves it).
 double UsablePower(const Light& light) {
   const double power = double(light.Power().Y());
   return std::isfinite(power) && power > 0 ? power : 0;
 }
-
-}  // namespace
 
 LightDistribution::LightDistribution(const std::vector<std::unique_ptr<Light>>& lights,
                                      LightSelection selection, double uniformShare,

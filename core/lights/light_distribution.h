@@ -14,6 +14,9 @@
 
 namespace exphoton {
 
+// Luminance of a light's power; 0 where it is no usable number (a uniform share then serves it).
+double UsablePower(const Light& light);
+
 enum class LightSelection { Power, Uniform };
 
 class LightDistribution {

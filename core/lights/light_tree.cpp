@@ -3,7 +3,8 @@
 #include "core/lights/light_tree.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/lights/light_distribution.h"
 
 namespace exphoton {
 namespace {
@@ -14,13 +15,6 @@ constexpr double kUniformShare = .05;
 constexpr double kLeastGroupShare = .1;
 // Of the choice between two children.
 constexpr double kLeastChildShare = 1e-3;
-
-double UsablePower(const Light& light) {
-  const double power = double(light.Power().Y());
-  return std::isfinite(power) && power > 0 ? power : 0;
-}
-
-int LongestAxis(const Vector3& d) { return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2; }
 
 }  // namespace
 
@@ -79,7 +73,7 @@ int LightTree::Build(std::span<Leaf> leaves, Place place) {
     nodes_[std::size_t(number)] = node;
     return number;
   }
-  const int axis = LongestAxis(centers.Diagonal());
+  const int axis = centers.LongestAxis();
   const std::size_t middle = leaves.size() / 2;
   std::nth_element(leaves.begin(), leaves.begin() + std::ptrdiff_t(middle), leaves.end(),
                    [axis](const Leaf& a, const Leaf& b) {

@@ -22,6 +22,10 @@ struct Bounds3 {
   void Extend(const Point3& p) { min = Min(min, p); max = Max(max, p); }
   void Extend(const Bounds3& b) { min = Min(min, b.min); max = Max(max, b.max); }
   Vector3 Diagonal() const { return max - min; }
+  int LongestAxis() const {  // the first of equals
+    const Vector3 d = Diagonal();
+    return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+  }
   Point3 Center() const { return min * Real(.5) + max * Real(.5); }
   Real SurfaceArea() const {
     if (IsEmpty()) return 0;

@@ -24,11 +24,6 @@ Bounds3 BoundsOf(std::span<const Point3> points) {
   return bounds;
 }
 
-int LongestAxis(const Bounds3& bounds) {
-  const Vector3 d = bounds.Diagonal();
-  return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-}
-
 // The first half of the points lies below the second along the axis.
 void Halve(std::span<Point3> points, int axis) {
   std::nth_element(points.begin(), points.begin() + std::ptrdiff_t(points.size() / 2), points.end(),
@@ -70,7 +65,7 @@ void PhotonAim::AddLevels(std::span<Point3> wanted, double leastShare) {
       if (fitting < smallest) {
         next.push_back({points, radius});
       } else if (share / 2 >= leastShare) {
-        Halve(points, LongestAxis(bounds));
+        Halve(points, bounds.LongestAxis());
         next.push_back({points.first(points.size() / 2), radius});
         next.push_back({points.subspan(points.size() / 2), radius});
       }
