@@ -121,7 +121,7 @@ class PathIntegrator final : public SurfaceIntegrator {
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
     lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
-    tree_ = HasMany(scene.Lights())
+    tree_ = scene.ShiningLights() >= kManyLights
                 ? LightTree(scene.Lights(), BoundingSphere(scene.WorldBounds()))
                 : LightTree();
     indices_.clear();
@@ -250,11 +250,6 @@ class PathIntegrator final : public SurfaceIntegrator {
   // Few lights are chosen by power alone: what the tree knows of distance is then not worth its
   // walk.
   static constexpr int kManyLights = 16;
-  static bool HasMany(const std::vector<std::unique_ptr<Light>>& lights) {
-    return std::count_if(lights.begin(), lights.end(), [](const auto& light) {
-             return !light->IsProvablyBlack();
-           }) >= kManyLights;
-  }
   LightTree::Choice ChooseLight(const Point3& p, Real u) const {
     if (!tree_.IsEmpty()) return tree_.Sample(p, u);
     const auto choice = lights_.Sample(u);

@@ -23,15 +23,14 @@ constexpr Interval kAlways{-kInfinity, kInfinity};
 struct SceneTraits {
   LobeSet lobes = LobeSet::None;  // of any surface
   bool needsDifferentials = false;
-  int lights = 0, shiningLights = 0;
+  int lights, shiningLights;
 
-  explicit SceneTraits(const Scene& scene) : lights(int(scene.Lights().size())) {
+  explicit SceneTraits(const Scene& scene)
+      : lights(int(scene.Lights().size())), shiningLights(scene.ShiningLights()) {
     for (const auto& material : scene.Materials()) {
       lobes = lobes | material->PossibleLobes();
       needsDifferentials = needsDifferentials || material->NeedsDifferentials();
     }
-    for (const auto& light : scene.Lights())
-      if (!light->IsProvablyBlack()) ++shiningLights;
   }
   bool Has(LobeSet mask) const { return Intersects(lobes, mask); }
 };

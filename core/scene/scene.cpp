@@ -2,6 +2,8 @@
 // Scene: puts the parts together, prepares the lights and answers rays.
 #include "core/scene/scene.h"
 
+#include <algorithm>
+
 namespace exphoton {
 
 Scene::Scene(SceneParts parts)
@@ -17,6 +19,11 @@ Scene::Scene(SceneParts parts)
 }
 
 Scene::~Scene() = default;
+
+int Scene::ShiningLights() const {
+  return int(std::count_if(Lights().begin(), Lights().end(),
+                           [](const auto& light) { return !light->IsProvablyBlack(); }));
+}
 
 void Scene::SetEffects(EffectPlan plan, Interval shutter) {
   effects_ = std::move(plan);

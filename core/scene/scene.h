@@ -60,6 +60,7 @@ class Scene {
   // All lights in the order of the file. Black ones are kept, so that indices are stable; skip
   // them.
   const std::vector<std::unique_ptr<Light>>& Lights() const { return parts_.lights; }
+  int ShiningLights() const;  // how many are not black
   const LightOrigin& OriginOfLight(std::size_t i) const { return parts_.lightOrigins[i]; }
   const std::vector<const Light*>& InfiniteLights() const { return infiniteLights_; }
   const std::vector<std::shared_ptr<const Material>>& Materials() const { return parts_.materials; }

@@ -65,10 +65,7 @@ void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
   arrays_.clear();
   many_.reset();
   const auto& lights = scene.Lights();
-  const auto shining = std::count_if(lights.begin(), lights.end(), [](const auto& light) {
-    return !light->IsProvablyBlack();
-  });
-  if (shining > mostLights_) {
+  if (scene.ShiningLights() > mostLights_) {
     many_.emplace().RequestSamples(scene, sampler, mostLights_, layout);
     return;
   }
