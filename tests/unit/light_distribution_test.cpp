@@ -3,36 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "core/lights/light_distribution.h"
+#include "tests/support/placed_light.h"
 
 namespace exphoton {
 namespace {
-
-// A light of which only the power matters.
-class PowerOnly final : public Light {
- public:
-  PowerOnly(Real power, bool isBlack) : power_(power), isBlack_(isBlack) {}
-  bool IsProvablyBlack() const override { return isBlack_; }
-  Spectrum Power() const override { return Spectrum(power_); }
-  std::optional<DirectSample> SampleDirect(const SurfacePoint&, Point2, Real) const override {
-    return std::nullopt;
-  }
-  Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
-    return 0;
-  }
-  std::optional<EmissionSample> SampleEmission(Point2, Point2, Real, Real) const override {
-    return std::nullopt;
-  }
-
- private:
-  Real power_;
-  bool isBlack_;
-};
 
 std::vector<std::unique_ptr<Light>> Lights(std::initializer_list<Real> powers) {
   std::vector<std::unique_ptr<Light>> lights;
   // A negative number stands for a light that is provably black.
   for (const Real p : powers)
-    lights.push_back(std::make_unique<PowerOnly>(std::max(p, Real(0)), p < 0));
+    lights.push_back(std::make_unique<PlacedLight>(std::nullopt, std::max(p, Real(0)), p < 0));
   return lights;
 }
 

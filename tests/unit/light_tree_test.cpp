@@ -7,38 +7,13 @@
 
 #include "core/math/random.h"
 #include "tests/support/equivalence.h"
+#include "tests/support/placed_light.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
 namespace {
 
 const Sphere3 kWorld{{0, 0, 0}, 10};
-
-// A light of which only place and power matter; nowhere without a place.
-class Placed final : public Light {
- public:
-  Placed(std::optional<Point3> place, Real power, bool isBlack = false)
-      : place_(place), power_(power), isBlack_(isBlack) {}
-  bool IsProvablyBlack() const override { return isBlack_; }
-  std::optional<Bounds3> Bounds() const override {
-    return place_ ? std::optional<Bounds3>(Bounds3(*place_)) : std::nullopt;
-  }
-  Spectrum Power() const override { return Spectrum(power_); }
-  std::optional<DirectSample> SampleDirect(const SurfacePoint&, Point2, Real) const override {
-    return std::nullopt;
-  }
-  Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
-    return 0;
-  }
-  std::optional<EmissionSample> SampleEmission(Point2, Point2, Real, Real) const override {
-    return std::nullopt;
-  }
-
- private:
-  std::optional<Point3> place_;
-  Real power_;
-  bool isBlack_;
-};
 
 using Lights = std::vector<std::unique_ptr<Light>>;
 
@@ -48,7 +23,7 @@ Lights Scattered(int count) {
   for (int i = 0; i < count; ++i) {
     const Real x = random.Uniform(), y = random.Uniform();
     lights.push_back(
-        std::make_unique<Placed>(Point3{10 * x, 10 * y, random.Uniform()}, random.Uniform()));
+        std::make_unique<PlacedLight>(Point3{10 * x, 10 * y, random.Uniform()}, random.Uniform()));
   }
   return lights;
 }
@@ -56,9 +31,9 @@ Lights Scattered(int count) {
 // Every u belongs to the light that it chooses, so each is chosen as often as its probability says.
 TEST(LightTree, ChoosesWithTheProbabilitiesThatItGives) {
   Lights lights = Scattered(37);
-  lights.push_back(std::make_unique<Placed>(std::nullopt, Real(500)));
-  lights.push_back(std::make_unique<Placed>(std::nullopt, Real(100)));
-  lights.push_back(std::make_unique<Placed>(Point3{5, 5, 0}, Real(9), true));
+  lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(500)));
+  lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(100)));
+  lights.push_back(std::make_unique<PlacedLight>(Point3{5, 5, 0}, Real(9), true));
   const LightTree tree(lights, kWorld);
   for (const Point3 p : {Point3{5, 5, 0}, Point3{-40, 2, 3}, Point3{1, 9, .5f}}) {
     std::vector<double> found(lights.size(), 0.0);
@@ -82,7 +57,7 @@ TEST(LightTree, ChoosesWithTheProbabilitiesThatItGives) {
 TEST(LightTree, PrefersWhatIsNear) {
   Lights lights;
   for (int i = 0; i < 100; ++i)
-    lights.push_back(std::make_unique<Placed>(Point3{Real(i), 0, 0}, Real(1)));
+    lights.push_back(std::make_unique<PlacedLight>(Point3{Real(i), 0, 0}, Real(1)));
   const LightTree tree(lights, kWorld);
   const Point3 p{20, Real(.5), 0};
   EXPECT_GT(tree.Probability(p, 20), .1);
@@ -92,8 +67,8 @@ TEST(LightTree, PrefersWhatIsNear) {
 TEST(LightTree, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
   Lights lights;
   for (int i = 0; i < 5; ++i)  // on one spot
-    lights.push_back(std::make_unique<Placed>(Point3{1, 1, 1}, i == 0 ? Real(0) : Real(1e30)));
-  lights.push_back(std::make_unique<Placed>(std::nullopt, Real(0)));
+    lights.push_back(std::make_unique<PlacedLight>(Point3{1, 1, 1}, i == 0 ? Real(0) : Real(1e30)));
+  lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(0)));
   const LightTree tree(lights, kWorld);
   for (const Point3 p : {Point3{1, 1, 1}, Point3{2, 3, 4}}) {
     double sum = 0;
