@@ -79,11 +79,11 @@ NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const N
   const Place16 p(query.p);
   const Real max2 = std::min(query.maxRadius2, kLargest);
   Real radius2 = max2;
-  if (view.spacing2) {
+  if (view.spacing2 && query.k < view.count) {
     const std::uint32_t run = BlockNear(view, p) / (PointTreeView::kSpacingPoints / kBlockPoints);
     radius2 = view.spacing2[run] * Real(query.k) * kFirst;
   }
-  for (;; radius2 *= kGrowth) {
+  for (;; radius2 = radius2 < max2 / kGrowth ? radius2 * kGrowth : max2) {
     if (!(radius2 > 0 && radius2 < max2)) radius2 = max2;
     Candidates candidates(buffer, query.k, radius2);
     CollectFor(view, query, p, &candidates);

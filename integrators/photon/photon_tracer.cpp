@@ -107,7 +107,7 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
-    mostPower_ = alpha_.MaxComponent() * kMostGrowth;
+    emittedMost_ = alpha_.MaxComponent();
     chunk_->emittedPower += double(alpha_.Y());
     *ray = RayDifferential(emission->ray);
     return alpha_.MaxComponent() > 0;
@@ -154,7 +154,7 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
-    if (alpha_.MaxComponent() > mostPower_) {
+    if (alpha_.MaxComponent() / kMostGrowth > emittedMost_) {  // cannot overflow
       ++chunk_->overgrown;
       return false;
     }
@@ -189,7 +189,7 @@ class PhotonTracer::Path {
   Chunk* chunk_;
   PathTally tally_;
   Spectrum alpha_;
-  Real mostPower_ = 0;
+  Real emittedMost_ = 0;
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
 
