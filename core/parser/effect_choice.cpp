@@ -27,6 +27,20 @@ std::vector<std::string> EffectNames() {
                   known + (hint.empty() ? "" : "; " + hint));
 }
 
+// What the picture loses where an effect that the scene needs is off.
+std::string Loss(Effect effect) {
+  switch (effect) {
+    case Effect::Filtering:
+      return "leaves textures unfiltered";
+    case Effect::Lens:
+      return "shows the scene through a pinhole";
+    case Effect::Motion:
+      return "shows the moment at which the shutter opens";
+    default:
+      return "leaves out light that the scene needs";
+  }
+}
+
 void ApplyOne(const std::string& item, EffectPlan* plan, Log& log) {
   const std::size_t equals = item.find('=');
   const std::string name = item.substr(0, equals);
@@ -36,8 +50,7 @@ void ApplyOne(const std::string& item, EffectPlan* plan, Log& log) {
   if (found == names.end()) FailChoice("unknown effect \"" + name + "\"", DidYouMean(name, names));
   if (value != "on" && value != "off") FailChoice("\"" + item + "\" says neither on nor off");
   const auto effect = Effect(found - names.begin());
-  if (value == "off" && plan->Needs(effect))
-    log.Warning("--effects " + item + " leaves out light that the scene needs");
+  if (value == "off" && plan->Needs(effect)) log.Warning("--effects " + item + " " + Loss(effect));
   plan->Set(effect, value == "on", "by --effects");
 }
 

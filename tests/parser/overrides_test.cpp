@@ -138,6 +138,16 @@ TEST(EffectChoice, WarnsWhereSomethingNeededIsSwitchedOff) {
             "exphoton: warning: --effects caustics=off leaves out light that the scene needs\n");
 }
 
+TEST(EffectChoice, SaysWhatThePictureLoses) {
+  Log log(Log::Level::Normal, Log::Sink::Memory);
+  ChooseEffects(EffectPlan(), "motion=off,lens=off", log);
+  ASSERT_EQ(log.WarningCount(), 2);
+  EXPECT_EQ(log.Messages()[0],
+            "exphoton: warning: --effects motion=off shows the moment at which the shutter opens\n");
+  EXPECT_EQ(log.Messages()[1],
+            "exphoton: warning: --effects lens=off shows the scene through a pinhole\n");
+}
+
 TEST(EffectChoice, RefusesWhatItDoesNotKnow) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
   for (const char* text : {"", "none", "caustic=off", "caustics", "caustics=no", "caustics=off,"}) {
