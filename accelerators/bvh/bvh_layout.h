@@ -62,7 +62,7 @@ class BvhChild {
   std::uint32_t bits_;
 };
 
-// An order of the eight lanes: three bits each, the first lowest.
+// An order of the eight lanes: four bits each, the first lowest.
 using BvhOrder = std::uint32_t;
 inline constexpr std::size_t kBvhBlockingOrder = 4;
 

@@ -9,7 +9,7 @@ namespace {
 
 BvhOrder Pack(const std::array<std::uint8_t, kBvhWidth>& lanes) {
   BvhOrder order = 0;
-  for (int i = 0; i < kBvhWidth; ++i) order |= BvhOrder(lanes[i]) << (3 * i);
+  for (int i = 0; i < kBvhWidth; ++i) order |= BvhOrder(lanes[i]) << (4 * i);
   return order;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The traversal, written on what the including file defines for its vectors: Real8 (Load, All, -,
-// *, MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder (puts the children that are met
-// on the stack). Included into an unnamed namespace.
+// *, MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder, whose Push finds the children
+// where first <= last and returns how many: the first of the order is *next, and the stack has the
+// others above what was there, the second on top. Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
@@ -171,7 +172,7 @@ inline auto CornersOf(const BvhBlock& block, int lane) {
 }
 
 // Vectors compare with a little more than t: what rounding may add to a distance on the way.
-inline Real8 Limit(Real t) { return Real8::All(t * (1 + Gamma(8))); }
+inline Real Limit(Real t) { return t * (1 + Gamma(8)); }
 
 // A way down leaves at most seven children waiting at each node; and all eight lanes are written.
 constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
@@ -192,26 +193,31 @@ template <bool kIsAny, class BoxRay, class Visit>
   const BvhLine* const lines = arrays.lines.data();
   BvhChild children[kStackSize];
   Real enters[kStackSize];
-  children[0] = BvhChild(BvhChild::Kind::Node, 0);
-  enters[0] = 0;
-  std::size_t size = 1;
+  std::size_t size = 0;
+  BvhChild child(BvhChild::Kind::Node, 0);
   Real tMax = trace.ray.tMax;
-  Real8 limit = Limit(tMax);
-  while (size > 0) {
-    --size;
-    if (!kIsAny && enters[size] > tMax) continue;
-    const BvhChild child = children[size];
+  Real limit = Limit(tMax);
+  for (;;) {
     if (child.IsNode()) {
       const BvhNode& node = child.Node(lines);
-      const Crossings crossings = ray.Cross(node, limit);
-      size += order.Push(node, orderIndex, crossings.first, crossings.last, children + size,
-                         enters + size);
-      if (!kIsAny && size > 1) children[size - 2].Prefetch(lines);
+      const Crossings crossings = ray.Cross(node, Real8::All(limit));
+      const std::size_t met = order.Push(node, orderIndex, crossings.first, crossings.last,
+                                         children + size, enters + size, &child);
+      if (met > 0) {
+        size += met - 1;
+        if (!kIsAny && size > 0) children[size - 1].Prefetch(lines);
+        continue;
+      }
     } else {
       tMax = visit(child, limit);
       if (tMax < 0) return;
       if (!kIsAny) limit = Limit(tMax);
     }
+    do {
+      if (size == 0) return;
+      --size;
+    } while (!kIsAny && enters[size] > tMax);
+    child = children[size];
   }
 }
 
@@ -229,8 +235,8 @@ template <bool kIsAny, class Visit>
 
 // Tests a block; replaces *hit where a triangle of it wins.
 [[gnu::always_inline]] inline void IntersectBlock(const BvhBlock& block, const BlockRay& blockRay,
-                                                  const TriangleRay& ray, Real8 limit, Hit* hit) {
-  unsigned candidates = blockRay.Candidates(block, limit);
+                                                  const TriangleRay& ray, Real limit, Hit* hit) {
+  unsigned candidates = blockRay.Candidates(block, Real8::All(limit));
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = std::countr_zero(candidates);
     const auto found = DecideTriangle(ray, hit->t, CornersOf(block, lane));
@@ -240,9 +246,9 @@ template <bool kIsAny, class Visit>
 }
 
 [[gnu::always_inline]] inline bool IsBlockedBy(const BvhBlock& block, const BlockRay& blockRay,
-                                               const TraceRay& trace, Real8 limit) {
+                                               const TraceRay& trace, Real limit) {
   const Real tMax = trace.ray.tMax;
-  unsigned candidates = blockRay.Candidates(block, limit);
+  unsigned candidates = blockRay.Candidates(block, Real8::All(limit));
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = std::countr_zero(candidates);
     const auto found = DecideTriangle(trace.triangle, tMax, CornersOf(block, lane));
@@ -257,7 +263,7 @@ Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   hit.t = ray.tMax;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  WalkAs<false>(arrays, trace, [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
+  WalkAs<false>(arrays, trace, [&](BvhChild leaf, Real limit) EXPHOTON_INLINE {
     if (leaf.IsTriangles()) {
       IntersectBlock(leaf.Block(arrays.lines.data()), blockRay, trace.triangle, limit, &hit);
       return hit.t;
@@ -274,7 +280,7 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
   bool isOccluded = false;
-  WalkAs<true>(arrays, trace, [&](BvhChild leaf, Real8 limit) EXPHOTON_INLINE {
+  WalkAs<true>(arrays, trace, [&](BvhChild leaf, Real limit) EXPHOTON_INLINE {
     if (leaf.IsTriangles()) {
       isOccluded = IsBlockedBy(leaf.Block(arrays.lines.data()), blockRay, trace, limit);
     } else {
@@ -296,7 +302,7 @@ void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const Triangle
 
 bool OccludedByBlocks(const BvhBlock* blocks, std::uint32_t count, const TraceRay& trace) {
   const BlockRay blockRay(trace.triangle);
-  const Real8 limit = Limit(trace.ray.tMax);
+  const Real limit = Limit(trace.ray.tMax);
   for (std::uint32_t i = 0; i < count; ++i)
     if (IsBlockedBy(blocks[i], blockRay, trace, limit)) return true;
   return false;

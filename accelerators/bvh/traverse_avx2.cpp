@@ -23,18 +23,8 @@
 namespace exphoton {
 namespace {
 
-struct Real8 {
-  __m256 v;
+#include "accelerators/bvh/real8_avx.inl"
 
-  static Real8 Load(const Real* row) { return {_mm256_load_ps(row)}; }
-  static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
-};
-
-inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
-inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
-inline Real8 MultiplyAdd(Real8 a, Real8 b, Real8 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
-inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
-inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline unsigned LessMask(Real8 a, Real8 b) {
   return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)));
 }
@@ -56,33 +46,28 @@ struct Gathering {
 };
 constexpr Gathering kGathering;
 
-class PushOrder {
+class PushOrder : PlaceOrder {
  public:
-  explicit PushOrder(bool isOpposite)
-      : shifts_(isOpposite ? _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21)
-                           : _mm256_setr_epi32(21, 18, 15, 12, 9, 6, 3, 0)) {}
+  using PlaceOrder::PlaceOrder;
 
-  // Puts the children where first <= last on the stack, the first of the order on top; returns how
-  // many. Permutations heed the three low bits of an index only.
   std::size_t Push(const BvhNode& node, std::size_t orderIndex, Real8 first, Real8 last,
-                   BvhChild* children, Real* enters) const {
-    const __m256i order =
-        _mm256_srlv_epi32(_mm256_set1_epi32(int(node.orders[orderIndex])), shifts_);
+                   BvhChild* children, Real* enters, BvhChild* next) const {
+    const BvhOrder places = node.orders[orderIndex];
+    const __m256i order = Lanes(places);
     const __m256 firsts = _mm256_permutevar8x32_ps(first.v, order);
     const __m256 lasts = _mm256_permutevar8x32_ps(last.v, order);
+    const auto met = unsigned(_mm256_movemask_ps(_mm256_cmp_ps(firsts, lasts, _CMP_LE_OQ)));
+    if (met == 0) return 0;
+    *next = node.children[LastLane(places, met)];
     const __m256i all = _mm256_permutevar8x32_epi32(
         _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)), order);
-    const auto mask = unsigned(_mm256_movemask_ps(_mm256_cmp_ps(firsts, lasts, _CMP_LE_OQ)));
     const __m256i together =
-        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(std::int64_t(kGathering.lanes[mask])));
+        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(std::int64_t(kGathering.lanes[met])));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(children),
                         _mm256_permutevar8x32_epi32(all, together));
     _mm256_storeu_ps(enters, _mm256_permutevar8x32_ps(firsts, together));
-    return std::size_t(std::popcount(mask));
+    return std::size_t(std::popcount(met));
   }
-
- private:
-  __m256i shifts_;
 };
 
 #include "accelerators/bvh/traverse.inl"

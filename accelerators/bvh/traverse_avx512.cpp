@@ -25,18 +25,8 @@
 namespace exphoton {
 namespace {
 
-struct Real8 {
-  __m256 v;
+#include "accelerators/bvh/real8_avx.inl"
 
-  static Real8 Load(const Real* row) { return {_mm256_load_ps(row)}; }
-  static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
-};
-
-inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
-inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
-inline Real8 MultiplyAdd(Real8 a, Real8 b, Real8 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
-inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
-inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline unsigned LessMask(Real8 a, Real8 b) { return _mm256_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }
 
 inline unsigned PresentMask(const std::uint32_t* ids) {
@@ -44,32 +34,27 @@ inline unsigned PresentMask(const std::uint32_t* ids) {
   return _mm256_cmpneq_epi32_mask(row, _mm256_set1_epi32(-1));
 }
 
-class PushOrder {
+class PushOrder : PlaceOrder {
  public:
-  explicit PushOrder(bool isOpposite)
-      : shifts_(isOpposite ? _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21)
-                           : _mm256_setr_epi32(21, 18, 15, 12, 9, 6, 3, 0)) {}
+  using PlaceOrder::PlaceOrder;
 
-  // Puts the children where first <= last on the stack, the first of the order on top; returns how
-  // many. Permutations heed the three low bits of an index only.
   std::size_t Push(const BvhNode& node, std::size_t orderIndex, Real8 first, Real8 last,
-                   BvhChild* children, Real* enters) const {
-    const __m256i order =
-        _mm256_srlv_epi32(_mm256_set1_epi32(int(node.orders[orderIndex])), shifts_);
+                   BvhChild* children, Real* enters, BvhChild* next) const {
+    const BvhOrder places = node.orders[orderIndex];
+    const __m256i order = Lanes(places);
     const __m256 firsts = _mm256_permutexvar_ps(order, first.v);
     const __m256 lasts = _mm256_permutexvar_ps(order, last.v);
+    const __mmask8 met = _mm256_cmp_ps_mask(firsts, lasts, _CMP_LE_OQ);
+    if (met == 0) return 0;
+    *next = node.children[LastLane(places, met)];
     const __m256i all = _mm256_permutexvar_epi32(
         order, _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)));
-    const __mmask8 mask = _mm256_cmp_ps_mask(firsts, lasts, _CMP_LE_OQ);
     // Compressed in registers: straight to memory is slow on some machines.
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(children),
-                        _mm256_maskz_compress_epi32(mask, all));
-    _mm256_storeu_ps(enters, _mm256_maskz_compress_ps(mask, firsts));
-    return std::size_t(std::popcount(unsigned(mask)));
+                        _mm256_maskz_compress_epi32(met, all));
+    _mm256_storeu_ps(enters, _mm256_maskz_compress_ps(met, firsts));
+    return std::size_t(std::popcount(unsigned(met)));
   }
-
- private:
-  __m256i shifts_;
 };
 
 #include "accelerators/bvh/traverse.inl"

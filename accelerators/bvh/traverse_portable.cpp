@@ -59,18 +59,17 @@ class PushOrder {
  public:
   explicit PushOrder(bool isOpposite) : isOpposite_(isOpposite) {}
 
-  // Puts the children where first <= last on the stack, the first of the order on top; returns how
-  // many.
   std::size_t Push(const BvhNode& node, std::size_t orderIndex, const Real8& first,
-                   const Real8& last, BvhChild* children, Real* enters) const {
+                   const Real8& last, BvhChild* children, Real* enters, BvhChild* next) const {
     const BvhOrder order = node.orders[orderIndex];
     std::size_t count = 0;
     for (int i = 0; i < kBvhWidth; ++i) {
-      const unsigned lane = order >> (isOpposite_ ? 3 * i : 21 - 3 * i) & 7;
+      const unsigned lane = order >> (isOpposite_ ? 4 * i : 28 - 4 * i) & 7;
       children[count] = node.children[lane];
       enters[count] = first.lanes[lane];
       count += first.lanes[lane] <= last.lanes[lane];
     }
+    if (count > 0) *next = children[count - 1];
     return count;
   }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What the traversals for AVX2 and AVX-512 share: eight Reals in a register, and where the children
+// of a node are in an order. Included into an unnamed namespace, where those instructions are on.
+
+struct Real8 {
+  __m256 v;
+
+  static Real8 Load(const Real* row) { return {_mm256_load_ps(row)}; }
+  static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
+};
+
+inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
+inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
+inline Real8 MultiplyAdd(Real8 a, Real8 b, Real8 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
+inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
+inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
+
+// Reads an order from its end to its beginning, or where that of the opposite direction is meant
+// from its beginning to its end, so that what is last lies on top of a stack.
+class PlaceOrder {
+ public:
+  explicit PlaceOrder(bool isOpposite)
+      : shifts_(isOpposite ? _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28)
+                           : _mm256_setr_epi32(28, 24, 20, 16, 12, 8, 4, 0)),
+        flip_(isOpposite ? 0 : 28) {}
+
+  // The lane at each place, in the three low bits, all that permutations heed.
+  __m256i Lanes(BvhOrder order) const {
+    return _mm256_srlv_epi32(_mm256_set1_epi32(int(order)), shifts_);
+  }
+  // The lane at the last of the places of a mask, which is not 0.
+  unsigned LastLane(BvhOrder order, unsigned places) const {
+    const unsigned last = 4 * unsigned(std::bit_width(places)) - 4;
+    return order >> (last ^ flip_) & 7;
+  }
+
+ private:
+  __m256i shifts_;
+  unsigned flip_;
+};
