@@ -30,21 +30,11 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// The part of OwenScramble that works on reversed bits.
-constexpr std::uint32_t ScrambleReversed(std::uint32_t v, std::uint32_t key) {
-  v += key;
-  v ^= v * 0x6c50b47cu;
-  v ^= v * 0xb82f1e52u;
-  v ^= v * 0xc7afe638u;
-  v ^= v * 0x8d22f6e6u;
-  return v;
-}
-
-// SobolSecond(2^k) with its bits reversed, as everything is here until the last step: reversed, the
-// first dimension is the index itself.
+// Everything here has its bits reversed until the last step: reversed, the first dimension is the
+// index itself.
 constexpr std::array<std::uint32_t, 32> ReversedDirections() {
   std::array<std::uint32_t, 32> directions{};
-  for (std::size_t k = 0; k < 32; ++k) directions[k] = ReverseBits32(SobolSecond(1u << k));
+  for (std::size_t k = 0; k < 32; ++k) directions[k] = SobolSecondReversed(1u << k);
   return directions;
 }
 constexpr std::array<std::uint32_t, 32> kDirections = ReversedDirections();
@@ -66,7 +56,7 @@ class Block {
     if (round != 0) key_ = MixBits(key_ + kGolden * round);
     const auto first = static_cast<std::uint32_t>(s << shift);
     index_ = OwenScramble(first, std::uint32_t(shuffleKey)) >> shift << shift;
-    second_ = ReverseBits32(SobolSecond(index_));
+    second_ = SobolSecondReversed(index_);
   }
 
   Real First() const { return Finish(index_, std::uint32_t(key_)); }
@@ -80,7 +70,7 @@ class Block {
 
  private:
   static Real Finish(std::uint32_t reversed, std::uint32_t key) {
-    return FractionToReal(ReverseBits32(ScrambleReversed(reversed, key)));
+    return FractionToReal(ReverseBits32(OwenScrambleReversed(reversed, key)));
   }
 
   std::uint64_t key_;

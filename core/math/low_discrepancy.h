@@ -14,30 +14,39 @@
 namespace exphoton {
 
 constexpr std::uint32_t ReverseBits32(std::uint32_t v) {
-  v = (v << 16) | (v >> 16);
-  v = ((v & 0x00ff00ffu) << 8) | ((v & 0xff00ff00u) >> 8);
+  v = __builtin_bswap32(v);
   v = ((v & 0x0f0f0f0fu) << 4) | ((v & 0xf0f0f0f0u) >> 4);
   v = ((v & 0x33333333u) << 2) | ((v & 0xccccccccu) >> 2);
   return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
 }
 
-// Owen scrambling of a 32-bit binary fraction, tree chosen by `key`.
-constexpr std::uint32_t OwenScramble(std::uint32_t v, std::uint32_t key) {
-  v = ReverseBits32(v);
+// Owen scrambling of a 32-bit binary fraction, tree chosen by `key`; of its bits in reverse order,
+// and with the result in reverse order too: what it costs without turning the bits round.
+constexpr std::uint32_t OwenScrambleReversed(std::uint32_t v, std::uint32_t key) {
   v += key;
   v ^= v * 0x6c50b47cu;
   v ^= v * 0xb82f1e52u;
   v ^= v * 0xc7afe638u;
   v ^= v * 0x8d22f6e6u;
-  return ReverseBits32(v);
+  return v;
+}
+constexpr std::uint32_t OwenScramble(std::uint32_t v, std::uint32_t key) {
+  return ReverseBits32(OwenScrambleReversed(ReverseBits32(v), key));
 }
 
-// Second Sobol' dimension (the first is the bit-reversed index) as a 32-bit fraction.
+// Second Sobol' dimension (the first is the bit-reversed index) as a 32-bit fraction, its bits in
+// reverse order. Its matrix is Pascal's triangle modulo 2, and C(j, i) is odd where the bits of i
+// are among those of j (Lucas): bit i is the sum of all bits j whose number contains the bits of i.
+constexpr std::uint32_t SobolSecondReversed(std::uint32_t index) {
+  index ^= (index >> 16) & 0x0000ffffu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 1) & 0x55555555u;
+  return index;
+}
 constexpr std::uint32_t SobolSecond(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
-    if (index & 1) result ^= v;
-  return result;
+  return ReverseBits32(SobolSecondReversed(index));
 }
 
 // Cut off, not rounded, so that no point leaves its binary stratum.
@@ -48,11 +57,13 @@ inline Real FractionToReal(std::uint32_t v) {
 
 // Point `index` of the scrambled van der Corput sequence and of the scrambled (0,2)-sequence.
 inline Real ScrambledVanDerCorput(std::uint32_t index, std::uint32_t key) {
-  return FractionToReal(OwenScramble(ReverseBits32(index), key));
+  return FractionToReal(ReverseBits32(OwenScrambleReversed(index, key)));
 }
 inline Point2 ScrambledSobol2(std::uint32_t index, std::uint64_t key) {
-  return {FractionToReal(OwenScramble(ReverseBits32(index), std::uint32_t(key))),
-          FractionToReal(OwenScramble(SobolSecond(index), std::uint32_t(key >> 32)))};
+  const std::uint32_t first = OwenScrambleReversed(index, std::uint32_t(key));
+  const std::uint32_t second =
+      OwenScrambleReversed(SobolSecondReversed(index), std::uint32_t(key >> 32));
+  return {FractionToReal(ReverseBits32(first)), FractionToReal(ReverseBits32(second))};
 }
 
 inline constexpr std::uint32_t kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};

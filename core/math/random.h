@@ -93,4 +93,21 @@ constexpr std::uint32_t PermuteIndex(std::uint32_t i, std::uint32_t length, std:
   return static_cast<std::uint32_t>((std::uint64_t(i) + key) % length);
 }
 
+// Where all of 0..N-1 go, N <= 16: to[i] = PermuteIndex(i, N, key).
+template <std::size_t N>
+constexpr void PermuteAll(std::uint32_t key, std::uint8_t (&to)[N]) {
+  static_assert(N > 1 && N <= 16);
+  std::uint8_t at[N] = {};  // who has come here
+  for (std::size_t i = 0; i < N; ++i) at[i] = std::uint8_t(i);
+  std::uint64_t state = MixBits(key + 0x9e3779b97f4a7c15ull);
+  for (std::uint32_t k = N; k > 1; --k) {
+    state = state * 6364136223846793005ull + 1442695040888963407ull;
+    const auto j = static_cast<std::uint32_t>((state >> 32) * k >> 32);
+    const std::uint8_t moved = at[k - 1];
+    at[k - 1] = at[j];
+    at[j] = moved;
+  }
+  for (std::size_t i = 0; i < N; ++i) to[at[i]] = std::uint8_t(i);
+}
+
 }  // namespace exphoton

@@ -41,10 +41,14 @@ class BlockStore {
   }
 
   void Append(std::span<const Record> records) {
-    if (count_ + records.size() > capacity_)
-      Reserve(std::max(2 * capacity_, count_ + records.size()));
-    if (!records.empty()) std::memcpy(Raw() + count_, records.data(), records.size_bytes());
-    count_ += records.size();
+    const std::size_t before = count_;
+    Resize(count_ + records.size());
+    if (!records.empty()) std::memcpy(Raw() + before, records.data(), records.size_bytes());
+  }
+  // Records beyond those that there were are whatever memory holds: to be written before read.
+  void Resize(std::size_t count) {
+    if (count > capacity_) Reserve(std::max(2 * capacity_, count));
+    count_ = count;
   }
   void Reserve(std::size_t count) {
     count = (count + kBlockPoints - 1) / kBlockPoints * kBlockPoints;

@@ -11,6 +11,7 @@
 #include "core/transport/shading_normal.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/path_samples.h"
+#include "integrators/photon/photon_chunk.h"
 #include "integrators/photon/rest_pose.h"
 
 namespace exphoton {
@@ -19,37 +20,14 @@ namespace exphoton {
 // receive, over and over; sums over maps with such photons would overflow. No roulette comes near.
 constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
 
-namespace {
-
-struct PathTally {
-  int light = 0;
-  bool hasHit = false;
-  std::int64_t stored = 0;
-};
-
-}  // namespace
-
-// A map that holds this part of its target gets memory for the whole.
-constexpr std::int64_t kShareBeforeReserving = 16;
-
-// What one piece of work leaves behind.
-struct PhotonTracer::Chunk {
-  std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
-  std::array<std::vector<RadianceSeed>, kPhotonKindCount> seeds;  // by the map of their photon
-  double emittedPower = 0, cutPower = 0;
-  std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
-  std::int64_t overgrown = 0;
-  std::array<PathTally, kChunkPaths> paths;
-};
-
 // One photon path: follows it to its end and stores into the chunk what `open` maps want.
 class PhotonTracer::Path {
  public:
-  Path(const PhotonTracer& tracer, std::uint64_t index,
-       const std::array<bool, kPhotonKindCount>& open, Real radianceFraction, Chunk* chunk)
+  Path(const PhotonTracer& tracer, const PathSequences& sequences, std::uint64_t index,
+       const std::array<bool, kPhotonKindCount>& open, Real radianceFraction, PhotonChunk* chunk)
       : tracer_(tracer),
         index_(index),
-        samples_(tracer.seed_, index),
+        samples_(sequences, index),
         open_(open),
         radianceFraction_(radianceFraction),
         chunk_(chunk) {}
@@ -121,9 +99,9 @@ class PhotonTracer::Path {
     chunk_->photons[std::size_t(kind)].emplace_back(Photon{p, rest.Direction(point.Wo()), power});
     ++tally_.stored;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
-    chunk_->seeds[std::size_t(kind)].push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())),
-                                                point.bsdf.Rho(LobeSet::NonSpecularReflection),
-                                                point.bsdf.Rho(LobeSet::NonSpecularTransmission)});
+    chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())),
+                             point.bsdf.Rho(LobeSet::NonSpecularReflection),
+                             point.bsdf.Rho(LobeSet::NonSpecularTransmission)});
   }
 
   void Drop() {
@@ -186,7 +164,7 @@ class PhotonTracer::Path {
   PathSamples samples_;
   const std::array<bool, kPhotonKindCount>& open_;
   Real radianceFraction_;
-  Chunk* chunk_;
+  PhotonChunk* chunk_;
   PathTally tally_;
   Spectrum alpha_;
   Real emittedMost_ = 0;
@@ -216,33 +194,26 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
               ShareFactors(scene, aim_)),
       lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular) {}
 
-PhotonTracer::Chunk PhotonTracer::TraceChunk(std::int64_t firstPath,
-                                             const std::array<bool, kPhotonKindCount>& open,
-                                             Real radianceFraction, Arena* arena,
-                                             RayCounters* rays) const {
-  Chunk chunk;
+void PhotonTracer::TraceChunk(std::int64_t firstPath,
+                              const std::array<bool, kPhotonKindCount>& open, Real radianceFraction,
+                              Worker* worker, PhotonChunk* chunk) const {
+  const PathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
+  chunk->Clear();
   for (int i = 0; i < kChunkPaths; ++i) {
-    Path path(*this, std::uint64_t(firstPath + i), open, radianceFraction, &chunk);
-    arena->Reset();
-    path.Trace(arena, rays);
-    chunk.paths[std::size_t(i)] = path.Tally();
+    Path path(*this, sequences, std::uint64_t(firstPath + i), open, radianceFraction, chunk);
+    worker->arena.Reset();
+    path.Trace(&worker->arena, &worker->rays);
+    chunk->paths[std::size_t(i)] = path.Tally();
   }
-  return chunk;
 }
 
 namespace {
 
-// Progress of the map that is farthest from its target.
-std::int64_t Promille(const PhotonTargets& targets, const PhotonHarvest& harvest,
-                      std::int64_t maxPaths) {
-  double least = 1;
-  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
-    if (targets.counts[m] == 0) continue;
-    const double filled = double(harvest.hauls[m].photons.Size()) / double(targets.counts[m]);
-    const double spent = double(harvest.hauls[m].paths) / double(maxPaths);
-    least = std::min(least, std::max(filled, spent));
-  }
-  return std::int64_t(1000 * least);
+// How much of its target a map has, or of the paths that it may have.
+double Filled(const PhotonTargets& targets, const PhotonHarvest& harvest, std::size_t map,
+              std::int64_t maxPaths) {
+  const double stored = double(harvest.hauls[map].photons.Size()) / double(targets.counts[map]);
+  return std::max(stored, double(harvest.paths) / double(maxPaths));
 }
 
 }  // namespace
@@ -254,53 +225,43 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
   harvest.lights.resize(scene_.Lights().size());
   if (lights_.IsEmpty()) return harvest;
 
-  const auto workers = std::size_t(context.threads.Count());
-  std::vector<Arena> arenas(workers);
-  std::vector<RayCounters> rays(workers);
+  std::vector<Worker> workers(std::size_t(context.threads.Count()));
+  std::vector<PhotonChunk> chunks;
   context.progress.Begin("Shooting photons", 1000);
-  for (std::int64_t batch = kChunkPaths; open[0] || open[1] || open[2];
-       batch = std::min(2 * batch, kMaxBatchPaths)) {
-    std::vector<Chunk> chunks(std::size_t(batch / kChunkPaths));
+  for (std::int64_t batch = kChunkPaths; open[0] || open[1] || open[2];) {
+    chunks.resize(std::size_t(batch / kChunkPaths));
     context.threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int worker) {
-      chunks[std::size_t(c)] =
-          TraceChunk(harvest.paths + c * kChunkPaths, open, targets.radianceFraction,
-                     &arenas[std::size_t(worker)], &rays[std::size_t(worker)]);
+      TraceChunk(harvest.paths + c * kChunkPaths, open, targets.radianceFraction,
+                 &workers[std::size_t(worker)], &chunks[std::size_t(c)]);
     });
-    harvest.paths += batch;
-    for (Chunk& chunk : chunks) {
-      for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
-        BlockStore<PhotonBlock>& photons = harvest.hauls[m].photons;
-        photons.Append(chunk.photons[m]);
-        // From here on it will hardly stay empty: memory for all, once, and for the last batch.
-        if (std::int64_t(photons.Size()) >= targets.counts[m] / kShareBeforeReserving)
-          photons.Reserve(std::size_t(targets.counts[m] + targets.counts[m] / 64));
-        harvest.seeds.insert(harvest.seeds.end(), chunk.seeds[m].begin(), chunk.seeds[m].end());
-      }
-      for (const PathTally& path : chunk.paths) {
-        LightTally& light = harvest.lights[std::size_t(path.light)];
-        ++light.shot;
-        light.hit += path.hasHit;
-        light.stored += path.stored;
-      }
-      harvest.emittedPower += chunk.emittedPower;
-      harvest.cutPower += chunk.cutPower;
-      if (harvest.droppedPhotons == 0) harvest.firstDroppedPath = chunk.firstDropped;
-      harvest.droppedPhotons += chunk.dropped;
-      harvest.overgrownPaths += chunk.overgrown;
-    }
+    Merge(chunks, targets, context.threads, &harvest);
+    double least = 1, most = 0;  // filled, of the maps that are wanted and of those still open
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
-      if (!open[m]) continue;
+      if (targets.counts[m] == 0) continue;
       PhotonHaul& haul = harvest.hauls[m];
-      haul.paths = harvest.paths;
+      if (open[m]) haul.paths = harvest.paths;
       const auto stored = std::int64_t(haul.photons.Size());
       const bool isFruitless = stored == 0 && haul.paths >= kFruitlessPaths;
-      open[m] = stored < targets.counts[m] && haul.paths < settings_.maxPhotonPaths && !isFruitless;
+      open[m] = open[m] && stored < targets.counts[m] && haul.paths < settings_.maxPhotonPaths &&
+                !isFruitless;
+      const double filled = Filled(targets, harvest, m, settings_.maxPhotonPaths);
+      least = std::min(least, filled);
+      if (open[m]) most = std::max(most, filled);
     }
-    context.progress.SetDone(Promille(targets, harvest, settings_.maxPhotonPaths));
+    batch = NextBatch(batch, harvest.paths, most);
+    context.progress.SetDone(std::int64_t(1000 * least));
   }
   context.progress.End();
-  for (const RayCounters& counters : rays) context.statistics.AddRays(counters);
+  for (const Worker& worker : workers) context.statistics.AddRays(worker.rays);
   return harvest;
+}
+
+std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, double filled) {
+  // Half of what the fullest map is likely to need yet: it must not be overfilled.
+  const double needed = filled > 0 ? double(paths) * (1 - filled) / filled : 0;
+  std::int64_t most = kMaxBatchPaths;
+  while (most < kLargestBatchPaths && double(4 * most) <= needed) most *= 2;
+  return std::min(2 * last, most);
 }
 
 }  // namespace exphoton

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PhotonTracer: shoots photons from the lights in numbered batches and sorts what they leave behind
-// into hauls. Path i is a function of (seed, i) alone; batches grow 64, 128 ... 4096 paths, are
-// traced in parallel and merged in order; a haul counts the paths of whole batches only, because
-// stopping at the n-th photon would bias every estimate. Jensen 2001, chapter 5.
+// into hauls. Path i is a function of (seed, i) alone; batches grow from 64 to 4096 paths, and to
+// 65536 where maps want far more; they are traced in parallel and merged in order; a haul counts
+// the paths of whole batches only, because stopping at the n-th photon would bias every estimate.
+// Jensen 2001, chapter 5.
 #pragma once
 
 #include <algorithm>
@@ -54,6 +55,8 @@ struct PhotonHarvest {
   const PhotonHaul& operator[](PhotonKind kind) const { return hauls[std::size_t(kind)]; }
 };
 
+struct PhotonChunk;
+
 class PhotonTracer {
  public:
   PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
@@ -66,14 +69,22 @@ class PhotonTracer {
   static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
   // Paths that one piece of parallel work traces: the smallest batch.
   static constexpr int kChunkPaths = 64;
+  // The largest batch while a map may soon be full, and far from that.
   static constexpr std::int64_t kMaxBatchPaths = 4096;
+  static constexpr std::int64_t kLargestBatchPaths = 65536;
 
  private:
-  struct Chunk;
   class Path;
+  struct Worker {
+    Arena arena;
+    RayCounters rays;
+  };
 
-  Chunk TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
-                   Real radianceFraction, Arena* arena, RayCounters* rays) const;
+  void TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
+                  Real radianceFraction, Worker* worker, PhotonChunk* chunk) const;
+  // The paths of the batch after one of `last`, when so many have been traced and the fullest of
+  // the maps that want more holds this part of what it wants.
+  static std::int64_t NextBatch(std::int64_t last, std::int64_t paths, double filled);
 
   const Scene& scene_;
   PhotonSettings settings_;

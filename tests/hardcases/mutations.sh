@@ -21,7 +21,7 @@ reach-unlimited|integrators/photon/radiance_map.cpp|reach_(settings.radianceReac
 no-double-fallback|core/geometry/triangle_decide.h|const double du = c.x * b.y - c.y * b.x, dv = a.x * c.y - a.y * c.x, dw = b.x * a.y - b.y * a.x;|const double du = double(float(c.x) * float(b.y) - float(c.y) * float(b.x)), dv = double(float(a.x) * float(c.y) - float(a.y) * float(c.x)), dw = double(float(b.x) * float(a.y) - float(b.y) * float(a.x)); if (!(du * dw * dv != 0)) return std::nullopt;|exphoton test_unit|7
 absolute-epsilon|core/geometry/ray.cpp|ray.o = OffsetRayOrigin(point, w);|ray.o = OffsetRayOrigin(point, w) + w * Real(1e-3);|exphoton|I1
 stop-in-mid-batch|integrators/photon/photon_tracer.cpp|haul.paths = harvest.paths;|haul.paths = harvest.paths; if (std::int64_t(haul.photons.Size()) > targets.counts[m]) haul.paths = std::max(std::int64_t(1), haul.paths * (targets.counts[m] - 1) / targets.counts[m]);|exphoton|54
-order-of-threads|integrators/photon/photon_tracer.cpp|for (Chunk& chunk : chunks) {|if (workers > 1) std::reverse(chunks.begin(), chunks.end()); for (Chunk& chunk : chunks) {|exphoton|I6
+order-of-threads|integrators/photon/photon_chunk.cpp|for (std::size_t c = 0; c < chunks.size(); ++c) {|for (std::size_t k = 0, c; c = threads.Count() > 1 ? chunks.size() - 1 - k : k, k < chunks.size(); ++k) {|exphoton|I6
 TABLE
 )
 

@@ -22,8 +22,9 @@ using Path = std::array<Real, kCoordinates>;
 
 std::vector<Path> MakePaths(std::uint64_t seed) {
   std::vector<Path> paths;
+  const PathSequences sequences(seed, 0);
   for (int i = 0; i < kPaths; ++i) {
-    PathSamples samples(seed, std::uint64_t(i));
+    PathSamples samples(sequences, std::uint64_t(i));
     Path path;
     for (std::size_t k = 0; k < kCoordinates; k += 2) {
       const Point2 u = samples.Next2D();
@@ -69,7 +70,8 @@ TEST(PathSamples, OfOneRequestFillsEveryCellAlike) {
 }
 
 TEST(PathSamples, DependsOnSeedAndPathAlone) {
-  PathSamples a(3, 5), b(3, 5), other(4, 5), next(3, 6);
+  const PathSequences three(3, 5), four(4, 5);
+  PathSamples a(three, 5), b(three, 5), other(four, 5), next(three, 6);
   const Point2 u = a.Next2D();
   EXPECT_EQ(u, b.Next2D());
   EXPECT_NE(u, other.Next2D());

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PhotonChunk: what the paths of one piece of work leave behind, and how the pieces of a batch
+// become part of a harvest: in their order, whoever traced them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "integrators/photon/photon_tracer.h"
+
+namespace exphoton {
+
+// What became of one path.
+struct PathTally {
+  int light = 0;
+  bool hasHit = false;
+  std::int64_t stored = 0;  // photons
+};
+
+struct PhotonChunk {
+  std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
+  std::vector<RadianceSeed> seeds;
+  double emittedPower = 0, cutPower = 0;
+  std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
+  std::int64_t overgrown = 0;
+  std::array<PathTally, PhotonTracer::kChunkPaths> paths;
+
+  void Clear();  // keeps its memory
+};
+
+// Adds the chunks of a batch, one after the other.
+void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, ThreadPool& threads,
+           PhotonHarvest* harvest);
+
+}  // namespace exphoton
