@@ -3,32 +3,18 @@
 // Source: Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
 #pragma once
 
-#include <cstdint>
 #include <span>
 
-#include "core/math/bounds.h"
+#include "accelerators/bvh/build_box.h"
 
 namespace exphoton {
 
-struct BvhItem {
-  Bounds3 bounds;  // with margins
-  std::uint32_t id;
-
-  // The middle; halves first, so that it never overflows.
-  Real Centroid(int axis) const {
-    return bounds.min[axis] * Real(.5) + bounds.max[axis] * Real(.5);
-  }
-};
-
 struct BvhRun {
   std::span<BvhItem> items;
-  Bounds3 bounds;
-  Bounds3 centroids;  // of the items' middles
+  BuildBox box;
+  BuildBox middles;  // of the items' boxes
 };
 BvhRun MakeRun(std::span<BvhItem> items);
-
-// Half the surface of a box in double: what no finite box overflows.
-double HalfArea(const Bounds3& bounds);
 
 // The items are reordered: `count` belong to the first part, at least one, fewer than all, and lie
 // lower on the axis.

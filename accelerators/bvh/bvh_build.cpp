@@ -34,6 +34,11 @@ Bounds3 Grown(const Bounds3& bounds) {
   return grown;
 }
 
+BvhItem ItemOf(const Bounds3& bounds, std::uint32_t id) {
+  const Bounds3 grown = Grown(bounds);
+  return {{Real4::Of(grown.min), Real4::Of(grown.max)}, id};
+}
+
 class Builder {
  public:
   Builder(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles)
@@ -44,12 +49,12 @@ class Builder {
     items.reserve(primitives_.Count());
     for (std::uint32_t id = 0; id < primitives_.Count(); ++id) {
       const Bounds3 bounds = primitives_.Bounds(id);
-      if (!bounds.IsEmpty()) items.push_back({Grown(bounds), id});  // empty: instance of nothing
+      if (!bounds.IsEmpty()) items.push_back(ItemOf(bounds, id));  // empty: instance of nothing
     }
     if (items.empty()) return {};
     arrays_.lines.reserve(items.size() + kBvhNodeLines);
     const BvhRun root = MakeRun(items);
-    arrays_.bounds = root.bounds;
+    arrays_.bounds = root.box.ToBounds();
     Node(root, 1);
     arrays_.lines.shrink_to_fit();
     return std::move(arrays_);
@@ -101,7 +106,7 @@ class Builder {
       int widest = -1;
       double area = -1;
       for (int i = 0; i < parts.count; ++i) {
-        if (const double a = HalfArea(parts.runs[i].bounds); a > area && !parts.isLeaf[i])
+        if (const double a = HalfArea(parts.runs[i].box); a > area && !parts.isLeaf[i])
           area = a, widest = i;
       }
       if (widest < 0) break;
@@ -137,7 +142,7 @@ class Builder {
     BvhNode node{};
     node.orders = parts.orders.Packed();
     std::array<ChildBlocking, kBvhWidth> blocking;
-    const double area = HalfArea(whole.bounds);
+    const double area = HalfArea(whole.box);
     // Leaves first: close to their node.
     for (const bool wantsLeaf : {true, false}) {
       for (int i = 0; i < parts.count; ++i) {
@@ -145,13 +150,13 @@ class Builder {
         if (IsLeaf(parts, i) != wantsLeaf) continue;
         const Made made = wantsLeaf ? Leaf(run) : Node(run, depth + 1);
         node.children[i] = made.child;
-        blocking[i] = {made.blocking, area > 0 ? HalfArea(run.bounds) / area : 1};
+        blocking[i] = {made.blocking, area > 0 ? HalfArea(run.box) / area : 1};
       }
     }
     const Blocking own = OrderByBlocking(std::span(blocking).first(std::size_t(parts.count)),
                                          &node.orders[kBvhBlockingOrder]);
     for (int i = 0; i < kBvhWidth; ++i) {
-      const Bounds3 bounds = i < parts.count ? parts.runs[i].bounds : Bounds3();
+      const Bounds3 bounds = i < parts.count ? parts.runs[i].box.ToBounds() : Bounds3();
       for (int axis = 0; axis < 3; ++axis) {
         node.rows[2 * axis][i] = bounds.min[axis];
         node.rows[2 * axis + 1][i] = bounds.max[axis];
@@ -187,7 +192,7 @@ class Builder {
     const BvhChild self(BvhChild::Kind::Triangles, NewLines(kBvhBlockLines));
     new (&arrays_.lines[self.Index()]) BvhBlock(block);
     // A line that meets a convex body of surface 2 h meets a flat piece in it with 2 area / (2 h).
-    const double halfArea = HalfArea(run.bounds);
+    const double halfArea = HalfArea(run.box);
     return {self, {halfArea > area ? area / halfArea : 1, 1}};
   }
 

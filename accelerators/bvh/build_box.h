@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What is split when a hierarchy is built: boxes as vectors of four, of which the last lane means
+// nothing. Comparisons and sums only, so that every machine builds the same tree.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "core/math/bounds.h"
+
+#if defined(__SSE2__) && !defined(EXPHOTON_DOUBLE)
+#include <emmintrin.h>
+#define EXPHOTON_BUILD_SSE2 1
+#endif
+
+namespace exphoton {
+
+#if defined(EXPHOTON_BUILD_SSE2)
+
+struct Real4 {
+  __m128 v;
+
+  static Real4 All(Real x) { return {_mm_set1_ps(x)}; }
+  static Real4 Of(const Point3& p) { return {_mm_setr_ps(p.x, p.y, p.z, 0)}; }
+  void Store(Real* lanes) const { _mm_storeu_ps(lanes, v); }
+  void Truncate(std::int32_t* lanes) const {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(lanes), _mm_cvttps_epi32(v));
+  }
+};
+inline Real4 operator+(Real4 a, Real4 b) { return {_mm_add_ps(a.v, b.v)}; }
+inline Real4 operator-(Real4 a, Real4 b) { return {_mm_sub_ps(a.v, b.v)}; }
+inline Real4 operator*(Real4 a, Real4 b) { return {_mm_mul_ps(a.v, b.v)}; }
+inline Real4 Min(Real4 a, Real4 b) { return {_mm_min_ps(a.v, b.v)}; }  // NaN: the second
+inline Real4 Max(Real4 a, Real4 b) { return {_mm_max_ps(a.v, b.v)}; }
+
+#else
+
+struct Real4 {
+  Real v[4];
+
+  static Real4 All(Real x) { return {{x, x, x, x}}; }
+  static Real4 Of(const Point3& p) { return {{p.x, p.y, p.z, 0}}; }
+  void Store(Real* lanes) const { std::copy(v, v + 4, lanes); }
+  void Truncate(std::int32_t* lanes) const {
+    for (int i = 0; i < 4; ++i) lanes[i] = std::int32_t(v[i]);
+  }
+};
+template <class Operation>
+Real4 EachOf(const Real4& a, const Real4& b, const Operation& operation) {
+  Real4 r;
+  for (int i = 0; i < 4; ++i) r.v[i] = operation(a.v[i], b.v[i]);
+  return r;
+}
+inline Real4 operator+(const Real4& a, const Real4& b) {
+  return EachOf(a, b, [](Real x, Real y) { return x + y; });
+}
+inline Real4 operator-(const Real4& a, const Real4& b) {
+  return EachOf(a, b, [](Real x, Real y) { return x - y; });
+}
+inline Real4 operator*(const Real4& a, const Real4& b) {
+  return EachOf(a, b, [](Real x, Real y) { return x * y; });
+}
+inline Real4 Min(const Real4& a, const Real4& b) {
+  return EachOf(a, b, [](Real x, Real y) { return x < y ? x : y; });
+}
+inline Real4 Max(const Real4& a, const Real4& b) {
+  return EachOf(a, b, [](Real x, Real y) { return x > y ? x : y; });
+}
+
+#endif
+
+struct BuildBox {
+  Real4 low = Real4::All(kInfinity), high = Real4::All(-kInfinity);
+
+  void Extend(const BuildBox& b) { low = Min(low, b.low), high = Max(high, b.high); }
+  void Extend(Real4 p) { low = Min(low, p), high = Max(high, p); }
+  // Halves first, so that it never overflows.
+  Real4 Middle() const { return low * Real4::All(Real(.5)) + high * Real4::All(Real(.5)); }
+  Bounds3 ToBounds() const {
+    Real a[4], b[4];
+    low.Store(a), high.Store(b);
+    Bounds3 bounds;
+    bounds.min = {a[0], a[1], a[2]}, bounds.max = {b[0], b[1], b[2]};
+    return bounds;
+  }
+};
+
+// Half the surface of a box in double: what no finite box overflows.
+inline double HalfArea(const BuildBox& box) {
+  Real a[4], b[4];
+  box.low.Store(a), box.high.Store(b);
+  const double x = double(b[0]) - double(a[0]), y = double(b[1]) - double(a[1]),
+               z = double(b[2]) - double(a[2]);
+  return x * y + y * z + z * x;
+}
+
+struct BvhItem {
+  BuildBox box;  // with margins
+  std::uint32_t id;
+};
+
+}  // namespace exphoton
