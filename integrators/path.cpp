@@ -12,6 +12,7 @@
 #include "core/lights/light_tree.h"
 #include "core/math/mis.h"
 #include "core/plugin.h"
+#include "core/transport/light_sample.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
@@ -261,17 +262,9 @@ class PathIntegrator final : public SurfaceIntegrator {
                        LiContext& context) const {
     if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
     const auto choice = ChooseLight(point.surface.p, sample.lightChoice);
-    const auto direct = choice.light->SampleDirect(point.surface, sample.light, sample.lightPart);
-    if (!direct || direct->Li.IsBlack()) return {};
-    const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
-    const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, Lobes(context.scene)) * cosine;
-    if (f.IsBlack()) return {};
-    const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
-    if (arriving.IsBlack()) return {};
-    const Real pdf = choice.probability * direct->pdf;
-    if (choice.light->IsDelta()) return f * arriving / pdf;
-    const Real bsdfPdf = point.bsdf.Pdf(point.Wo(), direct->wi, Lobes(context.scene));
-    return f * arriving * (PowerHeuristic(1, pdf, 1, bsdfPdf) / pdf);
+    return FromLightSample(point,
+                           {choice.light, choice.probability, sample.light, sample.lightPart}, {},
+                           Lobes(context.scene), context);
   }
 
   // Extends the path by one BSDF sample; false where it ends.

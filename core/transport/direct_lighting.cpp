@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// DirectLighting: the two estimators of one light's share and their weights, and the sum over the
-// lights. The same lobe mask serves f, Pdf and Sample, or the weights would not add up to 1.
+// DirectLighting: the two estimators of one light's share, and the sum over the lights. The same
+// lobe mask serves f, Pdf and Sample, or the weights would not add up to 1.
 #include "core/transport/direct_lighting.h"
 
 #include <algorithm>
 
 #include "core/math/mis.h"
+#include "core/transport/light_sample.h"
 
 namespace exphoton {
 namespace {
 
 constexpr LobeSet kLobes = LobeSet::NonSpecular;
-
-// A point sampled on the light, weighted against BSDF sampling (delta lights: alone).
-Spectrum FromLightSample(const ShadingPoint& point, const Light& light,
-                         const DirectLightSample& sample, LiContext& context) {
-  const auto direct = light.SampleDirect(point.surface, sample.light, sample.lightPart);
-  if (!direct || direct->Li.IsBlack()) return {};
-  const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
-  const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, kLobes) * cosine;
-  if (f.IsBlack()) return {};
-  const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
-  if (arriving.IsBlack() || light.IsDelta()) return f * arriving;
-  const Real weight =
-      PowerHeuristic(1, direct->pdf, 1, point.bsdf.Pdf(point.Wo(), direct->wi, kLobes));
-  return f * arriving * (weight / direct->pdf);
-}
 
 // A direction sampled from the BSDF that happens to meet the light.
 Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
@@ -55,7 +41,8 @@ Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
 Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
                         const DirectLightSample& sample, LiContext& context) {
   if (light.IsProvablyBlack() || !point.bsdf.Has(kLobes)) return {};
-  Spectrum sum = FromLightSample(point, light, sample, context);
+  Spectrum sum =
+      FromLightSample(point, {&light, 1, sample.light, sample.lightPart}, {}, kLobes, context);
   if (!light.IsDelta()) sum += FromBsdfSample(point, light, sample, context);
   return sum;
 }

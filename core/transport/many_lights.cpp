@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/math/mis.h"
+#include "core/transport/light_sample.h"
 
 namespace exphoton {
 namespace {
@@ -36,8 +37,11 @@ Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) con
   const auto choice = samples.Array1D(choice1D_), part = samples.Array1D(part1D_);
   const auto light = samples.Array2D(light2D_);
   Spectrum byLights, byBsdf;
-  for (std::size_t i = 0; i < choice.size(); ++i)
-    byLights += FromLight(point, {choice[i], part[i], light[i]}, context);
+  for (std::size_t i = 0; i < choice.size(); ++i) {
+    const auto chosen = tree_.Sample(point.surface.p, choice[i]);
+    byLights += FromLightSample(point, {chosen.light, chosen.probability, light[i], part[i]},
+                                {lightCount_, bsdfCount_}, kLobes, context);
+  }
   const auto bsdf = samples.Array2D(bsdf2D_);
   const auto lobe = samples.Array1D(lobe1D_);
   for (std::size_t i = 0; i < bsdf.size(); ++i)
@@ -49,21 +53,6 @@ Real ManyLights::LightPdf(const ShadingPoint& point, const Light& light, const V
                           const SurfacePoint* on) const {
   return tree_.Probability(point.surface.p, indices_.at(&light)) *
          light.PdfDirect(point.surface, wi, on);
-}
-
-Spectrum ManyLights::FromLight(const ShadingPoint& point, const Pick& pick,
-                               LiContext& context) const {
-  const auto choice = tree_.Sample(point.surface.p, pick.choice);
-  const auto direct = choice.light->SampleDirect(point.surface, pick.light, pick.part);
-  if (!direct || direct->Li.IsBlack()) return {};
-  const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
-  const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, kLobes) * cosine;
-  if (f.IsBlack()) return {};
-  const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
-  const Real pdf = choice.probability * direct->pdf;
-  if (arriving.IsBlack() || choice.light->IsDelta()) return f * arriving / pdf;
-  const Real bsdfPdf = point.bsdf.Pdf(point.Wo(), direct->wi, kLobes);
-  return f * arriving * (PowerHeuristic(lightCount_, pdf, bsdfCount_, bsdfPdf) / pdf);
 }
 
 Spectrum ManyLights::FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe,

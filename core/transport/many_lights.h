@@ -21,11 +21,6 @@ class ManyLights {
   Spectrum Estimate(const ShadingPoint& point, LiContext& context) const;
 
  private:
-  struct Pick {  // of a light sample
-    Real choice, part;
-    Point2 light;
-  };
-  Spectrum FromLight(const ShadingPoint& point, const Pick& pick, LiContext& context) const;
   Spectrum FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe, LiContext& context) const;
   // Density per solid angle of one light sample making wi by that light.
   Real LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
