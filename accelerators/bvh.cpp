@@ -29,9 +29,9 @@ const ParamTable<Settings>& Parameters() {
 
 class Bvh final : public Aggregate {
  public:
-  Bvh(const PrimitiveSet& primitives, const Settings& settings)
+  Bvh(const PrimitiveSet& primitives, const Settings& settings, ThreadPool& threads)
       : primitives_(primitives),
-        arrays_(BuildBvh(primitives, std::uint32_t(settings.maxPrimitives))),
+        arrays_(BuildBvh(primitives, std::uint32_t(settings.maxPrimitives), threads)),
         traversal_(FastestTraversal(settings.vectors)) {}
 
   Hit Intersect(const Ray& ray) const override {
@@ -51,7 +51,8 @@ class Bvh final : public Aggregate {
 };
 
 std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorContext& context) {
-  return std::make_unique<Bvh>(context.primitives, settings);
+  ThreadPool threads(context.primitives.Count() < kBvhFewPrimitives ? 1 : context.threads);
+  return std::make_unique<Bvh>(context.primitives, settings, threads);
 }
 
 }  // namespace

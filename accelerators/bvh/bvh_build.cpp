@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Top-down: a node starts with one run of primitives as its child, and splits the child of the
-// largest surface until there are eight.
+// In three steps, each of pieces that threads take: the upper nodes are planned level by level;
+// the small trees below them are made, each in arrays of its own; these are copied behind the upper
+// nodes, in the order of a walk, where what they refer to gets its place among all lines.
 #include "accelerators/bvh/bvh_build.h"
 
-#include <array>
-#include <new>
+#include <cstring>
 
-#include "accelerators/bvh/binned_split.h"
-#include "accelerators/bvh/block_test.h"
-#include "accelerators/bvh/child_order.h"
-#include "core/base/error.h"
+#include "accelerators/bvh/bvh_subtree.h"
 
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kMaxLeafOthers = 2;
-constexpr Blocking kOtherBlocking{.5, 4};  // of shapes and instances: a guess
-// What two leaves must save to be better than one: they take more memory, and to wait for memory is
-// most of the work.
-constexpr double kLeafPreference = 1.5;
-constexpr int kSahDepth = 40;  // deeper nodes halve their runs: at most 32 levels more
+constexpr std::size_t kTreeItems = 4096;     // of a run that is one piece of work
+constexpr std::uint32_t kChunkItems = 8192;  // primitives whose bounds are one piece of work
 
 // Larger by at least the margin on every side, and by one step of Real where that is more. Finite:
 // nothing is ever hit beyond.
@@ -39,184 +32,141 @@ BvhItem ItemOf(const Bounds3& bounds, std::uint32_t id) {
   return {{Real4::Of(grown.min), Real4::Of(grown.max)}, id};
 }
 
+std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threads) {
+  const std::uint32_t count = primitives.Count();
+  std::vector<BvhItem> items(count);
+  threads.For((count + kChunkItems - 1) / kChunkItems, [&](std::int64_t chunk, int) {
+    const auto begin = std::uint32_t(chunk) * kChunkItems;
+    for (std::uint32_t id = begin; id < std::min(begin + kChunkItems, count); ++id) {
+      const Bounds3 bounds = primitives.Bounds(id);
+      items[id] = bounds.IsEmpty() ? BvhItem{{}, kNoId} : ItemOf(bounds, id);
+    }
+  });
+  std::erase_if(items, [](const BvhItem& item) { return item.id == kNoId; });  // of nothing
+  return items;
+}
+
+// A run, and what becomes of it.
+struct Piece {
+  BvhRun run;
+  int depth = 1;
+  BvhParts parts;                                 // of an upper node: and
+  std::array<std::size_t, kBvhWidth> children{};  // the pieces of those that are no leaves
+  std::unique_ptr<BvhSubtree> tree;               // of a piece of work: its arrays, and
+  BvhMade made;                                   // its first node in them
+  std::uint32_t firstLine = 0, firstOther = 0;    // where they are copied to
+
+  bool IsUpper() const { return run.items.size() > kTreeItems; }
+};
+
 class Builder {
  public:
-  Builder(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles)
-      : primitives_(primitives), maxLeafTriangles_(maxLeafTriangles) {}
+  Builder(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles, ThreadPool& threads)
+      : primitives_(primitives),
+        maxLeafTriangles_(maxLeafTriangles),
+        threads_(threads),
+        upper_(primitives, maxLeafTriangles) {}
 
   BvhArrays Build() && {
-    std::vector<BvhItem> items;
-    items.reserve(primitives_.Count());
-    for (std::uint32_t id = 0; id < primitives_.Count(); ++id) {
-      const Bounds3 bounds = primitives_.Bounds(id);
-      if (!bounds.IsEmpty()) items.push_back(ItemOf(bounds, id));  // empty: instance of nothing
-    }
+    std::vector<BvhItem> items = MakeItems(primitives_, threads_);
     if (items.empty()) return {};
-    arrays_.lines.reserve(items.size() + kBvhNodeLines);
-    const BvhRun root = MakeRun(items);
-    arrays_.bounds = root.box.ToBounds();
-    Node(root, 1);
-    arrays_.lines.shrink_to_fit();
-    return std::move(arrays_);
+    pieces_.emplace_back().run = MakeRun(items);
+    for (std::size_t level = 0; level < pieces_.size();) level = PlanLevel(level);
+    MakeTrees();
+    Place(0);
+    BvhArrays& arrays = upper_.Arrays();
+    arrays.bounds = pieces_[0].run.box.ToBounds();
+    threads_.For(std::int64_t(trees_.size()),
+                 [&](std::int64_t i, int) { CopyTree(&pieces_[trees_[std::size_t(i)]]); });
+    return std::move(arrays);
   }
 
  private:
-  struct Made {
-    BvhChild child;
-    Blocking blocking;
-  };
-  // The parts that a node's run has been split into: its children.
-  struct Parts {
-    std::array<BvhRun, kBvhWidth> runs;
-    std::array<bool, kBvhWidth> isLeaf{};  // and nothing else
-    int count = 1;
-    NearOrders orders;
-  };
-
-  bool IsTriangle(const BvhItem& item) const { return item.id < primitives_.TriangleCount(); }
-
-  // Whether a run can be one leaf: few enough, and all of a kind.
-  bool CanBeLeaf(const BvhRun& run) const {
-    const std::size_t count = run.items.size();
-    if (count == 1) return true;
-    if (count > std::max(std::size_t(maxLeafTriangles_), kMaxLeafOthers)) return false;
-    const bool isTriangle = IsTriangle(run.items[0]);
-    for (const BvhItem& item : run.items)
-      if (IsTriangle(item) != isTriangle) return false;
-    return count <= (isTriangle ? maxLeafTriangles_ : kMaxLeafOthers);
-  }
-
-  BvhSplit Split(const BvhRun& run, int depth) const {
-    if (run.items.size() <= maxLeafTriangles_) {  // perhaps two kinds: part them
-      const auto middle = std::partition(run.items.begin(), run.items.end(),
-                                         [this](const BvhItem& item) { return IsTriangle(item); });
-      const std::size_t triangles = std::size_t(middle - run.items.begin());
-      if (triangles > 0 && triangles < run.items.size())
-        return {triangles, 0, std::numeric_limits<double>::infinity()};
-    }
-    return depth > kSahDepth ? HalveRun(run) : SplitRun(run);
-  }
-
-  // Splits the largest part until there are eight.
-  Parts SplitIntoParts(const BvhRun& whole, int depth) const {
-    Parts parts;
-    parts.runs[0] = whole;
-    parts.isLeaf[0] = whole.items.size() == 1;
-    while (parts.count < kBvhWidth) {
-      int widest = -1;
-      double area = -1;
-      for (int i = 0; i < parts.count; ++i) {
-        if (const double a = HalfArea(parts.runs[i].box); a > area && !parts.isLeaf[i])
-          area = a, widest = i;
-      }
-      if (widest < 0) break;
-      const BvhRun run = parts.runs[widest];
-      const BvhSplit split = Split(run, depth);
-      if (CanBeLeaf(run) && LeafCost(run) <= kLeafPreference * split.cost) {
-        parts.isLeaf[widest] = true;
+  // Splits all pieces from `begin` on; returns where those of the next level begin.
+  std::size_t PlanLevel(std::size_t begin) {
+    const std::size_t end = pieces_.size();
+    threads_.For(std::int64_t(end - begin), [&](std::int64_t i, int) {
+      Piece& piece = pieces_[begin + std::size_t(i)];
+      if (piece.IsUpper()) piece.parts = upper_.SplitIntoParts(piece.run, piece.depth);
+    });
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!pieces_[i].IsUpper()) {
+        trees_.push_back(i);
         continue;
       }
-      const int added = parts.count++;
-      parts.runs[widest] = MakeRun(run.items.first(split.count));
-      parts.runs[added] = MakeRun(run.items.subspan(split.count));
-      for (const int i : {widest, added}) parts.isLeaf[i] = parts.runs[i].items.size() == 1;
-      parts.orders.Split(widest, added, split.axis);
-    }
-    return parts;
-  }
-
-  std::uint32_t NewLines(std::uint32_t count) {
-    const std::size_t index = arrays_.lines.size();
-    if (index + count > BvhChild::kMaxIndex)
-      throw Error(ExitStatus::Resource, "the bounding volume hierarchy is too large");
-    arrays_.lines.resize(index + count);
-    return std::uint32_t(index);
-  }
-
-  Made Node(const BvhRun& whole, int depth) {
-    arrays_.depth = std::max(arrays_.depth, depth);
-    if (depth > kBvhMaxDepth)
-      throw Error(ExitStatus::Resource, "the bounding volume hierarchy is too deep");
-    const BvhChild self(BvhChild::Kind::Node, NewLines(kBvhNodeLines));
-    const Parts parts = SplitIntoParts(whole, depth);
-    BvhNode node{};
-    node.orders = parts.orders.Packed();
-    std::array<ChildBlocking, kBvhWidth> blocking;
-    const double area = HalfArea(whole.box);
-    // Leaves first: close to their node.
-    for (const bool wantsLeaf : {true, false}) {
-      for (int i = 0; i < parts.count; ++i) {
-        const BvhRun& run = parts.runs[i];
-        if (IsLeaf(parts, i) != wantsLeaf) continue;
-        const Made made = wantsLeaf ? Leaf(run) : Node(run, depth + 1);
-        node.children[i] = made.child;
-        blocking[i] = {made.blocking, area > 0 ? HalfArea(run.box) / area : 1};
+      for (int part = 0; part < pieces_[i].parts.count; ++part) {
+        if (pieces_[i].parts.isLeaf[part]) continue;
+        pieces_[i].children[part] = pieces_.size();
+        Piece& child = pieces_.emplace_back();
+        child.run = pieces_[i].parts.runs[part];
+        child.depth = pieces_[i].depth + 1;
       }
     }
-    const Blocking own = OrderByBlocking(std::span(blocking).first(std::size_t(parts.count)),
-                                         &node.orders[kBvhBlockingOrder]);
-    for (int i = 0; i < kBvhWidth; ++i) {
-      const Bounds3 bounds = i < parts.count ? parts.runs[i].box.ToBounds() : Bounds3();
-      for (int axis = 0; axis < 3; ++axis) {
-        node.rows[2 * axis][i] = bounds.min[axis];
-        node.rows[2 * axis + 1][i] = bounds.max[axis];
-      }
-    }
-    new (&arrays_.lines[self.Index()]) BvhNode(node);
-    return {self, own};
+    return end;
   }
 
-  // Parts that nobody had room to split further are nodes, unless they are small.
-  bool IsLeaf(const Parts& parts, int i) const {
-    return parts.isLeaf[i] || CanBeLeaf(parts.runs[i]);
+  void MakeTrees() {
+    threads_.For(std::int64_t(trees_.size()), [&](std::int64_t i, int) {
+      Piece& piece = pieces_[trees_[std::size_t(i)]];
+      piece.tree = std::make_unique<BvhSubtree>(primitives_, maxLeafTriangles_);
+      piece.tree->Arrays().lines.reserve(piece.run.items.size() + kBvhNodeLines);
+      piece.made = piece.tree->Tree(piece.run, piece.depth);
+    });
+    std::size_t lines = 0;
+    for (const std::size_t i : trees_) lines += pieces_[i].tree->Arrays().lines.size();
+    upper_.Arrays().lines.reserve(lines + pieces_.size() * kBvhNodeLines);
   }
 
-  Made Leaf(const BvhRun& run) {
-    if (!IsTriangle(run.items[0])) {
-      const auto index = std::uint32_t(arrays_.others.size());
-      arrays_.others.push_back(std::uint32_t(run.items.size()));
-      for (const BvhItem& item : run.items) arrays_.others.push_back(item.id);
-      return {BvhChild(BvhChild::Kind::Others, index), kOtherBlocking};
+  // Gives a piece and all below it their places, and makes the upper nodes.
+  BvhMade Place(std::size_t index) {
+    Piece& piece = pieces_[index];
+    if (piece.IsUpper())
+      return upper_.Node(piece.run, piece.parts, piece.depth,
+                         [&](int part) { return Place(piece.children[part]); });
+    BvhArrays& all = upper_.Arrays();
+    const BvhArrays& own = piece.tree->Arrays();
+    all.depth = std::max(all.depth, own.depth);
+    piece.firstLine = upper_.NewLines(std::uint32_t(own.lines.size()));
+    piece.firstOther = std::uint32_t(all.others.size());
+    all.others.insert(all.others.end(), own.others.begin(), own.others.end());
+    return {Moved(piece.made.child, piece), piece.made.blocking};
+  }
+
+  static BvhChild Moved(BvhChild child, const Piece& piece) {
+    const bool isOther = child.GetKind() == BvhChild::Kind::Others;
+    return BvhChild(child.GetKind(),
+                    child.Index() + (isOther ? piece.firstOther : piece.firstLine));
+  }
+
+  void CopyTree(Piece* piece) {
+    BvhLine* const first = upper_.Arrays().lines.data() + piece->firstLine;
+    const auto& own = piece->tree->Arrays().lines;
+    std::memcpy(first, own.data(), own.size() * sizeof(BvhLine));
+    MoveChildren(first, piece->made.child, *piece);
+    piece->tree.reset();
+  }
+  static void MoveChildren(BvhLine* first, BvhChild child, const Piece& piece) {
+    auto& node = *reinterpret_cast<BvhNode*>(first + child.Index());
+    for (int i = 0; i < kBvhWidth && node.rows[0][i] <= node.rows[1][i]; ++i) {
+      if (node.children[i].IsNode()) MoveChildren(first, node.children[i], piece);
+      node.children[i] = Moved(node.children[i], piece);
     }
-    // Lower ids first: of equal hits the first found stays.
-    std::sort(run.items.begin(), run.items.end(),
-              [](const BvhItem& a, const BvhItem& b) { return a.id < b.id; });
-    std::array<std::uint32_t, kBvhWidth> ids;
-    double area = 0;
-    for (std::size_t i = 0; i < run.items.size(); ++i) {
-      ids[i] = run.items[i].id;
-      const auto& v = primitives_.TriangleVertices(ids[i]);
-      area += double(Length(Cross(v[1] - v[0], v[2] - v[0]))) / 2;
-    }
-    const BvhBlock block = MakeBlock(primitives_, std::span(ids).first(run.items.size()));
-    const BvhChild self(BvhChild::Kind::Triangles, NewLines(kBvhBlockLines));
-    new (&arrays_.lines[self.Index()]) BvhBlock(block);
-    // A line that meets a convex body of surface 2 h meets a flat piece in it with 2 area / (2 h).
-    const double halfArea = HalfArea(run.box);
-    return {self, {halfArea > area ? area / halfArea : 1, 1}};
   }
 
   const PrimitiveSet& primitives_;
   const std::uint32_t maxLeafTriangles_;
-  BvhArrays arrays_;
+  ThreadPool& threads_;
+  std::vector<Piece> pieces_;       // level by level
+  std::vector<std::size_t> trees_;  // those that are no upper nodes
+  BvhSubtree upper_;
 };
 
 }  // namespace
 
-BvhBlock MakeBlock(const PrimitiveSet& primitives, std::span<const std::uint32_t> ids) {
-  BvhBlock block{};
-  for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-    block.ids[lane] = lane < ids.size() ? ids[lane] : kNoId;
-    if (lane >= ids.size()) continue;
-    const auto& vertices = primitives.TriangleVertices(ids[lane]);
-    for (int v = 0; v < 3; ++v)
-      for (int axis = 0; axis < 3; ++axis) block.vertices[v][axis][lane] = vertices[v][axis];
-  }
-  return block;
-}
-
-BvhArrays BuildBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles) {
-  return Builder(primitives, std::min(maxLeafTriangles, std::uint32_t(kBvhWidth))).Build();
+BvhArrays BuildBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles,
+                   ThreadPool& threads) {
+  const std::uint32_t most = std::min(maxLeafTriangles, std::uint32_t(kBvhWidth));
+  return Builder(primitives, most, threads).Build();
 }
 
 }  // namespace exphoton

@@ -55,6 +55,7 @@ LoadOptions SceneOptions(const Options& options) {
   LoadOptions load;
   load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
   load.stop = &StopFlag();
+  load.threads = options.threads;
   if (!options.integrator.empty()) load.integrator = options.integrator;
   for (const std::string& set : options.sets) load.parameters.push_back(ParseOverride(set));
   return load;

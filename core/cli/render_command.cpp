@@ -88,6 +88,7 @@ Setups FileRenderer::Load(const std::string& path) {
   Begin& begin = begin_.emplace();
   LoadOptions options = command_.load;
   options.stop = &StopFlag();
+  options.threads = command_.threadCount;
   FileSource source;
   Setups setups = LoadScenes(source, path, options, log_);
   begin.loadWall = SecondsSince(begin.wall);

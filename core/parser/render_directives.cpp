@@ -107,7 +107,8 @@ ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choic
 
 AcceleratorSpec RenderDirectives::Accelerator(PluginRegistry& registry) const {
   return {accelerator_.name,
-          Overridden("Accelerator", accelerator_, PluginKind::Accelerator, registry)};
+          Overridden("Accelerator", accelerator_, PluginKind::Accelerator, registry),
+          options_.threads};
 }
 
 void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {

@@ -35,6 +35,7 @@ struct LoadOptions {
   std::vector<std::string> pluginFolders;  // as PluginRegistry::DefaultFolders gives them
   bool isStrict = false;                   // unknown parameters are errors
   Dialect dialect = Dialect::V1;
+  int threads = 1;  // that may build accelerators; 0: as many as there are cores
   const std::atomic<bool>* stop = nullptr;  // set from outside: loading throws LoadingStopped
 
   // What replaces the file's own words.

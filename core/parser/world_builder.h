@@ -19,6 +19,7 @@ namespace exphoton {
 struct AcceleratorSpec {
   std::string name;
   ParamSet params;
+  int threads = 1;  // that may build it; 0: as many as there are cores
 };
 
 class WorldBuilder {

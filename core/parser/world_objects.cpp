@@ -13,7 +13,7 @@ std::unique_ptr<Aggregate> WorldBuilder::MakeAggregate(PrimitiveSet& set) {
   set.Finish();
   return registry_.Create<PluginKind::Accelerator>(
       accelerator_.name, accelerator_.params,
-      Bind(PluginKind::Accelerator, accelerator_.name, nullptr), AcceleratorContext{set, log_});
+      Bind(PluginKind::Accelerator, accelerator_.name, nullptr), AcceleratorContext{set, log_, accelerator_.threads});
 }
 
 void WorldBuilder::BeginObject(const Directive& directive) {

@@ -46,6 +46,7 @@ struct IntegratorContext {
 struct AcceleratorContext {
   const PrimitiveSet& primitives;  // outlives the accelerator
   Log& log;
+  int threads = 1;  // that may build it; 0: as many as there are cores
 };
 struct ShapeContext {
   Transform objectToWorld;

@@ -76,8 +76,9 @@ ShapeGeometry TestPlugins::MakeShape(const std::string& text, const Transform& t
 }
 
 std::unique_ptr<Aggregate> TestPlugins::MakeAccelerator(const std::string& text,
-                                                        const PrimitiveSet& primitives) {
-  return Make<PluginKind::Accelerator>(text, {primitives, log_});
+                                                        const PrimitiveSet& primitives,
+                                                        int threads) {
+  return Make<PluginKind::Accelerator>(text, {primitives, log_, threads});
 }
 
 std::unique_ptr<Camera> TestPlugins::MakeCamera(const std::string& text, const Transform& toWorld,

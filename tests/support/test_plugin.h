@@ -24,7 +24,7 @@ class TestPlugins {
   ShapeGeometry MakeShape(const std::string& text, const Transform& toWorld = {},
                           bool reverseOrientation = false);
   std::unique_ptr<Aggregate> MakeAccelerator(const std::string& text,
-                                             const PrimitiveSet& primitives);
+                                             const PrimitiveSet& primitives, int threads = 1);
   // The shape as a surface to sample; keeps what it refers to.
   std::shared_ptr<const EmitterSurface> MakeEmitter(const std::string& text,
                                                     const Transform& toWorld = {},
