@@ -12,7 +12,7 @@ namespace exphoton {
 namespace {
 
 struct Settings {
-  int intersectCost = 1, traversalCost = 2;
+  int intersectCost = 1, traversalCost = 3;
   Real emptyBonus = Real(.2);
   int maxPrimitives = 1, maxDepth = -1;
 };
@@ -95,7 +95,7 @@ class KdTree final : public Aggregate {
     if (!IsTraceable(ray)) return hit;
     hit.t = ray.tMax;
     const TraceRay trace(ray);
-    Walk(ray, [&](const KdNode& leaf) {
+    Walk<Order::NearFirst>(ray, [&](const KdNode& leaf) {
       test_.intersectBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), trace.triangle,
                             &hit);
       if (leaf.HasOthers())
@@ -109,7 +109,8 @@ class KdTree final : public Aggregate {
     if (!IsTraceable(ray)) return false;
     const TraceRay trace(ray);
     bool isOccluded = false;
-    Walk(ray, [&](const KdNode& leaf) {
+    // Whatever blocks it will do; where rays leave a room or end at a lamp, most are blocked.
+    Walk<Order::FarFirst>(ray, [&](const KdNode& leaf) {
       isOccluded =
           test_.occludedByBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), trace);
       if (!isOccluded && leaf.HasOthers())
@@ -131,9 +132,11 @@ class KdTree final : public Aggregate {
     return {list + 1, list[0]};
   }
 
-  // Visits the leaves along the ray, roughly from front to back. visit(leaf) returns the t beyond
-  // which nothing matters any more (ties at it do).
-  template <class Visit>
+  enum class Order { NearFirst, FarFirst };
+
+  // Visits the leaves along the ray, roughly from front to back or from back to front. visit(leaf)
+  // returns the t beyond which nothing matters any more (ties at it do).
+  template <Order order, class Visit>
   void Walk(const Ray& worldRay, Visit&& visit) const {
     if (arrays_.nodes.empty()) return;
     const KdRay ray(worldRay);
@@ -170,9 +173,12 @@ class KdTree final : public Aggregate {
           index = far;
           span.min = std::max(span.min, farBegin);
         } else {
-          stack[depth++] = {far, {std::max(span.min, farBegin), span.max}};
-          index = near;
-          span.max = std::min(span.max, nearEnd);
+          const Span nearSpan{span.min, std::min(span.max, nearEnd)};
+          const Span farSpan{std::max(span.min, farBegin), span.max};
+          constexpr bool isNearFirst = order == Order::NearFirst;
+          stack[depth++] = isNearFirst ? Entry{far, farSpan} : Entry{near, nearSpan};
+          index = isNearFirst ? near : far;
+          span = isNearFirst ? nearSpan : farSpan;
         }
         continue;
       }

@@ -22,6 +22,7 @@ Contest Accelerators(const std::string& size) {
   return {double(room->TriangleCount()) * 1e-6,
           "Mtriangles",
           {{"bvh", [=] { plugins->MakeAccelerator(R"("bvh")", *room); }},
+           {"bvh-2-threads", [=] { plugins->MakeAccelerator(R"("bvh")", *room, 2); }},
            {"kdtree", [=] { plugins->MakeAccelerator(R"("kdtree")", *room); }},
            {"embree-robust", [=] { embree->Build(); }}},
           Clock::Wall};

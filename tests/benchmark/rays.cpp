@@ -20,7 +20,7 @@ constexpr int kRounds = 21;
 // A room with all that is measured in it; made once.
 struct Arrangement {
   explicit Arrangement(const std::string& size)
-      : room(BenchmarkRoom(TriangleCountOf(size))),
+      : room(size == "small" ? SmallRoom() : BenchmarkRoom(TriangleCountOf(size))),
         robust(*room, true),
         fast(*room, false),
         bvh(plugins.MakeAccelerator(R"("bvh")", *room)),
@@ -112,6 +112,8 @@ void AddSet(const std::string& size, const char* name, std::vector<Ray> RaySets:
 }  // namespace
 
 void AddRays() {
+  AddSet("small", "gather", &RaySets::gather, true);
+  AddSet("small", "shadow", &RaySets::shadow, false);
   for (const char* size : {"266k", "1M"}) {
     AddSet(size, "primary", &RaySets::primary, true);
     AddSet(size, "bounce-1", &RaySets::firstBounce, true);

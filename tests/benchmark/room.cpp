@@ -71,6 +71,16 @@ std::vector<Ray> Bounce(const PrimitiveSet& room, const Aggregate& accelerator,
   return bounced;
 }
 
+// As a final gather: many from one point, then from the next.
+std::vector<Ray> Gather(const PrimitiveSet& room, const Aggregate& accelerator,
+                        const std::vector<Ray>& rays) {
+  constexpr std::size_t kEach = 32;
+  std::vector<Ray> repeated;
+  for (std::size_t i = 0; i < rays.size(); i += kEach)
+    repeated.insert(repeated.end(), kEach, rays[i]);
+  return Bounce(room, accelerator, repeated, 6);
+}
+
 std::vector<Ray> Shadows(const PrimitiveSet& room, const Aggregate& accelerator,
                          const std::vector<Ray>& rays) {
   std::vector<Ray> shadows;
@@ -82,6 +92,13 @@ std::vector<Ray> Shadows(const PrimitiveSet& room, const Aggregate& accelerator,
     if (hit.IsHit()) shadows.push_back(SpawnRayTo(room.Point(ray, hit), light));
   }
   return shadows;
+}
+
+std::unique_ptr<PrimitiveSet> SetOf(const std::shared_ptr<TriangleMesh>& mesh) {
+  auto set = std::make_unique<PrimitiveSet>();
+  set->AddMesh(mesh, {});
+  set->Finish();
+  return set;
 }
 
 }  // namespace
@@ -110,10 +127,20 @@ std::unique_ptr<PrimitiveSet> BenchmarkRoom(std::size_t triangles) {
     AddBody(center, radii, between(0, 6), rings, sectors, mesh.get());
   }
   mesh->DropDegenerate();
-  auto set = std::make_unique<PrimitiveSet>();
-  set->AddMesh(mesh, {});
-  set->Finish();
-  return set;
+  return SetOf(mesh);
+}
+
+std::unique_ptr<PrimitiveSet> SmallRoom() {
+  auto mesh = std::make_shared<TriangleMesh>();
+  AddBox({-kWidth / 2, 0, -kDepth / 2}, {kWidth / 2, kHeight, kDepth / 2}, mesh.get());
+  RandomStream random(12);
+  for (int i = 0; i < 7; ++i) {
+    const Point3 min(Real(i % 4) * Real(1.9) - Real(3.6), 0, Real(i / 4) * Real(2.4) - Real(1.4));
+    const Vector3 size(Real(.5) + random.Uniform(), Real(.5) + 2 * random.Uniform(),
+                       Real(.5) + random.Uniform());
+    AddBox(min, min + size, mesh.get());
+  }
+  return SetOf(mesh);
 }
 
 RaySets MakeRaySets(const PrimitiveSet& room, const Aggregate& accelerator, std::size_t count) {
@@ -132,6 +159,7 @@ RaySets MakeRaySets(const PrimitiveSet& room, const Aggregate& accelerator, std:
   }
   sets.firstBounce = Bounce(room, accelerator, sets.primary, 2);
   sets.secondBounce = Bounce(room, accelerator, sets.firstBounce, 3);
+  sets.gather = Gather(room, accelerator, sets.primary);
   RandomStream order(5);
   for (std::size_t i = sets.secondBounce.size(); i > 1; --i)
     std::swap(sets.secondBounce[i - 1], sets.secondBounce[order.Bits() % i]);
