@@ -29,7 +29,7 @@ class Binning {
   }
   bool CanSplit(int axis) const { return canSplit_[axis]; }
   void Find(const BvhItem& item, std::int32_t* bins) const {
-    const Real4 position = (item.box.Middle() - min_) * scale_;
+    const Real4 position = (item.Box().Middle() - min_) * scale_;
     Max(Min(position, Real4::All(kBins - 1)), Real4::All(0)).Truncate(bins);
   }
 
@@ -85,12 +85,12 @@ void Sweep(std::span<const BvhItem> items, const Places& places, int axis, BvhSp
   std::array<double, kSweepLimit> below;
   BuildBox box;
   for (std::size_t i = 1; i < items.size(); ++i) {
-    box.Extend(items[places[i - 1]].box);
+    box.Extend(items[places[i - 1]].Box());
     below[i] = HalfArea(box) * Blocks(std::uint32_t(i));
   }
   box = {};
   for (std::size_t i = items.size() - 1; i > 0; --i) {
-    box.Extend(items[places[i]].box);
+    box.Extend(items[places[i]].Box());
     const double cost = below[i] + HalfArea(box) * Blocks(std::uint32_t(items.size() - i));
     if (cost < best->cost) *best = {i, axis, cost};
   }
@@ -102,7 +102,7 @@ BvhSplit SweepRun(const BvhRun& run) {
   std::array<Real, kSweepLimit> middles[3];
   for (std::size_t i = 0; i < items.size(); ++i) {
     Real lanes[4];
-    items[i].box.Middle().Store(lanes);
+    items[i].Box().Middle().Store(lanes);
     for (int axis = 0; axis < 3; ++axis) middles[axis][i] = lanes[axis];
   }
   const Bounds3 bounds = run.middles.ToBounds();
@@ -125,8 +125,8 @@ BvhSplit SweepRun(const BvhRun& run) {
 BvhRun MakeRun(std::span<BvhItem> items) {
   BvhRun run{items, {}, {}};
   for (const BvhItem& item : items) {
-    run.box.Extend(item.box);
-    run.middles.Extend(item.box.Middle());
+    run.box.Extend(item.Box());
+    run.middles.Extend(item.Box().Middle());
   }
   return run;
 }
@@ -141,7 +141,7 @@ BvhSplit HalveRun(const BvhRun& run) {
   const std::size_t half = run.items.size() / 2;
   const auto middle = [axis](const BvhItem& item) {
     Real lanes[4];
-    item.box.Middle().Store(lanes);
+    item.Box().Middle().Store(lanes);
     return lanes[axis];
   };
   std::nth_element(run.items.begin(), run.items.begin() + std::ptrdiff_t(half), run.items.end(),
@@ -160,7 +160,7 @@ BvhSplit SplitRun(const BvhRun& run) {
     std::int32_t at[4];
     binning.Find(item, at);
     for (int axis = 0; axis < 3; ++axis) {
-      bins.boxes[axis][at[axis]].Extend(item.box);
+      bins.boxes[axis][at[axis]].Extend(item.Box());
       ++bins.counts[axis][at[axis]];
     }
   }

@@ -24,6 +24,11 @@ struct Real4 {
 
   static Real4 All(Real x) { return {_mm_set1_ps(x)}; }
   static Real4 Of(const Point3& p) { return {_mm_setr_ps(p.x, p.y, p.z, 0)}; }
+  // The last lane 0: bits of a number may be a subnormal float there, which takes long to add.
+  static Real4 Three(const Real* lanes) {
+    const __m128 mask = _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0));
+    return {_mm_and_ps(_mm_load_ps(lanes), mask)};
+  }
   void Store(Real* lanes) const { _mm_storeu_ps(lanes, v); }
   void Truncate(std::int32_t* lanes) const {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(lanes), _mm_cvttps_epi32(v));
@@ -42,6 +47,7 @@ struct Real4 {
 
   static Real4 All(Real x) { return {{x, x, x, x}}; }
   static Real4 Of(const Point3& p) { return {{p.x, p.y, p.z, 0}}; }
+  static Real4 Three(const Real* lanes) { return {{lanes[0], lanes[1], lanes[2], 0}}; }
   void Store(Real* lanes) const { std::copy(v, v + 4, lanes); }
   void Truncate(std::int32_t* lanes) const {
     for (int i = 0; i < 4; ++i) lanes[i] = std::int32_t(v[i]);
@@ -96,9 +102,20 @@ inline double HalfArea(const BuildBox& box) {
   return x * y + y * z + z * x;
 }
 
-struct BvhItem {
-  BuildBox box;  // with margins
-  std::uint32_t id;
+// What a run has of a primitive: 32 bytes, as its box leaves room for.
+struct alignas(4 * sizeof(Real)) BvhItem {
+  Real low[3] = {kInfinity, kInfinity, kInfinity};
+  std::uint32_t id = 0;
+  Real high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  Real unused = 0;
+
+  BvhItem() = default;
+  BvhItem(const Bounds3& bounds, std::uint32_t number) : id(number) {
+    for (int axis = 0; axis < 3; ++axis)
+      low[axis] = bounds.min[axis], high[axis] = bounds.max[axis];
+  }
+  // With margins.
+  BuildBox Box() const { return {Real4::Three(low), Real4::Three(high)}; }
 };
 
 }  // namespace exphoton

@@ -27,11 +27,6 @@ Bounds3 Grown(const Bounds3& bounds) {
   return grown;
 }
 
-BvhItem ItemOf(const Bounds3& bounds, std::uint32_t id) {
-  const Bounds3 grown = Grown(bounds);
-  return {{Real4::Of(grown.min), Real4::Of(grown.max)}, id};
-}
-
 std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threads) {
   const std::uint32_t count = primitives.Count();
   std::vector<BvhItem> items(count);
@@ -39,7 +34,7 @@ std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threa
     const auto begin = std::uint32_t(chunk) * kChunkItems;
     for (std::uint32_t id = begin; id < std::min(begin + kChunkItems, count); ++id) {
       const Bounds3 bounds = primitives.Bounds(id);
-      items[id] = bounds.IsEmpty() ? BvhItem{{}, kNoId} : ItemOf(bounds, id);
+      items[id] = bounds.IsEmpty() ? BvhItem({}, kNoId) : BvhItem(Grown(bounds), id);
     }
   });
   std::erase_if(items, [](const BvhItem& item) { return item.id == kNoId; });  // of nothing
