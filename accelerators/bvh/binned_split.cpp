@@ -21,8 +21,9 @@ class Binning {
     Point3 scale;
     for (int axis = 0; axis < 3; ++axis) {
       const Real extent = bounds.max[axis] * Real(.5) - bounds.min[axis] * Real(.5);
-      const Real s = extent > 0 ? Real(kBins) / 2 / extent : 0;
-      scale[axis] = std::isfinite(s) ? s : 0;
+      // Nothing is binned within an extent whose inverse overflows.
+      const bool isWide = extent > Real(kBins) * std::numeric_limits<Real>::min();
+      scale[axis] = isWide ? Real(kBins) / 2 / extent : 0;
       canSplit_[axis] = scale[axis] > 0;
     }
     scale_ = Real4::Of(scale);

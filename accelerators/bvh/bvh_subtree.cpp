@@ -5,6 +5,7 @@
 
 #include "accelerators/bvh/block_test.h"
 #include "core/base/error.h"
+#include "core/geometry/vec3d.h"
 
 namespace exphoton {
 namespace {
@@ -128,7 +129,8 @@ BvhMade BvhSubtree::Leaf(const BvhRun& run) {
   for (std::size_t i = 0; i < run.items.size(); ++i) {
     ids[i] = run.items[i].id;
     const auto& v = primitives_.TriangleVertices(ids[i]);
-    area += double(Length(Cross(v[1] - v[0], v[2] - v[0]))) / 2;
+    const Vec3d first(v[0]);  // in double no area overflows
+    area += Length(Cross(Vec3d(v[1]) - first, Vec3d(v[2]) - first)) / 2;
   }
   const BvhBlock block = MakeBlock(primitives_, std::span(ids).first(run.items.size()));
   const BvhChild self(BvhChild::Kind::Triangles, NewLines(kBvhBlockLines));

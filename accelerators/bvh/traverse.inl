@@ -93,12 +93,11 @@ struct AnyRay {
     const Real slope = kBvhMargin * MaxComponent(Abs(ray.d));
     for (int axis = 0; axis < 3; ++axis) {
       const Real d = ray.d[axis];
-      const Real inverse = d == 0 ? std::copysign(kInfinity, d) : 1 / d;  // traps stay silent
-      const Real x = slope * std::abs(inverse);
-      if (!(x < Real(.25))) {
+      if (!(slope < std::abs(d) * Real(.25))) {
         SetPerpendicular(ray, axis, major, world);
         continue;
       }
+      const Real inverse = 1 / d, x = slope * std::abs(inverse);
       nearOrigin[axis] = farOrigin[axis] = Real8::All(ray.o[axis]);
       nearInverse[axis] = Real8::All(inverse * (1 - x - Gamma(6)));
       farInverse[axis] = Real8::All(inverse * (1 + 2 * x + Gamma(6)));
@@ -107,8 +106,9 @@ struct AnyRay {
 
   // For an axis to which the ray is (nearly) perpendicular: either never crosses a plane, or has
   // done so for good. It strays by less than 5/8 of the spread: what it may hit begins behind one
-  // moved origin and ends ahead of the other. 0 * infinity leaves an axis out of Cross, which only
-  // enters more boxes.
+  // moved origin and ends ahead of the other, by 3/8 at least. Divided by the slope that is later
+  // than any hit, and infinite is needed (where 0 * infinity leaves an axis out of Cross, which
+  // only enters more boxes) for no direction but one whose slope has no inverse.
   void SetPerpendicular(const Ray& ray, int axis, int major, const Bounds3& world) {
     constexpr double kMargin = double(kBvhMargin);
     // The farthest that any hit can be along the major axis.
@@ -116,7 +116,9 @@ struct AnyRay {
                                   std::abs(double(world.max[major]) - double(ray.o[major])));
     const double spread = 8 * kMargin * reach;
     const bool isBackward = std::signbit(ray.d[axis]);
-    nearInverse[axis] = farInverse[axis] = Real8::All(isBackward ? -kInfinity : kInfinity);
+    const Real slope = kBvhMargin * std::abs(ray.d[major]);
+    const Real inverse = slope < std::numeric_limits<Real>::min() ? kInfinity : 1 / slope;
+    nearInverse[axis] = farInverse[axis] = Real8::All(isBackward ? -inverse : inverse);
     const Real above = NextUp(Real(double(ray.o[axis]) + spread));
     const Real below = NextDown(Real(double(ray.o[axis]) - spread));
     nearOrigin[axis] = Real8::All(isBackward ? below : above);
