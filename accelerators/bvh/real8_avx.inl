@@ -9,11 +9,21 @@ struct Real8 {
   static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
 };
 
+inline Real8 operator/(Real8 a, Real8 b) { return {_mm256_div_ps(a.v, b.v)}; }
+inline Real8 operator+(Real8 a, Real8 b) { return {_mm256_add_ps(a.v, b.v)}; }
 inline Real8 operator-(Real8 a, Real8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
 inline Real8 operator*(Real8 a, Real8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
 inline Real8 MultiplyAdd(Real8 a, Real8 b, Real8 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
+inline Real8 Abs(Real8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), a.v)}; }
 inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
+
+// Lanes 0 to 2 are axes; in the others is what divides as well.
+using Axes = Real8;
+inline Axes AxesOf(const Vec3& a) { return {_mm256_setr_ps(a.x, a.y, a.z, 1, 1, 1, 1, 1)}; }
+inline Real8 AllOf(Axes a, int axis) {
+  return {_mm256_permutevar8x32_ps(a.v, _mm256_set1_epi32(axis))};
+}
 
 // Reads an order from its end to its beginning, or where that of the opposite direction is meant
 // from its beginning to its end, so that what is last lies on top of a stack.

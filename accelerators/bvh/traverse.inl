@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The traversal, written on what the including file defines for its vectors: Real8 (Load, All, -,
-// *, MultiplyAdd, Min, Max, LessMask), PresentMask, and PushOrder, whose Push finds the children
-// where first <= last and returns how many: the first of the order is *next, and the stack has the
-// others above what was there, the second on top. Included into an unnamed namespace.
+// *, MultiplyAdd, Min, Max, LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf), PresentMask, and
+// PushOrder, whose Push finds the children where first <= last and returns how many: the first of
+// the order is *next, and the stack has the others above what was there, the second on top.
+// Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
@@ -18,19 +19,26 @@ struct BoxRows {
   std::size_t near[3], far[3];  // bytes from the first row of a node
   unsigned backward = 0;        // a bit an axis
 
-  explicit BoxRows(const Vector3& d) {
+  static const BoxRows& Of(const Vector3& d);
+  explicit constexpr BoxRows(unsigned signs) : near(), far(), backward(signs) {
     constexpr std::size_t kRow = sizeof(Real) * kBvhWidth;
-    const bool isBackward[3] = {std::signbit(d.x), std::signbit(d.y), std::signbit(d.z)};
     for (int axis = 0; axis < 3; ++axis) {
-      backward |= unsigned(isBackward[axis]) << axis;
-      near[axis] = kRow * (2 * std::size_t(axis) + isBackward[axis]);
-      far[axis] = kRow * (2 * std::size_t(axis) + !isBackward[axis]);
+      const bool isBackward = signs >> axis & 1;
+      near[axis] = kRow * (2 * std::size_t(axis) + isBackward);
+      far[axis] = kRow * (2 * std::size_t(axis) + !isBackward);
     }
   }
   static Real8 Load(const BvhNode& node, std::size_t row) {
     return Real8::Load(reinterpret_cast<const Real*>(reinterpret_cast<const char*>(&node) + row));
   }
 };
+
+constexpr BoxRows kBoxRows[8] = {BoxRows(0), BoxRows(1), BoxRows(2), BoxRows(3),
+                                 BoxRows(4), BoxRows(5), BoxRows(6), BoxRows(7)};
+inline const BoxRows& BoxRows::Of(const Vector3& d) {
+  return kBoxRows[unsigned(std::signbit(d.x)) | unsigned(std::signbit(d.y)) << 1 |
+                  unsigned(std::signbit(d.z)) << 2];
+}
 
 // Where a ray enters the eight boxes of a node, and where it leaves them, at most at tMax: a box is
 // met where first <= last.
@@ -47,27 +55,27 @@ struct Crossings {
 // The ray as boxes see it, where it is perpendicular to no axis: planes are crossed at
 // plane / d - o / d. What rounding of o / d may shift is added to what rounding of the hit may.
 struct SlantedRay {
-  BoxRows rows;
+  const BoxRows& rows;
   Real8 nearScale[3], nearShift[3], farScale[3], farShift[3];
   bool isSlanted;  // whether it is; nothing else is set where not
 
-  explicit SlantedRay(const Ray& ray) : rows(ray.d) {
-    const Real o[3] = {ray.o.x, ray.o.y, ray.o.z}, d[3] = {ray.d.x, ray.d.y, ray.d.z};
+  explicit SlantedRay(const Ray& ray) : rows(BoxRows::Of(ray.d)) {
     const Vector3 size = Abs(ray.d);
     const Real slope = kBvhMargin * MaxComponent(size);
     isSlanted = slope < std::min({size.x, size.y, size.z}) * Real(.25);
     if (!isSlanted) [[unlikely]]
       return;
+    // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
+    const Axes inverse = Axes::All(1) / AxesOf(ray.d), x = Axes::All(slope) * Abs(inverse);
+    const Axes nearest = inverse * (Axes::All(1 - Gamma(6)) - x);
+    const Axes farthest = inverse * (Axes::All(1 + Gamma(6)) + (x + x));
+    const Axes o = AxesOf(ray.o), rounding = Axes::All(Gamma(4));
+    const Axes nearOffset = o * nearest, farOffset = o * farthest;
+    const Axes nearMove = Axes::All(0) - nearOffset - Abs(nearOffset) * rounding;
+    const Axes farMove = Abs(farOffset) * rounding - farOffset;
     for (int axis = 0; axis < 3; ++axis) {
-      // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
-      const Real inverse = 1 / d[axis], x = slope * std::abs(inverse);
-      const Real nearest = inverse * (1 - x - Gamma(6));
-      const Real farthest = inverse * (1 + 2 * x + Gamma(6));
-      const Real nearOffset = o[axis] * nearest, farOffset = o[axis] * farthest;
-      nearScale[axis] = Real8::All(nearest);
-      nearShift[axis] = Real8::All(-nearOffset - std::abs(nearOffset) * Gamma(4));
-      farScale[axis] = Real8::All(farthest);
-      farShift[axis] = Real8::All(-farOffset + std::abs(farOffset) * Gamma(4));
+      nearScale[axis] = AllOf(nearest, axis), nearShift[axis] = AllOf(nearMove, axis);
+      farScale[axis] = AllOf(farthest, axis), farShift[axis] = AllOf(farMove, axis);
     }
   }
 
@@ -86,10 +94,10 @@ struct SlantedRay {
 
 // The ray as boxes see it, whatever its direction.
 struct AnyRay {
-  BoxRows rows;
+  const BoxRows& rows;
   Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
 
-  AnyRay(const Ray& ray, int major, const Bounds3& world) : rows(ray.d) {
+  AnyRay(const Ray& ray, int major, const Bounds3& world) : rows(BoxRows::Of(ray.d)) {
     const Real slope = kBvhMargin * MaxComponent(Abs(ray.d));
     for (int axis = 0; axis < 3; ++axis) {
       const Real d = ray.d[axis];

@@ -11,37 +11,51 @@
 namespace exphoton {
 namespace {
 
-struct Real8 {
-  Real lanes[kBvhWidth];
+template <int kCount>
+struct Lanes {
+  Real lanes[kCount];
 
-  static Real8 Load(const Real* row) {
-    Real8 r;
-    for (int i = 0; i < kBvhWidth; ++i) r.lanes[i] = row[i];
+  static Lanes Load(const Real* row) {
+    Lanes r;
+    for (int i = 0; i < kCount; ++i) r.lanes[i] = row[i];
     return r;
   }
-  static Real8 All(Real x) {
-    Real8 r;
+  static Lanes All(Real x) {
+    Lanes r;
     for (Real& lane : r.lanes) lane = x;
     return r;
   }
 };
+using Real8 = Lanes<kBvhWidth>;
 
-#define EXPHOTON_LANEWISE(name, expression)           \
-  inline Real8 name(const Real8& a, const Real8& b) { \
-    Real8 r;                                          \
-    for (int i = 0; i < kBvhWidth; ++i) {             \
-      const Real x = a.lanes[i], y = b.lanes[i];      \
-      r.lanes[i] = (expression);                      \
-    }                                                 \
-    return r;                                         \
+#define EXPHOTON_LANEWISE(name, expression)                                   \
+  template <int kCount>                                                       \
+  inline Lanes<kCount> name(const Lanes<kCount>& a, const Lanes<kCount>& b) { \
+    Lanes<kCount> r;                                                          \
+    for (int i = 0; i < kCount; ++i) {                                        \
+      const Real x = a.lanes[i], y = b.lanes[i];                              \
+      r.lanes[i] = (expression);                                              \
+    }                                                                         \
+    return r;                                                                 \
   }
 EXPHOTON_LANEWISE(operator+, x + y)
 EXPHOTON_LANEWISE(operator-, x - y)
 EXPHOTON_LANEWISE(operator*, x* y)
+EXPHOTON_LANEWISE(operator/, x / y)
 EXPHOTON_LANEWISE(Min, x < y ? x : y)  // the second where one is NaN
 EXPHOTON_LANEWISE(Max, x > y ? x : y)
 #undef EXPHOTON_LANEWISE
 inline Real8 MultiplyAdd(const Real8& a, const Real8& b, const Real8& c) { return a * b + c; }
+
+// Lanes are axes; in the last is what divides as well.
+using Axes = Lanes<4>;
+inline Axes AxesOf(const Vec3& a) { return {{a.x, a.y, a.z, 1}}; }
+inline Axes Abs(const Axes& a) {
+  Axes r;
+  for (int i = 0; i < 4; ++i) r.lanes[i] = std::abs(a.lanes[i]);
+  return r;
+}
+inline Real8 AllOf(const Axes& a, int axis) { return Real8::All(a.lanes[axis]); }
 
 // A bit a lane where a < b; none for NaN.
 inline unsigned LessMask(const Real8& a, const Real8& b) {
