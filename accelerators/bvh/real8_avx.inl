@@ -18,6 +18,12 @@ inline Real8 Abs(Real8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), 
 inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 
+#if defined(EXPHOTON_TRAPS)
+constexpr bool kFiltersPlanes = false;  // it leaves alone what overflows, but only afterwards
+#else
+constexpr bool kFiltersPlanes = true;
+#endif
+
 // Lanes 0 to 2 are axes; in the others is what divides as well.
 using Axes = Real8;
 inline Axes AxesOf(const Vec3& a) { return {_mm256_setr_ps(a.x, a.y, a.z, 1, 1, 1, 1, 1)}; }

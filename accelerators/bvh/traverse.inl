@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on what the including file defines for its vectors: Real8 (Load, All, -,
-// *, MultiplyAdd, Min, Max, LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf), PresentMask, and
-// PushOrder, whose Push finds the children where first <= last and returns how many: the first of
-// the order is *next, and the stack has the others above what was there, the second on top.
-// Included into an unnamed namespace.
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, All, +,
+// -, *, MultiplyAdd, Min, Max, Abs, LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf),
+// PresentMask, kFiltersPlanes (whether that pays), and PushOrder, whose Push finds the children
+// where first <= last and returns how many: the first of the order is *next, and the stack has the
+// others above what was there, the second on top. Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
@@ -149,30 +149,54 @@ struct AnyRay {
 struct BlockRay {
   Real8 ox, oy, oz, sx, sy, sz;
   int kx, ky, kz;
+  bool isBackward;
 
   explicit BlockRay(const TriangleRay& ray)
       : ox(Real8::All(ray.ox)), oy(Real8::All(ray.oy)), oz(Real8::All(ray.oz)),
         sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
-        sz(Real8::All(ray.sz)), kx(ray.kx), ky(ray.ky), kz(ray.kz) {}
+        sz(Real8::All(ray.sz)), kx(ray.kx), ky(ray.ky), kz(ray.kz), isBackward(ray.sz < 0) {}
 
   // The triangles of a block that may be hit by tMax. Edges as in MissesTriangle; and the distance
-  // lies between those of the vertices.
+  // lies between those of the vertices. For the nearest hit also without those whose distance
+  // DecideTriangle would surely find negative: foremost the one that the ray starts on.
+  template <bool kIsAny>
   unsigned Candidates(const BvhBlock& block, Real8 tMax) const {
-    Real8 x[3], y[3], t[3];
+    Real8 x[3], y[3], z[3], t[3];
     for (int v = 0; v < 3; ++v) {
-      const Real8 z = Real8::Load(block.vertices[v][kz]) - oz;
-      x[v] = (Real8::Load(block.vertices[v][kx]) - ox) - sx * z;
-      y[v] = (Real8::Load(block.vertices[v][ky]) - oy) - sy * z;
-      t[v] = z * sz;
+      z[v] = Real8::Load(block.vertices[v][kz]) - oz;
+      x[v] = (Real8::Load(block.vertices[v][kx]) - ox) - sx * z[v];
+      y[v] = (Real8::Load(block.vertices[v][ky]) - oy) - sy * z[v];
+      t[v] = z[v] * sz;
     }
-    const Real8 u = x[2] * y[1] - y[2] * x[1], v = x[0] * y[2] - y[0] * x[2],
-                w = x[1] * y[0] - y[1] * x[0];
+    Real8 plus[3], minus[3], edge[3];
+    for (int v = 0; v < 3; ++v) {
+      const int next = (v + 1) % 3, last = (v + 2) % 3;
+      plus[v] = x[last] * y[next], minus[v] = y[last] * x[next];
+      edge[v] = plus[v] - minus[v];
+    }
     const Real8 zero = Real8::All(Real(0));
-    const unsigned miss =
-        LessMask(Min(Min(u, v), w), zero) & LessMask(zero, Max(Max(u, v), w));
+    const unsigned negative = LessMask(Min(Min(edge[0], edge[1]), edge[2]), zero),
+                   positive = LessMask(zero, Max(Max(edge[0], edge[1]), edge[2]));
     const unsigned far = LessMask(tMax, Min(Min(t[0], t[1]), t[2]));
     const unsigned behind = LessMask(Max(Max(t[0], t[1]), t[2]), zero);
-    return PresentMask(block.ids) & ~(miss | far | behind);
+    const unsigned candidates = PresentMask(block.ids) & ~((negative & positive) | far | behind);
+    if (kIsAny || !kFiltersPlanes || candidates == 0) return candidates;
+    // Twice the volume between origin and triangle, as DecideTriangle sums it, and the magnitudes
+    // in it. A product here has two roundings in the edge, one in z and its own, and up to three
+    // in the sum: off by less than Gamma(8) of the magnitudes, which as computed are at least
+    // 1 - Gamma(8) of what they are. The rest of Gamma(12), of `tiny`, is more than the least
+    // subnormal by which products are off that underflow. Where something overflows the bound is
+    // infinite or NaN, and nothing is discarded. The sign of an edge is right or 0.
+    const Real8 tiny = Real8::All(4 * std::numeric_limits<Real>::min());
+    Real8 volume = zero, magnitude = tiny;
+    for (int v = 0; v < 3; ++v) {
+      volume = MultiplyAdd(edge[v], z[v], volume);
+      magnitude = MultiplyAdd(Abs(plus[v]) + Abs(minus[v]) + tiny, Abs(z[v]), magnitude);
+    }
+    const Real8 bound = magnitude * Real8::All(Gamma(12));
+    const unsigned above = LessMask(bound, volume), below = LessMask(bound + volume, zero);
+    return candidates & ~(isBackward ? (positive & above) | (negative & below)
+                                     : (positive & below) | (negative & above));
   }
 };
 
@@ -246,7 +270,7 @@ template <bool kIsAny, class Visit>
 // Tests a block; replaces *hit where a triangle of it wins.
 [[gnu::always_inline]] inline void IntersectBlock(const BvhBlock& block, const BlockRay& blockRay,
                                                   const TriangleRay& ray, Real limit, Hit* hit) {
-  unsigned candidates = blockRay.Candidates(block, Real8::All(limit));
+  unsigned candidates = blockRay.Candidates<false>(block, Real8::All(limit));
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = std::countr_zero(candidates);
     const auto found = DecideTriangle(ray, hit->t, CornersOf(block, lane));
@@ -258,7 +282,7 @@ template <bool kIsAny, class Visit>
 [[gnu::always_inline]] inline bool IsBlockedBy(const BvhBlock& block, const BlockRay& blockRay,
                                                const TraceRay& trace, Real limit) {
   const Real tMax = trace.ray.tMax;
-  unsigned candidates = blockRay.Candidates(block, Real8::All(limit));
+  unsigned candidates = blockRay.Candidates<true>(block, Real8::All(limit));
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = std::countr_zero(candidates);
     const auto found = DecideTriangle(trace.triangle, tMax, CornersOf(block, lane));

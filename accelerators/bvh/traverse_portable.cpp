@@ -47,12 +47,15 @@ EXPHOTON_LANEWISE(Max, x > y ? x : y)
 #undef EXPHOTON_LANEWISE
 inline Real8 MultiplyAdd(const Real8& a, const Real8& b, const Real8& c) { return a * b + c; }
 
+constexpr bool kFiltersPlanes = false;
+
 // Lanes are axes; in the last is what divides as well.
 using Axes = Lanes<4>;
 inline Axes AxesOf(const Vec3& a) { return {{a.x, a.y, a.z, 1}}; }
-inline Axes Abs(const Axes& a) {
-  Axes r;
-  for (int i = 0; i < 4; ++i) r.lanes[i] = std::abs(a.lanes[i]);
+template <int kCount>
+inline Lanes<kCount> Abs(const Lanes<kCount>& a) {
+  Lanes<kCount> r;
+  for (int i = 0; i < kCount; ++i) r.lanes[i] = std::abs(a.lanes[i]);
   return r;
 }
 inline Real8 AllOf(const Axes& a, int axis) { return Real8::All(a.lanes[axis]); }

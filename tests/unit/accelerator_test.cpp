@@ -69,6 +69,40 @@ TEST_P(Accelerators, AgreeWithBruteForceOnShapesAndInstances) {
   }
 }
 
+// Rays from points on triangles, whose own plane is ahead or behind by rounding alone, with
+// coordinates from those whose products are subnormal to those whose products overflow.
+TEST_P(Accelerators, AgreeOnRaysFromSurfacesAtEveryScale) {
+  TestPlugins plugins;
+  for (const int exponent : {-120, -70, -45, -20, 0, 20, 41, 60, 62}) {
+    RandomStream random(std::uint64_t(exponent + 200));
+    const auto point = [&] {
+      const auto coordinate = [&] { return std::ldexp(random.Uniform() - Real(.5), exponent); };
+      const Real x = coordinate(), y = coordinate();
+      return Point3(x, y, coordinate());
+    };
+    std::vector<std::array<Point3, 3>> triangles;
+    for (int i = 0; i < 40; ++i) {
+      const Point3 a = point(), b = point();
+      triangles.push_back({a, b, point()});
+    }
+    const auto set = TriangleSet(triangles);
+    const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+    const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+    for (std::size_t i = 0; i < 3000; ++i) {
+      const auto& t = triangles[i % triangles.size()];
+      const Real u = random.Uniform(), b1 = u * random.Uniform(), b2 = u - b1;
+      Ray ray;
+      ray.o = t[0] + (t[1] - t[0]) * b1 + (t[2] - t[0]) * b2;
+      const Real x = random.Uniform() - Real(.5), y = random.Uniform() - Real(.5);
+      ray.d = {x, y, random.Uniform() - Real(.5)};
+      const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+      ASSERT_EQ(expected.t, found.t) << "2^" << exponent << " ray " << i;
+      ASSERT_EQ(expected.primitive, found.primitive) << "2^" << exponent << " ray " << i;
+      ASSERT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << "2^" << exponent << " ray " << i;
+    }
+  }
+}
+
 TEST_P(Accelerators, AreRightForNoOneAndTwoPrimitives) {
   TestPlugins plugins;
   for (int count = 0; count < 3; ++count) {
