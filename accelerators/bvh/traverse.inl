@@ -168,19 +168,16 @@ struct BlockRay {
       y[v] = (Real8::Load(block.vertices[v][ky]) - oy) - sy * z[v];
       t[v] = z[v] * sz;
     }
-    Real8 plus[3], minus[3], edge[3];
-    for (int v = 0; v < 3; ++v) {
-      const int next = (v + 1) % 3, last = (v + 2) % 3;
-      plus[v] = x[last] * y[next], minus[v] = y[last] * x[next];
-      edge[v] = plus[v] - minus[v];
-    }
+    const Real8 u = x[2] * y[1] - y[2] * x[1], v = x[0] * y[2] - y[0] * x[2],
+                w = x[1] * y[0] - y[1] * x[0];
     const Real8 zero = Real8::All(Real(0));
-    const unsigned negative = LessMask(Min(Min(edge[0], edge[1]), edge[2]), zero),
-                   positive = LessMask(zero, Max(Max(edge[0], edge[1]), edge[2]));
+    const unsigned negative = LessMask(Min(Min(u, v), w), zero),
+                   positive = LessMask(zero, Max(Max(u, v), w));
     const unsigned far = LessMask(tMax, Min(Min(t[0], t[1]), t[2]));
     const unsigned behind = LessMask(Max(Max(t[0], t[1]), t[2]), zero);
     const unsigned candidates = PresentMask(block.ids) & ~((negative & positive) | far | behind);
     if (kIsAny || !kFiltersPlanes || candidates == 0) return candidates;
+    const Real8 edges[3] = {u, v, w};
     // Twice the volume between origin and triangle, as DecideTriangle sums it, and the magnitudes
     // in it. A product here has two roundings in the edge, one in z and its own, and up to three
     // in the sum: off by less than Gamma(8) of the magnitudes, which as computed are at least
@@ -189,9 +186,11 @@ struct BlockRay {
     // infinite or NaN, and nothing is discarded. The sign of an edge is right or 0.
     const Real8 tiny = Real8::All(4 * std::numeric_limits<Real>::min());
     Real8 volume = zero, magnitude = tiny;
-    for (int v = 0; v < 3; ++v) {
-      volume = MultiplyAdd(edge[v], z[v], volume);
-      magnitude = MultiplyAdd(Abs(plus[v]) + Abs(minus[v]) + tiny, Abs(z[v]), magnitude);
+    for (int i = 0; i < 3; ++i) {
+      const int next = (i + 1) % 3, last = (i + 2) % 3;
+      const Real8 sum = Abs(x[last] * y[next]) + Abs(y[last] * x[next]) + tiny;
+      volume = MultiplyAdd(edges[i], z[i], volume);
+      magnitude = MultiplyAdd(sum, Abs(z[i]), magnitude);
     }
     const Real8 bound = magnitude * Real8::All(Gamma(12));
     const unsigned above = LessMask(bound, volume), below = LessMask(bound + volume, zero);
