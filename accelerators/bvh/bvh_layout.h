@@ -62,12 +62,16 @@ class BvhChild {
   std::uint32_t bits_;
 };
 
+// What stands for a missing child: a list of no primitives. Where rays are so long or so far away
+// that their arithmetic overflows, a missing child may be taken for met; then nothing is found.
+inline const BvhChild kMissingChild{BvhChild::Kind::Others, 0};
+
 // An order of the eight lanes: four bits each, the first lowest.
 using BvhOrder = std::uint32_t;
 inline constexpr std::size_t kBvhBlockingOrder = 4;
 
 // Bounds of the children: rows min x, max x, min y, max y, min z, max z. A missing child has empty
-// bounds, which no ray meets.
+// bounds, which hardly any ray meets.
 struct alignas(kBvhLine) BvhNode {
   Real rows[6][kBvhWidth];
   BvhChild children[kBvhWidth];
@@ -88,7 +92,8 @@ inline constexpr std::uint32_t kBvhBlockLines = sizeof(BvhBlock) / kBvhLine;
 
 struct BvhArrays {
   LargeVector<BvhLine> lines;  // the root first; empty for an empty set
-  // Leaves of shapes and instances: a count, then as many primitive ids.
+  // Leaves of shapes and instances: a count, then as many primitive ids. The first is
+  // kMissingChild.
   std::vector<std::uint32_t> others;
   Bounds3 bounds;  // of everything, with margins
   int depth = 0;   // nodes on the longest way down

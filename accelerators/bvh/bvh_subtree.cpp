@@ -98,6 +98,7 @@ BvhMade BvhSubtree::Write(std::uint32_t line, const BvhRun& whole, const BvhPart
   const double area = HalfArea(whole.box);
   for (int i = 0; i < kBvhWidth; ++i) {
     Bounds3 bounds;
+    node.children[i] = kMissingChild;
     if (i < parts.count) {
       node.children[i] = made[i].child;
       blocking[i] = {made[i].blocking, area > 0 ? HalfArea(parts.runs[i].box) / area : 1};

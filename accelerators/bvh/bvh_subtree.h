@@ -26,7 +26,9 @@ struct BvhMade {
 class BvhSubtree {
  public:
   BvhSubtree(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles)
-      : primitives_(primitives), maxLeafTriangles_(maxLeafTriangles) {}
+      : primitives_(primitives), maxLeafTriangles_(maxLeafTriangles) {
+    arrays_.others.push_back(0);  // the list of none
+  }
 
   // Reorders the items of the run.
   BvhParts SplitIntoParts(const BvhRun& whole, int depth) const;

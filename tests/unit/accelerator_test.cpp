@@ -103,6 +103,29 @@ TEST_P(Accelerators, AgreeOnRaysFromSurfacesAtEveryScale) {
   }
 }
 
+// Products of what a ray is made of overflow, with infinite bounds of children that there are not.
+TEST_P(Accelerators, EndForRaysFromFarAwayWithShortDirections) {
+  TestPlugins plugins;
+  const Real tiny = std::ldexp(Real(1), -117), far = std::ldexp(Real(1), 102);
+  std::vector<std::array<Point3, 3>> triangles;
+  for (const Real x : {Real(-1), Real(0), Real(1)})
+    triangles.push_back({Point3(x, -1, 0), Point3(x, 1, tiny), Point3(x + Real(.5), 0, 1)});
+  const auto set = TriangleSet(triangles);
+  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+  const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+  for (int signs = 0; signs < 64; ++signs) {
+    for (const Real distance : {Real(0), Real(1), far, std::numeric_limits<Real>::max()}) {
+      const auto sign = [&](int bit) { return signs >> bit & 1 ? Real(-1) : Real(1); };
+      Ray ray;
+      ray.o = {sign(0) * tiny, sign(1) * distance, sign(2) * distance / 1024};
+      ray.d = {sign(3) * 2 * tiny, sign(4) * tiny, sign(5) * tiny};
+      const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+      EXPECT_EQ(expected.t, found.t) << signs << " at " << distance;
+      EXPECT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << signs << " at " << distance;
+    }
+  }
+}
+
 TEST_P(Accelerators, AreRightForNoOneAndTwoPrimitives) {
   TestPlugins plugins;
   for (int count = 0; count < 3; ++count) {
