@@ -52,6 +52,10 @@ struct Crossings {
   }
 };
 
+// Directions are compared with parts of their largest component, and divided by. Where it is less
+// than this neither can be done; such rays look into every box.
+constexpr Real kLeastDirection = Real(1) / (std::uint64_t(1) << 50) / (std::uint64_t(1) << 50);
+
 // The ray as boxes see it, where it is perpendicular to no axis: planes are crossed at
 // plane / d - o / d. What rounding of o / d may shift is added to what rounding of the hit may.
 struct SlantedRay {
@@ -62,7 +66,8 @@ struct SlantedRay {
   explicit SlantedRay(const Ray& ray) : rows(BoxRows::Of(ray.d)) {
     const Vector3 size = Abs(ray.d);
     const Real slope = kBvhMargin * MaxComponent(size);
-    isSlanted = slope < std::min({size.x, size.y, size.z}) * Real(.25);
+    isSlanted = slope < std::min({size.x, size.y, size.z}) * Real(.25) &&
+                slope >= kBvhMargin * kLeastDirection;
     if (!isSlanted) [[unlikely]]
       return;
     // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
@@ -98,9 +103,15 @@ struct AnyRay {
   Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
 
   AnyRay(const Ray& ray, int major, const Bounds3& world) : rows(BoxRows::Of(ray.d)) {
-    const Real slope = kBvhMargin * MaxComponent(Abs(ray.d));
+    const Real longest = MaxComponent(Abs(ray.d)), slope = kBvhMargin * longest;
     for (int axis = 0; axis < 3; ++axis) {
       const Real d = ray.d[axis];
+      if (longest < kLeastDirection) {
+        constexpr Real kLargest = std::numeric_limits<Real>::max();
+        nearOrigin[axis] = Real8::All(kLargest), farOrigin[axis] = Real8::All(-kLargest);
+        nearInverse[axis] = farInverse[axis] = Real8::All(1);
+        continue;
+      }
       if (!(slope < std::abs(d) * Real(.25))) {
         SetPerpendicular(ray, axis, major, world);
         continue;

@@ -126,6 +126,36 @@ TEST_P(Accelerators, EndForRaysFromFarAwayWithShortDirections) {
   }
 }
 
+// Down to subnormal numbers, of which there are few.
+TEST_P(Accelerators, AgreeForDirectionsOfAnyLength) {
+  TestPlugins plugins;
+  for (const int exponent : {-148, -142, -137, -130, -126, -110, -99, -60, 60, 100, 126}) {
+    const Real size = std::ldexp(Real(1), std::min(exponent + 5, 49));
+    RandomStream random(std::uint64_t(exponent + 200));
+    const auto coordinate = [&] { return random.Uniform() - Real(.5); };
+    std::vector<std::array<Point3, 3>> triangles(20);
+    for (auto& triangle : triangles)
+      for (Point3& p : triangle) {
+        const Real x = coordinate() * size, y = coordinate() * size;
+        p = {x, y, coordinate() * size};
+      }
+    const auto set = TriangleSet(triangles);
+    const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+    const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+    for (int i = 0; i < 2000; ++i) {
+      Ray ray;
+      for (int axis = 0; axis < 3; ++axis) {
+        ray.o[axis] = i % 3 == 0 ? Real(0) : coordinate() * size;
+        const Real d = std::ldexp(coordinate() * 2, exponent);
+        ray.d[axis] = random.Uniform() < Real(.3) ? d / 65536 : d;
+      }
+      const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+      ASSERT_EQ(expected.t, found.t) << "2^" << exponent << " ray " << i;
+      ASSERT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << "2^" << exponent << " ray " << i;
+    }
+  }
+}
+
 TEST_P(Accelerators, AreRightForNoOneAndTwoPrimitives) {
   TestPlugins plugins;
   for (int count = 0; count < 3; ++count) {
