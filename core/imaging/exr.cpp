@@ -3,6 +3,7 @@
 // Reading is in exr_read.cpp.
 #include "core/imaging/exr.h"
 
+#include <IexErrnoExc.h>
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFloatVectorAttribute.h>
@@ -134,6 +135,8 @@ ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf
     throw;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const Iex::EnomemExc&) {  // of the operating system's ENOMEM, as a file is opened
+    throw std::bad_alloc();
   } catch (const std::exception& error) {
     throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + error.what());
   }
