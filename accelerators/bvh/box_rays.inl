@@ -114,8 +114,7 @@ struct AnyRay {
   // For an axis to which the ray is (nearly) perpendicular: either never crosses a plane, or has
   // done so for good. It strays by less than 5/8 of the spread: what it may hit begins behind one
   // moved origin and ends ahead of the other, by 3/8 at least. Divided by the slope that is later
-  // than any hit, and infinite is needed (where 0 * infinity leaves an axis out of Cross, which
-  // only enters more boxes) for no direction but one whose slope has no inverse.
+  // than any hit. The slope has an inverse, as d[major] is no less than kLeastDirection.
   void SetPerpendicular(const Ray& ray, int axis, int major, const Bounds3& world) {
     constexpr double kMargin = double(kBvhMargin);
     // The farthest that any hit can be along the major axis.
@@ -123,8 +122,7 @@ struct AnyRay {
                                   std::abs(double(world.max[major]) - double(ray.o[major])));
     const double spread = 8 * kMargin * reach;
     const bool isBackward = std::signbit(ray.d[axis]);
-    const Real slope = kBvhMargin * std::abs(ray.d[major]);
-    const Real inverse = slope < std::numeric_limits<Real>::min() ? kInfinity : 1 / slope;
+    const Real inverse = 1 / (kBvhMargin * std::abs(ray.d[major]));
     nearInverse[axis] = farInverse[axis] = Real8::All(isBackward ? -inverse : inverse);
     const Real above = NextUp(Real(double(ray.o[axis]) + spread));
     const Real below = NextDown(Real(double(ray.o[axis]) - spread));
