@@ -2,6 +2,7 @@
 // FinalGather: sample requests and the choice of guiding photons.
 #include "integrators/photon/final_gather.h"
 
+#include "integrators/photon/direction_order.h"
 #include "integrators/photon/rest_pose.h"
 
 namespace exphoton {
@@ -20,7 +21,7 @@ void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
   bsdfDirections_ = layout->Request2D(bsdf);
   bsdfLobes_ = layout->Request1D(bsdf);
   photonDirections_ = layout->Request2D(photons);
-  photonAxes_ = layout->Request1D(photons);
+  photonRadii_ = layout->Request1D(photons);
 }
 
 ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
@@ -36,7 +37,7 @@ ConeMixture::Axes FinalGather::GuideDirections(const ShadingPoint& point, const 
   const Normal3 ng = FaceForward(point.surface.ng, point.Wo());
   const Normal3 ns = FaceForward(point.bsdf.Ns(), ng);
   std::size_t count = 0;
-  for (const std::uint32_t photon : near.index) {
+  for (const std::uint32_t photon : OrderByDirection(guide, near.index, arena)) {
     const Vector3 w = rest.DirectionBack(guide.LongDirection(photon));
     x[count] = w.x;
     y[count] = w.y;

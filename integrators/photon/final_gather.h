@@ -49,7 +49,7 @@ class FinalGather {
   int guideCount_ = 0;
   Real coneAngle_ = 0;
   Real rrThreshold_ = 0;
-  int bsdfDirections_ = -1, bsdfLobes_ = -1, photonDirections_ = -1, photonAxes_ = -1;
+  int bsdfDirections_ = -1, bsdfLobes_ = -1, photonDirections_ = -1, photonRadii_ = -1;
 };
 
 template <class Incident>
@@ -81,7 +81,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
     const bool isOwn = i < bsdfCount_;
     const auto at = std::size_t(isOwn ? i : i - bsdfCount_);
     const Point2 u = context.samples.Array2D(isOwn ? bsdfDirections_ : photonDirections_)[at];
-    const Real uLobe = context.samples.Array1D(isOwn ? bsdfLobes_ : photonAxes_)[at];
+    const Real uLobe = context.samples.Array1D(isOwn ? bsdfLobes_ : photonRadii_)[at];
     const auto sample = bsdf.Sample(wo, u, uLobe, kLobes);
     if (!sample) continue;
     const Real weight =
@@ -91,8 +91,10 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, 
   }
   for (int i = 0; i < photonRays; ++i) {
     const auto at = std::size_t(i);
-    const auto sample = cones.Draw(context.samples.Array1D(photonAxes_)[at],
-                                   context.samples.Array2D(photonDirections_)[at]);
+    // The axes follow a curve: where along it and which way from there are stratified together.
+    const Point2 u = context.samples.Array2D(photonDirections_)[at];
+    const Real uRadius = context.samples.Array1D(photonRadii_)[at];
+    const auto sample = cones.Draw(u.x, {uRadius, u.y});
     const Spectrum f = bsdf.f(wo, sample.w, kLobes);
     if (f.IsBlack()) continue;
     const Real weight =

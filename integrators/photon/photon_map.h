@@ -49,7 +49,10 @@ class PhotonMap {
   Point3 Position(std::uint32_t i) const { return tree_.Position(i); }
   Vector3 Direction(std::uint32_t i) const { return tree_.Direction(i); }  // unit, to the light
   Vector3 LongDirection(std::uint32_t i) const {  // the same, of any length
-    return DecodeOctahedralLong(tree_.BlockOf(i).direction[tree_.Lane(i)]);
+    return DecodeOctahedralLong(DirectionCode(i));
+  }
+  std::uint32_t DirectionCode(std::uint32_t i) const {  // as EncodeOctahedral
+    return tree_.BlockOf(i).direction[tree_.Lane(i)];
   }
   Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }
   std::size_t MemoryBytes() const;
