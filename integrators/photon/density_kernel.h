@@ -3,6 +3,9 @@
 // of a disk of squared radius r2. Each integrates to 1 over the disk (docs/exphotonmap.md, eq. 10).
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "integrators/photon/photon_settings.h"
 
 namespace exphoton {
@@ -14,9 +17,24 @@ inline Real SimpsonKernel(Real d2, Real r2) {
   return d2 < r2 ? 3 * kInvPi / r2 * Square(1 - d2 / r2) : Real(0);
 }
 
-inline Real KernelWeight(DensityKernel kernel, Real d2, Real r2) {
-  // A photon at the very rim of a fixed disk counts for the constant kernel: the search found it.
-  return kernel == DensityKernel::Simpson ? SimpsonKernel(d2, r2) : kInvPi / r2;
-}
+// The weights of all photons of one disk, which share its divisions.
+class KernelDisk {
+ public:
+  KernelDisk(DensityKernel kernel, Real r2)
+      : isSimpson_(kernel == DensityKernel::Simpson),
+        r2_(r2),
+        inverse_(1 / std::max(r2, std::numeric_limits<Real>::min())),
+        scale_((isSimpson_ ? 3 : 1) * kInvPi * inverse_) {}
+
+  Real Weight(Real d2) const {
+    // A photon at the very rim of a fixed disk counts for the constant kernel: the search found it.
+    if (!isSimpson_) return scale_;
+    return d2 < r2_ ? scale_ * Square(1 - d2 * inverse_) : Real(0);
+  }
+
+ private:
+  bool isSimpson_;
+  Real r2_, inverse_, scale_;
+};
 
 }  // namespace exphoton

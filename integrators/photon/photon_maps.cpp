@@ -56,13 +56,19 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
   // Where every lobe is diffuse, powers are summed side by side and reflected once.
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
   const bool isDiffuse = !bsdf.Has(kGlossy);
+  const KernelDisk disk(kernel_, around.radius2);
   Spectrum front, back, glossy;
+  // And where that is all, directions do not matter: the search has seen to the side.
+  const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.surface.ng;
   for (std::size_t i = 0; i < around.photons.size(); ++i) {
     const std::uint32_t photon = around.photons[i];
+    const Spectrum weighted = map.Alpha(photon) * disk.Weight(around.distance2[i]);
+    if (isPlain) {
+      front += weighted;
+      continue;
+    }
     const Vector3 wi = rest.DirectionBack(map.Direction(photon));
-    const Real weight = KernelWeight(kernel_, around.distance2[i], around.radius2) *
-                        GeometricToShading(wi, point.surface.ng, bsdf.Ns());
-    const Spectrum flux = map.Alpha(photon) * weight;
+    const Spectrum flux = weighted * GeometricToShading(wi, point.surface.ng, bsdf.Ns());
     // As in the BSDF, light that is on different sides of the two normals scatters nothing.
     if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
     if (!isDiffuse) {
@@ -94,9 +100,8 @@ double PhotonMaps::PhotonDensity(const ShadingPoint& point, Arena* arena) const 
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
     const Arena::Mark mark = arena->GetMark();
-    const PhotonNeighbourhood around =
-        maps_[m].Find({rest.Point(point.surface.p), rest.Normal(n), nUsed_, radii_[m], isOneSided},
-                      arena);
+    const PhotonNeighbourhood around = maps_[m].Find(
+        {rest.Point(point.surface.p), rest.Normal(n), nUsed_, radii_[m], isOneSided}, arena);
     density += double(around.photons.size()) / (double(kPi) * double(around.radius2));
     arena->Rewind(mark);
   }

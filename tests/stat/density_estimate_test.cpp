@@ -52,7 +52,7 @@ double KernelEstimate(const PhotonMap& map, DensityKernel kernel, int k, Real ma
   const auto around = map.Find({{0, 0, 0}, {0, 0, 1}, k, maxDistance, true}, &arena);
   double sum = 0;
   for (const Real distance2 : around.distance2)
-    sum += double(KernelWeight(kernel, distance2, around.radius2));
+    sum += double(KernelDisk(kernel, around.radius2).Weight(distance2));
   return sum;
 }
 
