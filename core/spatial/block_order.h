@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,23 +18,44 @@ namespace exphoton {
 template <class Record>
 class BlockOrder {
  public:
+  // Calls for records that are in their order: of which set, and from where in it.
+  using Finish = std::function<void(std::span<Record>, std::size_t set, std::size_t begin)>;
+
   // Record::p is a position, and finite.
   static void Sort(std::span<Record> records, ThreadPool& threads) {
+    Sort({&records, 1}, threads, [](std::span<Record>, std::size_t, std::size_t) {});
+  }
+  // Several sets, each for itself; at once, because the first step of each is no work for several
+  // threads. finish is called once for every piece of a set, from any thread; a piece begins at a
+  // multiple of kBlockPoints, and ends at one or at the end of the set.
+  static void Sort(std::span<const std::span<Record>> sets, ThreadPool& threads,
+                   const Finish& finish) {
     constexpr std::size_t kEnough = 64;  // pieces
-    std::vector<std::span<Record>> pieces{records};
+    std::vector<Piece> pieces;
+    for (std::size_t set = 0; set < sets.size(); ++set) pieces.push_back({sets[set], set, 0});
     for (int round = 0; pieces.size() < kEnough && round < 6; ++round) {
-      std::vector<std::span<Record>> halves(2 * pieces.size());
+      std::vector<Piece> halves(2 * pieces.size());
       threads.For(std::int64_t(pieces.size()), [&](std::int64_t i, int) {
-        const std::size_t middle = Split(pieces[i]);
-        halves[2 * i] = pieces[i].first(middle);
-        halves[2 * i + 1] = pieces[i].subspan(middle);
+        const auto& [records, set, begin] = pieces[i];
+        const std::size_t middle = Split(records);
+        halves[2 * i] = {records.first(middle), set, begin};
+        halves[2 * i + 1] = {records.subspan(middle), set, begin + middle};
       });
       pieces = std::move(halves);
     }
-    threads.For(std::int64_t(pieces.size()), [&](std::int64_t i, int) { SortPiece(pieces[i]); });
+    threads.For(std::int64_t(pieces.size()), [&](std::int64_t i, int) {
+      const auto& [records, set, begin] = pieces[i];
+      SortPiece(records);
+      finish(records, set, begin);
+    });
   }
 
  private:
+  struct Piece {
+    std::span<Record> records;
+    std::size_t set = 0, begin = 0;
+  };
+
   static void SortPiece(std::span<Record> records) {
     while (records.size() > kBlockPoints) {
       const std::size_t middle = Split(records);

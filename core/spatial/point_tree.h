@@ -23,14 +23,33 @@ class PointTree {
   PointTree() = default;  // no points: nothing is near
   // Takes the records, whose positions must be finite, and sorts them. Throws std::length_error
   // above BoxTree::kMaxPoints.
-  PointTree(BlockStore<Block> records, ThreadPool& threads) : store_(std::move(records)) {
-    if (Size() > BoxTree::kMaxPoints) throw std::length_error("too many points for one tree");
-    const std::span<Record> sorted = store_.Records();
-    BlockOrder<Record>::Sort(sorted, threads);
-    std::vector<Bounds3> bounds((Size() + kBlockPoints - 1) / kBlockPoints);
-    for (std::size_t i = 0; i < Size(); ++i) bounds[i / kBlockPoints].Extend(sorted[i].p);
-    tree_ = BoxTree(bounds);
-    store_.BecomeBlocks();
+  PointTree(BlockStore<Block> records, ThreadPool& threads)
+      : PointTree(std::move(MakeAll({&records, 1}, threads).front())) {}
+  // As many trees, at once: threads that one of them leaves idle work at another.
+  static std::vector<PointTree> MakeAll(std::span<BlockStore<Block>> stores, ThreadPool& threads) {
+    std::vector<PointTree> trees(stores.size());
+    std::vector<std::span<Record>> sets;
+    std::vector<std::vector<Bounds3>> bounds;  // of the blocks
+    for (std::size_t i = 0; i < stores.size(); ++i) {
+      if (stores[i].Size() > BoxTree::kMaxPoints)
+        throw std::length_error("too many points for one tree");
+      trees[i].store_ = std::move(stores[i]);
+      sets.push_back(trees[i].store_.Records());
+      bounds.emplace_back((trees[i].Size() + kBlockPoints - 1) / kBlockPoints);
+    }
+    // While they are in the cache.
+    const auto finish = [&](std::span<Record> records, std::size_t set, std::size_t begin) {
+      for (std::size_t i = 0; i < records.size(); i += kBlockPoints) {
+        Bounds3 ofBlock;
+        for (std::size_t k = i; k < std::min<std::size_t>(i + kBlockPoints, records.size()); ++k)
+          ofBlock.Extend(records[k].p);
+        bounds[set][(begin + i) / kBlockPoints] = ofBlock;
+      }
+      trees[set].store_.BecomeBlocks(begin, begin + records.size());
+    };
+    BlockOrder<Record>::Sort(sets, threads, finish);
+    for (std::size_t i = 0; i < trees.size(); ++i) trees[i].tree_ = BoxTree(bounds[i]);
+    return trees;
   }
 
   std::size_t Size() const { return store_.Size(); }

@@ -18,10 +18,8 @@ NearBuffer BufferFor(std::size_t k, Arena* arena) {
 
 }  // namespace
 
-PhotonMap::PhotonMap(PhotonHaul haul, ThreadPool& threads)
-    : tree_(std::move(haul.photons), threads),
-      spacing2_(MeasureSpacing2(tree_.View(), threads)),
-      paths_(haul.paths) {
+PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, std::int64_t paths, ThreadPool& threads)
+    : tree_(std::move(tree)), spacing2_(MeasureSpacing2(tree_.View(), threads)), paths_(paths) {
   if (IsEmpty()) return;
   const Bounds3 bounds = tree_.Bounds();
   minRadius_ = 4 * kMachineEpsilon * MaxComponent(Max(Abs(bounds.min), Abs(bounds.max)));

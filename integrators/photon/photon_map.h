@@ -41,7 +41,9 @@ class PhotonMap {
       PointTree<PhotonBlock>::kBytesPerPoint + double(sizeof(Real)) / PointTreeView::kSpacingPoints;
 
   PhotonMap() = default;
-  PhotonMap(PhotonHaul haul, ThreadPool& threads);
+  PhotonMap(PhotonHaul haul, ThreadPool& threads)
+      : PhotonMap(PointTree<PhotonBlock>(std::move(haul.photons), threads), haul.paths, threads) {}
+  PhotonMap(PointTree<PhotonBlock> tree, std::int64_t paths, ThreadPool& threads);
 
   bool IsEmpty() const { return tree_.Size() == 0; }
   std::size_t Size() const { return tree_.Size(); }

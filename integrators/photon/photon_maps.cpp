@@ -31,9 +31,12 @@ PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, R
                        PreprocessContext& context)
     : nUsed_(settings.nUsed), kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
+  std::vector<BlockStore<PhotonBlock>> photons;
+  for (PhotonHaul& haul : harvest->hauls) photons.push_back(std::move(haul.photons));
+  auto trees = PointTree<PhotonBlock>::MakeAll(photons, context.threads);
   Arena arena;
   for (std::size_t at = 0; at < kPhotonKindCount; ++at) {
-    maps_[at] = PhotonMap(std::move(harvest->hauls[at]), context.threads);
+    maps_[at] = PhotonMap(std::move(trees[at]), harvest->hauls[at].paths, context.threads);
     radii_[at] = settings.maxDist.value_or(
         std::max(maps_[at].TypicalRadius(settings.nUsed, &arena),
                  SmallestRadius(maps_[at].Size(), settings.nUsed, sceneRadius)));

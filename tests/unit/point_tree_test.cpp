@@ -159,6 +159,31 @@ TEST(PointTree, IsTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(one.Tree().Position(i), three.Tree().Position(i));
 }
 
+TEST(PointTree, MadeWithOthersAtOnceIsTheSameAsAlone) {
+  RandomStream random(13);
+  const auto pointsOf = [&](int count) { return MakePoints(Layout::Random, count, &random); };
+  const std::vector<Point3> sets[] = {pointsOf(5000), {}, pointsOf(7), pointsOf(900)};
+  const auto storeOf = [](const std::vector<Point3>& points) {
+    BlockStore<PointBlock> store;
+    for (const Point3& p : points) {
+      const OrientedPoint point{p, 0};
+      store.Append({&point, 1});
+    }
+    return store;
+  };
+  ThreadPool one(1), three(3);
+  std::vector<BlockStore<PointBlock>> stores;
+  for (const auto& points : sets) stores.push_back(storeOf(points));
+  const auto together = PointTree<PointBlock>::MakeAll(stores, three);
+  for (std::size_t set = 0; set < std::size(sets); ++set) {
+    const PointTree<PointBlock> alone(storeOf(sets[set]), one);
+    ASSERT_EQ(together[set].Size(), sets[set].size());
+    EXPECT_EQ(together[set].MemoryBytes(), alone.MemoryBytes());
+    for (std::uint32_t i = 0; i < alone.Size(); ++i)
+      ASSERT_EQ(together[set].Position(i), alone.Position(i)) << set << " " << i;
+  }
+}
+
 TEST(PointTree, WithoutPointsOrWithANanQueryFindsNothing) {
   RandomStream random(13);
   const TestPointTree empty(std::vector<Point3>{});
