@@ -10,31 +10,34 @@
 namespace exphoton {
 namespace {
 
-// Appends the entries of one seed: one, or two where the surface transmits; none where it is black.
-// reach2 is the squared radius of the estimate yet.
+// One entry, or two where the surface transmits; none where it is black.
+int CountEntries(const RadianceSeed& seed, bool needsTransmission) {
+  if (needsTransmission && !seed.transmittance.IsBlack()) return 2;
+  return seed.reflectance.IsBlack() ? 0 : 1;
+}
+
+// Writes as many as `entries` has place for. reach2 is the squared radius of the estimate yet.
 void ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, RadianceMode mode,
-                    bool needsTransmission, Arena* arena, std::vector<RadianceRecord>* entries) {
-  const bool reflects = !seed.reflectance.IsBlack();
-  const bool transmits = needsTransmission && !seed.transmittance.IsBlack();
-  if (!reflects && !transmits) return;
-  const auto add = [&](const Normal3& n, Real radius, const Spectrum& value) {
-    entries->push_back({seed.p, EncodeOctahedral(n), Square(radius), value});
+                    Arena* arena, std::span<RadianceRecord> entries) {
+  if (entries.empty()) return;
+  const auto entry = [&](const Normal3& n, Real radius, const Spectrum& value) {
+    return RadianceRecord{seed.p, EncodeOctahedral(n), Square(radius), value};
   };
   const bool isExitant = mode == RadianceMode::Exitant;
   const Spectrum rho = seed.reflectance * kInvPi, tau = seed.transmittance * kInvPi;
   const auto front = maps.EstimateIrradiance(seed.p, seed.n, arena);
-  if (!transmits) {
-    add(seed.n, front.radius, isExitant ? rho * front.e : front.e);
+  if (entries.size() == 1) {
+    entries[0] = entry(seed.n, front.radius, isExitant ? rho * front.e : front.e);
     return;
   }
   const auto back = maps.EstimateIrradiance(seed.p, -seed.n, arena);
   if (isExitant) {
     const Real radius = std::max(front.radius, back.radius);
-    add(seed.n, radius, rho * front.e + tau * back.e);
-    add(-seed.n, radius, rho * back.e + tau * front.e);
+    entries[0] = entry(seed.n, radius, rho * front.e + tau * back.e);
+    entries[1] = entry(-seed.n, radius, rho * back.e + tau * front.e);
   } else {
-    add(seed.n, front.radius, front.e);
-    add(-seed.n, back.radius, back.e);
+    entries[0] = entry(seed.n, front.radius, front.e);
+    entries[1] = entry(-seed.n, back.radius, back.e);
   }
 }
 
@@ -44,28 +47,36 @@ RadianceMap::RadianceMap(std::span<RadianceSeed> seeds, const PhotonMaps& maps,
                          const PhotonSettings& settings, bool needsTransmission,
                          PreprocessContext& context)
     : minCosine_(settings.radianceNormal), reach_(settings.radianceReach) {
-  constexpr std::size_t kChunk = 256, kBatch = 64;
+  constexpr std::size_t kChunk = 256;
   // Neighbours one after the other: they read the same photons.
   BlockOrder<RadianceSeed>::Sort(seeds, context.threads);
   const std::size_t chunks = (seeds.size() + kChunk - 1) / kChunk;
+  const auto seedsOf = [&](std::size_t chunk) {
+    return seeds.subspan(chunk * kChunk, std::min(kChunk, seeds.size() - chunk * kChunk));
+  };
+  std::vector<std::size_t> first{0};  // entry of each chunk, and of what follows the last
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    first.push_back(first.back());
+    for (const RadianceSeed& seed : seedsOf(chunk))
+      first.back() += std::size_t(CountEntries(seed, needsTransmission));
+  }
   BlockStore<RadianceBlock> entries;
+  entries.Resize(first.back());
   std::vector<Arena> arenas(std::size_t(context.threads.Count()));
   context.progress.Begin("Computing photon radiances", std::int64_t(chunks));
-  for (std::size_t first = 0; first < chunks; first += kBatch) {
-    std::vector<std::vector<RadianceRecord>> computed(std::min(kBatch, chunks - first));
-    context.threads.For(std::int64_t(computed.size()), [&](std::int64_t i, int worker) {
-      const std::size_t begin = (first + std::size_t(i)) * kChunk;
-      for (const RadianceSeed& seed : seeds.subspan(begin, std::min(kChunk, seeds.size() - begin)))
-        ComputeEntries(seed, maps, settings.radianceMode, needsTransmission,
-                       &arenas[std::size_t(worker)], &computed[std::size_t(i)]);
-      for (RadianceRecord& entry : computed[std::size_t(i)]) entry.reach2 *= Square(reach_);
-      context.progress.Advance();
-    });
-    for (const auto& chunk : computed) {
-      entries.Append(chunk);
-      for (const RadianceRecord& entry : chunk) maxReach2_ = std::max(maxReach2_, entry.reach2);
+  context.threads.For(std::int64_t(chunks), [&](std::int64_t chunk, int worker) {
+    std::size_t at = first[std::size_t(chunk)];
+    for (const RadianceSeed& seed : seedsOf(std::size_t(chunk))) {
+      const auto count = std::size_t(CountEntries(seed, needsTransmission));
+      const auto computed = entries.Records().subspan(at, count);
+      ComputeEntries(seed, maps, settings.radianceMode, &arenas[std::size_t(worker)], computed);
+      for (RadianceRecord& entry : computed) entry.reach2 *= Square(reach_);
+      at += count;
     }
-  }
+    context.progress.Advance();
+  });
+  for (const RadianceRecord& entry : entries.Records())
+    maxReach2_ = std::max(maxReach2_, entry.reach2);
   context.progress.End();
   tree_ = PointTree<RadianceBlock>(std::move(entries), context.threads);
   grid_ = NearGrid(tree_.View(), kGridCellsPerEntry * tree_.Size(), context.threads);
