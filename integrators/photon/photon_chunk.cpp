@@ -7,27 +7,30 @@
 namespace exphoton {
 namespace {
 
-// A map that holds this part of its target gets memory for the whole.
-constexpr std::int64_t kShareBeforeReserving = 16;
+// A store that holds this part of what it is wanted to gets memory for the whole.
+constexpr double kShareBeforeReserving = 1. / 16;
 
-void MergePhotons(std::span<const PhotonChunk> chunks, std::size_t map, std::int64_t target,
-                  ThreadPool& threads, BlockStore<PhotonBlock>* photons) {
+// Where in a store the part of each chunk goes, behind what there is, and room for it.
+template <class Part, class Record>
+std::vector<std::size_t> MakeRoom(std::span<const PhotonChunk> chunks, const Part& part,
+                                  double wanted, RecordStore<Record>* store) {
   std::vector<std::size_t> first(chunks.size());
-  std::size_t count = photons->Size();
+  std::size_t count = store->Size();
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     first[c] = count;
-    count += chunks[c].photons[map].size();
+    count += part(chunks[c]).size();
   }
-  if (count == photons->Size()) return;
+  if (count == store->Size()) return first;
   // From here on it will hardly stay empty: memory for all, once, and for the last batch.
-  if (std::int64_t(count) >= target / kShareBeforeReserving)
-    photons->Reserve(std::size_t(target + target / 64));
-  photons->Resize(count);
-  const std::span<PhotonRecord> records = photons->Records();
-  threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int) {
-    const auto& from = chunks[std::size_t(c)].photons[map];
-    std::copy(from.begin(), from.end(), records.begin() + std::ptrdiff_t(first[std::size_t(c)]));
-  });
+  if (double(count) >= wanted * kShareBeforeReserving)
+    store->Reserve(std::size_t(wanted * (1 + 1. / 64)));
+  store->Resize(count);
+  return first;
+}
+
+template <class Record>
+void Copy(const std::vector<Record>& records, std::size_t first, RecordStore<Record>* store) {
+  std::copy(records.begin(), records.end(), store->Records().begin() + std::ptrdiff_t(first));
 }
 
 }  // namespace
@@ -42,16 +45,24 @@ void PhotonChunk::Clear() {
 
 void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, ThreadPool& threads,
            PhotonHarvest* harvest) {
-  for (std::size_t m = 0; m < kPhotonKindCount; ++m)
-    MergePhotons(chunks, m, targets.counts[m], threads, &harvest->hauls[m].photons);
+  std::array<std::vector<std::size_t>, kPhotonKindCount> first;
+  double wanted = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    wanted += double(targets.counts[m]);
+    first[m] = MakeRoom(
+        chunks, [m](const PhotonChunk& chunk) -> auto& { return chunk.photons[m]; },
+        double(targets.counts[m]), &harvest->hauls[m].photons);
+  }
+  const std::vector<std::size_t> firstSeed = MakeRoom(
+      chunks, [](const PhotonChunk& chunk) -> auto& { return chunk.seeds; },
+      wanted* double(targets.radianceFraction), &harvest->seeds);
+  threads.For(std::int64_t(chunks.size()), [&](std::int64_t index, int) {
+    const auto c = std::size_t(index);
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m)
+      Copy<PhotonRecord>(chunks[c].photons[m], first[m][c], &harvest->hauls[m].photons);
+    Copy(chunks[c].seeds, firstSeed[c], &harvest->seeds);
+  });
   for (const PhotonChunk& chunk : chunks) {
-    harvest->seeds.insert(harvest->seeds.end(), chunk.seeds.begin(), chunk.seeds.end());
-    for (const PathTally& path : chunk.paths) {
-      LightTally& light = harvest->lights[std::size_t(path.light)];
-      ++light.shot;
-      light.hit += path.hasHit;
-      light.stored += path.stored;
-    }
     harvest->emittedPower += chunk.emittedPower;
     harvest->cutPower += chunk.cutPower;
     if (harvest->droppedPhotons == 0) harvest->firstDroppedPath = chunk.firstDropped;

@@ -12,20 +12,13 @@
 
 namespace exphoton {
 
-// What became of one path.
-struct PathTally {
-  int light = 0;
-  bool hasHit = false;
-  std::int64_t stored = 0;  // photons
-};
-
-struct PhotonChunk {
+// Aligned, so that threads that fill neighbours do not wait for each other's lines of the cache.
+struct alignas(128) PhotonChunk {
   std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
   std::vector<RadianceSeed> seeds;
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
   std::int64_t overgrown = 0;
-  std::array<PathTally, PhotonTracer::kChunkPaths> paths;
 
   void Clear();  // keeps its memory
 };

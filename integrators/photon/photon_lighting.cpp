@@ -130,8 +130,9 @@ void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
   }
   if (targets.radianceFraction > 0) {
     const PhaseTimer timer(context.statistics, "radiance");
-    radianceMap_ = std::make_unique<RadianceMap>(
-        harvest.seeds, maps_, settings_, scene.Effects().Needs(Effect::Transmission), context);
+    radianceMap_ =
+        std::make_unique<RadianceMap>(harvest.seeds.Records(), maps_, settings_,
+                                      scene.Effects().Needs(Effect::Transmission), context);
   }
   ReportMaps(maps_, radianceMap_.get(), settings_, context);
 }

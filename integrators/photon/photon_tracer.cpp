@@ -39,7 +39,7 @@ class PhotonTracer::Path {
       rays->Count(RayKind::Photon);
       const auto surface = tracer_.scene_.Intersect(ray);
       if (!surface) return;
-      tally_.hasHit = true;
+      hasHit_ = true;
       Absorb(ray, surface->p);
       if (!(alpha_.MaxComponent() > 0)) return;
       const ShadingPoint point =
@@ -53,7 +53,12 @@ class PhotonTracer::Path {
     }
   }
 
-  const PathTally& Tally() const { return tally_; }
+  void AddTo(std::span<LightTally> lights) const {
+    LightTally& light = lights[std::size_t(light_)];
+    ++light.shot;
+    light.hit += hasHit_;
+    light.stored += stored_;
+  }
 
  private:
   // What media take from the photon on its way to p.
@@ -75,7 +80,7 @@ class PhotonTracer::Path {
     const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
     const Point2 uDirection = samples_.Next2D();
     const auto choice = tracer_.lights_.Sample(uLight.x);
-    tally_.light = choice.index;
+    light_ = choice.index;
     auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
     if (!emission) return false;
     if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
@@ -97,7 +102,7 @@ class PhotonTracer::Path {
     const Point3 p = rest.Point(surface.p);
     const Spectrum power = surface.motion ? alpha_ * rest.PowerScale(surface.ng) : alpha_;
     chunk_->photons[std::size_t(kind)].emplace_back(Photon{p, rest.Direction(point.Wo()), power});
-    ++tally_.stored;
+    ++stored_;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
     chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())),
                              point.bsdf.Rho(LobeSet::NonSpecularReflection),
@@ -165,7 +170,9 @@ class PhotonTracer::Path {
   const std::array<bool, kPhotonKindCount>& open_;
   Real radianceFraction_;
   PhotonChunk* chunk_;
-  PathTally tally_;
+  int light_ = 0;
+  bool hasHit_ = false;
+  std::int64_t stored_ = 0;  // photons
   Spectrum alpha_;
   Real emittedMost_ = 0;
   bool isSpecularPath_ = false;  // every bounce so far was specular
@@ -199,11 +206,12 @@ void PhotonTracer::TraceChunk(std::int64_t firstPath,
                               Worker* worker, PhotonChunk* chunk) const {
   const PathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
   chunk->Clear();
+  worker->lights.resize(scene_.Lights().size());  // here, so that the memory is this thread's own
   for (int i = 0; i < kChunkPaths; ++i) {
     Path path(*this, sequences, std::uint64_t(firstPath + i), open, radianceFraction, chunk);
     worker->arena.Reset();
     path.Trace(&worker->arena, &worker->rays);
-    chunk->paths[std::size_t(i)] = path.Tally();
+    path.AddTo(worker->lights);
   }
 }
 
@@ -252,7 +260,10 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
     context.progress.SetDone(std::int64_t(1000 * least));
   }
   context.progress.End();
-  for (const Worker& worker : workers) context.statistics.AddRays(worker.rays);
+  for (const Worker& worker : workers) {
+    context.statistics.AddRays(worker.rays);
+    for (std::size_t i = 0; i < worker.lights.size(); ++i) harvest.lights[i].Add(worker.lights[i]);
+  }
   return harvest;
 }
 

@@ -38,11 +38,17 @@ struct LightTally {
   std::int64_t shot = 0;    // paths
   std::int64_t hit = 0;     // of them, those that met a surface
   std::int64_t stored = 0;  // photons, in all maps together
+
+  void Add(const LightTally& other) {
+    shot += other.shot;
+    hit += other.hit;
+    stored += other.stored;
+  }
 };
 
 struct PhotonHarvest {
   std::array<PhotonHaul, kPhotonKindCount> hauls;
-  std::vector<RadianceSeed> seeds;
+  RecordStore<RadianceSeed> seeds;
   std::vector<LightTally> lights;   // in the scene's order
   std::int64_t paths = 0;           // traced in all
   double emittedPower = 0;          // luminance, summed over the paths
@@ -78,6 +84,7 @@ class PhotonTracer {
   struct Worker {
     Arena arena;
     RayCounters rays;
+    std::vector<LightTally> lights;
   };
 
   void TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
