@@ -76,7 +76,7 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
   if (state->transform.Moves())
     log_.Warning("a texture does not move: it stays where the transformation starts",
                  directive.Where());
-  const TextureContext context{state->transform.start, log_, directive.Where()};
+  const TextureContext context{state->transform.start, log_, directive.Where(), shared_};
   TexturePtr<Real> floats;
   TexturePtr<Spectrum> colors;
   if (isColor)

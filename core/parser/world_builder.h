@@ -88,6 +88,7 @@ class WorldBuilder {
   std::map<std::string, ObjectDefinition> objects_;
   ObjectDefinition* object_ = nullptr;  // the one being defined
   int textureGenerations_ = 0;
+  SharedCache shared_;
 };
 
 }  // namespace exphoton

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/shared_cache.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/imaging/camera.h"
@@ -80,6 +81,7 @@ struct TextureContext {
   Transform textureToWorld;
   Log& log;
   SourceLocation where;
+  SharedCache& shared;  // of the scene
 };
 
 template <PluginKind>

@@ -70,25 +70,34 @@ MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& contex
   return MipMap<T>(image.Width(), image.Height(), std::move(texels), settings.wrap);
 }
 
+// Textures of one file share its pixels.
+template <class T>
+std::shared_ptr<const MipMap<T>> SharedMipMap(const ImageSettings& settings,
+                                              const TextureContext& context) {
+  return context.shared.GetOrMake<MipMap<T>>(
+      std::to_string(int(settings.wrap)) + settings.filename,
+      [&] { return ReadMipMap<T>(settings, context); });
+}
+
 template <class T>
 class ImageMap final : public Texture<T> {
  public:
   ImageMap(const ImageSettings& s, const TextureContext& context)
       : mapping_(s.Mapping(context)),
-        image_(ReadMipMap<T>(s, context)),
+        image_(SharedMipMap<T>(s, context)),
         maxAnisotropy_(s.maxAnisotropy),
         isTrilinear_(s.trilinear) {}
 
   T Evaluate(const SurfaceInteraction& si) const override {
     const TexturePoint2 at = mapping_.Map(si);
-    if (isTrilinear_) return image_.Trilinear(at.st, at.dstdx, at.dstdy);
-    return image_.Ewa(at.st, at.dstdx, at.dstdy, maxAnisotropy_);
+    if (isTrilinear_) return image_->Trilinear(at.st, at.dstdx, at.dstdy);
+    return image_->Ewa(at.st, at.dstdx, at.dstdy, maxAnisotropy_);
   }
   bool IsFiltered() const override { return true; }
 
  private:
   TextureMapping2D mapping_;
-  MipMap<T> image_;
+  std::shared_ptr<const MipMap<T>> image_;
   Real maxAnisotropy_;
   bool isTrilinear_;
 };

@@ -96,12 +96,12 @@ std::unique_ptr<Material> TestPlugins::MakeMaterial(const std::string& text) {
 
 std::unique_ptr<FloatTexture> TestPlugins::MakeFloatTexture(const std::string& text,
                                                             const Transform& toWorld) {
-  return Make<PluginKind::FloatTexture>(text, {toWorld, log_, {}});
+  return Make<PluginKind::FloatTexture>(text, {toWorld, log_, {}, shared_});
 }
 
 std::unique_ptr<ColorTexture> TestPlugins::MakeColorTexture(const std::string& text,
                                                             const Transform& toWorld) {
-  return Make<PluginKind::ColorTexture>(text, {toWorld, log_, {}});
+  return Make<PluginKind::ColorTexture>(text, {toWorld, log_, {}, shared_});
 }
 
 std::unique_ptr<Filter> TestPlugins::MakeFilter(const std::string& text) {

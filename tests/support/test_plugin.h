@@ -54,6 +54,7 @@ class TestPlugins {
   PluginRegistry registry_;
   class Textures;
   std::shared_ptr<Textures> textures_;
+  SharedCache shared_;
   std::vector<std::unique_ptr<TriangleMesh>> meshes_;
 };
 

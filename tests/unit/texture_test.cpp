@@ -260,6 +260,24 @@ TEST_F(ImageTextures, CountPixelsThatAreNoNumberAsZeroAndWarn) {
   EXPECT_EQ(t->Evaluate(At(Real(.25), Real(.25))), Spectrum());
 }
 
+TEST_F(ImageTextures, OfOneFileReadItOnce) {
+  WriteExr(File("a.exr"), FourColors(), false);
+  auto first = Color(Quoted("a.exr"));
+  std::filesystem::remove(File("a.exr"));
+  const auto second = Color(Quoted("a.exr") + R"("float maxanisotropy" 2)");
+  EXPECT_EQ(second->Evaluate(At(Real(.25), Real(.25))), Spectrum(1, 0, 0));
+  // What differs in its pixels does not share them.
+  EXPECT_THROW(Color(Quoted("a.exr") + R"("string wrap" "clamp")"), Error);
+  EXPECT_THROW(Float(Quoted("a.exr")), Error);
+}
+
+TEST_F(ImageTextures, AreForgottenWhenNothingShowsThem) {
+  WriteExr(File("a.exr"), FourColors(), false);
+  Color(Quoted("a.exr"));
+  std::filesystem::remove(File("a.exr"));
+  EXPECT_THROW(Color(Quoted("a.exr")), Error);
+}
+
 TEST_F(ImageTextures, ThatCannotBeReadAreErrors) {
   EXPECT_THROW(Color(Quoted("missing.exr")), Error);
   EXPECT_THROW(Color(R"("imagemap")"), Error);
