@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures exphotonmap against photonmap at equal settings, and how a render scales with threads.
+# Measures exphotonmap against photonmap at equal settings, and how its phases scale with threads.
 # Usage: run.sh PROGRAM [speed|threads] (both without a name). Everything is measured in one run, in
 # turn, and given as ratios: machines are noisy. Errors are against path tracing of the same room
 # with its sunlit patch as emitters, rendered here first.
@@ -59,18 +59,47 @@ speed() {
     --set SurfaceIntegrator.indirectphotons=400000 --set SurfaceIntegrator.nused=75
 }
 
+# A closed room with a million photons in each of two maps: every phase takes its time.
+photon_room() {
+  cat <<'SCENE'
+Film "image" "integer xresolution" 256 "integer yresolution" 192
+Sampler "lowdiscrepancy" "integer pixelsamples" 4
+Camera "perspective" "float fov" 75
+SurfaceIntegrator "exphotonmap" "integer causticphotons" 0 "integer indirectphotons" 1000000
+WorldBegin
+AttributeBegin
+  AreaLightSource "area" "color L" [9 8 7]
+  Translate 0 2 4
+  Shape "sphere" "float radius" .4
+AttributeEnd
+Material "matte" "color Kd" [.7 .6 .5]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3 4 6 5 4 7 6 0 5 1 0 4 5 2 7 3 2 6 7 1 6 2 1 5 6 0 3 7 0 7 4]
+  "point P" [-4 -2 -1 4 -2 -1 4 -2 8 -4 -2 8 -4 3 -1 4 3 -1 4 3 8 -4 3 8]
+WorldEnd
+SCENE
+}
+
+# Seconds by the clock that each phase takes with one thread and with two, in turn.
 threads() {
-  local count TIMEFORMAT='%R' r
+  local count r phase
+  photon_room >"$work/room.pbrt"
   for ((r = 0; r < repeats; ++r)); do
     for count in 1 2; do
-      { time "$program" render "$scenes/exphotonmap.pbrt" "${size[@]}" "${quiet[@]}" \
-        --reproducible --nthreads $count -o "$work/threads-$count.exr" 2>/dev/null; } \
-        2>>"$work/threads-$count.times"
+      "$program" render "$work/room.pbrt" "${quiet[@]}" --reproducible --nthreads $count \
+        --stats-json "$work/json" -o "$work/threads-$count.exr"
+      for phase in shoot kd-trees radiance render; do
+        grep -o "\"name\":\"$phase\",\"seconds\":[^,]*" "$work/json" | sed 's/.*://' \
+          >>"$work/$phase-$count.times"
+      done
     done
   done
   cmp "$work/threads-1.exr" "$work/threads-2.exr" && echo "1 and 2 threads: the same bytes"
-  paste "$work/threads-1.times" "$work/threads-2.times" | awk '{print $1 / $2}' | median |
-    awk '{printf "2 threads are %.2f times as fast as 1\n", $1}'
+  printf '%-10s %10s %10s %8s\n' phase "1 thread" "2 threads" ratio
+  for phase in shoot kd-trees radiance render; do
+    printf '%-10s %10.3f %10.3f %8.2f\n' "$phase" "$(median <"$work/$phase-1.times")" \
+      "$(median <"$work/$phase-2.times")" \
+      "$(paste "$work/$phase-1.times" "$work/$phase-2.times" | awk '{print $1 / $2}' | median)"
+  done
 }
 
 case "$what" in
