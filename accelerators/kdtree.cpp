@@ -87,8 +87,8 @@ std::optional<Span> RootSpan(const KdRay& ray, const Bounds3& bounds, Real tMax)
 
 class KdTree final : public Aggregate {
  public:
-  KdTree(const PrimitiveSet& primitives, const KdCosts& costs)
-      : primitives_(primitives), arrays_(BuildKdTree(primitives, costs)) {}
+  KdTree(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads)
+      : primitives_(primitives), arrays_(BuildKdTree(primitives, costs, threads)) {}
 
   Hit Intersect(const Ray& ray) const override {
     Hit hit;
@@ -210,7 +210,8 @@ std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorCon
       context.log.Warning("kdtree: \"maxdepth\" is limited to " + std::to_string(kKdMaxDepth));
     costs.maxDepth = kKdMaxDepth;
   }
-  return std::make_unique<KdTree>(context.primitives, costs);
+  ThreadPool threads(context.primitives.Count() < kKdFewPrimitives ? 1 : context.threads);
+  return std::make_unique<KdTree>(context.primitives, costs, threads);
 }
 
 }  // namespace

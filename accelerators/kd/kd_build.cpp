@@ -1,166 +1,225 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Top-down construction, one cell after the other, below before above, so that a child below its
-// plane follows its parent in memory.
+// In three steps, each of pieces that threads take: large cells are split level by level, a chunk
+// of their items at a time; the small trees below them are made, each in arrays of its own; these
+// are copied to their places, in the order of a walk.
 #include "accelerators/kd/kd_build.h"
 
+#include <memory>
 #include <utility>
 
-#include "accelerators/kd/clip_triangle.h"
-#include "accelerators/kd/kd_split.h"
-#include "core/base/error.h"
+#include "accelerators/kd/kd_subtree.h"
 
 namespace exphoton {
 namespace {
 
-// Larger by at least the margin on every side, and by one step of Real where that is more.
-Bounds3 Grown(const Bounds3& bounds, Real margin) {
-  Bounds3 grown = bounds;
-  for (int axis = 0; axis < 3; ++axis) {
-    grown.min[axis] = NextDown(bounds.min[axis] - margin);
-    grown.max[axis] = NextUp(bounds.max[axis] + margin);
-  }
-  return grown;
-}
-
-Bounds3 Intersection(const Bounds3& a, const Bounds3& b) {
-  Bounds3 both;
-  both.min = Max(a.min, b.min), both.max = Min(a.max, b.max);
-  return both;
-}
-
-Real MarginOf(const Bounds3& bounds) { return kKdMargin * MaxComponent(bounds.Diagonal()); }
+constexpr std::size_t kTreeItems = 4096;    // of a cell that is one piece of work
+constexpr std::size_t kChunkItems = 16384;  // of a larger cell, that are one piece of work
 
 // Entries of all leaves together, for the primitives that lie in many cells: a soup of large
 // triangles would fill any memory otherwise.
 constexpr double kEntriesPerItem = 12, kFreeEntries = 1000;
 
+// A cell, and what becomes of it.
+struct Piece {
+  using Chunk = std::vector<KdItem>;
+
+  KdCell cell;
+  std::vector<Chunk> chunks;         // of its items, in their order
+  KdSplit split;                     // of an upper cell: and
+  std::size_t below = 0, above = 0;  // the pieces of its parts
+  std::unique_ptr<KdSubtree> tree;   // of any other
+
+  std::size_t Items() const {
+    std::size_t count = 0;
+    for (const Chunk& chunk : chunks) count += chunk.size();
+    return count;
+  }
+  // All items, as one chunk: the others are given back.
+  Chunk Joined() {
+    if (chunks.size() == 1) return std::move(chunks[0]);
+    Chunk items;
+    items.reserve(Items());
+    for (Chunk& chunk : chunks) {
+      items.insert(items.end(), chunk.begin(), chunk.end());
+      chunk = {};
+    }
+    return items;
+  }
+};
+
 class Builder {
  public:
-  Builder(const PrimitiveSet& primitives, const KdCosts& costs)
-      : primitives_(primitives), costs_(costs) {}
+  Builder(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads)
+      : primitives_(primitives), costs_(costs), threads_(threads) {}
 
   KdArrays Build() && {
-    std::vector<KdItem> items;
-    items.reserve(primitives_.Count());
-    for (std::uint32_t id = 0; id < primitives_.Count(); ++id) {
-      const Bounds3 bounds = primitives_.Bounds(id);
-      if (bounds.IsEmpty()) continue;  // an instance of nothing
-      items.push_back({id, Grown(bounds, MarginOf(bounds))});
-      arrays_.bounds.Extend(items.back().bounds);
-    }
-    if (!items.empty()) {
-      const double budget = kEntriesPerItem * double(items.size()) + kFreeEntries;
-      Cell(std::move(items), arrays_.bounds, {costs_.maxDepth, 0, budget});
-    }
-    arrays_.nodes.shrink_to_fit();
-    arrays_.blocks.shrink_to_fit();
-    arrays_.entries.shrink_to_fit();
+    Piece root = Root();
+    const std::size_t items = root.Items();
+    if (items == 0) return {};
+    arrays_.bounds = root.cell.bounds;
+    const double budget = kEntriesPerItem * double(items) + kFreeEntries;
+    root.cell.limits = {costs_.maxDepth, 0, budget};
+    pieces_.push_back(std::move(root));
+    for (std::size_t level = 0; level < pieces_.size();) level = SplitLevel(level);
+    MakeTrees();
+    Place(0);
+    threads_.For(std::int64_t(trees_.size()), [&](std::int64_t i, int) {
+      Piece& piece = pieces_[trees_[std::size_t(i)]];
+      piece.tree->CopyTo(&arrays_);
+      piece.tree.reset();
+    });
     return std::move(arrays_);
   }
 
  private:
-  // What keeps the tree finite.
-  struct Limits {
-    int depth;       // levels left
-    int badSplits;   // above this cell, that did not pay by themselves
-    double entries;  // this cell's share of all entries that leaves may have together
-  };
-
-  void Cell(std::vector<KdItem> items, const Bounds3& cell, Limits limits) {
-    if (items.size() <= costs_.maxPrimitives || limits.depth <= 0) return Leaf(items);
-    const KdSplit split = FindKdSplit(items, cell, costs_);
-    const double leafCost = costs_.intersect * KdBlocks(items.size());
-    if (split.axis < 0) return Leaf(items);
-    if (split.cost >= leafCost) {
-      // Worse at first may be better later, but only in small cells and within reason.
-      if (++limits.badSplits > 2 || items.size() > 32 || split.cost > 1.5 * leafCost)
-        return Leaf(items);
-    }
-    const Real position = Real(split.position);
-    Bounds3 low = cell, high = cell;
-    low.max[split.axis] = position;
-    high.min[split.axis] = position;
-    std::vector<KdItem> below, above;
-    for (const KdItem& item : items) {
-      const bool isBelow = IsBelow(item, split.axis, position);
-      const bool isAbove = IsAbove(item, split.axis, position);
-      if (isBelow && isAbove) {
-        AddClipped(item, low, &below);
-        AddClipped(item, high, &above);
-      } else {
-        (isBelow ? below : above).push_back(item);
+  Piece Root() {
+    const std::size_t count = primitives_.Count();
+    Piece root;
+    root.chunks.resize((count + kChunkItems - 1) / kChunkItems);
+    std::vector<Bounds3> bounds(root.chunks.size());
+    threads_.For(std::int64_t(root.chunks.size()), [&](std::int64_t i, int) {
+      Piece::Chunk items;
+      const std::size_t begin = std::size_t(i) * kChunkItems;
+      const std::size_t end = std::min(begin + kChunkItems, count);
+      items.reserve(end - begin);
+      for (std::size_t id = begin; id < end; ++id) {
+        const Bounds3 own = primitives_.Bounds(std::uint32_t(id));
+        if (own.IsEmpty()) continue;  // an instance of nothing
+        items.push_back({std::uint32_t(id), KdItemBounds(own)});
+        bounds[std::size_t(i)].Extend(items.back().bounds);
       }
-    }
-    const double together = double(below.size() + above.size());
-    if (together > limits.entries) return Leaf(items);
-    if (below.size() == items.size() && above.size() == items.size()) return Leaf(items);
-    items = {};
-    const auto share = [&](std::size_t count) -> Limits {
-      return {limits.depth - 1, limits.badSplits, limits.entries * double(count) / together};
-    };
-    const Limits belowLimits = share(below.size()), aboveLimits = share(above.size());
-    const std::uint32_t index = NewNode();
-    Cell(std::move(below), low, belowLimits);
-    const std::uint32_t aboveIndex = std::uint32_t(arrays_.nodes.size());
-    Cell(std::move(above), high, aboveLimits);
-    KdNode& node = arrays_.nodes[index];
-    node.split = split.position;
-    node.bits = aboveIndex << 2 | std::uint32_t(split.axis);
+      root.chunks[std::size_t(i)] = std::move(items);
+    });
+    for (const Bounds3& ofChunk : bounds) root.cell.bounds.Extend(ofChunk);
+    return root;
   }
 
-  // The item as it is within a smaller cell; dropped where only its bounds reach into it.
-  void AddClipped(const KdItem& item, const Bounds3& cell, std::vector<KdItem>* items) const {
-    Bounds3 bounds = Intersection(item.bounds, cell);
-    if (item.id < primitives_.TriangleCount()) {
-      const auto vertices = primitives_.TriangleVertices(item.id);
-      const Real margin = MarginOf(primitives_.Bounds(item.id));
-      const Bounds3 clipped = ClipTriangle(vertices, Grown(cell, margin));
-      if (clipped.IsEmpty()) return;
-      bounds = Intersection(bounds, Grown(clipped, margin));
-      if (bounds.IsEmpty()) return;
+  // A chunk of a cell that is to be split, and what is made of it.
+  struct Task {
+    std::size_t piece, chunk;
+    KdBins bins;
+    Piece::Chunk below, above;
+  };
+  // The tasks of one cell follow one another.
+  using Tasks = std::span<Task>;
+
+  // Splits the cells from `begin` on that are large; returns where those of the next level begin.
+  std::size_t SplitLevel(std::size_t begin) {
+    const std::size_t end = pieces_.size();
+    threads_.For(std::int64_t(end - begin), [&](std::int64_t i, int) {
+      Piece& piece = pieces_[begin + std::size_t(i)];
+      if (piece.chunks.size() == 1 || piece.Items() > kChunkItems) return;
+      Piece::Chunk joined = piece.Joined();
+      piece.chunks.clear();
+      piece.chunks.push_back(std::move(joined));
+    });
+    std::vector<Task> tasks;
+    for (std::size_t i = begin; i < end; ++i) {
+      Piece& piece = pieces_[i];
+      const std::size_t items = piece.Items();
+      if (items <= kTreeItems || !piece.cell.IsSplittable(items, costs_)) continue;
+      for (std::size_t chunk = 0; chunk < piece.chunks.size(); ++chunk)
+        tasks.push_back({i, chunk, KdBins(piece.cell.bounds), {}, {}});
     }
-    items->push_back({item.id, bounds});
+    FindSplits(tasks);
+    threads_.For(std::int64_t(tasks.size()), [&](std::int64_t i, int) {
+      Task& task = tasks[std::size_t(i)];
+      const Piece& piece = pieces_[task.piece];
+      if (piece.split.axis < 0) return;
+      PartKdItems(primitives_, piece.chunks[task.chunk], KdCut(piece.cell, piece.split),
+                  &task.below, &task.above);
+    });
+    ForEachPiece(tasks, [&](Tasks ofPiece) { AddParts(ofPiece); });
+    for (std::size_t i = begin; i < end; ++i)
+      if (pieces_[i].below == 0) trees_.push_back(i);
+    return end;
   }
 
-  std::uint32_t NewNode() {
-    if (arrays_.nodes.size() >= (std::size_t(1) << 30))
-      throw Error(ExitStatus::Resource, "the kd-tree has more than 2^30 nodes");
-    arrays_.nodes.push_back({});
-    return std::uint32_t(arrays_.nodes.size() - 1);
+  template <class Function>
+  static void ForEachPiece(Tasks tasks, const Function& function) {
+    while (!tasks.empty()) {
+      std::size_t count = 1;
+      while (count < tasks.size() && tasks[count].piece == tasks[0].piece) ++count;
+      function(tasks.first(count));
+      tasks = tasks.subspan(count);
+    }
   }
 
-  void Leaf(const std::vector<KdItem>& items) {
-    const std::uint32_t index = NewNode();
-    std::vector<std::uint32_t> triangles, others;
-    for (const KdItem& item : items)
-      (item.id < primitives_.TriangleCount() ? triangles : others).push_back(item.id);
-    const std::size_t first = arrays_.blocks.size();
-    for (std::size_t i = 0; i < triangles.size(); i += kBvhWidth) {
-      const std::size_t count = std::min(triangles.size() - i, std::size_t(kBvhWidth));
-      arrays_.blocks.push_back(MakeBlock(primitives_, std::span(triangles).subspan(i, count)));
+  void FindSplits(Tasks tasks) {
+    threads_.For(std::int64_t(tasks.size()), [&](std::int64_t i, int) {
+      Task& task = tasks[std::size_t(i)];
+      task.bins.Add(pieces_[task.piece].chunks[task.chunk]);
+    });
+    ForEachPiece(tasks, [&](Tasks ofPiece) {
+      for (const Task& other : ofPiece.subspan(1)) ofPiece[0].bins.Add(other.bins);
+      Piece& piece = pieces_[ofPiece[0].piece];
+      const KdSplit split = FindKdSplit(ofPiece[0].bins, piece.cell.bounds, costs_);
+      if (piece.cell.Accepts(split, piece.Items(), costs_)) piece.split = split;
+    });
+  }
+
+  // Makes pieces of the parts, where the cell is to have any.
+  void AddParts(Tasks tasks) {
+    const std::size_t index = tasks[0].piece;
+    if (pieces_[index].split.axis < 0) return;
+    KdCut cut(pieces_[index].cell, pieces_[index].split);
+    Piece below, above;
+    for (Task& task : tasks) {
+      below.chunks.push_back(std::move(task.below));
+      above.chunks.push_back(std::move(task.above));
     }
-    const std::size_t blocks = arrays_.blocks.size() - first;
-    if (blocks >= (std::size_t(1) << 29) || arrays_.blocks.size() >= (std::size_t(1) << 32))
-      throw Error(ExitStatus::Resource, "the kd-tree has more than 2^32 blocks of triangles");
-    arrays_.nodes[index] =
-        KdNode::Leaf(std::uint32_t(first), std::uint32_t(blocks), !others.empty());
-    if (others.empty()) return;
-    if (arrays_.entries.size() + others.size() >= (std::size_t(1) << 32) - 1)
-      throw Error(ExitStatus::Resource, "the kd-tree has more than 2^32 entries");
-    arrays_.others[index] = std::uint32_t(arrays_.entries.size());
-    arrays_.entries.push_back(std::uint32_t(others.size()));
-    arrays_.entries.insert(arrays_.entries.end(), others.begin(), others.end());
+    if (!cut.Share(pieces_[index].Items(), below.Items(), above.Items())) return;
+    below.cell = cut.below, above.cell = cut.above;
+    pieces_[index].chunks = {};
+    pieces_[index].below = pieces_.size(), pieces_[index].above = pieces_.size() + 1;
+    pieces_.push_back(std::move(below));
+    pieces_.push_back(std::move(above));
+  }
+
+  void MakeTrees() {
+    threads_.For(std::int64_t(trees_.size()), [&](std::int64_t i, int) {
+      Piece& piece = pieces_[trees_[std::size_t(i)]];
+      piece.tree = std::make_unique<KdSubtree>(primitives_, costs_);
+      Piece::Chunk items = piece.Joined();
+      if (items.size() > kTreeItems) {
+        piece.tree->Leaf(items);  // it was not to be split
+      } else {
+        piece.tree->Cell(std::move(items), piece.cell);
+      }
+    });
+    std::size_t nodes = pieces_.size(), blocks = 0;
+    for (const std::size_t i : trees_) {
+      nodes += pieces_[i].tree->Nodes();
+      blocks += pieces_[i].tree->Blocks();
+    }
+    arrays_.nodes.reserve(nodes - trees_.size());
+    arrays_.blocks.reserve(blocks);
+  }
+
+  // Gives a piece and all below it their places, and makes the upper nodes.
+  void Place(std::size_t index) {
+    const Piece& piece = pieces_[index];
+    if (piece.tree) return piece.tree->Place(&arrays_);
+    const std::size_t node = arrays_.nodes.size();
+    arrays_.nodes.emplace_back();
+    Place(piece.below);
+    const auto above = std::uint32_t(arrays_.nodes.size());
+    Place(piece.above);
+    arrays_.nodes[node] = KdNode::Inner(piece.split.axis, piece.split.position, above);
   }
 
   const PrimitiveSet& primitives_;
   const KdCosts costs_;
+  ThreadPool& threads_;
+  std::vector<Piece> pieces_;       // level by level
+  std::vector<std::size_t> trees_;  // those that are no upper cells
   KdArrays arrays_;
 };
 
 }  // namespace
 
-KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdCosts& costs) {
-  return Builder(primitives, costs).Build();
+KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads) {
+  return Builder(primitives, costs, threads).Build();
 }
 
 }  // namespace exphoton

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "accelerators/bvh/block_test.h"
+#include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 
 namespace exphoton {
@@ -26,6 +27,22 @@ struct KdNode {  // 8 bytes; the child below the plane follows its parent
     KdNode node;
     node.offset = firstBlock;
     node.bits = blocks << 3 | std::uint32_t(hasOthers) << 2 | kLeaf;
+    return node;
+  }
+  static KdNode Inner(int axis, float split, std::uint32_t above) {
+    KdNode node;
+    node.split = split;
+    node.bits = above << 2 | std::uint32_t(axis);
+    return node;
+  }
+  // The same node where nodes and blocks lie so much farther on.
+  KdNode Moved(std::uint32_t nodes, std::uint32_t blocks) const {
+    KdNode node = *this;
+    if (IsLeaf()) {
+      node.offset += blocks;
+    } else {
+      node.bits += nodes << 2;
+    }
     return node;
   }
   bool IsLeaf() const { return (bits & 3) == kLeaf; }
@@ -54,14 +71,19 @@ inline constexpr int kKdMaxDepth = 60;  // the traversal's stack holds as many
 inline constexpr Real kKdMargin = Gamma(16);
 
 struct KdArrays {
-  LargeVector<KdNode> nodes;     // [0] is the root; empty for an empty set
-  LargeVector<BvhBlock> blocks;  // the triangles of leaves, eight at a time
+  RawLargeVector<KdNode> nodes;     // [0] is the root; empty for an empty set
+  RawLargeVector<BvhBlock> blocks;  // the triangles of leaves, eight at a time
   // Of a leaf that has shapes or instances: a count and as many ids, at `others` of its node
   // number.
   std::vector<std::uint32_t> entries;
   std::unordered_map<std::uint32_t, std::uint32_t> others;
   Bounds3 bounds;  // with margins
 };
-KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdCosts& costs);
+
+// The tree depends on the set alone, not on the threads.
+KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads);
+
+// Below, threads would take longer to start than to save.
+inline constexpr std::uint32_t kKdFewPrimitives = 10000;
 
 }  // namespace exphoton

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace exphoton {
 namespace {
 
 constexpr std::size_t kExactLimit = 64;  // items up to which every plane is tried
-constexpr int kBins = 64;
 
 // What splitting a cell along one axis costs.
 class SplitCost {
@@ -65,47 +65,78 @@ void TryEnds(std::span<const KdItem> items, const Bounds3& cell, int axis, const
   }
 }
 
-void TryBins(std::span<const KdItem> items, const Bounds3& cell, int axis, const KdCosts& costs,
-             KdSplit* best) {
-  const double low = double(cell.min[axis]), length = double(cell.max[axis]) - low;
-  if (!(length > 0)) return;
-  std::array<std::size_t, kBins> begins{}, ends{};
-  const auto bin = [&](Real x) {
-    return std::size_t(std::clamp(int((double(x) - low) / length * kBins), 0, kBins - 1));
-  };
-  for (const KdItem& item : items) {
-    ++begins[bin(item.bounds.min[axis])];
-    ++ends[bin(item.bounds.max[axis])];
-  }
-  const SplitCost cost(cell, axis, costs);
-  std::size_t below = 0, above = items.size();
-  for (std::size_t i = 1; i < kBins; ++i) {
-    below += begins[i - 1];
-    above -= ends[i - 1];
-    const float plane = float(low + length * double(i) / kBins);
-    if (Real(plane) > cell.min[axis] && Real(plane) < cell.max[axis])
-      cost.Try(double(plane), below, above, best);
-  }
+// In a build with doubles the plane is rounded and may have left the cell.
+KdSplit Checked(KdSplit split, const Bounds3& cell) {
+  if (split.axis < 0) return split;
+  const Real position = Real(split.position);
+  if (!(position > cell.min[split.axis] && position < cell.max[split.axis])) split.axis = -1;
+  return split;
 }
 
 }  // namespace
 
-KdSplit FindKdSplit(std::span<const KdItem> items, const Bounds3& cell, const KdCosts& costs) {
+KdBins::KdBins(const Bounds3& cell) {
+  for (int i = 0; i < 3; ++i) {
+    const double length = double(cell.max[i]) - double(cell.min[i]);
+    const double scale = length > 0 ? double(kCount) / length : 0;
+    axes_[i].low = double(cell.min[i]);
+    axes_[i].scale = std::isfinite(scale) ? scale : 0;
+  }
+}
+
+void KdBins::Add(std::span<const KdItem> items) {
+  for (const KdItem& item : items)
+    for (int i = 0; i < 3; ++i) {
+      Axis& axis = axes_[i];
+      const auto bin = [&](Real x) {
+        const int number = int((double(x) - axis.low) * axis.scale);
+        return std::size_t(std::clamp(number, 0, int(kCount) - 1));
+      };
+      ++axis.begins[bin(item.bounds.min[i])];
+      ++axis.ends[bin(item.bounds.max[i])];
+    }
+  items_ += items.size();
+}
+
+void KdBins::Add(const KdBins& others) {
+  for (int i = 0; i < 3; ++i)
+    for (std::size_t bin = 0; bin < kCount; ++bin) {
+      axes_[i].begins[bin] += others.axes_[i].begins[bin];
+      axes_[i].ends[bin] += others.axes_[i].ends[bin];
+    }
+  items_ += others.items_;
+}
+
+KdSplit FindKdSplit(const KdBins& bins, const Bounds3& cell, const KdCosts& costs) {
   KdSplit best;
   if (!(cell.SurfaceArea() > 0)) return best;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (items.size() <= kExactLimit) {
-      TryEnds(items, cell, axis, costs, &best);
-    } else {
-      TryBins(items, cell, axis, costs, &best);
+  for (int i = 0; i < 3; ++i) {
+    const KdBins::Axis& axis = bins.axes_[i];
+    if (!(axis.scale > 0)) continue;
+    const double length = double(cell.max[i]) - axis.low;
+    const SplitCost cost(cell, i, costs);
+    std::size_t below = 0, above = bins.items_;
+    for (std::size_t bin = 1; bin < KdBins::kCount; ++bin) {
+      below += axis.begins[bin - 1];
+      above -= axis.ends[bin - 1];
+      const float plane = float(axis.low + length * double(bin) / double(KdBins::kCount));
+      if (Real(plane) > cell.min[i] && Real(plane) < cell.max[i])
+        cost.Try(double(plane), below, above, &best);
     }
   }
-  // In a build with doubles the plane is rounded and may have left the cell.
-  if (best.axis >= 0) {
-    const Real position = Real(best.position);
-    if (!(position > cell.min[best.axis] && position < cell.max[best.axis])) best.axis = -1;
+  return Checked(best, cell);
+}
+
+KdSplit FindKdSplit(std::span<const KdItem> items, const Bounds3& cell, const KdCosts& costs) {
+  if (items.size() > kExactLimit) {
+    KdBins bins(cell);
+    bins.Add(items);
+    return FindKdSplit(bins, cell, costs);
   }
-  return best;
+  KdSplit best;
+  if (!(cell.SurfaceArea() > 0)) return best;
+  for (int axis = 0; axis < 3; ++axis) TryEnds(items, cell, axis, costs, &best);
+  return Checked(best, cell);
 }
 
 }  // namespace exphoton

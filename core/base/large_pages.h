@@ -38,6 +38,20 @@ struct LargePageAllocator {
   static constexpr auto kSmall = std::align_val_t(alignof(T) < 64 ? 64 : alignof(T));
 };
 
+// Whose resize leaves numbers unwritten, for arrays that threads fill.
+template <class T>
+struct RawLargePageAllocator : LargePageAllocator<T> {
+  RawLargePageAllocator() = default;
+  template <class U>
+  RawLargePageAllocator(const RawLargePageAllocator<U>&) {}
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+};
+
+template <class T>
+using RawLargeVector = std::vector<T, RawLargePageAllocator<T>>;
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// builds: what accelerators and photon trees take to make, with one thread.
+// builds: what accelerators and photon trees take to make, with one thread, and accelerators with
+// two.
 #include "core/spatial/point_tree.h"
 #include "tests/benchmark/contest.h"
 #include "tests/benchmark/embree_room.h"
@@ -24,6 +25,7 @@ Contest Accelerators(const std::string& size) {
           {{"bvh", [=] { plugins->MakeAccelerator(R"("bvh")", *room); }},
            {"bvh-2-threads", [=] { plugins->MakeAccelerator(R"("bvh")", *room, 2); }},
            {"kdtree", [=] { plugins->MakeAccelerator(R"("kdtree")", *room); }},
+           {"kdtree-2-threads", [=] { plugins->MakeAccelerator(R"("kdtree")", *room, 2); }},
            {"embree-robust", [=] { embree->Build(); }}},
           Clock::Wall};
 }

@@ -234,4 +234,23 @@ ShapesAndInstances::ShapesAndInstances(TestPlugins& plugins, const std::string& 
   set_.Finish();
 }
 
+std::unique_ptr<PrimitiveSet> CrowdOfTriangles(TestPlugins& plugins) {
+  RandomStream random(31);
+  TriangleList triangles;
+  for (int i = 0; i < 30000; ++i) {
+    const Point3 p = Point3() + RandomVector(random) * 10;
+    triangles.push_back(
+        {p, p + RandomVector(random) * Real(.2), p + RandomVector(random) * Real(.2)});
+  }
+  auto set = std::make_unique<PrimitiveSet>();
+  set->AddMesh(MeshOf(triangles), {});
+  for (int i = 0; i < 600; ++i) {
+    auto shape = plugins.MakeShape(R"("sphere" "float radius" .1)",
+                                   Transform::Translate(RandomVector(random) * 10));
+    set->AddShape(std::move(std::get<std::unique_ptr<Shape>>(shape)), {});
+  }
+  set->Finish();
+  return set;
+}
+
 }  // namespace exphoton

@@ -46,6 +46,9 @@ class ShapesAndInstances {
   PrimitiveSet set_;
 };
 
+// A crowd of 30,000 small triangles with spheres among them, far more than one piece of building.
+std::unique_ptr<PrimitiveSet> CrowdOfTriangles(TestPlugins& plugins);
+
 Real Between(RandomStream& random, Real low, Real high);
 Vector3 RandomVector(RandomStream& random);  // components in [-1, 1)
 

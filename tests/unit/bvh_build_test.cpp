@@ -13,29 +13,9 @@
 namespace exphoton {
 namespace {
 
-// A crowd of small triangles with spheres among them, far more than one piece has.
-std::unique_ptr<PrimitiveSet> LargeSet(TestPlugins& plugins) {
-  RandomStream random(31);
-  TriangleList triangles;
-  for (int i = 0; i < 30000; ++i) {
-    const Point3 p = Point3() + RandomVector(random) * 10;
-    triangles.push_back(
-        {p, p + RandomVector(random) * Real(.2), p + RandomVector(random) * Real(.2)});
-  }
-  auto set = std::make_unique<PrimitiveSet>();
-  set->AddMesh(MeshOf(triangles), {});
-  for (int i = 0; i < 600; ++i) {
-    auto shape = plugins.MakeShape(R"("sphere" "float radius" .1)",
-                                   Transform::Translate(RandomVector(random) * 10));
-    set->AddShape(std::move(std::get<std::unique_ptr<Shape>>(shape)), {});
-  }
-  set->Finish();
-  return set;
-}
-
 TEST(BvhBuild, GivesTheSameBytesWithAnyNumberOfThreads) {
   TestPlugins plugins;
-  const auto set = LargeSet(plugins);
+  const auto set = CrowdOfTriangles(plugins);
   ThreadPool one(1), three(3);
   const BvhArrays expected = BuildBvh(*set, 8, one), found = BuildBvh(*set, 8, three);
   ASSERT_EQ(expected.lines.size(), found.lines.size());
@@ -47,7 +27,7 @@ TEST(BvhBuild, GivesTheSameBytesWithAnyNumberOfThreads) {
 
 TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
   TestPlugins plugins;
-  const auto set = LargeSet(plugins);
+  const auto set = CrowdOfTriangles(plugins);
   const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
   const auto tested = plugins.MakeAccelerator(R"("bvh")", *set, 2);
   RandomStream random(5);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The kd-tree of a large set: made in pieces by threads, the same whatever their number, and with
+// the hits of brute force.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "accelerators/kd/kd_build.h"
+#include "core/scene/aggregate.h"
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+KdArrays Build(const PrimitiveSet& set, int maxDepth, int threads) {
+  KdCosts costs;
+  costs.intersect = 10, costs.traverse = 1, costs.emptyBonus = .2;
+  costs.maxDepth = maxDepth;
+  ThreadPool pool(threads);
+  return BuildKdTree(set, costs, pool);
+}
+
+template <class Array>
+bool HaveEqualBytes(const Array& a, const Array& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
+
+TEST(KdBuild, GivesTheSameBytesWithAnyNumberOfThreads) {
+  TestPlugins plugins;
+  const auto set = CrowdOfTriangles(plugins);
+  for (const int maxDepth : {0, 2, 27}) {  // one leaf; large cells that are not split; a tree
+    const KdArrays expected = Build(*set, maxDepth, 1);
+    EXPECT_GT(expected.nodes.size(), maxDepth > 2 ? 10000u : 0u);
+    for (const int threads : {2, 5}) {
+      const KdArrays found = Build(*set, maxDepth, threads);
+      EXPECT_TRUE(HaveEqualBytes(expected.nodes, found.nodes)) << threads;
+      EXPECT_TRUE(HaveEqualBytes(expected.blocks, found.blocks)) << threads;
+      EXPECT_EQ(expected.entries, found.entries);
+      EXPECT_EQ(expected.others, found.others);
+      EXPECT_EQ(expected.bounds.min, found.bounds.min);
+      EXPECT_EQ(expected.bounds.max, found.bounds.max);
+    }
+  }
+}
+
+TEST(KdBuild, OfManyPiecesAgreesWithBruteForce) {
+  TestPlugins plugins;
+  const auto set = CrowdOfTriangles(plugins);
+  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+  const auto one = plugins.MakeAccelerator(R"("kdtree")", *set);
+  const auto two = plugins.MakeAccelerator(R"("kdtree")", *set, 2);
+  EXPECT_EQ(one->MemoryBytes(), two->MemoryBytes());
+  RandomStream random(5);
+  int triangles = 0, spheres = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Ray ray = AwkwardRay(*set, random);
+    const Hit expected = oracle->Intersect(ray), found = two->Intersect(ray);
+    EXPECT_EQ(expected.t, found.t);
+    ASSERT_EQ(expected.primitive, found.primitive) << "ray " << i;
+    ASSERT_EQ(oracle->Occluded(ray), two->Occluded(ray)) << "ray " << i;
+    if (expected.IsHit()) ++(expected.primitive < set->TriangleCount() ? triangles : spheres);
+  }
+  EXPECT_GT(triangles, 100);
+  EXPECT_GT(spheres, 10);
+}
+
+// Triangles in one place cannot be parted: a leaf of more than a piece has.
+TEST(KdBuild, PutsManyCoincidentTrianglesIntoOneLeaf) {
+  const TriangleList triangles(20000, {Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, 1, 0)});
+  const auto set = TriangleSet(triangles);
+  const KdArrays one = Build(*set, 20, 1), two = Build(*set, 20, 2);
+  EXPECT_TRUE(HaveEqualBytes(one.nodes, two.nodes));
+  EXPECT_TRUE(HaveEqualBytes(one.blocks, two.blocks));
+  EXPECT_EQ(one.blocks.size(), 20000u / kBvhWidth);
+}
+
+TEST(KdBuild, OfNothingIsEmpty) {
+  PrimitiveSet set;
+  set.Finish();
+  EXPECT_TRUE(Build(set, 10, 3).nodes.empty());
+}
+
+}  // namespace
+}  // namespace exphoton
