@@ -7,6 +7,7 @@
 // vertex normals are given: they only bend the shading normal, which is put on the outside.
 #include "core/geometry/triangle_mesh.h"
 
+#include "core/geometry/triangle_point.h"
 #include "core/geometry/vec3d.h"
 
 namespace exphoton {
@@ -134,41 +135,13 @@ std::size_t TriangleMesh::DropDegenerate() {
   return std::erase_if(indices, isDegenerate);
 }
 
-namespace {
-
-// Where a triangle was hit, from its corners in double.
-SurfacePoint PointOf(const Vec3d& p0, const Vec3d& p1, const Vec3d& p2, Real b1, Real b2) {
-  SurfacePoint point;
-  // Weights that sum to 1 keep the point in the plane whatever their own error; what is left is one
-  // rounding to Real and those of the sum itself.
-  const double w1 = double(b1), w2 = double(b2), w0 = 1 - w1 - w2;
-  const Vec3d p = p0 * w0 + p1 * w1 + p2 * w2;
-  point.p = p.ToReal();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double magnitude = std::abs(p0[axis]) + std::abs(p1[axis]) + std::abs(p2[axis]);
-    point.pError[axis] = Real(double(Gamma(2)) * std::abs(p[axis]) + 2e-15 * magnitude);
-  }
-  point.ng = NormalizeOrZero(Cross(p1 - p0, p2 - p0)).ToReal();
-  return point;
-}
-
-}  // namespace
-
-SurfacePoint TrianglePoint(const TriangleMesh& mesh, std::uint32_t index, Real b1, Real b2) {
-  const auto& v = mesh.indices[index];
-  SurfacePoint point =
-      PointOf(Vec3d(mesh.p[v[0]]), Vec3d(mesh.p[v[1]]), Vec3d(mesh.p[v[2]]), b1, b2);
-  if (mesh.flipNormal) point.ng = -point.ng;
-  return point;
-}
-
 SurfaceInteraction TriangleSurface(const TriangleMesh& mesh, std::uint32_t index, Real b1,
                                    Real b2) {
   const Corners c = CornersOf(mesh, index);
   const std::array<double, 3> weight = {1 - double(b1) - double(b2), double(b1), double(b2)};
 
   SurfaceInteraction surface;
-  static_cast<SurfacePoint&>(surface) = PointOf(c[0].p, c[1].p, c[2].p, b1, b2);
+  static_cast<SurfacePoint&>(surface) = TrianglePoint(c[0].p, c[1].p, c[2].p, b1, b2);
   if (mesh.flipNormal) surface.ng = -surface.ng;
   const auto blend = [&](double f0, double f1, double f2) {
     return Real(weight[0] * f0 + weight[1] * f1 + weight[2] * f2);

@@ -77,9 +77,6 @@ inline bool MissesTriangle(const TriangleRay& ray, const Point3& p0, const Point
 std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, const Point3& p0,
                                              const Point3& p1, const Point3& p2);
 
-// Where triangle `index` of the mesh lies at barycentrics (b1, b2): the first part of its record.
-SurfacePoint TrianglePoint(const TriangleMesh& mesh, std::uint32_t index, Real b1, Real b2);
-
 // The surface record of triangle `index` of the mesh at barycentrics (b1, b2).
 SurfaceInteraction TriangleSurface(const TriangleMesh& mesh, std::uint32_t index, Real b1, Real b2);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/placement.h"
+#include "core/geometry/triangle_point.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
@@ -12,6 +13,7 @@ namespace exphoton {
 
 void PrimitiveSet::AddMesh(std::shared_ptr<const TriangleMesh> mesh,
                            PrimitiveAttributes attributes) {
+  meshFlips_.push_back(mesh->flipNormal);
   meshes_.push_back(std::move(mesh));
   meshAttributes_.push_back(attributes);
 }
@@ -138,8 +140,9 @@ PrimitiveAttributes PrimitiveSet::Attributes(const Hit& hit) const {
 
 SurfacePoint PrimitiveSet::Point(const Ray& ray, const Hit& hit) const {
   if (hit.instance != kNoId || hit.primitive >= triangles_.size()) return Surface(ray, hit);
-  const Triangle& triangle = triangles_[hit.primitive];
-  SurfacePoint point = TrianglePoint(*meshes_[triangle.mesh], triangle.index, hit.uv.x, hit.uv.y);
+  const auto& v = vertices_[hit.primitive];
+  SurfacePoint point = TrianglePoint(Vec3d(v[0]), Vec3d(v[1]), Vec3d(v[2]), hit.uv.x, hit.uv.y);
+  if (meshFlips_[triangles_[hit.primitive].mesh]) point.ng = -point.ng;
   point.time = ray.time;
   return point;
 }

@@ -105,6 +105,7 @@ class PrimitiveSet {
   std::vector<std::array<Point3, 3>> vertices_;  // by triangle id, contiguous
   std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
   std::vector<PrimitiveAttributes> meshAttributes_;
+  std::vector<std::uint8_t> meshFlips_;  // whether normals are turned round
   std::vector<std::shared_ptr<const Shape>> shapes_;
   std::vector<PrimitiveAttributes> shapeAttributes_;
   std::vector<Instance> instances_;
