@@ -88,6 +88,7 @@ void KdBins::Add(std::span<const KdItem> items) {
   for (const KdItem& item : items)
     for (int i = 0; i < 3; ++i) {
       Axis& axis = axes_[i];
+      if (!(axis.scale > 0)) continue;  // it may be infinite
       const auto bin = [&](Real x) {
         const int number = int((double(x) - axis.low) * axis.scale);
         return std::size_t(std::clamp(number, 0, int(kCount) - 1));

@@ -34,7 +34,7 @@ class KdBins {
   friend KdSplit FindKdSplit(const KdBins& bins, const Bounds3& cell, const KdCosts& costs);
 
   struct Axis {
-    double low, scale;  // bins for each unit of length; 0: the cell has hardly any
+    double low, scale;  // bins for each unit of length; 0: it has none
     std::array<std::uint32_t, kCount> begins{}, ends{};
   };
   std::array<Axis, 3> axes_;
