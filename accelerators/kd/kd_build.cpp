@@ -12,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kTreeItems = 4096;    // of a cell that is one piece of work
+constexpr std::size_t kTreeItems = 4096;   // of a cell that is one piece of work
 constexpr std::size_t kChunkItems = 8192;  // of a larger cell, that are one piece of work
 
 // Entries of all leaves together, for the primitives that lie in many cells: a soup of large
