@@ -110,9 +110,11 @@ class ExtremeValues : public ::testing::TestWithParam<int> {
       case PluginKind::Material:
         return MakeOne<PluginKind::Material>(name, params, {plugins_.GetLog(), {}});
       case PluginKind::FloatTexture:
-        return MakeOne<PluginKind::FloatTexture>(name, params, {{}, plugins_.GetLog(), {}});
+        return MakeOne<PluginKind::FloatTexture>(name, params,
+                                                 {{}, plugins_.GetLog(), {}, shared_});
       case PluginKind::ColorTexture:
-        return MakeOne<PluginKind::ColorTexture>(name, params, {{}, plugins_.GetLog(), {}});
+        return MakeOne<PluginKind::ColorTexture>(name, params,
+                                                 {{}, plugins_.GetLog(), {}, shared_});
       case PluginKind::Sampler:
         return MakeOne<PluginKind::Sampler>(name, params, {plugins_.GetLog(), {}});
       case PluginKind::Filter:
@@ -153,6 +155,7 @@ class ExtremeValues : public ::testing::TestWithParam<int> {
   }
 
   TestPlugins plugins_;
+  SharedCache shared_;
   std::shared_ptr<const EmitterSurface> surface_;
   PrimitiveSet primitives_;
 };
