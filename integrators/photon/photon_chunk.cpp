@@ -53,9 +53,10 @@ void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, Th
         chunks, [m](const PhotonChunk& chunk) -> auto& { return chunk.photons[m]; },
         double(targets.counts[m]), &harvest->hauls[m].photons);
   }
+  const double wantedSeeds = wanted * double(targets.radianceFraction);
   const std::vector<std::size_t> firstSeed = MakeRoom(
-      chunks, [](const PhotonChunk& chunk) -> auto& { return chunk.seeds; },
-      wanted* double(targets.radianceFraction), &harvest->seeds);
+      chunks, [](const PhotonChunk& chunk) -> auto& { return chunk.seeds; }, wantedSeeds,
+      &harvest->seeds);
   threads.For(std::int64_t(chunks.size()), [&](std::int64_t index, int) {
     const auto c = std::size_t(index);
     for (std::size_t m = 0; m < kPhotonKindCount; ++m)

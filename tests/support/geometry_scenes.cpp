@@ -2,6 +2,8 @@
 // Random geometry for tests; everything follows from the seed.
 #include "tests/support/geometry_scenes.h"
 
+#include <gtest/gtest.h>
+
 #include "core/geometry/vec3d.h"
 #include "tests/support/test_plugin.h"
 
@@ -251,6 +253,23 @@ std::unique_ptr<PrimitiveSet> CrowdOfTriangles(TestPlugins& plugins) {
   }
   set->Finish();
   return set;
+}
+
+void ExpectHitsOfBruteForce(const Aggregate& tested, const PrimitiveSet& crowd,
+                            TestPlugins& plugins) {
+  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", crowd);
+  RandomStream random(5);
+  int triangles = 0, spheres = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Ray ray = AwkwardRay(crowd, random);
+    const Hit expected = oracle->Intersect(ray), found = tested.Intersect(ray);
+    EXPECT_EQ(expected.t, found.t);
+    ASSERT_EQ(expected.primitive, found.primitive) << "ray " << i;
+    ASSERT_EQ(oracle->Occluded(ray), tested.Occluded(ray)) << "ray " << i;
+    if (expected.IsHit()) ++(expected.primitive < crowd.TriangleCount() ? triangles : spheres);
+  }
+  EXPECT_GT(triangles, 100);
+  EXPECT_GT(spheres, 10);
 }
 
 }  // namespace exphoton

@@ -48,6 +48,10 @@ class ShapesAndInstances {
 
 // A crowd of 30,000 small triangles with spheres among them, far more than one piece of building.
 std::unique_ptr<PrimitiveSet> CrowdOfTriangles(TestPlugins& plugins);
+// Fails the test where an accelerator over such a crowd answers an awkward ray otherwise than brute
+// force does.
+void ExpectHitsOfBruteForce(const Aggregate& tested, const PrimitiveSet& crowd,
+                            TestPlugins& plugins);
 
 Real Between(RandomStream& random, Real low, Real high);
 Vector3 RandomVector(RandomStream& random);  // components in [-1, 1)

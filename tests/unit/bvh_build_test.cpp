@@ -28,20 +28,7 @@ TEST(BvhBuild, GivesTheSameBytesWithAnyNumberOfThreads) {
 TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
   TestPlugins plugins;
   const auto set = CrowdOfTriangles(plugins);
-  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
-  const auto tested = plugins.MakeAccelerator(R"("bvh")", *set, 2);
-  RandomStream random(5);
-  int triangles = 0, spheres = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const Ray ray = AwkwardRay(*set, random);
-    const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
-    EXPECT_EQ(expected.t, found.t);
-    ASSERT_EQ(expected.primitive, found.primitive) << "ray " << i;
-    ASSERT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << "ray " << i;
-    if (expected.IsHit()) ++(expected.primitive < set->TriangleCount() ? triangles : spheres);
-  }
-  EXPECT_GT(triangles, 100);
-  EXPECT_GT(spheres, 10);
+  ExpectHitsOfBruteForce(*plugins.MakeAccelerator(R"("bvh")", *set, 2), *set, plugins);
 }
 
 }  // namespace

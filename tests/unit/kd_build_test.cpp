@@ -47,22 +47,10 @@ TEST(KdBuild, GivesTheSameBytesWithAnyNumberOfThreads) {
 TEST(KdBuild, OfManyPiecesAgreesWithBruteForce) {
   TestPlugins plugins;
   const auto set = CrowdOfTriangles(plugins);
-  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
   const auto one = plugins.MakeAccelerator(R"("kdtree")", *set);
   const auto two = plugins.MakeAccelerator(R"("kdtree")", *set, 2);
   EXPECT_EQ(one->MemoryBytes(), two->MemoryBytes());
-  RandomStream random(5);
-  int triangles = 0, spheres = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const Ray ray = AwkwardRay(*set, random);
-    const Hit expected = oracle->Intersect(ray), found = two->Intersect(ray);
-    EXPECT_EQ(expected.t, found.t);
-    ASSERT_EQ(expected.primitive, found.primitive) << "ray " << i;
-    ASSERT_EQ(oracle->Occluded(ray), two->Occluded(ray)) << "ray " << i;
-    if (expected.IsHit()) ++(expected.primitive < set->TriangleCount() ? triangles : spheres);
-  }
-  EXPECT_GT(triangles, 100);
-  EXPECT_GT(spheres, 10);
+  ExpectHitsOfBruteForce(*two, *set, plugins);
 }
 
 // Triangles in one place cannot be parted: a leaf of more than a piece has.
