@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/math/low_discrepancy.h"
+#include "core/math/scramble_run.h"
 #include "core/plugin.h"
 
 namespace exphoton {
@@ -59,19 +60,36 @@ class Block {
     second_ = SobolSecondReversed(index_);
   }
 
-  Real First() const { return Finish(index_, std::uint32_t(key_)); }
-  Point2 Both() const { return {First(), Finish(second_, std::uint32_t(key_ >> 32))}; }
-  // From the k-th point to the next; k counts from 0.
-  void Advance(std::uint32_t k) {
-    const int bit = std::countr_one(k);
-    index_ ^= 1u << bit;
-    second_ ^= kDirections[std::size_t(bit)];
+  // The first point, which may be all there is.
+  Real First() const { return ScrambledVanDerCorput(index_, FirstKey()); }
+  Point2 Both() const { return {First(), ScrambledVanDerCorput(second_, SecondKey())}; }
+
+  // The next points of a run, by their number; to be called for all runs one after the other.
+  void Next(std::span<Real> values, std::uint32_t number) {
+    std::uint32_t first[kRun];
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      first[i] = index_;
+      index_ ^= 1u << std::countr_one(number + std::uint32_t(i));
+    }
+    ScrambleRun(first, values.size(), FirstKey(), values.data());
+  }
+  void Next(std::span<Point2> values, std::uint32_t number) {
+    std::uint32_t second[kRun];
+    Real x[kRun], y[kRun];
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      second[i] = second_;
+      second_ ^= kDirections[std::size_t(std::countr_one(number + std::uint32_t(i)))];
+    }
+    Next({x, values.size()}, number);
+    ScrambleRun(second, values.size(), SecondKey(), y);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = {x[i], y[i]};
   }
 
+  static constexpr std::size_t kRun = 64;  // points at most
+
  private:
-  static Real Finish(std::uint32_t reversed, std::uint32_t key) {
-    return FractionToReal(ReverseBits32(OwenScrambleReversed(reversed, key)));
-  }
+  std::uint32_t FirstKey() const { return std::uint32_t(key_); }
+  std::uint32_t SecondKey() const { return std::uint32_t(key_ >> 32); }
 
   std::uint64_t key_;
   std::uint32_t index_, second_;
@@ -118,14 +136,8 @@ class LowDiscrepancySampler final : public Sampler {
   template <class T>
   void Fill(std::uint64_t request, std::int64_t sample, std::span<T> values) const {
     Block block(request, sample, shuffled_, values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if constexpr (std::is_same_v<T, Point2>) {
-        values[k] = block.Both();
-      } else {
-        values[k] = block.First();
-      }
-      block.Advance(std::uint32_t(k));
-    }
+    for (std::size_t k = 0; k < values.size(); k += Block::kRun)
+      block.Next(values.subspan(k, std::min(Block::kRun, values.size() - k)), std::uint32_t(k));
     if (values.size() > 1)
       Shuffle(values, MixBits(request + MixBits(std::uint64_t(sample) + kGolden)));
   }

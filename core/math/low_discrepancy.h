@@ -51,7 +51,7 @@ constexpr std::uint32_t SobolSecond(std::uint32_t index) {
 
 // Cut off, not rounded, so that no point leaves its binary stratum.
 inline Real FractionToReal(std::uint32_t v) {
-  if constexpr (sizeof(Real) == 4) v &= 0xffffff00u;
+  if constexpr (sizeof(Real) == 4) return Real(std::int32_t(v >> 8)) * Real(1.0 / 16777216.0);
   return Real(v) * Real(1.0 / 4294967296.0);
 }
 
