@@ -21,6 +21,7 @@ struct alignas(64) Worker {
 
   CameraSamples samples;
   Arena arena;
+  PixelNotes notes;
   RayCounters rays;
   std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
   bool wasStopped = false;
@@ -114,6 +115,7 @@ class TileRenderer {
   }
 
   bool RenderSamples(Point2i pixel, Worker* worker) const {
+    worker->notes.Reset();
     const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
     for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
       if (IsStopped()) {
@@ -141,6 +143,7 @@ class TileRenderer {
     LiContext context{job_.scene, samples, worker->arena, worker->rays,
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
+    context.notes = &worker->notes;
     context.volume = job_.volume;
     LayerSample layers;
     if (layers_) {

@@ -4,23 +4,15 @@
 // one idea of what a cone holds; small angles lose nothing.
 #pragma once
 
-#include <span>
-
 #include "core/math/sampling.h"
+#include "integrators/photon/cone_axes.h"
 
 namespace exphoton {
 
 class ConeMixture {
  public:
-  // Unit directions, one component after the other so that membership is tested many at a time.
-  struct Axes {
-    std::span<const Real> x, y, z;
-    std::size_t size() const { return x.size(); }
-    Vector3 operator[](std::size_t j) const { return {x[j], y[j], z[j]}; }
-  };
-
-  // Axes must outlive this; halfAngle in (0, pi/2].
-  ConeMixture(const Axes& axes, Real halfAngle)
+  // The axes' arena must outlive this; halfAngle in (0, pi/2].
+  ConeMixture(const ConeAxes& axes, Real halfAngle)
       : axes_(axes), oneMinusCos_(OneMinusCos(halfAngle)) {}
 
   bool IsEmpty() const { return axes_.size() == 0; }
@@ -34,30 +26,21 @@ class ConeMixture {
     const auto own = std::min(std::size_t(uAxis * Real(axes_.size())), axes_.size() - 1);
     const Vector3 w = Frame::FromZ(axes_[own]).ToWorld(SampleUniformCone(u, oneMinusCos_));
     // The chosen cone holds w by construction, whatever rounding says; the others by the test.
-    return {w, Density(CountHolding(w) + !Contains(own, w))};
+    return {w, Density(axes_.CountWithin(w, Chord2()) + !axes_.IsWithin(own, w, Chord2()))};
   }
   // Density of Draw per solid angle.
   Real Pdf(const Vector3& w) const {
-    const int holding = CountHolding(w);
+    const int holding = axes_.CountWithin(w, Chord2());
     return holding == 0 ? Real(0) : Density(holding);
   }
 
  private:
-  // By the chord: |w - axis|^2 <= 4 sin^2(a/2) = 2 (1 - cos a).
-  bool Contains(std::size_t j, const Vector3& w) const {
-    const Real dx = axes_.x[j] - w.x, dy = axes_.y[j] - w.y, dz = axes_.z[j] - w.z;
-    return dx * dx + dy * dy + dz * dz <= 2 * oneMinusCos_;
-  }
-  int CountHolding(const Vector3& w) const {
-    int holding = 0;
-    for (std::size_t j = 0; j < axes_.size(); ++j) holding += Contains(j, w);
-    return holding;
-  }
+  Real Chord2() const { return 2 * oneMinusCos_; }  // |w - axis|^2 = 4 sin^2(a/2) at the edge
   Real Density(int holding) const {
     return Real(holding) / Real(axes_.size()) * UniformConePdf(oneMinusCos_);
   }
 
-  Axes axes_;
+  ConeAxes axes_;
   Real oneMinusCos_;
 };
 

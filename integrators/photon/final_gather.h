@@ -9,6 +9,7 @@
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/cone_mixture.h"
+#include "integrators/photon/gather_guide.h"
 #include "integrators/photon/photon_map.h"
 #include "integrators/photon/photon_settings.h"
 
@@ -27,7 +28,7 @@ class FinalGather {
   // incident.Trace(ray) gives an Incident::Segment, incident.Look(segments) then looks at all of
   // them together, incident.Read(segment) gives the radiance.
   template <class Incident>
-  Spectrum Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
+  Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
                   const Incident& incident) const;
 
  private:
@@ -35,9 +36,6 @@ class FinalGather {
   static constexpr LobeSet kLobes = LobeSet::NonSpecular;
   static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
 
-  // Directions of the nearest photons of the guide that can light this surface.
-  ConeMixture::Axes GuideDirections(const ShadingPoint& point, const PhotonMap& guide,
-                                    Arena* arena) const;
   // Roulette on a ray whose weight is c (eq. 18): the factor to trace it with, or 0.
   Real SurvivalFactor(Real c, RandomStream* random) const {
     if (!(c < rrThreshold_)) return 1;
@@ -46,19 +44,19 @@ class FinalGather {
   }
 
   int bsdfCount_ = 0, photonCount_ = 0;  // rays by each technique
-  int guideCount_ = 0;
+  GatherGuide guide_;
   Real coneAngle_ = 0;
   Real rrThreshold_ = 0;
   int bsdfDirections_ = -1, bsdfLobes_ = -1, photonDirections_ = -1, photonRadii_ = -1;
 };
 
 template <class Incident>
-Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& guide, LiContext& context,
-                             const Incident& incident) const {
+Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons,
+                             LiContext& context, const Incident& incident) const {
   const Bsdf& bsdf = point.bsdf;
   if (!bsdf.Has(kLobes)) return {};
   const Arena::Mark mark = context.arena.GetMark();
-  const ConeMixture cones(GuideDirections(point, guide, &context.arena), coneAngle_);
+  const ConeMixture cones(guide_.Directions(point, photons, context), coneAngle_);
   const bool isGuided = !cones.IsEmpty();
   // Without a guide the photons' share of the rays follows the BSDF too.
   const int bsdfRays = isGuided ? bsdfCount_ : bsdfCount_ + photonCount_;

@@ -2,7 +2,6 @@
 // Weights of two techniques lie in [0, 1] and add up to 1 for any densities; cones hold what they
 // draw, with a density that is positive and finite.
 #include <cmath>
-#include <vector>
 
 #include "core/math/mis.h"
 #include "integrators/photon/cone_mixture.h"
@@ -26,15 +25,17 @@ void TryCones(fuzz::Input* input) {
   if (!(angle >= Real(1e-5)) || !(angle <= kPi / 2)) return;
   const Real uAxis = Real(input->Byte()) / 256;
   const Point2 u{Real(input->Byte()) / 256, Real(input->Byte()) / 256};
-  std::vector<Real> x, y, z;
-  while (!input->IsEmpty() && x.size() < 64) {
+  constexpr std::size_t kMost = 64;
+  Arena arena;
+  ConeAxes axes(kMost, &arena);
+  while (!input->IsEmpty() && axes.size() < kMost) {
     const Point3 p = input->AnyPoint();
     const Vector3 axis = NormalizeOr(Vector3{p.x, p.y, p.z}, {0, 0, 1});
-    if (!IsFinite(axis)) continue;
-    x.push_back(axis.x), y.push_back(axis.y), z.push_back(axis.z);
+    if (IsFinite(axis)) axes.Add(axis);
   }
-  if (x.empty()) return;
-  const ConeMixture cones({x, y, z}, angle);
+  axes.Finish();
+  if (axes.size() == 0) return;
+  const ConeMixture cones(axes, angle);
   const auto sample = cones.Draw(uAxis, u);
   fuzz::Require(IsFinite(sample.w) && std::abs(Length(sample.w) - 1) < Real(1e-5), "unit");
   fuzz::Require(sample.pdf > 0 && std::isfinite(sample.pdf), "a density");

@@ -4,36 +4,25 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "core/math/mis.h"
 #include "core/math/random.h"
 
 namespace exphoton {
 namespace {
 
-struct AxisArrays {
-  std::vector<Real> x, y, z;
-
-  void Add(const Vector3& w) {
-    x.push_back(w.x);
-    y.push_back(w.y);
-    z.push_back(w.z);
-  }
-  operator ConeMixture::Axes() const { return {x, y, z}; }
-};
-
-AxisArrays RandomAxes(int count, RandomStream* random) {
-  AxisArrays axes;
-  for (int i = 0; i < count; ++i)
+ConeAxes RandomAxes(std::size_t count, RandomStream* random, Arena* arena) {
+  ConeAxes axes(count, arena);
+  for (std::size_t i = 0; i < count; ++i)
     axes.Add(SampleUniformSphere({random->Uniform(), random->Uniform()}));
+  axes.Finish();
   return axes;
 }
 
 TEST(ConeMixture, NeverDrawsADirectionOfZeroDensity) {
   RandomStream random(3);
+  Arena arena;
   for (Real degrees : {Real(.001), Real(.01), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {
-    const auto axes = RandomAxes(50, &random);
+    const auto axes = RandomAxes(50, &random, &arena);
     const ConeMixture cones(axes, Radians(degrees));
     for (int i = 0; i < 2000; ++i) {
       const auto s = cones.Draw(random.Uniform(), {random.Uniform(), random.Uniform()});
@@ -48,8 +37,9 @@ TEST(ConeMixture, NeverDrawsADirectionOfZeroDensity) {
 // cover; counted independently by uniform directions. 4 standard errors: false alarms below 1e-4.
 TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
   RandomStream random(5);
+  Arena arena;
   for (Real degrees : {Real(5), Real(30), Real(90)}) {
-    const auto axes = RandomAxes(5, &random);
+    const auto axes = RandomAxes(5, &random, &arena);
     const ConeMixture cones(axes, Radians(degrees));
     const int n = 100000;
     double sum = 0, sum2 = 0, covered = 0;
@@ -67,8 +57,10 @@ TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
 }
 
 TEST(ConeMixture, OfASingleConeHasTheConesDensityDownToTinyAngles) {
-  AxisArrays axis;
+  Arena arena;
+  ConeAxes axis(1, &arena);
   axis.Add({0, 0, 1});
+  axis.Finish();
   for (double degrees : {1e-3, 1e-2, 1.0, 60.0, 90.0}) {
     const ConeMixture cones(axis, Radians(Real(degrees)));
     const double half = degrees / 360 * 3.14159265358979;

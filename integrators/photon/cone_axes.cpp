@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// One loop, compiled for each width of vectors.
+#include "integrators/photon/cone_axes.h"
+
+#if defined(__x86_64__)
+#define EXPHOTON_WIDE_CONES 1
+#endif
+
+namespace exphoton {
+namespace {
+
+[[gnu::always_inline]] inline int Count(const Real* x, const Real* y, const Real* z,
+                                        std::size_t count, const Vector3& w, Real chord2) {
+  int within = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Real dx = x[i] - w.x, dy = y[i] - w.y, dz = z[i] - w.z;
+    within += dx * dx + dy * dy + dz * dz <= chord2;
+  }
+  return within;
+}
+
+int CountPortable(const Real* x, const Real* y, const Real* z, std::size_t count, const Vector3& w,
+                  Real chord2) {
+  return Count(x, y, z, count, w, chord2);
+}
+
+#if defined(EXPHOTON_WIDE_CONES)
+__attribute__((target("avx2"))) int CountAvx2(const Real* x, const Real* y, const Real* z,
+                                              std::size_t count, const Vector3& w, Real chord2) {
+  return Count(x, y, z, count, w, chord2);
+}
+#endif
+
+}  // namespace
+
+std::span<const ConeAxes::Counter> ConeAxes::Counters() {
+  static constexpr Counter kAll[] = {
+    CountPortable,
+#if defined(EXPHOTON_WIDE_CONES)
+    CountAvx2,
+#endif
+  };
+  std::size_t count = 1;
+#if defined(EXPHOTON_WIDE_CONES)
+  if (__builtin_cpu_supports("avx2")) ++count;
+#endif
+  return {kAll, count};
+}
+
+}  // namespace exphoton
