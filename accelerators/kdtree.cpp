@@ -95,9 +95,11 @@ class KdTree final : public Aggregate {
     if (!IsTraceable(ray)) return hit;
     hit.t = ray.tMax;
     const TraceRay trace(ray);
+    BlockRayRoom blockRay;
+    test_.makeBlockRay(trace.triangle, &blockRay);
     Walk<Order::NearFirst>(ray, [&](const KdNode& leaf) {
-      test_.intersectBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), trace.triangle,
-                            &hit);
+      test_.intersectBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), blockRay,
+                            trace.triangle, &hit);
       if (leaf.HasOthers())
         for (std::uint32_t id : Others(leaf)) primitives_.Intersect(id, trace, &hit);
       return double(hit.t);
@@ -108,11 +110,13 @@ class KdTree final : public Aggregate {
   bool Occluded(const Ray& ray) const override {
     if (!IsTraceable(ray)) return false;
     const TraceRay trace(ray);
+    BlockRayRoom blockRay;
+    test_.makeBlockRay(trace.triangle, &blockRay);
     bool isOccluded = false;
     // Whatever blocks it will do; where rays leave a room or end at a lamp, most are blocked.
     Walk<Order::FarFirst>(ray, [&](const KdNode& leaf) {
-      isOccluded =
-          test_.occludedByBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), trace);
+      isOccluded = test_.occludedByBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(),
+                                          blockRay, trace);
       if (!isOccluded && leaf.HasOthers())
         for (std::uint32_t id : Others(leaf)) isOccluded |= primitives_.Occludes(id, trace);
       return isOccluded ? -1.0 : double(ray.tMax);
@@ -135,7 +139,8 @@ class KdTree final : public Aggregate {
   enum class Order { NearFirst, FarFirst };
 
   // Visits the leaves along the ray, roughly from front to back or from back to front. visit(leaf)
-  // returns the t beyond which nothing matters any more (ties at it do).
+  // returns the t beyond which nothing matters any more (ties at it do); a negative one ends the
+  // walk.
   template <Order order, class Visit>
   void Walk(const Ray& worldRay, Visit&& visit) const {
     if (arrays_.nodes.empty()) return;
@@ -166,12 +171,11 @@ class KdTree final : public Aggregate {
         } else if (axis.isBackward) {
           std::swap(near, far);
         }
+        // Where the ray meets one child only, it crosses the plane outside of the span, if at all.
         if (farBegin > span.max) {
           index = near;
-          span.max = std::min(span.max, nearEnd);
         } else if (nearEnd < span.min) {
           index = far;
-          span.min = std::max(span.min, farBegin);
         } else {
           const Span nearSpan{span.min, std::min(span.max, nearEnd)};
           const Span farSpan{std::max(span.min, farBegin), span.max};
@@ -182,11 +186,14 @@ class KdTree final : public Aggregate {
         }
         continue;
       }
-      if (node.Blocks() > 0 || node.HasOthers()) limit = visit(node);
+      if (node.Blocks() > 0 || node.HasOthers()) {
+        limit = visit(node);
+        if (limit < 0) return;
+      }
       do {
         if (depth == 0) return;
         --depth;
-      } while (stack[depth].span.min > limit);
+      } while (order == Order::NearFirst && stack[depth].span.min > limit);
       index = stack[depth].node;
       span = stack[depth].span;
     }

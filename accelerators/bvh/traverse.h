@@ -8,15 +8,22 @@
 
 namespace exphoton {
 
+// Room for a ray as the leaf test sees it, made ready once for all its leaves.
+struct alignas(64) BlockRayRoom {
+  std::byte bytes[512];
+};
+
 struct BvhTraversal {
   const char* name;
   Hit (*intersect)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   bool (*occluded)(const BvhArrays&, const PrimitiveSet&, const Ray&);
-  // The leaf test by itself, of `count` blocks, for other accelerators: replaces *hit where nearer
-  // (or as near with a lower id); whether any triangle blocks the ray.
-  void (*intersectBlocks)(const BvhBlock* blocks, std::uint32_t count, const TriangleRay&,
-                          Hit* hit);
-  bool (*occludedByBlocks)(const BvhBlock* blocks, std::uint32_t count, const TraceRay&);
+  // The leaf test by itself, of `count` blocks, for other accelerators: makes a ray ready; replaces
+  // *hit where nearer (or as near with a lower id); whether any triangle blocks the ray.
+  void (*makeBlockRay)(const TriangleRay&, BlockRayRoom*);
+  void (*intersectBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
+                          const TriangleRay&, Hit* hit);
+  bool (*occludedByBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
+                           const TraceRay&);
 };
 
 extern const BvhTraversal kPortableTraversal;

@@ -197,18 +197,26 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
   return isOccluded;
 }
 
-void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const TriangleRay& ray,
-                     Hit* hit) {
-  const BlockRay blockRay(ray);
-  for (std::uint32_t i = 0; i < count; ++i)
-    IntersectBlock(blocks[i], blockRay, ray, Limit(hit->t), hit);
+void MakeBlockRay(const TriangleRay& ray, BlockRayRoom* room) {
+  static_assert(sizeof(BlockRay) <= sizeof(room->bytes) && alignof(BlockRay) <= alignof(BlockRayRoom));
+  new (room->bytes) BlockRay(ray);
 }
 
-bool OccludedByBlocks(const BvhBlock* blocks, std::uint32_t count, const TraceRay& trace) {
-  const BlockRay blockRay(trace.triangle);
+const BlockRay& BlockRayIn(const BlockRayRoom& room) {
+  return *std::launder(reinterpret_cast<const BlockRay*>(room.bytes));
+}
+
+void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom& room,
+                     const TriangleRay& ray, Hit* hit) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    IntersectBlock(blocks[i], BlockRayIn(room), ray, Limit(hit->t), hit);
+}
+
+bool OccludedByBlocks(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom& room,
+                      const TraceRay& trace) {
   const Real limit = Limit(trace.ray.tMax);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (IsBlockedBy(blocks[i], blockRay, trace, limit)) return true;
+    if (IsBlockedBy(blocks[i], BlockRayIn(room), trace, limit)) return true;
   return false;
 }
 

@@ -6,6 +6,7 @@
 #include <immintrin.h>
 
 #include <bit>
+#include <new>
 
 #include "core/geometry/triangle_decide.h"
 #include "core/scene/aggregate.h"
@@ -74,7 +75,8 @@ class PushOrder : PlaceOrder {
 
 }  // namespace
 
-const BvhTraversal kAvx2Traversal{"AVX2", Intersect, Occluded, IntersectBlocks, OccludedByBlocks};
+const BvhTraversal kAvx2Traversal{"AVX2",       Intersect,       Occluded,
+                                  MakeBlockRay, IntersectBlocks, OccludedByBlocks};
 
 }  // namespace exphoton
 

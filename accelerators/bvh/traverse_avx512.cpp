@@ -7,6 +7,7 @@
 #include <immintrin.h>
 
 #include <bit>
+#include <new>
 
 #include "core/geometry/triangle_decide.h"
 #include "core/scene/aggregate.h"
@@ -61,8 +62,8 @@ class PushOrder : PlaceOrder {
 
 }  // namespace
 
-const BvhTraversal kAvx512Traversal{"AVX-512", Intersect, Occluded, IntersectBlocks,
-                                    OccludedByBlocks};
+const BvhTraversal kAvx512Traversal{"AVX-512",    Intersect,       Occluded,
+                                    MakeBlockRay, IntersectBlocks, OccludedByBlocks};
 
 }  // namespace exphoton
 

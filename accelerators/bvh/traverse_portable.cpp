@@ -98,8 +98,8 @@ class PushOrder {
 
 }  // namespace
 
-const BvhTraversal kPortableTraversal{"portable", Intersect, Occluded, IntersectBlocks,
-                                      OccludedByBlocks};
+const BvhTraversal kPortableTraversal{"portable",   Intersect,       Occluded,
+                                      MakeBlockRay, IntersectBlocks, OccludedByBlocks};
 
 const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
 #if defined(EXPHOTON_BVH_AVX)
