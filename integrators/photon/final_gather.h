@@ -36,10 +36,17 @@ class FinalGather {
   static constexpr LobeSet kLobes = LobeSet::NonSpecular;
   static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
 
-  // Roulette on a ray whose weight is c (eq. 18): the factor to trace it with, or 0.
-  Real SurvivalFactor(Real c, RandomStream* random) const {
-    if (!(c < rrThreshold_)) return 1;
-    const Real survival = c / rrThreshold_;
+  // Of what a ray will bring (eq. 18): c is its weight, and photons tell how many times brighter
+  // than on average its direction is. Where they found nothing they may have missed something:
+  // never less than c.
+  static Real Expected(Real c, Real photonPdf, Real absCos) {
+    const Real brightness = kPi * photonPdf;  // times |cos|
+    return brightness > absCos && absCos > 0 ? c * brightness / absCos : c;
+  }
+  // Roulette: the factor to trace a ray with, or 0.
+  Real SurvivalFactor(Real expected, RandomStream* random) const {
+    if (!(expected < rrThreshold_)) return 1;
+    const Real survival = expected / rrThreshold_;
     return random->Uniform() < survival ? 1 / survival : Real(0);
   }
 
@@ -69,8 +76,9 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   Segment* const segments = context.arena.template Room<Segment>(rays);
   Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
   std::size_t count = 0;
-  const auto add = [&](const Vector3& w, const Spectrum& contribution, int drawn) {
-    const Real factor = SurvivalFactor(contribution.Y(), &roulette);
+  const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
+    const Real expected = Expected(contribution.Y(), photonPdf, AbsDot(w, bsdf.Ns()));
+    const Real factor = SurvivalFactor(expected, &roulette);
     if (!(factor > 0)) return;
     new (segments + count) Segment(incident.Trace(SpawnRay(point.surface, w)));
     weights[count++] = contribution * (factor / Real(drawn));
@@ -82,10 +90,9 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
     const Real uLobe = context.samples.Array1D(isOwn ? bsdfLobes_ : photonRadii_)[at];
     const auto sample = bsdf.Sample(wo, u, uLobe, kLobes);
     if (!sample) continue;
-    const Real weight =
-        isGuided ? PowerHeuristic(bsdfRays, sample->pdf, photonRays, cones.Pdf(sample->wi))
-                 : Real(1);
-    add(sample->wi, sample->throughput * weight, bsdfRays);
+    const Real photonPdf = isGuided ? cones.Pdf(sample->wi) : Real(0);
+    const Real weight = PowerHeuristic(bsdfRays, sample->pdf, photonRays, photonPdf);
+    add(sample->wi, sample->throughput * weight, photonPdf, bsdfRays);
   }
   for (int i = 0; i < photonRays; ++i) {
     const auto at = std::size_t(i);
@@ -97,7 +104,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
     if (f.IsBlack()) continue;
     const Real weight =
         PowerHeuristic(photonRays, sample.pdf, bsdfRays, bsdf.Pdf(wo, sample.w, kLobes));
-    add(sample.w, f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), photonRays);
+    add(sample.w, f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf, photonRays);
   }
 
   incident.Look(std::span<Segment>(segments, count));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/math/sampling.h"
 #include "core/scattering/lambert.h"
@@ -15,23 +16,33 @@
 namespace exphoton {
 namespace {
 
-// Radiance 1 along every ray.
-struct UniformSky {
-  struct Segment {};
-  Segment Trace(const Ray&) const { return {}; }
+// Radiance by direction.
+class Sky {
+ public:
+  explicit Sky(std::function<Real(const Vector3&)> radiance) : radiance_(std::move(radiance)) {}
+
+  struct Segment {
+    Vector3 d;
+  };
+  Segment Trace(const Ray& ray) const { return {ray.d}; }
   void Look(std::span<Segment>) const {}
-  Spectrum Read(const Segment&) const { return Spectrum(1); }
+  Spectrum Read(const Segment& segment) const { return Spectrum(radiance_(segment.d)); }
+
+ private:
+  std::function<Real(const Vector3&)> radiance_;
 };
+const Sky kUniform([](const Vector3&) { return Real(1); });
 
 struct Gathered {
-  double mean, error;  // 4 standard errors
+  double mean, variance;
+  double error;  // 4 standard errors of the mean
 };
 
-// Gathers radiance 1 from everywhere, guided by photons from the given directions, over `count`
+// Gathers what comes from the sky, guided by photons from the given directions, over `count`
 // independent sets of gather samples.
 template <class AddLobes>
-Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleDegrees, int count,
-                        const AddLobes& addLobes) {
+Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, Real angleDegrees,
+                   Real rrThreshold, int count, const AddLobes& addLobes) {
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   PhotonHaul haul;
   for (const Vector3& w : guideDirections) haul.Add({{0, 0, 0}, w, Spectrum(1)});
@@ -42,6 +53,7 @@ Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleD
   PhotonSettings settings;
   settings.gatherSampling = GatherSampling::Photons;
   settings.gatherAngle = angleDegrees;
+  settings.rrThreshold = rrThreshold;
   settings.finalGatherSamples = 32;
   FinalGather gather(settings);
   SampleLayout layout;
@@ -66,12 +78,21 @@ Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleD
     ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
     addLobes(&point.bsdf, &arena);
     LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
-    const double x = double(gather.Gather(point, guide, context, UniformSky()).g);
+    const double x = double(gather.Gather(point, guide, context, sky).g);
     sum += x;
     sum2 += x * x;
   }
   const double mean = sum / count;
-  return {mean, 4 * std::sqrt(std::max(0.0, sum2 / count - mean * mean) / count)};
+  const double variance = std::max(0.0, sum2 / count - mean * mean);
+  return {mean, variance, 4 * std::sqrt(variance / count)};
+}
+
+// Radiance 1 from everywhere.
+template <class AddLobes>
+Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleDegrees, int count,
+                        const AddLobes& addLobes) {
+  return GatherSky(kUniform, guideDirections, angleDegrees, PhotonSettings().rrThreshold, count,
+                   addLobes);
 }
 
 std::vector<Vector3> UpperDirections(int count) {
@@ -86,9 +107,9 @@ constexpr double kTolerance = .005;
 
 TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
   for (Real angle : {Real(.001), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {
-    const Gathered g = GatherConstant(UpperDirections(50), angle, 30000, [](Bsdf* bsdf, Arena* arena) {
-      bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
-    });
+    const Gathered g = GatherConstant(
+        UpperDirections(50), angle, 30000,
+        [](Bsdf* bsdf, Arena* arena) { bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8)))); });
     EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * kTolerance) << angle << " degrees";
   }
 }
@@ -115,6 +136,29 @@ TEST(FinalGather, WithEveryPhotonBelowTheHorizonFollowsTheBsdfAlone) {
     bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
   });
   EXPECT_NEAR(g.mean, .8, 1e-4);  // every cosine-sampled ray brings exactly rho
+}
+
+// A small bright patch, which nearly all photons come from: a ray that the BSDF sends there has
+// hardly any weight, but brings much.
+TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
+  const Vector3 patch = Normalize(Vector3(1, 0, 1));
+  const Sky sky([&](const Vector3& d) { return Dot(d, patch) > Real(.99) ? Real(100) : Real(.1); });
+  const std::vector<Vector3> guide(50, patch);
+  const auto gather = [&](Real threshold) {
+    return GatherSky(sky, guide, 10, threshold, 20000, [](Bsdf* bsdf, Arena* arena) {
+      bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+    });
+  };
+  const Gathered all = gather(0), some = gather(Real(.05));
+  EXPECT_NEAR(some.mean, all.mean, all.error + some.error);
+  EXPECT_LT(some.variance, 1.1 * all.variance);
+}
+
+TEST(FinalGather, RouletteKeepsTheMeanWhereItEndsMostRays) {
+  const Gathered g = GatherSky(
+      kUniform, UpperDirections(50), 10, 2, 120000,
+      [](Bsdf* bsdf, Arena* arena) { bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8)))); });
+  EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * 2 * kTolerance);
 }
 
 }  // namespace
