@@ -179,10 +179,19 @@ class KdTree final : public Aggregate {
         } else {
           const Span nearSpan{span.min, std::min(span.max, nearEnd)};
           const Span farSpan{std::max(span.min, farBegin), span.max};
-          constexpr bool isNearFirst = order == Order::NearFirst;
-          stack[depth++] = isNearFirst ? Entry{far, farSpan} : Entry{near, nearSpan};
-          index = isNearFirst ? near : far;
-          span = isNearFirst ? nearSpan : farSpan;
+          // An empty cell costs a look instead of a visit.
+          if (nodes[near].IsEmpty()) {
+            index = far;
+            span = farSpan;
+          } else if (nodes[far].IsEmpty()) {
+            index = near;
+            span = nearSpan;
+          } else {
+            constexpr bool isNearFirst = order == Order::NearFirst;
+            stack[depth++] = isNearFirst ? Entry{far, farSpan} : Entry{near, nearSpan};
+            index = isNearFirst ? near : far;
+            span = isNearFirst ? nearSpan : farSpan;
+          }
         }
         continue;
       }

@@ -46,6 +46,7 @@ struct KdNode {  // 8 bytes; the child below the plane follows its parent
     return node;
   }
   bool IsLeaf() const { return (bits & 3) == kLeaf; }
+  bool IsEmpty() const { return bits == kLeaf; }  // a leaf of nothing
   int Axis() const { return int(bits & 3); }
   std::uint32_t Above() const { return bits >> 2; }   // inner: child above the plane
   std::uint32_t Blocks() const { return bits >> 3; }  // leaf: how many
