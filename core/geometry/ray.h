@@ -42,6 +42,29 @@ Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w);
 // The ray from `point` in direction w (any length), at the point's time; tMax infinite.
 Ray SpawnRay(const SurfacePoint& point, const Vector3& w);
 
+// Many rays from one point, each as SpawnRay makes it.
+class RayFan {
+ public:
+  explicit RayFan(const SurfacePoint& point)
+      : ng_(point.ng),
+        front_(OffsetRayOrigin(point, point.ng)),
+        back_(OffsetRayOrigin(point, -point.ng)),
+        time_(point.time) {}
+
+  Ray Towards(const Vector3& w) const {
+    Ray ray;
+    ray.o = Dot(w, ng_) < 0 ? back_ : front_;
+    ray.d = w;
+    ray.time = time_;
+    return ray;
+  }
+
+ private:
+  Normal3 ng_;
+  Point3 front_, back_;
+  Real time_;
+};
+
 // The segment between two surface points, both ends offset towards each other; occluders have
 // 0 < t < tMax (1, less a few roundings). At the time of `from`.
 Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to);

@@ -133,32 +133,43 @@ int Bsdf::Count(LobeSet mask) const {
   return count;
 }
 
-Spectrum Bsdf::f(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
+// visit(lobe, wo, wi) for each masked smooth lobe that serves this pair of sides, in its frame.
+template <class Visit>
+void Bsdf::VisitServing(const Vector3& wo, const Vector3& wi, LobeSet mask,
+                        const Visit& visit) const {
   const LocalOut out = ToLocalOut(frame_, ng_, wo);
   const LobeSet served = mask & Served(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
-  Spectrum sum;
-  if (!Has(served)) return sum;
+  if (!Has(served)) return;
   const Vector3 localWi = frame_.ToLocal(wi);
   for (int i = 0; i < count_; ++i) {
     const Bxdf& lobe = *lobes_[std::size_t(i)];
-    if (lobe.Matches(served)) sum += lobe.f(out.wo, localWi);
+    if (lobe.Matches(served)) visit(lobe, out.wo, localWi);
   }
+}
+
+Spectrum Bsdf::f(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
+  Spectrum sum;
+  VisitServing(wo, wi, mask,
+               [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) { sum += lobe.f(o, i); });
   return sum;
 }
 
 Real Bsdf::Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
-  const LocalOut out = ToLocalOut(frame_, ng_, wo);
-  const LobeSet served = mask & Served(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
-  if (!Has(served)) return 0;
-  const Vector3 localWi = frame_.ToLocal(wi);
   Real sum = 0;
-  int matching = 0;
-  for (int i = 0; i < count_; ++i) {
-    const Bxdf& lobe = *lobes_[std::size_t(i)];
-    matching += lobe.Matches(mask);
-    if (lobe.Matches(served)) sum += lobe.Pdf(out.wo, localWi);
-  }
-  return sum / Real(matching);
+  VisitServing(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
+    sum += lobe.Pdf(o, i);
+  });
+  return sum == 0 ? 0 : sum / Real(Count(mask));
+}
+
+BsdfValue Bsdf::Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
+  BsdfValue value;
+  VisitServing(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
+    value.f += lobe.f(o, i);
+    value.pdf += lobe.Pdf(o, i);
+  });
+  if (value.pdf != 0) value.pdf /= Real(Count(mask));
+  return value;
 }
 
 std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, LobeSet mask,

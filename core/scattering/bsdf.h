@@ -23,6 +23,11 @@ struct BsdfSample {
   bool IsTransmission() const { return Intersects(lobe, LobeSet::Transmission); }
 };
 
+struct BsdfValue {
+  Spectrum f;
+  Real pdf = 0;
+};
+
 class Bsdf {
  public:
   static constexpr int kMaxLobes = 8;
@@ -42,6 +47,8 @@ class Bsdf {
   // Mean of the masked lobes' densities, per solid angle. Specular lobes in the mask count in the
   // mean with density 0: pass the same mask to f, Pdf and Sample.
   Real Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
+  // Both, for the price of little more than one.
+  BsdfValue Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) const;
   // Picks one masked lobe by uLobe, uniformly; if a specular one, then again among the specular
   // ones in proportion to what they carry. nullopt: no sample (absorbed).
   // Importance: wo points to where a photon came from, and smooth lobes scatter by f(wi, wo). Where
@@ -55,6 +62,9 @@ class Bsdf {
   Spectrum Rho(LobeSet mask) const;
 
  private:
+  template <class Visit>
+  void VisitServing(const Vector3& wo, const Vector3& wi, LobeSet mask, const Visit& visit) const;
+
   Frame frame_;
   Normal3 ng_;
   std::array<const Bxdf*, kMaxLobes> lobes_{};

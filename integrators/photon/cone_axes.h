@@ -3,7 +3,6 @@
 // another direction: counted with the widest vectors that the machine has, to the same number.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 

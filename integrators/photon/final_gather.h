@@ -69,6 +69,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   const int bsdfRays = isGuided ? bsdfCount_ : bsdfCount_ + photonCount_;
   const int photonRays = isGuided ? photonCount_ : 0;
   const Vector3& wo = point.Wo();
+  const RayFan fan(point.surface);
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
   const auto rays = std::size_t(bsdfRays + photonRays);
@@ -80,7 +81,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
     const Real expected = Expected(contribution.Y(), photonPdf, AbsDot(w, bsdf.Ns()));
     const Real factor = SurvivalFactor(expected, &roulette);
     if (!(factor > 0)) return;
-    new (segments + count) Segment(incident.Trace(SpawnRay(point.surface, w)));
+    new (segments + count) Segment(incident.Trace(fan.Towards(w)));
     weights[count++] = contribution * (factor / Real(drawn));
   };
   for (int i = 0; i < bsdfRays; ++i) {
@@ -100,11 +101,11 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
     const Point2 u = context.samples.Array2D(photonDirections_)[at];
     const Real uRadius = context.samples.Array1D(photonRadii_)[at];
     const auto sample = cones.Draw(u.x, {uRadius, u.y});
-    const Spectrum f = bsdf.f(wo, sample.w, kLobes);
-    if (f.IsBlack()) continue;
-    const Real weight =
-        PowerHeuristic(photonRays, sample.pdf, bsdfRays, bsdf.Pdf(wo, sample.w, kLobes));
-    add(sample.w, f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf, photonRays);
+    const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
+    if (scattered.f.IsBlack()) continue;
+    const Real weight = PowerHeuristic(photonRays, sample.pdf, bsdfRays, scattered.pdf);
+    add(sample.w, scattered.f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf,
+        photonRays);
   }
 
   incident.Look(std::span<Segment>(segments, count));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // GatherGuide: the directions that half of a gather's rays keep close to: those of the photons
 // nearest to a point. Camera samples of a pixel mostly see points so close together that one search
-// serves them all; a gather is unbiased whatever guides it (docs/exphotonmap.md, section 3).
+// serves them all; a gather is unbiased whatever guides it (docs/exphotonmap.md, section 5).
 #pragma once
 
 #include "core/transport/integrator.h"

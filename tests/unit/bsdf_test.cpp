@@ -110,6 +110,20 @@ TEST(Bsdf, ThroughputIsTheSumOverLobesByTheMeanDensity) {
   }
 }
 
+TEST(Bsdf, EvaluatesValueAndDensityTogetherAsApart) {
+  const Bsdf bsdf = Make({&kDiffuse, &kGloss, &kThrough, &kMirror});
+  RandomStream random(4);
+  for (LobeSet mask :
+       {LobeSet::All, LobeSet::NonSpecular, LobeSet::GlossyReflection, LobeSet::Specular}) {
+    for (int i = 0; i < 100; ++i) {
+      const Vector3 wi = SampleUniformSphere({random.Uniform(), random.Uniform()});
+      const BsdfValue value = bsdf.Evaluate(kOut, wi, mask);
+      EXPECT_EQ(value.f, bsdf.f(kOut, wi, mask));
+      EXPECT_EQ(value.pdf, bsdf.Pdf(kOut, wi, mask));
+    }
+  }
+}
+
 // Photons in glass split by Fresnel's share, each with its whole power.
 TEST(Bsdf, ChoosesAmongSpecularLobesByWhatTheyCarry) {
   const SpecularReflection reflection(Spectrum(1), Fresnel::Dielectric(1, Real(1.5)));
