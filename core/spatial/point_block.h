@@ -17,10 +17,11 @@ struct OrientedPoint {
   std::uint32_t direction = 0;  // EncodeOctahedral
 };
 
-// Sources of other things that belong to points derive from it. Where there are fewer than sixteen
+// Sources of other things that belong to points derive from it. Aligned as a row is long: a block
+// then takes the room of its sixteen records, whatever Real is. Where there are fewer than sixteen
 // points, the last one is repeated: searches know how many there are, and compute with nothing but
 // finite numbers.
-struct alignas(64) PointBlock {
+struct alignas(kBlockPoints * sizeof(Real)) PointBlock {
   using Record = OrientedPoint;
 
   Real x[kBlockPoints], y[kBlockPoints], z[kBlockPoints];

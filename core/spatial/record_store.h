@@ -11,13 +11,16 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/math/real.h"
+
 namespace exphoton {
 
 template <class Record>
 class RecordStore {
  public:
   static_assert(std::is_trivially_copyable_v<Record>);
-  static constexpr std::size_t kAlignment = 64;  // of the first record: a line of the cache
+  // Of the first record: a line of the cache, two in double.
+  static constexpr std::size_t kAlignment = 16 * sizeof(Real);
 
   RecordStore() = default;
   RecordStore(RecordStore&& other) noexcept

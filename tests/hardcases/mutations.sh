@@ -15,7 +15,7 @@ mutations=$(cat <<'TABLE'
 density-as-probability|core/lights/light_distribution.cpp|choice.index, choice.probability,|choice.index, choice.probability * Real(lights_.size()),|exphoton|37
 cosine-dropped|lights/area.cpp|Power() * stretched, sample.pdf,|Power() * stretched * (2 * Dot(w, Vector3(sample.point.ng))) * 2, sample.pdf,|exphoton|T1
 cone-widened|integrators/photon/cone_mixture.h|return 2 * oneMinusCos_;|return 2 * (1 - Real(.999) * (1 - oneMinusCos_));|exphoton|81
-mask-dropped|core/scattering/bsdf.cpp|matching += lobe.Matches(mask);|matching += 1;|exphoton|34
+mask-dropped|core/scattering/bsdf.cpp|value.pdf /= Real(Count(mask));|value.pdf /= Real(count_);|exphoton|34
 k-for-k-minus-1|integrators/photon/photon_map.cpp|return {found.index.first(last), found.distance2.first(last), farthest2};|return {found.index, found.distance2, farthest2};|exphoton test_stat|68
 reach-unlimited|integrators/photon/radiance_map.cpp|reach_(settings.radianceReach)|reach_(settings.radianceReach * 1000000)|exphoton|77
 no-double-fallback|core/geometry/triangle_decide.h|const double du = c.x * b.y - c.y * b.x, dv = a.x * c.y - a.y * c.x, dw = b.x * a.y - b.y * a.x;|const double du = double(float(c.x) * float(b.y) - float(c.y) * float(b.x)), dv = double(float(a.x) * float(c.y) - float(a.y) * float(c.x)), dw = double(float(b.x) * float(a.y) - float(b.y) * float(a.x)); if (!(du * dw * dv != 0)) return std::nullopt;|exphoton test_unit|7
