@@ -36,17 +36,14 @@ class FinalGather {
   static constexpr LobeSet kLobes = LobeSet::NonSpecular;
   static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
 
-  // Of what a ray will bring (eq. 18): c is its weight, and photons tell how many times brighter
-  // than on average its direction is. Where they found nothing they may have missed something:
-  // never less than c.
-  static Real Expected(Real c, Real photonPdf, Real absCos) {
-    const Real brightness = kPi * photonPdf;  // times |cos|
-    return brightness > absCos && absCos > 0 ? c * brightness / absCos : c;
-  }
-  // Roulette: the factor to trace a ray with, or 0.
-  Real SurvivalFactor(Real expected, RandomStream* random) const {
-    if (!(expected < rrThreshold_)) return 1;
-    const Real survival = expected / rrThreshold_;
+  // Roulette (eq. 18): the factor to trace a ray of weight c with, or 0. Photons tell how many
+  // times brighter than on average its direction is, pi photonPdf / |cos|; where they found nothing
+  // they may have missed something.
+  Real SurvivalFactor(Real c, Real photonPdf, Real absCos, RandomStream* random) const {
+    const Real expected = c * std::max(absCos, kPi * photonPdf);
+    const Real threshold = rrThreshold_ * absCos;
+    if (!(expected < threshold)) return 1;
+    const Real survival = expected / threshold;
     return random->Uniform() < survival ? 1 / survival : Real(0);
   }
 
@@ -78,8 +75,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
   std::size_t count = 0;
   const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
-    const Real expected = Expected(contribution.Y(), photonPdf, AbsDot(w, bsdf.Ns()));
-    const Real factor = SurvivalFactor(expected, &roulette);
+    const Real factor =
+        SurvivalFactor(contribution.Y(), photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
     if (!(factor > 0)) return;
     new (segments + count) Segment(incident.Trace(fan.Towards(w)));
     weights[count++] = contribution * (factor / Real(drawn));
