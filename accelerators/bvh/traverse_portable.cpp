@@ -2,6 +2,7 @@
 // The traversal for any machine: vectors of eight as loops that the compiler maps to what there is
 // (x86-64: pairs of SSE registers). Also the choice between the traversals.
 #include <array>
+#include <new>
 
 #include "accelerators/bvh/traverse.h"
 #include "core/geometry/triangle_decide.h"
