@@ -2,9 +2,7 @@
 // One loop, compiled for each width of vectors.
 #include "integrators/photon/cone_axes.h"
 
-#if defined(__x86_64__)
-#define EXPHOTON_WIDE_CONES 1
-#endif
+#include "core/base/vector_versions.h"
 
 namespace exphoton {
 namespace {
@@ -24,27 +22,16 @@ int CountPortable(const Real* x, const Real* y, const Real* z, std::size_t count
   return Count(x, y, z, count, w, chord2);
 }
 
-#if defined(EXPHOTON_WIDE_CONES)
-__attribute__((target("avx2"))) int CountAvx2(const Real* x, const Real* y, const Real* z,
-                                              std::size_t count, const Vector3& w, Real chord2) {
+EXPHOTON_FOR_AVX2 int CountAvx2(const Real* x, const Real* y, const Real* z, std::size_t count,
+                                const Vector3& w, Real chord2) {
   return Count(x, y, z, count, w, chord2);
 }
-#endif
 
 }  // namespace
 
 std::span<const ConeAxes::Counter> ConeAxes::Counters() {
-  static constexpr Counter kAll[] = {
-    CountPortable,
-#if defined(EXPHOTON_WIDE_CONES)
-    CountAvx2,
-#endif
-  };
-  std::size_t count = 1;
-#if defined(EXPHOTON_WIDE_CONES)
-  if (__builtin_cpu_supports("avx2")) ++count;
-#endif
-  return {kAll, count};
+  static constexpr Counter kAll[] = {CountPortable, CountAvx2};
+  return {kAll, VectorVersions()};
 }
 
 }  // namespace exphoton

@@ -13,6 +13,7 @@ struct Side {
   Normal3 ng, ns;  // towards the viewer
   bool isTwoSided = false;
 
+  Side() = default;
   explicit Side(const ShadingPoint& point)
       : ng(FaceForward(point.surface.ng, point.Wo())),
         ns(FaceForward(point.bsdf.Ns(), ng)),
@@ -47,14 +48,13 @@ Guide FindGuide(const ShadingPoint& point, const Side& side, const PhotonMap& ma
 struct LastGuide {
   Guide guide;
   Point3 p;
-  Normal3 ng, ns;
-  bool isTwoSided = false;
+  Side side;
 
   // Well within the photons that were found, and on as good as the same plane.
-  bool Serves(const Point3& at, const Side& side) const {
+  bool Serves(const Point3& at, const Side& seen) const {
     constexpr Real kRadii2 = Square(Real(.5)), kMinCosine = Real(.95);
-    return DistanceSquared(at, p) < kRadii2 * guide.radius2 && Dot(side.ng, ng) > kMinCosine &&
-           Dot(side.ns, ns) > kMinCosine && side.isTwoSided == isTwoSided;
+    return DistanceSquared(at, p) < kRadii2 * guide.radius2 && Dot(seen.ng, side.ng) > kMinCosine &&
+           Dot(seen.ns, side.ns) > kMinCosine && seen.isTwoSided == side.isTwoSided;
   }
 };
 
@@ -68,8 +68,7 @@ ConeAxes GatherGuide::Directions(const ShadingPoint& point, const PhotonMap& map
   LastGuide& last = context.notes->Note<LastGuide>();
   if (!last.Serves(point.surface.p, side)) {
     Arena& arena = context.notes->FreshArena();
-    last = {FindGuide(point, side, map, count_, &arena), point.surface.p, side.ng, side.ns,
-            side.isTwoSided};
+    last = {FindGuide(point, side, map, count_, &arena), point.surface.p, side};
   }
   return last.guide.axes;
 }
