@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ConeMixture: directions round those of nearby photons: pick one of m axes uniformly, then a
 // direction uniform in the cone about it (docs/exphotonmap.md, eq. 15). Sampling and density share
-// one idea of what a cone holds; small angles lose nothing.
+// one idea of what a cone holds.
 #pragma once
 
-#include "core/math/sampling.h"
+#include "integrators/photon/cone.h"
 #include "integrators/photon/cone_axes.h"
 
 namespace exphoton {
 
 class ConeMixture {
  public:
-  // The axes' arena must outlive this; halfAngle in (0, pi/2].
-  ConeMixture(const ConeAxes& axes, Real halfAngle)
-      : axes_(axes), oneMinusCos_(OneMinusCos(halfAngle)) {}
+  // The axes' arena must outlive this.
+  ConeMixture(const ConeAxes& axes, const Cone& cone) : axes_(axes), cone_(cone) {}
 
   bool IsEmpty() const { return axes_.size() == 0; }
 
@@ -24,24 +23,22 @@ class ConeMixture {
   // uAxis picks the axis, u the direction. Must not be empty.
   Sample Draw(Real uAxis, Point2 u) const {
     const auto own = std::min(std::size_t(uAxis * Real(axes_.size())), axes_.size() - 1);
-    const Vector3 w = Frame::FromZ(axes_[own]).ToWorld(SampleUniformCone(u, oneMinusCos_));
+    const Vector3 w = cone_.Sample(axes_[own], u);
     // The chosen cone holds w by construction, whatever rounding says; the others by the test.
-    return {w, Density(axes_.CountWithin(w, Chord2()) + !axes_.IsWithin(own, w, Chord2()))};
+    const Real chord2 = cone_.Chord2();
+    return {w, Density(axes_.CountWithin(w, chord2) + !axes_.IsWithin(own, w, chord2))};
   }
   // Density of Draw per solid angle.
   Real Pdf(const Vector3& w) const {
-    const int holding = axes_.CountWithin(w, Chord2());
+    const int holding = axes_.CountWithin(w, cone_.Chord2());
     return holding == 0 ? Real(0) : Density(holding);
   }
 
  private:
-  Real Chord2() const { return 2 * oneMinusCos_; }  // |w - axis|^2 = 4 sin^2(a/2) at the edge
-  Real Density(int holding) const {
-    return Real(holding) / Real(axes_.size()) * UniformConePdf(oneMinusCos_);
-  }
+  Real Density(int holding) const { return Real(holding) / Real(axes_.size()) * cone_.Pdf(); }
 
   ConeAxes axes_;
-  Real oneMinusCos_;
+  Cone cone_;
 };
 
 }  // namespace exphoton

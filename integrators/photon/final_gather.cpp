@@ -5,11 +5,11 @@
 namespace exphoton {
 
 FinalGather::FinalGather(const PhotonSettings& settings)
-    : coneAngle_(Radians(settings.gatherAngle)), rrThreshold_(settings.rrThreshold) {
+    : cone_(Radians(settings.gatherAngle)), rrThreshold_(settings.rrThreshold) {
   const bool isGuided = settings.gatherSampling == GatherSampling::Photons;
   photonCount_ = isGuided ? settings.finalGatherSamples / 2 : 0;
   bsdfCount_ = settings.finalGatherSamples - photonCount_;
-  guide_ = GatherGuide(photonCount_ > 0 ? settings.gatherPhotons : 0);
+  guide_ = GatherGuide(photonCount_ > 0 ? settings.gatherPhotons : 0, cone_);
 }
 
 void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {

@@ -37,10 +37,10 @@ class FinalGather {
   static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
 
   // Roulette (eq. 18): the factor to trace a ray of weight c with, or 0. Photons tell how many
-  // times brighter than on average its direction is, pi photonPdf / |cos|; where they found nothing
+  // times brighter than on average its direction is, pi lightPdf / |cos|; where they found nothing
   // they may have missed something.
-  Real SurvivalFactor(Real c, Real photonPdf, Real absCos, RandomStream* random) const {
-    const Real expected = c * std::max(absCos, kPi * photonPdf);
+  Real SurvivalFactor(Real c, Real lightPdf, Real absCos, RandomStream* random) const {
+    const Real expected = c * std::max(absCos, kPi * lightPdf);
     const Real threshold = rrThreshold_ * absCos;
     if (!(expected < threshold)) return 1;
     const Real survival = expected / threshold;
@@ -49,7 +49,7 @@ class FinalGather {
 
   int bsdfCount_ = 0, photonCount_ = 0;  // rays by each technique
   GatherGuide guide_;
-  Real coneAngle_ = 0;
+  Cone cone_;
   Real rrThreshold_ = 0;
   int bsdfDirections_ = -1, bsdfLobes_ = -1, photonDirections_ = -1, photonRadii_ = -1;
 };
@@ -60,7 +60,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   const Bsdf& bsdf = point.bsdf;
   if (!bsdf.Has(kLobes)) return {};
   const Arena::Mark mark = context.arena.GetMark();
-  const ConeMixture cones(guide_.Directions(point, photons, context), coneAngle_);
+  const GuideDirections guide = guide_.Directions(point, photons, context);
+  const ConeMixture cones(guide.axes, cone_);
   const bool isGuided = !cones.IsEmpty();
   // Without a guide the photons' share of the rays follows the BSDF too.
   const int bsdfRays = isGuided ? bsdfCount_ : bsdfCount_ + photonCount_;
@@ -75,8 +76,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
   std::size_t count = 0;
   const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
-    const Real factor =
-        SurvivalFactor(contribution.Y(), photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
+    const Real factor = SurvivalFactor(contribution.Y(), guide.share * photonPdf,
+                                       AbsDot(w, bsdf.Ns()), &roulette);
     if (!(factor > 0)) return;
     new (segments + count) Segment(incident.Trace(fan.Towards(w)));
     weights[count++] = contribution * (factor / Real(drawn));

@@ -35,7 +35,7 @@ void TryCones(fuzz::Input* input) {
   }
   axes.Finish();
   if (axes.size() == 0) return;
-  const ConeMixture cones(axes, angle);
+  const ConeMixture cones(axes, Cone(angle));
   const auto sample = cones.Draw(uAxis, u);
   fuzz::Require(IsFinite(sample.w) && std::abs(Length(sample.w) - 1) < Real(1e-5), "unit");
   fuzz::Require(sample.pdf > 0 && std::isfinite(sample.pdf), "a density");

@@ -23,7 +23,7 @@ TEST(ConeMixture, NeverDrawsADirectionOfZeroDensity) {
   Arena arena;
   for (Real degrees : {Real(.001), Real(.01), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {
     const auto axes = RandomAxes(50, &random, &arena);
-    const ConeMixture cones(axes, Radians(degrees));
+    const ConeMixture cones(axes, Cone(Radians(degrees)));
     for (int i = 0; i < 2000; ++i) {
       const auto s = cones.Draw(random.Uniform(), {random.Uniform(), random.Uniform()});
       ASSERT_GT(s.pdf, 0);
@@ -40,7 +40,7 @@ TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
   Arena arena;
   for (Real degrees : {Real(5), Real(30), Real(90)}) {
     const auto axes = RandomAxes(5, &random, &arena);
-    const ConeMixture cones(axes, Radians(degrees));
+    const ConeMixture cones(axes, Cone(Radians(degrees)));
     const int n = 100000;
     double sum = 0, sum2 = 0, covered = 0;
     for (int i = 0; i < n; ++i) {
@@ -62,7 +62,7 @@ TEST(ConeMixture, OfASingleConeHasTheConesDensityDownToTinyAngles) {
   axis.Add({0, 0, 1});
   axis.Finish();
   for (double degrees : {1e-3, 1e-2, 1.0, 60.0, 90.0}) {
-    const ConeMixture cones(axis, Radians(Real(degrees)));
+    const ConeMixture cones(axis, Cone(Radians(Real(degrees))));
     const double half = degrees / 360 * 3.14159265358979;
     const double exact = 1 / (4 * 3.14159265358979 * std::sin(half) * std::sin(half));
     EXPECT_NEAR(double(cones.Draw(0, {Real(.5), Real(.5)}).pdf) / exact, 1, 1e-5);

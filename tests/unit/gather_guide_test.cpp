@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A guide serves the camera samples of a pixel that see nearly the same, and no others.
+// A guide follows the photons that come from where light is dense; it serves the camera samples of a
+// pixel that see nearly the same, and no others.
 #include "integrators/photon/gather_guide.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "core/math/random.h"
@@ -15,13 +17,20 @@ namespace exphoton {
 namespace {
 
 constexpr int kPhotons = 8;
+const Cone kCone(Radians(20));
+const Vector3 kPatch = Normalize(Vector3(1, 0, 1));
 
-// Photons on the square (0, 0)-(1, 1) of the plane z = 0, from above and from below.
-PhotonMap Photons() {
+enum class Light { OfAPatch, OfTheSky, OfBoth };
+
+// Photons on the square (0, 0)-(1, 1) of the plane z = 0, from above and from below; those of a
+// patch within 6 degrees of it or of its mirror image.
+PhotonMap Photons(Light light) {
   RandomStream random(7);
   PhotonHaul haul;
   for (int i = 0; i < 1000; ++i) {
-    Vector3 w = SampleCosineHemisphere({random.Uniform(), random.Uniform()});
+    const bool isOfPatch = light == Light::OfAPatch || (light == Light::OfBoth && i % 4 < 2);
+    const Vector3 sky = SampleCosineHemisphere({random.Uniform(), random.Uniform()});
+    Vector3 w = isOfPatch ? Normalize(kPatch + Real(.1) * sky) : sky;
     if (i % 2) w.z = -w.z;
     haul.Add({{random.Uniform(), random.Uniform(), 0}, w, Spectrum(1)});
   }
@@ -37,6 +46,11 @@ class GatherGuideTest : public testing::Test {
   // At (x, .5, 0), seen from the side of `wo`.
   Directions At(Real x, const Vector3& wo, PixelNotes* notes) {
     Arena arena;
+    return Listed(Guide(x, wo, photons_, kPhotons, notes, &arena));
+  }
+  GuideDirections Guide(Real x, const Vector3& wo, const PhotonMap& photons, int count,
+                        PixelNotes* notes, Arena* arenaPointer) {
+    Arena& arena = *arenaPointer;
     RayCounters rays;
     const CameraSamples samples{SampleLayout()};
     SurfaceInteraction surface;
@@ -49,9 +63,11 @@ class GatherGuideTest : public testing::Test {
     point.bsdf.Add(arena.Make<Lambert>(Spectrum(Real(.8))));
     LiContext context{*scene_.setup->scene, samples, arena, rays, 0};
     context.notes = notes;
-    const ConeAxes axes = GatherGuide(kPhotons).Directions(point, photons_, context);
+    return GatherGuide(count, kCone).Directions(point, photons, context);
+  }
+  static Directions Listed(const GuideDirections& guide) {
     Directions directions;
-    for (std::size_t i = 0; i < axes.size(); ++i) directions.push_back(axes[i]);
+    for (std::size_t i = 0; i < guide.axes.size(); ++i) directions.push_back(guide.axes[i]);
     return directions;
   }
 
@@ -60,7 +76,7 @@ class GatherGuideTest : public testing::Test {
 
  private:
   LoadedScene scene_ = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
-  PhotonMap photons_ = Photons();
+  PhotonMap photons_ = Photons(Light::OfAPatch);
 };
 
 TEST_F(GatherGuideTest, HoldsDirectionsThatLightTheSideThatIsSeen) {
@@ -70,6 +86,25 @@ TEST_F(GatherGuideTest, HoldsDirectionsThatLightTheSideThatIsSeen) {
     EXPECT_LT(directions.size(), std::size_t(kPhotons));
     for (const Vector3& w : directions) EXPECT_GT(w.z * wo.z, 0);
   }
+}
+
+TEST_F(GatherGuideTest, FollowsPhotonsOfAPatchAndLeavesThoseOfTheSkyToTheBsdf) {
+  constexpr int kMany = 200;
+  const PhotonMap both = Photons(Light::OfBoth);
+  Arena arena;
+  const GuideDirections guide = Guide(Real(.5), above_, both, kMany, nullptr, &arena);
+  const Directions followed = Listed(guide);
+  ASSERT_FALSE(followed.empty());
+  for (const Vector3& w : followed) EXPECT_GT(Dot(w, kPatch), std::cos(Radians(30)));
+  EXPECT_NEAR(guide.share, .5, .15);  // the patch's photons, and of the sky's those round it
+}
+
+TEST_F(GatherGuideTest, LeavesASurfaceThatIsLitFromEverywhereToTheBsdf) {
+  constexpr int kMany = 400;
+  const PhotonMap sky = Photons(Light::OfTheSky);
+  Arena arena;
+  const GuideDirections guide = Guide(Real(.5), above_, sky, kMany, nullptr, &arena);
+  EXPECT_LT(guide.share, .05);
 }
 
 TEST_F(GatherGuideTest, ServesTheNextSampleOfAPixelCloseBy) {
