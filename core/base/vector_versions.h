@@ -12,6 +12,13 @@
 #define EXPHOTON_FOR_AVX2
 #endif
 
+// Before a loop that reads nothing which it has written: compilers need not look whether it does.
+#if defined(__clang__)
+#define EXPHOTON_INDEPENDENT_ITERATIONS _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define EXPHOTON_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
+#endif
+
 namespace exphoton {
 
 // How many of {for any machine, for AVX2} this machine can run.

@@ -4,6 +4,7 @@
 #include "core/imaging/exr.h"
 
 #include <IexErrnoExc.h>
+#include <IlmThreadPool.h>
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFloatVectorAttribute.h>
@@ -113,10 +114,13 @@ long long WriteHalves(const Image& image, Imf::OutputFile* out) {
 
 }  // namespace
 
+void MakeTheLibrarysThreadPool() { IlmThread::ThreadPool::globalThreadPool(); }
+
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf) {
   const UntrappedLibraryCall guard;
   ExrWriteReport report;
   try {
+    MakeTheLibrarysThreadPool();
     AtomicFile file(path);
     {
       FileStream stream(&file, path);

@@ -17,4 +17,8 @@ struct ExrWriteReport {
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf);
 Image ReadExr(const std::string& path);  // throws ImageError
 
+// OpenEXR makes its pool of threads when it first has work for it; were there no memory for that, it
+// would wait for ever for the work that it could not hand over. To be called before it has any.
+void MakeTheLibrarysThreadPool();
+
 }  // namespace exphoton

@@ -14,6 +14,7 @@
 #include "core/math/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
+#include "core/transport/pass_notes.h"
 #include "core/transport/pixel_notes.h"
 
 namespace exphoton {
@@ -46,7 +47,8 @@ struct LiContext {
   Real alpha = 1;      // set to 0 by Li where the camera ray escapes and sees nothing
   // Where Li leaves what it says of layers besides the radiance; null where no layer was asked for.
   LayerSample* layers = nullptr;
-  PixelNotes* notes = nullptr;  // of the pixel; null: nothing is kept
+  PixelNotes* notes = nullptr;     // of the pixel; null: nothing is kept
+  PassNotes* passNotes = nullptr;  // of this thread; null: nothing is kept
   const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
   std::uint64_t mediaSegments = 0;           // stretches of rays through media so far
 

@@ -22,6 +22,7 @@ struct alignas(64) Worker {
   CameraSamples samples;
   Arena arena;
   PixelNotes notes;
+  PassNotes passNotes;
   RayCounters rays;
   std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
   bool wasStopped = false;
@@ -144,6 +145,7 @@ class TileRenderer {
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
     context.notes = &worker->notes;
+    context.passNotes = &worker->passNotes;
     context.volume = job_.volume;
     LayerSample layers;
     if (layers_) {
@@ -272,6 +274,7 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   State& state = *state_;
   const RenderJob& job = state.job;
   const Clock::time_point start = Clock::now();
+  for (Worker& worker : state.workers) worker.passNotes.Reset();
   state.Preprocess(pass.preprocessSeed, job.progress);
   ++state.passes;
   state.preprocessSeconds = secondsSince(start);

@@ -3,7 +3,6 @@
 // another direction: counted with the widest vectors that the machine has, to the same number.
 #pragma once
 
-#include <cmath>
 #include <span>
 
 #include "core/base/arena.h"
@@ -22,21 +21,15 @@ class ConeAxes {
     z_ = y_ + capacity;
   }
 
-  // w of any length; the next one takes its place where it is not wanted.
+  // w: unit. The next one takes its place where it is not wanted.
   void Add(const Vector3& w, bool isWanted = true) {
     x_[count_] = w.x;
     y_[count_] = w.y;
     z_[count_] = w.z;
     count_ += isWanted;
   }
-  // To be called after the last Add: makes all unit.
+  // To be called after the last Add.
   void Finish() {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Real length = std::sqrt(x_[i] * x_[i] + y_[i] * y_[i] + z_[i] * z_[i]);
-      x_[i] /= length;
-      y_[i] /= length;
-      z_[i] /= length;
-    }
     // Runs are whole: what fills the last is far from every direction.
     for (std::size_t i = count_; i < PaddedSize(); ++i) x_[i] = y_[i] = z_[i] = kFar;
   }

@@ -23,6 +23,9 @@ class FinalGather {
   // Where nothing will be gathered the requests are empty, and leave those of others as they are.
   void RequestSamples(bool gathers, SampleLayout* layout);
 
+  // To be called when the photons are there, which must outlive the pass.
+  void Prepare(const PhotonMap& photons) { guide_.Prepare(photons); }
+
   // Integral over the non-specular lobes of f * incident * |cos|, by rays with 0 < t < infinity.
   // All are traced before the first is read, so that caches hold the one or the other:
   // incident.Trace(ray) gives an Incident::Segment, incident.Look(segments) then looks at all of

@@ -1,99 +1,76 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The search for guiding photons, which of them are followed, and whom else they serve.
+// Which photons of a cell are followed from a point, and whom else they serve.
 #include "integrators/photon/gather_guide.h"
 
-#include "integrators/photon/direction_order.h"
+#include "integrators/photon/cell_view.h"
+#include "integrators/photon/guide_cells.h"
 #include "integrators/photon/rest_pose.h"
 
 namespace exphoton {
 namespace {
 
-// The side of a surface that photons light.
-struct Side {
-  Normal3 ng, ns;  // towards the viewer
-  bool isTwoSided = false;
-
-  Side() = default;
-  explicit Side(const ShadingPoint& point)
-      : ng(FaceForward(point.surface.ng, point.Wo())),
-        ns(FaceForward(point.bsdf.Ns(), ng)),
-        isTwoSided(point.bsdf.Has(LobeSet::NonSpecularTransmission)) {}
-
-  // Light from below the horizon of a surface that transmits none is no guide.
-  bool IsLitFrom(const Vector3& w) const {
-    return isTwoSided || (Dot(w, ng) > 0 && Dot(w, ns) > 0);
-  }
-  // Of directions that a surface scatters to with equal radiance.
-  Real DiffusePdf(const Vector3& w) const {
-    return AbsDot(w, ns) * (isTwoSided ? kInvPi / 2 : kInvPi);
-  }
-};
-
-// Directions by the density of which more light comes than a diffuse surface sends rays. What else
-// lights it the other half of the rays finds as well; rays spent on it here would be missed where
-// light is dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
-// Importance Sampling). A direction's own photon does not count.
-ConeAxes WorthFollowing(const ConeAxes& all, const Side& side, const Cone& cone, Arena* arena) {
-  constexpr Real kDenser = 2;
-  ConeAxes worth(all.size(), arena);
-  const Real perOther = cone.Pdf() / Real(std::max<std::size_t>(all.size(), 2) - 1);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Vector3 w = all[i];
-    const int others = all.CountWithin(w, cone.Chord2()) - 1;
-    worth.Add(w, Real(others) * perOther > kDenser * side.DiffusePdf(w));
-  }
-  worth.Finish();
-  return worth;
-}
-
-struct Guide {
-  GuideDirections directions;
-  Real radius2 = 0;  // of the search
-};
-
-Guide FindGuide(const ShadingPoint& point, const Side& side, const PhotonMap& map, int photons,
-                const Cone& cone, Arena* arena) {
-  const RestPose rest(point.surface);
-  const NearPoints near = map.Nearest(rest.Point(point.surface.p), photons, arena);
-  if (near.size() == 0) return {};
-  ConeAxes all(near.size(), arena);
-  for (const std::uint32_t photon : OrderByDirection(map, near.index, arena)) {
-    const Vector3 w = rest.DirectionBack(map.LongDirection(photon));
-    all.Add(w, side.IsLitFrom(w));
-  }
-  all.Finish();
-  const ConeAxes worth = WorthFollowing(all, side, cone, arena);
-  const Real share = SafeDivide(Real(worth.size()), Real(all.size()), Real(0));
-  return {{worth, share}, near.distance2[near.farthest]};
+// Directions from which clearly more light comes than a diffuse surface sends rays. What else lights
+// it the other half of the rays finds as well, and rays spent on it would be missing where light is
+// dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple Importance
+// Sampling). A direction's own photon does not count.
+GuideDirections WorthFollowing(const GuideCell& cell, const RestPose& rest, const Point3& p,
+                               const LitSide& side, const Cone& cone, Arena* arena) {
+  const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);
+  const CellView view(cell, rest.Point(p), atRest, arena);
+  // Photons to be expected in a cone round the normal, if all came as a diffuse surface sends rays.
+  const Real diffusePdf = side.isTwoSided ? kInvPi / 2 : kInvPi;
+  const Real expected = Real(std::max(view.lit - 1, 1)) * diffusePdf / cone.Pdf();
+  ConeAxes axes(cell.size(), arena);
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    axes.Add(rest.DirectionBack({view.x[i], view.y[i], view.z[i]}),
+             expected * view.cosine[i] < cell.DenserThan()[i]);
+  axes.Finish();
+  return {axes, Real(axes.size()) / Real(std::max(view.lit, 1))};
 }
 
 // The guide of the camera sample that looked last, and where it was.
 struct LastGuide {
-  Guide guide;
+  GuideDirections directions;
+  Real reach2 = 0;  // of the photons, squared
   Point3 p;
-  Side side;
+  LitSide side;
 
   // Well within the photons that were found, and on as good as the same plane.
-  bool Serves(const Point3& at, const Side& seen) const {
-    constexpr Real kRadii2 = Square(Real(.5)), kMinCosine = Real(.95);
-    return DistanceSquared(at, p) < kRadii2 * guide.radius2 && Dot(seen.ng, side.ng) > kMinCosine &&
+  bool Serves(const Point3& at, const LitSide& seen) const {
+    constexpr Real kRadii2 = Square(Real(.25)), kMinCosine = Real(.95);
+    return DistanceSquared(at, p) < kRadii2 * reach2 && Dot(seen.ng, side.ng) > kMinCosine &&
            Dot(seen.ns, side.ns) > kMinCosine && seen.isTwoSided == side.isTwoSided;
   }
 };
 
 }  // namespace
 
+void GatherGuide::Prepare(const PhotonMap& map) {
+  constexpr Real kRadii = Real(.75);  // twice that is noisier, a third is not better
+  Arena arena;
+  if (count_ > 0) cellWidth_ = kRadii * map.TypicalRadius(count_, &arena);
+  if (!(cellWidth_ > 0)) cellWidth_ = 1;  // no photon, or all on one spot
+}
+
 GuideDirections GatherGuide::Directions(const ShadingPoint& point, const PhotonMap& map,
                                         LiContext& context) const {
   if (count_ == 0 || map.IsEmpty()) return {};
-  const Side side(point);
-  if (!context.notes) return FindGuide(point, side, map, count_, cone_, &context.arena).directions;
-  LastGuide& last = context.notes->Note<LastGuide>();
-  if (!last.Serves(point.surface.p, side)) {
-    Arena& arena = context.notes->FreshArena();
-    last = {FindGuide(point, side, map, count_, cone_, &arena), point.surface.p, side};
-  }
-  return last.guide.directions;
+  const Point3& p = point.surface.p;
+  const LitSide side(point);
+  LastGuide* const last = context.notes ? &context.notes->Note<LastGuide>() : nullptr;
+  if (last && last->Serves(p, side)) return last->directions;
+
+  const RestPose rest(point.surface);
+  Arena& arena = context.notes ? context.notes->FreshArena() : context.arena;
+  const auto follow = [&](const GuideCell& cell) {
+    const GuideDirections directions = WorthFollowing(cell, rest, p, side, cone_, &arena);
+    if (last) *last = {directions, cell.Radius2(), p, side};
+    return directions;
+  };
+  if (!context.passNotes)
+    return follow(GuideCell(map, rest.Point(p), count_, cone_, &context.arena));
+  GuideCells& cells = context.passNotes->Note<GuideCells>(map, count_, cone_, cellWidth_);
+  return follow(cells.At(rest.Point(p)));
 }
 
 }  // namespace exphoton

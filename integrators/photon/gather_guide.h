@@ -24,6 +24,8 @@ class GatherGuide {
   // By `count` photons and cones about them.
   GatherGuide(int count, const Cone& cone) : count_(count), cone_(cone) {}
 
+  // To be called when the map is there, which must outlive the pass.
+  void Prepare(const PhotonMap& map);
   // Valid until the next call for this pixel.
   GuideDirections Directions(const ShadingPoint& point, const PhotonMap& map,
                              LiContext& context) const;
@@ -31,6 +33,7 @@ class GatherGuide {
  private:
   int count_ = 0;
   Cone cone_;
+  Real cellWidth_ = 1;
 };
 
 }  // namespace exphoton

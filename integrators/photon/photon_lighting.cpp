@@ -127,6 +127,7 @@ void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
   {
     const PhaseTimer timer(context.statistics, "kd-trees");
     maps_ = PhotonMaps(&harvest, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
+    if (gathers_) gather_.Prepare(maps_.Map(PhotonKind::Indirect));
   }
   if (targets.radianceFraction > 0) {
     const PhaseTimer timer(context.statistics, "radiance");

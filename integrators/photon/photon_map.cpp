@@ -18,8 +18,11 @@ NearBuffer BufferFor(std::size_t k, Arena* arena) {
 
 }  // namespace
 
-PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, std::int64_t paths, ThreadPool& threads)
-    : tree_(std::move(tree)), spacing2_(MeasureSpacing2(tree_.View(), threads)), paths_(paths) {
+PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, const PhotonHaul& haul, ThreadPool& threads)
+    : tree_(std::move(tree)),
+      spacing2_(MeasureSpacing2(tree_.View(), threads)),
+      paths_(haul.paths),
+      farthest_(haul.farthest) {
   if (IsEmpty()) return;
   const Bounds3 bounds = tree_.Bounds();
   minRadius_ = 4 * kMachineEpsilon * MaxComponent(Max(Abs(bounds.min), Abs(bounds.max)));

@@ -36,7 +36,7 @@ PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, R
   auto trees = PointTree<PhotonBlock>::MakeAll(photons, context.threads);
   Arena arena;
   for (std::size_t at = 0; at < kPhotonKindCount; ++at) {
-    maps_[at] = PhotonMap(std::move(trees[at]), harvest->hauls[at].paths, context.threads);
+    maps_[at] = PhotonMap(std::move(trees[at]), harvest->hauls[at], context.threads);
     radii_[at] = settings.maxDist.value_or(
         std::max(maps_[at].TypicalRadius(settings.nUsed, &arena),
                  SmallestRadius(maps_[at].Size(), settings.nUsed, sceneRadius)));

@@ -3,6 +3,7 @@
 #include "integrators/photon/photon_tracer.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "core/base/log.h"
@@ -40,6 +41,7 @@ class PhotonTracer::Path {
       const auto surface = tracer_.scene_.Intersect(ray);
       if (!surface) return;
       hasHit_ = true;
+      distance_ += Distance(ray.o, surface->p);
       Absorb(ray, surface->p);
       if (!(alpha_.MaxComponent() > 0)) return;
       const ShadingPoint point =
@@ -101,7 +103,8 @@ class PhotonTracer::Path {
     const RestPose rest(surface);
     const Point3 p = rest.Point(surface.p);
     const Spectrum power = surface.motion ? alpha_ * rest.PowerScale(surface.ng) : alpha_;
-    chunk_->photons[std::size_t(kind)].emplace_back(Photon{p, rest.Direction(point.Wo()), power});
+    chunk_->photons[std::size_t(kind)].emplace_back(
+        Photon{p, rest.Direction(point.Wo()), power, distance_ / tracer_.farthest_});
     ++stored_;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
     chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())),
@@ -126,6 +129,7 @@ class PhotonTracer::Path {
         point.bsdf.Sample(point.Wo(), u, uChoice.x, tracer_.lobes_, TransportMode::Importance);
     if (!sample) return false;
     isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_);
+    if (!sample->IsSpecular()) distance_ = 0;
     if (!IsWantedAfter(isSpecularPath_)) return false;
     const Spectrum scattered =
         alpha_ * sample->throughput *
@@ -175,10 +179,18 @@ class PhotonTracer::Path {
   std::int64_t stored_ = 0;  // photons
   Spectrum alpha_;
   Real emittedMost_ = 0;
+  Real distance_ = 0;  // since the light, or the last scattering that was not specular
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
 
 namespace {
+
+// That photons are likely to have come over mirrors, too; > 0.
+Real FarthestDistance(const Scene& scene) {
+  constexpr Real kRadii = 8;
+  return std::max(kRadii * BoundingSphere(scene.WorldBounds()).radius,
+                  std::numeric_limits<Real>::min());
+}
 
 // An aimed light needs fewer photons by as much as they lie denser.
 std::vector<double> ShareFactors(const Scene& scene, const PhotonAim& aim) {
@@ -199,7 +211,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       aim_(std::move(aim)),
       lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
               ShareFactors(scene, aim_)),
-      lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular) {}
+      lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular),
+      farthest_(FarthestDistance(scene)) {}
 
 void PhotonTracer::TraceChunk(std::int64_t firstPath,
                               const std::array<bool, kPhotonKindCount>& open, Real radianceFraction,
@@ -231,6 +244,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
   std::array<bool, kPhotonKindCount> open{};
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
   harvest.lights.resize(scene_.Lights().size());
+  for (PhotonHaul& haul : harvest.hauls) haul.farthest = farthest_;
   if (lights_.IsEmpty()) return harvest;
 
   std::vector<Worker> workers(std::size_t(context.threads.Count()));

@@ -99,6 +99,7 @@ class PhotonTracer {
   PhotonAim aim_;
   LightDistribution lights_;
   LobeSet lobes_;  // that photons scatter by
+  Real farthest_;  // PhotonHaul::farthest
 };
 
 }  // namespace exphoton

@@ -32,7 +32,7 @@ PhotonMap Photons(Light light) {
     const Vector3 sky = SampleCosineHemisphere({random.Uniform(), random.Uniform()});
     Vector3 w = isOfPatch ? Normalize(kPatch + Real(.1) * sky) : sky;
     if (i % 2) w.z = -w.z;
-    haul.Add({{random.Uniform(), random.Uniform(), 0}, w, Spectrum(1)});
+    haul.Add({{random.Uniform(), random.Uniform(), 0}, w, Spectrum(1), Real(1e-9)});
   }
   haul.paths = 1;
   ThreadPool threads(1);
@@ -43,6 +43,8 @@ class GatherGuideTest : public testing::Test {
  protected:
   using Directions = std::vector<Vector3>;
 
+  PassNotes* passNotes_ = nullptr;
+
   // At (x, .5, 0), seen from the side of `wo`.
   Directions At(Real x, const Vector3& wo, PixelNotes* notes) {
     Arena arena;
@@ -51,6 +53,8 @@ class GatherGuideTest : public testing::Test {
   GuideDirections Guide(Real x, const Vector3& wo, const PhotonMap& photons, int count,
                         PixelNotes* notes, Arena* arenaPointer) {
     Arena& arena = *arenaPointer;
+    GatherGuide guide(count, kCone);
+    guide.Prepare(photons);
     RayCounters rays;
     const CameraSamples samples{SampleLayout()};
     SurfaceInteraction surface;
@@ -63,7 +67,8 @@ class GatherGuideTest : public testing::Test {
     point.bsdf.Add(arena.Make<Lambert>(Spectrum(Real(.8))));
     LiContext context{*scene_.setup->scene, samples, arena, rays, 0};
     context.notes = notes;
-    return GatherGuide(count, kCone).Directions(point, photons, context);
+    context.passNotes = passNotes_;
+    return guide.Directions(point, photons, context);
   }
   static Directions Listed(const GuideDirections& guide) {
     Directions directions;
@@ -72,7 +77,7 @@ class GatherGuideTest : public testing::Test {
   }
 
   const Vector3 above_{0, 0, 1}, below_{0, 0, -1};
-  const Real step_ = Real(.02), far_ = Real(.3);  // a search reaches about .05
+  const Real step_ = Real(.01), far_ = Real(.3);  // a search reaches about .05
 
  private:
   LoadedScene scene_ = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
@@ -123,6 +128,20 @@ TEST_F(GatherGuideTest, IsFoundAnewWhereASampleSeesAnotherPlaceOrTheOtherSide) {
   EXPECT_EQ(At(place, below_, &notes), At(place, below_, nullptr));
   // And that one then serves in its turn.
   EXPECT_EQ(At(place + step_, below_, &notes), At(place, below_, nullptr));
+}
+
+TEST_F(GatherGuideTest, OfAPassIsTheSameWhateverWasLookedAtBefore) {
+  PassNotes pass, fresh;
+  for (int i = 0; i < 40; ++i) {
+    const Real x = Real(.1) + far_ * Real(i % 3) + Real(.0011) * Real(i);
+    const Vector3& wo = i % 2 ? above_ : below_;
+    passNotes_ = &pass;
+    const Directions found = At(x, wo, nullptr);
+    passNotes_ = &fresh;
+    fresh.Reset();
+    ASSERT_EQ(At(x, wo, nullptr), found);
+    ASSERT_FALSE(found.empty());
+  }
 }
 
 TEST_F(GatherGuideTest, IsForgottenWithThePixel) {

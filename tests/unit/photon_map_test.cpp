@@ -59,7 +59,7 @@ TEST(PhotonMap, CountsPhotonsOfAFlattenedRegionOnly) {
   EXPECT_EQ(map.Position(around.photons[0]).z, 0);
 }
 
-TEST(PhotonMap, HoldsPowersAsTheyAreAndDirectionsToATenThousandthOfARadian) {
+TEST(PhotonMap, HoldsPowersAsTheyAreAndDirectionsToAThousandthOfARadian) {
   RandomStream random(19);
   std::vector<Photon> photons;
   for (int i = 0; i < 1000; ++i) {
@@ -71,7 +71,7 @@ TEST(PhotonMap, HoldsPowersAsTheyAreAndDirectionsToATenThousandthOfARadian) {
   for (std::uint32_t i = 0; i < map.Size(); ++i) {
     const Photon& photon = photons[std::size_t(map.Position(i).x)];
     EXPECT_EQ(map.Alpha(i), photon.alpha);
-    EXPECT_LT(Distance(map.Direction(i), photon.wi), 1e-4);
+    EXPECT_LT(Distance(map.Direction(i), photon.wi), 1.2e-3);
   }
 }
 

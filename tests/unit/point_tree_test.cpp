@@ -235,5 +235,20 @@ TEST(Octahedral, KeepsTheAxesAndIsCloseEverywhere) {
   }
 }
 
+TEST(Octahedral, WithANoteKeepsItAndStaysClose) {
+  RandomStream random(18);
+  for (int i = 0; i < 100000; ++i) {
+    const auto u = [&] { return 2 * random.Uniform() - 1; };
+    Vector3 v(u(), u(), u());
+    if (i % 4 == 0) v[i / 4 % 3] = 0;  // along the folds and edges of the square
+    if (i % 8 == 0) v[i / 8 % 3] = 0;
+    v = NormalizeOr(v, {0, 0, -1});
+    const auto note = std::uint8_t(i);
+    const std::uint32_t code = EncodeOctahedral(v, note);
+    ASSERT_EQ(OctahedralNote(code), note);
+    ASSERT_LT(Distance(DecodeOctahedral(code), v), 1.2e-3);
+  }
+}
+
 }  // namespace
 }  // namespace exphoton
