@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // For loops that compilers turn into vectors by themselves: one body, inlined into a function for
-// any machine and into one for AVX2, of which the program chooses when it runs. Where operations
-// are what vectors keep (no sums of Reals across lanes), both give the same bits.
+// any machine, one for AVX2 and one for AVX-512, of which the program chooses when it runs. Where operations
+// are what vectors keep (no sums of Reals across lanes), all give the same bits.
 #pragma once
 
 #include <cstddef>
 
 #if defined(__x86_64__)
 #define EXPHOTON_FOR_AVX2 __attribute__((target("avx2")))
+#define EXPHOTON_FOR_AVX512 \
+  __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #else
 #define EXPHOTON_FOR_AVX2
+#define EXPHOTON_FOR_AVX512
 #endif
 
 // Before a loop that reads nothing which it has written: compilers need not look whether it does.
@@ -21,10 +24,13 @@
 
 namespace exphoton {
 
-// How many of {for any machine, for AVX2} this machine can run.
+// How many of {for any machine, for AVX2, for AVX-512} this machine can run.
 inline std::size_t VectorVersions() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? 2 : 1;
+  if (!__builtin_cpu_supports("avx2")) return 1;
+  const bool has512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  return has512 ? 3 : 2;
 #else
   return 1;
 #endif

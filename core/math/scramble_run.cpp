@@ -23,10 +23,15 @@ EXPHOTON_FOR_AVX2 void RunAvx2(const std::uint32_t* reversed, std::size_t count,
   Run(reversed, count, key, fractions);
 }
 
+EXPHOTON_FOR_AVX512 void RunAvx512(const std::uint32_t* reversed, std::size_t count,
+                                   std::uint32_t key, Real* fractions) {
+  Run(reversed, count, key, fractions);
+}
+
 }  // namespace
 
 std::span<const Scrambler> AvailableScramblers() {
-  static constexpr Scrambler kAll[] = {RunPortable, RunAvx2};
+  static constexpr Scrambler kAll[] = {RunPortable, RunAvx2, RunAvx512};
   return {kAll, VectorVersions()};
 }
 

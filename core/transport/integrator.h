@@ -32,7 +32,7 @@ struct PreprocessContext {
   Log& log;
   ProgressReporter& progress;  // one bar a phase
   Statistics& statistics;
-  bool isStrict = false;  // what is not finite ends the render: throw Error(Internal)
+  bool isStrict = false;           // what is not finite ends the render: throw Error(Internal)
   const Camera* camera = nullptr;  // for what depends on the view; null: nothing may
   Point2i resolution;              // of the full image, whatever part of it is rendered
 };
@@ -41,14 +41,14 @@ struct PreprocessContext {
 struct LiContext {
   const Scene& scene;
   const CameraSamples& samples;
-  Arena& arena;        // reset by the renderer after each camera sample
-  RayCounters& rays;   // this thread's
-  std::uint64_t key;   // of (seed, pixel, sample index)
-  Real alpha = 1;      // set to 0 by Li where the camera ray escapes and sees nothing
+  Arena& arena;       // reset by the renderer after each camera sample
+  RayCounters& rays;  // this thread's
+  std::uint64_t key;  // of (seed, pixel, sample index)
+  Real alpha = 1;     // set to 0 by Li where the camera ray escapes and sees nothing
   // Where Li leaves what it says of layers besides the radiance; null where no layer was asked for.
   LayerSample* layers = nullptr;
-  PixelNotes* notes = nullptr;     // of the pixel; null: nothing is kept
-  PassNotes* passNotes = nullptr;  // of this thread; null: nothing is kept
+  PixelNotes* notes = nullptr;               // of the pixel; null: nothing is kept
+  PassNotes* passNotes = nullptr;            // of this thread; null: nothing is kept
   const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
   std::uint64_t mediaSegments = 0;           // stretches of rays through media so far
 
@@ -75,9 +75,9 @@ struct LiContext {
 
 // A photon that an integrator has stored, for people to look at.
 struct StoredPhoton {
-  std::string map;    // "indirect"
+  std::string map;  // "indirect"
   Point3 p;
-  Vector3 wi;         // where it came from
+  Vector3 wi;  // where it came from
   Spectrum power;
   Real distance = 0;  // from the point that was asked about
 };

@@ -13,7 +13,8 @@ class PassNotes {
  public:
   void Reset() { note_.reset(); }
 
-  // The note of this pass, T(args...) when it is first asked for. An integrator keeps one type only.
+  // The note of this pass, T(args...) when it is first asked for. An integrator keeps one type
+  // only.
   template <class T, class... Args>
   T& Note(Args&&... args) {
     if (!note_) note_ = std::make_shared<T>(std::forward<Args>(args)...);

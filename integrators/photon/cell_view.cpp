@@ -42,10 +42,15 @@ EXPHOTON_FOR_AVX2 void LookAvx2(const GuideCell& cell, const Vector3& p, const L
   Look(cell, p, side, view);
 }
 
+EXPHOTON_FOR_AVX512 void LookAvx512(const GuideCell& cell, const Vector3& p, const LitSide& side,
+                                    CellView* view) {
+  Look(cell, p, side, view);
+}
+
 }  // namespace
 
 std::span<const CellView::Looker> CellView::Lookers() {
-  static constexpr Looker kAll[] = {LookPortable, LookAvx2};
+  static constexpr Looker kAll[] = {LookPortable, LookAvx2, LookAvx512};
   return {kAll, VectorVersions()};
 }
 

@@ -27,10 +27,15 @@ EXPHOTON_FOR_AVX2 int CountAvx2(const Real* x, const Real* y, const Real* z, std
   return Count(x, y, z, count, w, chord2);
 }
 
+EXPHOTON_FOR_AVX512 int CountAvx512(const Real* x, const Real* y, const Real* z, std::size_t count,
+                                    const Vector3& w, Real chord2) {
+  return Count(x, y, z, count, w, chord2);
+}
+
 }  // namespace
 
 std::span<const ConeAxes::Counter> ConeAxes::Counters() {
-  static constexpr Counter kAll[] = {CountPortable, CountAvx2};
+  static constexpr Counter kAll[] = {CountPortable, CountAvx2, CountAvx512};
   return {kAll, VectorVersions()};
 }
 

@@ -79,8 +79,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
   std::size_t count = 0;
   const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
-    const Real factor = SurvivalFactor(contribution.Y(), guide.share * photonPdf,
-                                       AbsDot(w, bsdf.Ns()), &roulette);
+    const Real factor =
+        SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
     if (!(factor > 0)) return;
     new (segments + count) Segment(incident.Trace(fan.Towards(w)));
     weights[count++] = contribution * (factor / Real(drawn));

@@ -9,10 +9,10 @@
 namespace exphoton {
 namespace {
 
-// Directions from which clearly more light comes than a diffuse surface sends rays. What else lights
-// it the other half of the rays finds as well, and rays spent on it would be missing where light is
-// dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple Importance
-// Sampling). A direction's own photon does not count.
+// Directions from which clearly more light comes than a diffuse surface sends rays. What else
+// lights it the other half of the rays finds as well, and rays spent on it would be missing where
+// light is dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
+// Importance Sampling). A direction's own photon does not count.
 GuideDirections WorthFollowing(const GuideCell& cell, const RestPose& rest, const Point3& p,
                                const LitSide& side, const Cone& cone, Arena* arena) {
   const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);

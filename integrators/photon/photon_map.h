@@ -51,7 +51,7 @@ class PhotonMap {
   std::int64_t Paths() const { return paths_; }
   Point3 Position(std::uint32_t i) const { return tree_.Position(i); }
   Vector3 Direction(std::uint32_t i) const { return tree_.Direction(i); }  // unit, to the light
-  std::uint32_t DirectionCode(std::uint32_t i) const {  // as EncodeOctahedral
+  std::uint32_t DirectionCode(std::uint32_t i) const {                     // as EncodeOctahedral
     return tree_.BlockOf(i).direction[tree_.Lane(i)];
   }
   // Where the light of the photon was before, and came from straight or over mirrors: within 4.5 %

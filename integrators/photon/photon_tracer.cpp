@@ -179,7 +179,7 @@ class PhotonTracer::Path {
   std::int64_t stored_ = 0;  // photons
   Spectrum alpha_;
   Real emittedMost_ = 0;
-  Real distance_ = 0;  // since the light, or the last scattering that was not specular
+  Real distance_ = 0;            // since the light, or the last scattering that was not specular
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
 
