@@ -25,7 +25,7 @@ Real ClearlyExceeded(Real n) { return Square((std::sqrt(1 + 8 * n) - 1) / 4); }
 
 // From the number of others within the cone about each. Where there are very many, estimated by
 // every n-th of them: they are in the order of their directions.
-void CountOthers(const ConeAxes& axes, const Cone& cone, Arena* arena, Real* denserThan) {
+void CompareWithOthers(const ConeAxes& axes, const Cone& cone, Arena* arena, Real* denserThan) {
   constexpr std::size_t kMost = 1024;
   const std::size_t step = (axes.size() + kMost - 1) / kMost;
   ConeAxes some(axes.size() / step + 1, arena);
@@ -46,7 +46,10 @@ GuideCell::GuideCell(const PhotonMap& map, const Point3& middle, int count, cons
     : middle_(middle) {
   const Arena::Mark mark = scratch->GetMark();
   const NearPoints near = map.Nearest(middle, count, scratch);
-  if (near.size() == 0) return;
+  if (near.size() == 0) {
+    scratch->Rewind(mark);
+    return;
+  }
   radius2_ = near.distance2[near.farthest];
   rows_.resize(kRows * near.size());
   Real *const x = rows_.data(), *const y = x + near.size(), *const z = y + near.size();
@@ -60,7 +63,7 @@ GuideCell::GuideCell(const PhotonMap& map, const Point3& middle, int count, cons
     ++i;
   }
   axes.Finish();
-  CountOthers(axes, cone, scratch, denserThan);
+  CompareWithOthers(axes, cone, scratch, denserThan);
   scratch->Rewind(mark);
 }
 
