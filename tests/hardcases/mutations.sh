@@ -14,7 +14,7 @@ jobs=${JOBS:-$(nproc)}
 mutations=$(cat <<'TABLE'
 density-as-probability|core/lights/light_distribution.cpp|choice.index, choice.probability,|choice.index, choice.probability * Real(lights_.size()),|exphoton|37
 cosine-dropped|lights/area.cpp|Power() * stretched, sample.pdf,|Power() * stretched * (2 * Dot(w, Vector3(sample.point.ng))) * 2, sample.pdf,|exphoton|T1
-cone-widened|integrators/photon/cone.h|return 2 * oneMinusCos_;|return 2 * (1 - Real(.999) * (1 - oneMinusCos_));|exphoton|81
+cone-widened|integrators/photon/cone.h|return 2 * oneMinusCos_;|return 2 * (1 - Real(.999) * (1 - oneMinusCos_));|exphoton test_unit|81
 mask-dropped|core/scattering/bsdf.cpp|value.pdf /= Real(Count(mask));|value.pdf /= Real(count_);|exphoton|34
 k-for-k-minus-1|integrators/photon/photon_map.cpp|return {found.index.first(last), found.distance2.first(last), farthest2};|return {found.index, found.distance2, farthest2};|exphoton test_stat|68
 reach-unlimited|integrators/photon/radiance_map.cpp|reach_(settings.radianceReach)|reach_(settings.radianceReach * 1000000)|exphoton|77
