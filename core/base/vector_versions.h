@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // For loops that compilers turn into vectors by themselves: one body, inlined into a function for
-// any machine, one for AVX2 and one for AVX-512, of which the program chooses when it runs. Where operations
-// are what vectors keep (no sums of Reals across lanes), all give the same bits.
+// any machine, one for AVX2 and one for AVX-512, of which the program chooses when it runs. Where
+// operations are what vectors keep (no sums of Reals across lanes), all give the same bits.
 #pragma once
 
 #include <cstddef>
