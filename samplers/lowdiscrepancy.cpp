@@ -124,8 +124,10 @@ class LowDiscrepancySampler final : public Sampler {
     std::uint64_t request =
         HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), 0x6c6f7764});
     samples->film = Block(request += kGolden, key.index, shuffled_, 1).Both();
-    samples->lens = Block(request += kGolden, key.index, shuffled_, 1).Both();
-    samples->time = Block(request += kGolden, key.index, shuffled_, 1).First();
+    request += kGolden;
+    if (samples->NeedsLens()) samples->lens = Block(request, key.index, shuffled_, 1).Both();
+    request += kGolden;
+    if (samples->NeedsTime()) samples->time = Block(request, key.index, shuffled_, 1).First();
     for (int i = 0; i < samples->Count1D(); ++i)
       Fill(request += kGolden, key.index, samples->Array1D(i));
     for (int i = 0; i < samples->Count2D(); ++i)
@@ -135,6 +137,7 @@ class LowDiscrepancySampler final : public Sampler {
  private:
   template <class T>
   void Fill(std::uint64_t request, std::int64_t sample, std::span<T> values) const {
+    if (values.empty()) return;
     Block block(request, sample, shuffled_, values.size());
     for (std::size_t k = 0; k < values.size(); k += Block::kRun)
       block.Next(values.subspan(k, std::min(Block::kRun, values.size() - k)), std::uint32_t(k));

@@ -130,9 +130,16 @@ class StratifiedSampler final : public Sampler {
       turn.cell = PermuteIndex(index, turn.cells, std::uint32_t(MixBits(request)));
       return turn;
     };
+    const auto skip = [&] { request += kGolden; };
     samples->film = InGrid(next(), jitter_);
-    samples->lens = InGrid(next(), jitter_);
-    samples->time = InRow(next(), jitter_);
+    if (samples->NeedsLens())
+      samples->lens = InGrid(next(), jitter_);
+    else
+      skip();
+    if (samples->NeedsTime())
+      samples->time = InRow(next(), jitter_);
+    else
+      skip();
     for (int i = 0; i < samples->Count1D(); ++i) Fill(next(), samples->Array1D(i));
     for (int i = 0; i < samples->Count2D(); ++i) Fill(next(), samples->Array2D(i));
   }

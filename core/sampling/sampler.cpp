@@ -34,7 +34,9 @@ int SampleLayout::Request2D(int count) {
 }
 
 CameraSamples::CameraSamples(const SampleLayout& layout)
-    : offsets1D_(Offsets(layout.Counts1D())),
+    : needsLens_(layout.needsLens),
+      needsTime_(layout.needsTime),
+      offsets1D_(Offsets(layout.Counts1D())),
       offsets2D_(Offsets(layout.Counts2D())),
       values1D_(offsets1D_.back()),
       values2D_(offsets2D_.back()) {}

@@ -23,6 +23,9 @@ class SampleLayout {
   std::span<const int> Counts1D() const { return counts1D_; }
   std::span<const int> Counts2D() const { return counts2D_; }
 
+  // Whether the points on the lens and in time will be read: nobody makes what nobody reads.
+  bool needsLens = true, needsTime = true;
+
  private:
   std::vector<int> counts1D_, counts2D_;
 };
@@ -39,9 +42,9 @@ class CameraSamples {
  public:
   explicit CameraSamples(const SampleLayout& layout);
 
-  Point2 film;  // in [0,1)^2, to be warped by the filter
-  Point2 lens;  // in [0,1)^2
-  Real time = 0;  // in [0,1)
+  Point2 film;    // in [0,1)^2, to be warped by the filter
+  Point2 lens;    // in [0,1)^2, if needed
+  Real time = 0;  // in [0,1), if needed
 
   std::span<const Real> Array1D(int handle) const;
   std::span<const Point2> Array2D(int handle) const;
@@ -49,8 +52,11 @@ class CameraSamples {
   std::span<Point2> Array2D(int handle);
   int Count1D() const { return int(offsets1D_.size()) - 1; }  // number of arrays
   int Count2D() const { return int(offsets2D_.size()) - 1; }
+  bool NeedsLens() const { return needsLens_; }
+  bool NeedsTime() const { return needsTime_; }
 
  private:
+  bool needsLens_, needsTime_;
   std::vector<std::size_t> offsets1D_, offsets2D_;
   std::vector<Real> values1D_;
   std::vector<Point2> values2D_;
@@ -68,8 +74,8 @@ class Sampler {
   // A sampler like this one with another number of samples a pixel (--spp).
   virtual std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const = 0;
 
-  // Fills film, lens, time and every array. Each array is well distributed in itself and over the
-  // samples of its pixel.
+  // Fills film, every array, and lens and time if needed; the others' points do not depend on these
+  // needs. Each array is well distributed in itself and over the samples of its pixel.
   virtual void Generate(const SampleKey& key, CameraSamples* samples) const = 0;
 };
 

@@ -257,6 +257,8 @@ struct PassRenderer::State {
 PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
     : state_(std::make_unique<State>(job, options)) {
   SampleLayout layout;
+  layout.needsLens = job.scene.Effects().Needs(Effect::Lens);
+  layout.needsTime = job.scene.Effects().Needs(Effect::Motion);
   job.integrator.RequestSamples(job.scene, job.sampler, &layout);
   for (int i = 0; i < job.threads.Count(); ++i) state_->workers.emplace_back(layout);
 }
