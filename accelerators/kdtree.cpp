@@ -91,20 +91,21 @@ class KdTree final : public Aggregate {
       : primitives_(primitives), arrays_(BuildKdTree(primitives, costs, threads)) {}
 
   Hit Intersect(const Ray& ray) const override {
-    Hit hit;
-    if (!IsTraceable(ray)) return hit;
-    hit.t = ray.tMax;
+    if (!IsTraceable(ray)) return {};
     const TraceRay trace(ray);
+    NearestHit nearest(ray.tMax);
     BlockRayRoom blockRay;
     test_.makeBlockRay(trace.triangle, &blockRay);
     Walk<Order::NearFirst>(ray, [&](const KdNode& leaf) {
       test_.intersectBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), blockRay,
-                            trace.triangle, &hit);
-      if (leaf.HasOthers())
-        for (std::uint32_t id : Others(leaf)) primitives_.Intersect(id, trace, &hit);
-      return double(hit.t);
+                            trace.triangle, &nearest);
+      if (leaf.HasOthers()) {
+        test_.settle(trace.triangle, &nearest);
+        for (std::uint32_t id : Others(leaf)) IntersectOther(primitives_, id, trace, &nearest);
+      }
+      return double(nearest.high);
     });
-    return hit;
+    return nearest.hit;
   }
 
   bool Occluded(const Ray& ray) const override {

@@ -7,6 +7,7 @@ struct Real8 {
 
   static Real8 Load(const Real* row) { return {_mm256_load_ps(row)}; }
   static Real8 All(Real x) { return {_mm256_set1_ps(x)}; }
+  void Store(Real* row) const { _mm256_storeu_ps(row, v); }
 };
 
 inline Real8 operator/(Real8 a, Real8 b) { return {_mm256_div_ps(a.v, b.v)}; }
@@ -19,10 +20,23 @@ inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 
 #if defined(EXPHOTON_TRAPS)
-constexpr bool kFiltersPlanes = false;  // it leaves alone what overflows, but only afterwards
+constexpr bool kHitsInSingle = false;  // it leaves alone what overflows, but only afterwards
 #else
-constexpr bool kFiltersPlanes = true;
+constexpr bool kHitsInSingle = true;
 #endif
+
+// IsTraceable, of origin and direction together.
+inline bool IsWorthTracing(const Ray& ray) {
+  static_assert(offsetof(Ray, o) == 0 && offsetof(Ray, d) == 12 && sizeof(Ray) >= 32);
+  const __m256 components = _mm256_loadu_ps(reinterpret_cast<const float*>(&ray));
+  const __m256 sizes = _mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), components);
+  const __m256i isFinite =
+      _mm256_cmpgt_epi32(_mm256_castps_si256(_mm256_set1_ps(kInfinity)), _mm256_castps_si256(sizes));
+  const __m256i isNotZero = _mm256_cmpgt_epi32(_mm256_castps_si256(sizes), _mm256_setzero_si256());
+  const auto finite = unsigned(_mm256_movemask_ps(_mm256_castsi256_ps(isFinite)));
+  const auto notZero = unsigned(_mm256_movemask_ps(_mm256_castsi256_ps(isNotZero)));
+  return (finite & 0x3f) == 0x3f && (notZero & 0x38) != 0 && ray.tMax > 0;
+}
 
 // Lanes 0 to 2 are axes; in the others is what divides as well.
 using Axes = Real8;

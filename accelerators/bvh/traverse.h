@@ -5,6 +5,7 @@
 #pragma once
 
 #include "accelerators/bvh/bvh_layout.h"
+#include "accelerators/bvh/nearest_hit.h"
 
 namespace exphoton {
 
@@ -18,10 +19,12 @@ struct BvhTraversal {
   Hit (*intersect)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   bool (*occluded)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   // The leaf test by itself, of `count` blocks, for other accelerators: makes a ray ready; replaces
-  // *hit where nearer (or as near with a lower id); whether any triangle blocks the ray.
+  // the nearest where nearer (or as near with a lower id); decides its distance, which shapes and
+  // instances need; whether any triangle blocks the ray.
   void (*makeBlockRay)(const TriangleRay&, BlockRayRoom*);
   void (*intersectBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
-                          const TriangleRay&, Hit* hit);
+                          const TriangleRay&, NearestHit* nearest);
+  void (*settle)(const TriangleRay&, NearestHit* nearest);
   bool (*occludedByBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
                            const TraceRay&);
 };

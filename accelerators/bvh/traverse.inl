@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on what the including file defines for its vectors: Real8 (Load, All, +,
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, Store, All, +,
 // -, *, MultiplyAdd, Min, Max, Abs, LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf),
-// PresentMask, kFiltersPlanes (whether that pays), and PushOrder, whose Push finds the children
+// IsWorthTracing (IsTraceable), PresentMask, kHitsInSingle (whether to use them), and PushOrder, whose Push finds the children
 // where first <= last and returns how many: the first of the order is *next, and the stack has the
 // others above what was there, the second on top. Included into an unnamed namespace.
 //
@@ -16,74 +16,22 @@
 
 #include "accelerators/bvh/box_rays.inl"
 
-// The ray as triangles see it: the shear of TriangleRay, eight wide.
-struct BlockRay {
-  Real8 ox, oy, oz, sx, sy, sz;
-  int kx, ky, kz;
-  bool isBackward;
+// Vectors compare with a little more than t: what rounding may add to a distance on the way.
+inline Real Limit(Real t) { return t * (1 + Gamma(8)); }
 
-  explicit BlockRay(const TriangleRay& ray)
-      : ox(Real8::All(ray.ox)), oy(Real8::All(ray.oy)), oz(Real8::All(ray.oz)),
-        sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)),
-        sz(Real8::All(ray.sz)), kx(ray.kx), ky(ray.ky), kz(ray.kz), isBackward(ray.sz < 0) {}
-
-  // The triangles of a block that may be hit by tMax. Edges as in MissesTriangle; and the distance
-  // lies between those of the vertices. For the nearest hit also without those whose distance
-  // DecideTriangle would surely find negative: foremost the one that the ray starts on.
-  template <bool kIsAny>
-  unsigned Candidates(const BvhBlock& block, Real8 tMax) const {
-    Real8 x[3], y[3], z[3], t[3];
-    for (int v = 0; v < 3; ++v) {
-      z[v] = Real8::Load(block.vertices[v][kz]) - oz;
-      x[v] = (Real8::Load(block.vertices[v][kx]) - ox) - sx * z[v];
-      y[v] = (Real8::Load(block.vertices[v][ky]) - oy) - sy * z[v];
-      t[v] = z[v] * sz;
-    }
-    const Real8 u = x[2] * y[1] - y[2] * x[1], v = x[0] * y[2] - y[0] * x[2],
-                w = x[1] * y[0] - y[1] * x[0];
-    const Real8 zero = Real8::All(Real(0));
-    const unsigned negative = LessMask(Min(Min(u, v), w), zero),
-                   positive = LessMask(zero, Max(Max(u, v), w));
-    const unsigned far = LessMask(tMax, Min(Min(t[0], t[1]), t[2]));
-    const unsigned behind = LessMask(Max(Max(t[0], t[1]), t[2]), zero);
-    const unsigned candidates = PresentMask(block.ids) & ~((negative & positive) | far | behind);
-    if (kIsAny || !kFiltersPlanes || candidates == 0) return candidates;
-    const Real8 edges[3] = {u, v, w};
-    // Twice the volume between origin and triangle, as DecideTriangle sums it, and the magnitudes
-    // in it. A product here has two roundings in the edge, one in z and its own, and up to three
-    // in the sum: off by less than Gamma(8) of the magnitudes, which as computed are at least
-    // 1 - Gamma(8) of what they are. The rest of Gamma(12), of `tiny`, is more than the least
-    // subnormal by which products are off that underflow. Where something overflows the bound is
-    // infinite or NaN, and nothing is discarded. The sign of an edge is right or 0.
-    const Real8 tiny = Real8::All(4 * std::numeric_limits<Real>::min());
-    Real8 volume = zero, magnitude = tiny;
-    for (int i = 0; i < 3; ++i) {
-      const int next = (i + 1) % 3, last = (i + 2) % 3;
-      const Real8 sum = Abs(x[last] * y[next]) + Abs(y[last] * x[next]) + tiny;
-      volume = MultiplyAdd(edges[i], z[i], volume);
-      magnitude = MultiplyAdd(sum, Abs(z[i]), magnitude);
-    }
-    const Real8 bound = magnitude * Real8::All(Gamma(12));
-    const unsigned above = LessMask(bound, volume), below = LessMask(bound + volume, zero);
-    return candidates & ~(isBackward ? (positive & above) | (negative & below)
-                                     : (positive & below) | (negative & above));
-  }
-};
+#include "accelerators/bvh/block_ray.inl"
 
 // The triangle of a lane, as DecideTriangle wants it.
 inline auto CornersOf(const BvhBlock& block, int lane) {
   return TriangleCorners<3 * kBvhWidth, kBvhWidth>{&block.vertices[0][0][lane]};
 }
 
-// Vectors compare with a little more than t: what rounding may add to a distance on the way.
-inline Real Limit(Real t) { return t * (1 + Gamma(8)); }
-
 // A way down leaves at most seven children waiting at each node; and all eight lanes are written.
 constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
 
 // Walks the tree from near to far or, where any hit will do, first to where one is likely.
-// visit(child, limit) deals with a leaf, of which nothing beyond the limit matters, and returns the
-// t beyond which nothing matters any more (ties at it do); a negative one ends the walk.
+// visit(child) deals with a leaf, and returns the t beyond which nothing matters any more (ties at
+// it do); a negative one ends the walk.
 template <bool kIsAny, class BoxRay, class Visit>
 [[gnu::always_inline]] inline void Walk(const BvhArrays& arrays, const TraceRay& trace,
                                         const BoxRay& ray, const Visit& visit) {
@@ -113,7 +61,7 @@ template <bool kIsAny, class BoxRay, class Visit>
         continue;
       }
     } else {
-      tMax = visit(child, limit);
+      tMax = visit(child);
       if (tMax < 0) return;
       if (!kIsAny) limit = Limit(tMax);
     }
@@ -137,56 +85,101 @@ template <bool kIsAny, class Visit>
   }
 }
 
-// Tests a block; replaces *hit where a triangle of it wins.
+// Decides the distance by which the nearest is ordered.
+[[gnu::noinline]] void Settle(const TriangleRay& ray, NearestHit* nearest) {
+  if (nearest->low == nearest->high) return;
+  const auto found = DecideTriangle(ray, kInfinity, CornersOf(*nearest->block, nearest->lane));
+  if (found) nearest->low = nearest->high = found->t;
+}
+
+// Whether DecideTriangle refuses a triangle that the ray's line crosses, with this determinant, as
+// lying behind the ray's origin: most often the one that the ray starts on.
+inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Real determinant) {
+  return PlaneIsBehind(ray.o, CornersOf(block, lane), -double(determinant) * double(ray.sz));
+}
+
+// Decides a triangle, and whether it wins over the nearest.
+[[gnu::noinline]] void Decide(const BvhBlock& block, int lane, const TriangleRay& ray,
+                              NearestHit* nearest) {
+  const std::uint32_t id = block.ids[lane];
+  if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;  // met before
+  const auto corners = CornersOf(block, lane);
+  const auto decided = DecideTriangle(ray, nearest->high, corners);
+  if (!decided) return;
+  Settle(ray, nearest);
+  Hit ordered = nearest->hit;
+  ordered.t = nearest->high;
+  if (!Wins(decided->t, kNoId, id, ordered)) return;
+  const TriangleHit told = HitInSingle(ray, corners).value_or(*decided);
+  nearest->hit = {told.t, {told.b1, told.b2}, id, kNoId};
+  nearest->low = nearest->high = decided->t;
+}
+
+// Tests a block; replaces the nearest where a triangle of it wins.
 [[gnu::always_inline]] inline void IntersectBlock(const BvhBlock& block, const BlockRay& blockRay,
-                                                  const TriangleRay& ray, Real limit, Hit* hit) {
-  unsigned candidates = blockRay.Candidates<false>(block, Real8::All(limit));
-  for (; candidates != 0; candidates &= candidates - 1) {
-    const int lane = std::countr_zero(candidates);
-    const auto found = DecideTriangle(ray, hit->t, CornersOf(block, lane));
-    if (found && Wins(found->t, kNoId, block.ids[lane], *hit))
-      *hit = {found->t, {found->b1, found->b2}, block.ids[lane], kNoId};
+                                                  const TriangleRay& ray, NearestHit* nearest) {
+  const BlockHits hits = blockRay.Hits(block, nearest->high);
+  if (hits.possible == 0) return;
+  Real t[kBvhWidth], e1[kBvhWidth], e2[kBvhWidth], determinant[kBvhWidth];
+  hits.t.Store(t), hits.e1.Store(e1), hits.e2.Store(e2), hits.determinant.Store(determinant);
+  for (unsigned open = hits.possible; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    const Real high = t[lane] * (1 + kSingleError);
+    if ((hits.sure >> lane & 1) && high < nearest->low) {
+      nearest->hit = {t[lane], {e1[lane] / determinant[lane], e2[lane] / determinant[lane]},
+                      block.ids[lane], kNoId};
+      nearest->low = t[lane] * (1 - kSingleError), nearest->high = high;
+      nearest->block = &block, nearest->lane = lane;
+    } else if (!(hits.crossed >> lane & 1) || !IsBehind(block, lane, ray, determinant[lane])) {
+      Decide(block, lane, ray, nearest);
+    }
   }
 }
 
+[[gnu::noinline]] bool DecideBlocked(const BvhBlock& block, int lane, const TriangleRay& ray,
+                                     Real tMax) {
+  const auto found = DecideTriangle(ray, tMax, CornersOf(block, lane));
+  return found && found->t < tMax;
+}
+
 [[gnu::always_inline]] inline bool IsBlockedBy(const BvhBlock& block, const BlockRay& blockRay,
-                                               const TraceRay& trace, Real limit) {
+                                               const TraceRay& trace) {
   const Real tMax = trace.ray.tMax;
-  unsigned candidates = blockRay.Candidates<true>(block, Real8::All(limit));
-  for (; candidates != 0; candidates &= candidates - 1) {
-    const int lane = std::countr_zero(candidates);
-    const auto found = DecideTriangle(trace.triangle, tMax, CornersOf(block, lane));
-    if (found && found->t < tMax) return true;
-  }
+  const BlockHits hits = blockRay.Hits(block, tMax);
+  if (hits.possible == 0) return false;
+  if ((hits.sure & LessMask(hits.t, Real8::All(tMax * (1 - 2 * kSingleError)))) != 0) return true;
+  for (unsigned open = hits.possible; open != 0; open &= open - 1)
+    if (DecideBlocked(block, std::countr_zero(open), trace.triangle, tMax)) return true;
   return false;
 }
 
 Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
-  Hit hit;
-  if (!IsTraceable(ray)) return hit;
-  hit.t = ray.tMax;
+  if (!IsWorthTracing(ray)) return {};
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
-  WalkAs<false>(arrays, trace, [&](BvhChild leaf, Real limit) EXPHOTON_INLINE {
+  NearestHit nearest(ray.tMax);
+  WalkAs<false>(arrays, trace, [&](BvhChild leaf) EXPHOTON_INLINE {
     if (leaf.IsTriangles()) {
-      IntersectBlock(leaf.Block(arrays.lines.data()), blockRay, trace.triangle, limit, &hit);
-      return hit.t;
+      IntersectBlock(leaf.Block(arrays.lines.data()), blockRay, trace.triangle, &nearest);
+      return nearest.high;
     }
+    Settle(trace.triangle, &nearest);
     const std::uint32_t* list = arrays.others.data() + leaf.Index();
-    for (std::uint32_t i = 1; i <= list[0]; ++i) primitives.Intersect(list[i], trace, &hit);
-    return hit.t;
+    for (std::uint32_t i = 1; i <= list[0]; ++i)
+      IntersectOther(primitives, list[i], trace, &nearest);
+    return nearest.high;
   });
-  return hit;
+  return nearest.hit;
 }
 
 bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
-  if (!IsTraceable(ray)) return false;
+  if (!IsWorthTracing(ray)) return false;
   const TraceRay trace(ray);
   const BlockRay blockRay(trace.triangle);
   bool isOccluded = false;
-  WalkAs<true>(arrays, trace, [&](BvhChild leaf, Real limit) EXPHOTON_INLINE {
+  WalkAs<true>(arrays, trace, [&](BvhChild leaf) EXPHOTON_INLINE {
     if (leaf.IsTriangles()) {
-      isOccluded = IsBlockedBy(leaf.Block(arrays.lines.data()), blockRay, trace, limit);
+      isOccluded = IsBlockedBy(leaf.Block(arrays.lines.data()), blockRay, trace);
     } else {
       const std::uint32_t* list = arrays.others.data() + leaf.Index();
       for (std::uint32_t i = 1; i <= list[0] && !isOccluded; ++i)
@@ -207,16 +200,15 @@ const BlockRay& BlockRayIn(const BlockRayRoom& room) {
 }
 
 void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom& room,
-                     const TriangleRay& ray, Hit* hit) {
+                     const TriangleRay& ray, NearestHit* nearest) {
   for (std::uint32_t i = 0; i < count; ++i)
-    IntersectBlock(blocks[i], BlockRayIn(room), ray, Limit(hit->t), hit);
+    IntersectBlock(blocks[i], BlockRayIn(room), ray, nearest);
 }
 
 bool OccludedByBlocks(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom& room,
                       const TraceRay& trace) {
-  const Real limit = Limit(trace.ray.tMax);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (IsBlockedBy(blocks[i], BlockRayIn(room), trace, limit)) return true;
+    if (IsBlockedBy(blocks[i], BlockRayIn(room), trace)) return true;
   return false;
 }
 

@@ -6,9 +6,10 @@
 #include <immintrin.h>
 
 #include <bit>
+#include <cstddef>
 #include <new>
 
-#include "core/geometry/triangle_decide.h"
+#include "core/geometry/triangle_single.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
@@ -76,7 +77,7 @@ class PushOrder : PlaceOrder {
 }  // namespace
 
 const BvhTraversal kAvx2Traversal{"AVX2",       Intersect,       Occluded,
-                                  MakeBlockRay, IntersectBlocks, OccludedByBlocks};
+                                  MakeBlockRay, IntersectBlocks, Settle, OccludedByBlocks};
 
 }  // namespace exphoton
 

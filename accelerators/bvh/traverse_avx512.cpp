@@ -7,9 +7,10 @@
 #include <immintrin.h>
 
 #include <bit>
+#include <cstddef>
 #include <new>
 
-#include "core/geometry/triangle_decide.h"
+#include "core/geometry/triangle_single.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
@@ -63,7 +64,7 @@ class PushOrder : PlaceOrder {
 }  // namespace
 
 const BvhTraversal kAvx512Traversal{"AVX-512",    Intersect,       Occluded,
-                                    MakeBlockRay, IntersectBlocks, OccludedByBlocks};
+                                    MakeBlockRay, IntersectBlocks, Settle, OccludedByBlocks};
 
 }  // namespace exphoton
 

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "accelerators/bvh/traverse.h"
-#include "core/geometry/triangle_decide.h"
+#include "core/geometry/triangle_single.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
@@ -25,6 +25,9 @@ struct Lanes {
     Lanes r;
     for (Real& lane : r.lanes) lane = x;
     return r;
+  }
+  void Store(Real* row) const {
+    for (int i = 0; i < kCount; ++i) row[i] = lanes[i];
   }
 };
 using Real8 = Lanes<kBvhWidth>;
@@ -48,7 +51,8 @@ EXPHOTON_LANEWISE(Max, x > y ? x : y)
 #undef EXPHOTON_LANEWISE
 inline Real8 MultiplyAdd(const Real8& a, const Real8& b, const Real8& c) { return a * b + c; }
 
-constexpr bool kFiltersPlanes = false;
+constexpr bool kHitsInSingle = false;
+inline bool IsWorthTracing(const Ray& ray) { return IsTraceable(ray); }
 
 // Lanes are axes; in the last is what divides as well.
 using Axes = Lanes<4>;
@@ -100,7 +104,7 @@ class PushOrder {
 }  // namespace
 
 const BvhTraversal kPortableTraversal{"portable",   Intersect,       Occluded,
-                                      MakeBlockRay, IntersectBlocks, OccludedByBlocks};
+                                      MakeBlockRay, IntersectBlocks, Settle, OccludedByBlocks};
 
 const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
 #if defined(EXPHOTON_BVH_AVX)

@@ -20,26 +20,45 @@ struct TriangleCorners {
   Real operator()(int v, int axis) const { return first[v * kVertex + axis * kStep]; }
 };
 
+// Six times the volume between a point and a triangle, with the sign of the dot product of its
+// normal and the way to its plane; and what bounds its rounding error. In double, from the true
+// vertices.
+struct PlaneVolume {
+  Vec3d e1, e2, toPlane;
+
+  template <class Corner>
+  [[gnu::always_inline]] PlaneVolume(const Point3& o, const Corner& corner) {
+    const auto vertex = [&](int v) -> Vec3d {
+      return {double(corner(v, 0)), double(corner(v, 1)), double(corner(v, 2))};
+    };
+    const Vec3d a = vertex(0);
+    e1 = vertex(1) - a, e2 = vertex(2) - a, toPlane = a - Vec3d(o);
+  }
+  [[gnu::always_inline]] double Value() const { return Dot(Cross(e1, e2), toPlane); }
+  [[gnu::always_inline]] double Magnitude() const {
+    return (std::abs(e1.y * e2.z) + std::abs(e1.z * e2.y)) * std::abs(toPlane.x) +
+           (std::abs(e1.z * e2.x) + std::abs(e1.x * e2.z)) * std::abs(toPlane.y) +
+           (std::abs(e1.x * e2.y) + std::abs(e1.y * e2.x)) * std::abs(toPlane.z);
+  }
+};
+
 // Whether the plane of the triangle lies ahead of the ray's origin, beyond the rounding error of
-// that decision. In double, from the true vertices: a ray that starts outside the error box of a
-// point on this plane and leaves it is never sent back. `orientation` has the sign of the dot
-// product of normal and ray.
+// that decision: a ray that starts outside the error box of a point on this plane and leaves it is
+// never sent back. `orientation` has the sign of the dot product of normal and ray.
 template <class Corner>
 [[gnu::always_inline]] inline bool PlaneIsAhead(const Point3& o, const Corner& corner,
                                                 double orientation) {
-  const auto vertex = [&](int v) -> Vec3d {
-    return {double(corner(v, 0)), double(corner(v, 1)), double(corner(v, 2))};
-  };
-  const Vec3d a = vertex(0);
-  const Vec3d e1 = vertex(1) - a, e2 = vertex(2) - a, toPlane = a - Vec3d(o);
-  const Vec3d n = Cross(e1, e2);
-  const double distance = Dot(n, toPlane);
+  const PlaneVolume volume(o, corner);
+  const double ahead = orientation < 0 ? -volume.Value() : volume.Value();
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
-  const double magnitude = (std::abs(e1.y * e2.z) + std::abs(e1.z * e2.y)) * std::abs(toPlane.x) +
-                           (std::abs(e1.z * e2.x) + std::abs(e1.x * e2.z)) * std::abs(toPlane.y) +
-                           (std::abs(e1.x * e2.y) + std::abs(e1.y * e2.x)) * std::abs(toPlane.z);
-  const double ahead = orientation < 0 ? -distance : distance;
-  return ahead > 8 * kUnit * magnitude;
+  return ahead > 8 * kUnit * volume.Magnitude();
+}
+// Whether it does not, and without the error: what refuses the triangle that a ray starts on.
+template <class Corner>
+[[gnu::always_inline]] inline bool PlaneIsBehind(const Point3& o, const Corner& corner,
+                                                 double orientation) {
+  const double value = PlaneVolume(o, corner).Value();
+  return orientation < 0 ? value >= 0 : value <= 0;
 }
 
 // IntersectTriangle for a ray that MissesTriangle has not excluded.

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/geometry/placement.h"
 #include "core/geometry/triangle_point.h"
+#include "core/geometry/triangle_single.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
@@ -100,6 +101,14 @@ void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) co
   if (found && Wins(found->t, kNoId, id, *hit)) *hit = {found->t, found->uv, id, kNoId};
 }
 
+Hit PrimitiveSet::Told(const TraceRay& ray, const Hit& nearest) const {
+  if (!nearest.IsHit() || nearest.instance != kNoId || nearest.primitive >= triangles_.size())
+    return nearest;
+  const auto hit =
+      HitInSingle(ray.triangle, TriangleCorners<3, 1>{&vertices_[nearest.primitive][0].x});
+  return hit ? Hit{hit->t, {hit->b1, hit->b2}, nearest.primitive, kNoId} : nearest;
+}
+
 // The ray in the space of the object; direction not normalised, so that t means the same.
 Ray PrimitiveSet::InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const {
   if (const Motion* motion = instances_[instance].motion.get())
@@ -107,12 +116,22 @@ Ray PrimitiveSet::InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax)
   return RayToLocal(worldToInstance_[instance], ray, tMax);
 }
 
+// That by which a hit was found to be the nearest.
+Real PrimitiveSet::OrderedDistance(const Ray& ray, const Hit& hit) const {
+  if (hit.instance != kNoId || hit.primitive >= triangles_.size()) return hit.t;
+  const auto& v = vertices_[hit.primitive];
+  const auto found = IntersectTriangle(TriangleRay(ray), kInfinity, v[0], v[1], v[2]);
+  return found ? found->t : hit.t;
+}
+
 void PrimitiveSet::IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const {
   const std::uint32_t id = TriangleCount() + std::uint32_t(shapes_.size()) + instance;
   const Ray local = InstanceRay(instance, ray.ray, NextUp(hit->t));
-  const Hit inner = instances_[instance].object->Accelerator().Intersect(local);
-  if (inner.IsHit() && Wins(inner.t, id, inner.primitive, *hit))
-    *hit = {inner.t, inner.uv, inner.primitive, id};
+  const ObjectGeometry& object = *instances_[instance].object;
+  const Hit inner = object.Accelerator().Intersect(local);
+  if (!inner.IsHit()) return;
+  const Real t = object.Set().OrderedDistance(local, inner);
+  if (Wins(t, id, inner.primitive, *hit)) *hit = {t, inner.uv, inner.primitive, id};
 }
 
 bool PrimitiveSet::Occludes(std::uint32_t id, const TraceRay& ray) const {

@@ -74,6 +74,8 @@ class PrimitiveSet {
   // Tests primitive `id`; replaces *hit (whose t bounds the search) where nearer, or as near with a
   // lower id. `hit->t` starts at ray.tMax.
   void Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const;
+  // The nearest of all hits as accelerators tell it: of triangles with HitInSingle where that can.
+  Hit Told(const TraceRay& ray, const Hit& nearest) const;
   // Whether primitive `id` blocks the ray in 0 < t < ray.tMax.
   bool Occludes(std::uint32_t id, const TraceRay& ray) const;
 
@@ -94,6 +96,7 @@ class PrimitiveSet {
     return instances_[hit.instance - triangles_.size() - shapes_.size()];
   }
   Bounds3 InstanceBounds(const Instance& instance) const;
+  Real OrderedDistance(const Ray& ray, const Hit& hit) const;
   Ray InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const;
   void IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const;
   SurfaceInteraction InstanceSurface(const Ray& ray, const Hit& hit) const;

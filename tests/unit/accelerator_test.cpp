@@ -103,6 +103,41 @@ TEST_P(Accelerators, AgreeOnRaysFromSurfacesAtEveryScale) {
   }
 }
 
+// Layers that single precision does not tell apart, in any order of their ids.
+TEST_P(Accelerators, AgreeOnLayersCloserThanSinglePrecisionTells) {
+  TestPlugins plugins;
+  for (const Real gap : {Real(1e-4), Real(1e-5), Real(1e-6), Real(1e-7), Real(0)}) {
+    RandomStream random(21);
+    const Vector3 n = NormalizeOr({Real(.3), Real(-.5), Real(.8)}, {0, 0, 1});
+    const Vector3 u = NormalizeOr(Cross(n, {1, 0, 0}), {}), v = Cross(n, u);
+    std::vector<std::array<Point3, 3>> triangles;
+    for (const int layer : {3, 0, 4, 1, 2}) {
+      const Point3 o = n * (gap * Real(layer));
+      for (int i = 0; i < 4; ++i) {
+        const auto corner = [&](int k) { return o + (k % 2 ? u : -u) + (k / 2 % 2 ? v : -v) * 2; };
+        triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
+      }
+    }
+    const auto set = TriangleSet(triangles);
+    const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+    const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+    int hits = 0;
+    for (int i = 0; i < 4000; ++i) {
+      Ray ray;
+      ray.o = RandomVector(random) * Real(4);
+      ray.d = RandomVector(random) - ray.o;
+      if (i % 2) ray.tMax = Between(random, Real(.999), Real(1.001));
+      const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+      hits += expected.IsHit();
+      ASSERT_EQ(expected.t, found.t) << "gap " << gap << " ray " << i;
+      ASSERT_EQ(expected.primitive, found.primitive) << "gap " << gap << " ray " << i;
+      ASSERT_EQ(expected.uv, found.uv);
+      ASSERT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << "gap " << gap << " ray " << i;
+    }
+    EXPECT_GT(hits, 500);
+  }
+}
+
 // Products of what a ray is made of overflow, with infinite bounds of children that there are not.
 TEST_P(Accelerators, EndForRaysFromFarAwayWithShortDirections) {
   TestPlugins plugins;
