@@ -14,7 +14,7 @@ constexpr std::size_t kMaxLeafOthers = 2;
 constexpr Blocking kOtherBlocking{.5, 4};  // of shapes and instances: a guess
 // What two leaves must save to be better than one: they take more memory, and to wait for memory is
 // most of the work.
-constexpr double kLeafPreference = 1.5;
+constexpr double kLeafPreference = 1.25;
 constexpr int kSahDepth = 40;  // deeper nodes halve their runs: at most 32 levels more
 
 }  // namespace

@@ -148,8 +148,14 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
   const BlockHits hits = blockRay.Hits(block, tMax);
   if (hits.possible == 0) return false;
   if ((hits.sure & LessMask(hits.t, Real8::All(tMax * (1 - 2 * kSingleError)))) != 0) return true;
-  for (unsigned open = hits.possible; open != 0; open &= open - 1)
-    if (DecideBlocked(block, std::countr_zero(open), trace.triangle, tMax)) return true;
+  Real determinant[kBvhWidth];
+  hits.determinant.Store(determinant);
+  for (unsigned open = hits.possible; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    if ((hits.crossed >> lane & 1) && IsBehind(block, lane, trace.triangle, determinant[lane]))
+      continue;
+    if (DecideBlocked(block, lane, trace.triangle, tMax)) return true;
+  }
   return false;
 }
 

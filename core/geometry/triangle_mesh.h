@@ -36,7 +36,7 @@ struct TriangleRay {
 
   // Axes are looked up, not branched for: those of incoherent rays cannot be predicted.
   explicit TriangleRay(const Ray& ray) : o(ray.o) {
-    constexpr int kNext[3] = {1, 2, 0};
+    static constexpr int kNext[3] = {1, 2, 0};
     const Real origin[3] = {o.x, o.y, o.z}, d[3] = {ray.d.x, ray.d.y, ray.d.z};
     kz = MaxDimension(Abs(ray.d));
     kx = kNext[kz];
