@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Walking rays through the hierarchy: one implementation (traverse.inl), compiled for each width of
 // vectors; the widest that the machine has is chosen when the program runs. All give the same
-// hits, bit for bit: vectors only discard what exact tests in scalar code would refuse.
+// hits, bit for bit, which are those of brute force.
 #pragma once
 
 #include "accelerators/bvh/bvh_layout.h"

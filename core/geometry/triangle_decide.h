@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The deciding part of the watertight ray-triangle test, inline for the loops of accelerators:
-// what MissesTriangle (the cheap filter by edges) has let pass is decided here, in double.
+// what MissesTriangle (the cheap filter by edges) has let pass is decided here, in double; and
+// ordered, by the distance found here (what is told of the nearest: triangle_single.h).
 // Source: Woop, Benthin and Wald 2013 (JCGT 2:1). Vertices are sheared so that the ray runs along
 // z; the signs of the three edge functions then decide. They are exact for the sheared vertices: in
 // single precision a sign is right or the value 0 (rounding is monotone), and where it is 0
