@@ -46,8 +46,9 @@ struct BlockRay {
     }
     const Real8 X = LargestOf(x), Y = LargestOf(y), Z = LargestOf(z);
     const auto of = [](int i) { return Real8::All(LargeVolume::of[i]); };
-    const Real8 bound = Z * (of(0) * (X * Y) + Z * (of(1) * (X + Y) + of(2) * Z)) +
-                        Real8::All(LargeVolume::least);
+    const Real8 area = X * Y;
+    const Real8 bound =
+        Z * (of(0) * area + Z * (of(1) * (X + Y) + of(2) * Z)) + Real8::All(LargeVolume::least);
     const Real8 volume = (e[0] * z[0] + e[1] * z[1]) + e[2] * z[2];
     hits.determinant = (e[0] + e[1]) + e[2];
     hits.t = volume / hits.determinant * sz;
@@ -57,9 +58,14 @@ struct BlockRay {
     const unsigned isSure = hits.crossed & sureLanes & LessMask(bound, Abs(volume)) &
                             LessMask(Real8::All(kLeastSingle), size) &
                             LessMask(size, Real8::All(kLargestSingle));
-    // t (1 - kSingleError) > tMax, whatever is rounded.
-    const Real far = tMax * (1 + 2 * kSingleError);
-    hits.possible &= ~(isSure & (LessMask(hits.t, zero) | LessMask(Real8::All(far), hits.t)));
+    // Beyond: t (1 - kSingleError) > tMax, whatever is rounded. Behind: DecideTriangle finds the same
+    // sign of the volume, which is off by less than Gamma(7) 6 X Y Z, and by what products underflow
+    // (those in edges are nothing where a ray crosses: there X Y is more than 2^-76).
+    const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(kLeastSingle * kLeastSingle);
+    const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
+    const unsigned isBehind =
+        hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
+    hits.possible &= ~(isBeyond | isBehind);
     hits.sure = hits.possible & isSure;
     return hits;
   }
