@@ -19,11 +19,7 @@ inline Real8 Abs(Real8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), 
 inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 
-#if defined(EXPHOTON_TRAPS)
-constexpr bool kHitsInSingle = false;  // it leaves alone what overflows, but only afterwards
-#else
-constexpr bool kHitsInSingle = true;
-#endif
+constexpr bool kHitsInSingle = kTellsInSingle;
 
 // IsTraceable, of origin and direction together.
 inline bool IsWorthTracing(const Ray& ray) {

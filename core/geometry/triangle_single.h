@@ -39,10 +39,17 @@ inline bool MayHitInSingle(const TriangleRay& ray) {
 // The relative difference from DecideTriangle's t is less than this.
 inline constexpr Real kSingleError = Gamma(1024);
 
+#if defined(EXPHOTON_TRAPS)
+inline constexpr bool kTellsInSingle = false;  // it leaves alone what overflows, but only afterwards
+#else
+inline constexpr bool kTellsInSingle = true;
+#endif
+
 // None where double is needed to tell whether and where the triangle is hit.
 template <class Corner>
 [[gnu::always_inline]] inline std::optional<TriangleHit> HitInSingle(const TriangleRay& ray,
                                                                      const Corner& corner) {
+  if (!kTellsInSingle || !MayHitInSingle(ray)) return std::nullopt;
   Real x[3], y[3], z[3], e[3];
   for (int v = 0; v < 3; ++v) {
     z[v] = corner(v, ray.kz) - ray.oz;
@@ -65,7 +72,7 @@ template <class Corner>
   const Real t = volume / determinant * ray.sz;
   const bool isSure = std::min({e[0], e[1], e[2]}) * std::max({e[0], e[1], e[2]}) > 0 &&
                       std::abs(volume) > bound && t > kLeastSingle && t < kLargestSingle;
-  if (!isSure || !MayHitInSingle(ray)) return std::nullopt;
+  if (!isSure) return std::nullopt;
   return TriangleHit{t, e[1] / determinant, e[2] / determinant};
 }
 
