@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of traverse.inl: a ray as blocks of triangles see it, in single precision. What is sure here
-// and what it gives is as in HitInSingle (triangle_single.h): the same operations in the same order.
+// Part of traverse.inl: a ray as blocks of triangles see it, in single precision. What is sure
+// here and what it gives is as in HitInSingle (triangle_single.h): the same operations in the same
+// order.
 
 // Of the triangles of a block: which may be hit; of which of those it is sure that the ray's line
 // crosses them, so that the determinant has the right sign; and that they are hit, with what
@@ -42,6 +43,7 @@ struct BlockRay {
       const Real8 t[3] = {z[0] * sz, z[1] * sz, z[2] * sz};
       hits.possible &= ~(LessMask(Real8::All(Limit(tMax)), Min(Min(t[0], t[1]), t[2])) |
                          LessMask(Max(Max(t[0], t[1]), t[2]), zero));
+      hits.t = hits.e1 = hits.e2 = hits.determinant = zero;
       return hits;
     }
     const Real8 X = LargestOf(x), Y = LargestOf(y), Z = LargestOf(z);
@@ -58,13 +60,13 @@ struct BlockRay {
     const unsigned isSure = hits.crossed & sureLanes & LessMask(bound, Abs(volume)) &
                             LessMask(Real8::All(kLeastSingle), size) &
                             LessMask(size, Real8::All(kLargestSingle));
-    // Beyond: t (1 - kSingleError) > tMax, whatever is rounded. Behind: DecideTriangle finds the same
-    // sign of the volume, which is off by less than Gamma(7) 6 X Y Z, and by what products underflow
-    // (those in edges are nothing where a ray crosses: there X Y is more than 2^-76).
-    const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(kLeastSingle * kLeastSingle);
+    // t (1 - kSingleError) > tMax, whatever is rounded.
     const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
-    const unsigned isBehind =
-        hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
+    // DecideTriangle finds the same sign of the volume, which is off by less than Gamma(7) 6 X Y Z,
+    // and by what products underflow (those in edges are nothing where the line crosses: there X Y
+    // is more than 2^-76).
+    const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(Square(kLeastSingle));
+    const unsigned isBehind = hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
     hits.possible &= ~(isBeyond | isBehind);
     hits.sure = hits.possible & isSure;
     return hits;

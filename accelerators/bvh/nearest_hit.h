@@ -11,8 +11,9 @@ namespace exphoton {
 struct NearestHit {
   explicit NearestHit(Real tMax) : low(tMax), high(tMax) { hit.t = tMax; }
 
-  Hit hit;         // as it will be told; its t is that of the ray's end where there is none
-  Real low, high;  // between which lies the distance by which it is ordered; equal where that is known
+  Hit hit;  // as it will be told; its t is that of the ray's end where there is none
+  // Between which lies the distance by which it is ordered; equal where that is known.
+  Real low, high;
   const BvhBlock* block = nullptr;  // of a triangle whose distance is not known
   int lane = 0;
 };

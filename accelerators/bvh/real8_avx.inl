@@ -26,9 +26,10 @@ inline bool IsWorthTracing(const Ray& ray) {
   static_assert(offsetof(Ray, o) == 0 && offsetof(Ray, d) == 12 && sizeof(Ray) >= 32);
   const __m256 components = _mm256_loadu_ps(reinterpret_cast<const float*>(&ray));
   const __m256 sizes = _mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), components);
+  const __m256i bits = _mm256_castps_si256(sizes);  // ordered as what they stand for, NaN last
   const __m256i isFinite =
-      _mm256_cmpgt_epi32(_mm256_castps_si256(_mm256_set1_ps(kInfinity)), _mm256_castps_si256(sizes));
-  const __m256i isNotZero = _mm256_cmpgt_epi32(_mm256_castps_si256(sizes), _mm256_setzero_si256());
+      _mm256_cmpgt_epi32(_mm256_castps_si256(_mm256_set1_ps(kInfinity)), bits);
+  const __m256i isNotZero = _mm256_cmpgt_epi32(bits, _mm256_setzero_si256());
   const auto finite = unsigned(_mm256_movemask_ps(_mm256_castsi256_ps(isFinite)));
   const auto notZero = unsigned(_mm256_movemask_ps(_mm256_castsi256_ps(isNotZero)));
   return (finite & 0x3f) == 0x3f && (notZero & 0x38) != 0 && ray.tMax > 0;

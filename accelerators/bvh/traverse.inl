@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on what the including file defines for its vectors: Real8 (Load, Store, All, +,
-// -, *, MultiplyAdd, Min, Max, Abs, LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf),
-// IsWorthTracing (IsTraceable), PresentMask, kHitsInSingle (whether to use them), and PushOrder, whose Push finds the children
-// where first <= last and returns how many: the first of the order is *next, and the stack has the
-// others above what was there, the second on top. Included into an unnamed namespace.
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, Store,
+// All, +, -, *, /, MultiplyAdd, Min, Max, Abs, LessMask), Axes (All, +, -, *, /, Abs, AxesOf,
+// AllOf), IsWorthTracing (IsTraceable), PresentMask, kHitsInSingle (whether vectors may tell hits),
+// and PushOrder, whose Push finds the children where first <= last and returns how many: the first
+// of the order is *next, and the stack has the others above what was there, the second on top.
+// Included into an unnamed namespace.
 //
 // Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
 // slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
@@ -197,7 +198,8 @@ bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
 }
 
 void MakeBlockRay(const TriangleRay& ray, BlockRayRoom* room) {
-  static_assert(sizeof(BlockRay) <= sizeof(room->bytes) && alignof(BlockRay) <= alignof(BlockRayRoom));
+  static_assert(sizeof(BlockRay) <= sizeof(room->bytes));
+  static_assert(alignof(BlockRay) <= alignof(BlockRayRoom));
   new (room->bytes) BlockRay(ray);
 }
 

@@ -76,8 +76,8 @@ class PushOrder : PlaceOrder {
 
 }  // namespace
 
-const BvhTraversal kAvx2Traversal{"AVX2",       Intersect,       Occluded,
-                                  MakeBlockRay, IntersectBlocks, Settle, OccludedByBlocks};
+const BvhTraversal kAvx2Traversal{"AVX2",          Intersect, Occluded,        MakeBlockRay,
+                                  IntersectBlocks, Settle,    OccludedByBlocks};
 
 }  // namespace exphoton
 

@@ -63,8 +63,8 @@ class PushOrder : PlaceOrder {
 
 }  // namespace
 
-const BvhTraversal kAvx512Traversal{"AVX-512",    Intersect,       Occluded,
-                                    MakeBlockRay, IntersectBlocks, Settle, OccludedByBlocks};
+const BvhTraversal kAvx512Traversal{"AVX-512",       Intersect, Occluded,        MakeBlockRay,
+                                    IntersectBlocks, Settle,    OccludedByBlocks};
 
 }  // namespace exphoton
 

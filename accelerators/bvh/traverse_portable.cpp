@@ -103,8 +103,8 @@ class PushOrder {
 
 }  // namespace
 
-const BvhTraversal kPortableTraversal{"portable",   Intersect,       Occluded,
-                                      MakeBlockRay, IntersectBlocks, Settle, OccludedByBlocks};
+const BvhTraversal kPortableTraversal{"portable",      Intersect, Occluded,        MakeBlockRay,
+                                      IntersectBlocks, Settle,    OccludedByBlocks};
 
 const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
 #if defined(EXPHOTON_BVH_AVX)

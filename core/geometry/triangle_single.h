@@ -15,8 +15,8 @@
 // Nor is the triangle's plane behind the ray, by PlaneIsAhead. That is about the volume of the true
 // vertices, which a shear leaves as it is, but not its rounding: x and y are off by 4 u (X + Z) and
 // 4 u (Y + Z), so the volume by less than 48 u (2 X Y + Z (X + Y)) Z. And its margin in double is,
-// by the same norms, less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. Both are within the second and third
-// terms of kVolume below.
+// by the same norms, less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. The terms of LargeVolume below are
+// more than both.
 // Source: Woop, Benthin and Wald 2013 (JCGT 2:1); Higham 2002, "Accuracy and Stability of Numerical
 // Algorithms", chapter 3.
 #pragma once
@@ -27,7 +27,9 @@ namespace exphoton {
 
 // A volume is large if it exceeds Z (of[0] X Y + Z (of[1] (X + Y) + of[2] Z)) + least.
 struct LargeVolume {
-  static constexpr Real of[3] = {Real(1) / 16, Gamma(128), Gamma(128) / (1 << 20)};
+  static constexpr Real kInDouble = Real(1) / (std::uint64_t(1) << 43);  // where Real is double
+  static constexpr Real of[3] = {Real(1) / 16, std::max(Gamma(128), kInDouble),
+                                 std::max(Gamma(128) / (1 << 20), kInDouble)};
   static constexpr Real least = Real(1) / (std::uint64_t(1) << 50) / (std::uint64_t(1) << 50);
 };
 // Distances further from 1, and rays with sz so far from it, may lose bits by underflow.
@@ -40,7 +42,7 @@ inline bool MayHitInSingle(const TriangleRay& ray) {
 inline constexpr Real kSingleError = Gamma(1024);
 
 #if defined(EXPHOTON_TRAPS)
-inline constexpr bool kTellsInSingle = false;  // it leaves alone what overflows, but only afterwards
+inline constexpr bool kTellsInSingle = false;  // what overflows is left alone, but only afterwards
 #else
 inline constexpr bool kTellsInSingle = true;
 #endif
@@ -60,7 +62,7 @@ template <class Corner>
     const int next = (v + 1) % 3, last = (v + 2) % 3;
     e[v] = x[last] * y[next] - y[last] * x[next];
   }
-  const auto largest = [](const Real (&a)[3]) {
+  const auto largest = [](const Real(&a)[3]) {
     return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
   };
   const Real X = largest(x), Y = largest(y), Z = largest(z);

@@ -104,8 +104,9 @@ void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) co
 Hit PrimitiveSet::Told(const TraceRay& ray, const Hit& nearest) const {
   if (!nearest.IsHit() || nearest.instance != kNoId || nearest.primitive >= triangles_.size())
     return nearest;
-  const auto hit =
-      HitInSingle(ray.triangle, TriangleCorners<3, 1>{&vertices_[nearest.primitive][0].x});
+  const auto& v = vertices_[nearest.primitive];
+  const Real corners[9] = {v[0].x, v[0].y, v[0].z, v[1].x, v[1].y, v[1].z, v[2].x, v[2].y, v[2].z};
+  const auto hit = HitInSingle(ray.triangle, TriangleCorners<3, 1>{corners});
   return hit ? Hit{hit->t, {hit->b1, hit->b2}, nearest.primitive, kNoId} : nearest;
 }
 

@@ -18,7 +18,8 @@ struct Tally {
 // near the place `center`; where `away` is 0 from the triangle itself.
 void TestOne(RandomStream& random, const Point3& center, Real size, Real aspect, Real away,
              Tally* tally) {
-  const Vector3 along = RandomVector(random) * size, across = RandomVector(random) * (size / aspect);
+  const Vector3 along = RandomVector(random) * size,
+                across = RandomVector(random) * (size / aspect);
   const Point3 v[3] = {center, center + along, center + along * random.Uniform() + across};
   const Real b1 = random.Uniform(), b2 = (1 - b1) * random.Uniform();
   const Point3 target = v[0] + (v[1] - v[0]) * b1 + (v[2] - v[0]) * b2;
@@ -26,10 +27,13 @@ void TestOne(RandomStream& random, const Point3& center, Real size, Real aspect,
   ray.d = NormalizeOr(RandomVector(random), {0, 0, 1});
   ray.o = target - ray.d * (away * (Real(.5) + random.Uniform()));
   const TriangleRay test(ray);
-  const TriangleCorners<3, 1> corners{&v[0].x};
+  const Real coordinates[9] = {v[0].x, v[0].y, v[0].z, v[1].x, v[1].y,
+                               v[1].z, v[2].x, v[2].y, v[2].z};
+  const TriangleCorners<3, 1> corners{coordinates};
   const auto hit = HitInSingle(test, corners);
-  const auto decided =
-      MissesTriangle(test, v[0], v[1], v[2]) ? std::nullopt : DecideTriangle(test, kInfinity, corners);
+  const auto decided = MissesTriangle(test, v[0], v[1], v[2])
+                           ? std::nullopt
+                           : DecideTriangle(test, kInfinity, corners);
   tally->decided += decided.has_value();
   if (!hit) return;
   ++tally->sure;
