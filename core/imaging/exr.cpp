@@ -34,16 +34,31 @@ constexpr int kLinesPerBlock = 16;  // of ZIP compression
 
 Imath::Box2i ToBox(const PixelBounds& b) { return {{b.x0, b.y0}, {b.x1 - 1, b.y1 - 1}}; }
 
-// The library writes through this; errors leave it as exceptions.
+// The library writes through this; errors leave it as exceptions. In the end it goes back to write
+// the table of where blocks of lines are, eight bytes each: 0 for a block that there is not. It
+// (3.1) takes lines that it could not compress for want of memory for lines yet to come, and ends
+// without them and without an error.
 class FileStream final : public Imf::OStream {
  public:
-  FileStream(AtomicFile* file, const std::string& path) : OStream(path.c_str()), file_(file) {}
-  void write(const char data[], int size) override { file_->Write(data, std::size_t(size)); }
+  FileStream(AtomicFile* file, bool* isComplete, const std::string& path)
+      : OStream(path.c_str()), file_(file), isComplete_(isComplete) {}
+  void write(const char data[], int size) override {
+    constexpr int kEntry = 8;
+    static constexpr char kNone[kEntry] = {};
+    for (int i = 0; isInTable_ && i + kEntry <= size; i += kEntry)
+      *isComplete_ &= std::memcmp(data + i, kNone, kEntry) != 0;
+    file_->Write(data, std::size_t(size));
+  }
   std::uint64_t tellp() override { return file_->Tell(); }
-  void seekp(std::uint64_t position) override { file_->Seek(position); }
+  void seekp(std::uint64_t position) override {
+    isInTable_ = true;
+    file_->Seek(position);
+  }
 
  private:
   AtomicFile* file_;
+  bool* isComplete_;
+  bool isInTable_ = false;
 };
 
 void InsertAttribute(const std::string& name, const ImageAttribute& value, Imf::Header* header) {
@@ -122,8 +137,9 @@ ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf
   try {
     MakeTheLibrarysThreadPool();
     AtomicFile file(path);
+    bool isComplete = true;
     {
-      FileStream stream(&file, path);
+      FileStream stream(&file, &isComplete, path);
       Imf::OutputFile out(stream, MakeHeader(image, asHalf), 0);
       if (asHalf) {
         report.clampedToHalf = WriteHalves(image, &out);
@@ -134,6 +150,7 @@ ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf
         out.writePixels(image.Height());
       }
     }  // here the table of line offsets is written
+    if (!isComplete) throw std::bad_alloc();
     file.Commit();
   } catch (const Error&) {
     throw;
