@@ -106,6 +106,28 @@ TEST(Sampler, TheSameKeyGivesTheSameBits) {
   }
 }
 
+TEST(Sampler, OtherPointsDoNotDependOnWhetherLensAndTimeAreNeeded) {
+  TestPlugins plugins;
+  for (const char* text : kSamplers) {
+    const auto sampler = plugins.MakeSampler(text);
+    for (const bool needsLens : {false, true}) {
+      SampleLayout layout = Requests().layout;
+      layout.needsLens = needsLens;
+      layout.needsTime = !needsLens;
+      CameraSamples few(layout), all{Requests().layout};
+      const SampleKey key{3, {5, 7}, 2};
+      sampler->Generate(key, &few);
+      sampler->Generate(key, &all);
+      if (needsLens)
+        EXPECT_EQ(few.lens, all.lens) << text;
+      else
+        EXPECT_EQ(few.time, all.time) << text;
+      few.lens = all.lens, few.time = all.time;
+      EXPECT_EQ(Flatten(few), Flatten(all)) << text;
+    }
+  }
+}
+
 TEST(Sampler, SeedsPixelsAndSamplesDiffer) {
   TestPlugins plugins;
   for (const char* text : kSamplers) {
