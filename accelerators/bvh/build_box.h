@@ -94,13 +94,13 @@ struct BuildBox {
 };
 
 // Half the surface of a box in double: what no finite box overflows.
-inline double HalfArea(const BuildBox& box) {
-  Real a[4], b[4];
-  box.low.Store(a), box.high.Store(b);
-  const double x = double(b[0]) - double(a[0]), y = double(b[1]) - double(a[1]),
-               z = double(b[2]) - double(a[2]);
+inline double HalfArea(const Bounds3& box) {
+  const double x = double(box.max.x) - double(box.min.x),
+               y = double(box.max.y) - double(box.min.y),
+               z = double(box.max.z) - double(box.min.z);
   return x * y + y * z + z * x;
 }
+inline double HalfArea(const BuildBox& box) { return HalfArea(box.ToBounds()); }
 
 // What a run has of a primitive: 32 bytes, as its box leaves room for.
 struct alignas(4 * sizeof(Real)) BvhItem {

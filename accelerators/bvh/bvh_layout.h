@@ -104,7 +104,7 @@ struct BvhArrays {
 // hit (allowed for by the traversal) and the extent of the primitive (added to its bounds).
 inline constexpr Real kBvhMargin = Gamma(16);
 
-// No way down is longer, so that the traversal's stack has a fixed size.
-inline constexpr int kBvhMaxDepth = 80;
+// No way down has more nodes, so that the traversal's stack has a fixed size.
+inline constexpr int kBvhMaxDepth = 160;
 
 }  // namespace exphoton

@@ -31,5 +31,19 @@ TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
   ExpectHitsOfBruteForce(*plugins.MakeAccelerator(R"("bvh")", *set, 2), *set, plugins);
 }
 
+// Each triangle is three quarters as large as the one before, about the same corner: every split by
+// surface takes off the largest one.
+TEST(BvhBuild, OfNestedTrianglesIsNotTooDeep) {
+  TriangleList triangles;
+  Real size = Real(1e18);
+  for (int i = 0; i < 250; ++i, size *= Real(.75))
+    triangles.push_back({Point3(size, 0, size), Point3(0, size, size), Point3(size, size, 0)});
+  const auto set = TriangleSet(triangles);
+  ThreadPool threads(1);
+  const int depth = BuildBvh(*set, 2, threads).depth;
+  EXPECT_GT(depth, 10);  // else it is no hard case
+  EXPECT_LE(depth, kBvhMaxDepth);
+}
+
 }  // namespace
 }  // namespace exphoton
