@@ -15,8 +15,8 @@
 namespace exphoton {
 namespace {
 
-// What one thread works with.
-struct alignas(64) Worker {
+// What one thread works with; its arena keeps it on lines of the cache of its own.
+struct Worker {
   explicit Worker(const SampleLayout& layout) : samples(layout) {}
 
   CameraSamples samples;
