@@ -95,8 +95,7 @@ struct BuildBox {
 
 // Half the surface of a box in double: what no finite box overflows.
 inline double HalfArea(const Bounds3& box) {
-  const double x = double(box.max.x) - double(box.min.x),
-               y = double(box.max.y) - double(box.min.y),
+  const double x = double(box.max.x) - double(box.min.x), y = double(box.max.y) - double(box.min.y),
                z = double(box.max.z) - double(box.min.z);
   return x * y + y * z + z * x;
 }

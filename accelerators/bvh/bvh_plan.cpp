@@ -86,8 +86,8 @@ ForestCost PlanTree(const Splitter& splitter, const BvhRun& run, std::uint32_t f
     const ForestCost lower = PlanTree(splitter, halves.lower, first, depth + 1, plan);
     BvhPlanNode& node = (*plan)[own];
     node.lower = 1, node.upper = std::uint32_t(plan->size() - own), node.axis = halves.axis;
-    const ForestCost upper = PlanTree(splitter, halves.upper, first + std::uint32_t(split.count),
-                                      depth + 1, plan);
+    const ForestCost upper =
+        PlanTree(splitter, halves.upper, first + std::uint32_t(split.count), depth + 1, plan);
     collapse = CollapseHalves(area, canBeLeaf, lower, upper);
   }
   SetCollapse(collapse, &(*plan)[own]);

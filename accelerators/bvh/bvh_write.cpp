@@ -85,9 +85,9 @@ class Writer {
  private:
   // An upper node, with its leaves, or a whole tree.
   struct Part {
-    std::uint32_t node = 0;  // of the plan
-    int depth = 1;           // of its deepest node
-    Extent extent;           // how much it takes, and once that is known where it begins
+    std::uint32_t node = 0;          // of the plan
+    int depth = 1;                   // of its deepest node
+    Extent extent;                   // how much it takes, and once that is known where it begins
     std::vector<std::size_t> below;  // of an upper node: the part of each child, if it has one
     Written written;
   };

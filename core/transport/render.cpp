@@ -237,10 +237,14 @@ struct PassRenderer::State {
   void Preprocess(std::uint64_t seed, ProgressReporter& progress) {
     Log& log = passes == 0 ? job.log : unheard;
     const PixelBounds& full = job.film.Full();
-    PreprocessContext context{job.threads,    seed,
-                              log,            progress,
-                              job.statistics, options.isStrict,
-                              &job.camera,    {full.Width(), full.Height()}};
+    PreprocessContext context{job.threads,
+                              seed,
+                              log,
+                              progress,
+                              job.statistics,
+                              options.isStrict,
+                              &job.camera,
+                              {full.Width(), full.Height()}};
     job.integrator.Preprocess(job.scene, context);
     if (job.volume) job.volume->Preprocess(job.scene);
   }

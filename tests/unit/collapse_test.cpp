@@ -28,7 +28,8 @@ Tree RandomTree(std::size_t leaves, RandomStream* random) {
     while (tree[split].lower != 0);
     tree[split].lower = tree.size(), tree[split].upper = tree.size() + 1;
     for (int i = 0; i < 2; ++i)
-      tree.push_back({tree[split].area * double(Real(.2) + Real(.8) * random->Uniform()), 0, 0, {}});
+      tree.push_back(
+          {tree[split].area * double(Real(.2) + Real(.8) * random->Uniform()), 0, 0, {}});
   }
   for (std::size_t i = tree.size(); i-- > 0;) {
     TreeNode& node = tree[i];
