@@ -12,14 +12,14 @@ constexpr std::size_t kMaxLeafOthers = 2;
 // What two leaves must save to be better than one: they take more memory, and to wait for memory is
 // much of the work.
 constexpr double kLeafPreference = 1.25;
-// Deeper nodes halve their runs: at most 32 levels more.
-constexpr int kSahDepth = kBvhMaxDepth - 32;
 
 // How runs are split: what does not depend on where in the plan they are.
 class Splitter {
  public:
-  Splitter(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles)
-      : triangles_(primitives.TriangleCount()), maxLeafTriangles_(maxLeafTriangles) {}
+  Splitter(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles, int sahDepth)
+      : triangles_(primitives.TriangleCount()),
+        maxLeafTriangles_(maxLeafTriangles),
+        sahDepth_(sahDepth) {}
 
   // Few enough, and all of a kind.
   bool CanBeLeaf(const BvhRun& run) const {
@@ -41,13 +41,14 @@ class Splitter {
       if (triangles > 0 && triangles < run.items.size())
         return {triangles, 0, std::numeric_limits<double>::infinity()};
     }
-    return depth > kSahDepth ? HalveRun(run) : SplitRun(run);
+    return depth > sahDepth_ ? HalveRun(run) : SplitRun(run);
   }
 
  private:
   bool IsTriangle(const BvhItem& item) const { return item.id < triangles_; }
 
   std::uint32_t triangles_, maxLeafTriangles_;
+  int sahDepth_;
 };
 
 struct Halves {
@@ -96,8 +97,7 @@ ForestCost PlanTree(const Splitter& splitter, const BvhRun& run, std::uint32_t f
 
 class Planner {
  public:
-  Planner(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles, ThreadPool& threads)
-      : splitter_(primitives, maxLeafTriangles), threads_(threads) {}
+  Planner(const Splitter& splitter, ThreadPool& threads) : splitter_(splitter), threads_(threads) {}
 
   std::vector<BvhPlanNode> Plan(std::span<BvhItem> items) && {
     Add(MakeRun(items), 0);
@@ -200,8 +200,8 @@ class Planner {
 }  // namespace
 
 std::vector<BvhPlanNode> PlanBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles,
-                                 std::span<BvhItem> items, ThreadPool& threads) {
-  return Planner(primitives, maxLeafTriangles, threads).Plan(items);
+                                 std::span<BvhItem> items, ThreadPool& threads, int sahDepth) {
+  return Planner(Splitter(primitives, maxLeafTriangles, sahDepth), threads).Plan(items);
 }
 
 }  // namespace exphoton

@@ -19,10 +19,14 @@ struct BvhPlanNode {
   bool isLeaf = false;    // where it is a single child of a node
 };
 
+// Deeper nodes halve their runs: at most 32 levels more.
+inline constexpr int kBvhSahDepth = kBvhMaxDepth - 32;
+
 // The root is the first. Reorders the items, of which there is one at least. No way down has more
-// than kBvhMaxDepth nodes.
+// than sahDepth + 32 nodes with halves.
 std::vector<BvhPlanNode> PlanBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles,
-                                 std::span<BvhItem> items, ThreadPool& threads);
+                                 std::span<BvhItem> items, ThreadPool& threads,
+                                 int sahDepth = kBvhSahDepth);
 
 // Runs of so many items and fewer are one piece of work.
 inline constexpr std::size_t kBvhPieceItems = 4096;

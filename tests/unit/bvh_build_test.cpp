@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "accelerators/bvh/bvh_build.h"
+#include "accelerators/bvh/bvh_plan.h"
 #include "core/scene/aggregate.h"
 #include "tests/support/geometry_scenes.h"
 #include "tests/support/test_plugin.h"
@@ -31,18 +32,26 @@ TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
   ExpectHitsOfBruteForce(*plugins.MakeAccelerator(R"("bvh")", *set, 2), *set, plugins);
 }
 
-// Each triangle is three quarters as large as the one before, about the same corner: every split by
-// surface takes off the largest one.
-TEST(BvhBuild, OfNestedTrianglesIsNotTooDeep) {
+// Nodes on the longest way down the binary tree: nodes of eight are some of them.
+int DepthOf(std::span<const BvhPlanNode> plan, std::size_t node) {
+  const BvhPlanNode& at = plan[node];
+  if (at.lower == 0) return 0;
+  return 1 + std::max(DepthOf(plan, node + at.lower), DepthOf(plan, node + at.upper));
+}
+
+// Each triangle is three quarters as large as the one before, about the same corner: splits by
+// surface take off a few of the largest, again and again.
+TEST(BvhBuild, HalvesRunsBelowADepth) {
   TriangleList triangles;
-  Real size = Real(1e18);
-  for (int i = 0; i < 250; ++i, size *= Real(.75))
+  Real size = Real(1e36);
+  for (int i = 0; i < 500; ++i, size *= Real(.75))
     triangles.push_back({Point3(size, 0, size), Point3(0, size, size), Point3(size, size, 0)});
   const auto set = TriangleSet(triangles);
+  std::vector<BvhItem> items;
+  for (std::uint32_t id = 0; id < set->Count(); ++id) items.emplace_back(set->Bounds(id), id);
   ThreadPool threads(1);
-  const int depth = BuildBvh(*set, 2, threads).depth;
-  EXPECT_GT(depth, 10);  // else it is no hard case
-  EXPECT_LE(depth, kBvhMaxDepth);
+  EXPECT_GT(DepthOf(PlanBvh(*set, 1, items, threads), 0), 60);
+  EXPECT_LE(DepthOf(PlanBvh(*set, 1, items, threads, 10), 0), 10 + 9);  // of 512 and fewer
 }
 
 }  // namespace
