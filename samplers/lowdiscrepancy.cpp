@@ -66,7 +66,7 @@ class Block {
 
   // The next points of a run, by their number; to be called for all runs one after the other.
   void Next(std::span<Real> values, std::uint32_t number) {
-    std::uint32_t first[kRun];
+    std::uint32_t first[kRun] = {};
     for (std::size_t i = 0; i < values.size(); ++i) {
       first[i] = index_;
       index_ ^= 1u << std::countr_one(number + std::uint32_t(i));
@@ -120,30 +120,39 @@ class LowDiscrepancySampler final : public Sampler {
         std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(count, 1)))));
   }
 
-  void Generate(const SampleKey& key, CameraSamples* samples) const override {
-    std::uint64_t request =
+  std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const override {
+    const std::uint64_t pixelKey =
         HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), 0x6c6f7764});
-    samples->film = Block(request += kGolden, key.index, shuffled_, 1).Both();
-    request += kGolden;
-    if (samples->NeedsLens()) samples->lens = Block(request, key.index, shuffled_, 1).Both();
-    request += kGolden;
-    if (samples->NeedsTime()) samples->time = Block(request, key.index, shuffled_, 1).First();
-    for (int i = 0; i < samples->Count1D(); ++i)
-      Fill(request += kGolden, key.index, samples->Array1D(i));
-    for (int i = 0; i < samples->Count2D(); ++i)
-      Fill(request += kGolden, key.index, samples->Array2D(i));
+    const auto block = [&](std::uint64_t request) {
+      return Block(pixelKey + kGolden * request, key.index, shuffled_, 1);
+    };
+    samples->film = block(1).Both();
+    if (samples->NeedsLens()) samples->lens = block(2).Both();
+    if (samples->NeedsTime()) samples->time = block(3).First();
+    return pixelKey;
+  }
+  void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
+            std::span<Real> values) const override {
+    FillArray(pixelKey, index, request, values);
+  }
+  void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
+            std::span<Point2> values) const override {
+    FillArray(pixelKey, index, request, values);
   }
 
  private:
   template <class T>
-  void Fill(std::uint64_t request, std::int64_t sample, std::span<T> values) const {
-    if (values.empty()) return;
+  void FillArray(std::uint64_t pixelKey, std::int64_t sample, int number,
+                 std::span<T> values) const {
+    const std::uint64_t request = pixelKey + kGolden * (kFirstArray + std::uint64_t(number));
     Block block(request, sample, shuffled_, values.size());
     for (std::size_t k = 0; k < values.size(); k += Block::kRun)
       block.Next(values.subspan(k, std::min(Block::kRun, values.size() - k)), std::uint32_t(k));
     if (values.size() > 1)
       Shuffle(values, MixBits(request + MixBits(std::uint64_t(sample) + kGolden)));
   }
+
+  static constexpr std::uint64_t kFirstArray = 4;  // after film, lens and time
 
   std::int64_t count_;
   std::uint32_t shuffled_;

@@ -30,23 +30,36 @@ class RandomSampler final : public Sampler {
     return std::make_unique<RandomSampler>(count);
   }
 
-  void Generate(const SampleKey& key, CameraSamples* samples) const override {
-    RandomStream random(HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
-                                 std::uint64_t(key.index), 0x72616e64}));
-    const auto point = [&random] {
-      const Real x = random.Uniform();
-      return Point2(x, random.Uniform());
-    };
-    samples->film = point();
-    samples->lens = point();
+  std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const override {
+    const std::uint64_t sampleKey =
+        HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
+                 std::uint64_t(key.index), 0x72616e64});
+    RandomStream random(sampleKey);
+    samples->film = NextPoint(&random);
+    samples->lens = NextPoint(&random);
     samples->time = random.Uniform();
-    for (int i = 0; i < samples->Count1D(); ++i)
-      for (Real& u : samples->Array1D(i)) u = random.Uniform();
-    for (int i = 0; i < samples->Count2D(); ++i)
-      for (Point2& u : samples->Array2D(i)) u = point();
+    return sampleKey;
+  }
+  void Fill(std::uint64_t sampleKey, std::int64_t, int request,
+            std::span<Real> values) const override {
+    RandomStream random = StreamOf(sampleKey, request);
+    for (Real& u : values) u = random.Uniform();
+  }
+  void Fill(std::uint64_t sampleKey, std::int64_t, int request,
+            std::span<Point2> values) const override {
+    RandomStream random = StreamOf(sampleKey, request);
+    for (Point2& u : values) u = NextPoint(&random);
   }
 
  private:
+  static RandomStream StreamOf(std::uint64_t sampleKey, int request) {
+    return RandomStream(HashKey({sampleKey, std::uint64_t(request)}));
+  }
+  static Point2 NextPoint(RandomStream* random) {
+    const Real x = random->Uniform();
+    return Point2(x, random->Uniform());
+  }
+
   std::int64_t count_;
 };
 

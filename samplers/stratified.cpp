@@ -118,33 +118,43 @@ class StratifiedSampler final : public Sampler {
     return std::make_unique<StratifiedSampler>(count, Grid::For(std::uint32_t(count)), jitter_);
   }
 
-  void Generate(const SampleKey& key, CameraSamples* samples) const override {
+  std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const override {
     // Samples beyond the last cell begin another round with other keys.
     const std::uint64_t round = std::uint64_t(key.index) / grid_.Count();
-    const auto index = std::uint32_t(std::uint64_t(key.index) % grid_.Count());
-    std::uint64_t request = HashKey(
+    const std::uint64_t pixelKey = HashKey(
         {key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), round, 0x73747261});
-    const auto next = [&] {
-      request += kGolden;
-      Turn turn{request, MixBits(request + MixBits(index + kGolden)), 0, grid_.Count()};
-      turn.cell = PermuteIndex(index, turn.cells, std::uint32_t(MixBits(request)));
-      return turn;
-    };
-    const auto skip = [&] { request += kGolden; };
-    samples->film = InGrid(next(), jitter_);
-    if (samples->NeedsLens())
-      samples->lens = InGrid(next(), jitter_);
+    samples->film = InGrid(TurnOf(pixelKey, key.index, 1), jitter_);
+    if (samples->NeedsLens()) samples->lens = InGrid(TurnOf(pixelKey, key.index, 2), jitter_);
+    if (samples->NeedsTime()) samples->time = InRow(TurnOf(pixelKey, key.index, 3), jitter_);
+    return pixelKey;
+  }
+  void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
+            std::span<Real> values) const override {
+    const Turn turn = TurnOf(pixelKey, index, kFirstArray + std::uint64_t(request));
+    if (values.size() == 1)
+      values[0] = InRow(turn, true);
     else
-      skip();
-    if (samples->NeedsTime())
-      samples->time = InRow(next(), jitter_);
+      FillArray(turn, values);
+  }
+  void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
+            std::span<Point2> values) const override {
+    const Turn turn = TurnOf(pixelKey, index, kFirstArray + std::uint64_t(request));
+    if (values.size() == 1)
+      values[0] = InGrid(turn, true);
     else
-      skip();
-    for (int i = 0; i < samples->Count1D(); ++i) Fill(next(), samples->Array1D(i));
-    for (int i = 0; i < samples->Count2D(); ++i) Fill(next(), samples->Array2D(i));
+      FillArray(turn, values);
   }
 
  private:
+  static constexpr std::uint64_t kFirstArray = 4;  // after film, lens and time
+
+  Turn TurnOf(std::uint64_t pixelKey, std::int64_t sample, std::uint64_t number) const {
+    const std::uint64_t request = pixelKey + kGolden * number;
+    const auto index = std::uint32_t(std::uint64_t(sample) % grid_.Count());
+    Turn turn{request, MixBits(request + MixBits(index + kGolden)), 0, grid_.Count()};
+    turn.cell = PermuteIndex(index, turn.cells, std::uint32_t(MixBits(request)));
+    return turn;
+  }
   Point2 InGrid(const Turn& turn, bool jitter) const {
     RandomStream random(turn.sampleKey);
     const double dx = jitter ? double(random.Uniform()) : .5;
@@ -155,21 +165,6 @@ class StratifiedSampler final : public Sampler {
     RandomStream random(turn.sampleKey);
     return InCell(turn.cell, jitter ? double(random.Uniform()) : .5, turn.cells);
   }
-  void Fill(const Turn& turn, std::span<Real> values) const {
-    if (values.size() == 1) {
-      values[0] = InRow(turn, true);
-    } else if (!values.empty()) {
-      FillArray(turn, values);
-    }
-  }
-  void Fill(const Turn& turn, std::span<Point2> values) const {
-    if (values.size() == 1) {
-      values[0] = InGrid(turn, true);
-    } else if (!values.empty()) {
-      FillArray(turn, values);
-    }
-  }
-
   std::int64_t count_;
   Grid grid_;
   bool jitter_;

@@ -6,23 +6,6 @@
 #include <algorithm>
 
 namespace exphoton {
-namespace {
-
-// Where each array starts; one entry more than there are arrays.
-std::vector<std::size_t> Offsets(std::span<const int> counts) {
-  std::vector<std::size_t> offsets(1, 0);
-  for (int count : counts) offsets.push_back(offsets.back() + std::size_t(count));
-  return offsets;
-}
-
-template <class T>
-std::span<T> Slice(T* values, const std::vector<std::size_t>& offsets, int handle) {
-  const auto i = std::size_t(handle);
-  return {values + offsets[i], offsets[i + 1] - offsets[i]};
-}
-
-}  // namespace
-
 int SampleLayout::Request1D(int count) {
   counts1D_.push_back(std::max(count, 0));
   return int(counts1D_.size()) - 1;
@@ -33,25 +16,25 @@ int SampleLayout::Request2D(int count) {
   return int(counts2D_.size()) - 1;
 }
 
+template <class T>
+CameraSamples::Arrays<T>::Arrays(std::span<const int> counts)
+    : offsets(1, 0), isMade(counts.size()) {
+  for (const int count : counts) offsets.push_back(offsets.back() + std::size_t(count));
+  values.resize(offsets.back());
+}
+
 CameraSamples::CameraSamples(const SampleLayout& layout)
     : needsLens_(layout.needsLens),
       needsTime_(layout.needsTime),
-      offsets1D_(Offsets(layout.Counts1D())),
-      offsets2D_(Offsets(layout.Counts2D())),
-      values1D_(offsets1D_.back()),
-      values2D_(offsets2D_.back()) {}
+      arrays1D_(layout.Counts1D()),
+      arrays2D_(layout.Counts2D()) {}
 
-std::span<const Real> CameraSamples::Array1D(int handle) const {
-  return Slice(values1D_.data(), offsets1D_, handle);
-}
-std::span<const Point2> CameraSamples::Array2D(int handle) const {
-  return Slice(values2D_.data(), offsets2D_, handle);
-}
-std::span<Real> CameraSamples::Array1D(int handle) {
-  return Slice(values1D_.data(), offsets1D_, handle);
-}
-std::span<Point2> CameraSamples::Array2D(int handle) {
-  return Slice(values2D_.data(), offsets2D_, handle);
+void Sampler::Generate(const SampleKey& key, CameraSamples* samples) const {
+  samples->sampler_ = this;
+  samples->index_ = key.index;
+  samples->key_ = FillCamera(key, samples);
+  std::ranges::fill(samples->arrays1D_.isMade, false);
+  std::ranges::fill(samples->arrays2D_.isMade, false);
 }
 
 }  // namespace exphoton

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Sampler: the interface that makes the points of a camera sample; SampleLayout: what integrators
 // asked for; CameraSamples: the points of one sample. Every value is a function of (seed, pixel,
-// sample index, request), so tiles, crops and threads never change it, and nothing is stored for a
-// whole pixel.
+// sample index, request), so tiles, crops, threads and the order of reading never change it, and
+// nothing is stored for a whole pixel.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,10 @@ struct SampleKey {
   std::int64_t index = 0;  // 0 .. SamplesPerPixel - 1, and beyond where the sampler can go on
 };
 
-// The points of one camera sample; reused by a thread for all its samples.
+class Sampler;
+
+// The points of one camera sample; reused by a thread for all its samples. An array is made when it
+// is first read: what nobody reads costs nothing.
 class CameraSamples {
  public:
   explicit CameraSamples(const SampleLayout& layout);
@@ -46,20 +49,33 @@ class CameraSamples {
   Point2 lens;    // in [0,1)^2, if needed
   Real time = 0;  // in [0,1), if needed
 
-  std::span<const Real> Array1D(int handle) const;
-  std::span<const Point2> Array2D(int handle) const;
-  std::span<Real> Array1D(int handle);
-  std::span<Point2> Array2D(int handle);
-  int Count1D() const { return int(offsets1D_.size()) - 1; }  // number of arrays
-  int Count2D() const { return int(offsets2D_.size()) - 1; }
+  // After Sampler::Generate; valid until the next.
+  std::span<const Real> Array1D(int handle) const { return Read(arrays1D_, handle, 0); }
+  std::span<const Point2> Array2D(int handle) const { return Read(arrays2D_, handle, Count1D()); }
+  int Count1D() const { return int(arrays1D_.isMade.size()); }  // number of arrays
+  int Count2D() const { return int(arrays2D_.isMade.size()); }
   bool NeedsLens() const { return needsLens_; }
   bool NeedsTime() const { return needsTime_; }
 
  private:
+  friend class Sampler;
+
+  template <class T>
+  struct Arrays {
+    explicit Arrays(std::span<const int> counts);
+    std::vector<std::size_t> offsets;  // of the first value of each, and of what follows the last
+    std::vector<T> values;
+    std::vector<char> isMade;
+  };
+  template <class T>
+  std::span<const T> Read(Arrays<T>& arrays, int handle, int firstRequest) const;
+
   bool needsLens_, needsTime_;
-  std::vector<std::size_t> offsets1D_, offsets2D_;
-  std::vector<Real> values1D_;
-  std::vector<Point2> values2D_;
+  const Sampler* sampler_ = nullptr;
+  std::uint64_t key_ = 0;
+  std::int64_t index_ = 0;
+  mutable Arrays<Real> arrays1D_;
+  mutable Arrays<Point2> arrays2D_;
 };
 
 class Sampler {
@@ -74,9 +90,34 @@ class Sampler {
   // A sampler like this one with another number of samples a pixel (--spp).
   virtual std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const = 0;
 
-  // Fills film, every array, and lens and time if needed; the others' points do not depend on these
-  // needs. Each array is well distributed in itself and over the samples of its pixel.
-  virtual void Generate(const SampleKey& key, CameraSamples* samples) const = 0;
+  // Begins a camera sample. The sampler must outlive the reading of its arrays.
+  void Generate(const SampleKey& key, CameraSamples* samples) const;
+
+ protected:
+  // Fills film, and lens and time if needed; the others' points do not depend on these needs.
+  // Returns a key for the pixel, which Fill is given.
+  virtual std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const = 0;
+  // Fills an array of sample `index`, well distributed in itself and over the samples of its pixel.
+  // Requests count from 0, those for 1D before those for 2D. May come in any order, or not at all.
+  virtual void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
+                    std::span<Real> values) const = 0;
+  virtual void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
+                    std::span<Point2> values) const = 0;
+
+ private:
+  friend class CameraSamples;
 };
+
+template <class T>
+std::span<const T> CameraSamples::Read(Arrays<T>& arrays, int handle, int firstRequest) const {
+  const auto i = std::size_t(handle);
+  const std::span<T> values(arrays.values.data() + arrays.offsets[i],
+                            arrays.offsets[i + 1] - arrays.offsets[i]);
+  if (!arrays.isMade[i]) {
+    arrays.isMade[i] = true;
+    if (!values.empty()) sampler_->Fill(key_, index_, firstRequest + handle, values);
+  }
+  return values;
+}
 
 }  // namespace exphoton

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "core/base/error.h"
@@ -104,6 +105,55 @@ TEST(Sampler, TheSameKeyGivesTheSameBits) {
     EXPECT_EQ(first, Make(*a, key)) << text;
     EXPECT_EQ(first, Make(*b, key)) << text;
   }
+}
+
+TEST(Sampler, ArraysDoNotDependOnTheOrderInWhichTheyAreRead) {
+  TestPlugins plugins;
+  for (const char* text : kSamplers) {
+    const auto sampler = plugins.MakeSampler(text);
+    CameraSamples samples{Requests().layout};
+    const SampleKey key{4, {8, 2}, 3};
+    sampler->Generate(key, &samples);
+    for (int i = samples.Count2D() - 1; i >= 0; --i) samples.Array2D(i);
+    for (int i = samples.Count1D() - 1; i >= 0; --i) samples.Array1D(i);
+    EXPECT_EQ(Flatten(samples), Make(*sampler, key)) << text;
+  }
+}
+
+class CountingSampler final : public Sampler {
+ public:
+  std::int64_t SamplesPerPixel() const override { return 1; }
+  std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t) const override { return nullptr; }
+  std::uint64_t FillCamera(const SampleKey&, CameraSamples*) const override { return 7; }
+  void Fill(std::uint64_t key, std::int64_t index, int request,
+            std::span<Real> values) const override {
+    filled.push_back({key, index, request, int(values.size())});
+  }
+  void Fill(std::uint64_t key, std::int64_t index, int request,
+            std::span<Point2> values) const override {
+    filled.push_back({key, index, request, int(values.size())});
+  }
+  using Call = std::tuple<std::uint64_t, std::int64_t, int, int>;
+  mutable std::vector<Call> filled;
+};
+
+TEST(CameraSamples, AskForAnArrayOnceASampleAndOnlyIfItIsRead) {
+  const CountingSampler sampler;
+  SampleLayout layout;
+  const int one = layout.Request1D(3), none = layout.Request1D(0), two = layout.Request2D(5);
+  CameraSamples samples(layout);
+  sampler.Generate({0, {0, 0}, 11}, &samples);
+  EXPECT_TRUE(sampler.filled.empty());
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(samples.Array2D(two).size(), 5u);
+    EXPECT_TRUE(samples.Array1D(none).empty());
+  }
+  EXPECT_EQ(sampler.filled, (std::vector<CountingSampler::Call>{{7, 11, 2, 5}}));
+  sampler.Generate({0, {0, 0}, 12}, &samples);
+  samples.Array1D(one);
+  samples.Array2D(two);
+  EXPECT_EQ(sampler.filled,
+            (std::vector<CountingSampler::Call>{{7, 11, 2, 5}, {7, 12, 0, 3}, {7, 12, 2, 5}}));
 }
 
 TEST(Sampler, OtherPointsDoNotDependOnWhetherLensAndTimeAreNeeded) {
