@@ -6,18 +6,22 @@ namespace exphoton {
 
 FinalGather::FinalGather(const PhotonSettings& settings)
     : cone_(Radians(settings.gatherAngle)), rrThreshold_(settings.rrThreshold) {
-  const bool isGuided = settings.gatherSampling == GatherSampling::Photons;
-  photonCount_ = isGuided ? settings.finalGatherSamples / 2 : 0;
-  bsdfCount_ = settings.finalGatherSamples - photonCount_;
-  guide_ = GatherGuide(photonCount_ > 0 ? settings.gatherPhotons : 0, cone_);
+  const int rays = settings.finalGatherSamples;
+  const bool isGuided = settings.gatherSampling == GatherSampling::Photons && rays > 1;
+  for (int guided = isGuided ? rays / 2 : 0; guided > 0; guided /= 2)
+    splits_.push_back({rays - guided, guided});
+  splits_.push_back({rays, 0});
+  guide_ = GatherGuide(isGuided ? settings.gatherPhotons : 0, cone_);
 }
 
 void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
-  const int bsdf = gathers ? bsdfCount_ : 0, photons = gathers ? photonCount_ : 0;
-  bsdfDirections_ = layout->Request2D(bsdf);
-  bsdfLobes_ = layout->Request1D(bsdf);
-  photonDirections_ = layout->Request2D(photons);
-  photonRadii_ = layout->Request1D(photons);
+  for (Split& split : splits_) {
+    const int bsdf = gathers ? split.bsdfRays : 0, photons = gathers ? split.photonRays : 0;
+    split.directions = layout->Request2D(bsdf);
+    split.lobes = layout->Request1D(bsdf);
+    split.cones = layout->Request2D(photons);
+    split.radii = layout->Request1D(photons);
+  }
 }
 
 }  // namespace exphoton

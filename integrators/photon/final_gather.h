@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// FinalGather: indirect light at a point by rays over its hemisphere, half of them drawn by the
-// BSDF, half round the directions of nearby photons, combined with the power heuristic
-// (Veach 1997, section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is another's
-// affair.
+// FinalGather: indirect light at a point by rays over its hemisphere, some drawn by the BSDF, some
+// round the directions of nearby photons, combined with the power heuristic (Veach 1997,
+// section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is another's affair.
 #pragma once
+
+#include <vector>
 
 #include "core/math/mis.h"
 #include "core/transport/integrator.h"
@@ -50,11 +51,27 @@ class FinalGather {
     return random->Uniform() < survival ? 1 / survival : Real(0);
   }
 
-  int bsdfCount_ = 0, photonCount_ = 0;  // rays by each technique
+  // How the rays are divided between the techniques, and the numbers that they read.
+  struct Split {
+    int bsdfRays = 0, photonRays = 0;
+    int directions = -1, lobes = -1;  // of the BSDF's: 2D, 1D
+    int cones = -1, radii = -1;       // of the photons': 2D, 1D
+  };
+
+  // As many rays follow the photons as there is light where they lead: of the halvings of one half
+  // the least that is no less than this share of the rays.
+  const Split& SplitFor(const GuideDirections& guide) const {
+    if (guide.axes.size() == 0) return splits_.back();
+    const Split* split = splits_.data();
+    const Real wanted = guide.share * Real(split->bsdfRays + split->photonRays);
+    while (split[1].photonRays > 0 && Real(split[1].photonRays) >= wanted) ++split;
+    return *split;
+  }
+
+  std::vector<Split> splits_;  // by descending photonRays; the last has none
   GatherGuide guide_;
   Cone cone_;
   Real rrThreshold_ = 0;
-  int bsdfDirections_ = -1, bsdfLobes_ = -1, photonDirections_ = -1, photonRadii_ = -1;
 };
 
 template <class Incident>
@@ -65,50 +82,48 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   const Arena::Mark mark = context.arena.GetMark();
   const GuideDirections guide = guide_.Directions(point, photons, context);
   const ConeMixture cones(guide.axes, cone_);
-  const bool isGuided = !cones.IsEmpty();
-  // Without a guide the photons' share of the rays follows the BSDF too.
-  const int bsdfRays = isGuided ? bsdfCount_ : bsdfCount_ + photonCount_;
-  const int photonRays = isGuided ? photonCount_ : 0;
+  const Split& split = SplitFor(guide);
   const Vector3& wo = point.Wo();
   const RayFan fan(point.surface);
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
-  const auto rays = std::size_t(bsdfRays + photonRays);
+  const auto rays = std::size_t(split.bsdfRays + split.photonRays);
   using Segment = typename Incident::Segment;
   Segment* const segments = context.arena.template Room<Segment>(rays);
+  Vector3* const directions = context.arena.template Room<Vector3>(rays);
   Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
   std::size_t count = 0;
   const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
     const Real factor =
         SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
     if (!(factor > 0)) return;
-    new (segments + count) Segment(incident.Trace(fan.Towards(w)));
+    directions[count] = w;
     weights[count++] = contribution * (factor / Real(drawn));
   };
-  for (int i = 0; i < bsdfRays; ++i) {
-    const bool isOwn = i < bsdfCount_;
-    const auto at = std::size_t(isOwn ? i : i - bsdfCount_);
-    const Point2 u = context.samples.Array2D(isOwn ? bsdfDirections_ : photonDirections_)[at];
-    const Real uLobe = context.samples.Array1D(isOwn ? bsdfLobes_ : photonRadii_)[at];
-    const auto sample = bsdf.Sample(wo, u, uLobe, kLobes);
+  const auto squares = context.samples.Array2D(split.directions);
+  const bool picksLobe = bsdf.Count(kLobes) > 1;
+  const auto lobes = picksLobe ? context.samples.Array1D(split.lobes) : std::span<const Real>();
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    const auto sample = bsdf.Sample(wo, squares[i], picksLobe ? lobes[i] : 0, kLobes);
     if (!sample) continue;
-    const Real photonPdf = isGuided ? cones.Pdf(sample->wi) : Real(0);
-    const Real weight = PowerHeuristic(bsdfRays, sample->pdf, photonRays, photonPdf);
-    add(sample->wi, sample->throughput * weight, photonPdf, bsdfRays);
+    const Real photonPdf = cones.IsEmpty() ? Real(0) : cones.Pdf(sample->wi);
+    const Real weight = PowerHeuristic(split.bsdfRays, sample->pdf, split.photonRays, photonPdf);
+    add(sample->wi, sample->throughput * weight, photonPdf, split.bsdfRays);
   }
-  for (int i = 0; i < photonRays; ++i) {
-    const auto at = std::size_t(i);
+  const auto along = context.samples.Array2D(split.cones);
+  const auto radii = context.samples.Array1D(split.radii);
+  for (std::size_t i = 0; i < along.size(); ++i) {
     // The axes follow a curve: where along it and which way from there are stratified together.
-    const Point2 u = context.samples.Array2D(photonDirections_)[at];
-    const Real uRadius = context.samples.Array1D(photonRadii_)[at];
-    const auto sample = cones.Draw(u.x, {uRadius, u.y});
+    const auto sample = cones.Draw(along[i].x, {radii[i], along[i].y});
     const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
     if (scattered.f.IsBlack()) continue;
-    const Real weight = PowerHeuristic(photonRays, sample.pdf, bsdfRays, scattered.pdf);
+    const Real weight = PowerHeuristic(split.photonRays, sample.pdf, split.bsdfRays, scattered.pdf);
     add(sample.w, scattered.f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf,
-        photonRays);
+        split.photonRays);
   }
 
+  for (std::size_t i = 0; i < count; ++i)
+    new (segments + i) Segment(incident.Trace(fan.Towards(directions[i])));
   incident.Look(std::span<Segment>(segments, count));
   Spectrum gathered;
   for (std::size_t i = 0; i < count; ++i) gathered += weights[i] * incident.Read(segments[i]);

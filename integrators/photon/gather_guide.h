@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GatherGuide: the directions that half of a gather's rays keep close to: of the photons nearest to
+// GatherGuide: the directions that some of a gather's rays keep close to: of the photons nearest to
 // a point, those that come from where more light comes from than rays by the BSDF would look for.
 // Camera samples of a pixel mostly see points so close together that one search serves them all; a
 // gather is unbiased whatever guides it (docs/exphotonmap.md, section 5).

@@ -149,7 +149,7 @@ std::string PhotonLighting::GatherText(const Scene& scene, const PhotonTargets& 
   const std::string rays = std::to_string(settings_.finalGatherSamples) + " rays, ";
   if (settings_.gatherSampling == GatherSampling::Bsdf) return rays + "BSDF only";
   if (targets[PhotonKind::Indirect] == 0) return rays + "BSDF only (0 indirect photons)";
-  return rays + "half of them round photons' directions";
+  return rays + "up to half of them round photons' directions";
 }
 
 std::vector<std::string> PhotonLighting::Explain(const Scene& scene) const {

@@ -58,7 +58,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("radiancephotons", &S::radiancePhotons,
             "gather rays read precomputed radiance instead of three density estimates"),
       Param("gathersampling", &S::gatherSampling,
-            "where gather rays go: half of them round photons' directions, or all by the BSDF")
+            "where gather rays go: up to half of them round photons' directions, or all by the BSDF")
           .OneOf({{"photons", GatherSampling::Photons}, {"bsdf", GatherSampling::Bsdf}}),
       Param("kernel", &S::kernel, "weight of a photon by its distance where maps are seen directly")
           .OneOf({{"simpson", DensityKernel::Simpson}, {"constant", DensityKernel::Constant}}),

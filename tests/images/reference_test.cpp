@@ -47,7 +47,7 @@ const std::vector<ParameterOverride> kDeep = {{"SurfaceIntegrator", "maxdepth", 
 const PictureCase kCases[] = {
     {"skylight-room", "emitters", 16, kDeep, {.01, .05, 4}},
     {"skylight-room", "photonmap", 4, Photons("100000", "16"), {.02, .10, 5}},
-    {"skylight-room", "exphotonmap", 2, Photons("200000", "32"), {.02, .08, 5}},
+    {"skylight-room", "exphotonmap", 8, Photons("200000", "32"), {.02, .08, 5}},
     {"cornell-caustic", "path", 64, kDeep, {.03, .16, 30}},
     {"cornell-caustic", "photonmap", 2, Photons("30000", "16", "40000"), {.02, .06, 5}},
     {"cornell-caustic", "exphotonmap", 2, Photons("30000", "16", "40000"), {.02, .06, 5}},

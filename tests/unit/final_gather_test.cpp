@@ -11,6 +11,7 @@
 #include "core/math/sampling.h"
 #include "core/scattering/lambert.h"
 #include "core/scattering/specular.h"
+#include "tests/support/test_plugin.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
@@ -59,17 +60,15 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, 
   SampleLayout layout;
   gather.RequestSamples(true, &layout);
   CameraSamples samples(layout);
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("random")");
 
   Arena arena;
   RayCounters rays;
   double sum = 0, sum2 = 0;
   for (int i = 0; i < count; ++i) {
     arena.Reset();
-    RandomStream random(HashKey({std::uint64_t(i)}));
-    for (int a = 0; a < samples.Count2D(); ++a)
-      for (Point2& u : samples.Array2D(a)) u = {random.Uniform(), random.Uniform()};
-    for (int a = 0; a < samples.Count1D(); ++a)
-      for (Real& u : samples.Array1D(a)) u = random.Uniform();
+    sampler->Generate({0, {0, 0}, i}, &samples);
     SurfaceInteraction surface;
     surface.ng = surface.shading.n = {0, 0, 1};
     surface.dpdu = surface.shading.dpdu = {1, 0, 0};
@@ -154,6 +153,34 @@ TEST(FinalGather, WithEveryPhotonBelowTheHorizonFollowsTheBsdfAlone) {
   EXPECT_NEAR(g.mean, .8, 1e-4);  // every cosine-sampled ray brings exactly rho
 }
 
+// Fifty photons, so many of them from one direction, the others far apart; how many of 32 rays go
+// there on average.
+double RaysTowards(const Vector3& patch, int photonsFromThere) {
+  std::vector<Vector3> guide(std::size_t(photonsFromThere), patch);
+  for (int i = 0; int(guide.size()) < 50; ++i)
+    guide.push_back(SampleCosineHemisphere({(Real(i % 7) + Real(.5)) / 7, (Real(i / 7) + 1) / 9}));
+  int towards = 0;
+  const Sky sky([&](const Vector3& d) {
+    towards += Dot(d, patch) > std::cos(Radians(Real(2.1)));
+    return Real(1);
+  });
+  constexpr int kGathers = 500;
+  GatherSky(sky, guide, 2, 0, kGathers,
+            [](Bsdf* bsdf, Arena* arena) { bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8)))); });
+  return double(towards) / kGathers;
+}
+
+TEST(FinalGather, AsManyRaysFollowPhotonsAsThereIsLightWhereTheyLead) {
+  const Vector3 patch = Normalize(Vector3(1, Real(.1), 1));
+  const double byBsdf = .1;  // at most
+  for (const auto& [photons, rays] :
+       {std::pair{1, 0}, {2, 2}, {3, 2}, {4, 4}, {10, 8}, {13, 16}, {25, 16}, {50, 16}}) {
+    const double towards = RaysTowards(patch, photons);
+    EXPECT_GE(towards, rays) << photons << " of 50 photons";
+    EXPECT_LE(towards, rays + byBsdf) << photons << " of 50 photons";
+  }
+}
+
 // A small bright patch, which nearly all photons come from: a ray that the BSDF sends there has
 // hardly any weight, but brings much.
 TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
@@ -171,9 +198,9 @@ TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
 }
 
 TEST(FinalGather, RouletteKeepsTheMeanWhereItEndsMostRays) {
-  const Gathered g = GatherSky(
-      kUniform, Clusters(), 10, 2, 120000,
-      [](Bsdf* bsdf, Arena* arena) { bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8)))); });
+  const Gathered g = GatherSky(kUniform, Clusters(), 10, 2, 120000, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+  });
   EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * 2 * kTolerance);
 }
 
