@@ -1,43 +1,75 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search.inl: the search for the closest disk.
+// Part of nearest_search.inl: the search for the closest disk, one at a time.
 
-// The closest disk, nearest boxes first; and first of all the block that the grid names, which is
-// nearly always the right one. Then few others remain, and often none.
-class ClosestWalk {
- public:
-  // Looks at the first block; whether there may be something better in others. Hardly a branch, so
-  // that a processor works at several queries at a time.
-  [[gnu::always_inline]] bool Begin(const PointTreeView& view, const ClosestLimits& limits,
-                                    const ClosestQuery& query, std::uint32_t first) {
-    view_ = &view;
-    p_ = Place16(query.p);
-    n_ = Place16(query.n);
-    minCosine_ = limits.minCosine;
-    top_ = view.tree->Levels() - 1;
-    best_ = {std::min(limits.maxRadius2, kLargest), ClosestPoint::kNone};
-    const auto& block = static_cast<const DiskBlock&>(BlockAt(view, first));
-    const Real16 distance2 = Distance2(block);
-    const unsigned lanes = Serving(block, distance2);
-    const Real nearest2 = LeastOf(distance2, lanes);
-    const unsigned equal = lanes & EqualMask(distance2, Real16::All(nearest2));
-    const std::uint32_t index =
-        first * kBlockPoints + unsigned(__builtin_ctz(equal | 1u << kBlockPoints));
-    best_.index = lanes != 0 ? index : best_.index;
-    best_.distance2 = lanes != 0 ? nearest2 : best_.distance2;
-    unsigned remaining = 0;
-    for (int level = 0; level <= top_; ++level, first >>= 4) {
-      Enter(level, first >> 4);
-      pending_[level] = Promising(level, Present(view, level, first >> 4) & ~(1u << (first & 15)));
-      remaining |= pending_[level];
-    }
-    return remaining != 0;
+// What all searches of a call have in common.
+struct Disks {
+  const PointTreeView& view;
+  const ClosestLimits& limits;
+
+  // As far as anything is found.
+  ClosestPoint None() const { return {std::min(limits.maxRadius2, kLargest), ClosestPoint::kNone}; }
+
+  // The block to begin with; none where nothing can be found. What the grid names is nearly always
+  // the right one.
+  std::uint32_t FirstBlock(const Point3& p) const {
+    if (view.count == 0 || !IsFinite(p)) return ClosestPoint::kNone;
+    return view.grid ? view.grid->BlockNear(p) : FindBlockNear(view, p);
   }
 
-  // Looks at the others.
-  [[gnu::always_inline]] void Finish() {
+  const DiskBlock& Block(std::uint32_t number) const {
+    return static_cast<const DiskBlock&>(BlockAt(view, number));
+  }
+
+  unsigned Agreeing(const PointBlock& block, const Place16& n) const {
+    const Real minCosine = limits.minCosine;
+    Real16 length2;
+    const Real16 along = DotDirection(block, n, &length2);
+    const Real16 zero = Real16::All(0), least2 = Real16::All(minCosine * minCosine) * length2;
+    if (minCosine >= 0) return LessMask(zero, along) & LessMask(least2, along * along);
+    return LessEqualMask(zero, along) | LessMask(along * along, least2);
+  }
+
+  // Whether the block has something better. Lanes that repeat the last point never are: of equals
+  // the lowest is taken.
+  bool Scan(std::uint32_t number, const ClosestQuery& query, ClosestPoint* best) const {
+    const DiskBlock& block = Block(number);
+    Real16 dx, dy, dz;
+    const Real16 distance2 = PointDistance2(block, Place16(query.p), &dx, &dy, &dz);
+    unsigned lanes = LessEqualMask(distance2, Real16::All(best->distance2));
+    if (lanes == 0) return false;
+    lanes &=
+        LessEqualMask(distance2, Real16::Load(block.reach2)) & Agreeing(block, Place16(query.n));
+    if (lanes == 0) return false;
+    const Real nearest2 = LeastOf(distance2, lanes);
+    const std::uint32_t index =
+        number * kBlockPoints +
+        unsigned(__builtin_ctz(lanes & EqualMask(distance2, Real16::All(nearest2))));
+    if (!(nearest2 < best->distance2 || index < best->index)) return false;
+    *best = {nearest2, index};
+    return true;
+  }
+
+  static ClosestPoint Answer(const ClosestPoint& best) {
+    return best.index == ClosestPoint::kNone ? ClosestPoint() : best;
+  }
+};
+
+// Through the tree, nearest boxes first.
+class ClosestWalk {
+ public:
+  ClosestWalk(const Disks& disks, const ClosestQuery& query)
+      : disks_(disks), query_(query), p_(query.p), top_(disks.view.tree->Levels() - 1) {}
+
+  // The closest of all, if it is `best` of block `first`.
+  ClosestPoint After(std::uint32_t first, const ClosestPoint& best) {
+    best_ = best;
+    for (int level = 0; level <= top_; ++level, first >>= 4) {
+      Enter(level, first >> 4);
+      pending_[level] &= ~(1u << (first & 15));
+    }
     for (int level = 0;;) {
       if (pending_[level] == 0) {
-        if (level++ == top_) return;
+        if (level++ == top_) return best_;
         pending_[level] = Promising(level, pending_[level]);
         continue;
       }
@@ -45,21 +77,18 @@ class ClosestWalk {
       pending_[level] &= ~(1u << lane);
       const std::uint32_t child = node_[level] * kBoxChildren + lane;
       if (level > 0) {
-        --level;
-        Enter(level, child);
-        pending_[level] = Promising(level, Present(*view_, level, child));
-      } else if (Scan(child)) {
+        Enter(--level, child);
+      } else if (disks_.Scan(child, query_, &best_)) {
         pending_[0] = Promising(0, pending_[0]);
       }
     }
   }
 
-  ClosestPoint Best() const { return best_.index == ClosestPoint::kNone ? ClosestPoint() : best_; }
-
  private:
   void Enter(int level, std::uint32_t node) {
     node_[level] = node;
-    boxes_[level] = BoxDistance2(view_->tree->Level(level)[node], p_);
+    boxes_[level] = BoxDistance2(disks_.view.tree->Level(level)[node], p_);
+    pending_[level] = Promising(level, Present(disks_.view, level, node));
   }
 
   // Of the lanes those that may hold something better: not farther, or nearer if indices there are
@@ -76,43 +105,9 @@ class ClosestWalk {
     return lanes & ~(equal & ~((1u << lower) - 1));
   }
 
-  unsigned Agreeing(const PointBlock& block) const {
-    Real16 length2;
-    const Real16 along = DotDirection(block, n_, &length2);
-    const Real16 zero = Real16::All(0), least2 = Real16::All(minCosine_ * minCosine_) * length2;
-    if (minCosine_ >= 0) return LessMask(zero, along) & LessMask(least2, along * along);
-    return LessEqualMask(zero, along) | LessMask(along * along, least2);
-  }
-
-  Real16 Distance2(const PointBlock& block) const {
-    Real16 dx, dy, dz;
-    return PointDistance2(block, p_, &dx, &dy, &dz);
-  }
-  unsigned Serving(const DiskBlock& block, Real16 distance2) const {
-    return LessEqualMask(distance2, Real16::All(best_.distance2)) &
-           LessEqualMask(distance2, Real16::Load(block.reach2)) & Agreeing(block);
-  }
-
-  // Whether something better was found. Lanes that repeat the last point never are: of equals the
-  // lowest is taken.
-  bool Scan(std::uint32_t number) {
-    const auto& block = static_cast<const DiskBlock&>(BlockAt(*view_, number));
-    const Real16 distance2 = Distance2(block);
-    if (LessEqualMask(distance2, Real16::All(best_.distance2)) == 0) return false;
-    const unsigned lanes = Serving(block, distance2);
-    if (lanes == 0) return false;
-    const Real nearest2 = LeastOf(distance2, lanes);
-    const std::uint32_t index =
-        number * kBlockPoints +
-        unsigned(__builtin_ctz(lanes & EqualMask(distance2, Real16::All(nearest2))));
-    if (!(nearest2 < best_.distance2 || index < best_.index)) return false;
-    best_ = {nearest2, index};
-    return true;
-  }
-
-  const PointTreeView* view_;
-  Place16 p_, n_;
-  Real minCosine_;
+  const Disks& disks_;
+  const ClosestQuery& query_;
+  Place16 p_;
   int top_;
   ClosestPoint best_;
   std::uint32_t node_[BoxTree::kMaxLevels];
@@ -120,42 +115,10 @@ class ClosestWalk {
   Real16 boxes_[BoxTree::kMaxLevels];
 };
 
-// The block to begin with; none where nothing can be found.
-inline std::uint32_t FirstBlock(const PointTreeView& view, const Point3& p) {
-  if (view.count == 0 || !IsFinite(p)) return ClosestPoint::kNone;
-  return view.grid ? view.grid->BlockNear(p) : FindBlockNear(view, p);
-}
-
-ClosestPoint ClosestToOne(const PointTreeView& view, const ClosestLimits& limits,
-                          const ClosestQuery& query) {
-  const std::uint32_t first = FirstBlock(view, query.p);
+inline ClosestPoint ClosestToOne(const Disks& disks, const ClosestQuery& query) {
+  const std::uint32_t first = disks.FirstBlock(query.p);
   if (first == ClosestPoint::kNone) return {};
-  ClosestWalk walk;
-  if (walk.Begin(view, limits, query, first)) walk.Finish();
-  return walk.Best();
-}
-
-void Closest(const PointTreeView& view, const ClosestLimits& limits,
-             std::span<const ClosestQuery> queries, ClosestPoint* found) {
-  constexpr std::size_t kAtOnce = 4;
-  if (queries.size() == 1) *found = ClosestToOne(view, limits, queries[0]);
-  if (queries.size() <= 1) return;
-  ClosestWalk walks[kAtOnce];
-  std::uint32_t first[kAtOnce];
-  for (std::size_t begin = 0; begin < queries.size(); begin += kAtOnce) {
-    const std::size_t count = std::min(kAtOnce, queries.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      first[i] = FirstBlock(view, queries[begin + i].p);
-      if (first[i] != ClosestPoint::kNone)
-        PrefetchBlock(BlockAt(view, first[i]), sizeof(DiskBlock));
-    }
-    unsigned unfinished = 0;
-    for (std::size_t i = 0; i < count; ++i)
-      if (first[i] != ClosestPoint::kNone)
-        unfinished |= unsigned(walks[i].Begin(view, limits, queries[begin + i], first[i])) << i;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (unfinished >> i & 1) walks[i].Finish();
-      found[begin + i] = first[i] != ClosestPoint::kNone ? walks[i].Best() : ClosestPoint();
-    }
-  }
+  ClosestPoint best = disks.None();
+  disks.Scan(first, query, &best);
+  return Disks::Answer(ClosestWalk(disks, query).After(first, best));
 }

@@ -6,4 +6,5 @@
 
 #include "core/spatial/nearest_candidates.inl"
 #include "core/spatial/nearest_disk.inl"
+#include "core/spatial/nearest_disks.inl"
 #include "core/spatial/nearest_points.inl"
