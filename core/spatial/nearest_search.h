@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "core/math/real16.h"
 #include "core/spatial/box_tree.h"
 #include "core/spatial/near_grid.h"
 
@@ -91,8 +92,7 @@ struct NearestSearch {
 };
 
 extern const NearestSearch kPortableNearestSearch;
-#if defined(__x86_64__) && !defined(EXPHOTON_DOUBLE)
-#define EXPHOTON_WIDE_SEARCH 1
+#if defined(EXPHOTON_WIDE_VECTORS)
 extern const NearestSearch kAvx2NearestSearch;    // call only where the machine has AVX2
 extern const NearestSearch kAvx512NearestSearch;  // and AVX-512 F
 #endif
