@@ -55,12 +55,13 @@ std::span<const CellView::Looker> CellView::Lookers() {
 }
 
 CellView::CellView(const GuideCell& cell, const Point3& p, const LitSide& side, Arena* arena)
-    : x(arena->Room<Real>(4 * cell.size())),
-      y(x + cell.size()),
-      z(y + cell.size()),
-      cosine(z + cell.size()) {
+    : x(arena->Room<Real>(4 * cell.Room())),
+      y(x + cell.Room()),
+      z(y + cell.Room()),
+      cosine(z + cell.Room()) {
   static const Looker look = Lookers().back();
   look(cell, p - cell.Middle(), side, this);
+  for (std::size_t i = cell.size(); i < cell.Room(); ++i) x[i] = y[i] = z[i] = cosine[i] = 0;
 }
 
 }  // namespace exphoton

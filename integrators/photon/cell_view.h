@@ -26,7 +26,7 @@ struct LitSide {
 };
 
 struct CellView {
-  // One of each for every photon of the cell, in its order; in the arena.
+  // One of each for every photon of the cell, in its order, and 0 up to whole runs; in the arena.
   Real *x, *y, *z;  // unit directions
   Real* cosine;     // |w . ns|; more than kUnlit where it does not light the side
   int lit = 0;      // that do

@@ -1,42 +1,46 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One loop, compiled for each width of vectors.
+// ConeAxes, the loops for any machine, and the choice between those for wider vectors.
 #include "integrators/photon/cone_axes.h"
 
-#include "core/base/vector_versions.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "integrators/photon/cone_axes_wide.h"
 
 namespace exphoton {
 namespace {
 
-[[gnu::always_inline]] inline int Count(const Real* x, const Real* y, const Real* z,
-                                        std::size_t count, const Vector3& w, Real chord2) {
-  int within = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Real dx = x[i] - w.x, dy = y[i] - w.y, dz = z[i] - w.z;
-    within += dx * dx + dy * dy + dz * dz <= chord2;
-  }
-  return within;
-}
-
-int CountPortable(const Real* x, const Real* y, const Real* z, std::size_t count, const Vector3& w,
-                  Real chord2) {
-  return Count(x, y, z, count, w, chord2);
-}
-
-EXPHOTON_FOR_AVX2 int CountAvx2(const Real* x, const Real* y, const Real* z, std::size_t count,
-                                const Vector3& w, Real chord2) {
-  return Count(x, y, z, count, w, chord2);
-}
-
-EXPHOTON_FOR_AVX512 int CountAvx512(const Real* x, const Real* y, const Real* z, std::size_t count,
-                                    const Vector3& w, Real chord2) {
-  return Count(x, y, z, count, w, chord2);
-}
+#include "core/math/real16_portable.inl"
+#include "integrators/photon/cone_axes.inl"
 
 }  // namespace
 
-std::span<const ConeAxes::Counter> ConeAxes::Counters() {
-  static constexpr Counter kAll[] = {CountPortable, CountAvx2, CountAvx512};
-  return {kAll, VectorVersions()};
+std::span<const ConeLoops> ConeAxes::Loops() {
+#if defined(EXPHOTON_WIDE_VECTORS)
+  static const ConeLoops all[] = {kLoops, kConeLoopsAvx2, kConeLoopsAvx512};
+  if (__builtin_cpu_supports("avx512f")) return all;
+  return {all, __builtin_cpu_supports("avx2") ? std::size_t(2) : std::size_t(1)};
+#else
+  static const ConeLoops all[] = {kLoops};
+  return all;
+#endif
+}
+
+ConeAxes::ConeAxes(std::size_t capacity, Arena* arena) {
+  const std::size_t room = WholeRuns(capacity) + kRun;  // more than is chosen may be written
+  x_ = arena->Room<Real>(3 * room);
+  y_ = x_ + room;
+  z_ = y_ + room;
+}
+
+void ConeAxes::AddChosen(const DirectionRows& from, Real scale) {
+  count_ += Fastest().choose(from, scale, x_ + count_, y_ + count_, z_ + count_);
+}
+
+void ConeAxes::Finish() {
+  for (std::size_t i = count_; i < WholeRuns(count_); ++i) x_[i] = y_[i] = z_[i] = kFar;
 }
 
 }  // namespace exphoton

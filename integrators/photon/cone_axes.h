@@ -6,33 +6,47 @@
 #include <span>
 
 #include "core/base/arena.h"
-#include "core/math/vec.h"
+#include "core/math/real16.h"
 
 namespace exphoton {
 
+// Directions to choose from, one component after the other. Rows can be read up to a whole number
+// of runs; what fills the last has a limit of 0.
+struct DirectionRows {
+  const Real *x, *y, *z;
+  const Real *value, *limit;  // >= 0, and a number
+  std::size_t count;
+};
+
+// Loops over runs. One for each width of vectors.
+struct ConeLoops {
+  // Writes the directions whose value * scale < limit one after the other, and up to a run more;
+  // how many there were.
+  std::size_t (*choose)(const DirectionRows& from, Real scale, Real* x, Real* y, Real* z);
+  // How many of the directions of whole runs end within a chord of w.
+  int (*count)(const Real* x, const Real* y, const Real* z, std::size_t count, const Vector3& w,
+               Real chord2);
+};
+
 class ConeAxes {
  public:
+  static constexpr std::size_t kRun = kReal16Lanes;
+
   ConeAxes() = default;  // none
   // With room for `capacity`, as long as the arena keeps it.
-  ConeAxes(std::size_t capacity, Arena* arena) {
-    capacity = (capacity + kRun - 1) / kRun * kRun;
-    x_ = arena->Room<Real>(3 * capacity);
-    y_ = x_ + capacity;
-    z_ = y_ + capacity;
-  }
+  ConeAxes(std::size_t capacity, Arena* arena);
 
-  // w: unit. The next one takes its place where it is not wanted.
-  void Add(const Vector3& w, bool isWanted = true) {
+  void Add(const Vector3& w) {  // unit
     x_[count_] = w.x;
     y_[count_] = w.y;
     z_[count_] = w.z;
-    count_ += isWanted;
+    ++count_;
   }
-  // To be called after the last Add.
-  void Finish() {
-    // Runs are whole: what fills the last is far from every direction.
-    for (std::size_t i = count_; i < PaddedSize(); ++i) x_[i] = y_[i] = z_[i] = kFar;
-  }
+  // Of `from` those whose value * scale < limit.
+  void AddChosen(const DirectionRows& from, Real scale);
+  void Set(std::size_t i, const Vector3& w) { x_[i] = w.x, y_[i] = w.y, z_[i] = w.z; }
+  // To be called after the last change.
+  void Finish();
 
   std::size_t size() const { return count_; }
   Vector3 operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
@@ -43,23 +57,23 @@ class ConeAxes {
     return dx * dx + dy * dy + dz * dz <= chord2;
   }
   int CountWithin(const Vector3& w, Real chord2) const {
-    return Fastest()(x_, y_, z_, PaddedSize(), w, chord2);
+    return Fastest().count(x_, y_, z_, WholeRuns(count_), w, chord2);
   }
 
-  // Of a multiple of kRun directions. One for each width of vectors, for tests.
-  using Counter = int (*)(const Real* x, const Real* y, const Real* z, std::size_t count,
-                          const Vector3& w, Real chord2);
-  static std::span<const Counter> Counters();  // that this machine can run, the widest last
+  // So many directions, as they fill runs.
+  static constexpr std::size_t WholeRuns(std::size_t count) {
+    return (count + kRun - 1) / kRun * kRun;
+  }
+
+  static std::span<const ConeLoops> Loops();  // that this machine can run, the widest last
 
  private:
-  static constexpr std::size_t kRun = 16;
   static constexpr Real kFar = 9;
 
-  static Counter Fastest() {
-    static const Counter counter = Counters().back();
-    return counter;
+  static const ConeLoops& Fastest() {
+    static const ConeLoops& fastest = Loops().back();
+    return fastest;
   }
-  std::size_t PaddedSize() const { return (count_ + kRun - 1) / kRun * kRun; }
 
   Real *x_ = nullptr, *y_ = nullptr, *z_ = nullptr;
   std::size_t count_ = 0;

@@ -10,7 +10,7 @@ namespace exphoton {
 namespace {
 
 // Directions from which clearly more light comes than a diffuse surface sends rays. What else
-// lights it the other half of the rays finds as well, and rays spent on it would be missing where
+// lights it the rays by the BSDF find as well, and rays spent on it would be missing where
 // light is dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
 // Importance Sampling). A direction's own photon does not count.
 GuideDirections WorthFollowing(const GuideCell& cell, const RestPose& rest, const Point3& p,
@@ -21,9 +21,9 @@ GuideDirections WorthFollowing(const GuideCell& cell, const RestPose& rest, cons
   const Real diffusePdf = side.isTwoSided ? kInvPi / 2 : kInvPi;
   const Real expected = Real(std::max(view.lit - 1, 1)) * diffusePdf / cone.Pdf();
   ConeAxes axes(cell.size(), arena);
-  for (std::size_t i = 0; i < cell.size(); ++i)
-    axes.Add(rest.DirectionBack({view.x[i], view.y[i], view.z[i]}),
-             expected * view.cosine[i] < cell.DenserThan()[i]);
+  axes.AddChosen({view.x, view.y, view.z, view.cosine, cell.DenserThan(), cell.size()}, expected);
+  if (rest.IsMoved())
+    for (std::size_t i = 0; i < axes.size(); ++i) axes.Set(i, rest.DirectionBack(axes[i]));
   axes.Finish();
   return {axes, Real(axes.size()) / Real(std::max(view.lit, 1))};
 }

@@ -51,9 +51,11 @@ GuideCell::GuideCell(const PhotonMap& map, const Point3& middle, int count, cons
     return;
   }
   radius2_ = near.distance2[near.farthest];
-  rows_.resize(kRows * near.size());
-  Real *const x = rows_.data(), *const y = x + near.size(), *const z = y + near.size();
-  Real* const denserThan = z + near.size();
+  count_ = near.size();
+  const std::size_t room = ConeAxes::WholeRuns(count_);
+  rows_.resize(kRows * room);
+  Real *const x = rows_.data(), *const y = x + room, *const z = y + room;
+  Real* const denserThan = z + room;
   ConeAxes axes(near.size(), scratch);
   std::size_t i = 0;
   for (const std::uint32_t photon : OrderByDirection(map, near.index, scratch)) {

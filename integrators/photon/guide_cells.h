@@ -21,20 +21,23 @@ class GuideCell {
 
   const Point3& Middle() const { return middle_; }
   Real Radius2() const { return radius2_; }  // within which they lie, squared
-  std::size_t size() const { return rows_.size() / kRows; }
+  std::size_t size() const { return count_; }
   // Where the light of each comes from, from the middle, one component after the other.
   const Real* X() const { return rows_.data(); }
-  const Real* Y() const { return X() + size(); }
-  const Real* Z() const { return Y() + size(); }
+  const Real* Y() const { return X() + Room(); }
+  const Real* Z() const { return Y() + Room(); }
   // Of each: so many others come from within a cone about its direction, seen from the middle, that
   // light is denser there than at random if fewer than this are to be expected.
-  const Real* DenserThan() const { return Z() + size(); }
+  const Real* DenserThan() const { return Z() + Room(); }
+  // Length of a row: whole runs; what fills the last is 0.
+  std::size_t Room() const { return rows_.size() / kRows; }
 
  private:
   static constexpr std::size_t kRows = 4;
 
   Point3 middle_;
   Real radius2_ = 0;
+  std::size_t count_ = 0;
   std::vector<Real> rows_;
 };
 

@@ -23,6 +23,7 @@ class RestPose {
   }
   explicit RestPose(const SurfaceInteraction& surface) : RestPose(surface.motion, surface.time) {}
 
+  bool IsMoved() const { return toRest_.has_value(); }
   Point3 Point(const Point3& p) const { return toRest_ ? toRest_->ApplyPoint(p) : p; }
   Normal3 Normal(const Normal3& n) const {
     return toRest_ ? NormalizeOr(toRest_->ApplyNormal(n), n) : n;

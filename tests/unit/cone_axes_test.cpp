@@ -18,7 +18,6 @@ TEST(ConeAxes, AreInTheOrderInWhichTheyWereAdded) {
   Arena arena;
   ConeAxes axes(3, &arena);
   axes.Add({0, 0, 1});
-  axes.Add({1, 0, 0}, false);
   axes.Add({0, -1, 0});
   axes.Finish();
   ASSERT_EQ(axes.size(), 2u);
@@ -60,11 +59,36 @@ TEST(ConeAxes, AreAsManyForEveryWidthOfVectors) {
     const Vector3 w = AnyDirection(&random);
     // Right at an axis' own distance, so that one rounding more or less would tell.
     const Real chord2 = Square(x[0] - w.x) + Square(y[0] - w.y) + Square(z[0] - w.z);
-    const auto count = [&](ConeAxes::Counter counter) {
-      return counter(x.data(), y.data(), z.data(), x.size(), w, chord2);
+    const auto count = [&](const ConeLoops& loops) {
+      return loops.count(x.data(), y.data(), z.data(), x.size(), w, chord2);
     };
-    for (const ConeAxes::Counter counter : ConeAxes::Counters())
-      ASSERT_EQ(count(counter), count(ConeAxes::Counters().front()));
+    for (const ConeLoops& loops : ConeAxes::Loops())
+      ASSERT_EQ(count(loops), count(ConeAxes::Loops().front()));
+  }
+}
+
+TEST(ConeAxes, ChooseTheSameForEveryWidthOfVectors) {
+  RandomStream random(3);
+  constexpr std::size_t kCount = 70, kRoom = 80;
+  std::vector<Real> rows(5 * kRoom, 0);
+  Real* const x = rows.data();
+  for (std::size_t i = 0; i < kCount; ++i)
+    for (std::size_t row = 0; row < 5; ++row) x[row * kRoom + i] = random.Uniform();
+  const DirectionRows from{x, x + kRoom, x + 2 * kRoom, x + 3 * kRoom, x + 4 * kRoom, kCount};
+  for (const Real scale : {Real(0), Real(.5), Real(1), Real(3)}) {
+    std::vector<Real> expected;  // x, y and z of one after the other
+    for (std::size_t i = 0; i < kCount; ++i)
+      if (from.value[i] * scale < from.limit[i])
+        expected.insert(expected.end(), {from.x[i], from.y[i], from.z[i]});
+    for (const ConeLoops& loops : ConeAxes::Loops()) {
+      std::vector<Real> to(3 * (kRoom + ConeAxes::kRun));
+      Real *const tx = to.data(), *const ty = tx + kRoom + ConeAxes::kRun,
+                  *const tz = ty + kRoom + ConeAxes::kRun;
+      const std::size_t count = loops.choose(from, scale, tx, ty, tz);
+      std::vector<Real> chosen;
+      for (std::size_t i = 0; i < count; ++i) chosen.insert(chosen.end(), {tx[i], ty[i], tz[i]});
+      EXPECT_EQ(chosen, expected) << scale;
+    }
   }
 }
 
