@@ -93,7 +93,7 @@ void RadianceMap::Find(std::span<const Place> places, std::optional<Entry>* foun
       if (closest[i].index == ClosestPoint::kNone) continue;
       const RadianceBlock& block = tree_.BlockOf(closest[i].index);
       const std::uint32_t lane = tree_.Lane(closest[i].index);
-      *found = {block.Value(lane), SafeDivide(block.reach2[lane], Square(reach_), 0),
+      *found = {block.value[lane], SafeDivide(block.reach2[lane], Square(reach_), 0),
                 closest[i].distance2};
     }
   }

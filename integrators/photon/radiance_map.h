@@ -22,15 +22,11 @@ struct RadianceRecord {
 struct RadianceBlock : DiskBlock {
   using Record = RadianceRecord;
 
-  Real r[kBlockPoints], g[kBlockPoints], b[kBlockPoints];  // value
-
-  Spectrum Value(std::uint32_t lane) const { return {r[lane], g[lane], b[lane]}; }
+  Spectrum value[kBlockPoints];  // read one by one
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
     reach2[lane] = record.reach2;
-    r[lane] = record.value.r;
-    g[lane] = record.value.g;
-    b[lane] = record.value.b;
+    value[lane] = record.value;
   }
 };
 
