@@ -98,6 +98,14 @@ inline Real LeastOf(Real16 values, unsigned mask) {
       LeastKey(_mm256_castps_si256(values.low), _mm256_castps_si256(values.high), mask));
 }
 
+// Of values that are not negative.
+inline Real LargestOf(Real16 values) {
+  const __m256 eight = _mm256_max_ps(values.low, values.high);
+  __m128 largest = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+  largest = _mm_max_ps(largest, _mm_movehl_ps(largest, largest));
+  return _mm_cvtss_f32(_mm_max_ss(largest, _mm_shuffle_ps(largest, largest, 1)));
+}
+
 // For each mask of eight the lanes that it names, in order.
 constexpr auto kCompress = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};

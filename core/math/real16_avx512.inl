@@ -57,6 +57,11 @@ inline Real LeastOf(Real16 values, unsigned mask) {
       _mm512_mask_reduce_min_epi32(__mmask16(mask), _mm512_castps_si512(values.v)));
 }
 
+// Of values that are not negative.
+inline Real LargestOf(Real16 values) {
+  return std::bit_cast<Real>(_mm512_reduce_max_epi32(_mm512_castps_si512(values.v)));
+}
+
 // Writes the lanes of the mask one after the other, and sixteen in all; how many there were.
 inline std::size_t StoreLanes(Real16 values, unsigned mask, Real* to) {
   _mm512_storeu_ps(to, _mm512_maskz_compress_ps(__mmask16(mask), values.v));

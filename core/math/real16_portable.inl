@@ -85,6 +85,13 @@ inline Real LeastOf(const Real16& values, unsigned mask) {
   return least;
 }
 
+// Of values that are not negative.
+inline Real LargestOf(const Real16& values) {
+  Real largest = 0;
+  for (const Real lane : values.lanes) largest = lane > largest ? lane : largest;
+  return largest;
+}
+
 inline std::size_t CountLessEqual(const Real16& a, const Real16& b) {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < kReal16Lanes; ++i) count += a.lanes[i] <= b.lanes[i];

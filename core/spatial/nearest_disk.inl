@@ -29,6 +29,12 @@ struct Disks {
     return LessEqualMask(zero, along) | LessMask(along * along, least2);
   }
 
+  // Squared: that of a block's farthest point.
+  Real Farthest2(std::uint32_t number, const Point3& p) const {
+    Real16 dx, dy, dz;
+    return LargestOf(PointDistance2(Block(number), Place16(p), &dx, &dy, &dz));
+  }
+
   // Whether the block has something better. Lanes that repeat the last point never are: of equals
   // the lowest is taken.
   bool Scan(std::uint32_t number, const ClosestQuery& query, ClosestPoint* best) const {

@@ -15,23 +15,29 @@ class ClosestTogether {
       if (first_[i] != ClosestPoint::kNone)
         PrefetchBlock(disks.Block(first_[i]), sizeof(DiskBlock));
     }
-    alone_ = 0;
     std::size_t open = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
       best[i] = disks.None();
       if (first_[i] == ClosestPoint::kNone) continue;
       disks.Scan(first_[i], queries[i], &best[i]);
-      // Much would be as near as nothing.
-      const bool hasNone = best[i].index == ClosestPoint::kNone;
-      alone_ |= unsigned(hasNone) << i;
-      lists_[0][open] = std::uint32_t(i) << kNodeBits;  // at the root
-      open += !hasNone;
+      // In corners the first block is often of the other wall: as near as a part of it is wide
+      // there mostly is one that serves. All that is left would be too much for the list.
+      if (best[i].index == ClosestPoint::kNone)
+        best[i].distance2 =
+            std::min(best[i].distance2, kGuess2 * disks.Farthest2(first_[i], queries[i].p));
+      lists_[0][open++] = std::uint32_t(i) << kNodeBits;  // at the root
     }
+    alone_ = 0;
     std::uint32_t *from = lists_[0], *to = lists_[1];
     for (int level = disks.view.tree->Levels() - 1; level >= 0; --level, std::swap(from, to))
       open = Descend(disks, queries, best, level, {from, open}, to);
     for (const std::uint32_t item : std::span(from, open))
       disks.Scan(NodeOf(item), queries[QueryOf(item)], &best[QueryOf(item)]);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (best[i].index != ClosestPoint::kNone || first_[i] == ClosestPoint::kNone) continue;
+      best[i] = disks.None();
+      alone_ |= 1u << i;
+    }
     for (; alone_ != 0; alone_ &= alone_ - 1) {
       const auto i = unsigned(__builtin_ctz(alone_));
       best[i] = ClosestWalk(disks, queries[i]).After(first_[i], best[i]);
@@ -69,6 +75,7 @@ class ClosestTogether {
   }
 
   static constexpr std::size_t kRoom = 256;
+  static constexpr Real kGuess2 = Real(1) / 16;  // twice or half of it is as good
   std::uint32_t first_[kMost];
   unsigned alone_;  // those to be found by a walk
   std::uint32_t lists_[2][kRoom + 2 * kBlockPoints];

@@ -140,6 +140,39 @@ TEST(PointTree, FindsTheDiskThatBruteForceFinds) {
   EXPECT_GT(found, 150);
 }
 
+TEST(PointTree, FindsTheDisksThatBruteForceFindsManyAtOnce) {
+  RandomStream random(10);
+  int found = 0;
+  for (const Layout layout : kLayouts)
+    for (const int count : {1, 17, 300, 6000})
+      for (const Real minCosine : {Real(-.5), Real(.7)}) {
+        const std::vector<TestDisk> disks = MakeDisks(layout, count, &random);
+        std::vector<Point3> points;
+        for (const TestDisk& disk : disks) points.push_back(disk.p);
+        const TestPointTree tree(disks);
+        const ClosestLimits limits{minCosine, layout == Layout::Huge ? Real(1e11) : Real(.1)};
+        std::vector<ClosestQuery> queries;
+        std::vector<ClosestPoint> expected;
+        for (int i = 0; i < 41; ++i) {
+          Normal3 n{0, 0, 1};
+          if (i % 4 == 1) n = DecodeOctahedral(disks[std::size_t(i % count)].direction);
+          queries.push_back({QueryPoint(layout, points, i, &random), n});
+          if (i % 13 == 12) queries.back().p.x = kInfinity;
+          expected.push_back(tree.ClosestByBruteForce(queries.back(), limits));
+          found += expected.back().index != ClosestPoint::kNone;
+        }
+        for (const NearestSearch* search : AvailableNearestSearches()) {
+          std::vector<ClosestPoint> closest(queries.size());
+          search->closest(tree.View(), limits, queries, closest.data());
+          for (std::size_t i = 0; i < queries.size(); ++i) {
+            ASSERT_EQ(closest[i].index, expected[i].index) << search->name << int(layout);
+            ASSERT_EQ(closest[i].distance2, expected[i].distance2);
+          }
+        }
+      }
+  EXPECT_GT(found, 400);
+}
+
 TEST(PointTree, HoldsEveryPointOnce) {
   RandomStream random(11);
   const auto points = MakePoints(Layout::Random, 1000, &random);
@@ -216,9 +249,13 @@ TEST(PointTree, OfManyCoincidentPointsFindsTheFirstAtOnce) {
       ASSERT_EQ(near.size(), 50u);
       ASSERT_EQ(near.back().index, 49u);
       const ClosestQuery place{query.p, {0, 0, 1}};
-      ClosestPoint closest;
-      FastestNearestSearch().closest(tree.View(), {0, 9}, {&place, 1}, &closest);
-      ASSERT_EQ(closest.index, 0u);
+      const std::vector<ClosestQuery> places(16, place);
+      for (const std::size_t together : {std::size_t(1), places.size()}) {
+        std::vector<ClosestPoint> closest(together);
+        FastestNearestSearch().closest(tree.View(), {0, 9}, {places.data(), together},
+                                       closest.data());
+        for (const ClosestPoint& each : closest) ASSERT_EQ(each.index, 0u);
+      }
     }
   }
 }
