@@ -173,6 +173,29 @@ TEST(PointTree, FindsTheDisksThatBruteForceFindsManyAtOnce) {
   EXPECT_GT(found, 400);
 }
 
+// From the middle of a sphere everything is as near: more boxes than a list holds.
+TEST(PointTree, FindsTheDiskThatBruteForceFindsWhereAllAreAsNear) {
+  RandomStream random(14);
+  std::vector<TestDisk> disks = MakeDisks(Layout::Random, 20000, &random);
+  for (TestDisk& disk : disks) {
+    const Vector3 w = NormalizeOr(disk.p - Point3(Real(.5), Real(.5), Real(.5)), {1, 0, 0});
+    disk.p = Point3() + w * (1 + Real(.001) * random.Uniform());
+    disk.reach2 = 4;
+    disk.direction = EncodeOctahedral({0, 0, 1});
+  }
+  const TestPointTree tree(disks);
+  const ClosestLimits limits{0, 4};
+  std::vector<ClosestQuery> queries;
+  for (int i = 0; i < 16; ++i)
+    queries.push_back({Point3() + Vector3(Real(1e-5) * Real(i), 0, 0), {0, 0, 1}});
+  for (const NearestSearch* search : AvailableNearestSearches()) {
+    std::vector<ClosestPoint> closest(queries.size());
+    search->closest(tree.View(), limits, queries, closest.data());
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      ASSERT_EQ(closest[i].index, tree.ClosestByBruteForce(queries[i], limits).index);
+  }
+}
+
 TEST(PointTree, HoldsEveryPointOnce) {
   RandomStream random(11);
   const auto points = MakePoints(Layout::Random, 1000, &random);
