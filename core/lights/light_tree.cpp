@@ -3,6 +3,7 @@
 #include "core/lights/light_tree.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/lights/light_distribution.h"
 
@@ -102,7 +103,9 @@ double LightTree::LeftProbability(int node, const Point3& p) const {
 double LightTree::FarProbability(const Point3& p) const {
   if (farLights_.empty()) return 0;
   if (nodes_.empty()) return 1;
-  const double near = nodes_[0].power / (4 * double(kPi) * Distance2(nodes_[0], p));
+  const double distance2 = Distance2(nodes_[0], p);  // 0 on lights that are all on one spot
+  const double near = distance2 > 0 ? nodes_[0].power / (4 * double(kPi) * distance2)
+                                    : std::numeric_limits<double>::infinity();
   return std::clamp(far_.Sum() / (far_.Sum() + near), kLeastGroupShare, 1 - kLeastGroupShare);
 }
 

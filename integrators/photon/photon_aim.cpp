@@ -75,8 +75,8 @@ void PhotonAim::AddLevels(std::span<Point3> wanted, double leastShare) {
 }
 
 double PhotonAim::Ball::Density(Real distance2) const {
-  const Real s = distance2 / (radius * radius);
-  return s < 1 ? 2 * double(1 - s) * share / DiskArea(radius) : 0;
+  if (!(distance2 < radius * radius)) return 0;
+  return 2 * double(1 - distance2 / (radius * radius)) * share / DiskArea(radius);
 }
 
 double PhotonAim::WorldDensity() const {
