@@ -81,9 +81,5 @@ const BvhTraversal kAvx2Traversal{"AVX2",          Intersect, Occluded,        M
 
 }  // namespace exphoton
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "core/math/vectors_end.inl"
 #endif

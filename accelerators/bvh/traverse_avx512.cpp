@@ -68,9 +68,5 @@ const BvhTraversal kAvx512Traversal{"AVX-512",       Intersect, Occluded,       
 
 }  // namespace exphoton
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "core/math/vectors_end.inl"
 #endif

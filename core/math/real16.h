@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Real16: sixteen numbers at a time, for loops that compilers do not turn into vectors by
 // themselves. One algorithm is written in terms of it (a file .inl) and compiled for each width of
-// vectors: its file for a width opens its anonymous namespace, with the compiler told of the
-// instructions, and includes real16_portable.inl, real16_avx2.inl or real16_avx512.inl and then the
-// algorithm. All operations are lane by lane and rounded as single ones, so that every width gives
-// the same bits. Masks have one bit a lane, the lowest for the first.
+// vectors: its file for a width includes real16_begin_avx2.inl (or avx512; nothing for any
+// machine), in its anonymous namespace real16_avx2.inl and the algorithm, and at last
+// vectors_end.inl. All operations are lane by lane and rounded as single ones, so that every width
+// gives the same bits. Masks have one bit a lane, the lowest for the first.
 #pragma once
 
 #include <cstdint>

@@ -4,21 +4,7 @@
 #include "core/spatial/nearest_search.h"
 
 #if defined(EXPHOTON_WIDE_VECTORS)
-#include <immintrin.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <limits>
-
-// From here on, and not for the headers above: an inline function of theirs that was compiled for
-// AVX2 could replace the one that other files use.
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,bmi,popcnt"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,bmi,popcnt")
-#endif
+#include "core/math/real16_begin_avx2.inl"
 
 namespace exphoton {
 namespace {
@@ -32,9 +18,5 @@ const NearestSearch kAvx2NearestSearch{"AVX2", FindBlockNear, Nearest, Closest};
 
 }  // namespace exphoton
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "core/math/vectors_end.inl"
 #endif

@@ -4,25 +4,7 @@
 #include "core/spatial/nearest_search.h"
 
 #if defined(EXPHOTON_WIDE_VECTORS)
-#include <immintrin.h>
-
-#include <algorithm>
-#include <bit>
-#include <limits>
-
-#if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC bug 105593: in its own intrinsics
-#endif
-
-// From here on, and not for the headers above: an inline function of theirs that was compiled for
-// AVX-512 could replace the one that other files use.
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx512f,avx2,bmi,popcnt"))), \
-                             apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx2,bmi,popcnt")
-#endif
+#include "core/math/real16_begin_avx512.inl"
 
 namespace exphoton {
 namespace {
@@ -36,9 +18,5 @@ const NearestSearch kAvx512NearestSearch{"AVX-512", FindBlockNear, Nearest, Clos
 
 }  // namespace exphoton
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "core/math/vectors_end.inl"
 #endif
