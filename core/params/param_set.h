@@ -15,9 +15,9 @@ namespace exphoton {
 struct ParsedParam {
   std::string type;  // as written: "float", "rgb", "texture" ...
   std::string name;
-  std::vector<double> numbers;       // of a numeric type
-  std::vector<std::string> strings;  // of string, bool, texture or spectrum files
-  SourceLocation where;              // of the declaration
+  std::vector<double> numbers;             // of a numeric type
+  std::vector<std::string> strings;        // of string, bool, texture or spectrum files
+  SourceLocation where;                    // of the declaration
   std::vector<SourceLocation> valueWhere;  // sparse: empty, or one a value (short lists only)
 };
 

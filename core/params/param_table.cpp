@@ -46,9 +46,46 @@ void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& kno
 
 }  // namespace
 
-void ParamTableBase::BindValues(
-    const ParamSet& params, const BindContext& context,
-    const std::function<void(std::size_t index, std::any value)>& set) const {
+ParamDraft::ParamDraft(const char* name, const ParamMember& paramMember, const char* doc)
+    : member(&paramMember) {
+  decl.name = name;
+  decl.doc = doc;
+  decl.type = member->type;
+  if (member->type == ParamType::Integer) {
+    decl.lowest = member->lowest;
+    decl.highest = member->highest;
+  }
+}
+
+void ParamTableBase::Add(const ParamDraft& draft, const void* defaults, std::ptrdiff_t offset) {
+  AddSlot(draft.decl, {offset, draft.member, draft.choiceValues}, defaults);
+}
+
+void ParamTableBase::AddBase(const ParamTableBase& base, const void* defaults,
+                             std::ptrdiff_t offset) {
+  for (std::size_t i = 0; i < base.slots_.size(); ++i) {
+    Slot slot = base.slots_[i];
+    slot.offset += offset;
+    AddSlot(base.declarations_[i], std::move(slot), defaults);
+  }
+}
+
+void ParamTableBase::AddSlot(ParamDecl decl, Slot slot, const void* defaults) {
+  const void* member = static_cast<const char*>(defaults) + slot.offset;
+  if (slot.member->choice) {
+    const auto& values = slot.choiceValues;
+    const auto found = std::find(values.begin(), values.end(), slot.member->choice(member));
+    decl.defaultText =
+        found == values.end() ? "" : '"' + decl.choices[std::size_t(found - values.begin())] + '"';
+  } else {
+    decl.defaultText = slot.member->text(member);
+  }
+  declarations_.push_back(std::move(decl));
+  slots_.push_back(std::move(slot));
+}
+
+void ParamTableBase::BindValues(const ParamSet& params, const BindContext& context,
+                                void* settings) const {
   std::vector<std::string> known;
   for (const ParamDecl& decl : declarations_) known.push_back(decl.name);
   for (const ParsedParam& param : params.All()) {
@@ -57,7 +94,10 @@ void ParamTableBase::BindValues(
   for (std::size_t i = 0; i < declarations_.size(); ++i) {
     const ParamDecl& decl = declarations_[i];
     if (const ParsedParam* param = FindWithOverrides(decl.name, params, context)) {
-      set(i, ParamReader(decl, *param, context).Read());
+      const Slot& slot = slots_[i];
+      std::any value = ParamReader(decl, *param, context).Read();
+      if (slot.member->choice) value = slot.choiceValues[std::size_t(std::any_cast<int>(value))];
+      slot.member->assign(static_cast<char*>(settings) + slot.offset, value);
     } else if (decl.isRequired) {
       throw Error(ExitStatus::Scene,
                   context.what + " needs the parameter \"" +

@@ -13,9 +13,9 @@
 //   }
 #pragma once
 
-#include <algorithm>
 #include <any>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,31 +23,22 @@
 #include <utility>
 #include <vector>
 
-#include "core/math/spectrum.h"
-#include "core/math/vec.h"
+#include "core/params/param_member.h"
 #include "core/params/param_set.h"
 
 namespace exphoton {
 
 class Log;
 
-// Thrown by Settings::Validate() or a factory: a rule that one parameter breaks. The binder adds the
-// place of that parameter (of the directive where the file does not give it).
+// Thrown by Settings::Validate() or a factory: a rule that one parameter breaks. The binder adds
+// the place of that parameter (of the directive where the file does not give it).
 struct ParamError {
   std::string param;
   std::string text;  // "must be at most 'zmax'"
   std::string hint;
 };
 
-enum class ParamType {
-  Integer, Float, Bool, String, Choice, File, Color, Point, Vector, Normal,
-  FloatTexture, ColorTexture,
-  IntegerList, FloatList, PointList, VectorList, NormalList, Point2List,
-};
-// "integer", "float texture" ...; "string" where a scene file writes one, whatever it means.
-const char* ParamTypeName(ParamType type);
-
-// One declared parameter, type-erased.
+// One declared parameter.
 struct ParamDecl {
   std::string name, doc, unit;
   ParamType type = ParamType::Float;
@@ -75,143 +66,107 @@ struct BindContext {
   const ParamSet* overrides = nullptr;
 };
 
-// The untyped half: declarations, and assignment of checked values through std::any.
+// One parameter while it is declared, without the types of the settings struct and its member.
+struct ParamDraft {
+  ParamDraft(const char* name, const ParamMember& member, const char* doc);
+
+  ParamDecl decl;
+  const ParamMember* member;
+  std::vector<long long> choiceValues;  // the enumerators' numbers, in the order of decl.choices
+};
+
+// The untyped half of a table: declarations, and assignment of checked values to members that are
+// found by their offset.
 class ParamTableBase {
  public:
   virtual ~ParamTableBase() = default;
   const std::vector<ParamDecl>& Declarations() const { return declarations_; }
 
  protected:
-  // Checks types, counts, ranges and names; for each declared parameter present in the file calls
-  // set(index, value). Throws Error(Scene) with file, line, column and hint.
-  // Values: long long, Real, bool, std::string (Choice: its index as int), Spectrum, Vec3,
-  // TexturePtr<T>, std::vector<int | Real | Vec3 | Point2>.
-  void BindValues(const ParamSet& params, const BindContext& context,
-                  const std::function<void(std::size_t index, std::any value)>& set) const;
+  // Declares a parameter whose member has this offset in the settings; `defaults` are settings as
+  // their initialisers make them.
+  void Add(const ParamDraft& draft, const void* defaults, std::ptrdiff_t offset);
+  // Declares the parameters of a base struct, which lies at this offset in the settings.
+  void AddBase(const ParamTableBase& base, const void* defaults, std::ptrdiff_t offset);
+  // Checks types, counts, ranges and names; stores each declared parameter that the file gives in
+  // `settings`. Throws Error(Scene) with file, line, column and hint.
+  void BindValues(const ParamSet& params, const BindContext& context, void* settings) const;
   // Turns a ParamError into an Error at the parameter's place.
   [[noreturn]] static void Locate(const ParamError& error, const ParamSet& params,
                                   const BindContext& context);
 
+ private:
+  struct Slot {
+    std::ptrdiff_t offset;
+    const ParamMember* member;
+    std::vector<long long> choiceValues;
+  };
+  void AddSlot(ParamDecl decl, Slot slot, const void* defaults);
+
   std::vector<ParamDecl> declarations_;
+  std::vector<Slot> slots_;  // as declarations_
 };
-
-namespace detail {
-
-template <class T>
-struct StripOptional {
-  using Type = T;
-};
-template <class T>
-struct StripOptional<std::optional<T>> {
-  using Type = T;
-};
-
-template <class T>
-constexpr ParamType TypeOf() {
-  using V = typename StripOptional<T>::Type;
-  if constexpr (std::is_same_v<V, bool>) return ParamType::Bool;
-  else if constexpr (std::is_enum_v<V>) return ParamType::Choice;
-  else if constexpr (std::is_integral_v<V>) return ParamType::Integer;
-  else if constexpr (std::is_floating_point_v<V>) return ParamType::Float;
-  else if constexpr (std::is_same_v<V, std::string>) return ParamType::String;
-  else if constexpr (std::is_same_v<V, Spectrum>) return ParamType::Color;
-  else if constexpr (std::is_same_v<V, Vec3>) return ParamType::Point;
-  else if constexpr (std::is_same_v<V, TexturePtr<Real>>) return ParamType::FloatTexture;
-  else if constexpr (std::is_same_v<V, TexturePtr<Spectrum>>) return ParamType::ColorTexture;
-  else if constexpr (std::is_same_v<V, std::vector<int>>) return ParamType::IntegerList;
-  else if constexpr (std::is_same_v<V, std::vector<Real>>) return ParamType::FloatList;
-  else if constexpr (std::is_same_v<V, std::vector<Vec3>>) return ParamType::PointList;
-  else if constexpr (std::is_same_v<V, std::vector<Point2>>) return ParamType::Point2List;
-  else static_assert(!sizeof(V), "no parameter type for this member");
-}
-
-// Text of a default value, as a scene file would write it.
-std::string DefaultText(bool v);
-std::string DefaultText(long long v);
-std::string DefaultText(double v);
-std::string DefaultText(const std::string& v);
-std::string DefaultText(const Spectrum& v);
-std::string DefaultText(const Vec3& v);
-std::string DefaultText(const std::vector<Real>& v);
-// The value of a UniformTexture; "" for a null texture.
-std::string DefaultText(const TexturePtr<Real>& v);
-std::string DefaultText(const TexturePtr<Spectrum>& v);
-
-}  // namespace detail
 
 // One parameter of settings struct S, stored in a member of type T. T may be std::optional<U>: then
 // absence stays visible. Integers are 32-bit in files; a 64-bit member accepts up to 2^53.
 template <class S, class T>
-class Param {
+class Param : public ParamDraft {
  public:
-  using Value = typename detail::StripOptional<T>::Type;
+  struct Choice {
+    const char* name;
+    T value;
+  };
 
-  Param(std::string name, T S::*member, std::string doc) : member_(member) {
-    decl_.name = std::move(name);
-    decl_.doc = std::move(doc);
-    decl_.type = detail::TypeOf<T>();
-    if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
-      constexpr double kExact = 9007199254740992.0;  // 2^53
-      decl_.lowest = std::max(double(std::numeric_limits<Value>::lowest()), -kExact);
-      decl_.highest = std::min(double(std::numeric_limits<Value>::max()), kExact);
-    }
+  Param(const char* name, T S::*member, const char* doc)
+      : ParamDraft(name, MemberOf<T>(), doc), member_(member) {}
+
+  Param& Range(double min, double max) {
+    decl.min = min, decl.max = max;
+    return *this;
   }
-  Param& Range(double min, double max) { decl_.min = min, decl_.max = max; return *this; }
-  Param& AtLeast(double min) { decl_.min = min; return *this; }
-  Param& AtMost(double max) { decl_.max = max; return *this; }
-  Param& Above(double min) { decl_.min = min; decl_.minExcluded = true; return *this; }
-  Param& Below(double max) { decl_.max = max; decl_.maxExcluded = true; return *this; }
-  Param& Unit(std::string unit) { decl_.unit = std::move(unit); return *this; }
-  Param& Required() { decl_.isRequired = true; return *this; }
+  Param& AtLeast(double min) {
+    decl.min = min;
+    return *this;
+  }
+  Param& AtMost(double max) {
+    decl.max = max;
+    return *this;
+  }
+  Param& Above(double min) {
+    decl.min = min;
+    decl.minExcluded = true;
+    return *this;
+  }
+  Param& Below(double max) {
+    decl.max = max;
+    decl.maxExcluded = true;
+    return *this;
+  }
+  Param& Unit(const char* unit) {
+    decl.unit = unit;
+    return *this;
+  }
+  Param& Required() {
+    decl.isRequired = true;
+    return *this;
+  }
   // A Vec3 member that is a vector or normal; a string member that names a file.
-  Param& As(ParamType type) { decl_.type = type; return *this; }
+  Param& As(ParamType type) {
+    decl.type = type;
+    return *this;
+  }
   // For enum members: the names in the scene file.
-  Param& OneOf(std::vector<std::pair<std::string, Value>> choices) {
-    for (auto& [text, value] : choices) {
-      decl_.choices.push_back(text);
-      values_.push_back(value);
+  Param& OneOf(std::initializer_list<Choice> choices) {
+    for (const Choice& choice : choices) {
+      decl.choices.push_back(choice.name);
+      choiceValues.push_back(static_cast<long long>(choice.value));
     }
     return *this;
   }
+  const void* MemberIn(const S& settings) const { return &(settings.*member_); }
 
  private:
-  template <class>
-  friend class ParamTable;
-
-  std::string DefaultOf(const S& defaults) const {
-    const T& value = defaults.*member_;
-    if constexpr (!std::is_same_v<T, Value>) {
-      (void)value;
-      return "";
-    } else if constexpr (std::is_enum_v<T>) {
-      for (std::size_t i = 0; i < values_.size(); ++i)
-        if (values_[i] == value) return detail::DefaultText(decl_.choices[i]);
-      return "";
-    } else if constexpr (std::is_same_v<T, bool>) {
-      return detail::DefaultText(value);
-    } else if constexpr (std::is_integral_v<T>) {
-      return detail::DefaultText(static_cast<long long>(value));
-    } else if constexpr (std::is_floating_point_v<T>) {
-      return detail::DefaultText(static_cast<double>(value));
-    } else if constexpr (requires { detail::DefaultText(value); }) {
-      return detail::DefaultText(value);
-    } else {
-      return "";
-    }
-  }
-  void Assign(S& settings, const std::any& value) const {
-    if constexpr (std::is_enum_v<Value>) {
-      settings.*member_ = values_[std::size_t(std::any_cast<int>(value))];
-    } else if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
-      settings.*member_ = static_cast<Value>(std::any_cast<long long>(value));
-    } else {
-      settings.*member_ = std::any_cast<const Value&>(value);
-    }
-  }
-
   T S::*member_;
-  ParamDecl decl_;
-  std::vector<Value> values_;  // of the choices
 };
 template <class S, class T>
 Param(const char*, T S::*, const char*) -> Param<S, T>;
@@ -222,30 +177,23 @@ class ParamTable final : public ParamTableBase {
   template <class... T>
   ParamTable(const Param<S, T>&... params) {
     [[maybe_unused]] const S defaults{};
-    (AddOne(params, defaults), ...);
+    (AddOne(params, defaults, params.MemberIn(defaults)), ...);
   }
   // A table that begins with the entries of a base struct's table: shared declarations, whose
   // defaults are those of S.
   template <class Base, class... T>
   ParamTable(const ParamTable<Base>& base, const Param<S, T>&... params) {
     static_assert(std::is_base_of_v<Base, S>);
-    [[maybe_unused]] const S defaults{};
-    for (std::size_t i = 0; i < base.Declarations().size(); ++i) {
-      declarations_.push_back(base.Declarations()[i]);
-      declarations_.back().defaultText = base.DefaultTextAt(i, defaults);
-      assign_.push_back([&base, i](S& s, const std::any& v) { base.AssignAt(i, s, v); });
-      defaultText_.push_back([&base, i](const S& s) { return base.DefaultTextAt(i, s); });
-    }
-    (AddOne(params, defaults), ...);
+    const S defaults{};
+    AddBase(base, &defaults, Offset(defaults, static_cast<const Base*>(&defaults)));
+    (AddOne(params, defaults, params.MemberIn(defaults)), ...);
   }
 
-  // The settings that this set of parameters means. Calls S::Validate() const if there is one, which
-  // may throw ParamError.
+  // The settings that this set of parameters means. Calls S::Validate() const if there is one,
+  // which may throw ParamError.
   S Bind(const ParamSet& params, const BindContext& context) const {
     S settings{};
-    BindValues(params, context, [&](std::size_t index, std::any value) {
-      assign_[index](settings, value);
-    });
+    BindValues(params, context, &settings);
     if constexpr (requires { settings.Validate(); }) {
       try {
         settings.Validate();
@@ -264,24 +212,14 @@ class ParamTable final : public ParamTableBase {
       Locate(error, params, context);
     }
   }
-  void AssignAt(std::size_t index, S& settings, const std::any& value) const {
-    assign_[index](settings, value);
-  }
-  std::string DefaultTextAt(std::size_t index, const S& settings) const {
-    return defaultText_[index](settings);
-  }
 
  private:
-  template <class T>
-  void AddOne(const Param<S, T>& param, const S& defaults) {
-    declarations_.push_back(param.decl_);
-    declarations_.back().defaultText = param.DefaultOf(defaults);
-    assign_.push_back([param](S& s, const std::any& v) { param.Assign(s, v); });
-    defaultText_.push_back([param](const S& s) { return param.DefaultOf(s); });
+  static std::ptrdiff_t Offset(const S& settings, const void* part) {
+    return static_cast<const char*>(part) - reinterpret_cast<const char*>(&settings);
   }
-
-  std::vector<std::function<void(S&, const std::any&)>> assign_;
-  std::vector<std::function<std::string(const S&)>> defaultText_;
+  void AddOne(const ParamDraft& draft, const S& defaults, const void* member) {
+    Add(draft, &defaults, Offset(defaults, member));
+  }
 };
 
 }  // namespace exphoton

@@ -76,34 +76,4 @@ std::string RangeText(const ParamDecl& decl) {
   return text;
 }
 
-namespace detail {
-
-std::string DefaultText(bool v) { return v ? "\"true\"" : "\"false\""; }
-std::string DefaultText(long long v) { return std::to_string(v); }
-std::string DefaultText(double v) { return NumberText(v); }
-std::string DefaultText(const std::string& v) { return '"' + v + '"'; }
-std::string DefaultText(const Spectrum& v) {
-  return '[' + NumberText(double(v.r)) + ' ' + NumberText(double(v.g)) + ' ' +
-         NumberText(double(v.b)) + ']';
-}
-std::string DefaultText(const Vec3& v) {
-  return '[' + NumberText(double(v.x)) + ' ' + NumberText(double(v.y)) + ' ' +
-         NumberText(double(v.z)) + ']';
-}
-std::string DefaultText(const std::vector<Real>& v) {
-  if (v.empty()) return "";
-  std::string text;
-  for (const Real number : v) text += ' ' + NumberText(double(number));
-  return '[' + text.substr(1) + ']';
-}
-std::string DefaultText(const TexturePtr<Real>& v) {
-  const std::optional<Real> value = v ? v->ConstantValue() : std::nullopt;
-  return value ? NumberText(double(*value)) : "";
-}
-std::string DefaultText(const TexturePtr<Spectrum>& v) {
-  const std::optional<Spectrum> value = v ? v->ConstantValue() : std::nullopt;
-  return value ? DefaultText(*value) : "";
-}
-
-}  // namespace detail
 }  // namespace exphoton
