@@ -2,14 +2,13 @@
 // The table of differences, and difference images. Measures nothing itself: core/imaging does.
 #include "core/cli/compare_command.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
-#include "core/cli/arguments.h"
 #include "core/cli/errors.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
@@ -124,31 +123,31 @@ bool IsWithin(const CompareOptions& options, const Comparison& one) {
          (options.maxMean < 0 || std::abs(d.relativeMeanError) <= options.maxMean);
 }
 
-CompareOptions Parse(const std::vector<std::string>& arguments) {
+CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
   CompareOptions options;
-  CLI::App app(
+  OptionParser app(
       "Measures how far pictures are from a reference (R, G and B). Exit status: 0 all the same, "
       "1 one differs, 2 they cannot be compared.",
       "exphoton compare");
-  app.add_option("reference", options.reference, "EXR or PNG")->required();
-  app.add_option("pictures", options.pictures, "EXR or PNG files of the same size")->required();
-  app.add_option("--max-relmse", options.maxRelMse, "up to this relMSE they count as the same")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--max-mean", options.maxMean, "up to this relative error of the mean, too")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--difference", options.differenceFolder,
-                 "write NAME-difference.exr (layers: signed, relative, squared error, FLIP) and "
-                 "NAME-difference.png (red: too bright, blue: too dark) to this folder")
-      ->type_name("DIR");
-  app.add_option("--scale", options.fullScale, "relative error of full red or blue (default 0.5)")
-      ->check(CLI::PositiveNumber);
-  app.footer(
+  app.Add("reference", options.reference, "EXR or PNG").Required();
+  app.Add("pictures", options.pictures, "EXR or PNG files of the same size").Required();
+  app.Add("--max-relmse", options.maxRelMse, "up to this relMSE they count as the same")
+      .AtLeastZero();
+  app.Add("--max-mean", options.maxMean, "up to this relative error of the mean, too")
+      .AtLeastZero();
+  app.Add("--difference", options.differenceFolder,
+          "write NAME-difference.exr (layers: signed, relative, squared error, FLIP) and "
+          "NAME-difference.png (red: too bright, blue: too dark) to this folder")
+      .TypeName("DIR");
+  app.Add("--scale", options.fullScale, "relative error of full red or blue (default 0.5)")
+      .Positive();
+  app.Footer(
       "\nrelMSE: mean over pixels and colours of (x-r)^2 / (r^2 + 0.01); trimmed: without the "
       "worst\n"
       "thousandth of the pixels; p99 error: 99 % of the pixels have a smaller root of their "
       "relMSE;\n"
       "FLIP: visible difference, 0 to 1 (LDR-FLIP, mean luminance of the reference at 0.18).");
-  ParseArguments(app, arguments);
+  app.Parse(arguments);
   return options;
 }
 
@@ -158,7 +157,7 @@ int RunCompare(const std::vector<std::string>& arguments) {
   constexpr int kDifferent = 1, kTrouble = 2;
   bool isSame = true;  // also where only help was asked for
   const int status = Guarded([&] {
-    const CompareOptions options = Parse(arguments);
+    const CompareOptions options = ParseCompareOptions(arguments);
     const Image reference = ReadImage(options.reference);
     if (!options.differenceFolder.empty()) MakeFolder(options.differenceFolder);
     std::vector<Comparison> all;

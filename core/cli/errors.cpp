@@ -11,10 +11,11 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/terminal.h"
-#include "core/cli/options.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/cli/signals.h"
 #include "core/imaging/image.h"
+#include "core/parser/render_setup.h"
 
 namespace exphoton::cli {
 namespace {

@@ -2,7 +2,6 @@
 // Looking at pictures and changing their format.
 #include "core/cli/image_commands.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,8 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
-#include "core/cli/arguments.h"
 #include "core/cli/errors.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/cli/photons_command.h"
 #include "core/cli/values.h"
@@ -97,31 +96,31 @@ int RunInfo(const std::vector<std::string>& arguments) {
     const auto isPhotons = [](const std::string& a) { return a.starts_with("--photons-at"); };
     if (std::any_of(arguments.begin(), arguments.end(), isPhotons))
       return PrintPhotonsAt(arguments);
-    CLI::App app(
+    OptionParser app(
         "Prints windows, channels, attributes and ranges of pictures; with --photons-at x,y SCENE "
         "the photons around what a pixel shows (see its --help).",
         "exphoton info");
     std::vector<std::string> files;
-    app.add_option("files", files, "EXR or PNG files")->required();
-    ParseArguments(app, arguments);
+    app.Add("files", files, "EXR or PNG files").Required();
+    app.Parse(arguments);
     for (const std::string& file : files) PrintOut(InfoText(file, ReadImage(file)));
   });
 }
 
 int RunConvert(const std::vector<std::string>& arguments) {
   return Guarded([&] {
-    CLI::App app("Converts between EXR (linear) and PNG (sRGB), by the names' endings.",
-                 "exphoton convert");
+    OptionParser app("Converts between EXR (linear) and PNG (sRGB), by the names' endings.",
+                     "exphoton convert");
     std::string from, to;
     float exposure = 0;
     bool asFloat = false;
-    app.add_option("from", from, "picture to read")->required();
-    app.add_option("to", to, "picture to write: NAME.exr or NAME.png")->required();
-    app.add_option("--exposure", exposure, "for PNG: multiply by 2 to this power")
-        ->check(CLI::Range(-100.0, 100.0))
-        ->default_str("0");
-    app.add_flag("--float", asFloat, "for EXR: 32-bit channels");
-    ParseArguments(app, arguments);
+    app.Add("from", from, "picture to read").Required();
+    app.Add("to", to, "picture to write: NAME.exr or NAME.png").Required();
+    app.Add("--exposure", exposure, "for PNG: multiply by 2 to this power")
+        .Between(-100.0, 100.0)
+        .DefaultText("0");
+    app.AddFlag("--float", asFloat, "for EXR: 32-bit channels");
+    app.Parse(arguments);
     const bool isPng = EndsWith(to, ".png");
     if (!isPng && !EndsWith(to, ".exr")) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
     if (!isPng && exposure != 0) FailUsage("--exposure is for PNG: an EXR stays linear");

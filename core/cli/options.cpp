@@ -2,10 +2,9 @@
 // The options of `exphoton render`, declared to CLI11.
 #include "core/cli/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "core/cli/arguments.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/values.h"
 #include "core/parser/effect_choice.h"
 #include "core/plugins/registry.h"
@@ -26,69 +25,65 @@ struct RawOptions {
   bool checks = false, explains = false;
 };
 
-void AddSceneOptions(CLI::App& app, RenderCommand& command, RawOptions& raw) {
-  app.add_option("scenes", command.scenes, "scene files; none or \"-\": standard input")
-      ->type_name("FILE");
-  app.add_option("--integrator", raw.integrator,
-                 "use this surface integrator instead of the scene's")
-      ->type_name("NAME");
-  app.add_option("--set", raw.sets, "set a parameter, for example SurfaceIntegrator.maxdist=1.5")
-      ->type_name("Directive.parameter=value")
-      ->allow_extra_args(false);
-  app.add_option("--spp", raw.samplesPerPixel, "samples a pixel")
-      ->check(CLI::Range(std::int64_t(1), kMaxSamplesPerPixel))
-      ->type_name("N");
-  app.add_option("--cropwindow", raw.cropWindow, "a part of the picture, in fractions of it")
-      ->type_name("x0,x1,y0,y1");
-  app.add_option("--pixelbounds", raw.pixelBounds, "a part in pixels, the upper ones excluded")
-      ->type_name("x0,x1,y0,y1");
-  app.add_option("--pixel", raw.pixel, "one pixel")->type_name("x,y");
-  app.add_flag("--quick", command.load.isQuick,
-               "a quarter of the resolution, 1 sample a pixel, a tenth of the photons");
-  app.add_option("--effects", command.load.effects,
-                 "what to compute: auto, all, or a list such as caustics=off,lens=on")
-      ->type_name("LIST");
-  app.add_option("--dialect", raw.dialect, "how LookAt is meant: v1 (default) or v2")
-      ->check(CLI::IsMember({"v1", "v2"}))
-      ->type_name("");
-  app.add_flag("--strict", command.load.isStrict,
-               "unknown parameters and samples that are not finite are errors");
-  app.add_option("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Add("scenes", command.scenes, "scene files; none or \"-\": standard input").TypeName("FILE");
+  app.Add("--integrator", raw.integrator, "use this surface integrator instead of the scene's")
+      .TypeName("NAME");
+  app.Add("--set", raw.sets, "set a parameter, for example SurfaceIntegrator.maxdist=1.5")
+      .TypeName("Directive.parameter=value")
+      .OnePerUse();
+  app.Add("--spp", raw.samplesPerPixel, "samples a pixel")
+      .Between(std::int64_t(1), kMaxSamplesPerPixel)
+      .TypeName("N");
+  app.Add("--cropwindow", raw.cropWindow, "a part of the picture, in fractions of it")
+      .TypeName("x0,x1,y0,y1");
+  app.Add("--pixelbounds", raw.pixelBounds, "a part in pixels, the upper ones excluded")
+      .TypeName("x0,x1,y0,y1");
+  app.Add("--pixel", raw.pixel, "one pixel").TypeName("x,y");
+  app.AddFlag("--quick", command.load.isQuick,
+              "a quarter of the resolution, 1 sample a pixel, a tenth of the photons");
+  app.Add("--effects", command.load.effects,
+          "what to compute: auto, all, or a list such as caustics=off,lens=on")
+      .TypeName("LIST");
+  app.Add("--dialect", raw.dialect, "how LookAt is meant: v1 (default) or v2")
+      .OneOf({"v1", "v2"})
+      .TypeName("");
+  app.AddFlag("--strict", command.load.isStrict,
+              "unknown parameters and samples that are not finite are errors");
+  app.Add("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
+      .TypeName("DIR")
+      .OnePerUse();
 }
 
-void AddRunOptions(CLI::App& app, RenderCommand& command, RawOptions& raw) {
-  app.add_option("-o,--outfile", command.outfile, "the picture's file instead of the scene's")
-      ->type_name("FILE");
-  app.add_option("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
-      ->check(CLI::Range(0, kMaxThreads))
-      ->type_name("N");
-  app.add_option("--seed", command.seed, "another seed gives other noise")->type_name("N");
-  app.add_flag("--half", raw.asHalf, "16-bit channels (default)");
-  app.add_flag("--float", raw.asFloat, "32-bit channels");
-  app.add_option("--time-limit", raw.timeLimit,
-                 "render whole passes until so much time is over: 90, 90s, 2m, 1h")
-      ->type_name("TIME");
-  app.add_option("--target-error", command.targetError,
-                 "render whole passes until the noise part of relMSE is estimated below this")
-      ->type_name("X");
-  app.add_flag("--two-halves", command.asTwoHalves,
-               "render two independent halves, say how far apart they are, write both as layers");
-  app.add_option("--aov", raw.layers, "also write these layers: " + AllLayerNames())
-      ->type_name("LIST");
-  app.add_option("--preview", command.previewFile, "also write the picture as PNG")
-      ->type_name("FILE.png");
-  app.add_flag("--reproducible", command.isReproducible,
-               "leave times, dates, threads and command line out of the picture's file");
-  app.add_flag("--check", raw.checks, "read the scene, report errors, render nothing");
-  app.add_flag("--explain", raw.explains, "print what would be computed and why, render nothing");
-  app.add_flag("--stats", command.printsStatistics, "print times, rays and counts at the end");
-  app.add_option("--stats-json", command.statsFile, "write them to this file (-: print them)")
-      ->type_name("FILE");
-  app.add_flag("--quiet", raw.isQuiet, "errors and warnings only");
-  app.add_flag("--verbose", raw.isVerbose, "say more");
-  app.add_flag("--no-progress", raw.hidesProgress, "no progress bar");
+void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Add("-o,--outfile", command.outfile, "the picture's file instead of the scene's")
+      .TypeName("FILE");
+  app.Add("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
+      .Between(0, kMaxThreads)
+      .TypeName("N");
+  app.Add("--seed", command.seed, "another seed gives other noise").TypeName("N");
+  app.AddFlag("--half", raw.asHalf, "16-bit channels (default)");
+  app.AddFlag("--float", raw.asFloat, "32-bit channels");
+  app.Add("--time-limit", raw.timeLimit,
+          "render whole passes until so much time is over: 90, 90s, 2m, 1h")
+      .TypeName("TIME");
+  app.Add("--target-error", command.targetError,
+          "render whole passes until the noise part of relMSE is estimated below this")
+      .TypeName("X");
+  app.AddFlag("--two-halves", command.asTwoHalves,
+              "render two independent halves, say how far apart they are, write both as layers");
+  app.Add("--aov", raw.layers, "also write these layers: " + AllLayerNames()).TypeName("LIST");
+  app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
+  app.AddFlag("--reproducible", command.isReproducible,
+              "leave times, dates, threads and command line out of the picture's file");
+  app.AddFlag("--check", raw.checks, "read the scene, report errors, render nothing");
+  app.AddFlag("--explain", raw.explains, "print what would be computed and why, render nothing");
+  app.AddFlag("--stats", command.printsStatistics, "print times, rays and counts at the end");
+  app.Add("--stats-json", command.statsFile, "write them to this file (-: print them)")
+      .TypeName("FILE");
+  app.AddFlag("--quiet", raw.isQuiet, "errors and warnings only");
+  app.AddFlag("--verbose", raw.isVerbose, "say more");
+  app.AddFlag("--no-progress", raw.hidesProgress, "no progress bar");
 }
 
 void Exclude(bool first, bool second, const char* text) {
@@ -138,16 +133,17 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   RenderCommand command;
   command.mode = mode;
   RawOptions raw;
-  CLI::App app("Renders scenes in the language of pbrt, versions 1 and 2, to OpenEXR pictures.",
-               "exphoton [render]");
-  app.footer(
-      "\nOther commands: exphoton study | report | compare | info | convert | plugins | explain,\neach with --help.\n"
+  OptionParser app("Renders scenes in the language of pbrt, versions 1 and 2, to OpenEXR pictures.",
+                   "exphoton [render]");
+  app.Footer(
+      "\nOther commands: exphoton study | report | compare | info | convert | plugins | "
+      "explain,\neach with --help.\n"
       "Exit status: 0 complete, 1 command line, 2 scene, 3 files, 4 resources, 5 internal,\n"
       "128 + n on signal n.");
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);
-  app.set_version_flag("--version", VersionText());
-  ParseArguments(app, arguments);
+  app.AddVersion(VersionText());
+  app.Parse(arguments);
   TakeRaw(raw, &command);
   return command;
 }

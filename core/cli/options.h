@@ -38,11 +38,6 @@ struct RenderCommand {
   std::string commandLine;  // as it was typed, for the picture's attributes
 };
 
-// Thrown for --help and --version: the text goes to standard output, the status is 0.
-struct TextRequest {
-  std::string text;
-};
-
 // `arguments` without the program's and the command's name. Throws Error(CommandLine), TextRequest.
 RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, RenderMode mode);
 

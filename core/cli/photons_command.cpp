@@ -4,14 +4,13 @@
 // hemisphere over that point.
 #include "core/cli/photons_command.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
-#include "core/cli/arguments.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/cli/signals.h"
 #include "core/cli/values.h"
@@ -29,25 +28,24 @@ struct Options {
   std::uint64_t seed = 0;
 };
 
-Options Parse(const std::vector<std::string>& arguments) {
+Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
   Options options;
-  CLI::App app("Prints the photons nearest to what a pixel shows.", "exphoton info --photons-at");
-  app.add_option("--photons-at", options.pixel, "the pixel")->required()->type_name("x,y");
-  app.add_option("scene", options.scene, "the scene")->required();
-  app.add_option("--map", options.map, "indirect (default), direct or caustic")
-      ->check(CLI::IsMember({"indirect", "direct", "caustic"}));
-  app.add_option("--count", options.count, "so many photons (default 50)")
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--plot", options.plotFile, "also plot their directions to this file")
-      ->type_name("FILE.svg");
-  app.add_option("--integrator", options.integrator, "as in exphoton render");
-  app.add_option("--set", options.sets, "as in exphoton render")->allow_extra_args(false);
-  app.add_option("--seed", options.seed, "other photons");
-  app.add_option("--nthreads,--ncores", options.threads, "threads; 0: all cores")
-      ->check(CLI::Range(0, 4096));
-  app.add_option("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
-      ->allow_extra_args(false);
-  ParseArguments(app, arguments);
+  OptionParser app("Prints the photons nearest to what a pixel shows.",
+                   "exphoton info --photons-at");
+  app.Add("--photons-at", options.pixel, "the pixel").Required().TypeName("x,y");
+  app.Add("scene", options.scene, "the scene").Required();
+  app.Add("--map", options.map, "indirect (default), direct or caustic")
+      .OneOf({"indirect", "direct", "caustic"});
+  app.Add("--count", options.count, "so many photons (default 50)").Between(1, 1000000);
+  app.Add("--plot", options.plotFile, "also plot their directions to this file")
+      .TypeName("FILE.svg");
+  app.Add("--integrator", options.integrator, "as in exphoton render");
+  app.Add("--set", options.sets, "as in exphoton render").OnePerUse();
+  app.Add("--seed", options.seed, "other photons");
+  app.Add("--nthreads,--ncores", options.threads, "threads; 0: all cores").Between(0, 4096);
+  app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
+      .OnePerUse();
+  app.Parse(arguments);
   return options;
 }
 
@@ -148,7 +146,7 @@ std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photon
 }  // namespace
 
 void PrintPhotonsAt(const std::vector<std::string>& arguments) {
-  const Options options = Parse(arguments);
+  const Options options = ParsePhotonsOptions(arguments);
   const PixelBounds pixel = ParsePixel(options.pixel);
   Log log(Log::Level::Quiet);
   FileSource source;

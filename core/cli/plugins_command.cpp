@@ -2,11 +2,9 @@
 // The list of plugins by kind, the parameters of those that are named, and the generated pages.
 #include "core/cli/plugins_command.h"
 
-#include <CLI/CLI.hpp>
-
 #include "core/base/log.h"
-#include "core/cli/arguments.h"
 #include "core/cli/errors.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/plugins/catalogue.h"
 
@@ -14,16 +12,15 @@ namespace exphoton::cli {
 
 int RunPlugins(const std::vector<std::string>& arguments) {
   return Guarded([&] {
-    CLI::App app("Lists the plugins that scenes can name, or the parameters of some.",
-                 "exphoton plugins");
+    OptionParser app("Lists the plugins that scenes can name, or the parameters of some.",
+                     "exphoton plugins");
     std::vector<std::string> names, folders;
     std::string referenceFolder;
-    app.add_option("names", names, "plugins whose parameters to list");
-    app.add_option("--plugin-dir", folders, "look for plugins in this folder first")
-        ->allow_extra_args(false);
-    app.add_option("--write-reference", referenceFolder,
-                   "write the pages of docs/reference to this folder");
-    ParseArguments(app, arguments);
+    app.Add("names", names, "plugins whose parameters to list");
+    app.Add("--plugin-dir", folders, "look for plugins in this folder first").OnePerUse();
+    app.Add("--write-reference", referenceFolder,
+            "write the pages of docs/reference to this folder");
+    app.Parse(arguments);
     Log log(Log::Level::Quiet);
     PluginRegistry registry(PluginRegistry::DefaultFolders(folders), &log);
     if (!referenceFolder.empty()) {

@@ -2,12 +2,11 @@
 // A study from its options to its page: reference, runs, measurements, files.
 #include "core/cli/study_command.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/cli/arguments.h"
 #include "core/cli/errors.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/cli/signals.h"
 #include "core/cli/study_runner.h"
@@ -150,13 +149,12 @@ int RunStudy(const std::vector<std::string>& arguments, const std::string& comma
 
 int RunReport(const std::vector<std::string>& arguments) {
   return Guarded([&] {
-    CLI::App app("Makes the page of a study again from its data, without rendering.",
-                 "exphoton report");
+    OptionParser app("Makes the page of a study again from its data, without rendering.",
+                     "exphoton report");
     std::string folder, clock;
-    app.add_option("folder", folder, "the folder of a study")->required();
-    app.add_option("--clock", clock, "seconds of what: cpu or wall")
-        ->check(CLI::IsMember({"cpu", "wall"}));
-    ParseArguments(app, arguments);
+    app.Add("folder", folder, "the folder of a study").Required();
+    app.Add("--clock", clock, "seconds of what: cpu or wall").OneOf({"cpu", "wall"});
+    app.Parse(arguments);
     const std::string text = ReadTextFile(folder + "/results.json");
     if (text.empty())
       throw Error(ExitStatus::File, "\"" + folder + "\" holds no results.json of a finished study");

@@ -2,14 +2,13 @@
 // The options, declared to CLI11, and study files turned into arguments.
 #include "core/cli/study_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include "core/base/error.h"
-#include "core/cli/arguments.h"
+#include "core/cli/option_parser.h"
 #include "core/cli/values.h"
 
 namespace exphoton::cli {
@@ -56,67 +55,63 @@ std::vector<std::string> ReadStudyFile(const std::string& path) {
   return arguments;
 }
 
-void AddWhat(CLI::App& app, StudyOptions& options, RawOptions& raw) {
-  app.add_option("file", options.scene, "the scene, or a study file (NAME.study)")
-      ->type_name("SCENE.pbrt|NAME.study");
-  app.add_option("--scene", options.scene, "the scene")->take_last();
-  app.add_option("-o,--out", options.folder, "the folder for everything")->take_last();
-  app.add_option("--title", options.title, "the scene's name on the page")->take_last();
-  app.add_option("--integrators", raw.integrators, "for example exphotonmap,photonmap,path")
-      ->take_last()
-      ->type_name("LIST");
-  app.add_option("--setting", raw.settings,
-                 "one more thing to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
-      ->allow_extra_args(false);
-  app.add_option("--vary", raw.knobs,
-                 "a parameter and its values, [INTEGRATOR:]name=v1,v2,...; \"spp\" too. Several "
-                 "are multiplied")
-      ->allow_extra_args(false);
-  app.add_option("--budgets", raw.budgets, "seconds that renders may take: 1,4,16,64s")
-      ->take_last()
-      ->type_name("LIST");
-  app.add_option("--seeds", options.seeds, "independent renders of each setting (default 4)")
-      ->check(CLI::Range(1, 1000))
-      ->take_last();
-  app.add_option("--targets", raw.targets, "errors of the price list (default .1,.03,.01,.003)")
-      ->take_last()
-      ->type_name("LIST");
-  app.add_option("--clock", options.clock, "seconds of what: cpu (default) or wall")
-      ->check(CLI::IsMember({"cpu", "wall"}))
-      ->take_last();
+void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+  app.Add("file", options.scene, "the scene, or a study file (NAME.study)")
+      .TypeName("SCENE.pbrt|NAME.study");
+  app.Add("--scene", options.scene, "the scene").TakeLast();
+  app.Add("-o,--out", options.folder, "the folder for everything").TakeLast();
+  app.Add("--title", options.title, "the scene's name on the page").TakeLast();
+  app.Add("--integrators", raw.integrators, "for example exphotonmap,photonmap,path")
+      .TakeLast()
+      .TypeName("LIST");
+  app.Add("--setting", raw.settings,
+          "one more thing to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
+      .OnePerUse();
+  app.Add("--vary", raw.knobs,
+          "a parameter and its values, [INTEGRATOR:]name=v1,v2,...; \"spp\" too. Several "
+          "are multiplied")
+      .OnePerUse();
+  app.Add("--budgets", raw.budgets, "seconds that renders may take: 1,4,16,64s")
+      .TakeLast()
+      .TypeName("LIST");
+  app.Add("--seeds", options.seeds, "independent renders of each setting (default 4)")
+      .Between(1, 1000)
+      .TakeLast();
+  app.Add("--targets", raw.targets, "errors of the price list (default .1,.03,.01,.003)")
+      .TakeLast()
+      .TypeName("LIST");
+  app.Add("--clock", options.clock, "seconds of what: cpu (default) or wall")
+      .OneOf({"cpu", "wall"})
+      .TakeLast();
 }
 
-void AddReference(CLI::App& app, StudyOptions& options, RawOptions& raw) {
-  app.add_option("--reference", options.references,
-                 "the true picture; given twice: two independent halves of it")
-      ->allow_extra_args(false);
-  app.add_option("--make-reference", options.makeReference,
-                 "render one, in two halves, with this: \"path maxdepth=100\"")
-      ->take_last();
-  app.add_option("--reference-time", raw.referenceTime, "for so long (default 30m)")->take_last();
-  app.add_option("--reference-scene", options.referenceScene,
-                 "another scene file that has the same picture")
-      ->take_last();
+void AddReference(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+  app.Add("--reference", options.references,
+          "the true picture; given twice: two independent halves of it")
+      .OnePerUse();
+  app.Add("--make-reference", options.makeReference,
+          "render one, in two halves, with this: \"path maxdepth=100\"")
+      .TakeLast();
+  app.Add("--reference-time", raw.referenceTime, "for so long (default 30m)").TakeLast();
+  app.Add("--reference-scene", options.referenceScene,
+          "another scene file that has the same picture")
+      .TakeLast();
 }
 
-void AddRender(CLI::App& app, StudyOptions& options, RawOptions& raw) {
-  app.add_option("--resolution", raw.resolution, "of all pictures")
-      ->take_last()
-      ->type_name("WIDTHxHEIGHT");
-  app.add_option("--set", options.sets, "for all renders, as in exphoton render")
-      ->allow_extra_args(false);
-  app.add_option("--cropwindow", options.cropWindow, "render a part only")->take_last();
-  app.add_option("--crop", options.crops,
-                 "a part to show larger on the page: x0,x1,y0,y1 from 0 to 1")
-      ->allow_extra_args(false);
-  app.add_option("--nthreads,--ncores", options.threads, "threads of each render; 0: all cores")
-      ->check(CLI::Range(0, 4096))
-      ->take_last();
-  app.add_option("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
-      ->allow_extra_args(false);
-  app.add_flag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
-  app.add_flag("--quiet", options.isQuiet, "no progress");
-  app.add_flag("--plan", options.onlyPlans, "print what would be rendered, and render nothing");
+void AddRender(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+  app.Add("--resolution", raw.resolution, "of all pictures").TakeLast().TypeName("WIDTHxHEIGHT");
+  app.Add("--set", options.sets, "for all renders, as in exphoton render").OnePerUse();
+  app.Add("--cropwindow", options.cropWindow, "render a part only").TakeLast();
+  app.Add("--crop", options.crops, "a part to show larger on the page: x0,x1,y0,y1 from 0 to 1")
+      .OnePerUse();
+  app.Add("--nthreads,--ncores", options.threads, "threads of each render; 0: all cores")
+      .Between(0, 4096)
+      .TakeLast();
+  app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
+      .OnePerUse();
+  app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
+  app.AddFlag("--quiet", options.isQuiet, "no progress");
+  app.AddFlag("--plan", options.onlyPlans, "print what would be rendered, and render nothing");
 }
 
 void TakeResolution(const std::string& text, StudyOptions* options) {
@@ -181,7 +176,7 @@ void Check(const StudyOptions& options) {
 StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   StudyOptions options;
   RawOptions raw;
-  CLI::App app(
+  OptionParser app(
       "Renders a scene with several integrators and settings, each with several seeds, and shows "
       "what accuracy costs in time: results.csv, results.json, images/ and report.html in one "
       "folder. Started again it goes on where it stopped.",
@@ -199,7 +194,7 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
     if (!isFile) rest.push_back(argument);
   }
   arguments.insert(arguments.end(), rest.begin(), rest.end());
-  ParseArguments(app, arguments);
+  app.Parse(arguments);
   try {
     TakePlan(raw, &options);
   } catch (const std::invalid_argument& error) {

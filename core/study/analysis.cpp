@@ -14,10 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string PathOf(const std::string& folder, const std::string& name) {
-  return fs::path(name).is_absolute() ? name : (fs::path(folder) / name).string();
-}
-
 Reference ReadReference(const std::string& folder, const ReferenceRecord& record) {
   Image a = ReadImage(PathOf(folder, record.a));
   return record.b.empty() ? MakeReference(std::move(a))

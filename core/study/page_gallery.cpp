@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kErrorScale = .5;  // relative error of full red or blue
 
-std::string PathOf(const std::string& folder, const std::string& name) {
-  return std::filesystem::path(name).is_absolute() ? name : folder + "/" + name;
-}
-
 // The setting on a line's front whose time, or error, is nearest to a value.
 std::size_t Nearest(const Analysis& analysis, const Line& line, double value,
                     Measured CostPoint::*member) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -196,6 +197,10 @@ std::string CsvField(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
+}
+
+std::string PathOf(const std::string& folder, const std::string& name) {
+  return std::filesystem::path(name).is_absolute() ? name : folder + "/" + name;
 }
 
 double RunRow::Counter(const std::string& name) const { return Find(counters, name); }

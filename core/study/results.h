@@ -67,6 +67,9 @@ struct Results {
   std::vector<MapRecord> maps;
 };
 
+// Where a file of the study is: names are relative to its folder, or absolute.
+std::string PathOf(const std::string& folder, const std::string& name);
+
 // JSON both ways. FromJson throws std::runtime_error that says what is wrong.
 std::string ToJson(const Results& results);
 Results FromJson(const std::string& text);
