@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/imaging/metrics.h"
+
 namespace exphoton {
 namespace {
-
-constexpr double kRelMseOffset = 0.01;  // as in metrics.cpp
 
 // sum(w) where it may be divided by. Filters with negative lobes can make it small by chance.
 double SafeWeight(double weight, double samples) { return std::max(weight, .5 * samples); }

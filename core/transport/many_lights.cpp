@@ -10,7 +10,6 @@
 namespace exphoton {
 namespace {
 
-constexpr LobeSet kLobes = LobeSet::NonSpecular;
 // Light samples for each BSDF sample: most lights among many are small.
 constexpr int kLightsPerBsdf = 8;
 
@@ -32,7 +31,7 @@ void ManyLights::RequestSamples(const Scene& scene, const Sampler& sampler, int 
 }
 
 Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) const {
-  if (tree_.IsEmpty() || !point.bsdf.Has(kLobes)) return {};
+  if (tree_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
   const CameraSamples& samples = context.samples;
   const auto choice = samples.Array1D(choice1D_), part = samples.Array1D(part1D_);
   const auto light = samples.Array2D(light2D_);
@@ -40,7 +39,7 @@ Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) con
   for (std::size_t i = 0; i < choice.size(); ++i) {
     const auto chosen = tree_.Sample(point.surface.p, choice[i]);
     byLights += FromLightSample(point, {chosen.light, chosen.probability, light[i], part[i]},
-                                {lightCount_, bsdfCount_}, kLobes, context);
+                                {lightCount_, bsdfCount_}, LobeSet::NonSpecular, context);
   }
   const auto bsdf = samples.Array2D(bsdf2D_);
   const auto lobe = samples.Array1D(lobe1D_);
@@ -57,7 +56,7 @@ Real ManyLights::LightPdf(const ShadingPoint& point, const Light& light, const V
 
 Spectrum ManyLights::FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe,
                               LiContext& context) const {
-  const auto scattered = point.bsdf.Sample(point.Wo(), u, uLobe, kLobes);
+  const auto scattered = point.bsdf.Sample(point.Wo(), u, uLobe, LobeSet::NonSpecular);
   if (!scattered || scattered->throughput.IsBlack()) return {};
   const Ray ray = SpawnRay(point.surface, scattered->wi);
   const auto hit = context.Intersect(ray, RayKind::Bsdf);
