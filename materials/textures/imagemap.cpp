@@ -15,9 +15,7 @@ struct ImageSettings : MappingSettings {
   bool trilinear = false;
 };
 
-// The same for both kinds.
-template <class T>
-const ParamTable<ImageSettings>& Parameters() {
+const ParamTable<ImageSettings>& ImageParameters() {
   static const ParamTable<ImageSettings> table{
       MappingParameters(),
       Param("filename", &ImageSettings::filename, "image file, EXR or PNG")
@@ -33,6 +31,12 @@ const ParamTable<ImageSettings>& Parameters() {
       Param("trilinear", &ImageSettings::trilinear,
             "square footprints instead of elliptical ones: faster and more blurred")};
   return table;
+}
+
+// The same for both kinds.
+template <class T>
+const ParamTable<ImageSettings>& Parameters() {
+  return ImageParameters();
 }
 
 Real FromRgb(const Spectrum& rgb, Real) { return rgb.Y(); }

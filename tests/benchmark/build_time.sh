@@ -43,19 +43,22 @@ configure() { # FOLDER TESTS
 }
 # Runs ninja and sets cpu and wall to what it and all that it started took.
 run_ninja() {
-  local before after
-  before=$(cpu_of_children)
+  local before
+  cpu_of_children
+  before=$children
   wall=$EPOCHREALTIME
   ninja -C "$1" -j "$jobs" "${@:2}" >"$work/ninja.out" 2>&1 ||
     { tail -n 40 "$work/ninja.out" >&2; exit 1; }
   wall=$(awk -v a="$wall" -v b="$EPOCHREALTIME" 'BEGIN { print b - a }')
-  after=$(cpu_of_children)
-  cpu=$(awk -v a="$before" -v b="$after" 'BEGIN { print b - a }')
+  cpu_of_children
+  cpu=$(awk -v a="$before" -v b="$children" 'BEGIN { print b - a }')
 }
-# CPU seconds of the finished children of this shell.
+# Sets children to the CPU seconds of the finished children of this shell. The second line of `times` holds them; a pipe
+# would ask a subshell, which has no children yet.
 cpu_of_children() {
-  times | tail -n 1 | awk '{ for (i = 1; i <= NF; ++i) { split($i, t, /[ms]/); s += t[1] * 60 + t[2] }
-    print s }'
+  times >"$work/times"
+  children=$(tail -n 1 "$work/times" |
+    awk '{ for (i = 1; i <= NF; ++i) { split($i, t, "m"); s += t[1] * 60 + t[2] } print s }')
 }
 
 export BUILD_LOG=$work/files CCACHE_DISABLE=1
