@@ -18,7 +18,7 @@ namespace {
 using Triple = std::array<double, 3>;
 using Plane = std::vector<double>;
 constexpr double kPixelsPerDegree = 67.02;  // 0.7 m from a display of 3840 pixels on 0.7 m
-constexpr double kPi = std::numbers::pi;
+constexpr double kCirclePi = std::numbers::pi;
 
 constexpr std::array<Triple, 3> kToXyz = {
     {{10135552. / 24577794, 8788810. / 24577794, 4435075. / 24577794},
@@ -114,17 +114,18 @@ struct Lobe {
 // Table 1 and section 4.1.1.
 Plane Sensitivity(const Plane& in, Grid grid, const std::vector<Lobe>& lobes) {
   constexpr double kWidest = .04;
-  const int radius = int(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * kPixelsPerDegree));
+  const int radius =
+      int(std::ceil(3 * std::sqrt(kWidest / (2 * kCirclePi * kCirclePi)) * kPixelsPerDegree));
   Plane out(in.size(), 0);
   double total = 0;
   for (const Lobe& lobe : lobes) {
     const Plane kernel = Tabulate(radius, [&](double i) {
       const double d = i / kPixelsPerDegree;
-      return std::exp(-kPi * kPi * d * d / lobe.b);
+      return std::exp(-kCirclePi * kCirclePi * d * d / lobe.b);
     });
     double sum = 0;
     for (const double w : kernel) sum += w;
-    const double factor = lobe.a * std::sqrt(kPi / lobe.b);
+    const double factor = lobe.a * std::sqrt(kCirclePi / lobe.b);
     const Plane part = Filter(in, grid, kernel, kernel);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += factor * part[i];
     total += factor * sum * sum;

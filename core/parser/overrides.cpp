@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::array<std::string_view, 7> kDirectives{
+constexpr std::array<std::string_view, 7> kSettableDirectives{
     "Accelerator", "Camera",           "Film", "PixelFilter",
     "Sampler",     "SurfaceIntegrator", "VolumeIntegrator"};
 struct QuickRule {
@@ -118,9 +118,9 @@ ParsedParam ParamOf(const ParameterOverride& override, ParamType type) {
 
 void CheckOverrides(const std::vector<ParameterOverride>& overrides) {
   for (const ParameterOverride& override : overrides) {
-    if (std::find(kDirectives.begin(), kDirectives.end(), override.directive) != kDirectives.end())
+    if (std::find(kSettableDirectives.begin(), kSettableDirectives.end(), override.directive) != kSettableDirectives.end())
       continue;
-    const std::vector<std::string> known(kDirectives.begin(), kDirectives.end());
+    const std::vector<std::string> known(kSettableDirectives.begin(), kSettableDirectives.end());
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
     throw Error(ExitStatus::CommandLine,
