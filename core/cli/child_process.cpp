@@ -20,6 +20,8 @@
 #include <sstream>
 
 #include "core/base/error.h"
+#include "core/cli/signals.h"
+#include "core/files/temporary_file.h"
 
 namespace exphoton::cli {
 namespace {
@@ -38,7 +40,7 @@ void Redirect(const char* path, int flags, int target) {
 [[noreturn]] void Become(const char* program, char* const* arguments, const char* log) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);  // Ctrl-C reaches the parent alone, which ends this one
-  for (const int number : {SIGINT, SIGTERM, SIGPIPE}) signal(number, SIG_DFL);
+  RestoreSignals();
   Redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   Redirect(log, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   if (dup2(STDOUT_FILENO, STDERR_FILENO) < 0) _exit(125);
@@ -83,8 +85,13 @@ ChildResult RunSelf(const std::vector<std::string>& arguments, const std::string
   fcntl(ends[0], F_SETFD, FD_CLOEXEC);
 
   const auto start = std::chrono::steady_clock::now();
-  const pid_t child = fork();
-  if (child == 0) Become(program.c_str(), argv.data(), logFile.c_str());
+  const pid_t child = [&] {
+    const SignalBlock block;  // a handler in the child would remove what is the parent's
+    const pid_t process = fork();
+    if (process == 0) Become(program.c_str(), argv.data(), logFile.c_str());
+    SetWorkingChild(process);
+    return process;
+  }();
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);
@@ -97,6 +104,7 @@ ChildResult RunSelf(const std::vector<std::string>& arguments, const std::string
     kill(child, SIGKILL);
   }
   close(ends[0]);
+  SetWorkingChild(0);  // it has ended; once it is waited for, its number may be another's
   int status = 0;
   rusage usage{};
   while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
-#include "core/imaging/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace exphoton::cli {
 namespace {

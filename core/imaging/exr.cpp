@@ -24,7 +24,7 @@
 
 #include "core/base/error.h"
 #include "core/base/fp_traps.h"
-#include "core/imaging/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace exphoton {
 namespace {

@@ -17,8 +17,11 @@ struct ExrWriteReport {
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf);
 Image ReadExr(const std::string& path);  // throws ImageError
 
-// OpenEXR makes its pool of threads when it first has work for it; were there no memory for that, it
-// would wait for ever for the work that it could not hand over. To be called before it has any.
+// The attribute "software" of a file's first header; "" where it has none, or is no EXR file.
+std::string ExrSoftware(const std::string& path);
+
+// OpenEXR makes its pool of threads when it first has work for it; were there no memory for that,
+// it would wait for ever for the work that it could not hand over. To be called before it has any.
 void MakeTheLibrarysThreadPool();
 
 }  // namespace exphoton

@@ -131,6 +131,7 @@ bool IsLuminance(const Image& image) {
 }
 
 Image Read(const std::string& path) {
+  CheckImageFile(path);
   Imf::StdIFStream stream(path.c_str());
   CheckExrHeaders(path);
   Image image = CheckHeader(&stream);
@@ -162,6 +163,27 @@ Image Read(const std::string& path) {
 }
 
 }  // namespace
+
+std::string ExrSoftware(const std::string& path) {
+  const UntrappedLibraryCall guard;
+  try {
+    CheckImageFile(path);
+    CheckExrHeaders(path);
+    Imf::StdIFStream stream(path.c_str());
+    char bytes[8];
+    stream.read(bytes, 8);
+    int version = 0;
+    for (int i = 3; i >= 0; --i) version = version << 8 | static_cast<unsigned char>(bytes[4 + i]);
+    Imf::Header header;
+    header.readFrom(stream, version);
+    const auto* const text = header.findTypedAttribute<Imf::StringAttribute>("software");
+    return text ? text->value() : "";
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return "";
+  }
+}
 
 Image ReadExr(const std::string& path) {
   const UntrappedLibraryCall guard;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "core/files/input_file.h"
 #include "core/imaging/exr.h"
 #include "core/imaging/png.h"
 
@@ -36,7 +37,16 @@ float Image::At(int x, int y, int channel) const {
   return const_cast<Image*>(this)->At(x, y, channel);
 }
 
+void CheckImageFile(const std::string& path) {
+  try {
+    RequireRegularFile(path);
+  } catch (const InputFileError& error) {
+    throw ImageError(path + ": " + error.what());
+  }
+}
+
 Image ReadImage(const std::string& path) {
+  CheckImageFile(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) throw ImageError(path + ": " + std::strerror(errno));

@@ -20,11 +20,12 @@ struct PixelBounds {
   friend bool operator==(const PixelBounds&, const PixelBounds&) = default;
 };
 
-using ImageAttribute = std::variant<std::string, float, int, std::vector<float>>;  // 16 floats: m44f
+using ImageAttribute =
+    std::variant<std::string, float, int, std::vector<float>>;  // 16 floats: m44f
 
 struct Image {
-  PixelBounds data;     // where the pixels lie in the full frame
-  PixelBounds display;  // the full frame
+  PixelBounds data;                   // where the pixels lie in the full frame
+  PixelBounds display;                // the full frame
   std::vector<std::string> channels;  // "R", "G", "B", "A", "Albedo.R" ...
   std::vector<float> pixels;          // row by row, the channels of a pixel together
   std::map<std::string, ImageAttribute> attributes;
@@ -52,5 +53,8 @@ class ImageError : public std::runtime_error {
 // becomes R,G,B). EXR channels are kept by name; Y alone becomes R,G,B. Throws ImageError, also for
 // more than 2^28 pixels or 64 channels (checked before allocating).
 Image ReadImage(const std::string& path);
+
+// Throws ImageError where `path` is no regular file that can be read.
+void CheckImageFile(const std::string& path);
 
 }  // namespace exphoton

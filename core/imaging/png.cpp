@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/fp_traps.h"
 #include "core/base/memory.h"
-#include "core/imaging/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace exphoton {
 namespace {
@@ -71,6 +71,7 @@ Image Read16(const std::string& path, png_image* png, int channels, Image result
 }
 
 Image Read(const std::string& path) {
+  CheckImageFile(path);
   PngImage png;
   if (!png_image_begin_read_from_file(&png.image, path.c_str())) Fail(path, png.image);
   const std::uint64_t pixels = std::uint64_t(png.image.width) * png.image.height;

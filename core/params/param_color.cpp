@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/base/log.h"
+#include "core/files/input_file.h"
 #include "core/math/cie.h"
 #include "core/params/param_reader.h"
 #include "core/params/param_text.h"
@@ -25,7 +26,11 @@ constexpr std::uintmax_t kLargestSpectrumFile = 16 << 20;  // bytes
 std::string ReadSmallFile(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw std::runtime_error("there is no such file");
-  if (!fs::is_regular_file(path, error)) throw std::runtime_error("it is not a regular file");
+  try {
+    RequireRegularFile(path);
+  } catch (const InputFileError& fault) {
+    throw std::runtime_error(std::string("it ") + fault.what());
+  }
   if (fs::file_size(path, error) > kLargestSpectrumFile || error) {
     throw std::runtime_error("it is too large for a spectrum");
   }

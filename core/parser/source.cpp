@@ -12,6 +12,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/files/input_file.h"
+#include "core/files/open_file.h"
+
 namespace exphoton {
 namespace {
 
@@ -19,24 +22,17 @@ constexpr std::size_t kMaxTextBytes = std::size_t(8) << 30;    // of one file, d
 constexpr std::size_t kMaxStreamBytes = std::size_t(1) << 28;  // of a pipe or device
 constexpr std::size_t kMaxInflation = 1100;                    // deflate's limit is 1032
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(const std::string& path)
-      : isStandardInput_(path == "-"),
-        value_(isStandardInput_ ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (value_ < 0) throw SourceError(std::strerror(errno));
+// The scene on the command line may be a pipe; a file that another one names may not.
+int OpenSource(const std::string& path, bool isIncluded) {
+  try {
+    if (isIncluded) return OpenRegularFile(path);
+  } catch (const InputFileError& error) {
+    throw SourceError(error.what());
   }
-  ~FileDescriptor() {
-    if (!isStandardInput_) close(value_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  int Get() const { return value_; }
-
- private:
-  bool isStandardInput_;
-  int value_;
-};
+  const int file = open(path.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC);
+  if (file < 0) throw SourceError(errno == ENOENT ? "no such file" : std::strerror(errno));
+  return file;
+}
 
 std::string ReadDescriptor(int file, std::size_t expected, std::size_t limit) {
   std::string text(expected + 1, '\0');  // one more, so that the end is met without growing
@@ -64,23 +60,24 @@ std::string SceneSource::Resolve(const std::string& name, const std::string& fro
 }
 
 std::string FileSource::Read(const std::string& path, bool isIncluded) {
+  const bool isStandardInput = path == "-" && !isIncluded;
+  if (streams_ && streams_->contains(path)) return streams_->at(path);
+  const Descriptor opened(isStandardInput ? -1 : OpenSource(path, isIncluded));
+  const int file = isStandardInput ? STDIN_FILENO : opened.Get();
   struct stat status;
-  const bool isStandardInput = path == "-";
-  if (!isStandardInput && stat(path.c_str(), &status) != 0)
-    throw SourceError(errno == ENOENT ? "no such file" : std::strerror(errno));
-  if (isStandardInput && fstat(STDIN_FILENO, &status) != 0)
-    throw SourceError("standard input is closed");
+  if (fstat(file, &status) != 0)
+    throw SourceError(isStandardInput ? "standard input is closed" : std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw SourceError("is a directory");
   const bool isRegular = S_ISREG(status.st_mode);
-  if (isIncluded && !isRegular) throw SourceError("is not a regular file");
-
-  const FileDescriptor file(path);
   const std::size_t limit = isRegular ? kMaxTextBytes : kMaxStreamBytes;
   const auto expected = isRegular ? std::size_t(status.st_size) : std::size_t(0);
   if (expected > limit)
     throw SourceError("is longer than the limit of " + std::to_string(limit >> 20) + " MiB");
-  std::string text = ReadDescriptor(file.Get(), expected, limit);
-  return IsGzip(text) ? Gunzip(text) : text;
+  if (!isStandardInput) filesRead_.insert(path);
+  std::string text = ReadDescriptor(file, expected, limit);
+  if (IsGzip(text)) text = Gunzip(text);
+  if (streams_ && (!isRegular || isStandardInput)) streams_->emplace(path, text);
+  return text;
 }
 
 std::string FileSource::Identity(const std::string& path) const {

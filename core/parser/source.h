@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,6 +25,9 @@ class SceneSource {
   // pipe named by mistake does not hang. Throws SourceError.
   virtual std::string Read(const std::string& path, bool isIncluded) = 0;
 
+  // The paths of all files that have been read; none where the text is not in files.
+  virtual std::set<std::string> FilesRead() const { return {}; }
+
   // The path that `name` stands for in the file `from`: relative to that file's folder.
   virtual std::string Resolve(const std::string& name, const std::string& from) const;
 
@@ -33,8 +37,17 @@ class SceneSource {
 
 class FileSource : public SceneSource {
  public:
+  // Texts by path. What can be read only once (standard input, pipes) is kept there, if given.
+  using Streams = std::map<std::string, std::string>;
+  explicit FileSource(Streams* streams = nullptr) : streams_(streams) {}
+
   std::string Read(const std::string& path, bool isIncluded) override;
   std::string Identity(const std::string& path) const override;
+  std::set<std::string> FilesRead() const override { return filesRead_; }
+
+ private:
+  std::set<std::string> filesRead_;
+  Streams* streams_;
 };
 
 class MemorySource : public SceneSource {

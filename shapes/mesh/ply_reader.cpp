@@ -7,8 +7,9 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <filesystem>
 
+#include "core/files/input_file.h"
+#include "core/files/open_file.h"
 #include "shapes/mesh/ply_header.h"
 
 namespace exphoton {
@@ -202,10 +203,15 @@ std::unique_ptr<TriangleMesh> ParsePly(std::string_view bytes) {
 }
 
 std::unique_ptr<TriangleMesh> ReadPly(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw PlyError("it is not a file");
+  Descriptor opened([&] {
+    try {
+      return OpenRegularFile(path);
+    } catch (const InputFileError& error) {
+      throw PlyError(std::string("it cannot be read: ") + error.what());
+    }
+  }());
   // Reads plain files as they are.
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzdopen(opened.Release(), "rb"), gzclose);
   if (!file) throw PlyError("it cannot be opened");
   std::string bytes;
   std::vector<char> block(std::size_t(1) << 20);

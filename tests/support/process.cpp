@@ -33,7 +33,7 @@ void Redirect(const char* path, int flags, int target) {
 
 [[noreturn]] void Become(const ProcessCommand& command, const std::vector<char*>& argv) {
   setpgid(0, 0);
-  for (const int number : {SIGINT, SIGTERM, SIGPIPE}) std::signal(number, SIG_DFL);
+  for (int number = 1; number < NSIG; ++number) std::signal(number, SIG_DFL);
   if (chdir(command.folder.c_str()) != 0) _exit(125);
   Redirect(kInputName, O_RDONLY, STDIN_FILENO);
   Redirect(kOutName, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);

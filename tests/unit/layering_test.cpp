@@ -14,9 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kLayers{
-    "base",    "math",  "geometry",  "scattering", "lights",  "sampling", "spatial", "imaging",
-    "cameras", "scene", "transport", "params",     "plugins", "parser",   "study",   "cli"};
+const std::vector<std::string> kLayers{"base",   "files",     "math",    "geometry", "scattering",
+                                       "lights", "sampling",  "spatial", "imaging",  "cameras",
+                                       "scene",  "transport", "params",  "plugins",  "parser",
+                                       "study",  "cli"};
 
 int LayerOf(const std::string& folder) {
   const auto it = std::find(kLayers.begin(), kLayers.end(), folder);
