@@ -33,6 +33,7 @@ struct ParameterOverride {
 
 struct LoadOptions {
   std::vector<std::string> pluginFolders;  // as PluginRegistry::DefaultFolders gives them
+  bool allowsScenePlugins = false;         // folders that a scene file names are searched, too
   bool isStrict = false;                   // unknown parameters are errors
   Dialect dialect = Dialect::V1;
   int threads = 1;  // that may build accelerators; 0: as many as there are cores
@@ -61,10 +62,11 @@ struct RenderSetup {
   FilmSettings film;
   PixelBounds crop;  // the pixels to render
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
-  std::vector<std::string> inputFiles;  // the scene's own file and those its parameters name
-  std::vector<std::string> plugins;     // "integrators/exphotonmap", sorted
+  // The scene's own file, those that it includes and those that its parameters name; sorted.
+  std::vector<std::string> inputFiles;
+  std::vector<std::string> plugins;                          // "integrators/exphotonmap", sorted
   double acceleratorSeconds = 0, acceleratorCpuSeconds = 0;  // of building it, while loading
-  std::uint64_t sceneHash = 0;          // of what the file says, whatever its layout
+  std::uint64_t sceneHash = 0;  // of what the file says, whatever its layout
 };
 
 // The place of errors in what the command line says: SourceLocation::file of them.

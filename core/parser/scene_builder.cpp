@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "core/base/log.h"
-#include "core/params/scene_path.h"
+#include "core/files/file_identity.h"
 #include "core/params/suggestions.h"
 #include "core/parser/overrides.h"
+#include "core/parser/scene_files.h"
 #include "core/parser/scene_hash.h"
 #include "core/parser/transform_directives.h"
 #include "core/scene/effects.h"
@@ -24,7 +24,7 @@ SceneBuilder::SceneBuilder(std::string sceneName, const LoadOptions& options, Lo
 }
 
 void SceneBuilder::Reset() {
-  pluginFolders_ = options_.pluginFolders;
+  pluginFolders_ = ChosenFolders(options_.pluginFolders);
   registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_);
   world_.reset();
   worldBegin_.reset();
@@ -34,19 +34,6 @@ void SceneBuilder::Reset() {
   coordinateSystems_.clear();
   hash_ = 0;
   inputFiles_ = {sceneName_};
-}
-
-// Strings that name a file which exists, so that the picture is not written over it.
-void SceneBuilder::NoteInputFiles(const Directive& directive) {
-  for (const ParsedParam& param : directive.params.All()) {
-    if (param.type != "string" && param.type != "spectrum") continue;
-    if (directive.spec->id == DirectiveId::Film) continue;
-    for (const std::string& text : param.strings) {
-      const std::string path = ResolveScenePath(text, param.where);
-      std::error_code ignored;
-      if (std::filesystem::is_regular_file(path, ignored)) inputFiles_.insert(path);
-    }
-  }
 }
 
 void SceneBuilder::CheckScope(const Directive& directive) const {
@@ -66,7 +53,7 @@ void SceneBuilder::Handle(Directive directive) {
   if (options_.stop && *options_.stop) throw LoadingStopped();
   CheckScope(directive);
   hash_ = HashDirective(hash_, directive);
-  NoteInputFiles(directive);
+  NoteInputFiles(directive, &inputFiles_);
   const DirectiveId id = directive.spec->id;
   if (IsTransformDirective(id)) return ChangeTransform(directive);
   switch (id) {
@@ -222,22 +209,31 @@ void SceneBuilder::UseNamedMaterial(const Directive& directive) {
   state_.material = found->second;
 }
 
+// A scene file may come from anybody, and a plugin is code: its folder must lie in one that the
+// user has named, or the user must have allowed it.
+PluginFolder SceneBuilder::JudgeFolder(const std::string& path, const SourceLocation& where) {
+  for (const std::string& chosen : options_.pluginFolders)
+    if (LiesIn(path, chosen)) return {path, PluginTrust::Chosen};
+  if (options_.allowsScenePlugins) return {path, PluginTrust::Allowed};
+  log_.Notice("the scene's SearchPath \"" + path + "\" is not searched for plugins", where,
+              "plugins are code that runs with your rights: --allow-scene-plugins allows this");
+  return {path, PluginTrust::Skipped};
+}
+
 // The program's own folders stay at the end, so that old paths do no harm.
 void SceneBuilder::SetSearchPath(const Directive& directive) {
   const std::string& text = directive.strings[0];
-  std::vector<std::string> folders;
+  PluginFolders folders;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(':', at), text.size());
     const std::string folder = text.substr(at, end - at);
     if (folder == "&")
       folders.insert(folders.end(), pluginFolders_.begin(), pluginFolders_.end());
     else if (!folder.empty())
-      folders.push_back(folder);
+      folders.push_back(JudgeFolder(folder, directive.Where()));
     at = end + 1;
   }
-  for (const std::string& folder : options_.pluginFolders)
-    if (std::find(folders.begin(), folders.end(), folder) == folders.end())
-      folders.push_back(folder);
+  for (const std::string& folder : options_.pluginFolders) folders.push_back({folder});
   pluginFolders_ = std::move(folders);
   registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_);
 }

@@ -28,7 +28,6 @@ class SceneBuilder final : public DirectiveHandler {
   std::vector<std::unique_ptr<RenderSetup>> TakeSetups() { return std::move(setups_); }
 
  private:
-  void NoteInputFiles(const Directive& directive);
   void CheckScope(const Directive& directive) const;
   void ChangeTransform(const Directive& directive);
   void SetActiveTransform(const Directive& directive);
@@ -40,6 +39,7 @@ class SceneBuilder final : public DirectiveHandler {
   void UseNamedMaterial(const Directive& directive);
   void EndBlock(StateStack::Block block, const Directive& directive);
   void SetSearchPath(const Directive& directive);
+  PluginFolder JudgeFolder(const std::string& path, const SourceLocation& where);
   void BeginWorld(const Directive& directive);
   void EndWorld(const Directive& directive);
   void Reset();  // to the state at the beginning of a file
@@ -47,7 +47,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::string sceneName_;
   const LoadOptions& options_;
   Log& log_;
-  std::vector<std::string> pluginFolders_;
+  PluginFolders pluginFolders_;
   std::unique_ptr<PluginRegistry> registry_;
 
   std::optional<RenderDirectives> render_;

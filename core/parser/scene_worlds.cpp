@@ -55,12 +55,25 @@ void SceneBuilder::Finish(const SourceLocation& end) {
   if (setups_.empty()) FailAt(end, "the file has no WorldBegin: there is nothing to render");
 }
 
+namespace {
+
+// Included files may belong to several scenes.
+void AddFilesRead(const SceneSource& source, RenderSetup* setup) {
+  std::set<std::string> files = source.FilesRead();
+  files.insert(setup->inputFiles.begin(), setup->inputFiles.end());
+  setup->inputFiles.assign(files.begin(), files.end());
+}
+
+}  // namespace
+
 std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
                                                      const LoadOptions& options, Log& log) {
   try {
     SceneBuilder builder(path == "-" ? "<stdin>" : path, options, log);
     ParseScene(source, path, builder, log);
-    return builder.TakeSetups();
+    std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();
+    for (const auto& setup : setups) AddFilesRead(source, setup.get());
+    return setups;
   } catch (const Error& error) {
     const bool isCommandLine = error.Where() && error.Where()->file == kCommandLinePlace;
     if (!isCommandLine || error.Status() == ExitStatus::CommandLine) throw;

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// dlopen, with every way in which it can fail told apart. The sizes in a library's header are
-// checked first, because dlopen maps a truncated file and the process then dies by a signal.
+// dlopen, with a sentence for every way in which it can fail. The file is checked before, because
+// dlopen runs the constructors of any library, and maps a truncated one, which ends the process.
 #include "core/plugins/library.h"
 
 #include <dlfcn.h>
-#include <elf.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <new>
 
 #include "core/base/fp_traps.h"
+#include "core/files/file_identity.h"
+#include "core/files/open_file.h"
+#include "core/plugins/elf_file.h"
 
 namespace exphoton {
 namespace {
@@ -36,32 +39,50 @@ void CheckIsReadable(const std::string& path) {
   }
 }
 
-// Whether every part that a loader would map lies within the file. Other word sizes and byte orders
-// are left to dlopen, which refuses them by their header.
-void CheckIsWhole(const std::string& path) {
+int OpenFile(const std::string& path, int flags) {
+  const int file = open(path.c_str(), flags | O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (file >= 0) return file;
+  if (errno == ENOMEM) throw std::bad_alloc();
+  throw PluginFileError(std::string("cannot be read: ") + std::strerror(errno));
+}
+
+void CheckWriters(int file, const char* what) {
+  struct stat status;
+  if (fstat(file, &status) != 0)
+    throw PluginFileError(std::string("cannot be read: ") + std::strerror(errno));
+  const bool isSticky = S_ISDIR(status.st_mode) && (status.st_mode & S_ISVTX);
+  if (status.st_uid != geteuid() && status.st_uid != 0)
+    throw PluginFileError(std::string(what) + "belongs to another user, and a scene names it");
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) && !isSticky)
+    throw PluginFileError(std::string(what) +
+                          "can be changed by other users (chmod go-w), and a scene names it");
+}
+
+// The name that the system's loader is given. That of an open descriptor is the file that was
+// checked, whatever happens to the folder meanwhile.
+std::string NameForLoader(const PluginFile& file, int descriptor) {
+  // A path without a slash would be looked for where the system keeps its libraries.
+  if (file.trust == PluginTrust::Chosen) return fs::absolute(file.path).string();
+  const Descriptor folder(OpenFile(FolderOf(file.path), O_DIRECTORY));
+  CheckWriters(folder.Get(), "lies in a folder that ");
+  CheckWriters(descriptor, "");
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+// The loader knows libraries by their names, so the descriptor of a library that it has loaded by
+// the descriptor's name must not be used again: it stays open.
+void* OpenLibrary(const PluginFile& file) {
+  Descriptor descriptor(OpenFile(file.path, 0));
+  if (const auto fault = FaultOfLibrary(descriptor.Get(), kPluginSymbol))
+    throw PluginFileError(*fault);
+  const std::string name = NameForLoader(file, descriptor.Get());
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  // A lack of memory must not be taken for a short file.
-  if (!file && errno == ENOMEM) throw std::bad_alloc();
-  file.exceptions(std::ios::badbit);
-  std::error_code error;
-  const std::uint64_t size = fs::file_size(path, error);
-  Elf64_Ehdr header{};
-  file.read(reinterpret_cast<char*>(&header), sizeof header);
-  if (file.gcount() < SELFMAG || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) {
-    throw PluginFileError("is not a library");
-  }
-  if (file.gcount() < std::streamsize(sizeof header)) throw PluginFileError("is truncated");
-  if (header.e_ident[EI_CLASS] != ELFCLASS64 || header.e_phentsize != sizeof(Elf64_Phdr)) return;
-  for (int i = 0; i < header.e_phnum; ++i) {
-    Elf64_Phdr part{};
-    file.seekg(std::streamoff(header.e_phoff + std::uint64_t(i) * sizeof part));
-    file.read(reinterpret_cast<char*>(&part), sizeof part);
-    if (!file) throw PluginFileError("is truncated");
-    if (part.p_filesz > size || part.p_offset > size - part.p_filesz) {
-      throw PluginFileError("is truncated");
-    }
-  }
+  void* const library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library && file.trust != PluginTrust::Chosen) descriptor.Release();
+  if (library) return library;
+  if (errno == ENOMEM) throw std::bad_alloc();  // its words seldom say so
+  const char* reason = dlerror();
+  throw PluginFileError(std::string("cannot be loaded: ") + (reason ? reason : "no reason given"));
 }
 
 }  // namespace
@@ -106,20 +127,10 @@ const PluginDescriptor& CheckedDescriptor(PluginEntry entry, const std::string& 
   return *descriptor;
 }
 
-const PluginDescriptor& LoadPluginFile(const std::string& path, const std::string& name) {
-  CheckIsReadable(path);
-  CheckIsWhole(path);
-  // A path without a slash would be looked for where the system keeps its libraries.
-  const std::string file = fs::absolute(path).string();
+const PluginDescriptor& LoadPluginFile(const PluginFile& file, const std::string& name) {
+  CheckIsReadable(file.path);
   const UntrappedLibraryCall guard;
-  errno = 0;
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!library) {
-    if (errno == ENOMEM) throw std::bad_alloc();  // its words seldom say so
-    const char* reason = dlerror();
-    throw PluginFileError(std::string("cannot be loaded: ") +
-                          (reason ? reason : "no reason given"));
-  }
+  void* const library = OpenLibrary(file);
   void* symbol = dlsym(library, kPluginSymbol);
   if (!symbol) {
     throw PluginFileError(std::string("is a library, but no plugin: it has no symbol ") +

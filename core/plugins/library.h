@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/plugins/descriptor.h"
+#include "core/plugins/search.h"
 
 namespace exphoton {
 
@@ -17,9 +18,11 @@ class PluginFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Loads the library and checks its descriptor against this core and the name it must have. It stays
-// loaded until the process ends: objects and exceptions of its types may outlive everything else.
-const PluginDescriptor& LoadPluginFile(const std::string& path, const std::string& name);
+// Checks the file, loads it, and checks its descriptor against this core and the name it must have.
+// Code of a file that is no plugin never runs. It stays loaded until the process ends: objects and
+// exceptions of its types may outlive everything else. A file of a folder that a scene names must
+// belong to the user or to root, and others must not be able to change it.
+const PluginDescriptor& LoadPluginFile(const PluginFile& file, const std::string& name);
 
 // The plugins that are linked into the program (RegisterStaticPlugin), in no particular order.
 const std::vector<PluginEntry>& StaticPlugins();

@@ -44,10 +44,12 @@ const PluginDescriptor* FindStatic(PluginKind kind, const std::string& name) {
 
 }  // namespace
 
-PluginRegistry::PluginRegistry(std::vector<std::string> folders, Log* log) : log_(log) {
-  for (std::string& folder : folders) {
-    const bool isNew = std::find(folders_.begin(), folders_.end(), folder) == folders_.end();
-    if (isNew) folders_.push_back(std::move(folder));
+PluginRegistry::PluginRegistry(PluginFolders folders, Log* log) : log_(log) {
+  for (PluginFolder& folder : folders) {
+    const bool isKnown =
+        std::any_of(folders_.begin(), folders_.end(),
+                    [&](const PluginFolder& other) { return other.path == folder.path; });
+    if (!isKnown) folders_.push_back(std::move(folder));
   }
 }
 
@@ -55,13 +57,25 @@ const PluginDescriptor* PluginRegistry::TryLoad(PluginKind kind, const std::stri
   const auto found = loaded_.find(Key(kind, name));
   if (found != loaded_.end()) return found->second;
   if (const PluginDescriptor* plugin = FindStatic(kind, name)) return plugin;
-  const std::optional<std::string> file = FindPluginFile(folders_, kind, name);
+  const std::optional<PluginFile> file = FindPluginFile(folders_, kind, name);
   if (!file) return nullptr;
   try {
     return &LoadPluginFile(*file, name);
   } catch (const PluginFileError& error) {
-    throw PluginFileError('"' + *file + "\" " + error.what());
+    throw PluginFileError('"' + file->path + "\" " + error.what());
   }
+}
+
+std::string PluginRegistry::PlacesText() const {
+  std::vector<std::string> searched, skipped;
+  for (const auto& [path, trust] : folders_)
+    (trust == PluginTrust::Skipped ? skipped : searched).push_back(path);
+  std::string text;
+  if (StaticPlugins().empty()) text = "looked in " + Join(searched);
+  if (!skipped.empty())
+    text += (text.empty() ? "" : "; ") + ("did not look in " + Join(skipped)) +
+            ", named by the scene: --allow-scene-plugins allows that, or --plugin-dir";
+  return text.empty() ? text : " (" + text + ')';
 }
 
 void PluginRegistry::ThrowMissing(PluginKind kind, const std::string& name,
@@ -70,7 +84,7 @@ void PluginRegistry::ThrowMissing(PluginKind kind, const std::string& name,
   std::string text = "there is no " + Named(kind, name);
   text += available.empty() ? "; no plugin of this kind was found"
                             : "; those that there are: " + Join(available);
-  if (StaticPlugins().empty()) text += " (looked in " + Join(folders_) + ')';
+  text += PlacesText();
   throw Error(ExitStatus::Scene, text, where, DidYouMean(name, available));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/plugins/descriptor.h"
+#include "core/plugins/search.h"
 
 namespace exphoton {
 
@@ -16,7 +17,9 @@ class PluginRegistry {
  public:
   // Folders in order of preference; each may hold <kind folder>/<name>.so or <name>.so. Of two
   // files for one plugin the first counts, even where it is broken.
-  explicit PluginRegistry(std::vector<std::string> folders, Log* log);
+  PluginRegistry(PluginFolders folders, Log* log);
+  PluginRegistry(const std::vector<std::string>& chosen, Log* log)
+      : PluginRegistry(ChosenFolders(chosen), log) {}
 
   // --plugin-dir, PBRT_SEARCHPATH and the folder beside the program, in this order.
   static std::vector<std::string> DefaultFolders(const std::vector<std::string>& extra);
@@ -37,10 +40,12 @@ class PluginRegistry {
 
   // Sorted names of what can be loaded from the kind's folders; loads all of them.
   std::vector<std::string> Available(PluginKind kind) const;
-  std::vector<std::string> Loaded() const;                    // "integrators/exphotonmap", sorted
-  const PluginDescriptor& Load(PluginKind kind, const std::string& name, const SourceLocation& where);
+  std::vector<std::string> Loaded() const;  // "integrators/exphotonmap", sorted
+  const PluginDescriptor& Load(PluginKind kind, const std::string& name,
+                               const SourceLocation& where);
 
  private:
+  std::string PlacesText() const;
   // Null where there is no such plugin. Throws PluginFileError.
   const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
   [[noreturn]] void ThrowMissing(PluginKind kind, const std::string& name,
@@ -50,9 +55,9 @@ class PluginRegistry {
   void* CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
                      BindContext bind, const void* context);
 
-  std::vector<std::string> folders_;
+  PluginFolders folders_;
   Log* log_;
-  std::set<std::string> noticed_;  // aliases that were named before
+  std::set<std::string> noticed_;                          // aliases that were named before
   std::map<std::string, const PluginDescriptor*> loaded_;  // by "<kind folder>/<name>"
 };
 

@@ -67,21 +67,29 @@ std::optional<std::string> FaultOfPluginName(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<std::string> FindPluginFile(const std::vector<std::string>& folders, PluginKind kind,
-                                          const std::string& name) {
+PluginFolders ChosenFolders(const std::vector<std::string>& paths) {
+  PluginFolders folders;
+  for (const std::string& path : paths) folders.push_back({path, PluginTrust::Chosen});
+  return folders;
+}
+
+std::optional<PluginFile> FindPluginFile(const PluginFolders& folders, PluginKind kind,
+                                         const std::string& name) {
   std::error_code error;
-  for (const std::string& folder : folders) {
+  for (const auto& [folder, trust] : folders) {
+    if (trust == PluginTrust::Skipped) continue;
     for (const fs::path& file : {fs::path(folder) / PluginKindFolder(kind) / (name + kSuffix),
                                  fs::path(folder) / (name + kSuffix)}) {
-      if (fs::exists(file, error)) return file.string();
+      if (fs::exists(file, error)) return PluginFile{file.string(), trust};
     }
   }
   return std::nullopt;
 }
 
-std::vector<std::string> PluginNamesIn(const std::vector<std::string>& folders, PluginKind kind) {
+std::vector<std::string> PluginNamesIn(const PluginFolders& folders, PluginKind kind) {
   std::set<std::string> names;
-  for (const std::string& folder : folders) {
+  for (const auto& [folder, trust] : folders) {
+    if (trust == PluginTrust::Skipped) continue;
     std::error_code error;
     fs::directory_iterator files(fs::path(folder) / PluginKindFolder(kind), error);
     for (; !error && files != fs::directory_iterator(); files.increment(error)) {

@@ -22,11 +22,31 @@ const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name);
 // What is wrong with a name, as the rest of a sentence; nothing where it may name a plugin.
 std::optional<std::string> FaultOfPluginName(const std::string& name);
 
-// <folder>/<kind folder>/<name>.so or <folder>/<name>.so of the first folder that has one.
-std::optional<std::string> FindPluginFile(const std::vector<std::string>& folders,
-                                          PluginKind kind, const std::string& name);
+// A plugin is native code that runs with the user's rights, so a folder counts by who named it.
+enum class PluginTrust {
+  Chosen,   // by the user: --plugin-dir, PBRT_SEARCHPATH, the program's own folders
+  Allowed,  // named by a scene file, and allowed by the user (--allow-scene-plugins)
+  Skipped,  // named by a scene file: not searched
+};
+struct PluginFolder {
+  std::string path;
+  PluginTrust trust = PluginTrust::Chosen;
+};
+using PluginFolders = std::vector<PluginFolder>;
 
-// Names of all files <folder>/<kind folder>/<name>.so, sorted, each once.
-std::vector<std::string> PluginNamesIn(const std::vector<std::string>& folders, PluginKind kind);
+PluginFolders ChosenFolders(const std::vector<std::string>& paths);
+
+struct PluginFile {
+  std::string path;
+  PluginTrust trust;
+};
+// <folder>/<kind folder>/<name>.so or <folder>/<name>.so of the first folder that has one and is
+// not skipped.
+std::optional<PluginFile> FindPluginFile(const PluginFolders& folders, PluginKind kind,
+                                         const std::string& name);
+
+// Names of all files <folder>/<kind folder>/<name>.so of folders that are not skipped, sorted, each
+// once.
+std::vector<std::string> PluginNamesIn(const PluginFolders& folders, PluginKind kind);
 
 }  // namespace exphoton

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The plugin loader: what it finds, and a sentence for every way to fail. The faulty plugins are
 // made from tests/plugin/modules/.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,12 +10,18 @@
 #include <fstream>
 
 #include "core/base/log.h"
+#include "core/plugins/elf_file.h"
 #include "core/plugins/registry.h"
 
 #ifndef EXPHOTON_STATIC_PLUGINS
 
 namespace exphoton {
 namespace {
+
+std::string ReadAll(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 namespace fs = std::filesystem;
 
@@ -135,6 +142,78 @@ TEST_F(Loader, GivesTheReasonOfTheSystemForAnotherMachine) {
   bytes[18] = char(0xF7);  // e_machine: no machine that there is
   std::ofstream(folder_ / "filters/alien.so", std::ios::binary) << bytes;
   EXPECT_EQ(FailsToLoad("alien", folder_).rfind("cannot be loaded: ", 0), 0u);
+}
+
+TEST_F(Loader, CodeOfALibraryThatIsNoPluginNeverRuns) {
+  const std::string mark = (folder_ / "mark").string();
+  setenv("EXPHOTON_TEST_MARK", mark.c_str(), 1);
+  EXPECT_EQ(FailsToLoad("marking_library", kFaulty),
+            "is a library, but no plugin: it has no symbol ExphotonPlugin");
+  EXPECT_FALSE(fs::exists(mark));
+  PluginRegistry registry = Registry({kFaulty});
+  EXPECT_TRUE(registry.Create<PluginKind::Filter>("marking_filter", {}, {}, {}));
+  EXPECT_TRUE(fs::exists(mark)) << "the plugins of this test leave no marks";
+  unsetenv("EXPHOTON_TEST_MARK");
+}
+
+// Bytes of a library's tables changed one at a time: a sentence or a plugin, and no signal.
+TEST_F(Loader, DamagedTablesOfALibraryAreRefusedOrHarmless) {
+  const std::string bytes = ReadAll(kPlugins + "/filters/box.so");
+  const fs::path file = folder_ / "filters/box.so";
+  int refused = 0;
+  for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 4096); at += 3) {
+    std::string damaged = bytes;
+    damaged[at] = char(damaged[at] ^ 0xA5);
+    std::ofstream(file, std::ios::binary) << damaged;
+    const int opened = open(file.c_str(), O_RDONLY);
+    refused += FaultOfLibrary(opened, kPluginSymbol).has_value();
+    close(opened);
+  }
+  EXPECT_GT(refused, 20);
+}
+
+TEST_F(Loader, AFolderThatASceneNamesIsNotSearchedUnlessItIsAllowed) {
+  const std::string faulty = kFaulty;
+  PluginRegistry skipping({{faulty, PluginTrust::Skipped}, {kPlugins}}, &log_);
+  EXPECT_THROW(skipping.Find(PluginKind::Filter, "refusing_factory", Here()), Error);
+  try {
+    skipping.Find(PluginKind::Filter, "refusing_factory", Here());
+  } catch (const Error& error) {
+    EXPECT_NE(
+        std::string(error.what())
+            .find("did not look in " + faulty + ", named by the scene: --allow-scene-plugins"),
+        std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(skipping.Create<PluginKind::Filter>("box", {}, {}, {}));
+}
+
+// Whoever can write the file chooses the code.
+TEST_F(Loader, AnAllowedPluginThatOthersCanChangeIsRefused) {
+  const fs::path file = folder_ / "filters/refusing_factory.so";
+  fs::copy_file(kFaulty + "/filters/refusing_factory.so", file);
+  const auto load = [&]() -> std::string {
+    PluginRegistry registry({{folder_.string(), PluginTrust::Allowed}}, &log_);
+    try {
+      registry.Find(PluginKind::Filter, "refusing_factory", Here());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  fs::permissions(file, fs::perms(0666));
+  EXPECT_NE(load().find("can be changed by other users"), std::string::npos) << load();
+  fs::permissions(file, fs::perms(0644));
+  fs::permissions(folder_ / "filters", fs::perms(0777));
+  EXPECT_NE(load().find("lies in a folder that can be changed"), std::string::npos) << load();
+  fs::permissions(folder_ / "filters", fs::perms(0755));
+  if (geteuid() == 0) {
+    ASSERT_EQ(chown(file.c_str(), 1234, 0), 0);
+    EXPECT_NE(load().find("belongs to another user"), std::string::npos) << load();
+    ASSERT_EQ(chown(file.c_str(), 0, 0), 0);
+  }
+  EXPECT_EQ(load(), "");
+  EXPECT_EQ(load(), "");  // once more by its open descriptor
 }
 
 TEST_F(Loader, SaysWhatIsWrongWithADescriptor) {

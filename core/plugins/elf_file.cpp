@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Follows the program headers to the dynamic section, and its hash table to one symbol. Every
+// offset comes from the file and may be anything: each read is checked by the system against its
+// end.
+#include "core/plugins/elf_file.h"
+
+#include <elf.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+namespace exphoton {
+namespace {
+
+#if defined(__x86_64__)
+constexpr int kMachine = EM_X86_64;
+#elif defined(__aarch64__)
+constexpr int kMachine = EM_AARCH64;
+#else
+constexpr int kMachine = EM_NONE;  // unknown: left to the system's loader
+#endif
+constexpr std::uint64_t kMostSymbols = 1 << 24;
+
+struct Fault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+[[noreturn]] void FailTruncated() { throw Fault("is truncated"); }
+
+class Library {
+ public:
+  explicit Library(int file) : file_(file) {
+    struct stat status;
+    if (fstat(file, &status) != 0) throw Fault(std::strerror(errno));
+    size_ = std::uint64_t(status.st_size);
+    ReadHeader();
+    ReadParts();
+    ReadDynamicSection();
+  }
+
+  bool Exports(const std::string& name) const {
+    if (symbols_ == 0 || names_ == 0) return false;
+    return gnuHash_ ? IsInGnuTable(name) : hash_ && IsInTable(name);
+  }
+
+ private:
+  template <class T>
+  T Read(std::uint64_t offset) const {
+    T value;
+    if (offset > size_ || sizeof value > size_ - offset ||
+        pread(file_, &value, sizeof value, off_t(offset)) != ssize_t(sizeof value))
+      FailTruncated();
+    return value;
+  }
+
+  void ReadHeader() {
+    char magic[SELFMAG] = {};
+    if (size_ < SELFMAG || pread(file_, magic, SELFMAG, 0) != SELFMAG ||
+        std::memcmp(magic, ELFMAG, SELFMAG) != 0)
+      throw Fault("is not a library");
+    header_ = Read<Elf64_Ehdr>(0);
+    constexpr int kOrder = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? ELFDATA2LSB : ELFDATA2MSB;
+    if (header_.e_ident[EI_CLASS] != ELFCLASS64 || header_.e_ident[EI_DATA] != kOrder ||
+        (kMachine != EM_NONE && header_.e_machine != kMachine))
+      throw Fault("cannot be loaded: it is built for another kind of machine");
+    if (header_.e_type != ET_DYN || header_.e_phentsize != sizeof(Elf64_Phdr))
+      throw Fault("is no shared library");
+  }
+
+  // The system's loader maps what a header says, and the process dies where the file is shorter.
+  void ReadParts() {
+    for (std::uint64_t i = 0; i < header_.e_phnum; ++i) {
+      const auto part = Read<Elf64_Phdr>(header_.e_phoff + i * sizeof(Elf64_Phdr));
+      if (part.p_filesz > size_ || part.p_offset > size_ - part.p_filesz) FailTruncated();
+      parts_.push_back(part);
+    }
+  }
+
+  // The place in the file of an address in memory; 0 where it is none of the file's.
+  std::uint64_t OffsetOf(std::uint64_t address) const {
+    for (const Elf64_Phdr& part : parts_)
+      if (part.p_type == PT_LOAD && address >= part.p_vaddr &&
+          address - part.p_vaddr < part.p_filesz)
+        return part.p_offset + (address - part.p_vaddr);
+    return 0;
+  }
+
+  void ReadDynamicSection() {
+    for (const Elf64_Phdr& part : parts_) {
+      if (part.p_type != PT_DYNAMIC) continue;
+      for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn)) {
+        const auto entry = Read<Elf64_Dyn>(part.p_offset + at);
+        if (entry.d_tag == DT_NULL) break;
+        if (entry.d_tag == DT_SYMTAB) symbols_ = OffsetOf(entry.d_un.d_ptr);
+        if (entry.d_tag == DT_STRTAB) names_ = OffsetOf(entry.d_un.d_ptr);
+        if (entry.d_tag == DT_HASH) hash_ = OffsetOf(entry.d_un.d_ptr);
+        if (entry.d_tag == DT_GNU_HASH) gnuHash_ = OffsetOf(entry.d_un.d_ptr);
+      }
+      return;
+    }
+    throw Fault("is no shared library");
+  }
+
+  bool IsDefinedAs(std::uint64_t index, const std::string& name) const {
+    const auto symbol = Read<Elf64_Sym>(symbols_ + index * sizeof(Elf64_Sym));
+    const unsigned binding = ELF64_ST_BIND(symbol.st_info);
+    if (symbol.st_shndx == SHN_UNDEF || ELF64_ST_TYPE(symbol.st_info) != STT_FUNC ||
+        (binding != STB_GLOBAL && binding != STB_WEAK))
+      return false;
+    for (std::uint64_t i = 0; i <= name.size(); ++i)
+      if (Read<char>(names_ + symbol.st_name + i) != name.c_str()[i]) return false;
+    return true;
+  }
+
+  bool IsInTable(const std::string& name) const {
+    const std::uint64_t count = Read<std::uint32_t>(hash_ + 4);
+    for (std::uint64_t i = 1; i < std::min(count, kMostSymbols); ++i)
+      if (IsDefinedAs(i, name)) return true;
+    return false;
+  }
+
+  bool IsInGnuTable(const std::string& name) const {
+    std::uint32_t hash = 5381;
+    for (const char c : name) hash = hash * 33 + static_cast<unsigned char>(c);
+    const auto word = [&](std::uint64_t index) {
+      return std::uint64_t(Read<std::uint32_t>(gnuHash_ + 4 * index));
+    };
+    const std::uint64_t buckets = word(0), first = word(1), filterWords = word(2);
+    if (buckets == 0) return false;
+    const std::uint64_t bucketsAt = 4 + 2 * filterWords, chainsAt = bucketsAt + buckets;
+    std::uint64_t index = word(bucketsAt + hash % buckets);
+    if (index < first) return false;
+    for (std::uint64_t i = 0; i < kMostSymbols; ++i, ++index) {
+      const std::uint64_t other = word(chainsAt + index - first);
+      if ((other | 1) == (std::uint64_t(hash) | 1) && IsDefinedAs(index, name)) return true;
+      if (other & 1) return false;  // the end of the chain
+    }
+    return false;
+  }
+
+  int file_;
+  std::uint64_t size_ = 0;
+  Elf64_Ehdr header_{};
+  std::vector<Elf64_Phdr> parts_;
+  std::uint64_t symbols_ = 0, names_ = 0, hash_ = 0, gnuHash_ = 0;  // offsets; 0: none
+};
+
+}  // namespace
+
+std::optional<std::string> FaultOfLibrary(int file, const std::string& symbol) {
+  try {
+    if (Library(file).Exports(symbol)) return std::nullopt;
+    return "is a library, but no plugin: it has no symbol " + symbol;
+  } catch (const Fault& fault) {
+    return fault.what();
+  }
+}
+
+}  // namespace exphoton
