@@ -8,8 +8,11 @@
 #include <filesystem>
 
 #include "core/cli/errors.h"
+#include "core/cli/interrupt_watch.h"
+#include "core/cli/limits.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
+#include "core/cli/run_files.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
 #include "core/imaging/flip.h"
@@ -27,6 +30,7 @@ struct CompareOptions {
   double maxRelMse = -1, maxMean = -1;  // < 0: no bound
   std::string differenceFolder;         // "": no difference images
   double fullScale = .5;
+  std::string limits;
 };
 
 struct Comparison {
@@ -106,10 +110,33 @@ Comparison Compare(const std::string& referenceName, const Image& reference,
   return result;
 }
 
+// Without its ending.
+std::string DifferenceName(const CompareOptions& options, const std::string& picture) {
+  return (fs::path(options.differenceFolder) / fs::path(picture).stem()).string() + "-difference";
+}
+
+// Two pictures of one name in two folders have one difference image.
+void CheckFiles(const CompareOptions& options) {
+  if (options.differenceFolder.empty()) return;
+  MakeFolder(options.differenceFolder);
+  RunFiles files;
+  files.AddInput(options.reference, "this command");
+  for (std::size_t i = 0; i < options.pictures.size(); ++i) {
+    const std::string& picture = options.pictures[i];
+    files.AddInput(picture, "this command");
+    for (const char* ending : {".exr", ".png"})
+      files.AddOutput(
+          std::to_string(i) + ending,
+          {DifferenceName(options, picture) + ending, "the difference image of \"" + picture + '"',
+           "compare these pictures one at a time, with another --difference DIR"});
+  }
+  Log log;
+  files.Check(log);
+}
+
 void WriteDifference(const CompareOptions& options, const Image& reference, const std::string& name,
                      const Image& picture) {
-  const std::string base =
-      (fs::path(options.differenceFolder) / fs::path(name).stem()).string() + "-difference";
+  const std::string base = DifferenceName(options, name);
   WriteExr(base + ".exr", DifferenceImage(reference, picture), false);
   WritePng(base + ".png", SignedErrorImage(reference, picture, options.fullScale));
 }
@@ -141,6 +168,7 @@ CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
       .TypeName("DIR");
   app.Add("--scale", options.fullScale, "relative error of full red or blue (default 0.5)")
       .Positive();
+  AddLimitsOption(app, &options.limits);
   app.Footer(
       "\nrelMSE: mean over pixels and colours of (x-r)^2 / (r^2 + 0.01); trimmed: without the "
       "worst\n"
@@ -158,8 +186,11 @@ int RunCompare(const std::vector<std::string>& arguments) {
   bool isSame = true;  // also where only help was asked for
   const int status = Guarded([&] {
     const CompareOptions options = ParseCompareOptions(arguments);
+    const Limits limits = ParseLimits(options.limits);
+    LimitMemory(limits);
+    const InterruptWatch watch(limits.seconds);
+    CheckFiles(options);
     const Image reference = ReadImage(options.reference);
-    if (!options.differenceFolder.empty()) MakeFolder(options.differenceFolder);
     std::vector<Comparison> all;
     for (const std::string& name : options.pictures) {
       const Image picture = ReadImage(name);

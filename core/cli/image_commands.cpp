@@ -10,9 +10,12 @@
 #include "core/base/error.h"
 #include "core/base/log.h"
 #include "core/cli/errors.h"
+#include "core/cli/interrupt_watch.h"
+#include "core/cli/limits.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
 #include "core/cli/photons_command.h"
+#include "core/cli/run_files.h"
 #include "core/cli/values.h"
 #include "core/imaging/exr.h"
 #include "core/imaging/png.h"
@@ -101,8 +104,13 @@ int RunInfo(const std::vector<std::string>& arguments) {
         "the photons around what a pixel shows (see its --help).",
         "exphoton info");
     std::vector<std::string> files;
+    std::string limitsText;
     app.Add("files", files, "EXR or PNG files").Required();
+    AddLimitsOption(app, &limitsText);
     app.Parse(arguments);
+    const Limits limits = ParseLimits(limitsText);
+    LimitMemory(limits);
+    const InterruptWatch watch(limits.seconds);
     for (const std::string& file : files) PrintOut(InfoText(file, ReadImage(file)));
   });
 }
@@ -111,7 +119,7 @@ int RunConvert(const std::vector<std::string>& arguments) {
   return Guarded([&] {
     OptionParser app("Converts between EXR (linear) and PNG (sRGB), by the names' endings.",
                      "exphoton convert");
-    std::string from, to;
+    std::string from, to, limitsText;
     float exposure = 0;
     bool asFloat = false;
     app.Add("from", from, "picture to read").Required();
@@ -120,17 +128,24 @@ int RunConvert(const std::vector<std::string>& arguments) {
         .Between(-100.0, 100.0)
         .DefaultText("0");
     app.AddFlag("--float", asFloat, "for EXR: 32-bit channels");
+    AddLimitsOption(app, &limitsText);
     app.Parse(arguments);
     const bool isPng = EndsWith(to, ".png");
     if (!isPng && !EndsWith(to, ".exr")) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
     if (!isPng && exposure != 0) FailUsage("--exposure is for PNG: an EXR stays linear");
+    RunFiles files;
+    files.AddInput(from, "this command");
+    files.AddOutput("to", {to, "the picture", "another name keeps both pictures"});
+    Log log;
+    files.Check(log);
+    const Limits limits = ParseLimits(limitsText);
+    LimitMemory(limits);
+    const InterruptWatch watch(limits.seconds);
     const Image image = ReadImage(from);
-    const std::string target = ResolveOutput(to);
-    CheckWritable(target);
     if (isPng)
-      WritePng(target, image, exposure);
+      WritePng(to, image, exposure);
     else
-      WriteExr(target, image, !asFloat);
+      WriteExr(to, image, !asFloat);
   });
 }
 

@@ -103,6 +103,10 @@ void OptionParser::AddVersion(const std::string& text) {
 }
 void OptionParser::Footer(const std::string& text) { implementation_->app.footer(text); }
 
+bool OptionParser::Has(const std::string& name) const {
+  return implementation_->app.get_option_no_throw(name) != nullptr;
+}
+
 void OptionParser::Parse(const std::vector<std::string>& arguments) {
   CLI::App& app = implementation_->app;
   try {

@@ -62,6 +62,7 @@ class OptionParser {
   OptionHandle AddFlag(const std::string& name, bool& target, const std::string& help);
   void AddVersion(const std::string& text);  // --version
   void Footer(const std::string& text);      // below the list of --help
+  bool Has(const std::string& name) const;   // "--outfile"
 
   // Fills the targets. Throws TextRequest for --help and --version, a usage error for arguments
   // that the options do not allow.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/cli/limits.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/values.h"
 #include "core/parser/effect_choice.h"
@@ -19,7 +20,7 @@ constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "v1";
   std::vector<std::string> sets, pluginFolders;
-  std::string integrator, layers, timeLimit;
+  std::string integrator, layers, timeLimit, limits;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -53,6 +54,8 @@ void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw)
   app.Add("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
       .TypeName("DIR")
       .OnePerUse();
+  AddScenePluginsOption(app, &command.load.allowsScenePlugins);
+  AddLimitsOption(app, &raw.limits);
 }
 
 void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
@@ -111,6 +114,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
     FailUsage("--target-error takes a number above 0");
   Exclude(command->asTwoHalves, command->HasStoppingRule(),
           "--two-halves and --time-limit or --target-error exclude each other");
+  command->limits = ParseLimits(raw.limits);
   if (!raw.layers.empty()) command->layers = ParseLayerList(raw.layers);
   command->asHalf = !raw.asFloat;
   command->showsProgress = !raw.hidesProgress && !raw.isQuiet;

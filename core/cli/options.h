@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/log.h"
+#include "core/cli/limits.h"
 #include "core/imaging/layers.h"
 #include "core/parser/render_setup.h"
 
@@ -20,12 +21,13 @@ struct RenderCommand {
   std::vector<std::string> scenes;  // "-": standard input
   RenderMode mode = RenderMode::Render;
   LoadOptions load;
-  std::string outfile;      // "": what the scene says
-  std::string previewFile;  // "": none
-  std::string statsFile;    // "": none; "-": standard output
-  LayerSet layers;          // --aov
+  std::string outfile;                           // "": what the scene says
+  std::string previewFile;                       // "": none
+  std::string statsFile;                         // "": none; "-": standard output
+  LayerSet layers;                               // --aov
   std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
   bool asTwoHalves = false;
+  Limits limits;
 
   bool HasStoppingRule() const { return timeLimit || targetError; }
   bool printsStatistics = false;

@@ -2,6 +2,7 @@
 // Output paths: what is checked is done, not guessed: a temporary file is made and removed again.
 #include "core/cli/output_files.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/files/atomic_file.h"
+#include "core/files/file_identity.h"
 
 namespace exphoton::cli {
 namespace {
@@ -22,18 +24,17 @@ namespace fs = std::filesystem;
   throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + why);
 }
 
-}  // namespace
-
-std::string ResolveOutput(const std::string& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error) || error) return path;
-  const fs::path target = fs::weakly_canonical(path, error);
-  if (error) FailWrite(path, "the link leads nowhere");
-  if (!fs::is_symlink(target, error)) return target.string();
-  // A dangling link: its folder may exist all the same.
-  const fs::path next = fs::read_symlink(path, error);
-  return (next.is_absolute() ? next : fs::path(path).parent_path() / next).string();
+// In a folder such as /tmp only a file's owner, or the folder's, may replace it.
+bool MayReplace(const std::string& path) {
+  const std::string target = FollowLinks(path);
+  struct stat file, folder;
+  if (geteuid() == 0 || stat(target.c_str(), &file) != 0 ||
+      stat(FolderOf(target).c_str(), &folder) != 0)
+    return true;
+  return !(folder.st_mode & S_ISVTX) || file.st_uid == geteuid() || folder.st_uid == geteuid();
 }
+
+}  // namespace
 
 void CheckWritable(const std::string& path) {
   if (path.empty()) throw Error(ExitStatus::File, "the output file has no name");
@@ -42,6 +43,8 @@ void CheckWritable(const std::string& path) {
   if (fs::is_directory(status)) FailWrite(path, "is a directory");
   if (fs::exists(status) && !fs::is_regular_file(status)) FailWrite(path, "is not a regular file");
   if (fs::exists(status) && access(path.c_str(), W_OK) != 0) FailWrite(path, std::strerror(errno));
+  if (fs::exists(status) && !MayReplace(path))
+    FailWrite(path, "in this folder only its owner may replace it");
   const AtomicFile probe(path);
 }
 
@@ -50,14 +53,6 @@ void MakeFolder(const std::string& path) {
   fs::create_directories(path, error);
   if (error)
     throw Error(ExitStatus::File, "cannot make the folder \"" + path + "\": " + error.message());
-}
-
-std::string PartialName(const std::string& path) {
-  const fs::path file(path);
-  if (file.extension() != ".exr") return path + ".partial.exr";
-  fs::path partial = file;
-  partial.replace_extension(".partial.exr");
-  return partial.string();
 }
 
 void WriteTextFile(const std::string& path, const std::string& text) {

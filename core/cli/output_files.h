@@ -6,17 +6,11 @@
 
 namespace exphoton::cli {
 
-// The file that is written for this name: a symbolic link stands for what it points to.
-std::string ResolveOutput(const std::string& path);
-
 // Throws Error(File) where `path` cannot be written. Leaves nothing behind.
 void CheckWritable(const std::string& path);
 
 // Makes the folder and those above it. Throws Error(File).
 void MakeFolder(const std::string& path);
-
-// "room.exr" -> "room.partial.exr": the name of an interrupted picture.
-std::string PartialName(const std::string& path);
 
 // Replaces the file in one step. Throws Error(File).
 void WriteTextFile(const std::string& path, const std::string& text);

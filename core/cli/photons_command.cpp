@@ -10,8 +10,11 @@
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
+#include "core/cli/interrupt_watch.h"
+#include "core/cli/limits.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
+#include "core/cli/run_files.h"
 #include "core/cli/signals.h"
 #include "core/cli/values.h"
 #include "core/parser/render_setup.h"
@@ -26,6 +29,8 @@ struct Options {
   std::vector<std::string> sets, pluginFolders;
   int count = 50, threads = 0;
   std::uint64_t seed = 0;
+  bool allowsScenePlugins = false;
+  std::string limits;
 };
 
 Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
@@ -45,6 +50,8 @@ Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
   app.Add("--nthreads,--ncores", options.threads, "threads; 0: all cores").Between(0, 4096);
   app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
       .OnePerUse();
+  AddScenePluginsOption(app, &options.allowsScenePlugins);
+  AddLimitsOption(app, &options.limits);
   app.Parse(arguments);
   return options;
 }
@@ -52,6 +59,7 @@ Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
 LoadOptions SceneOptions(const Options& options) {
   LoadOptions load;
   load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
+  load.allowsScenePlugins = options.allowsScenePlugins;
   load.stop = &StopFlag();
   load.threads = options.threads;
   if (!options.integrator.empty()) load.integrator = options.integrator;
@@ -143,6 +151,15 @@ std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photon
   return text + "</svg>\n";
 }
 
+void CheckFiles(const Options& options, const RenderSetup& setup, Log& log) {
+  if (options.plotFile.empty()) return;
+  RunFiles files;
+  files.AddPluginFolders(PluginRegistry::DefaultFolders(options.pluginFolders));
+  files.AddScene(setup);
+  files.AddOutput("plot", {options.plotFile, "the plot", "--plot FILE.svg names another file"});
+  files.Check(log);
+}
+
 }  // namespace
 
 void PrintPhotonsAt(const std::vector<std::string>& arguments) {
@@ -150,8 +167,12 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
   const PixelBounds pixel = ParsePixel(options.pixel);
   Log log(Log::Level::Quiet);
   FileSource source;
+  const Limits limits = ParseLimits(options.limits);
+  LimitMemory(limits);
+  const InterruptWatch watch(limits.seconds);
   const auto setups = LoadScenes(source, options.scene, SceneOptions(options), log);
   const RenderSetup& setup = *setups.front();
+  CheckFiles(options, setup, log);
   const Place place = FindPlace(setup, pixel);
   ThreadPool threads(options.threads);
   ProgressReporter progress(ProgressReporter::Mode::Quiet);
@@ -172,8 +193,7 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
     log.Warning("integrator \"" + setup.integratorName + "\" has no " + options.map +
                 " photons in this scene");
   PrintOut(TableText(place, photons));
-  if (!options.plotFile.empty())
-    WriteTextFile(ResolveOutput(options.plotFile), PlotText(place, photons));
+  if (!options.plotFile.empty()) WriteTextFile(options.plotFile, PlotText(place, photons));
 }
 
 }  // namespace exphoton::cli

@@ -6,9 +6,26 @@
 #include "core/cli/errors.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
+#include "core/cli/study_scene.h"
 #include "core/plugins/catalogue.h"
 
 namespace exphoton::cli {
+namespace {
+
+// Pages begin with a line that says what wrote them; other files of their names stay.
+void WriteReference(const std::string& folder, PluginRegistry& registry) {
+  const auto pages = ReferencePages(registry);
+  for (const auto& [file, page] : pages) {
+    const std::string older = ReadTextFile(folder + "/" + file);
+    if (older.empty() || older.substr(0, older.find('\n')) == page.substr(0, page.find('\n')))
+      continue;
+    throw Error(ExitStatus::File, "cannot write \"" + folder + "/" + file +
+                                      "\": it is no page that this command has written");
+  }
+  for (const auto& [file, page] : pages) WriteTextFile(folder + "/" + file, page);
+}
+
+}  // namespace
 
 int RunPlugins(const std::vector<std::string>& arguments) {
   return Guarded([&] {
@@ -24,9 +41,7 @@ int RunPlugins(const std::vector<std::string>& arguments) {
     Log log(Log::Level::Quiet);
     PluginRegistry registry(PluginRegistry::DefaultFolders(folders), &log);
     if (!referenceFolder.empty()) {
-      for (const auto& [file, page] : ReferencePages(registry))
-        WriteTextFile(referenceFolder + "/" + file, page);
-      return;
+      return WriteReference(referenceFolder, registry);
     }
     std::string text;
     if (names.empty()) text = ListPlugins(registry);

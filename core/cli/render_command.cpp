@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From a scene file to a picture: load, check the output, render, write, report.
+// From scene files to pictures: check all files of the run, then load, render, write and report one
+// scene file after the other.
 #include "core/cli/render_command.h"
 
 #include <algorithm>
@@ -7,18 +8,20 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
-#include <set>
 
 #include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/cli/errors.h"
 #include "core/cli/interrupt_watch.h"
 #include "core/cli/output_files.h"
+#include "core/cli/output_names.h"
 #include "core/cli/picture.h"
+#include "core/cli/run_files.h"
 #include "core/cli/run_record.h"
 #include "core/cli/signals.h"
 #include "core/imaging/exr.h"
 #include "core/imaging/png.h"
+#include "core/parser/scene_files.h"
 
 namespace exphoton::cli {
 namespace {
@@ -40,19 +43,29 @@ struct Begin {
 // Thrown after an interrupted picture has been written.
 struct Interrupted {};
 
+// What the scene files of a command line share.
+struct Run {
+  RunFiles files;
+  std::string statistics;  // of all pictures so far, as JSON
+  FileSource::Streams streams;
+};
+
 // Renders the scenes of one file.
 class FileRenderer {
  public:
-  FileRenderer(const RenderCommand& command, Log& log) : command_(command), log_(log) {}
+  FileRenderer(const RenderCommand& command, Run& run, Log& log)
+      : command_(command), names_(command), run_(run), log_(log), watch_(command.limits.seconds) {}
 
-  void Run(const std::string& path) {
+  // `index`: of the file among the command line's.
+  void Render(std::size_t index) {
+    const std::string& path = command_.scenes[index];
     Setups setups = Load(path);
     if (command_.mode == RenderMode::Check) return log_.Verbose("\"" + path + "\" has no errors");
     if (command_.mode == RenderMode::Explain) {
       for (const auto& setup : setups) PrintOut(ExplainText(*setup));
       return;
     }
-    CheckOutputs(setups, path);
+    CheckOutputs(setups, index);
     for (std::unique_ptr<RenderSetup>& setup : setups) {
       watch_.MustFinish() = false;
       RenderOne(*setup);
@@ -69,16 +82,17 @@ class FileRenderer {
   };
 
   Setups Load(const std::string& path);
-  std::string OutputOf(const RenderSetup& setup) const;
-  void CheckOutputs(const Setups& setups, const std::string& scenePath) const;
+  void CheckOutputs(const Setups& setups, std::size_t index);
   void RenderOne(const RenderSetup& setup);
   void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
   Picture Write(const RunRecord& run, Image image, Statistics& statistics);
   void Announce(const RunRecord& run, const Picture& picture);
-  void Report(const RunRecord& run) const;
+  void Report(const RunRecord& run);
 
   const RenderCommand& command_;
+  const OutputNames names_;
+  Run& run_;
   Log& log_;
   InterruptWatch watch_;
   std::optional<Begin> begin_;  // of the first picture
@@ -89,40 +103,30 @@ Setups FileRenderer::Load(const std::string& path) {
   LoadOptions options = command_.load;
   options.stop = &StopFlag();
   options.threads = command_.threadCount;
-  FileSource source;
+  FileSource source(&run_.streams);
   Setups setups = LoadScenes(source, path, options, log_);
   begin.loadWall = SecondsSince(begin.wall);
   begin.loadCpu = ProcessCpuSeconds() - begin.cpu;
   return setups;
 }
 
-std::string FileRenderer::OutputOf(const RenderSetup& setup) const {
-  return ResolveOutput(command_.outfile.empty() ? setup.film.filename : command_.outfile);
-}
-
-void FileRenderer::CheckOutputs(const Setups& setups, const std::string& scenePath) const {
+void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
+  const std::string& scenePath = command_.scenes[index];
   if (!command_.outfile.empty() && setups.size() > 1)
     throw Error(ExitStatus::CommandLine, "--outfile names one picture, but \"" + scenePath +
                                              "\" holds " + std::to_string(setups.size()) +
                                              " scenes");
-  std::set<std::string> outputs;
-  for (const auto& setup : setups) {
-    CheckLayers(command_, *setup);
-    const std::string output = OutputOf(*setup);
-    CheckWritable(output);
-    std::error_code ignored;
-    for (const std::string& input : setup->inputFiles)
-      if (std::filesystem::equivalent(output, input, ignored))
-        throw Error(ExitStatus::File, "cannot write \"" + output + "\": the scene reads this file");
-    const std::string extension = std::filesystem::path(output).extension().string();
-    if (extension != ".exr")
-      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, whatever its name");
-    if (!outputs.insert(output).second)
-      log_.Warning("several scenes write \"" + output + "\": the last one stays");
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    CheckLayers(command_, *setups[i]);
+    run_.files.AddScene(*setups[i]);
+    names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
   }
-  if (!command_.previewFile.empty()) CheckWritable(ResolveOutput(command_.previewFile));
-  if (!command_.statsFile.empty() && command_.statsFile != "-")
-    CheckWritable(ResolveOutput(command_.statsFile));
+  run_.files.Check(log_);
+  for (const auto& setup : setups) {
+    const std::string output = names_.Picture(setup->film.filename);
+    if (std::filesystem::path(output).extension() != ".exr")
+      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, whatever its name");
+  }
 }
 
 void FileRenderer::RenderOne(const RenderSetup& setup) {
@@ -198,8 +202,8 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
 FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
                                           Statistics& statistics) {
   const PhaseTimer timer(statistics, "write");
-  Picture picture{OutputOf(run.setup), std::move(image), {}};
-  if (!run.isComplete) picture.path = PartialName(picture.path);
+  Picture picture{names_.Picture(run.setup.film.filename), std::move(image), {}};
+  if (!run.isComplete) picture.path = run_.files.PartialPicture(picture.path);
   picture.image.attributes = PictureAttributes(run, command_.isReproducible);
   picture.report = WriteExr(picture.path, picture.image, command_.asHalf);
   return picture;
@@ -211,30 +215,50 @@ void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
     log_.Warning(std::to_string(picture.report.clampedToHalf) +
                  " values above 65504 were written as 65504; --float stores them as they are");
   if (!command_.previewFile.empty() && run.isComplete)
-    WritePng(ResolveOutput(command_.previewFile), picture.image);
+    WritePng(command_.previewFile, picture.image);
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", run.renderSeconds);
   log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") +
               picture.path + "\" (rendered in " + seconds + ")");
 }
 
-void FileRenderer::Report(const RunRecord& run) const {
+// The file has a line for each picture so far, so that an interrupted run keeps them.
+void FileRenderer::Report(const RunRecord& run) {
   if (command_.printsStatistics) PrintOut(StatisticsTable(run));
-  if (command_.statsFile == "-")
-    PrintOut(StatisticsJson(run));
-  else if (!command_.statsFile.empty())
-    WriteTextFile(ResolveOutput(command_.statsFile), StatisticsJson(run));
+  if (command_.statsFile.empty()) return;
+  const std::string line = StatisticsJson(run);
+  if (command_.statsFile == "-") return PrintOut(line);
+  run_.statistics += line;
+  WriteTextFile(command_.statsFile, run_.statistics);
 }
 
-}  // namespace
+// With several scene files, what each writes is known only by reading them all. Nothing is loaded
+// for that, and what is wrong in a file is said later, when it is loaded.
+void CheckAllFiles(const RenderCommand& command, Run& run, Log& log) {
+  if (command.mode != RenderMode::Render || command.scenes.size() < 2) return;
+  const InterruptWatch watch(command.limits.seconds);
+  const OutputNames names(command);
+  LoadOptions options = command.load;
+  options.stop = &StopFlag();
+  for (std::size_t index = 0; index < command.scenes.size(); ++index) {
+    FileSource source(&run.streams);
+    const SceneFiles files = ScanScene(source, command.scenes[index], options);
+    run.files.AddScene(command.scenes[index], files.inputs);
+    if (!files.isWhole) continue;
+    for (std::size_t i = 0; i < files.pictures.size(); ++i)
+      names.AddTo(run.files, {index, i}, files.pictures[i]);
+  }
+  run.files.Check(log);
+}
 
-int RunRender(const RenderCommand& command) {
+// Renders one file after the other. Returns the status of the first file that failed.
+int RenderFiles(const RenderCommand& command, Run& run) {
   int status = 0;
-  for (const std::string& path : command.scenes) {
+  for (std::size_t index = 0; index < command.scenes.size(); ++index) {
     Log log(command.logLevel);
     const int result = Guarded([&] {
       try {
-        FileRenderer(command, log).Run(path);
+        FileRenderer(command, run, log).Render(index);
       } catch (const Interrupted&) {
         // Its picture is written; the status says the rest.
       }
@@ -244,6 +268,18 @@ int RunRender(const RenderCommand& command) {
     if (SignalNumber() != 0) return 128 + SignalNumber();
   }
   return status;
+}
+
+}  // namespace
+
+int RunRender(const RenderCommand& command) {
+  LimitMemory(command.limits);
+  Run run;
+  run.files.AddPluginFolders(command.load.pluginFolders);
+  Log log(command.logLevel);
+  CheckAllFiles(command, run, log);
+  log.Summarize();
+  return RenderFiles(command, run);
 }
 
 }  // namespace exphoton::cli

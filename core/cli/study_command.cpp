@@ -6,8 +6,10 @@
 
 #include "core/base/error.h"
 #include "core/cli/errors.h"
+#include "core/cli/limits.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/output_files.h"
+#include "core/cli/run_files.h"
 #include "core/cli/signals.h"
 #include "core/cli/study_runner.h"
 #include "core/cli/values.h"
@@ -81,14 +83,15 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
 }
 
 // Reads pictures, measures, and writes every file that is made from them.
-void WriteResults(const std::string& folder, study::Results* results) {
-  study::MeasureRuns(folder, results);
-  const study::Analysis analysis = study::Analyse(folder, *results);
-  WriteTextFile(folder + "/results.json", study::ToJson(*results));
-  WriteTextFile(folder + "/results.csv", study::ToCsv(*results));
-  WriteTextFile(folder + "/summary.csv", study::SummaryCsv(*results, analysis));
-  WriteTextFile(folder + "/report.html", study::MakeReport(folder, *results, analysis));
-  PrintOut(analysis.headline + "\n" + folder + "/report.html\n");
+void WriteResults(StudyFolder& folder, study::Results* results) {
+  const std::string& path = folder.Path();
+  study::MeasureRuns(path, results);
+  const study::Analysis analysis = study::Analyse(path, *results);
+  WriteTextFile(folder.Claim("results.json"), study::ToJson(*results));
+  WriteTextFile(folder.Claim("results.csv"), study::ToCsv(*results));
+  WriteTextFile(folder.Claim("summary.csv"), study::SummaryCsv(*results, analysis));
+  WriteTextFile(folder.Claim("report.html"), study::MakeReport(path, *results, analysis));
+  PrintOut(analysis.headline + "\n" + path + "/report.html\n");
 }
 
 // Before hours of rendering: it must have the size of what is rendered, and R, G and B.
@@ -115,21 +118,37 @@ std::string PlanText(const StudyOptions& options, const std::vector<study::Setti
   return text;
 }
 
+// Before hours of rendering: the results must not be what the study reads, nor somebody else's.
+void ClaimResults(const StudyOptions& options, const SceneFacts& scene, StudyFolder& folder) {
+  RunFiles files;
+  for (const std::string& input : options.inputFiles) files.AddInput(input, "the study");
+  for (const std::string& input : scene.inputFiles) files.AddInput(input, "the scene");
+  for (const char* name : kStudyResults)
+    files.AddOutput(name, {folder.Path() + "/" + name, "a result of the study",
+                           "--out FOLDER names another folder"});
+  Log log(options.isQuiet ? Log::Level::Quiet : Log::Level::Normal);
+  files.Check(log);
+  for (const char* name : kStudyResults) folder.Claim(name);
+}
+
 void Study(const std::vector<std::string>& arguments, const std::string& commandLine) {
   StudyOptions options = ParseStudyOptions(arguments);
   options.commandLine = commandLine;
+  const Limits limits = ParseLimits(options.limits);
+  LimitMemory(limits);
   const SceneFacts scene = ExamineScene(options.scene, options);
   study::Results results = Describe(options, scene, ExamineProgram(options));
   results.settings = PlanSettings(options);
   if (options.onlyPlans) return PrintOut(PlanText(options, results.settings));
+  StudyFolder folder(options.folder);
+  ClaimResults(options, scene, folder);
   MakeFolder(options.folder + "/images");
-  RemoveLeftovers(options.folder);
-  StudyRunner runner(options, scene, ExamineProgram(options));
+  StudyRunner runner(options, folder, scene, ExamineProgram(options));
   results.reference = PrepareReference(options, runner);
   CheckReference(options, scene, results.reference);
   results.runs = runner.RunAll(results.settings);
   results.maps = MakeMaps(options, results.settings, runner);
-  WriteResults(options.folder, &results);
+  WriteResults(folder, &results);
 }
 
 }  // namespace
@@ -165,7 +184,8 @@ int RunReport(const std::vector<std::string>& arguments) {
       throw Error(ExitStatus::File, folder + ": " + error.what());
     }
     if (!clock.empty()) results.clock = clock;
-    WriteResults(folder, &results);
+    StudyFolder own(folder);
+    WriteResults(own, &results);
   });
 }
 

@@ -8,8 +8,13 @@
 #include <stdexcept>
 
 #include "core/base/error.h"
+#include "core/cli/arguments.h"
+#include "core/cli/limits.h"
 #include "core/cli/option_parser.h"
 #include "core/cli/values.h"
+#include "core/files/file_identity.h"
+#include "core/files/input_file.h"
+#include "core/parser/tokenizer.h"
 
 namespace exphoton::cli {
 namespace {
@@ -26,13 +31,41 @@ bool IsStudyFile(const std::string& path) { return fs::path(path).extension() ==
 
 // Options of a study file whose values are paths.
 bool NamesAFile(const std::string& option) {
-  return option == "scene" || option == "reference" || option == "reference-scene" ||
-         option == "plugin-dir";
+  return option == "scene" || option == "reference" || option == "reference-scene";
 }
 
-std::vector<std::string> ReadStudyFile(const std::string& path) {
+// Options of this study file, in messages.
+std::string PlaceIn(const std::string& path, int line) {
+  return path + ":" + std::to_string(line) + ": ";
+}
+
+// A study file may come from anybody, so these are the user's alone.
+void CheckIsTheirs(const std::string& name, const std::string& value, const std::string& place) {
+  const bool isTheirs = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
+  if (isTheirs) return;
+  throw Error(ExitStatus::File, place + "\"" + name + "\" is an option of the command line alone",
+              SourceLocation(),
+              "to choose it yourself: exphoton study ... --" + name +
+                  (value.empty() ? "" : " " + CommandLineText({value})));
+}
+
+// It may only add a folder, or go on in a study's, near the working folder or the study file.
+void CheckFolder(const std::string& folder, const std::string& file, const std::string& place) {
+  if (LiesIn(folder, ".") || LiesIn(folder, FolderOf(file))) return;
+  throw Error(ExitStatus::File,
+              place + "the folder \"" + folder +
+                  "\" lies neither in the working folder nor in the study file's",
+              SourceLocation(),
+              "to choose it yourself: exphoton study " + CommandLineText({file, "--out", folder}));
+}
+
+std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::string& path) {
+  try {
+    RequireRegularFile(path);
+  } catch (const InputFileError& error) {
+    throw Error(ExitStatus::File, "cannot read the study file \"" + path + "\": " + error.what());
+  }
   std::ifstream file(path);
-  if (!file) throw Error(ExitStatus::File, "cannot read the study file \"" + path + "\"");
   std::vector<std::string> arguments;
   int number = 0;
   for (std::string line; std::getline(file, line);) {
@@ -42,12 +75,15 @@ std::vector<std::string> ReadStudyFile(const std::string& path) {
     const std::size_t last = line.find_last_not_of(" \t\r");
     line = line.substr(first, last - first + 1);
     const std::size_t space = line.find_first_of(" \t");
-    const std::string name = line.substr(0, space);
+    const std::string name = line.substr(0, space), place = PlaceIn(path, number);
     std::string value;
     if (space != std::string::npos) value = line.substr(line.find_first_not_of(" \t", space));
     if (name[0] == '-')
-      throw Error(ExitStatus::CommandLine,
-                  path + ":" + std::to_string(number) + ": options stand here without dashes");
+      throw Error(ExitStatus::CommandLine, place + "options have no dashes in a study file");
+    if (!app.Has("--" + name))
+      throw Error(ExitStatus::CommandLine, place + "there is no option \"" + Printable(name) + '"');
+    CheckIsTheirs(name, value, place);
+    if (name == "out") CheckFolder(value, path, place);
     if (NamesAFile(name) && fs::path(value).is_relative())
       value = (fs::path(path).parent_path() / value).lexically_normal().string();
     arguments.push_back(value.empty() ? "--" + name : "--" + name + "=" + value);
@@ -109,6 +145,8 @@ void AddRender(OptionParser& app, StudyOptions& options, RawOptions& raw) {
       .TakeLast();
   app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
       .OnePerUse();
+  AddScenePluginsOption(app, &options.allowsScenePlugins);
+  AddLimitsOption(app, &options.limits);
   app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
   app.AddFlag("--quiet", options.isQuiet, "no progress");
   app.AddFlag("--plan", options.onlyPlans, "print what would be rendered, and render nothing");
@@ -163,12 +201,28 @@ void TakePlan(const RawOptions& raw, StudyOptions* options) {
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
   if (options.folder.empty() && !options.onlyPlans) FailUsage("exphoton study needs --out FOLDER");
+  ParseLimits(options.limits);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");
   for (const std::string& set : options.sets) ParseOverride(set);
   for (const std::string& crop : options.crops) ParseCropWindow(crop);
   if (!options.cropWindow.empty()) ParseCropWindow(options.cropWindow);
+}
+
+// A study reads its files more than once, so none can be a pipe.
+void TakeInputFiles(StudyOptions* options) {
+  std::vector<std::string> files{options->scene};
+  files.insert(files.end(), options->references.begin(), options->references.end());
+  if (!options->referenceScene.empty()) files.push_back(options->referenceScene);
+  for (const std::string& file : files) {
+    try {
+      RequireRegularFile(file);
+    } catch (const InputFileError& error) {
+      throw Error(ExitStatus::File, "cannot read \"" + file + "\": " + error.what());
+    }
+    options->inputFiles.push_back(file);
+  }
 }
 
 }  // namespace
@@ -189,7 +243,8 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   for (const std::string& argument : given) {
     const bool isFile = IsStudyFile(argument) && argument[0] != '-';
     const std::vector<std::string> read =
-        isFile ? ReadStudyFile(argument) : std::vector<std::string>();
+        isFile ? ReadStudyFile(app, argument) : std::vector<std::string>();
+    if (isFile) options.inputFiles.push_back(argument);
     arguments.insert(arguments.end(), read.begin(), read.end());
     if (!isFile) rest.push_back(argument);
   }
@@ -204,6 +259,7 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   if (!raw.targets.empty()) options.targets = ParseTargets(raw.targets);
   options.makesMaps = !raw.hidesMaps;
   Check(options);
+  TakeInputFiles(&options);
   return options;
 }
 

@@ -17,6 +17,9 @@ struct StudyOptions {
   int seeds = 4;
   int threads = 0;
   std::vector<std::string> sets, pluginFolders;
+  bool allowsScenePlugins = false;
+  std::string limits;                   // of every render
+  std::vector<std::string> inputFiles;  // study files, scenes and references
   std::string cropWindow;               // of every render
   std::vector<std::string> crops;       // parts shown larger on the page: "x0,x1,y0,y1"
   std::vector<std::string> references;  // none, one, or two halves

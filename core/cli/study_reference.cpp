@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 // Far from the seeds 1, 2, ... of the runs.
 constexpr std::uint64_t kFirstSeed = 1000001;
+constexpr const char* kState = "reference/state.txt";
 constexpr int kRounds = 8;  // about so many after the first
 
 struct State {
@@ -59,7 +60,7 @@ class ReferenceMaker {
         runner_(runner),
         scene_(options.referenceScene.empty() ? options.scene : options.referenceScene),
         setting_(study::ParseSetting(options.makeReference)),
-        folder_(options.folder + "/reference") {}
+        folder_(runner.Folder()) {}
 
   study::ReferenceRecord Make() {
     const SceneFacts facts = ExamineScene(scene_, options_);
@@ -67,9 +68,10 @@ class ReferenceMaker {
     bare.threads = 0;
     const std::string key =
         HashOfText(facts.hash + CommandText(RenderArguments(bare, "", setting_, kFirstSeed)));
-    MakeFolder(folder_);
-    state_ = ReadState(folder_ + "/state.txt");
-    if (state_.key != key || !fs::exists(Half('a')) || !fs::exists(Half('b'))) {
+    MakeFolder(folder_.Path() + "/reference");
+    state_ = ReadState(folder_.Path() + "/" + kState);
+    const auto exists = [&](char which) { return fs::exists(folder_.Path() + "/" + Half(which)); };
+    if (state_.key != key || !exists('a') || !exists('b')) {
       state_ = State();
       state_.key = key;
     }
@@ -78,10 +80,11 @@ class ReferenceMaker {
   }
 
  private:
-  // Names change with every round: what the state names is whole.
-  std::string Half(char which) const {
-    return folder_ + "/half-" + which + "-" + std::to_string(state_.rounds) + ".exr";
+  // Within the study's folder. Names change with every round: what the state names is whole.
+  std::string Half(char which, int round) const {
+    return std::string("reference/half-") + which + "-" + std::to_string(round) + ".exr";
   }
+  std::string Half(char which) const { return Half(which, state_.rounds); }
 
   int NextSamples() const {
     if (state_.rounds == 0) return 16;
@@ -111,14 +114,15 @@ class ReferenceMaker {
       next.wallSeconds += picture.row.wallSeconds;
       next.cpuSeconds += picture.row.cpuSeconds;
       if (state_.rounds > 0)
-        images[i] = Average(ReadExr(Half(halves[i])), state_.samples, images[i], samples);
+        images[i] = Average(ReadExr(folder_.Path() + "/" + Half(halves[i])), state_.samples,
+                            images[i], samples);
       images[i].attributes["samplesPerPixel"] = int(next.samples);
       images[i].attributes["seed"] = std::string("several: the mean of independent renders");
     }
     const State last = std::exchange(state_, next);
-    for (int i = 0; i < 2; ++i) WriteExr(Half(halves[i]), images[i], false);
-    WriteTextFile(folder_ + "/state.txt", StateText(state_));
-    RemoveRound(last.rounds);
+    for (int i = 0; i < 2; ++i) WriteExr(folder_.Claim(Half(halves[i])), images[i], false);
+    WriteTextFile(folder_.Claim(kState), StateText(state_));
+    for (const char which : halves) folder_.Remove(Half(which, last.rounds));
     char text[128];
     std::snprintf(text, sizeof text,
                   "reference: %.0f samples a pixel in two halves, %.0f of %.0f s", 2 * next.samples,
@@ -126,19 +130,10 @@ class ReferenceMaker {
     Say(options_, text);
   }
 
-  void RemoveRound(int round) const {
-    std::error_code ignored;
-    for (const char which : {'a', 'b'})
-      fs::remove(folder_ + "/half-" + which + "-" + std::to_string(round) + ".exr", ignored);
-  }
-
   study::ReferenceRecord Record(const SceneFacts& facts) const {
     study::ReferenceRecord record;
-    const auto relative = [&](char which) {
-      return fs::path(Half(which)).lexically_relative(options_.folder).string();
-    };
-    record.a = relative('a');
-    record.b = relative('b');
+    record.a = Half('a');
+    record.b = Half('b');
     record.scene = scene_;
     record.sceneHash = facts.hash;
     record.integrator = setting_.integrator + (setting_.parameters.empty() ? "" : " ") +
@@ -153,7 +148,7 @@ class ReferenceMaker {
   StudyRunner& runner_;
   std::string scene_;
   study::Setting setting_;
-  std::string folder_;
+  StudyFolder& folder_;
   State state_;
 };
 

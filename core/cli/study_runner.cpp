@@ -18,7 +18,6 @@ namespace exphoton::cli {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kRunning = "running";
 
 std::string Duration(double seconds) {
   char text[64];
@@ -66,29 +65,21 @@ void Say(const StudyOptions& options, const std::string& text) {
   if (!options.isQuiet) std::fprintf(stderr, "%s\n", text.c_str());
 }
 
-void RemoveLeftovers(const std::string& folder) {
-  std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(kRunning) || name.ends_with(".partial")) fs::remove(entry.path(), ignored);
-  }
-}
-
 RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
-  const std::string base = options_.folder + "/" + kRunning;
-  const std::string statistics = base + ".json";
-  RenderedPicture result{{}, base + ".exr"};
+  const std::string statistics = folder_.Running("render.json");
+  RenderedPicture result{{}, folder_.Running("render.exr")};
   std::vector<std::string> all = arguments;
   all.insert(all.end(),
              {"--quiet", "--no-progress", "--stats-json", statistics, "-o", result.path});
+  if (!options_.limits.empty()) all.insert(all.end(), {"--limits", options_.limits});
   if (StopFlag()) throw StudyInterrupted();
-  const ChildResult child = RunSelf(all, base + ".log", StopFlag());
+  const ChildResult child = RunSelf(all, folder_.Running("render.log"), StopFlag());
   if (child.wasInterrupted || StopFlag()) {
-    RemoveLeftovers(options_.folder);
+    folder_.RemoveRunning();
     throw StudyInterrupted();
   }
   if (child.status != 0) {
-    RemoveLeftovers(options_.folder);
+    folder_.RemoveRunning();
     throw Error(child.status < 6 ? ExitStatus(child.status) : ExitStatus::Internal,
                 "a render of the study failed (status " + std::to_string(child.status) +
                     "): " + CommandText(arguments) + "\n" + child.messages);
@@ -116,7 +107,7 @@ std::string StudyRunner::NameOf(const study::Setting& setting, std::uint64_t see
 
 bool StudyRunner::FindDone(const std::string& name, const std::string& key,
                            study::RunRow* row) const {
-  const std::string base = options_.folder + "/" + name;
+  const std::string base = folder_.Path() + "/" + name;
   std::error_code error;
   if (!fs::exists(base + ".json", error) || error) return false;
   try {
@@ -140,8 +131,8 @@ study::RunRow StudyRunner::RunOne(const study::Setting& setting, std::uint64_t s
   picture.row.key = key;
   picture.row.seed = seed;
   picture.row.image = name + ".exr";
-  Rename(picture.path, options_.folder + "/" + name + ".exr");
-  WriteTextFile(options_.folder + "/" + name + ".json", study::RowToJson(picture.row));
+  Rename(picture.path, folder_.Claim(name + ".exr"));
+  WriteTextFile(folder_.Claim(name + ".json"), study::RowToJson(picture.row));
   return picture.row;
 }
 

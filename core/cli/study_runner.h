@@ -4,6 +4,7 @@
 // from all that it depends on; such a run is not repeated.
 #pragma once
 
+#include "core/cli/study_folder.h"
 #include "core/cli/study_options.h"
 #include "core/cli/study_scene.h"
 #include "core/study/results.h"
@@ -21,8 +22,14 @@ struct RenderedPicture {
 
 class StudyRunner {
  public:
-  StudyRunner(const StudyOptions& options, SceneFacts scene, ProgramFacts program)
-      : options_(options), scene_(std::move(scene)), program_(std::move(program)) {}
+  StudyRunner(const StudyOptions& options, StudyFolder& folder, SceneFacts scene,
+              ProgramFacts program)
+      : options_(options),
+        folder_(folder),
+        scene_(std::move(scene)),
+        program_(std::move(program)) {}
+
+  StudyFolder& Folder() { return folder_; }
 
   // All runs of all settings, seed by seed, so that an interrupted study is balanced.
   std::vector<study::RunRow> RunAll(const std::vector<study::Setting>& settings);
@@ -47,13 +54,11 @@ class StudyRunner {
                      const std::string& key) const;
 
   const StudyOptions& options_;
+  StudyFolder& folder_;
   SceneFacts scene_;
   ProgramFacts program_;
   bool wasFound_ = false;  // the last run was not rendered
 };
-
-// Removes what an earlier, killed study left half done.
-void RemoveLeftovers(const std::string& folder);
 
 // The reference that the options ask for, rendered or named; empty where none is asked for.
 study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner& runner);

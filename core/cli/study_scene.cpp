@@ -15,10 +15,13 @@
 #include "core/base/log.h"
 #include "core/cli/arguments.h"
 #include "core/cli/child_process.h"
+#include "core/cli/interrupt_watch.h"
+#include "core/cli/limits.h"
 #include "core/cli/options.h"
 #include "core/cli/run_record.h"
 #include "core/cli/signals.h"
 #include "core/cli/values.h"
+#include "core/files/input_file.h"
 #include "core/parser/render_setup.h"
 #include "core/plugins/registry.h"
 
@@ -43,6 +46,7 @@ class Hash {
 LoadOptions SceneOptions(const StudyOptions& options) {
   LoadOptions load;
   load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
+  load.allowsScenePlugins = options.allowsScenePlugins;
   load.stop = &StopFlag();
   for (const std::string& set : options.sets) {
     const ParameterOverride value = ParseOverride(set);
@@ -86,6 +90,11 @@ class PluginOracle final : public study::ParameterOracle {
 }  // namespace
 
 std::string ReadTextFile(const std::string& path) {
+  try {
+    RequireRegularFile(path);
+  } catch (const InputFileError&) {
+    return "";
+  }
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
@@ -99,6 +108,7 @@ std::string HashOfText(const std::string& text) {
 
 SceneFacts ExamineScene(const std::string& path, const StudyOptions& options) {
   Log log(Log::Level::Quiet, Log::Sink::Memory);
+  const InterruptWatch watch(ParseLimits(options.limits).seconds);
   FileSource source;
   const auto setups = LoadScenes(source, path, SceneOptions(options), log);
   if (setups.size() != 1)
@@ -108,7 +118,7 @@ SceneFacts ExamineScene(const std::string& path, const StudyOptions& options) {
   Hash hash;
   hash.Add(HashText(setup.sceneHash));
   for (const std::string& file : setup.inputFiles) hash.Add(ReadTextFile(file));
-  return {setup.crop.Width(), setup.crop.Height(), hash.Text()};
+  return {setup.crop.Width(), setup.crop.Height(), hash.Text(), setup.inputFiles};
 }
 
 ProgramFacts ExamineProgram(const StudyOptions& options) {
@@ -176,6 +186,7 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
   }
   if (!options.cropWindow.empty()) add("--cropwindow", options.cropWindow);
   for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
+  if (options.allowsScenePlugins) arguments.push_back("--allow-scene-plugins");
   add("--nthreads", std::to_string(options.threads));
   add("--seed", std::to_string(seed));
   arguments.push_back("--float");

@@ -10,8 +10,9 @@
 namespace exphoton::cli {
 
 struct SceneFacts {
-  int width = 0, height = 0;  // of the part that is rendered
-  std::string hash;           // of everything that the scene's files say
+  int width = 0, height = 0;            // of the part that is rendered
+  std::string hash;                     // of everything that the scene's files say
+  std::vector<std::string> inputFiles;  // that it reads
 };
 // Reads the scene. Throws Error.
 SceneFacts ExamineScene(const std::string& path, const StudyOptions& options);
