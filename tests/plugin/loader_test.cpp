@@ -161,7 +161,7 @@ TEST_F(Loader, DamagedTablesOfALibraryAreRefusedOrHarmless) {
   const std::string bytes = ReadAll(kPlugins + "/filters/box.so");
   const fs::path file = folder_ / "filters/box.so";
   int refused = 0;
-  for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 4096); at += 3) {
+  for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 4096); at += 17) {
     std::string damaged = bytes;
     damaged[at] = char(damaged[at] ^ 0xA5);
     std::ofstream(file, std::ios::binary) << damaged;
@@ -169,7 +169,7 @@ TEST_F(Loader, DamagedTablesOfALibraryAreRefusedOrHarmless) {
     refused += FaultOfLibrary(opened, kPluginSymbol).has_value();
     close(opened);
   }
-  EXPECT_GT(refused, 20);
+  EXPECT_GT(refused, 10);
 }
 
 TEST_F(Loader, AFolderThatASceneNamesIsNotSearchedUnlessItIsAllowed) {
