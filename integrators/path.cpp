@@ -6,13 +6,11 @@
 // maxdepth d: light is collected at the first d + 1 surfaces of a path; 0 is emission and direct
 // light only (as in pbrt-v1, whose default 5 is this one's).
 #include <algorithm>
-#include <unordered_map>
 
-#include "core/lights/light_distribution.h"
-#include "core/lights/light_tree.h"
 #include "core/math/mis.h"
 #include "core/plugin.h"
 #include "core/transport/light_sample.h"
+#include "core/transport/light_sampler.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
@@ -121,13 +119,7 @@ class PathIntegrator final : public SurfaceIntegrator {
   explicit PathIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
-    lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
-    tree_ = scene.ShiningLights() >= kManyLights
-                ? LightTree(scene.Lights(), BoundingSphere(scene.WorldBounds()))
-                : LightTree();
-    indices_.clear();
-    for (std::size_t i = 0; i < scene.Lights().size(); ++i)
-      indices_.emplace(scene.Lights()[i].get(), int(i));
+    lights_ = LightSampler(scene);
   }
 
   void RequestSamples(const Scene&, const Sampler&, SampleLayout* layout) override {
@@ -182,7 +174,6 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
 
  private:
-  static constexpr double kUniformShare = 0.5;
   static constexpr int kSampledVertices = 3;  // with points of the sampler; then random ones
   static constexpr int kRouletteDepth = 4;    // vertices before roulette begins
   static constexpr Real kMaxSurvival = Real(.98);
@@ -236,10 +227,8 @@ class PathIntegrator final : public SurfaceIntegrator {
     return radiance * BsdfWeight(path, *hit->areaLight, hit);
   }
   Real BsdfWeight(const PathState& path, const Light& light, const SurfacePoint* on) const {
-    const int index = indices_.at(&light);
-    const Real choice =
-        tree_.IsEmpty() ? lights_.Probability(index) : tree_.Probability(path.from.p, index);
-    const Real lightPdf = choice * light.PdfDirect(path.from, path.ray.d, on);
+    const Real lightPdf =
+        lights_.Probability(path.from.p, light) * light.PdfDirect(path.from, path.ray.d, on);
     return PowerHeuristic(1, path.bsdfPdf, 1, lightPdf);
   }
 
@@ -248,20 +237,11 @@ class PathIntegrator final : public SurfaceIntegrator {
     return scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular;
   }
 
-  // Few lights are chosen by power alone: what the tree knows of distance is then not worth its
-  // walk.
-  static constexpr int kManyLights = 16;
-  LightTree::Choice ChooseLight(const Point3& p, Real u) const {
-    if (!tree_.IsEmpty()) return tree_.Sample(p, u);
-    const auto choice = lights_.Sample(u);
-    return {choice.light, choice.index, choice.probability};
-  }
-
   // Next-event estimation with one light.
   Spectrum DirectLight(const ShadingPoint& point, const VertexSample& sample,
                        LiContext& context) const {
     if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-    const auto choice = ChooseLight(point.surface.p, sample.lightChoice);
+    const auto choice = lights_.Sample(point.surface.p, sample.lightChoice);
     return FromLightSample(point,
                            {choice.light, choice.probability, sample.light, sample.lightPart}, {},
                            Lobes(context.scene), context);
@@ -300,9 +280,7 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
 
   int maxDepth_;
-  LightDistribution lights_;
-  LightTree tree_;  // in its place where lights are many; else empty
-  std::unordered_map<const Light*, int> indices_;
+  LightSampler lights_;
   std::array<VertexArrays, kSampledVertices> arrays_;
 };
 

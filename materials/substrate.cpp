@@ -40,14 +40,18 @@ class Substrate final : public SurfaceMaterial {
     ReadsColor("Ks", ks_, context);
     Reads(uRoughness_);
     Reads(vRoughness_);
-    if (!kd_->IsProvablyZero() || !ks_->IsProvablyZero()) MayHave(LobeSet::GlossyReflection);
+    if (kd_->IsProvablyZero() && ks_->IsProvablyZero()) return;
+    MayHave(LobeSet::GlossyReflection);
+    if (!kd_->IsProvablyZero()) MayHave(LobeSet::DiffuseReflection);
   }
 
   Bsdf Evaluate(SurfaceInteraction* si, TransportMode, Arena* arena) const override {
     Bsdf bsdf = MakeBsdf(si);
     const Spectrum kd = ReadNonNegative(kd_, *si), ks = ReadNonNegative(ks_, *si);
     if (kd.IsBlack() && ks.IsBlack()) return bsdf;
-    bsdf.Add(arena->Make<FresnelBlend>(kd, ks, BlinnExponent(uRoughness_->Evaluate(*si)),
+    const bool hasBase = !kd.IsBlack() && ks.MinComponent() < 1;
+    if (hasBase) bsdf.Add(arena->Make<BlendedDiffuse>(kd, ks));
+    bsdf.Add(arena->Make<BlendedGloss>(ks, BlinnExponent(uRoughness_->Evaluate(*si)),
                                        BlinnExponent(vRoughness_->Evaluate(*si))));
     return bsdf;
   }

@@ -125,6 +125,7 @@ void Bsdf::Add(const Bxdf* lobe) {
   if (count_ == kMaxLobes) throw Error(ExitStatus::Internal, "a material made too many lobes");
   lobes_[std::size_t(count_++)] = lobe;
   present_ = present_ | lobe->Lobe();
+  isCoated_ = isCoated_ || lobe->IsCoated();
 }
 
 int Bsdf::Count(LobeSet mask) const {

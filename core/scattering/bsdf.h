@@ -60,6 +60,8 @@ class Bsdf {
                                    TransportMode mode = TransportMode::Radiance) const;
   // Sum of hemispherical-hemispherical reflectances of the masked lobes.
   Spectrum Rho(LobeSet mask) const;
+  // Whether the diffuse reflection is Bxdf::IsCoated.
+  bool IsCoated() const { return isCoated_; }
 
  private:
   template <class Visit>
@@ -70,6 +72,7 @@ class Bsdf {
   std::array<const Bxdf*, kMaxLobes> lobes_{};
   int count_ = 0;
   LobeSet present_ = LobeSet::None;
+  bool isCoated_ = false;
 };
 
 }  // namespace exphoton

@@ -26,6 +26,7 @@ enum class LobeSet : unsigned {
   Reflection = 7,
   Transmission = 56,
   Diffuse = 9,
+  Glossy = 18,
   Specular = 36,
   NonSpecular = 27,
   NonSpecularReflection = 3,
@@ -46,6 +47,13 @@ struct BxdfSample {
   Real eta = 1;  // of a specular transmission: index on wo's side over that on wi's side
 };
 
+// What a coat lets through at an angle, relative to its mean over all directions, weighted with the
+// cosine (Ashikhmin and Shirley 2000).
+inline Real CoatTransmission(Real absCos) {
+  const Real x = 1 - absCos / 2;
+  return (1 - (x * x) * (x * x) * x) * (Real(28) / 23);
+}
+
 class Bxdf {
  public:
   explicit Bxdf(LobeSet lobe) : lobe_(lobe) {}
@@ -62,6 +70,9 @@ class Bxdf {
   // Hemispherical-hemispherical reflectance or transmittance, in [0,1] for physical coefficients:
   // closed form or a good approximation, never 0 for a lobe that is not black.
   virtual Spectrum Rho() const = 0;
+  // Whether a diffuse lobe lies under a coat: f = Rho / pi a(cos wo) a(cos wi) with a =
+  // CoatTransmission. Other diffuse lobes count as Lambert's where light is precomputed.
+  virtual bool IsCoated() const { return false; }
 
  private:
   LobeSet lobe_;

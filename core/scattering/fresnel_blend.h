@@ -1,27 +1,42 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Diffuse reflection under a glossy coat, exchanged by Fresnel's law: Ashikhmin and Shirley 2000,
-// "An Anisotropic Phong BRDF Model", with the gloss normalised by e + 2.
+// The two lobes of a diffuse surface under a glossy coat, which share the light by Fresnel's law:
+// Ashikhmin and Shirley 2000, "An Anisotropic Phong BRDF Model", with the gloss normalised by
+// e + 2.
 #pragma once
 
 #include "core/scattering/bxdf.h"
 
 namespace exphoton {
 
-class FresnelBlend final : public Bxdf {
+// The diffuse base: f = Rho / pi a(cos wo) a(cos wi), with a(c) = CoatTransmission(c).
+class BlendedDiffuse final : public Bxdf {
  public:
-  // Exponents along the frame's x and y.
-  FresnelBlend(const Spectrum& diffuse, const Spectrum& gloss, Real exponentX, Real exponentY);
+  BlendedDiffuse(const Spectrum& diffuse, const Spectrum& gloss);
 
   Spectrum f(const Vector3& wo, const Vector3& wi) const override;
-  // Half the cosine's density, half that of the half vector's reflection.
-  Real Pdf(const Vector3& wo, const Vector3& wi) const override;
+  Real Pdf(const Vector3& wo, const Vector3& wi) const override;  // |cos wi| / pi
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
-  Spectrum Rho() const override;  // the gloss to 0.03 where the exponents differ
+  Spectrum Rho() const override;  // exact
+  bool IsCoated() const override { return true; }
+
+ private:
+  Spectrum rho_;
+};
+
+// The coat.
+class BlendedGloss final : public Bxdf {
+ public:
+  // Exponents along the frame's x and y.
+  BlendedGloss(const Spectrum& gloss, Real exponentX, Real exponentY);
+
+  Spectrum f(const Vector3& wo, const Vector3& wi) const override;
+  Real Pdf(const Vector3& wo, const Vector3& wi) const override;  // of the half vector's reflection
+  std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  Spectrum Rho() const override;  // to 0.03 where the exponents differ
 
  private:
   Real PowH(const Vector3& h) const;  // cos h to the direction's exponent
 
-  Spectrum diffuse_;  // Kd (1 - Ks) 28 / (23 pi)
   Spectrum gloss_;
   Real ex_, ey_;
   Real normD_, normPdf_;

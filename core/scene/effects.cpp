@@ -13,8 +13,8 @@ namespace exphoton {
 namespace {
 
 constexpr std::array<const char*, kEffectCount> kEffectNames{
-    "caustics",  "indirect", "transmission", "specular",    "media",
-    "filtering", "lens",     "motion",       "environment",
+    "caustics", "indirect",  "transmission", "specular", "glossy",
+    "media",    "filtering", "lens",         "motion",   "environment",
 };
 
 constexpr Interval kAlways{-kInfinity, kInfinity};
@@ -64,6 +64,11 @@ void PlanPhotons(const SceneTraits& traits, EffectPlan* plan) {
                       : "no light");
   plan->Set(Effect::Specular, hasSpecular,
             hasSpecular ? "a specular surface" : "no specular surface");
+  const bool hasGlossy = traits.Has(LobeSet::Glossy);
+  plan->Set(Effect::Glossy, isLit && hasGlossy,
+            !isLit       ? "no light"
+            : !hasGlossy ? "no glossy surface"
+                         : "a glossy surface that gather rays may meet");
 }
 
 // Needed where something is elsewhere when the shutter closes than when it opens.

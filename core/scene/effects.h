@@ -17,13 +17,14 @@ enum class Effect {
   Indirect,      // indirect map, final gather, radiance photons
   Transmission,  // the transmitted side of radiance photons
   Specular,      // recursion at specular lobes
+  Glossy,        // sampling of glossy lobes where gather rays read radiance photons
   Media,         // transmittance and ray marching
   Filtering,     // ray differentials
   Lens,          // lens samples
   Motion,        // time samples
   Environment,   // radiance of rays that escape
 };
-inline constexpr int kEffectCount = 9;
+inline constexpr int kEffectCount = 10;
 
 const char* EffectName(Effect effect);  // "caustics", as --effects spells it
 

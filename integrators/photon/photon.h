@@ -24,8 +24,10 @@ struct Photon {
 struct RadianceSeed {
   Point3 p;
   Normal3 n;             // unit geometric normal, on the side the photon arrived on
-  Spectrum reflectance;  // hemispherical-hemispherical, non-specular lobes only
+  Spectrum reflectance;  // hemispherical-hemispherical, diffuse lobes only
   Spectrum transmittance;
+  Real glossyShare = 0;   // of what the non-specular lobes scatter, by the glossy ones; in [0,1]
+  bool isCoated = false;  // Bsdf::IsCoated
 };
 
 enum class PhotonKind { Direct, Caustic, Indirect };

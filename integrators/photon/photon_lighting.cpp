@@ -99,7 +99,7 @@ PhotonAim PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
 
 void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) {
   gathers_ = Gathers(scene);
-  lights_ = LightDistribution(scene.Lights(), settings_.lightSelection);
+  lights_ = LightSampler(scene);
   radianceMap_.reset();
   maps_ = {};  // of an earlier pass: its memory is wanted
   const PhotonTargets targets = Targets(scene);
@@ -205,8 +205,9 @@ Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const auto entry = radianceMap_->Find({rest.Point(point.surface.p), rest.Normal(n)});
   if (!entry) return {};
-  if (settings_.radianceMode == RadianceMode::Exitant) return entry->value;
-  return point.bsdf.Rho(LobeSet::NonSpecularReflection) * entry->value * kInvPi;
+  const Spectrum value = entry->Value(AbsDot(n, point.Wo()));
+  if (settings_.radianceMode == RadianceMode::Exitant) return value;
+  return point.bsdf.Rho(LobeSet::DiffuseReflection) * value * kInvPi;
 }
 
 LayerSet PhotonLighting::Layers() const {

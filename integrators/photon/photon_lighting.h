@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "core/lights/light_distribution.h"
 #include "core/transport/integrator.h"
+#include "core/transport/light_sampler.h"
 #include "core/transport/specular_tree.h"
 #include "integrators/photon/final_gather.h"
 #include "integrators/photon/photon_aim.h"
@@ -55,7 +55,7 @@ class PhotonLighting {
 
   PhotonSettings settings_;
   bool needsDirectMap_;
-  LightDistribution lights_;
+  LightSampler lights_;  // for what gather rays meet
   PhotonMaps maps_;
   std::unique_ptr<RadianceMap> radianceMap_;
   FinalGather gather_;

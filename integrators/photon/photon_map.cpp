@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scattering/bxdf.h"
 #include "core/spatial/point_spacing.h"
 
 namespace exphoton {
@@ -61,7 +62,12 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
   const Arena::Mark mark = arena->GetMark();
   const PhotonNeighbourhood around = Find(query, arena);
   Spectrum sum;
-  for (const std::uint32_t i : around.photons) sum += Alpha(i);
+  if (query.isCoated) {
+    for (const std::uint32_t i : around.photons)
+      sum += Alpha(i) * CoatTransmission(AbsDot(Direction(i), query.n));
+  } else {
+    for (const std::uint32_t i : around.photons) sum += Alpha(i);
+  }
   arena->Rewind(mark);
   if (around.photons.empty()) return {{}, query.maxDistance};
   return {sum * (kInvPi / (Real(paths_) * around.radius2)), std::sqrt(around.radius2)};

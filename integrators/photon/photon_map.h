@@ -21,6 +21,8 @@ struct PhotonQuery {
   // Only photons that arrived on n's side count, during the search already: those on the far side
   // of a thin wall neither add light nor shrink the radius.
   bool isOneSided = true;
+  // For irradiance: photons count by what a coat lets through at their angle, CoatTransmission.
+  bool isCoated = false;
 };
 
 // The photons round a point: those whose kernel weight is not 0 by construction, in an order that

@@ -45,12 +45,13 @@ PhotonMaps::PhotonMaps(PhotonHarvest* harvest, const PhotonSettings& settings, R
   context.progress.End();
 }
 
-Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena) const {
+Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
+                              LobeSet lobes) const {
   const PhotonMap& map = Map(kind);
   const Bsdf& bsdf = point.bsdf;
-  if (map.IsEmpty() || !bsdf.Has(LobeSet::NonSpecular)) return {};
+  if (map.IsEmpty() || !bsdf.Has(lobes)) return {};
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-  const bool isOneSided = !bsdf.Has(LobeSet::NonSpecularTransmission);
+  const bool isOneSided = !bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
   const RestPose rest(point.surface);
   const Arena::Mark mark = arena->GetMark();
   const PhotonNeighbourhood around = map.Find(
@@ -58,7 +59,7 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
 
   // Where every lobe is diffuse, powers are summed side by side and reflected once.
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
-  const bool isDiffuse = !bsdf.Has(kGlossy);
+  const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && !bsdf.IsCoated();
   const KernelDisk disk(kernel_, around.radius2);
   Spectrum front, back, glossy;
   // And where that is all, directions do not matter: the search has seen to the side.
@@ -75,7 +76,7 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
     // As in the BSDF, light that is on different sides of the two normals scatters nothing.
     if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
     if (!isDiffuse) {
-      glossy += bsdf.f(point.Wo(), wi, LobeSet::NonSpecular) * flux;
+      glossy += bsdf.f(point.Wo(), wi, lobes) * flux;
     } else if (Dot(wi, n) > 0) {
       front += flux;
     } else {
@@ -84,15 +85,16 @@ Spectrum PhotonMaps::Radiance(PhotonKind kind, const ShadingPoint& point, Arena*
   }
   arena->Rewind(mark);
   if (isDiffuse) {
-    glossy = front * bsdf.Rho(LobeSet::NonSpecularReflection) * kInvPi;
-    if (!isOneSided) glossy += back * bsdf.Rho(LobeSet::NonSpecularTransmission) * kInvPi;
+    glossy = front * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
+    if (!isOneSided) glossy += back * bsdf.Rho(lobes & LobeSet::NonSpecularTransmission) * kInvPi;
   }
   return glossy / Real(map.Paths());
 }
 
-Spectrum PhotonMaps::Radiance(const ShadingPoint& point, Arena* arena) const {
-  return Radiance(PhotonKind::Direct, point, arena) + Radiance(PhotonKind::Caustic, point, arena) +
-         Radiance(PhotonKind::Indirect, point, arena);
+Spectrum PhotonMaps::Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes) const {
+  return Radiance(PhotonKind::Direct, point, arena, lobes) +
+         Radiance(PhotonKind::Caustic, point, arena, lobes) +
+         Radiance(PhotonKind::Indirect, point, arena, lobes);
 }
 
 double PhotonMaps::PhotonDensity(const ShadingPoint& point, Arena* arena) const {
@@ -112,12 +114,12 @@ double PhotonMaps::PhotonDensity(const ShadingPoint& point, Arena* arena) const 
 }
 
 PhotonMap::Irradiance PhotonMaps::EstimateIrradiance(const Point3& p, const Normal3& n,
-                                                     Arena* arena) const {
+                                                     Arena* arena, bool isCoated) const {
   PhotonMap::Irradiance total;
   Real weight = 0, weightedRadius = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
-    const auto part = maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true}, arena);
+    const auto part = maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated}, arena);
     total.e += part.e;
     weight += part.e.Y();
     weightedRadius += part.e.Y() * part.radius;

@@ -24,19 +24,22 @@ class PhotonMaps {
   const PhotonMap& Map(PhotonKind kind) const { return maps_[std::size_t(kind)]; }
   Real MaxDistance(PhotonKind kind) const { return radii_[std::size_t(kind)]; }
 
-  // Radiance leaving the point towards wo by the non-specular lobes, of one map's photons:
+  // Radiance leaving the point towards wo by `lobes`, all non-specular, of one map's photons:
   // 1/N sum K f alpha (docs/exphotonmap.md, eq. 12), with the shading normal's correction, since
   // photons measure power per geometric area.
-  Spectrum Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena) const;
+  Spectrum Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
+                    LobeSet lobes = LobeSet::NonSpecular) const;
   // The same of all three maps.
-  Spectrum Radiance(const ShadingPoint& point, Arena* arena) const;
+  Spectrum Radiance(const ShadingPoint& point, Arena* arena,
+                    LobeSet lobes = LobeSet::NonSpecular) const;
 
   // Photons of all three maps per unit of area that an estimate at the point would use.
   double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
 
   // Irradiance on the side of n, of all three maps; the radius is the mean of the maps' radii,
   // weighted by what each contributed.
-  PhotonMap::Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena) const;
+  PhotonMap::Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena,
+                                           bool isCoated = false) const;
 
  private:
   std::array<PhotonMap, kPhotonKindCount> maps_;

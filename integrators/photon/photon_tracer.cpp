@@ -107,9 +107,14 @@ class PhotonTracer::Path {
         Photon{p, rest.Direction(point.Wo()), power, distance_ / tracer_.farthest_});
     ++stored_;
     if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
-    chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())),
-                             point.bsdf.Rho(LobeSet::NonSpecularReflection),
-                             point.bsdf.Rho(LobeSet::NonSpecularTransmission)});
+    const Spectrum reflectance = point.bsdf.Rho(LobeSet::DiffuseReflection);
+    const Spectrum transmittance = point.bsdf.Rho(LobeSet::DiffuseTransmission);
+    const bool isGlossy = point.bsdf.Has(LobeSet::Glossy);
+    const Real glossy = isGlossy ? point.bsdf.Rho(LobeSet::Glossy).Y() : Real(0);
+    const Real diffuse = (reflectance + transmittance).Y();
+    chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())), reflectance,
+                             transmittance, SafeDivide(glossy, glossy + diffuse, Real(0)),
+                             point.bsdf.IsCoated()});
   }
 
   void Drop() {

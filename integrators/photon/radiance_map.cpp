@@ -21,16 +21,17 @@ void ComputeEntries(const RadianceSeed& seed, const PhotonMaps& maps, RadianceMo
                     Arena* arena, std::span<RadianceRecord> entries) {
   if (entries.empty()) return;
   const auto entry = [&](const Normal3& n, Real radius, const Spectrum& value) {
-    return RadianceRecord{seed.p, EncodeOctahedral(n), Square(radius), value};
+    return RadianceRecord{seed.p, EncodeOctahedral(n), Square(radius),
+                          PackedRadiance(value, seed.glossyShare, seed.isCoated)};
   };
   const bool isExitant = mode == RadianceMode::Exitant;
   const Spectrum rho = seed.reflectance * kInvPi, tau = seed.transmittance * kInvPi;
-  const auto front = maps.EstimateIrradiance(seed.p, seed.n, arena);
+  const auto front = maps.EstimateIrradiance(seed.p, seed.n, arena, seed.isCoated);
   if (entries.size() == 1) {
     entries[0] = entry(seed.n, front.radius, isExitant ? rho * front.e : front.e);
     return;
   }
-  const auto back = maps.EstimateIrradiance(seed.p, -seed.n, arena);
+  const auto back = maps.EstimateIrradiance(seed.p, -seed.n, arena, seed.isCoated);
   if (isExitant) {
     const Real radius = std::max(front.radius, back.radius);
     entries[0] = entry(seed.n, radius, rho * front.e + tau * back.e);

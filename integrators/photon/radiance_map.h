@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/scattering/bxdf.h"
 #include "core/spatial/point_tree.h"
+#include "integrators/photon/packed_radiance.h"
 #include "integrators/photon/photon_maps.h"
 
 namespace exphoton {
@@ -16,13 +18,15 @@ struct RadianceRecord {
   Point3 p;
   std::uint32_t direction = 0;  // EncodeOctahedral, of the normal on the side that it speaks for
   Real reach2 = 0;              // it serves within this squared distance
-  Spectrum value;  // Exitant: radiance leaving on that side; Irradiance: arriving on it
+  // Exitant: radiance leaving on that side by the diffuse lobes; Irradiance: arriving on it. Of a
+  // coated surface each photon counts by CoatTransmission.
+  PackedRadiance value;
 };
 
 struct RadianceBlock : DiskBlock {
   using Record = RadianceRecord;
 
-  Spectrum value[kBlockPoints];  // read one by one
+  PackedRadiance value[kBlockPoints];  // read one by one
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
     reach2[lane] = record.reach2;
@@ -34,9 +38,15 @@ class RadianceMap {
  public:
   // What serves a surface point.
   struct Entry {
-    Spectrum value;
+    PackedRadiance packed;
     Real radius2 = 0;    // squared, of its estimate
     Real distance2 = 0;  // squared, from the point
+
+    // The radiance or irradiance, seen at an angle to the normal.
+    Spectrum Value(Real absCos) const {
+      const Spectrum value = packed.Radiance();
+      return packed.IsCoated() ? value * CoatTransmission(absCos) : value;
+    }
   };
 
   static constexpr std::size_t kGridCellsPerEntry = 2;
@@ -45,8 +55,9 @@ class RadianceMap {
 
   RadianceMap() = default;  // empty: finds nothing
   // Computes all entries in parallel (docs/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n) + rho_t
-  // / pi E(p, -n), and for the other side too where something is transmitted. Without
-  // needsTransmission (Effect::Transmission) rho_t counts as 0. Seeds are put into another order.
+  // / pi E(p, -n), of the diffuse lobes, and for the other side too where something is transmitted.
+  // Without needsTransmission (Effect::Transmission) rho_t counts as 0. Seeds are put into another
+  // order.
   RadianceMap(std::span<RadianceSeed> seeds, const PhotonMaps& maps, const PhotonSettings& settings,
               bool needsTransmission, PreprocessContext& context);
 

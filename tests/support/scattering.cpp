@@ -49,13 +49,13 @@ std::vector<NamedLobe> SmoothLobes() {
   add("GlossInverted", Microfacet(color, inverted, 20));
   add("GlossPhysical", Microfacet(color, physical, 200));
   add("GlossCopper", Microfacet(Spectrum(1), copper, 100));
-  add("Blend10", FresnelBlend(color, Spectrum(Real(.3)), 10, 10));
-  add("BlendAnisotropic", FresnelBlend(Spectrum(1), Spectrum(Real(.05)), 5, 300));
-  add("BlendSharp", FresnelBlend(Spectrum(0), Spectrum(1), 1000, 1000));
+  add("BlendedDiffuse", BlendedDiffuse(color, Spectrum(Real(.3))));
+  add("BlendedGloss10", BlendedGloss(Spectrum(Real(.3)), 10, 10));
+  add("BlendedAnisotropic", BlendedGloss(Spectrum(Real(.05)), 5, 300));
+  add("BlendedSharp", BlendedGloss(Spectrum(1), 1000, 1000));
   add("TransmittedLambert", Transmitted<Lambert>(Lambert(color)));
   add("TransmittedGloss", Transmitted<Microfacet>(Microfacet(color, physical, 40)));
-  add("TransmittedBlend",
-      Transmitted<FresnelBlend>(FresnelBlend(color, Spectrum(Real(.3)), 10, 100)));
+  add("TransmittedBlend", Transmitted<BlendedGloss>(BlendedGloss(Spectrum(Real(.3)), 10, 100)));
   return lobes;
 }
 

@@ -149,7 +149,7 @@ TEST(Microfacet, RoughnessOutOfRangeIsTheSharpest) {
 
 // The centre of the highlight is its brightest place, not a hole.
 TEST(FresnelBlend, HasNoHoleAtThePeak) {
-  const FresnelBlend blend(Spectrum(0), Spectrum(1), 50, 200);
+  const BlendedGloss blend(Spectrum(1), 50, 200);
   const Vector3 up(0, 0, 1);
   const Vector3 near = Normalize(Vector3(Real(1e-3), 0, 1));
   EXPECT_NEAR(blend.f(up, up).r, blend.f(up, near).r, Real(1e-3) * blend.f(up, up).r);
@@ -157,14 +157,14 @@ TEST(FresnelBlend, HasNoHoleAtThePeak) {
 }
 
 TEST(FresnelBlend, IsNarrowerAlongTheLargerExponent) {
-  const FresnelBlend blend(Spectrum(0), Spectrum(1), 10, 500);
+  const BlendedGloss blend(Spectrum(1), 10, 500);
   const Vector3 up(0, 0, 1);
   EXPECT_GT(blend.f(up, {Real(.3), 0, SafeSqrt(Real(.91))}).r,
             4 * blend.f(up, {0, Real(.3), SafeSqrt(Real(.91))}).r);
 }
 
 TEST(FresnelBlend, CoatAboveOneTakesNoLightFromTheBase) {
-  const FresnelBlend blend(Spectrum(1), Spectrum(4), 10, 10);
+  const BlendedDiffuse blend(Spectrum(1), Spectrum(4));
   RandomStream random(4);
   for (int i = 0; i < 1000; ++i) {
     const Vector3 a = AnyDirection(random), b = AnyDirection(random);
