@@ -3,6 +3,8 @@
 // same pictures, bit for bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -41,9 +43,12 @@ TEST_P(PlanTest, LeavesThePictureAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PlanTest,
                          testing::Values("skylight-room", "cornell-caustic", "furnace",
-                                         "glossy-room", "veach-mis", "moving-spheres"),
+                                         "glossy-room", "glossy-floor-room", "veach-mis",
+                                         "moving-spheres"),
                          [](const auto& info) {
-                           return info.param.substr(0, info.param.find('-'));
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
                          });
 
 // The box of cornell-caustic as text, without the blocks that wear one of the materials.

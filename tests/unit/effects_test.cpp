@@ -55,6 +55,19 @@ TEST(EffectPlan, HasTransmissionWithATranslucentSurface) {
   EXPECT_TRUE(PlanOf(kLamp + Material(R"("translucent")") + kBall).Needs(Effect::Transmission));
 }
 
+TEST(EffectPlan, SamplesGlossyLobesOnlyWithAGlossySurfaceAndALight) {
+  for (const char* glossy : {R"("plastic")", R"("substrate")", R"("metal")", R"("uber")",
+                             R"("shinymetal")", R"("translucent")"}) {
+    EXPECT_TRUE(PlanOf(kLamp + Material(glossy) + kBall).Needs(Effect::Glossy)) << glossy;
+    EXPECT_FALSE(PlanOf(Material(glossy) + kBall).Needs(Effect::Glossy)) << glossy;
+  }
+  const EffectPlan matte = PlanOf(kLamp + Material(R"("matte")") + kBall);
+  EXPECT_FALSE(matte.Needs(Effect::Glossy));
+  EXPECT_EQ(matte.Get(Effect::Glossy).reason, "no glossy surface");
+  const std::string dull = Material(R"("plastic" "color Ks" [0 0 0])") + kBall;
+  EXPECT_FALSE(PlanOf(kLamp + dull).Needs(Effect::Glossy));
+}
+
 TEST(EffectPlan, FiltersOnlyFilteredTextures) {
   const auto floor = [](const std::string& textureClass) {
     return "Texture \"t\" \"color\" " + textureClass + "\n" +

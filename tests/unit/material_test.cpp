@@ -54,7 +54,8 @@ TEST_F(Materials, AnnounceTheirLobes) {
   EXPECT_EQ(Possible(R"("glass")"), LobeSet::Specular);
   EXPECT_EQ(Possible(R"("shinymetal")"), LobeSet::GlossyReflection | LobeSet::SpecularReflection);
   EXPECT_EQ(Possible(R"("metal")"), LobeSet::GlossyReflection);
-  EXPECT_EQ(Possible(R"("substrate")"), LobeSet::GlossyReflection);
+  EXPECT_EQ(Possible(R"("substrate")"), LobeSet::GlossyReflection | LobeSet::DiffuseReflection);
+  EXPECT_EQ(Possible(R"("substrate" "color Kd" [0 0 0])"), LobeSet::GlossyReflection);
   EXPECT_EQ(Possible(R"("translucent")"), LobeSet::NonSpecular);
   EXPECT_EQ(Possible(R"("uber")"), LobeSet::NonSpecularReflection);
 }
