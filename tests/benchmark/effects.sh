@@ -34,6 +34,7 @@ fog='Volume "homogeneous" "color sigma_a" [.02 .02 .02] "color sigma_s" [.03 .03
   "point p0" [-9 -2 0] "point p1" [9 4 8]'
 moving='AttributeBegin Translate -1 -.8 4.5 ActiveTransform EndTime Translate 2 0 0
   Shape "sphere" "float radius" 1 AttributeEnd'
+polished='Material "plastic" "color Kd" [.7 .6 .5] "string fresnel" "physical"'
 checks='Texture "checks" "color" "checkerboard" Material "matte" "texture Kd" "checks"'
 
 # scene NAME INTEGRATOR CAMERA WORLD: writes $work/NAME.pbrt.
@@ -69,6 +70,7 @@ needed() {
   scene caustics "$photons" "$camera" "$lamp $glass $mirror $room"
   scene indirect "$photons" "$camera" "$lamp $room"
   scene transmission "$photons" "$camera" "$lamp $screen $room"
+  scene glossy "$photons" "$camera" "$lamp $polished ${room#*\]}"
   scene specular "$path" "$camera" "$lamp $glass $mirror $room"
   scene media "$path" "$camera" "$lamp $fog $room"
   printf '%s\n' 'VolumeIntegrator "single"' >"$work/march"
@@ -79,7 +81,7 @@ needed() {
   scene motion "$path" "$camera" "$lamp $moving $room"
   printf '%-28s %8s %8s %7s\n' "needed by the scene" on off on/off
   local effect
-  for effect in caustics indirect transmission specular media; do
+  for effect in caustics indirect transmission glossy specular media; do
     compare "$effect" "$effect" auto "$effect=off"
   done
   compare "media, single scattering" single auto media=off
@@ -98,7 +100,7 @@ idle() {
       compare "caustics, specular" "$integrator" caustics=on,specular=on auto
       compare transmission "$integrator" transmission=on auto
     fi
-    for effect in specular media filtering lens motion environment; do
+    for effect in specular glossy media filtering lens motion environment; do
       compare "$effect" "$integrator" "$effect=on" auto
     done
     compare "all" "$integrator" all auto
