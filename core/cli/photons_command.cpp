@@ -186,7 +186,8 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
                             statistics,
                             false,
                             setup.camera.get(),
-                            {setup.film.xResolution, setup.film.yResolution}};
+                            {setup.film.xResolution, setup.film.yResolution},
+                            setup.volumeIntegrator.get()};
   setup.integrator->Preprocess(*setup.scene, context);
   const auto photons = setup.integrator->PhotonsNear(place.p, options.map, options.count);
   if (photons.empty())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The world's beginning and end: where a scene becomes a render setup.
+#include <algorithm>
 #include <utility>
 
 #include "core/base/log.h"
@@ -39,7 +40,9 @@ void SceneBuilder::EndWorld(const Directive& directive) {
     setup->acceleratorSeconds += phase.wallSeconds;
     setup->acceleratorCpuSeconds += phase.cpuSeconds;
   }
-  if (parts.lights.empty()) log_.Warning("the scene has no light", directive.Where());
+  const bool glows = std::any_of(parts.media.begin(), parts.media.end(),
+                                 [](const auto& medium) { return medium->Emits(); });
+  if (parts.lights.empty() && !glows) log_.Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
   EffectPlan plan =
       ChooseEffects(PlanEffects(*setup->scene, *setup->camera), options_.effects, log_);

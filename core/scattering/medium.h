@@ -23,6 +23,11 @@ class Medium {
  public:
   virtual ~Medium() = default;
 
+  // World-space box that contains the medium; finite.
+  virtual Bounds3 Bounds() const = 0;
+  // Whether the coefficient may be above 0 at any point; false is a proof that it is not.
+  virtual bool Emits() const { return true; }
+  virtual bool Scatters() const { return true; }
   // The part of 0 <= t <= ray.tMax that is inside; nullopt: none.
   virtual std::optional<Interval> Overlap(const Ray& ray) const = 0;
   // All 0 outside.

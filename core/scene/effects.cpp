@@ -24,6 +24,7 @@ struct SceneTraits {
   LobeSet lobes = LobeSet::None;  // of any surface
   bool needsDifferentials = false;
   int lights, shiningLights;
+  bool mediaEmit = false;  // or may
 
   explicit SceneTraits(const Scene& scene)
       : lights(int(scene.Lights().size())), shiningLights(scene.ShiningLights()) {
@@ -31,6 +32,7 @@ struct SceneTraits {
       lobes = lobes | material->PossibleLobes();
       needsDifferentials = needsDifferentials || material->NeedsDifferentials();
     }
+    for (const auto& medium : scene.Media()) mediaEmit = mediaEmit || medium->Emits();
   }
   bool Has(LobeSet mask) const { return Intersects(lobes, mask); }
 };
@@ -43,13 +45,15 @@ std::string LightsNote(const SceneTraits& traits) {
 }
 
 void PlanPhotons(const SceneTraits& traits, EffectPlan* plan) {
-  const bool isLit = traits.shiningLights > 0;
+  const bool hasLights = traits.shiningLights > 0;
+  const bool isLit = hasLights || traits.mediaEmit;
   const bool hasSpecular = traits.Has(LobeSet::Specular);
   const bool hasReceiver = traits.Has(LobeSet::NonSpecular);
   const std::string noReceiver =
       Any(traits.lobes) ? "every surface is specular" : "no surface scatters light";
-  plan->Set(Effect::Caustics, isLit && hasSpecular && hasReceiver,
-            !isLit         ? "no light"
+  // Light of media over specular surfaces belongs to the gathered light.
+  plan->Set(Effect::Caustics, hasLights && hasSpecular && hasReceiver,
+            !hasLights     ? "no light"
             : !hasSpecular ? "no specular surface"
             : !hasReceiver ? noReceiver
                            : "a specular surface and a receiver");

@@ -35,6 +35,7 @@ struct PreprocessContext {
   bool isStrict = false;           // what is not finite ends the render: throw Error(Internal)
   const Camera* camera = nullptr;  // for what depends on the view; null: nothing may
   Point2i resolution;              // of the full image, whatever part of it is rendered
+  const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
 };
 
 // What one camera sample works with; lives on the stack of the thread that renders it.

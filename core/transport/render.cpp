@@ -244,7 +244,8 @@ struct PassRenderer::State {
                               job.statistics,
                               options.isStrict,
                               &job.camera,
-                              {full.Width(), full.Height()}};
+                              {full.Width(), full.Height()},
+                              job.volume};
     job.integrator.Preprocess(job.scene, context);
     if (job.volume) job.volume->Preprocess(job.scene);
   }

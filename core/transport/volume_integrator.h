@@ -12,6 +12,8 @@ class VolumeIntegrator {
   virtual ~VolumeIntegrator() = default;
 
   virtual void Preprocess(const Scene& scene) { (void)scene; }
+  // Whether Li includes light that comes straight from a light and is scattered once.
+  virtual bool ScattersLight() const { return false; }
   // Radiance that the scene's media send along the ray to its origin from 0 < t < ray.tMax, what
   // they absorb on the way taken off. ray.d is unit. `random`: of this stretch alone.
   virtual Spectrum Li(const Ray& ray, LiContext& context, RandomStream random) const = 0;

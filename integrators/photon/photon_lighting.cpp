@@ -61,15 +61,17 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   const bool showsAll = show == ShowMap::Nothing || show == ShowMap::Radiance;
   const bool gathers = Gathers(scene), showsRadiance = show == ShowMap::Radiance;
   const bool hasIndirect = scene.Effects().Needs(Effect::Indirect);
+  const bool hasLight = scene.ShiningLights() > 0;  // media fill the indirect map alone
   PhotonTargets targets;
-  const bool hasCaustics =
-      scene.Effects().Needs(Effect::Caustics) && scene.Effects().Needs(Effect::Specular);
+  const bool hasCaustics = hasLight && scene.Effects().Needs(Effect::Caustics) &&
+                           scene.Effects().Needs(Effect::Specular);
   if (hasCaustics && (showsAll || show == ShowMap::Caustic))
     targets[PhotonKind::Caustic] = settings_.CausticPhotons();
   if (hasIndirect && (showsAll || show == ShowMap::Indirect))
     targets[PhotonKind::Indirect] = settings_.indirectPhotons;
-  if ((hasIndirect && (gathers || showsRadiance)) ||
-      (HasReceiver(scene) && ((needsDirectMap_ && showsAll) || show == ShowMap::Direct)))
+  if (hasLight &&
+      ((hasIndirect && (gathers || showsRadiance)) ||
+       (HasReceiver(scene) && ((needsDirectMap_ && showsAll) || show == ShowMap::Direct))))
     targets[PhotonKind::Direct] = settings_.DirectPhotons();
   if (showsRadiance || (gathers && settings_.radiancePhotons))
     targets.radianceFraction = settings_.radianceFraction;
@@ -118,7 +120,10 @@ void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
   PhotonHarvest harvest;
   {
     const PhaseTimer timer(context.statistics, "shoot");
-    harvest = PhotonTracer(scene, settings_, context.seed, Aim(scene, targets, context))
+    MediaPhotons media(scene, context.volume);
+    // Aimed photons would miss media beside what is seen, which scatter light towards it.
+    PhotonAim aim = media.Scatter() ? PhotonAim() : Aim(scene, targets, context);
+    harvest = PhotonTracer(scene, settings_, context.seed, std::move(aim), std::move(media))
                   .Shoot(targets, context);
   }
   NoticeVainCaustics(targets, settings_, scene, context.log);

@@ -17,7 +17,8 @@ ExtendedPhotonSettings::ExtendedPhotonSettings() {
 const ParamTable<PhotonSettings>& PhotonParameters() {
   using S = PhotonSettings;
   static const ParamTable<S> table{
-      Param("causticphotons", &S::causticPhotons, "photons wanted in the caustic map; 20000 if absent")
+      Param("causticphotons", &S::causticPhotons,
+            "photons wanted in the caustic map; 20000 if absent")
           .Range(0, 1e9),
       Param("directphotons", &S::directPhotons,
             "photons wanted in the direct map; as indirectphotons if absent")
@@ -25,9 +26,10 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")
           .Range(0, 1e9),
       Param("nused", &S::nUsed, "photons used in a density estimate").Range(2, 100000),
-      Param("directlights", &S::directLights,
-            "lights of which each is sampled; where there are more, so many samples of lights chosen "
-            "by power and distance")
+      Param(
+          "directlights", &S::directLights,
+          "lights of which each is sampled; where there are more, so many samples of lights chosen "
+          "by power and distance")
           .Range(1, 1 << 20),
       Param("maxdepth", &S::maxDepth, "specular bounces followed from the camera").Range(0, 1000),
       Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),
@@ -57,8 +59,9 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
                   {"maxcomponent", PhotonRoulette::MaxComponent}}),
       Param("radiancephotons", &S::radiancePhotons,
             "gather rays read precomputed radiance instead of three density estimates"),
-      Param("gathersampling", &S::gatherSampling,
-            "where gather rays go: up to half of them round photons' directions, or all by the BSDF")
+      Param(
+          "gathersampling", &S::gatherSampling,
+          "where gather rays go: up to half of them round photons' directions, or all by the BSDF")
           .OneOf({{"photons", GatherSampling::Photons}, {"bsdf", GatherSampling::Bsdf}}),
       Param("kernel", &S::kernel, "weight of a photon by its distance where maps are seen directly")
           .OneOf({{"simpson", DensityKernel::Simpson}, {"constant", DensityKernel::Constant}}),
@@ -88,9 +91,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("photonaim", &S::photonAim,
             "photons of far lights (sun, sky) start towards what the camera sees; auto: where that "
             "makes them many times denser there")
-          .OneOf({{"auto", PhotonAiming::Auto},
-                  {"on", PhotonAiming::On},
-                  {"off", PhotonAiming::Off}}),
+          .OneOf(
+              {{"auto", PhotonAiming::Auto}, {"on", PhotonAiming::On}, {"off", PhotonAiming::Off}}),
       Param("show", &S::show, "shows one map directly, for looking at it")
           .OneOf({{"", ShowMap::Nothing},
                   {"radiancephotons", ShowMap::Radiance},

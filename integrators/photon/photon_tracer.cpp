@@ -39,14 +39,25 @@ class PhotonTracer::Path {
     for (int hits = 1;; ++hits) {
       rays->Count(RayKind::Photon);
       const auto surface = tracer_.scene_.Intersect(ray);
-      if (!surface) return;
+      if (hits == 1 && !isOfMedia_ && tracer_.media_.Scatter()) {
+        if (ScatterInMedia(surface ? &surface->p : nullptr, &ray)) {
+          hits = 0;  // a first ray again, which begins in a medium
+          continue;
+        }
+        if (!surface) return;
+      } else {
+        if (!surface) return;
+        Absorb(ray, surface->p);
+      }
       hasHit_ = true;
       distance_ += Distance(ray.o, surface->p);
-      Absorb(ray, surface->p);
       if (!(alpha_.MaxComponent() > 0)) return;
       const ShadingPoint point =
           MakeShadingPoint(*surface, ray, hits, TransportMode::Importance, arena);
-      const PhotonKind kind = hits == 1         ? PhotonKind::Direct
+      // Gather rays see the light of media on their way; surfaces keep what arrives from media with
+      // the light that arrives from surfaces.
+      const PhotonKind kind = isOfMedia_        ? PhotonKind::Indirect
+                              : hits == 1       ? PhotonKind::Direct
                               : isSpecularPath_ ? PhotonKind::Caustic
                                                 : PhotonKind::Indirect;
       if (open_[std::size_t(kind)] && point.bsdf.Has(LobeSet::NonSpecular)) Store(kind, point);
@@ -56,6 +67,7 @@ class PhotonTracer::Path {
   }
 
   void AddTo(std::span<LightTally> lights) const {
+    if (light_ < 0) return;  // it began in a medium
     LightTally& light = lights[std::size_t(light_)];
     ++light.shot;
     light.hit += hasHit_;
@@ -71,6 +83,21 @@ class PhotonTracer::Path {
     alpha_ *= tracer_.scene_.Transmittance(stretch);
   }
 
+  // Takes off what media absorb and, where they scatter, decides whether they scatter the photon.
+  // True: the photon goes on along a new ray from a point of the media.
+  bool ScatterInMedia(const Point3* end, RayDifferential* ray) {
+    const Point2 uDistanceChoice = samples_.Next2D(), uDirection = samples_.Next2D();
+    Ray stretch = *ray;
+    stretch.d = NormalizeOr(ray->d, ray->d);
+    const auto passage = tracer_.media_.Pass(stretch, end ? Distance(ray->o, *end) : kInfinity,
+                                             alpha_, uDistanceChoice, uDirection);
+    alpha_ = passage.alpha;
+    if (!passage.scattered) return false;
+    *ray = RayDifferential(*passage.scattered);
+    isOfMedia_ = true;
+    return true;
+  }
+
   // Of all of the path.
   Real Time() const {
     const auto [open, close] = tracer_.scene_.Exposure();
@@ -81,20 +108,41 @@ class PhotonTracer::Path {
   bool Emit(RayDifferential* ray) {
     const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
     const Point2 uDirection = samples_.Next2D();
-    const auto choice = tracer_.lights_.Sample(uLight.x);
+    Real uChoice = uLight.x;
+    if (tracer_.mediaShare_ > 0) {
+      if (uChoice < tracer_.mediaShare_) {
+        const Point3 uPoint(uLight.y, uPosition.x, uPosition.y);
+        return EmitFromMedia(uChoice / tracer_.mediaShare_, uPoint, uDirection, ray);
+      }
+      uChoice = (uChoice - tracer_.mediaShare_) / (1 - tracer_.mediaShare_);
+    }
+    const auto choice = tracer_.lights_.Sample(std::min(uChoice, kOneMinusEpsilon));
     light_ = choice.index;
     auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
     if (!emission) return false;
     if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
       tracer_.aim_.Redirect(&*emission, uPosition);
-    alpha_ = emission->power / choice.probability;  // docs/exphotonmap.md, eq. 3
+    *ray = RayDifferential(emission->ray);
+    // docs/exphotonmap.md, eq. 3
+    return Begin(emission->power / (choice.probability * (1 - tracer_.mediaShare_)));
+  }
+  bool EmitFromMedia(Real uBox, const Point3& uPoint, Point2 uDirection, RayDifferential* ray) {
+    const auto emission =
+        tracer_.media_.SampleEmission(std::min(uBox, kOneMinusEpsilon), uPoint, uDirection, Time());
+    light_ = -1;
+    isOfMedia_ = true;
+    *ray = RayDifferential(emission.ray);
+    return Begin(emission.power / tracer_.mediaShare_);
+  }
+  // Whether a photon of this power sets out.
+  bool Begin(const Spectrum& power) {
+    alpha_ = power;
     if (!alpha_.IsFinite()) {
       Drop();
       return false;
     }
     emittedMost_ = alpha_.MaxComponent();
     chunk_->emittedPower += double(alpha_.Y());
-    *ray = RayDifferential(emission->ray);
     return alpha_.MaxComponent() > 0;
   }
 
@@ -133,7 +181,7 @@ class PhotonTracer::Path {
     const auto sample =
         point.bsdf.Sample(point.Wo(), u, uChoice.x, tracer_.lobes_, TransportMode::Importance);
     if (!sample) return false;
-    isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_);
+    isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_) && !isOfMedia_;
     if (!sample->IsSpecular()) distance_ = 0;
     if (!IsWantedAfter(isSpecularPath_)) return false;
     const Spectrum scattered =
@@ -181,6 +229,8 @@ class PhotonTracer::Path {
   PhotonChunk* chunk_;
   int light_ = 0;
   bool hasHit_ = false;
+  bool isOfMedia_ =
+      false;  // a medium emitted the photon, or scattered it on its way from the light
   std::int64_t stored_ = 0;  // photons
   Spectrum alpha_;
   Real emittedMost_ = 0;
@@ -206,16 +256,29 @@ std::vector<double> ShareFactors(const Scene& scene, const PhotonAim& aim) {
   return factors;
 }
 
+// The part of the paths that begin in media: by power, but neither source starves the other.
+Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightDistribution& lights) {
+  constexpr double kLeast = .05;
+  if (!media.Emit()) return 0;
+  if (lights.IsEmpty()) return 1;
+  double power = 0;
+  for (const auto& light : scene.Lights()) power += UsablePower(*light);
+  const double sum = power + media.EmittedPower();
+  return Real(std::clamp(sum > 0 ? media.EmittedPower() / sum : .5, kLeast, 1 - kLeast));
+}
+
 }  // namespace
 
 PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
-                           PhotonAim aim)
+                           PhotonAim aim, MediaPhotons media)
     : scene_(scene),
       settings_(settings),
       seed_(seed),
       aim_(std::move(aim)),
+      media_(std::move(media)),
       lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
               ShareFactors(scene, aim_)),
+      mediaShare_(MediaShare(scene, media_, lights_)),
       lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       farthest_(FarthestDistance(scene)) {}
 
@@ -250,7 +313,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
   harvest.lights.resize(scene_.Lights().size());
   for (PhotonHaul& haul : harvest.hauls) haul.farthest = farthest_;
-  if (lights_.IsEmpty()) return harvest;
+  if (lights_.IsEmpty() && !media_.Emit()) return harvest;
 
   std::vector<Worker> workers(std::size_t(context.threads.Count()));
   std::vector<PhotonChunk> chunks;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/transport/integrator.h"
+#include "integrators/photon/media_photons.h"
 #include "integrators/photon/photon.h"
 #include "integrators/photon/photon_aim.h"
 #include "integrators/photon/photon_settings.h"
@@ -66,7 +67,7 @@ struct PhotonChunk;
 class PhotonTracer {
  public:
   PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
-               PhotonAim aim = {});
+               PhotonAim aim = {}, MediaPhotons media = {});
 
   // Shoots until every requested map is full, has had maxphotonpaths, or has stored nothing in its
   // first kFruitlessPaths. Says so once where a map fell short.
@@ -97,9 +98,11 @@ class PhotonTracer {
   PhotonSettings settings_;
   std::uint64_t seed_;
   PhotonAim aim_;
+  MediaPhotons media_;
   LightDistribution lights_;
-  LobeSet lobes_;  // that photons scatter by
-  Real farthest_;  // PhotonHaul::farthest
+  Real mediaShare_;  // of the paths, those that begin in a medium
+  LobeSet lobes_;    // that photons scatter by
+  Real farthest_;    // PhotonHaul::farthest
 };
 
 }  // namespace exphoton

@@ -11,6 +11,8 @@ class SingleScattering final : public VolumeIntegrator {
  public:
   explicit SingleScattering(const MarchSettings& settings) : stepSize_(settings.stepSize) {}
 
+  bool ScattersLight() const override { return true; }
+
   void Preprocess(const Scene& scene) override {
     lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
   }

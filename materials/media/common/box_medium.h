@@ -37,8 +37,13 @@ class BoxMedium final : public Medium {
   BoxMedium(const MediumSettings& settings, const MediumContext& context, Density density)
       : settings_(settings),
         box_(settings.p0, settings.p1),
+        bounds_(context.mediumToWorld.ApplyBounds(box_)),
         toMedium_(context.mediumToWorld.Inverted()),
         density_(std::move(density)) {}
+
+  Bounds3 Bounds() const override { return bounds_; }
+  bool Emits() const override { return !settings_.emission.IsBlack(); }
+  bool Scatters() const override { return !settings_.scattering.IsBlack(); }
 
   std::optional<Interval> Overlap(const Ray& ray) const override {
     const auto part =
@@ -77,7 +82,7 @@ class BoxMedium final : public Medium {
 
  private:
   MediumSettings settings_;
-  Bounds3 box_;
+  Bounds3 box_, bounds_;  // in the medium's space and in the world's
   Transform toMedium_;
   Density density_;
 };
