@@ -41,6 +41,13 @@ int CompareWithBruteForce(const PrimitiveSet& set, const std::string& accelerato
     EXPECT_EQ(expected.instance, found.instance) << accelerator << " ray " << i;
     EXPECT_EQ(expected.uv, found.uv);
     EXPECT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << accelerator << " ray " << i;
+    // Rays that end at the surface, or by rounding alone before or behind it.
+    for (const Real end : {NextDown(expected.t), expected.t, NextUp(expected.t)}) {
+      Ray ending = ray;
+      ending.tMax = std::min(end, ray.tMax);
+      EXPECT_EQ(oracle->Occluded(ending), tested->Occluded(ending))
+          << accelerator << " ray " << i << " to " << ending.tMax;
+    }
     if (testing::Test::HasFailure()) {
       ADD_FAILURE() << "o " << ray.o.x << " " << ray.o.y << " " << ray.o.z << " d " << ray.d.x
                     << " " << ray.d.y << " " << ray.d.z << " tMax " << ray.tMax;
@@ -303,6 +310,42 @@ TEST_P(Accelerators, FindTheRoomInAHugeWorld) {
   triangles.push_back({Point3(-far, -2, -far), Point3(far, -2, -far), Point3(0, -2, far)});
   const auto set = TriangleSet(triangles);
   EXPECT_GT(CompareWithBruteForce(*set, GetParam(), 2000, 1), 100);
+}
+
+// A ray's numbers are rounded to far more than the gaps between cells: it meets what the planes
+// between them seem to part it from. Vertices lie where the kd-tree splits.
+TEST_P(Accelerators, AgreeThroughVerticesSeenFromAfar) {
+  TestPlugins plugins;
+  constexpr int kSide = 12;
+  RandomStream random(8);
+  std::vector<Point3> vertices;
+  for (int y = 0; y <= kSide; ++y)
+    for (int x = 0; x <= kSide; ++x)
+      vertices.push_back({Real(x) / kSide, Real(y) / kSide, random.Uniform() / kSide});
+  TriangleList triangles;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const auto at = [&](int dx, int dy) {
+        return vertices[std::size_t((y + dy) * (kSide + 1) + x + dx)];
+      };
+      triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
+      triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
+    }
+  }
+  const auto set = TriangleSet(triangles);
+  const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", *set);
+  const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 slant = i % 2 ? Vector3(0, 0, 1) * Real(.02) : Vector3(0, 0, 1);
+    const Vector3 from = RandomVector(random);
+    Ray ray;
+    ray.o = Point3() + Vector3(from.x, from.y, 0) * Real(1e4) + slant * Real(1e4);
+    ray.d = vertices[std::size_t(random.Uniform() * Real(vertices.size()))] - ray.o;
+    const Hit expected = oracle->Intersect(ray), found = tested->Intersect(ray);
+    ASSERT_EQ(expected.t, found.t) << "ray " << i;
+    ASSERT_EQ(expected.primitive, found.primitive) << "ray " << i;
+    ASSERT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << "ray " << i;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Accelerators, testing::ValuesIn(kAccelerators));

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Which of two hits wins: the rule itself, and each accelerator with two equal surfaces. The rule
+// is written out here, because every accelerator, brute force too, takes it from the same header.
+#include "core/scene/hit_order.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+TEST(HitOrder, IsByDistanceThenInstanceThenPrimitive) {
+  const Hit hit{1, {}, 5, 7};
+  EXPECT_TRUE(Wins(Real(.5), 9, 9, hit));
+  EXPECT_FALSE(Wins(2, 0, 0, hit));
+  EXPECT_TRUE(Wins(1, 6, 9, hit));
+  EXPECT_FALSE(Wins(1, 8, 0, hit));
+  EXPECT_TRUE(Wins(1, 7, 4, hit));
+  EXPECT_FALSE(Wins(1, 7, 5, hit));
+  EXPECT_FALSE(Wins(1, 7, 6, hit));
+}
+
+TEST(HitOrder, WithoutAHitAsksForLessThanTheEndOfTheRay) {
+  Hit none;
+  none.t = 1;
+  EXPECT_TRUE(Wins(Real(.5), kNoId, 0, none));
+  EXPECT_FALSE(Wins(1, kNoId, 0, none));
+}
+
+// A surface given twice shows the material that was given first.
+class EqualSurfaces : public testing::TestWithParam<const char*> {};
+
+TEST_P(EqualSurfaces, ShowTheFirstMaterial) {
+  TestPlugins plugins;
+  const auto first = plugins.MakeMaterial(R"("matte")"),
+             second = plugins.MakeMaterial(R"("mirror")");
+  const TriangleList triangles{{Point3(-1, -1, 1), Point3(1, -1, 1), Point3(0, 1, 2)}};
+  PrimitiveSet set;
+  set.AddMesh(MeshOf(triangles), {first.get(), nullptr});
+  set.AddMesh(MeshOf(triangles), {second.get(), nullptr});
+  set.Finish();
+  const auto tested = plugins.MakeAccelerator(GetParam(), set);
+  RandomStream random(3);
+  for (int i = 0; i < 200; ++i) {
+    Ray ray;
+    ray.o = RandomVector(random) * Real(.5);
+    ray.d = Point3(0, 0, Real(1.5)) - ray.o;
+    const Hit hit = tested->Intersect(ray);
+    ASSERT_TRUE(hit.IsHit());
+    ASSERT_EQ(set.Attributes(hit).material, first.get()) << "ray " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Accelerators, EqualSurfaces,
+                         testing::Values(
+#ifdef EXPHOTON_EMBREE
+                             R"("embree")",
+#endif
+                             R"("bruteforce")", R"("kdtree")", R"("bvh")",
+                             R"("bvh" "string vectors" "portable")"));
+
+}  // namespace
+}  // namespace exphoton
