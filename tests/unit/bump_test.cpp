@@ -2,6 +2,7 @@
 // Bump mapping: slopes tilt the normal as geometry would, and nothing awkward breaks it.
 #include "core/scattering/bump.h"
 
+#include <array>
 #include <functional>
 
 #include "gtest/gtest.h"
@@ -28,6 +29,48 @@ TEST(Bump, ASlopeTiltsTheNormal) {
     ApplyBump(Height([&](const auto& at) { return (byPoint ? at.p.x : at.uv.x) / 2; }), &si);
     EXPECT_LT(Distance(si.shading.n, expected), Real(1e-4));
     EXPECT_EQ(si.ng, Vector3(0, 0, 1));
+  }
+}
+
+// A unit sphere with u once round the axis and v from pole to pole, displaced by d = .3 sin(4 u):
+// the normal of the surface p + d n, by central differences in double.
+TEST(Bump, OnACurvedSurfaceIsTheNormalOfTheDisplacedOne) {
+  using Triple = std::array<double, 3>;
+  const auto onSphere = [](double u, double v) {
+    return Triple{std::sin(v) * std::cos(u), std::sin(v) * std::sin(u), std::cos(v)};
+  };
+  const auto height = [](double u, double v) { return .3 * std::sin(4 * u) * std::sin(3 * v); };
+  const auto displaced = [&](double u, double v) {
+    Triple p = onSphere(u, v);
+    for (double& x : p) x *= 1 + height(u, v);
+    return p;
+  };
+  const auto toVector = [](const Triple& a) { return Vector3(Real(a[0]), Real(a[1]), Real(a[2])); };
+  const auto slope = [&](const auto& surface, double u, double v, double du, double dv) {
+    const Triple a = surface(u - du, v - dv), b = surface(u + du, v + dv);
+    Triple d;
+    for (std::size_t i = 0; i < 3; ++i) d[i] = (b[i] - a[i]) / (2 * (du + dv));
+    return toVector(d);
+  };
+  for (const auto& [u, v] : {std::pair{.3, 1.1}, {2.0, .7}, {4.4, 2.2}, {5.5, 1.6}}) {
+    SurfaceInteraction si;
+    si.p = Point3() + toVector(onSphere(u, v));
+    si.uv = {Real(u), Real(v)};
+    si.dpdu = si.shading.dpdu = slope(onSphere, u, v, 1e-5, 0);
+    si.dpdv = si.shading.dpdv = slope(onSphere, u, v, 0, 1e-5);
+    si.ng = si.shading.n = Normalize(Cross(si.dpdu, si.dpdv));
+    const Real sign = Dot(si.ng, si.p - Point3()) > 0 ? 1 : -1;  // the normal's derivatives
+    si.dndu = si.shading.dndu = si.dpdu * sign;
+    si.dndv = si.shading.dndv = si.dpdv * sign;
+    si.hasDifferentials = true;
+    si.dudx = si.dvdy = Real(2e-3);  // steps of 1e-3
+    ApplyBump(Height([&](const auto& at) {
+                return sign * Real(height(double(at.uv.x), double(at.uv.y)));
+              }),
+              &si);
+    const Vector3 expected =
+        Normalize(Cross(slope(displaced, u, v, 1e-5, 0), slope(displaced, u, v, 0, 1e-5)));
+    EXPECT_LT(Distance(si.shading.n, expected), Real(.01)) << u << " " << v;
   }
 }
 

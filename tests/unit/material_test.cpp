@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/math/sampling.h"
 #include "core/scattering/microfacet.h"
+#include "core/scattering/oren_nayar.h"
 #include "gtest/gtest.h"
 #include "tests/support/scattering.h"
 #include "tests/support/test_plugin.h"
@@ -107,6 +108,21 @@ TEST_F(Materials, UseColorsAboveOneAndWarn) {
   EXPECT_EQ(plugins_.GetLog().WarningCount(), 1);
   EXPECT_TRUE(Evaluate(R"("substrate" "color Ks" [4 4 4])").f({0, 0, 1}, {0, 0, 1}).IsFinite());
   EXPECT_EQ(plugins_.GetLog().WarningCount(), 2);
+}
+
+// f(z, z) of Oren and Nayar is Kd / pi times A = 1 - s^2 / (2 (s^2 + .33)), s in radians.
+TEST_F(Materials, MatteTakesSigmaInDegrees) {
+  const double s = 20 * 3.14159265358979 / 180;
+  const Bsdf matte = Evaluate(R"("matte" "color Kd" [.6 .6 .6] "float sigma" 20)");
+  EXPECT_NEAR(matte.f({0, 0, 1}, {0, 0, 1}).r,
+              .6 / 3.14159265358979 * (1 - s * s / (2 * (s * s + .33))), 1e-6);
+  const OrenNayar expected(Spectrum(Real(.6)), Real(s));
+  for (const Vector3& wo : Directions({Real(.9), Real(.5), Real(.2)})) {
+    for (const Vector3& wi : Directions({Real(.8), Real(.3)})) {
+      EXPECT_NEAR(matte.f(wo, wi).r, expected.f(wo, wi).r, 1e-6);
+      EXPECT_NEAR(matte.f(wo, {-wi.x, wi.y, wi.z}).r, expected.f(wo, {-wi.x, wi.y, wi.z}).r, 1e-6);
+    }
+  }
 }
 
 TEST_F(Materials, RefuseValuesOutOfRange) {

@@ -3,6 +3,7 @@
 #include "core/imaging/mipmap.h"
 
 #include <chrono>
+#include <cmath>
 
 #include "core/math/random.h"
 #include "gtest/gtest.h"
@@ -88,6 +89,36 @@ TEST(MipMap, WrapsAsAsked) {
   const MipMap<Real> black(4, 1, texels, WrapMode::Black), repeat(4, 1, texels, WrapMode::Repeat);
   EXPECT_EQ(black.Lookup({50, Real(.5)}), 0);
   EXPECT_EQ(repeat.Lookup({Real(50.125), Real(.5)}), 1);
+}
+
+// Ewa's answer over st to one bright texel is its filter; that of a round footprint of a texels has
+// the Gaussian's variance on the level 2^L = a, widened by one of the level's texels: 4^L ((a /
+// 2^L)^2
+// + 1) m texels^2 on each axis about the middle of the level's texel, where m = .1361 is the
+// variance of exp(-2 r^2) - exp(-2) on the unit disk.
+TEST(MipMap, EllipticalFilterIsAsWideAsItsFootprint) {
+  constexpr int n = 256, kAt = 128, kReach = 24, kSteps = 4;
+  std::vector<Real> texels(n * n, Real(0));
+  texels[kAt * n + kAt] = 1;
+  const MipMap<Real> map(n, n, texels, WrapMode::Repeat);
+  for (const int level : {0, 1, 2}) {
+    const double a = 1 << level;
+    const Real step = Real(a / n);
+    double sum = 0, square = 0, mean = 0;
+    for (int y = -kReach * kSteps; y < kReach * kSteps; ++y) {
+      for (int x = -kReach * kSteps; x < kReach * kSteps; ++x) {
+        const double dx = (x + .5) / kSteps, dy = (y + .5) / kSteps;
+        const Point2 st(Real((kAt + .5 + dx) / n), Real((kAt + .5 + dy) / n));
+        const double value = double(map.Ewa(st, {step, 0}, {0, step}, 8));
+        sum += value, mean += value * dx, square += value * dx * dx;
+      }
+    }
+    const double texel = std::pow(4, level);
+    const double center = mean / sum, variance = square / sum - center * center;
+    const double expected = 2 * texel * .1361;
+    EXPECT_NEAR(variance / expected, 1, .05) << "level " << level;
+    EXPECT_NEAR(sum / (kSteps * kSteps), 1, .05) << "level " << level;
+  }
 }
 
 // A long thin footprint across stripes averages them; along them it does not.

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// An instance has the surface that its shape has where it is made under the instance's own
+// transformation: under uneven scales normals turn otherwise than vectors do.
+#include <gtest/gtest.h>
+
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+const Transform kPlace = Transform::Translate({1, -2, 3}) * *Transform::Scale(1, 2, 4) *
+                         *Transform::Rotate(35, {1, 2, -1});
+
+void Add(PrimitiveSet* set, ShapeGeometry geometry) {
+  if (auto* shape = std::get_if<std::unique_ptr<Shape>>(&geometry)) {
+    set->AddShape(std::move(*shape), {});
+  } else {
+    set->AddMesh(std::move(std::get<std::unique_ptr<TriangleMesh>>(geometry)), {});
+  }
+  set->Finish();
+}
+
+// A shape as an instance, and made under the instance's transformation.
+class Both {
+ public:
+  explicit Both(const std::string& text) {
+    auto inner = std::make_unique<PrimitiveSet>();
+    Add(inner.get(), plugins_.MakeShape(text));
+    auto aggregate = plugins_.MakeAccelerator(R"("bruteforce")", *inner);
+    object_ = std::make_unique<ObjectGeometry>(std::move(inner), std::move(aggregate));
+    instance_.AddInstance({kPlace, object_.get()});
+    instance_.Finish();
+    Add(&direct_, plugins_.MakeShape(text, kPlace));
+    byInstance_ = plugins_.MakeAccelerator(R"("bruteforce")", instance_);
+    byShape_ = plugins_.MakeAccelerator(R"("bruteforce")", direct_);
+  }
+
+  struct Surfaces {
+    SurfaceInteraction found, expected;
+  };
+  // Where the ray from o to `target`, both in the shape's space, meets the two.
+  std::optional<Surfaces> Meet(const Point3& o, const Point3& target) const {
+    Ray ray;
+    ray.o = kPlace.ApplyPoint(o);
+    ray.d = kPlace.ApplyPoint(target) - ray.o;
+    const Hit a = byInstance_->Intersect(ray), b = byShape_->Intersect(ray);
+    if (!a.IsHit() || !b.IsHit()) return std::nullopt;
+    return Surfaces{instance_.Surface(ray, a), direct_.Surface(ray, b)};
+  }
+
+ private:
+  TestPlugins plugins_;
+  std::unique_ptr<ObjectGeometry> object_;
+  PrimitiveSet instance_, direct_;
+  std::unique_ptr<Aggregate> byInstance_, byShape_;
+};
+
+void ExpectNear(const Vec3& a, const Vec3& b, const char* what) {
+  EXPECT_LT(Length(a - b), Real(2e-5) * (1 + Length(b))) << what;
+}
+
+TEST(InstanceSurface, OfASphereIsTheSurfaceOfTheScaledSphere) {
+  const Both sphere(R"("sphere")");
+  RandomStream random(4);
+  int hits = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Point3 o = Point3() + RandomVector(random) * 5;
+    const auto met = sphere.Meet(o, Point3() + RandomVector(random) * Real(.4));
+    if (!met) continue;
+    ++hits;
+    ExpectNear(met->found.ng, met->expected.ng, "ng");
+    ExpectNear(met->found.dpdu, met->expected.dpdu, "dpdu");
+    ExpectNear(met->found.dndu, met->expected.dndu, "dndu");
+    ExpectNear(met->found.dndv, met->expected.dndv, "dndv");
+    ExpectNear(met->found.shading.n, met->expected.shading.n, "shading.n");
+    ExpectNear(met->found.shading.dpdv, met->expected.shading.dpdv, "shading.dpdv");
+    ExpectNear(met->found.shading.dndu, met->expected.shading.dndu, "shading.dndu");
+    ExpectNear(met->found.shading.dndv, met->expected.shading.dndv, "shading.dndv");
+    if (HasFailure()) FAIL() << "ray " << i;
+  }
+  EXPECT_GT(hits, 100);
+}
+
+// Between vertices the two interpolate normals of other lengths.
+TEST(InstanceSurface, OfAMeshHasTheScaledNormalsAtItsVertices) {
+  const Both mesh(
+      R"("trianglemesh" "integer indices" [0 1 2] "point P" [-1 -1 0 1 -1 0 1 1 .3]
+         "normal N" [-.4 -.3 1 .4 -.3 1 .4 .3 1])");
+  const Point3 middle(Real(.3), Real(-.3), Real(.1));
+  for (const Point3& vertex : {Point3(-1, -1, 0), Point3(1, -1, 0), Point3(1, 1, Real(.3))}) {
+    const auto met = mesh.Meet({0, 0, 5}, vertex + (middle - vertex) * Real(1e-4));
+    ASSERT_TRUE(met);
+    ExpectNear(met->found.ng, met->expected.ng, "ng");
+    EXPECT_LT(Distance(met->found.shading.n, met->expected.shading.n), Real(1e-3));
+    EXPECT_GT(Distance(met->found.shading.n, met->found.ng), Real(.1));
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
