@@ -54,6 +54,17 @@ TEST(Film, WeightsThatCancelGiveAFinitePixel) {
   EXPECT_EQ(film.ToImage(true).At(0, 0, 0), 1);
 }
 
+TEST(Film, WeightsThatCancelGiveTheSamePixelInASumOfFilms) {
+  Film film(kOnePixel, kOnePixel), sum(kOnePixel, kOnePixel);
+  for (Real weight : {Real(1), Real(-1), Real(1), Real(-1)})
+    film.AddSample({0, 0}, Spectrum(1 + weight, 2, 3), 1, weight);
+  sum.Add(film);
+  EXPECT_EQ(sum.ToImage(true).pixels, film.ToImage(true).pixels);
+  EXPECT_EQ(sum.ToImage(false).pixels, film.ToImage(false).pixels);
+  EXPECT_EQ(sum.ToImage(true).At(0, 0, 1), 2);
+  EXPECT_EQ(sum.SampleCount({0, 0}), 4);
+}
+
 TEST(Film, APixelIsNeverNegative) {
   Film film(kOnePixel, kOnePixel);
   for (Real weight : {Real(1), Real(1), Real(1), Real(-1)})

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -214,6 +215,36 @@ TEST(Sampler, RequestsAreUncorrelated) {
         double sum = 0;
         for (std::size_t i = 0; i < kPixels; ++i) sum += columns[a][i] * columns[b][i];
         // Standard deviation 1/sqrt(n) of a correlation; 5 of them: 2e-5 in 144 tests.
+        EXPECT_LT(std::abs(sum / kPixels * 12), 5 / std::sqrt(double(kPixels)))
+            << text << " " << a << " " << b;
+      }
+    }
+  }
+}
+
+// Within a stratum, too: where a sample lies in its cell says nothing of where it lies there along
+// the other axis, nor in another request.
+TEST(Sampler, PlacesWithinStrataAreUncorrelated) {
+  TestPlugins plugins;
+  constexpr int kPixels = 4000;
+  for (const char* text : {kSamplers[0], kSamplers[1], kSamplers[3]}) {
+    const auto sampler = plugins.MakeSampler(text);
+    std::vector<std::vector<double>> columns;
+    for (int i = 0; i < kPixels; ++i) {
+      const std::vector<Real> values = Make(*sampler, {1, {i, 2 * i + 1}, i % 16});
+      columns.resize(values.size());
+      for (std::size_t j = 0; j < values.size(); ++j) {
+        const double inCells = 4 * double(values[j]);
+        columns[j].push_back(inCells - std::floor(inCells) - .5);
+      }
+    }
+    // film, lens, the single 2D point.
+    const std::size_t chosen[] = {0, 1, 2, 3, 21, 22};
+    for (std::size_t a : chosen) {
+      for (std::size_t b : chosen) {
+        if (a >= b) continue;
+        double sum = 0;
+        for (std::size_t i = 0; i < kPixels; ++i) sum += columns[a][i] * columns[b][i];
         EXPECT_LT(std::abs(sum / kPixels * 12), 5 / std::sqrt(double(kPixels)))
             << text << " " << a << " " << b;
       }
