@@ -105,6 +105,34 @@ TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
   EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected));
 }
 
+// The medium goes on behind the disk; only the way to it counts, for every kind of ray.
+TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {
+  const std::string world =
+      "Volume \"homogeneous\" \"point p0\" [-50 -50 1] \"point p1\" [50 50 50] \"color sigma_a\" "
+      "[.3 .3 .3]\nLightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+      "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
+      kDisk + "WorldEnd\n";
+  const double expected = .5 / 3.14159265358979 * std::exp(-1.2) * std::exp(-1.2);
+  for (const char* integrator : kIntegrators) {
+    const TestRender render = RenderSceneText(Header(integrator, "\"emission\"") + world);
+    EXPECT_NEAR(MeanRadiance(render.image), expected, 1e-4 * expected) << integrator;
+  }
+  const auto measure = [&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    options.load.samplesPerPixel = 1;
+    return MeanRadiance(RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
+                                               "\"integer directphotons\" 20000 \"integer "
+                                               "indirectphotons\" 0 \"integer nused\" 8000 "
+                                               "\"float maxdist\" 1",
+                                               "\"emission\"") +
+                                            world,
+                                        options)
+                            .image);
+  };
+  EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected));
+}
+
 TEST(Media, EmitWithoutBias) {
   const double sigma = .7;
   const auto measure = [&](std::uint64_t seed) {

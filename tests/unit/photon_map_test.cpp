@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/math/random.h"
 
 namespace exphoton {
@@ -21,6 +23,19 @@ TEST(PhotonMap, WithoutPhotonsAnswersZero) {
   EXPECT_TRUE(e.e.IsBlack());
   EXPECT_EQ(map.Nearest({0, 0, 0}, 50, &arena).size(), 0u);
   EXPECT_EQ(map.TypicalRadius(50, &arena), 0);
+}
+
+// Four neighbours at distance 1 and four at the diagonal; the photon itself is none of them.
+TEST(PhotonMap, OnAUnitLatticeHasTheRadiusOfItsNeighbours) {
+  std::vector<Photon> photons;
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x) photons.push_back({{Real(x), Real(y), 0}, {0, 0, 1}, Spectrum(1)});
+  Arena arena;
+  const PhotonMap map = MapOf(photons, 1);
+  EXPECT_EQ(map.TypicalRadius(4, &arena), 1);
+  EXPECT_FLOAT_EQ(float(map.TypicalRadius(5, &arena)), std::sqrt(2.f));
+  EXPECT_FLOAT_EQ(float(map.TypicalRadius(8, &arena)), std::sqrt(2.f));
+  EXPECT_EQ(map.TypicalRadius(9, &arena), 2);
 }
 
 TEST(PhotonMap, OfCoincidentPhotonsStaysFinite) {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Photons that leave a plate whose shading normals are tilted: the irradiance that they bring to a
+// floor is that of the constant radiance which cameras see on the plate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/equivalence.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+constexpr double kPi64 = 3.14159265358979;
+constexpr double kAlbedo = .8;
+constexpr double kView = .6;  // the picture covers [-kView, kView]^2 of the floor
+
+// The plate x = 1 over the floor z = 0, both 2 x 2. Light of irradiance 1 comes along x: it meets
+// the plate at right angles and the floor not at all. Shading normals are turned by `degrees`
+// downwards.
+std::string Corner(double degrees) {
+  const double angle = degrees * kPi64 / 180;
+  char n[64];
+  std::snprintf(n, sizeof n, " %.6f 0 %.6f", -std::cos(angle), -std::sin(angle));
+  const std::string normal = n;
+  return "LookAt 0 0 1  0 0 0  0 1 0\nCamera \"orthographic\" \"float screenwindow\" [-.6 .6 -.6 "
+         ".6]\nFilm \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12\nPixelFilter "
+         "\"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" 2\nSurfaceIntegrator "
+         "\"exphotonmap\" \"integer indirectphotons\" 6000 \"integer nused\" 6000 \"float "
+         "maxdist\" "
+         ".15 \"string show\" \"indirectphotons\" \"bool finalgather\" \"false\" \"string "
+         "photonaim\" "
+         "\"off\"\nWorldBegin\nLightSource \"distant\" \"color L\" [1 1 1] \"point from\" [-1 0 0] "
+         "\"point to\" [0 0 0]\nMaterial \"matte\" \"color Kd\" [.01 .01 .01]\nShape "
+         "\"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0 1 -1 0 1 1 0 "
+         "-1 1 0]\nMaterial \"matte\" \"color Kd\" [.8 .8 .8]\nShape \"trianglemesh\" \"integer "
+         "indices\" [0 1 2 0 2 3] \"point P\" [1 -1 0 1 1 0 1 1 2 1 -1 2] \"normal N\" [" +
+         normal + normal + normal + normal + "]\nWorldEnd\n";
+}
+
+// Mean irradiance on the part of the floor that is seen, per radiance of the plate.
+double FormFactor() {
+  constexpr int kPlate = 60, kFloor = 24;
+  double sum = 0;
+  for (int i = 0; i < kFloor * kFloor; ++i) {
+    const double x = kView * ((i % kFloor + .5) / kFloor * 2 - 1);
+    const double y = kView * ((i / kFloor + .5) / kFloor * 2 - 1);
+    for (int k = 0; k < kPlate * kPlate; ++k) {
+      const double dx = 1 - x, dy = (k % kPlate + .5) / kPlate * 2 - 1 - y;
+      const double dz = (k / kPlate + .5) / kPlate * 2;
+      const double distance2 = dx * dx + dy * dy + dz * dz;
+      sum += dx * dz / (distance2 * distance2) * 4 / (kPlate * kPlate);
+    }
+  }
+  return sum / (kFloor * kFloor);
+}
+
+// Not upwards: the BSDF would sample towards the floor less often than photons go there.
+TEST(PhotonShading, PhotonsLeaveTiltedNormalsAsTheRadianceThatCamerasSee) {
+  for (const double degrees : {0.0, 50.0}) {
+    const std::string scene = Corner(degrees);
+    const auto measure = [&](std::uint64_t seed) {
+      TestRenderOptions options;
+      options.seed = seed;
+      return MeanRadiance(RenderSceneText(scene, options).image);
+    };
+    const double plate = kAlbedo / kPi64 * std::cos(degrees * kPi64 / 180);
+    const double expected = .01 / kPi64 * plate * FormFactor();
+    EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected)) << degrees << " degrees";
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
