@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Kernels of a density estimate: weight per area of a photon at squared distance d2 from the centre
-// of a disk of squared radius r2. Each integrates to 1 over the disk (docs/exphotonmap.md, eq. 10).
+// KernelDisk: the weight per area of a photon at squared distance d2 from the centre of a disk of
+// squared radius r2. Each kernel integrates to 1 over the disk (docs/exphotonmap.md, eq. 10).
+// Simpson's is 3 / (pi r^2) (1 - (d/r)^2)^2 (Silverman 1986, "biweight").
 #pragma once
 
 #include <algorithm>
@@ -9,13 +10,6 @@
 #include "integrators/photon/photon_settings.h"
 
 namespace exphoton {
-
-inline Real ConstantKernel(Real d2, Real r2) { return d2 < r2 ? kInvPi / r2 : Real(0); }
-
-// Simpson's kernel (Silverman 1986, "biweight"): 3 / (pi r^2) (1 - (d/r)^2)^2.
-inline Real SimpsonKernel(Real d2, Real r2) {
-  return d2 < r2 ? 3 * kInvPi / r2 * Square(1 - d2 / r2) : Real(0);
-}
 
 // The weights of all photons of one disk, which share its divisions.
 class KernelDisk {

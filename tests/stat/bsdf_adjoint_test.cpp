@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Under a shading normal photons carry the light that cameras see: the integral of
+// The factor by which photons carry the light that cameras see under a shading normal, as a formula
+// (that photons do carry it: photon_shading_test.cpp): the integral of
 // g(wo) |wo.ng| f(wo, wi) |wi.ns| h(wi) over both directions, once from wo as camera paths sample
 // it and once from wi as photons do (Veach 1997, section 5.3), for patterns g and h.
 #include "core/math/random.h"
@@ -86,14 +87,14 @@ void ExpectEqual(const Bsdf& bsdf, double tolerance) {
 
 constexpr Real kTilt = Real(.3);  // 17 degrees
 
-TEST(BsdfAdjoint, PhotonsCarryWhatCamerasSeeOfADiffuseBump) {
+TEST(BsdfAdjoint, OfADiffuseBumpIsWhatTheFactorMakesEqual) {
   const Lambert white(Spectrum(1));
   Bsdf bsdf(TiltedSurface(kTilt));
   bsdf.Add(&white);
   ExpectEqual(bsdf, .01);
 }
 
-TEST(BsdfAdjoint, PhotonsCarryWhatCamerasSeeOfALeafAndAGloss) {
+TEST(BsdfAdjoint, OfALeafAndAGlossIsWhatTheFactorMakesEqual) {
   const Lambert front{Spectrum(Real(.4))};
   const Transmitted<Lambert> through{Lambert(Spectrum(Real(.3)))};
   const Microfacet gloss{Spectrum(Real(.3)), Fresnel::None(), 5};

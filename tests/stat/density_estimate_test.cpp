@@ -64,9 +64,8 @@ TEST_P(PlaneEstimate, IsUnbiasedWhetherTheKPhotonsAreFoundOrNot) {
   // A radius that holds half of k, about k, and much more than k photons on average.
   for (double expected : {.5, 1.0, 6.0}) {
     const Real radius = Real(std::sqrt(expected * k / (kDensity * 3.14159265)));
-    const Statistic s = OverMaps(maps, radius, [&](const PhotonMap& map) {
-      return KernelEstimate(map, kernel, k, radius);
-    });
+    const Statistic s = OverMaps(
+        maps, radius, [&](const PhotonMap& map) { return KernelEstimate(map, kernel, k, radius); });
     EXPECT_LE(std::abs(s.mean / kDensity - 1) + 4 * s.standardError / kDensity, .02)
         << "k " << k << ", expected photons in the radius " << expected * k;
   }
@@ -79,15 +78,20 @@ INSTANTIATE_TEST_SUITE_P(Kernels, PlaneEstimate,
 
 TEST(DensityKernels, IntegrateToOneOverTheirDisk) {
   const double r = 1.7;
-  double constant = 0, simpson = 0;
+  const KernelDisk constant(DensityKernel::Constant, Real(r * r));
+  const KernelDisk simpson(DensityKernel::Simpson, Real(r * r));
+  double ofConstant = 0, ofSimpson = 0;
   const int rings = 20000;
   for (int i = 0; i < rings; ++i) {
     const double d = (i + .5) / rings * r, area = 2 * 3.14159265358979 * d * r / rings;
-    constant += area * double(ConstantKernel(Real(d * d), Real(r * r)));
-    simpson += area * double(SimpsonKernel(Real(d * d), Real(r * r)));
+    ofConstant += area * double(constant.Weight(Real(d * d)));
+    ofSimpson += area * double(simpson.Weight(Real(d * d)));
   }
-  EXPECT_NEAR(constant, 1, 1e-4);
-  EXPECT_NEAR(simpson, 1, 1e-4);
+  EXPECT_NEAR(ofConstant, 1, 1e-4);
+  EXPECT_NEAR(ofSimpson, 1, 1e-4);
+  // 3 (1 - 1/4)^2 / (pi r^2) halfway out, nothing beyond.
+  EXPECT_NEAR(simpson.Weight(Real(r * r / 4)), 3 * .5625 / (3.14159265358979 * r * r), 1e-6);
+  EXPECT_EQ(simpson.Weight(Real(r * r * 1.01)), 0);
 }
 
 }  // namespace

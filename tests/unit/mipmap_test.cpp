@@ -121,6 +121,39 @@ TEST(MipMap, EllipticalFilterIsAsWideAsItsFootprint) {
   }
 }
 
+// A long footprint along a diagonal: the axes of the ellipse keep their lengths and directions.
+// With axes of a and b texels on the finest level, the variances along them are (a^2 + 1) m and
+// (b^2 + 1) m.
+TEST(MipMap, EllipticalFilterIsAsLongAndAsTurnedAsItsFootprint) {
+  constexpr int n = 128, kAt = 64, kReach = 12, kSteps = 4;
+  std::vector<Real> texels(n * n, Real(0));
+  texels[kAt * n + kAt] = 1;
+  const MipMap<Real> map(n, n, texels, WrapMode::Repeat);
+  const Real a = Real(4 / std::sqrt(2.)) / n, b = Real(1 / std::sqrt(2.)) / n;
+  double sum = 0, along = 0, across = 0, mixed = 0;
+  for (int y = -kReach * kSteps; y < kReach * kSteps; ++y) {
+    for (int x = -kReach * kSteps; x < kReach * kSteps; ++x) {
+      const double dx = (x + .5) / kSteps, dy = (y + .5) / kSteps;
+      const Point2 st(Real((kAt + .5 + dx) / n), Real((kAt + .5 + dy) / n));
+      const double value = double(map.Ewa(st, {a, a}, {b, -b}, 8));
+      const double u = (dx + dy) / std::sqrt(2.), v = (dx - dy) / std::sqrt(2.);
+      sum += value, along += value * u * u, across += value * v * v, mixed += value * u * v;
+    }
+  }
+  EXPECT_NEAR(along / sum / (17 * .1361), 1, .05);
+  EXPECT_NEAR(across / sum / (2 * .1361), 1, .05);
+  EXPECT_NEAR(mixed / sum, 0, .02);
+  // Limited to an anisotropy of 2 the short axis grows to half the long one, on the level of that.
+  double limited = 0, limitedSum = 0;
+  for (int i = -kReach * kSteps; i < kReach * kSteps; ++i) {
+    const double v = (i + .5) / kSteps, d = v / std::sqrt(2.);
+    const Point2 st(Real((kAt + .5 + d) / n), Real((kAt + .5 - d) / n));
+    const double value = double(map.Ewa(st, {a, a}, {b, -b}, 2));
+    limitedSum += value, limited += value * v * v;
+  }
+  EXPECT_GT(limited / limitedSum, 2 * across / sum);
+}
+
 // A long thin footprint across stripes averages them; along them it does not.
 TEST(MipMap, EllipticalFilterIsSharpAcrossItsShortAxis) {
   const int n = 64;

@@ -30,7 +30,9 @@ TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
                                      "]";
         const TestRender render = RenderSceneText(Sphere(settings, kPoint, kMatte));
         EXPECT_EQ(render.result.nonFiniteSamples, 0);
-        EXPECT_GT(MeanRadiance(render.image), 0) << settings;
+        // Direct light, .5 / pi, is there in any case; all light together is twice that.
+        EXPECT_GT(MeanRadiance(render.image), .159) << settings;
+        EXPECT_LT(MeanRadiance(render.image), indirect < 49 ? 5 : .5) << settings;
       }
 }
 
@@ -117,16 +119,20 @@ TEST(PhotonEdgeCases, TheCamerasDepthLimitWarnsWhereItCuts) {
   EXPECT_FALSE(render(10).Says("the depth limit cut specular paths"));
 }
 
-TEST(PhotonEdgeCases, EveryShownMapRenders) {
+// The lamp lights the whole sphere alike: the irradiance is 1 of direct light, and as much of the
+// further bounces of albedo 1/2 together.
+TEST(PhotonEdgeCases, EveryShownMapHasItsShareOfTheLight) {
   for (const char* integrator : {"photonmap", "exphotonmap"})
-    for (const char* show : {"radiancephotons", "directphotons", "indirectphotons"}) {
-      const TestRender render =
-          RenderSceneText(Sphere(std::string("\"") + integrator +
-                                     "\" \"integer indirectphotons\" [2000] \"string "
-                                     "show\" \"" +
-                                     show + "\"",
-                                 kPoint, kMatte));
-      EXPECT_GT(MeanRadiance(render.image), 0) << integrator << " " << show;
+    for (const auto& [show, irradiance] : {std::pair<std::string, double>{"radiancephotons", 2},
+                                           {"directphotons", 1},
+                                           {"indirectphotons", 1}}) {
+      const TestRender render = RenderSceneText(Sphere(
+          std::string("\"") + integrator +
+              "\" \"integer indirectphotons\" [20000] \"float maxdist\" .2 \"string show\" \"" +
+              show + "\"",
+          kPoint, kMatte));
+      EXPECT_NEAR(MeanRadiance(render.image) / (irradiance * .5 / 3.14159265), 1, .06)
+          << integrator << " " << show;
     }
 }
 
@@ -153,9 +159,9 @@ TEST(PhotonEdgeCases, LightThatHitsNothingEndsWithinItsBudget) {
 }
 
 // 4 pi times this is more than a Real holds.
-constexpr const char* kTooBright =
-    sizeof(Real) == 4 ? "LightSource \"point\" \"color I\" [3e38 3e38 3e38]"
-                      : "LightSource \"point\" \"color I\" [1e308 1e308 1e308]";
+constexpr const char* kTooBright = sizeof(Real) == 4
+                                       ? "LightSource \"point\" \"color I\" [3e38 3e38 3e38]"
+                                       : "LightSource \"point\" \"color I\" [1e308 1e308 1e308]";
 
 TEST(PhotonEdgeCases, PhotonsWithoutFinitePowerAreCountedAndUnderStrictAnError) {
   const std::string text = Sphere(
