@@ -81,9 +81,7 @@ std::string Sentence(const Results& results, const Analysis& analysis) {
   std::string text = "On " + results.title + ", ";
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i == 0)
-      text += order[i]->label +
-              (order[i]->toTarget.kind == Kind::AtMost ? " reaches " : " reaches ") + what +
-              ShortNumber(*analysis.target) +
+      text += order[i]->label + " reaches " + what + ShortNumber(*analysis.target) +
               LineText(*order[i], *fastest).substr(order[i]->label.size());
     else
       text += LineText(*order[i], *fastest);
