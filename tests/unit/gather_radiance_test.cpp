@@ -60,7 +60,7 @@ class PaneTest : public testing::Test {
   Read ReadFrom(const Point3& o, const Vector3& d, const RadianceMap* radianceMap) {
     LayerSample layers;
     LiContext context{*scene_.setup->scene, samples_, arena_, rays_, 1, 1, &layers};
-    const LightDistribution lights(scene_.setup->scene->Lights(), LightSelection::Uniform);
+    const LightSampler lights(*scene_.setup->scene);
     const GatherRadiance gather(maps_, radianceMap, settings_, lights, context, &random_);
     Ray ray;
     ray.o = o;
