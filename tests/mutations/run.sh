@@ -12,6 +12,7 @@ top=$(cd "$here/../.." && pwd)
 copy=${MUTATION_COPY:-$top/build-mutations/src}
 build=${MUTATION_BUILD:-$top/build-mutations/build}
 jobs=${JOBS:-$(nproc)}
+table=${MUTATION_TABLE:-$here/defects.txt}
 batch_size=${MUTATIONS_A_BUILD:-10}
 
 names=() files=() texts=() insteads=() programs=() filters=()
@@ -23,7 +24,7 @@ while IFS= read -r line; do
     '! '*) read -r _ program filter <<<"$line"; programs+=("$program"); filters+=("$filter") ;;
     *) read -r name file <<<"$line"; names+=("$name"); files+=("$file") ;;
   esac
-done <"$here/defects.txt"
+done <"$table"
 count=${#names[@]}
 if [ "${#texts[@]} ${#insteads[@]} ${#filters[@]}" != "$count $count $count" ]; then
   echo "defects.txt: a defect has a line too few or too many" >&2
@@ -77,15 +78,16 @@ noticed_by() {
   printf '%s\n' "$1" | grep -E '^\[  FAILED  \] [^ ]+[.]|^      [^ ]' | head -1 |
     sed -E 's/^\[  FAILED  \] //; s/^ +//; s/,? (where|\().*//'
 }
-put_in() {  # INDEX
+put_in() {  # INDEX; the sources here may change meanwhile
+  cp "$copy/${files[$1]}" "$build/original.$1"
   TEXT=${texts[$1]} INSTEAD=${insteads[$1]} awk '
     BEGIN { text = ENVIRON["TEXT"]; instead = ENVIRON["INSTEAD"] }
     { at = index($0, text)
       if (at && !done) { $0 = substr($0, 1, at - 1) instead substr($0, at + length(text)); done = 1 }
       print }
-    END { exit !done }' "$top/${files[$1]}" >"$copy/${files[$1]}"
+    END { exit !done }' "$build/original.$1" >"$copy/${files[$1]}"
 }
-take_out() { cp "$top/${files[$1]}" "$copy/${files[$1]}"; }
+take_out() { cat "$build/original.$1" >"$copy/${files[$1]}"; }
 
 chosen=()
 for ((i = 0; i < count; ++i)); do

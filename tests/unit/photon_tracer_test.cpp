@@ -84,9 +84,9 @@ TEST_P(PhotonSeeds, MakeTheNoiseOfTwoHalvesThatOfMaps) {
                             {}, &first, &second)
                 .noise;
   };
-  const double ofFew = noise(4);
+  const double ofFew = noise(16);
   EXPECT_GT(ofFew, 0);
-  EXPECT_GT(noise(64), .25 * ofFew);  // of camera samples alone: 1/16 or less
+  EXPECT_GT(noise(256), .25 * ofFew);  // of camera samples alone: 1/16 or less
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, PhotonSeeds, testing::Values("photonmap", "exphotonmap"));
