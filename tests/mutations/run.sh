@@ -126,22 +126,29 @@ while [ ${#chosen[@]} -gt 0 ]; do
   for i in "${batch[@]}"; do
     put_in "$i" || { echo "${names[i]}: its text is not in ${files[i]}"; missed=1; }
   done
-  if build_all >"$build/mutation.log"; then
+  # One that does not compile must not hide the others.
+  while [ ${#batch[@]} -gt 0 ] && ! build_all >"$build/mutation.log"; do
+    kept=()
     for i in "${batch[@]}"; do
-      if [ "${passes[${programs[i]} ${filters[i]}]}" = no ]; then
-        continue
-      elif output=$(run_tests "${programs[i]}" "${filters[i]}"); then
-        echo "${names[i]}: NOT NOTICED by ${programs[i]} ${filters[i]}"; missed=1
+      if grep -F -- "${files[i]}" "$build/mutation.log" | grep -q 'error'; then
+        echo "${names[i]}: does not compile"; missed=1
+        take_out "$i"
       else
-        echo "${names[i]}: $(noticed_by "$output")"; noticed=$((noticed + 1))
+        kept+=("$i")
       fi
     done
-  else
-    echo "does not compile with one of these:"
-    for i in "${batch[@]}"; do echo "  ${names[i]}"; done
-    grep -E 'error' "$build/mutation.log" | head -5
-    missed=1
-  fi
+    [ ${#kept[@]} -lt ${#batch[@]} ] || { tail -20 "$build/mutation.log"; exit 1; }
+    batch=("${kept[@]}")
+  done
+  for i in "${batch[@]}"; do
+    if [ "${passes[${programs[i]} ${filters[i]}]}" = no ]; then
+      continue
+    elif output=$(run_tests "${programs[i]}" "${filters[i]}"); then
+      echo "${names[i]}: NOT NOTICED by ${programs[i]} ${filters[i]}"; missed=1
+    else
+      echo "${names[i]}: $(noticed_by "$output")"; noticed=$((noticed + 1))
+    fi
+  done
   for i in "${batch[@]}"; do take_out "$i"; done
 done
 echo "$noticed noticed, of $count in the table; $((SECONDS / 60)) min $((SECONDS % 60)) s"
