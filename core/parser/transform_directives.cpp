@@ -19,12 +19,38 @@ Transform Require(const std::optional<Transform>& transform, const Directive& di
   return *transform;
 }
 
+// Part of the sixteenth number that the 4th, 8th and 12th may be: rounding of a program that
+// computed the matrix in double.
+constexpr double kRowNoise = 1e-12;
+
+// The affine map that a matrix in homogeneous coordinates means: all numbers divided by the last.
+// Shapes, bounds and normals use the first three rows only, so a projection has no meaning here.
+Matrix4 AffineMatrix(const Matrix4& matrix, const Directive& directive) {
+  const auto& last = matrix.m[3];
+  for (std::size_t column = 0; column < 3; ++column) {
+    if (std::abs(last[column]) <= kRowNoise * std::abs(last[3])) continue;
+    throw Error(ExitStatus::Scene,
+                std::string(directive.spec->name) + ": the matrix is projective: number " +
+                    std::to_string(column * 4 + 4) + " is not 0",
+                directive.Where(),
+                "the matrix is given column by column; the 4th, 8th and 12th number must be 0");
+  }
+  Matrix4 affine;  // its last row is 0 0 0 1
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column)
+      affine.m[row][column] = matrix.m[row][column] / last[3];
+  return affine;
+}
+
 // Sixteen numbers, column by column.
 Transform MatrixOf(const Directive& directive) {
   Matrix4 matrix;
   for (std::size_t column = 0; column < 4; ++column)
     for (std::size_t row = 0; row < 4; ++row)
       matrix.m[row][column] = directive.numbers[column * 4 + row];
+  // A last row of zeros is singular, as are numbers that are not finite.
+  if (matrix.m[3] != std::array<double, 4>{0, 0, 0, 0} && std::isfinite(matrix.m[3][3]))
+    matrix = AffineMatrix(matrix, directive);
   return Require(Transform::FromMatrix(matrix), directive, "the matrix is singular");
 }
 
