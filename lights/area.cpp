@@ -27,6 +27,7 @@ class DiffuseAreaLight final : public AreaLight {
   DiffuseAreaLight(std::shared_ptr<const EmitterSurface> surface, const Spectrum& radiance,
                    int sampleCount)
       : surface_(std::move(surface)),
+        area_(surface_->Area()),
         bounds_(surface_->Bounds()),
         radiance_(radiance),
         sampleCount_(sampleCount) {}
@@ -34,7 +35,7 @@ class DiffuseAreaLight final : public AreaLight {
   bool IsProvablyBlack() const override { return radiance_.IsBlack(); }
   int SampleCount() const override { return sampleCount_; }
   std::optional<Bounds3> Bounds() const override { return bounds_; }
-  Spectrum Power() const override { return radiance_ * (kPi * surface_->Area()); }
+  Spectrum Power() const override { return radiance_ * (kPi * area_); }
   bool MayMeet(const Ray& ray) const override {
     return IntersectBox(bounds_, ray.o, ray.d, ray.tMax).has_value();
   }
@@ -57,23 +58,24 @@ class DiffuseAreaLight final : public AreaLight {
   }
 
   // By area, cosine about the normal: every ray carries the same power (at one time).
-  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
-                                               Real uPart, Real time) const override {
+  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real uPart,
+                                               Real time) const override {
     EmitterSample sample = surface_->SamplePoint(uPosition, uPart, time);
     sample.point.time = time;
     const Vector3 local = SampleCosineHemisphere(uDirection);
     const Vector3 w = Frame::FromZ(sample.point.ng).ToWorld(local);
-    // 1 but for surfaces that are stretched as they move.
-    const Real stretched = 1 / surface_->Area() / sample.pdf;
+    // 1 but for surfaces that are stretched unevenly, or as they move.
+    const Real stretched = 1 / area_ / sample.pdf;
     return EmissionSample{SpawnRay(sample.point, w), Power() * stretched, sample.pdf,
                           CosineHemispherePdf(local.z)};
   }
   EmissionPdf PdfEmission(const SurfacePoint& from, const Vector3& w) const override {
-    return {1 / surface_->Area(), CosineHemispherePdf(Dot(from.ng, w))};
+    return {1 / area_, CosineHemispherePdf(Dot(from.ng, w))};
   }
 
  private:
   std::shared_ptr<const EmitterSurface> surface_;
+  Real area_;
   Bounds3 bounds_;
   Spectrum radiance_;
   int sampleCount_;

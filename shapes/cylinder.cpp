@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // cylinder: an open tube about z between zmin and zmax, swept by phimax degrees. u runs with the
 // azimuth, v from zmin to zmax. Sampled by area.
+#include "core/geometry/placed_emitter.h"
 #include "core/plugin.h"
 #include "shapes/quadric/quadric.h"
 
@@ -38,18 +39,33 @@ class Cylinder final : public QuadricShape {
         zMax_(double(std::max(settings.zMin, settings.zMax))),
         phiMax_(double(settings.phiMaxDegrees) * (3.14159265358979323846 / 180)),
         isRound_(settings.phiMaxDegrees == 360),
-        area_(Real(phiMax_ * radius_ * (zMax_ - zMin_) * AreaScale().value_or(0))) {}
+        area_(Real(phiMax_ * radius_ * (zMax_ - zMin_) * AreaScale().value_or(0))) {
+    if (!AreaScale()) {
+      uneven_ = std::make_unique<PlacedEmitter>(
+          std::make_unique<Cylinder>(settings, InOwnSpace(context)), objectToWorld_);
+    }
+  }
 
-  Real Area() const override { return area_; }
-  const char* EmitterProblem() const override { return AreaScale() ? nullptr : kNeedsSimilarity; }
+  Real Area() const override { return uneven_ ? uneven_->Area() : area_; }
   Bounds3 Bounds() const override {
     const Real r = Real(radius_);
     return objectToWorld_.ApplyBounds({{-r, -r, Real(zMin_)}, {r, r, Real(zMax_)}});
   }
 
-  EmitterSample SamplePoint(Point2 u, Real, Real) const override {
+  EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const override {
+    if (uneven_) return uneven_->SamplePoint(u, uPart, time);
     const double phi = double(u.y) * phiMax_, z = zMin_ + double(u.x) * (zMax_ - zMin_);
     return MakeSample(Describe({radius_ * std::cos(phi), radius_ * std::sin(phi), z}), 1 / area_);
+  }
+  std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
+                                            Real uPart) const override {
+    if (uneven_) return uneven_->SampleToward(ref, u, uPart);
+    return EmitterSurface::SampleToward(ref, u, uPart);
+  }
+  Real PdfToward(const SurfacePoint& ref, const Vector3& wi,
+                 const SurfacePoint& on) const override {
+    if (uneven_) return uneven_->PdfToward(ref, wi, on);
+    return EmitterSurface::PdfToward(ref, wi, on);
   }
 
  protected:
@@ -77,6 +93,7 @@ class Cylinder final : public QuadricShape {
   double radius_, zMin_, zMax_, phiMax_;
   bool isRound_;
   Real area_;
+  std::unique_ptr<const PlacedEmitter> uneven_;  // where axes are scaled differently
 };
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // sphere: the part of a sphere round the origin between the planes z = zmin and z = zmax, swept by
 // phimax degrees about z. u runs with the azimuth, v from zmin to zmax. A whole sphere is sampled
-// towards a point by the cone that it fills; parts of one by area.
+// towards a point by the cone that it fills; parts of one by area. An ellipsoid (a sphere under
+// uneven scale) is sampled as the sphere that it is in its own space.
+#include "core/geometry/placed_emitter.h"
 #include "core/math/sampling.h"
 #include "core/plugin.h"
 #include "shapes/quadric/quadric.h"
@@ -52,10 +54,13 @@ class Sphere final : public QuadricShape {
     worldRadius_ = radius_ * std::sqrt(scale2);
     const auto& m = objectToWorld_.Matrix().m;
     worldCenter_ = {m[0][3], m[1][3], m[2][3]};
+    if (!AreaScale()) {
+      uneven_ = std::make_unique<PlacedEmitter>(
+          std::make_unique<Sphere>(settings, InOwnSpace(context)), objectToWorld_);
+    }
   }
 
-  Real Area() const override { return area_; }
-  const char* EmitterProblem() const override { return AreaScale() ? nullptr : kNeedsSimilarity; }
+  Real Area() const override { return uneven_ ? uneven_->Area() : area_; }
 
   Bounds3 Bounds() const override {
     if (!isWhole_) {
@@ -74,7 +79,8 @@ class Sphere final : public QuadricShape {
     return bounds;
   }
 
-  EmitterSample SamplePoint(Point2 u, Real, Real) const override {
+  EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const override {
+    if (uneven_) return uneven_->SamplePoint(u, uPart, time);
     const double z = zMin_ + double(u.x) * (zMax_ - zMin_), phi = double(u.y) * phiMax_;
     const double r = std::sqrt(std::max((radius_ - z) * (radius_ + z), 0.0));
     return MakeSample(Describe({r * std::cos(phi), r * std::sin(phi), z}), 1 / area_);
@@ -82,6 +88,7 @@ class Sphere final : public QuadricShape {
 
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
                                             Real uPart) const override {
+    if (uneven_) return uneven_->SampleToward(ref, u, uPart);
     const View view = ViewFrom(ref);
     if (view.where == View::Near) return EmitterSurface::SampleToward(ref, u, uPart);
     const Frame frame = Frame::FromZ(view.axis.ToReal());
@@ -111,6 +118,7 @@ class Sphere final : public QuadricShape {
 
   Real PdfToward(const SurfacePoint& ref, const Vector3& wi,
                  const SurfacePoint& on) const override {
+    if (uneven_) return uneven_->PdfToward(ref, wi, on);
     const View view = ViewFrom(ref);
     switch (view.where) {
       case View::Inside:
@@ -183,6 +191,7 @@ class Sphere final : public QuadricShape {
   Real area_;
   double worldRadius_;
   Vec3d worldCenter_;
+  std::unique_ptr<const PlacedEmitter> uneven_;  // where axes are scaled differently
 };
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {

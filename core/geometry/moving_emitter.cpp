@@ -2,7 +2,7 @@
 // Asking a surface at rest on behalf of one that moves.
 #include "core/geometry/moving_emitter.h"
 
-#include "core/geometry/placement.h"
+#include "core/geometry/placed_emitter.h"
 
 namespace exphoton {
 
@@ -10,9 +10,7 @@ namespace exphoton {
 // Simpson's rule has its mean exactly. Where axes are scaled differently it is an estimate.
 MovingEmitter::MovingEmitter(std::shared_ptr<const EmitterSurface> local, const Motion& motion)
     : local_(std::move(local)), motion_(motion), bounds_(motion.ApplyBounds(local_->Bounds())) {
-  const auto scale = [&](Real time) {
-    return std::pow(motion.At(time).VolumeScale(), 2. / 3);
-  };
+  const auto scale = [&](Real time) { return std::pow(motion.At(time).VolumeScale(), 2. / 3); };
   const Interval times = motion.Times();
   const double mean =
       (scale(times.min) + 4 * scale(times.min / 2 + times.max / 2) + scale(times.max)) / 6;
@@ -20,31 +18,17 @@ MovingEmitter::MovingEmitter(std::shared_ptr<const EmitterSurface> local, const 
 }
 
 EmitterSample MovingEmitter::SamplePoint(Point2 u, Real uPart, Real time) const {
-  const Transform toWorld = motion_.At(time);
-  const EmitterSample local = local_->SamplePoint(u, uPart, time);
-  return {PointToWorld(toWorld, local.point), local.uv,
-          local.pdf / AreaScale(toWorld, local.point.ng)};
+  return SamplePlacedPoint(*local_, motion_.At(time), u, uPart, time);
 }
 
 std::optional<EmitterSample> MovingEmitter::SampleToward(const SurfacePoint& ref, Point2 u,
                                                          Real uPart) const {
-  const Transform toWorld = motion_.At(ref.time);
-  const auto local = local_->SampleToward(PointToLocal(toWorld.Inverted(), ref), u, uPart);
-  if (!local) return std::nullopt;
-  EmitterSample sample{PointToWorld(toWorld, local->point), local->uv, 0};
-  sample.point.time = ref.time;
-  const Vector3 wi = NormalizeOr(sample.point.p - ref.p, Vector3());
-  sample.pdf = local->pdf * SolidAngleScale(toWorld, wi);
-  if (!(sample.pdf > 0) || !std::isfinite(sample.pdf)) return std::nullopt;
-  return sample;
+  return SamplePlacedToward(*local_, motion_.At(ref.time), ref, u, uPart);
 }
 
 Real MovingEmitter::PdfToward(const SurfacePoint& ref, const Vector3& wi,
                               const SurfacePoint& on) const {
-  const Transform toWorld = motion_.At(ref.time), toLocal = toWorld.Inverted();
-  const Vector3 local = NormalizeOr(toLocal.ApplyVector(wi), Vector3());
-  return local_->PdfToward(PointToLocal(toLocal, ref), local, PointToLocal(toLocal, on)) *
-         SolidAngleScale(toWorld, wi);
+  return PdfPlacedToward(*local_, motion_.At(ref.time), ref, wi, on);
 }
 
 }  // namespace exphoton

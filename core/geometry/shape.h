@@ -30,13 +30,15 @@ class EmitterSurface {
  public:
   virtual ~EmitterSurface() = default;
 
-  virtual Real Area() const = 0;  // of one whose area changes: about the mean
+  // Area of the surface; about the mean of one whose area changes. May be slow: ask once.
+  virtual Real Area() const = 0;
   virtual Bounds3 Bounds() const = 0;  // at all times
   // Why this surface cannot carry an area light, as a sentence; null where it can.
   virtual const char* EmitterProblem() const { return nullptr; }
 
-  // Uniform by area: pdf = 1 / Area() (where it moves: as its space is stretched then). u chooses
-  // the point, uPart the part where there are several. The caller sets the point's time.
+  // Uniform by area, pdf = 1 / Area(), unless a map stretches the surface unevenly: then uniform
+  // before that map, with the density that this has behind it. u chooses the point, uPart the part
+  // where there are several. The caller sets the point's time.
   virtual EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const = 0;
 
   // A point seen from ref; density per solid angle at ref. nullopt: no sample (edge-on, degenerate).

@@ -63,6 +63,10 @@ class QuadricShape : public Shape {
   EmitterSample MakeSample(const QuadricPoint& point, Real areaPdf) const;
   // Scale factor of areas where it is the same for all normals, else nullopt.
   std::optional<double> AreaScale() const;
+  // The same shape in its own space, where every area is its own.
+  static ShapeContext InOwnSpace(const ShapeContext& context) {
+    return {Transform(), context.reverseOrientation, context.log, context.where};
+  }
 
   Transform objectToWorld_;
   double side_;  // -1 where the scene reverses the orientation
@@ -70,10 +74,5 @@ class QuadricShape : public Shape {
  private:
   Normal3 NormalToWorld(const Vec3d& n) const;
 };
-
-// Message of EmitterProblem where the transformation is no similarity.
-inline constexpr const char* kNeedsSimilarity =
-    "an area light on this shape needs a transformation that scales all axes alike "
-    "(a triangle mesh or a disk can be scaled in any way)";
 
 }  // namespace exphoton

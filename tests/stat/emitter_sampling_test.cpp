@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kTests = 15;
+constexpr int kTests = 19;
 
 struct Case {
   const char* name;
@@ -21,7 +21,10 @@ struct Case {
   Point3 ref;
   // Whether one direction may be made by points behind each other; then all of them count.
   bool countsAllHits;
+  Transform toWorld = {};
 };
+
+const Transform kUneven = *Transform::Rotate(40, {1, 2, -1}) * *Transform::Scale(1.4, .5, -.9);
 
 const Case kCases[] = {
     {"SphereOutside", R"("sphere")", {3, 1, -2}, false},
@@ -37,12 +40,16 @@ const Case kCases[] = {
         "point P" [-1 -1 0  2 -1 0  2 1 1  -1 1 0])",
      {0, 0, 3},
      true},
+    {"EllipsoidOutside", R"("sphere")", {3, 1, -2}, false, kUneven},
+    {"EllipsoidInside", R"("sphere")", {Real(.2), Real(.1), Real(-.1)}, false, kUneven},
+    {"PartOfAnEllipsoid", R"("sphere" "float zmax" .3)", {Real(.2), Real(.1), 0}, true, kUneven},
+    {"EllipticTube", R"("cylinder" "float phimax" 200)", {1, -1, 2}, true, kUneven},
 };
 
 class EmitterSampling : public testing::TestWithParam<Case> {
  protected:
   EmitterSampling() {
-    ShapeGeometry geometry = plugins_.MakeShape(GetParam().shape);
+    ShapeGeometry geometry = plugins_.MakeShape(GetParam().shape, GetParam().toWorld);
     if (auto* shape = std::get_if<std::unique_ptr<Shape>>(&geometry)) {
       std::shared_ptr<const Shape> shared = std::move(*shape);
       emitter_ = shared;

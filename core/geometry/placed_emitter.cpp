@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Densities of a local surface, changed by the factors of placement.h.
+#include "core/geometry/placed_emitter.h"
+
+#include "core/geometry/placement.h"
+
+namespace exphoton {
+
+EmitterSample SamplePlacedPoint(const EmitterSurface& local, const Transform& toWorld, Point2 u,
+                                Real uPart, Real time) {
+  const EmitterSample sample = local.SamplePoint(u, uPart, time);
+  return {PointToWorld(toWorld, sample.point), sample.uv,
+          sample.pdf / AreaScale(toWorld, sample.point.ng)};
+}
+
+std::optional<EmitterSample> SamplePlacedToward(const EmitterSurface& local,
+                                                const Transform& toWorld, const SurfacePoint& ref,
+                                                Point2 u, Real uPart) {
+  const auto inside = local.SampleToward(PointToLocal(toWorld.Inverted(), ref), u, uPart);
+  if (!inside) return std::nullopt;
+  EmitterSample sample{PointToWorld(toWorld, inside->point), inside->uv, 0};
+  sample.point.time = ref.time;
+  const Vector3 wi = NormalizeOr(sample.point.p - ref.p, Vector3());
+  sample.pdf = inside->pdf * SolidAngleScale(toWorld, wi);
+  if (!(sample.pdf > 0) || !std::isfinite(sample.pdf)) return std::nullopt;
+  return sample;
+}
+
+Real PdfPlacedToward(const EmitterSurface& local, const Transform& toWorld, const SurfacePoint& ref,
+                     const Vector3& wi, const SurfacePoint& on) {
+  const Transform toLocal = toWorld.Inverted();
+  const Vector3 inside = NormalizeOr(toLocal.ApplyVector(wi), Vector3());
+  return local.PdfToward(PointToLocal(toLocal, ref), inside, PointToLocal(toLocal, on)) *
+         SolidAngleScale(toWorld, wi);
+}
+
+Real PlacedEmitter::Area() const {
+  constexpr int kSide = 64;
+  double sum = 0;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const Point2 u((Real(i % kSide) + Real(.5)) / kSide, (Real(i / kSide) + Real(.5)) / kSide);
+    const EmitterSample sample = local_->SamplePoint(u, Real(.5), 0);
+    sum += double(AreaScale(toWorld_, sample.point.ng)) / double(sample.pdf);
+  }
+  return Real(sum / (kSide * kSide));
+}
+
+}  // namespace exphoton
