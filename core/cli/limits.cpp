@@ -18,7 +18,8 @@ namespace exphoton::cli {
 namespace {
 
 constexpr const char* kForm =
-    "--limits takes memory=SIZE and time=TIME, for example memory=2G,time=60s, not \"";
+    "--limits takes memory=SIZE, time=TIME, includes=N and texturenodes=N, for example "
+    "memory=2G,time=60s, not \"";
 
 double ParseBytes(const std::string& text) {
   double value = 0;
@@ -32,6 +33,15 @@ double ParseBytes(const std::string& text) {
   return value;
 }
 
+std::int64_t ParseCount(const std::string& name, const std::string& text) {
+  std::int64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || next != end || value < 1)
+    FailUsage("--limits " + name + " takes a whole number above 0, not \"" + text + '"');
+  return value;
+}
+
 }  // namespace
 
 Limits ParseLimits(const std::string& text) {
@@ -40,13 +50,18 @@ Limits ParseLimits(const std::string& text) {
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t equals = part.find('=');
     const std::string name = part.substr(0, equals);
-    if (equals == std::string::npos || (name != "memory" && name != "time"))
-      FailUsage(kForm + text + '"');
+    if (equals == std::string::npos) FailUsage(kForm + text + '"');
     const std::string value = part.substr(equals + 1);
     if (name == "memory")
       limits.memoryBytes = ParseBytes(value);
-    else
+    else if (name == "time")
       limits.seconds = ParseDuration("--limits time", value);
+    else if (name == "includes")
+      limits.scene.includes = ParseCount(name, value);
+    else if (name == "texturenodes")
+      limits.scene.textureNodes = ParseCount(name, value);
+    else
+      FailUsage(kForm + text + '"');
   }
   return limits;
 }
@@ -64,8 +79,8 @@ void LimitMemory(const Limits& limits) {
 
 void AddLimitsOption(OptionParser& app, std::string* text) {
   app.Add("--limits", *text,
-          "what files may cost at most: memory=SIZE, time=TIME until the first pixel, separated "
-          "by commas")
+          "what files may cost at most: memory=SIZE, time=TIME until the first pixel, includes=N, "
+          "texturenodes=N a lookup; separated by commas")
       .TakeLast()
       .TypeName("LIST");
 }

@@ -115,6 +115,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   Exclude(command->asTwoHalves, command->HasStoppingRule(),
           "--two-halves and --time-limit or --target-error exclude each other");
   command->limits = ParseLimits(raw.limits);
+  load.limits = command->limits.scene;
   if (!raw.layers.empty()) command->layers = ParseLayerList(raw.layers);
   command->asHalf = !raw.asFloat;
   command->showsProgress = !raw.hidesProgress && !raw.isQuiet;

@@ -60,6 +60,7 @@ LoadOptions SceneOptions(const Options& options) {
   LoadOptions load;
   load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
   load.allowsScenePlugins = options.allowsScenePlugins;
+  load.limits = ParseLimits(options.limits).scene;
   load.stop = &StopFlag();
   load.threads = options.threads;
   if (!options.integrator.empty()) load.integrator = options.integrator;

@@ -47,6 +47,7 @@ LoadOptions SceneOptions(const StudyOptions& options) {
   LoadOptions load;
   load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
   load.allowsScenePlugins = options.allowsScenePlugins;
+  load.limits = ParseLimits(options.limits).scene;
   load.stop = &StopFlag();
   for (const std::string& set : options.sets) {
     const ParameterOverride value = ParseOverride(set);

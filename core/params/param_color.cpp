@@ -42,8 +42,11 @@ std::string ReadSmallFile(const std::string& path) {
   return text.str();
 }
 
-// Numbers between blanks; '#' begins a comment. The C locale is that of the program.
-std::vector<double> ParseNumbers(const std::string& text) {
+// Numbers between blanks; '#' begins a comment. Lines end with LF, CR LF or CR. The C locale is
+// that of the program.
+std::vector<double> ParseNumbers(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';
   std::vector<double> numbers;
   std::istringstream lines(text);
   int count = 0;
@@ -179,22 +182,22 @@ std::any ParamReader::ReadTexture() const {
   NeedCount(1);
   const std::string& name = param_.strings[0];
   if (!context_.textures) Fail("cannot be a texture here", param_.where);
-  const TexturePtr<Real> floats = context_.textures->Float(name);
-  const TexturePtr<Spectrum> colors = context_.textures->Color(name);
+  const TextureLookup& textures = *context_.textures;
   TexturePtr<T> texture;
   if constexpr (isColor) {
-    texture = colors;
+    texture = textures.Color(name);
   } else {
-    texture = floats;
+    texture = textures.Float(name);
   }
   if (texture) return texture;
-  if (floats || colors) {
+  // The other kind is looked up for the message only: a lookup counts as a use.
+  if (isColor ? textures.Float(name) != nullptr : textures.Color(name) != nullptr) {
     Fail(std::string("needs a ") + (isColor ? "color" : "float") + " texture, and \"" + name +
              "\" is a " + (isColor ? "float" : "color") + " texture",
          Place(0));
   }
   Fail("names a texture that is not defined: \"" + name + '"', Place(0),
-       DidYouMean(name, context_.textures->Names()));
+       DidYouMean(name, textures.Names()));
 }
 
 template std::any ParamReader::ReadTexture<Real>() const;

@@ -17,37 +17,7 @@ const char* BlockName(StateStack::Block block) {
   return "";
 }
 
-template <class T>
-T FindIn(const std::map<std::string, T>& map, const std::string& name) {
-  const auto found = map.find(name);
-  return found == map.end() ? T() : found->second;
-}
-
 }  // namespace
-
-TexturePtr<Real> TextureTable::Float(const std::string& name) const { return FindIn(float_, name); }
-TexturePtr<Spectrum> TextureTable::Color(const std::string& name) const {
-  return FindIn(color_, name);
-}
-
-std::vector<std::string> TextureTable::Names() const {
-  std::vector<std::string> names;
-  for (const auto& [name, texture] : float_) names.push_back(name);
-  for (const auto& [name, texture] : color_)
-    if (!float_.contains(name)) names.push_back(name);
-  return names;
-}
-
-bool TextureTable::Has(const std::string& name, bool isColor) const {
-  return isColor ? color_.contains(name) : float_.contains(name);
-}
-
-void TextureTable::Define(const std::string& name, TexturePtr<Real> texture) {
-  float_[name] = std::move(texture);
-}
-void TextureTable::Define(const std::string& name, TexturePtr<Spectrum> texture) {
-  color_[name] = std::move(texture);
-}
 
 TextureTable& GraphicsState::OwnTextures() {
   if (textures.use_count() > 1) textures = std::make_shared<TextureTable>(*textures);

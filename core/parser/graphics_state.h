@@ -10,28 +10,10 @@
 
 #include "core/params/param_set.h"
 #include "core/parser/moving_transform.h"
+#include "core/parser/texture_table.h"
 #include "core/scattering/material.h"
 
 namespace exphoton {
-
-// The textures defined so far. Shared by states until one of them defines another.
-class TextureTable final : public TextureLookup {
- public:
-  TexturePtr<Real> Float(const std::string& name) const override;
-  TexturePtr<Spectrum> Color(const std::string& name) const override;
-  std::vector<std::string> Names() const override;
-  bool Has(const std::string& name, bool isColor) const;
-
-  void Define(const std::string& name, TexturePtr<Real> texture);
-  void Define(const std::string& name, TexturePtr<Spectrum> texture);
-
-  // Changes when a name gets another meaning: materials made before are then made anew.
-  int generation = 0;
-
- private:
-  std::map<std::string, TexturePtr<Real>> float_;
-  std::map<std::string, TexturePtr<Spectrum>> color_;
-};
 
 // A Material directive. The object is made when a shape first wears it, with the textures known
 // there; later shapes share it.

@@ -62,8 +62,8 @@ std::string Describe(const Token& token) {
 
 class Parser {
  public:
-  Parser(SceneSource& source, const std::string& path, DirectiveHandler& handler, Log& log)
-      : tokens_(source, path), handler_(handler), log_(log) {}
+  Parser(Tokenizer tokens, DirectiveHandler& handler, Log& log)
+      : tokens_(std::move(tokens)), handler_(handler), log_(log) {}
 
   void Run() {
     Advance();
@@ -240,8 +240,9 @@ void Parser::ParseValue(ParsedParam* param, ValueKind kind) {
 
 }  // namespace
 
-void ParseScene(SceneSource& source, const std::string& path, DirectiveHandler& handler, Log& log) {
-  Parser(source, path, handler, log).Run();
+void ParseScene(SceneSource& source, const std::string& path, DirectiveHandler& handler, Log& log,
+                const SceneLimits& limits) {
+  Parser(Tokenizer(source, path, limits.includes), handler, log).Run();
 }
 
 }  // namespace exphoton

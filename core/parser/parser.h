@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/parser/directive.h"
+#include "core/parser/scene_limits.h"
 #include "core/parser/source.h"
 
 namespace exphoton {
@@ -22,6 +23,7 @@ class DirectiveHandler {
 
 // Throws Error(File) where `path` cannot be read, Error(Scene) for what is wrong in it. The log
 // gets the warnings (a parameter given twice).
-void ParseScene(SceneSource& source, const std::string& path, DirectiveHandler& handler, Log& log);
+void ParseScene(SceneSource& source, const std::string& path, DirectiveHandler& handler, Log& log,
+                const SceneLimits& limits = {});
 
 }  // namespace exphoton

@@ -12,6 +12,7 @@
 
 #include "core/imaging/camera.h"
 #include "core/imaging/film.h"
+#include "core/parser/scene_limits.h"
 #include "core/parser/source.h"
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
@@ -36,6 +37,7 @@ struct LoadOptions {
   bool allowsScenePlugins = false;         // folders that a scene file names are searched, too
   bool isStrict = false;                   // unknown parameters are errors
   Dialect dialect = Dialect::V1;
+  SceneLimits limits;
   int threads = 1;  // that may build accelerators; 0: as many as there are cores
   const std::atomic<bool>* stop = nullptr;  // set from outside: loading throws LoadingStopped
 

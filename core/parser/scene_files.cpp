@@ -54,7 +54,7 @@ SceneFiles ScanScene(SceneSource& source, const std::string& path, const LoadOpt
   Log silent(Log::Level::Quiet, Log::Sink::Memory);
   try {
     FileCollector collector(options, &files);
-    ParseScene(source, path, collector, silent);
+    ParseScene(source, path, collector, silent, options.limits);
   } catch (const Error&) {
     // What is wrong is said when the scene is loaded.
   }

@@ -12,7 +12,7 @@ namespace exphoton {
 void SceneBuilder::BeginWorld(const Directive& directive) {
   worldBegin_ = directive.Where();
   render_->SetDefaultPlace(directive.Where());
-  world_.emplace(*registry_, log_, options_.isStrict, render_->Accelerator(*registry_),
+  world_.emplace(*registry_, log_, options_, render_->Accelerator(*registry_),
                  render_->TransformTimes());
   state_.transform = MovingTransform();
   state_.active = ActiveTimes::All;
@@ -73,7 +73,7 @@ std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const 
                                                      const LoadOptions& options, Log& log) {
   try {
     SceneBuilder builder(path == "-" ? "<stdin>" : path, options, log);
-    ParseScene(source, path, builder, log);
+    ParseScene(source, path, builder, log, options.limits);
     std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();
     for (const auto& setup : setups) AddFilesRead(source, setup.get());
     return setups;

@@ -39,7 +39,8 @@ std::string Printable(std::string_view text, std::size_t limit) {
   return shown;
 }
 
-Tokenizer::Tokenizer(SceneSource& source, const std::string& path) : source_(source) {
+Tokenizer::Tokenizer(SceneSource& source, const std::string& path, std::int64_t maxIncludes)
+    : source_(source), maxIncludes_(maxIncludes) {
   const std::string name = path == "-" ? "<stdin>" : path;
   try {
     Open(name, source_.Read(path, false), nullptr);
@@ -71,6 +72,9 @@ void Tokenizer::Include(const std::string& name, const TextPosition& where) {
   }
   if (int(files_.size()) > kMaxIncludeDepth)
     Fail("files are included more than " + std::to_string(kMaxIncludeDepth) + " deep", where);
+  if (++includes_ > maxIncludes_)
+    Fail("the scene includes more than " + std::to_string(maxIncludes_) + " files", where,
+         "a file counts each time that it is included; --limits includes=N allows N");
   auto from = std::make_shared<const SourceLocation>(Locate(where));
   try {
     Open(path, source_.Read(path, true), std::move(from));
@@ -110,11 +114,13 @@ bool Tokenizer::SkipBlanks() {
   std::size_t at = file_->offset;
   for (; at < text.size(); ++at) {
     const char c = text[at];
-    if (c == '\n') {
+    // Lines end with LF, CR LF or, in files of old systems, CR alone.
+    const bool isLoneReturn = c == '\r' && (at + 1 == text.size() || text[at + 1] != '\n');
+    if (c == '\n' || isLoneReturn) {
       ++file_->line;
       file_->lineStart = at + 1;
     } else if (c == '#') {
-      const std::size_t end = text.find('\n', at);
+      const std::size_t end = text.find_first_of("\r\n", at);
       at = (end == std::string::npos ? text.size() : end) - 1;
     } else if (!IsBlank(c)) {
       break;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/parser/scene_limits.h"
 #include "core/parser/source.h"
 
 namespace exphoton {
@@ -35,8 +36,9 @@ class Tokenizer {
   static constexpr std::size_t kMaxStringBytes = 1 << 20;  // of a string or a word
   static constexpr int kMaxIncludeDepth = 32;
 
-  // Throws Error(File) where `path` cannot be read.
-  Tokenizer(SceneSource& source, const std::string& path);
+  // Throws Error(File) where `path` cannot be read. Include fails after maxIncludes calls.
+  Tokenizer(SceneSource& source, const std::string& path,
+            std::int64_t maxIncludes = SceneLimits().includes);
 
   // The next token. At the end of an included file it goes on behind the Include.
   Token Next();
@@ -67,6 +69,7 @@ class Tokenizer {
                          const std::string& hint = {}) const;
 
   SceneSource& source_;
+  std::int64_t maxIncludes_, includes_ = 0;
   std::vector<std::unique_ptr<File>> files_;  // the innermost last; never empty
   File* file_ = nullptr;
   std::string unescaped_;

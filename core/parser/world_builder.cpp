@@ -20,13 +20,28 @@ void RequireRest(const GraphicsState& state, const Directive& directive, const s
          "the transformation is not the same at StartTime and EndTime");
 }
 
+// Refuses a texture whose lookup could overflow the stack or would not end.
+void CheckGraph(const TextureGraph& graph, const Directive& directive, const SceneLimits& limits) {
+  const std::string subject = "texture \"" + directive.strings[0] + "\" ";
+  if (graph.depth > kMaxTextureDepth)
+    FailAt(directive.Where(), subject + "is the top of a chain of more than " +
+                                  std::to_string(kMaxTextureDepth) +
+                                  " textures that use each other");
+  if (graph.nodes > limits.textureNodes)
+    FailAt(directive.Where(),
+           subject + "evaluates more than " + std::to_string(limits.textureNodes) +
+               " textures a lookup, because textures below it are used several times",
+           "--limits texturenodes=N allows N of them");
+}
+
 }  // namespace
 
-WorldBuilder::WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict,
+WorldBuilder::WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options,
                            AcceleratorSpec accelerator, Interval transformTimes)
     : registry_(registry),
       log_(log),
-      isStrict_(isStrict),
+      isStrict_(options.isStrict),
+      limits_(options.limits),
       accelerator_(std::move(accelerator)),
       transformTimes_(transformTimes) {
   parts_.primitives = std::make_unique<PrimitiveSet>();
@@ -77,16 +92,17 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
     log_.Warning("a texture does not move: it stays where the transformation starts",
                  directive.Where());
   const TextureContext context{state->transform.start, log_, directive.Where(), shared_};
+  const TextureUse use(*state->textures);
   TexturePtr<Real> floats;
   TexturePtr<Spectrum> colors;
   if (isColor)
     colors = registry_.Create<PluginKind::ColorTexture>(
-        plugin, directive.params, Bind(PluginKind::ColorTexture, plugin, state->textures.get()),
-        context);
+        plugin, directive.params, Bind(PluginKind::ColorTexture, plugin, &use), context);
   else
     floats = registry_.Create<PluginKind::FloatTexture>(
-        plugin, directive.params, Bind(PluginKind::FloatTexture, plugin, state->textures.get()),
-        context);
+        plugin, directive.params, Bind(PluginKind::FloatTexture, plugin, &use), context);
+  const TextureGraph graph = use.Above();
+  CheckGraph(graph, directive, limits_);
   const bool isKnown = state->textures->Has(name, isColor);
   if (isKnown)
     log_.Warning("texture \"" + name + "\" is defined again: shapes from here on get the new one",
@@ -94,9 +110,9 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
   TextureTable& table = state->OwnTextures();
   if (isKnown) table.generation = ++textureGenerations_;
   if (isColor)
-    table.Define(name, std::move(colors));
+    table.Define(name, std::move(colors), graph);
   else
-    table.Define(name, std::move(floats));
+    table.Define(name, std::move(floats), graph);
 }
 
 std::shared_ptr<MaterialSpec> WorldBuilder::MakeMaterialSpec(std::string name, ParamSet params) {
@@ -163,7 +179,9 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
     log_.Warning("a shape in an object cannot be an area light: it does not emit", shape.Where());
     return nullptr;
   }
-  if (const Real area = surface->Area(); !(area > 0) || !std::isfinite(area)) {
+  // The light itself refuses a surface that has a problem, with the true reason.
+  const Real area = surface->EmitterProblem() ? Real(1) : surface->Area();
+  if (!(area > 0) || !std::isfinite(area)) {
     log_.Warning("an area light of area 0 does not emit", shape.Where());
     return nullptr;
   }

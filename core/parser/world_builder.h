@@ -25,8 +25,8 @@ struct AcceleratorSpec {
 class WorldBuilder {
  public:
   // transformTimes: between which what moves does so.
-  WorldBuilder(PluginRegistry& registry, Log& log, bool isStrict, AcceleratorSpec accelerator,
-               Interval transformTimes);
+  WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options,
+               AcceleratorSpec accelerator, Interval transformTimes);
 
   void AddLight(const Directive& directive, const GraphicsState& state);
   void AddVolume(const Directive& directive, const GraphicsState& state);
@@ -81,6 +81,7 @@ class WorldBuilder {
   PluginRegistry& registry_;
   Log& log_;
   bool isStrict_;
+  SceneLimits limits_;
   AcceleratorSpec accelerator_;
   Interval transformTimes_;
   Statistics times_;

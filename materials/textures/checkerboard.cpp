@@ -93,7 +93,9 @@ class Checkerboard final : public Texture<T> {
         mapping2_(s.Mapping(context)),
         mapping3_(context.textureToWorld),
         tex1_(s.tex1),
-        tex2_(s.tex2) {}
+        tex2_(s.tex2),
+        constant_(FindConstant()),
+        isFiltered_(filtering_ != Filtering::None || tex1_->IsFiltered() || tex2_->IsFiltered()) {}
 
   T Evaluate(const SurfaceInteraction& si) const override {
     const Real odd = OddPart(si);
@@ -101,15 +103,14 @@ class Checkerboard final : public Texture<T> {
     if (odd == 1) return tex2_->Evaluate(si);
     return Lerp(odd, tex1_->Evaluate(si), tex2_->Evaluate(si));
   }
-  std::optional<T> ConstantValue() const override {
+  std::optional<T> ConstantValue() const override { return constant_; }
+  bool IsFiltered() const override { return isFiltered_; }
+
+ private:
+  std::optional<T> FindConstant() const {
     const auto a = tex1_->ConstantValue(), b = tex2_->ConstantValue();
     return a == b ? a : std::nullopt;
   }
-  bool IsFiltered() const override {
-    return filtering_ != Filtering::None || tex1_->IsFiltered() || tex2_->IsFiltered();
-  }
-
- private:
   Real OddPart(const SurfaceInteraction& si) const {
     const Place place = PlaceOf(si);
     switch (filtering_) {
@@ -139,6 +140,9 @@ class Checkerboard final : public Texture<T> {
   TextureMapping2D mapping2_;
   TextureMapping3D mapping3_;
   TexturePtr<T> tex1_, tex2_;
+  // Found once: asking the textures below each time doubles the work at every level of a graph.
+  std::optional<T> constant_;
+  bool isFiltered_;
 };
 
 template <class T>

@@ -23,12 +23,21 @@ const ParamTable<Settings<T>>& Parameters() {
 template <class T>
 class Mix final : public Texture<T> {
  public:
-  explicit Mix(const Settings<T>& s) : tex1_(s.tex1), tex2_(s.tex2), amount_(s.amount) {}
+  explicit Mix(const Settings<T>& s)
+      : tex1_(s.tex1),
+        tex2_(s.tex2),
+        amount_(s.amount),
+        constant_(FindConstant()),
+        isFiltered_(tex1_->IsFiltered() || tex2_->IsFiltered() || amount_->IsFiltered()) {}
 
   T Evaluate(const SurfaceInteraction& si) const override {
     return Lerp(amount_->Evaluate(si), tex1_->Evaluate(si), tex2_->Evaluate(si));
   }
-  std::optional<T> ConstantValue() const override {
+  std::optional<T> ConstantValue() const override { return constant_; }
+  bool IsFiltered() const override { return isFiltered_; }
+
+ private:
+  std::optional<T> FindConstant() const {
     const auto a = tex1_->ConstantValue(), b = tex2_->ConstantValue();
     const auto amount = amount_->ConstantValue();
     if (amount == Real(0)) return a;
@@ -38,13 +47,12 @@ class Mix final : public Texture<T> {
     if (!amount) return std::nullopt;
     return Lerp(*amount, *a, *b);
   }
-  bool IsFiltered() const override {
-    return tex1_->IsFiltered() || tex2_->IsFiltered() || amount_->IsFiltered();
-  }
 
- private:
   TexturePtr<T> tex1_, tex2_;
   TexturePtr<Real> amount_;
+  // Found once: asking the textures below each time doubles the work at every level of a graph.
+  std::optional<T> constant_;
+  bool isFiltered_;
 };
 
 template <class T>

@@ -20,21 +20,30 @@ const ParamTable<Settings<T>>& Parameters() {
 template <class T>
 class Scale final : public Texture<T> {
  public:
-  explicit Scale(const Settings<T>& s) : tex1_(s.tex1), tex2_(s.tex2) {}
+  explicit Scale(const Settings<T>& s)
+      : tex1_(s.tex1),
+        tex2_(s.tex2),
+        constant_(FindConstant()),
+        isFiltered_(tex1_->IsFiltered() || tex2_->IsFiltered()) {}
 
   T Evaluate(const SurfaceInteraction& si) const override {
     return tex1_->Evaluate(si) * tex2_->Evaluate(si);
   }
-  std::optional<T> ConstantValue() const override {
+  std::optional<T> ConstantValue() const override { return constant_; }
+  bool IsFiltered() const override { return isFiltered_; }
+
+ private:
+  std::optional<T> FindConstant() const {
     if (tex1_->IsProvablyZero() || tex2_->IsProvablyZero()) return T{};
     const auto a = tex1_->ConstantValue(), b = tex2_->ConstantValue();
     if (!a || !b) return std::nullopt;
     return *a * *b;
   }
-  bool IsFiltered() const override { return tex1_->IsFiltered() || tex2_->IsFiltered(); }
 
- private:
   TexturePtr<T> tex1_, tex2_;
+  // Found once: asking the textures below each time doubles the work at every level of a graph.
+  std::optional<T> constant_;
+  bool isFiltered_;
 };
 
 template <class T>

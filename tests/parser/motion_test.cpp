@@ -165,7 +165,7 @@ TEST(Motion, IsRefusedWithItsPlaceWhereThereIsNone) {
             "and would be flat in between");
   EXPECT_EQ(ErrorIn(kEnd + "Transform [1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1]\nShape "
                            "\"sphere\"\nWorldEnd"),
-            "3:1: error: sphere cannot move so: its matrix is projective at one end");
+            "2:25: error: Transform: the matrix is projective: number 12 is not 0");
   EXPECT_EQ(ErrorIn("ObjectBegin \"o\" Shape \"sphere\" ObjectEnd " + kEnd +
                     "Scale 1 1 -1\nObjectInstance \"o\"\nWorldEnd"),
             "3:1: error: \"o\" cannot move so: it is mirrored at one end and not at the other, "

@@ -200,5 +200,17 @@ TEST(Tokenizer, SaysWhyTheSceneCannotBeRead) {
   }
 }
 
+TEST(Tokenizer, DoesNotSkipTheRestOfAFileWithLineEndsOfOldMacsAtAComment) {
+  EXPECT_EQ(TokensOf("# made by hand\r1 2 # two\r\r3\r").size(), 3u);
+  EXPECT_EQ(TokensOf("# made by hand\r\n1 2 # two\r\n3\r\n#").size(), 3u);
+  // Lines are counted alike, whatever ends them.
+  for (const std::string end : {"\r", "\n", "\r\n"}) {
+    const std::string text = "# first" + end + end + "Identity # third" + end + "Identty" + end;
+    EXPECT_NE(ParseErrorOf(text).find("scene.pbrt:4:1: error: unknown directive Identty"),
+              std::string::npos)
+        << ParseErrorOf(text);
+  }
+}
+
 }  // namespace
 }  // namespace exphoton

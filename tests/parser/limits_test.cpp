@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Scene files that ask for endless work in a few lines: chains and graphs of textures, and files
+// that include others over and over. They are refused at once, and --limits allows more.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/parser/parse_support.h"
+
+namespace exphoton {
+namespace {
+
+// Texture t<i> uses t<i-1> through the parameters, each of which is "tex1" or "tex2".
+std::string Chain(int length, const std::vector<std::string>& parameters,
+                  const std::string& plugin = "mix") {
+  std::string text = "Texture \"t0\" \"color\" \"uv\"\n";
+  for (int i = 1; i < length; ++i) {
+    text += "Texture \"t" + std::to_string(i) + "\" \"color\" \"" + plugin + '"';
+    for (const std::string& name : parameters)
+      text += " \"texture " + name + "\" \"t" + std::to_string(i - 1) + '"';
+    text += '\n';
+  }
+  return text + "Material \"matte\" \"texture Kd\" \"t" + std::to_string(length - 1) +
+         "\" Shape \"sphere\"";
+}
+
+TEST(TextureGraphs, OfALongChainAreRefusedBeforeTheyOverflowTheStack) {
+  EXPECT_EQ(BuildText(InWorld(Chain(256, {"tex1"}))).error, "");
+  for (const int length : {257, 6000}) {
+    const BuiltScene built = BuildText(InWorld(Chain(length, {"tex1"}, "scale")));
+    EXPECT_EQ(built.status, 2);
+    EXPECT_NE(built.error.find("260:1: error: texture \"t256\" is the top of a chain of more than "
+                               "256 textures that use each other"),
+              std::string::npos)
+        << built.error;
+  }
+}
+
+TEST(TextureGraphs, ThatDoubleAtEachLevelDoNotHangTheParser) {
+  const auto start = std::chrono::steady_clock::now();
+  for (const char* plugin : {"mix", "scale", "checkerboard"}) {
+    const BuiltScene built = BuildText(InWorld(Chain(60, {"tex1", "tex2"}, plugin)));
+    EXPECT_NE(built.error.find("error: texture \"t19\" evaluates more than 1000000 textures a "
+                               "lookup"),
+              std::string::npos)
+        << built.error;
+    EXPECT_NE(built.error.find("--limits texturenodes=N"), std::string::npos);
+    // Without the limit: loading alone evaluates nothing.
+    LoadOptions options;
+    options.limits.textureNodes = std::int64_t(1) << 59;
+    EXPECT_EQ(BuildText(InWorld(Chain(58, {"tex1", "tex2"}, plugin)), options).error, "");
+    // Sums do not overflow.
+    options.limits.textureNodes = (std::int64_t(1) << 60) - 1;
+    EXPECT_NE(BuildText(InWorld(Chain(200, {"tex1", "tex2"}, plugin)), options).error, "");
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+TEST(TextureGraphs, CountATextureOnlyForTheKindThatIsUsed) {
+  // Both kinds have every name, and each uses the other's kind once.
+  std::string text =
+      "Texture \"t0\" \"color\" \"uv\"\nTexture \"t0\" \"float\" \"bilerp\" \"float v01\" 1\n";
+  for (int i = 1; i < 200; ++i) {
+    const std::string name = "\"t" + std::to_string(i) + '"',
+                      below = "\"t" + std::to_string(i - 1) + '"';
+    text += "Texture " + name + " \"color\" \"scale\" \"texture tex1\" " + below + '\n';
+    text += "Texture " + name + " \"float\" \"scale\" \"texture tex1\" " + below + '\n';
+  }
+  EXPECT_EQ(BuildText(InWorld(text)).error, "");
+}
+
+TEST(Includes, ThatDoubleAtEachLevelEnd) {
+  Files files{{"scene.pbrt", "Include \"a1\"\nInclude \"a1\"\n"}, {"a31", ""}};
+  for (int i = 1; i < 31; ++i) {
+    const std::string next = "Include \"a" + std::to_string(i + 1) + "\"\n";
+    files["a" + std::to_string(i)] = next + next;
+  }
+  const std::string error = ParseErrorOf(files);
+  EXPECT_NE(error.find("error: the scene includes more than 100000 files"), std::string::npos)
+      << error;
+  EXPECT_NE(error.find("--limits includes=N allows N"), std::string::npos);
+}
+
+TEST(Includes, OfOneFileManyTimesOverAreNoError) {
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "Include \"empty\"\n";
+  EXPECT_EQ(ParseErrorOf({{"scene.pbrt", text}, {"empty", "Identity"}}), "");
+}
+
+}  // namespace
+}  // namespace exphoton
