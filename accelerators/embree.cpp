@@ -4,6 +4,10 @@
 // ray never meets the surface that it leaves. Shapes and instances are Embree's user geometry. Hits
 // may differ from those of the other accelerators where a ray touches an edge of a box, or two
 // surfaces lie at the same distance. Needs the library when the program is built.
+//
+// Embree ignores boxes beyond 1.8e18, and its products over- and underflow much earlier. It
+// therefore sees the world scaled by a power of two to the size 1, and directions likewise, so that
+// the range is that of the other accelerators. Powers of two change no rounding.
 #include "core/plugin.h"
 
 #if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)
@@ -27,14 +31,40 @@ const ParamTable<Settings>& Parameters() {
 
 #if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)
 
+// The power of two that takes numbers of up to this size to [.5, 1]; 1 for 0 and infinity.
+double ScaleToOne(Real largest) {
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  int exponent;
+  std::frexp(double(largest), &exponent);
+  return std::ldexp(1.0, -exponent);
+}
+
+// The primitives, and the scale at which Embree sees them.
+struct ScaledSet {
+  const PrimitiveSet& primitives;
+  double scale;
+
+  explicit ScaledSet(const PrimitiveSet& set) : primitives(set), scale(1) {
+    const Bounds3 world = set.WorldBounds();
+    if (!world.IsEmpty())
+      scale = ScaleToOne(std::max(MaxComponent(Abs(world.min)), MaxComponent(Abs(world.max))));
+  }
+  float Scaled(Real x) const { return float(double(x) * scale); }
+};
+
 // What the callbacks need of the ray that is traced; Embree hands its first member to them.
 struct Query {
   RTCIntersectContext context;
   const PrimitiveSet& primitives;
   const TraceRay trace;
+  const double directionScale, tScale;  // Embree's t is t * tScale
   Hit hit;
 
-  Query(const PrimitiveSet& set, const Ray& ray) : primitives(set), trace(ray) {
+  Query(const ScaledSet& set, const Ray& ray)
+      : primitives(set.primitives),
+        trace(ray),
+        directionScale(ScaleToOne(MaxComponent(Abs(ray.d)))),
+        tScale(set.scale / directionScale) {
     rtcInitIntersectContext(&context);
     hit.t = ray.tMax;
   }
@@ -62,23 +92,25 @@ void FilterAny(const RTCFilterFunctionNArguments* arguments) {
 
 // User geometry: what follows the triangles in the set's numbering.
 void OtherBounds(const RTCBoundsFunctionArguments* arguments) {
-  const auto& set = *static_cast<const PrimitiveSet*>(arguments->geometryUserPtr);
-  const Bounds3 bounds = set.Bounds(set.TriangleCount() + arguments->primID);
+  const auto& set = *static_cast<const ScaledSet*>(arguments->geometryUserPtr);
+  const Bounds3 bounds = set.primitives.Bounds(set.primitives.TriangleCount() + arguments->primID);
   RTCBounds& out = *arguments->bounds_o;
   out = {1, 1, 1, 0, -1, -1, -1, 0};  // an instance of nothing: empty, and left out
   if (bounds.IsEmpty()) return;
   // Rounding in a test shifts a hit by less than this part of the primitive's size.
   const Real margin = Gamma(16) * MaxComponent(bounds.Diagonal());
-  out.lower_x = NextDown(bounds.min.x - margin), out.upper_x = NextUp(bounds.max.x + margin);
-  out.lower_y = NextDown(bounds.min.y - margin), out.upper_y = NextUp(bounds.max.y + margin);
-  out.lower_z = NextDown(bounds.min.z - margin), out.upper_z = NextUp(bounds.max.z + margin);
+  const auto below = [&](Real x) { return NextDown(set.Scaled(NextDown(x - margin))); };
+  const auto above = [&](Real x) { return NextUp(set.Scaled(NextUp(x + margin))); };
+  out.lower_x = below(bounds.min.x), out.upper_x = above(bounds.max.x);
+  out.lower_y = below(bounds.min.y), out.upper_y = above(bounds.max.y);
+  out.lower_z = below(bounds.min.z), out.upper_z = above(bounds.max.z);
 }
 void OtherClosest(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   Query& query = Query::Of(arguments->context);
   auto& rayHit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
   if (!query.Improves(query.primitives.TriangleCount() + arguments->primID)) return;
-  rayHit.ray.tfar = query.hit.t;
+  rayHit.ray.tfar = float(double(query.hit.t) * query.tScale);
   rayHit.hit.geomID = arguments->geomID;
   rayHit.hit.primID = arguments->primID;
 }
@@ -90,11 +122,12 @@ void OtherAny(const RTCOccludedFunctionNArguments* arguments) {
     ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
-RTCRay Converted(const Ray& ray) {
+RTCRay Converted(const Ray& ray, const ScaledSet& set, const Query& query) {
   RTCRay r;
-  r.org_x = ray.o.x, r.org_y = ray.o.y, r.org_z = ray.o.z;
-  r.dir_x = ray.d.x, r.dir_y = ray.d.y, r.dir_z = ray.d.z;
-  r.tnear = 0, r.tfar = ray.tMax;
+  const auto scaled = [&](Real d) { return float(double(d) * query.directionScale); };
+  r.org_x = set.Scaled(ray.o.x), r.org_y = set.Scaled(ray.o.y), r.org_z = set.Scaled(ray.o.z);
+  r.dir_x = scaled(ray.d.x), r.dir_y = scaled(ray.d.y), r.dir_z = scaled(ray.d.z);
+  r.tnear = 0, r.tfar = float(double(ray.tMax) * query.tScale);
   r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
   return r;
 }
@@ -102,7 +135,9 @@ RTCRay Converted(const Ray& ray) {
 class EmbreeAccelerator final : public Aggregate {
  public:
   EmbreeAccelerator(const PrimitiveSet& primitives, const Settings& settings)
-      : primitives_(primitives), device_(rtcNewDevice("threads=1")) {  // the same tree every time
+      : primitives_(primitives),
+        scaled_(primitives),
+        device_(rtcNewDevice("threads=1")) {  // the same tree every time
     if (!device_) throw Error(ExitStatus::Resource, "Embree cannot start");
     rtcSetDeviceMemoryMonitorFunction(device_, CountBytes, &bytes_);
     scene_ = rtcNewScene(device_);
@@ -119,9 +154,9 @@ class EmbreeAccelerator final : public Aggregate {
 
   Hit Intersect(const Ray& ray) const override {
     if (!IsTraceable(ray)) return {};
-    Query query(primitives_, ray);
+    Query query(scaled_, ray);
     RTCRayHit rayHit;
-    rayHit.ray = Converted(ray);
+    rayHit.ray = Converted(ray, scaled_, query);
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &query.context, &rayHit);
@@ -129,8 +164,8 @@ class EmbreeAccelerator final : public Aggregate {
   }
   bool Occluded(const Ray& ray) const override {
     if (!IsTraceable(ray)) return false;
-    Query query(primitives_, ray);
-    RTCRay r = Converted(ray);
+    Query query(scaled_, ray);
+    RTCRay r = Converted(ray, scaled_, query);
     rtcOccluded1(scene_, &query.context, &r);
     return r.tfar < 0;
   }
@@ -154,7 +189,7 @@ class EmbreeAccelerator final : public Aggregate {
       const auto& corners = primitives_.TriangleVertices(id);
       for (unsigned v = 0; v < 3; ++v) {
         *index++ = 3 * id + v;
-        for (int axis = 0; axis < 3; ++axis) *vertex++ = corners[v][axis];
+        for (int axis = 0; axis < 3; ++axis) *vertex++ = scaled_.Scaled(corners[v][axis]);
       }
     }
     rtcSetGeometryIntersectFilterFunction(geometry, FilterClosest);
@@ -167,7 +202,7 @@ class EmbreeAccelerator final : public Aggregate {
     if (count == 0) return;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, count);
-    rtcSetGeometryUserData(geometry, const_cast<PrimitiveSet*>(&primitives_));
+    rtcSetGeometryUserData(geometry, &scaled_);
     rtcSetGeometryBoundsFunction(geometry, OtherBounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, OtherClosest);
     rtcSetGeometryOccludedFunction(geometry, OtherAny);
@@ -185,6 +220,7 @@ class EmbreeAccelerator final : public Aggregate {
   }
 
   const PrimitiveSet& primitives_;
+  ScaledSet scaled_;
   std::atomic<long> bytes_ = 0;
   RTCDevice device_;
   RTCScene scene_;

@@ -89,12 +89,15 @@ PhotonAim PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
   const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
     return light->IsFar() && !light->IsProvablyBlack();
   });
-  if (settings_.photonAim == PhotonAiming::Off || !hasFarLight || targets.Least() == 0 ||
-      !context.camera)
-    return {};
+  if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
   PhotonAim aim(SeenPoints(scene, *context.camera, context.resolution, context.seed),
                 BoundingSphere(scene.WorldBounds()), kLeastPhotons / double(targets.Least()));
-  if (settings_.photonAim == PhotonAiming::Auto && aim.Gain() < kWorthwhileGain) return {};
+  const bool isWorthwhile = aim.Gain() >= kWorthwhileGain;
+  if (settings_.photonAim == PhotonAiming::Off) {
+    if (isWorthwhile) NoticeUnaimed(aim, context.log);
+    return {};
+  }
+  if (settings_.photonAim == PhotonAiming::Auto && !isWorthwhile) return {};
   ReportAim(aim, context);
   return aim;
 }
@@ -126,6 +129,7 @@ void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
     harvest = PhotonTracer(scene, settings_, context.seed, std::move(aim), std::move(media))
                   .Shoot(targets, context);
   }
+  context.CheckStop();
   NoticeVainCaustics(targets, settings_, scene, context.log);
   ReportHarvest(harvest, targets, settings_, context);
   ReportLights(harvest, targets, scene, context);
@@ -134,6 +138,7 @@ void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
     maps_ = PhotonMaps(&harvest, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
     if (gathers_) gather_.Prepare(maps_.Map(PhotonKind::Indirect));
   }
+  context.CheckStop();
   if (targets.radianceFraction > 0) {
     const PhaseTimer timer(context.statistics, "radiance");
     radianceMap_ =

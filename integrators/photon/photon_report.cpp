@@ -76,6 +76,14 @@ void ReportAim(const PhotonAim& aim, PreprocessContext& context) {
                      {}, "\"string photonaim\" \"off\" spreads them over the whole scene");
 }
 
+void NoticeUnaimed(const PhotonAim& aim, Log& log) {
+  log.Notice(Text("photons of far lights are spread over the whole scene: where the camera looks "
+                  "they are sparse, and light is missing behind glass and in corners"),
+             {},
+             Text("\"string photonaim\" \"auto\" makes them about ", std::llround(aim.Gain()),
+                  " times as dense there"));
+}
+
 void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
                    const PhotonSettings& settings, PreprocessContext& context) {
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {

@@ -14,6 +14,8 @@ void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& sett
                         const Scene& scene, Log& log);
 // Where photons of far lights are aimed.
 void ReportAim(const PhotonAim& aim, PreprocessContext& context);
+// That an aim would be worth its while where there is none.
+void NoticeUnaimed(const PhotonAim& aim, Log& log);
 // Once the photons are shot, while their hauls are still in the harvest.
 void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
                    const PhotonSettings& settings, PreprocessContext& context);

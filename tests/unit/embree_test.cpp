@@ -63,6 +63,45 @@ TEST(Embree, FindsTheHitsOfBruteForceOnShapesAndInstances) {
   }
 }
 
+// From the smallest worlds whose volume is a number to the largest whose squares are.
+TEST(Embree, DoesNotMissEverythingInHugeAndTinyWorlds) {
+  TestPlugins plugins;
+  for (const int exponent : {-100, -60, -40, 40, 62, 64, 80, 100}) {
+    const Real size = std::ldexp(Real(1), exponent);
+    TriangleList triangles = SphereTriangles({0, 0, 0}, 10, 16);
+    for (auto& triangle : triangles)
+      for (Point3& p : triangle) p = p * size;
+    ExpectTheSameHits(*TriangleSet(triangles), 7);
+    PrimitiveSet shapes;
+    for (const Real x : {-2, 0, 2}) {
+      const auto toWorld = Transform::Translate({x * size, 0, 0}) *
+                           *Transform::Scale(double(size), double(size), double(size));
+      ShapeGeometry sphere = plugins.MakeShape(R"("sphere")", toWorld);
+      shapes.AddShape(
+          std::shared_ptr<const Shape>(std::move(std::get<std::unique_ptr<Shape>>(sphere))), {});
+    }
+    shapes.Finish();
+    ExpectTheSameHits(shapes, 8);
+  }
+}
+
+TEST(Embree, TracesDirectionsOfAnyLength) {
+  TestPlugins plugins;
+  const auto set = TriangleSet(BoxTriangles({-1, -1, -1}, {1, 1, 1}));
+  const auto tested = plugins.MakeAccelerator(R"("embree")", *set);
+  for (const int exponent : {-110, -70, 0, 70, 110}) {
+    Ray ray;
+    ray.o = {Real(.1), Real(.2), 0};
+    ray.d = Vector3(Real(.3), Real(.2), 1) * std::ldexp(Real(1), exponent);
+    EXPECT_TRUE(tested->Intersect(ray).IsHit()) << exponent;
+    EXPECT_TRUE(tested->Occluded(ray)) << exponent;
+    ray.tMax = std::ldexp(Real(.9), -exponent);
+    EXPECT_FALSE(tested->Occluded(ray)) << exponent;
+    ray.tMax = std::ldexp(Real(1.1), -exponent);
+    EXPECT_TRUE(tested->Occluded(ray)) << exponent;
+  }
+}
+
 TEST(Embree, NeverMeetsTheSurfaceThatARayLeaves) {
   TestPlugins plugins;
   const auto set = TriangleSet(SphereTriangles({1, 2, 3}, 40, 60));

@@ -133,6 +133,17 @@ TEST(PhotonAim, IsLeftOutWhereItIsOfNoUse) {
                    .Says("times denser"));
 }
 
+TEST(PhotonAim, IsSuggestedWhereItIsOffAndLightIsMissing) {
+  const std::string sun = "LightSource \"distant\" \"point from\" [0 0 3]";
+  const std::string words = "photons of far lights are spread over the whole scene";
+  const TestRender off = RenderSceneText(Plain(sun, "\"string photonaim\" \"off\""));
+  EXPECT_TRUE(off.Says(words));
+  EXPECT_FALSE(RenderSceneText(Plain(sun, "")).Says(words));
+  EXPECT_FALSE(RenderSceneText(Plain("LightSource \"point\" \"point from\" [0 0 5]",
+                                     "\"string photonaim\" \"off\""))
+                   .Says(words));
+}
+
 TEST(CausticPhotons, AskedForInVainGiveANotice) {
   const auto render = [](const std::string& integrator) {
     return RenderSceneText(TestHeader(integrator + " \"integer indirectphotons\" 500", 4, 4, 1) +
