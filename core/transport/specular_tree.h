@@ -2,7 +2,8 @@
 // SpecularTree: the part that Whitted-style integrators share (Whitted 1980): follow a camera ray
 // to a surface, let the caller shade it, and add what arrives over its specular lobes, up to a
 // depth. Counts what that depth cuts, so that the render can say so. Fills the light layers that
-// are the tree's: what lies behind everything, and what arrives over specular lobes.
+// are the tree's: what lies behind everything, and what arrives over specular lobes. Deep or large
+// trees end by Russian roulette (Arvo and Kirk 1990), which leaves the mean as it is.
 #pragma once
 
 #include "core/transport/specular_bounce.h"
@@ -38,7 +39,23 @@ class SpecularTree {
   }
 
  private:
-  static constexpr std::uint64_t kStream = 0x73706563ull;
+  static constexpr std::uint64_t kStream = 0x73706563ull, kRouletteStream = 0x726f756cull;
+  // Trees within both bounds have no roulette.
+  static constexpr int kPlainDepth = 5;
+  static constexpr std::uint64_t kPlainRays = 64;
+
+  // The probability with which a ray is followed that carries `weight` to the camera. Weights above
+  // .1 survive, so that little noise is added. Where a material reflects and transmits without
+  // loss, 10 rays of each depth are expected at most; where it does so with gain, their number
+  // raises the bound.
+  Real Survival(const Spectrum& weight, int depth) {
+    ++rays_;
+    if (depth <= kPlainDepth && rays_ <= kPlainRays) return 1;
+    constexpr Real kSafeWeight = Real(.1);
+    const Real excess = std::max(Real(rays_) / Real(kPlainRays), Real(1));
+    // Not below 1e-3: a rare survivor must not outshine its pixel.
+    return std::clamp(weight.MaxComponent() / (kSafeWeight * excess), Real(1e-3), Real(1));
+  }
 
   template <class Shade>
   Spectrum Along(const RayDifferential& ray, const Spectrum& throughput, int depth,
@@ -79,7 +96,12 @@ class SpecularTree {
       return radiance;
     }
     const auto incident = [&](const SpecularRay& bounce) {
-      return Along(bounce.ray, throughput * bounce.throughput, depth + 1, shade);
+      const Spectrum weight = throughput * bounce.throughput;
+      const Real survival = Survival(weight, depth + 1);
+      if (survival == 1) return Along(bounce.ray, weight, depth + 1, shade);
+      if (!(context_.Stream(HashKey({kRouletteStream, rays_})).Uniform() < survival))
+        return Spectrum();
+      return Along(bounce.ray, weight / survival, depth + 1, shade) / survival;
     };
     const Spectrum bounces =
         SpecularBounces(point, context_.Stream(kStream + std::uint64_t(depth)), incident);
@@ -89,6 +111,7 @@ class SpecularTree {
 
   int maxDepth_;
   LiContext& context_;
+  std::uint64_t rays_ = 0;  // specular rays of this tree so far
 };
 
 }  // namespace exphoton
