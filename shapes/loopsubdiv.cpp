@@ -2,6 +2,7 @@
 // loopsubdiv: the limit surface of Loop subdivision of a triangle mesh, as a finer mesh whose
 // vertices lie on it and whose normals are its own. (pbrt-v1 takes normals from the ring of limit
 // positions, which is exact only in the limit: at low levels its highlights lie elsewhere.)
+#include "core/base/memory.h"
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
 #include "shapes/mesh/loop_subdivision.h"
@@ -32,6 +33,20 @@ const ParamTable<Settings>& Parameters() {
 
 constexpr double kMostTriangles = 1 << 27;
 
+// Peak of LoopSubdivide for each triangle of the finest mesh: its sides while they are sorted, its
+// edges, the sums round its vertices, two meshes. Measured, with the program: 155 bytes at 9 levels, 126 at 10.
+constexpr double kBytesPerTriangle = 160;
+
+// Refused before it begins: a machine that runs out of memory may end other programs, too.
+void CheckMemory(double triangles, int levels, const SourceLocation& where) {
+  const double bytes = triangles * kBytesPerTriangle;
+  if (bytes <= UsableMemory()) return;
+  throw Error(ExitStatus::Resource,
+              "subdivision with nlevels " + std::to_string(levels) + " needs about " +
+                  Megabytes(bytes) + ", and " + MemoryLimit(),
+              where, "each level less needs a quarter of the memory");
+}
+
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
   SubdivisionMesh control;
   control.faces = CheckedTriangles(settings.indices, settings.positions.size(), "indices");
@@ -47,6 +62,7 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
     throw ParamError{"nlevels", "would make " + std::to_string(std::int64_t(count)) + " triangles",
                      "at most " + std::to_string(std::int64_t(kMostTriangles))};
   }
+  CheckMemory(count, settings.levels, context.where);
   LimitMesh limit = LoopSubdivide(std::move(control), settings.levels);
   auto mesh = std::make_unique<TriangleMesh>();
   mesh->indices = std::move(limit.mesh.faces);

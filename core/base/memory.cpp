@@ -37,6 +37,8 @@ int PrintLimit(char* text, std::size_t size, const char* prefix) {
 
 double PhysicalMemory() { return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)); }
 
+double UsableMemory() { return std::min(ProcessLimit(), PhysicalMemory()); }
+
 std::string Megabytes(double bytes) {
   return std::to_string(static_cast<long long>(Rounded(bytes))) + " MB";
 }

@@ -9,6 +9,9 @@ namespace exphoton {
 // What the machine has.
 double PhysicalMemory();
 
+// What this process may use: the machine's memory, or a lower limit (ulimit -v or -d).
+double UsableMemory();
+
 // "123 MB", rounded up.
 std::string Megabytes(double bytes);
 

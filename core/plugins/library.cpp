@@ -17,6 +17,7 @@
 #include "core/files/file_identity.h"
 #include "core/files/open_file.h"
 #include "core/plugins/elf_file.h"
+#include "core/plugins/load_guard.h"
 
 namespace exphoton {
 namespace {
@@ -130,6 +131,7 @@ const PluginDescriptor& CheckedDescriptor(PluginEntry entry, const std::string& 
 const PluginDescriptor& LoadPluginFile(const PluginFile& file, const std::string& name) {
   CheckIsReadable(file.path);
   const UntrappedLibraryCall guard;
+  const LoadGuard loadGuard(file.path);
   void* const library = OpenLibrary(file);
   void* symbol = dlsym(library, kPluginSymbol);
   if (!symbol) {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "core/base/memory.h"
 #include "core/files/input_file.h"
 #include "core/files/open_file.h"
 #include "shapes/mesh/ply_header.h"
@@ -202,7 +203,8 @@ std::unique_ptr<TriangleMesh> ParsePly(std::string_view bytes) {
   return mesh;
 }
 
-std::unique_ptr<TriangleMesh> ReadPly(const std::string& path) {
+std::unique_ptr<TriangleMesh> ReadPly(const std::string& path, std::uint64_t mostBytes) {
+  if (mostBytes == 0) mostBytes = std::uint64_t(std::min(UsableMemory() / 2, 0x1p33));
   Descriptor opened([&] {
     try {
       return OpenRegularFile(path);
@@ -219,6 +221,10 @@ std::unique_ptr<TriangleMesh> ReadPly(const std::string& path) {
     const int count = gzread(file.get(), block.data(), unsigned(block.size()));
     if (count < 0) throw PlyError("it cannot be read, or is not valid gzip data");
     if (count == 0) break;
+    if (bytes.size() + std::size_t(count) > mostBytes) {
+      throw PlyError("it is longer than the limit of " + std::to_string(mostBytes >> 20) +
+                     " MiB, decompressed");
+    }
     bytes.append(block.data(), std::size_t(count));
   }
   int status = Z_OK;

@@ -21,7 +21,8 @@ struct PlyError : std::runtime_error {
 // or four corners, the latter cut along corners 0 and 2. Throws PlyError with a sentence.
 std::unique_ptr<TriangleMesh> ParsePly(std::string_view bytes);
 
-// The same from a file.
-std::unique_ptr<TriangleMesh> ReadPly(const std::string& path);
+// The same from a file. `mostBytes` limits the decompressed size, because a small compressed file
+// can fill any memory; 0: half of the memory that this process may use, and at most 8 GiB.
+std::unique_ptr<TriangleMesh> ReadPly(const std::string& path, std::uint64_t mostBytes = 0);
 
 }  // namespace exphoton

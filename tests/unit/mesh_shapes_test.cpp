@@ -2,6 +2,7 @@
 // Shapes that make meshes: checks of trianglemesh, every form of PLY file and what is wrong with
 // some, and Loop subdivision against limits known in closed form.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <zlib.h>
 
 #include <bit>
@@ -119,6 +120,26 @@ TEST(Ply, ReadsAsciiAndBothByteOrders) {
   ExpectTheMesh(*ParsePly(kAsciiPly));
   ExpectTheMesh(*ParsePly(BinaryPly(false)));
   ExpectTheMesh(*ParsePly(BinaryPly(true)));
+}
+
+TEST(Ply, SmallCompressedFilesDoNotFillTheMemory) {
+  const auto folder = std::filesystem::temp_directory_path() / "exphoton_ply_bomb_test";
+  std::filesystem::create_directories(folder);
+  const std::string packed = (folder / "bomb.ply.gz").string();
+  gzFile file = gzopen(packed.c_str(), "wb9");
+  ASSERT_TRUE(file);
+  const std::string blanks(std::size_t(1) << 20, ' ');
+  for (int i = 0; i < 8; ++i) gzwrite(file, blanks.data(), unsigned(blanks.size()));
+  gzclose(file);
+  EXPECT_LT(std::filesystem::file_size(packed), 20000u);
+  std::string error;
+  try {
+    ReadPly(packed, 4 << 20);
+  } catch (const PlyError& problem) {
+    error = problem.what();
+  }
+  EXPECT_EQ(error, "it is longer than the limit of 4 MiB, decompressed");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Ply, ReadsCompressedFilesAndSaysWhatIsWrongWithOthers) {
@@ -297,6 +318,27 @@ TEST(LoopSubdivision, RefusesWhatIsNoSurface) {
   EXPECT_EQ(MakeMesh(plugins, R"("loopsubdiv" "integer nlevels" 2 "integer indices" [0 1 2])" + p)
                 ->TriangleCount(),
             16u);
+}
+
+TEST(LoopSubdivision, ThatNeedsMoreMemoryThanThereIsIsRefusedBeforeItBegins) {
+  rlimit before{};
+  getrlimit(RLIMIT_DATA, &before);
+  const rlimit limit{rlim_t(2) << 30, before.rlim_max};
+  TestPlugins plugins;
+  std::string problem;
+  setrlimit(RLIMIT_DATA, &limit);
+  try {
+    MakeMesh(plugins, R"("loopsubdiv" "integer nlevels" 12 "integer indices" [0 1 2]
+                         "point P" [0 0 0 1 0 0 0 1 0])");
+  } catch (const Error& error) {
+    problem = error.what();
+    EXPECT_EQ(error.Status(), ExitStatus::Resource);
+  } catch (const std::bad_alloc&) {
+    problem = "it began";
+  }
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_NE(problem.find("subdivision with nlevels 12 needs about "), std::string::npos) << problem;
+  EXPECT_NE(problem.find("and this process may use 2048 MB"), std::string::npos) << problem;
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A faulty plugin for the loader's tests: the constructor of a global variable throws.
+#include "tests/plugin/modules/stub_filter.h"
+
+namespace {
+
+struct Thrower {
+  Thrower() { throw std::runtime_error("no licence"); }
+};
+Thrower thrower;
+
+std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
+                                         const exphoton::NoContext&) {
+  return std::make_unique<exphoton::StubFilter>();
+}
+
+}  // namespace
+
+EXPHOTON_PLUGIN("throwing_constructor", "throws while it is loaded", exphoton::StubForm(Create))
