@@ -27,6 +27,9 @@ std::optional<SourceLocation> Place(const SourceLocation& where) {
   return where.file.empty() ? std::optional<SourceLocation>() : where;
 }
 
+// More of one directive are counted, not listed: exporters and damaged files have many.
+constexpr int kMostUnknownListed = 10;
+
 void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& known,
                    const BindContext& context) {
   if (context.siblingNames && Contains(context.siblingNames(), param.name)) {
@@ -88,9 +91,15 @@ void ParamTableBase::BindValues(const ParamSet& params, const BindContext& conte
                                 void* settings) const {
   std::vector<std::string> known;
   for (const ParamDecl& decl : declarations_) known.push_back(decl.name);
+  int unknown = 0;
   for (const ParsedParam& param : params.All()) {
-    if (!Contains(known, param.name)) ReportUnknown(param, known, context);
+    if (Contains(known, param.name)) continue;
+    if (++unknown <= kMostUnknownListed || context.isStrict) ReportUnknown(param, known, context);
   }
+  if (unknown > kMostUnknownListed && context.log)
+    context.log->Warning(std::to_string(unknown - kMostUnknownListed) +
+                             " more unknown parameters of " + context.what,
+                         Place(params.where));
   for (std::size_t i = 0; i < declarations_.size(); ++i) {
     const ParamDecl& decl = declarations_[i];
     if (const ParsedParam* param = FindWithOverrides(decl.name, params, context)) {

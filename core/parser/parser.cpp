@@ -170,6 +170,10 @@ void Parser::ParseParameters(ParamSet* params) {
     if (params->Find(param.name))
       log_.Warning("parameter \"" + param.name + "\" is given twice: the last one counts",
                    param.where);
+    // Sets of parameters are searched from end to end; real ones have less than 50.
+    constexpr std::size_t kMaxParameters = 1000;
+    if (params->All().size() == kMaxParameters)
+      Fail("more than " + std::to_string(kMaxParameters) + " parameters of one directive");
     params->Add(std::move(param));
   }
   if (token_.kind != TokenKind::Word && token_.kind != TokenKind::End)

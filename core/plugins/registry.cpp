@@ -146,8 +146,10 @@ std::vector<std::string> PluginRegistry::Loaded() const {
   return keys;
 }
 
-std::vector<std::string> PluginRegistry::ParameterNames(PluginKind kind) const {
-  std::vector<std::string> names;
+const std::vector<std::string>& PluginRegistry::ParameterNames(PluginKind kind) {
+  const auto [entry, isNew] = parameterNames_.try_emplace(kind);
+  std::vector<std::string>& names = entry->second;
+  if (!isNew) return names;
   for (const std::string& name : Available(kind)) {
     for (const ParamDecl& decl : FormOf(*TryLoad(kind, name), kind)->parameters->Declarations()) {
       names.push_back(decl.name);

@@ -50,15 +50,16 @@ class PluginRegistry {
   const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
   [[noreturn]] void ThrowMissing(PluginKind kind, const std::string& name,
                                  const SourceLocation& where) const;
-  // Of all plugins of a kind; loads them.
-  std::vector<std::string> ParameterNames(PluginKind kind) const;
+  // Of all plugins of a kind. The first call for a kind loads them.
+  const std::vector<std::string>& ParameterNames(PluginKind kind);
   void* CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
                      BindContext bind, const void* context);
 
   PluginFolders folders_;
   Log* log_;
-  std::set<std::string> noticed_;                          // aliases that were named before
-  std::map<std::string, const PluginDescriptor*> loaded_;  // by "<kind folder>/<name>"
+  std::map<PluginKind, std::vector<std::string>> parameterNames_;  // of kinds asked for
+  std::set<std::string> noticed_;                                  // aliases that were named before
+  std::map<std::string, const PluginDescriptor*> loaded_;          // by "<kind folder>/<name>"
 };
 
 }  // namespace exphoton

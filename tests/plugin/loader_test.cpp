@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -93,6 +94,30 @@ TEST_F(Loader, ListsWhatThereIsWhereAFilterIsMissing) {
             "there is no filter \"box\"; no plugin of this kind was found (looked in /nowhere)");
 }
 
+// Plugins of the kind are opened once to know their parameters, not for each unknown name.
+TEST_F(Loader, ThousandsOfUnknownParametersDoNotSlowAScene) {
+  PluginRegistry registry = Registry({kPlugins});
+  ParsedParam unknown;
+  unknown.type = "float";
+  unknown.name = "alpha";
+  unknown.numbers = {1};
+  ParamSet params;
+  params.Add(unknown);
+  const auto make = [&] {
+    BindContext bind;
+    bind.log = &log_;
+    EXPECT_TRUE(registry.Create<PluginKind::Filter>("box", params, std::move(bind), {}));
+  };
+  const auto start = std::chrono::steady_clock::now();
+  make();
+  const auto first = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3000; ++i) make();
+  const std::chrono::duration<double> later = std::chrono::steady_clock::now() - first;
+  // 3000 searches took about 1 ms each.
+  EXPECT_LT(later.count(), 1) << "the first took "
+                              << std::chrono::duration<double>(first - start).count();
+}
+
 TEST_F(Loader, RefusesNamesThatAreNotNames) {
   EXPECT_EQ(Fails("", {kPlugins}), "the name of filter \"\" is empty");
   for (const std::string name : {"../box", "filters/box", "/etc/passwd", "..", "a..b"}) {
@@ -116,6 +141,12 @@ TEST_F(Loader, SaysWhatIsWrongWithAFile) {
     fs::permissions(filters / "box.so", fs::perms::none);
     EXPECT_EQ(FailsToLoad("box", folder_), "cannot be read: Permission denied");
   }
+}
+
+TEST_F(Loader, APluginWhoseConstructorThrowsDoesNotAbortTheProgram) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(FailsToLoad("throwing_constructor", EXPHOTON_BINARY_DIR "/fatal_plugins"), testing::ExitedWithCode(2),
+              "throwing_constructor.so\" fails while it is loaded, in a constructor: no licence");
 }
 
 // Every sixteenth of the file's length. Up to where the loaded parts end it is truncated; beyond,

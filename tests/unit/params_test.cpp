@@ -308,6 +308,17 @@ TEST_F(Params, SiblingsAreAskedOnlyForUnknownNames) {
   EXPECT_FALSE(isAsked);
 }
 
+TEST_F(Params, UnknownOnesOfADirectiveDoNotFloodTheLog) {
+  std::string text;
+  for (int i = 0; i < 500; ++i) text += "\"float unknown" + std::to_string(i) + "\" 1 ";
+  Bind(text);
+  ASSERT_EQ(log_.Messages().size(), 11u);
+  EXPECT_NE(log_.Messages()[10].find("490 more unknown parameters of shape \"x\""),
+            std::string::npos);
+  for (int i = 0; i < 1000; ++i) text += "\"float other" + std::to_string(i) + "\" 1 ";
+  EXPECT_NE(Fails(text).find("more than 1000 parameters of one directive"), std::string::npos);
+}
+
 TEST_F(Params, OfTwoWithOneNameTheLastCountsWithOneWarning) {
   EXPECT_EQ(Bind("\"integer count\" 3 \"integer count\" 4").count, 4);
   EXPECT_EQ(log_.WarningCount(), 1);
