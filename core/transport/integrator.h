@@ -3,6 +3,7 @@
 // the renderer hands them. One object serves all threads: Li is const.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ class ThreadPool;
 class ProgressReporter;
 class VolumeIntegrator;
 
+// Thrown by Preprocess where it was asked to stop; the renderer catches it.
+struct PreprocessStopped {};
+
 // What Preprocess works with.
 struct PreprocessContext {
   ThreadPool& threads;
@@ -36,6 +40,12 @@ struct PreprocessContext {
   const Camera* camera = nullptr;  // for what depends on the view; null: nothing may
   Point2i resolution;              // of the full image, whatever part of it is rendered
   const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
+  const std::atomic<bool>* stop = nullptr;  // set from outside; null: cannot be stopped
+
+  // To be called now and then by long work. Throws PreprocessStopped.
+  void CheckStop() const {
+    if (stop && stop->load(std::memory_order_relaxed)) throw PreprocessStopped();
+  }
 };
 
 // What one camera sample works with; lives on the stack of the thread that renders it.

@@ -245,14 +245,21 @@ struct PassRenderer::State {
                               options.isStrict,
                               &job.camera,
                               {full.Width(), full.Height()},
-                              job.volume};
+                              job.volume,
+                              Stop()};
     job.integrator.Preprocess(job.scene, context);
     if (job.volume) job.volume->Preprocess(job.scene);
+  }
+
+  // Before anything is worth keeping, who set the flag ends the process (RenderOptions).
+  const std::atomic<bool>* Stop() const {
+    return !options.pixelsBegun || *options.pixelsBegun ? options.stop : nullptr;
   }
 
   const RenderJob& job;
   const RenderOptions& options;
   std::deque<Worker> workers;
+  bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;
   Log unheard{Log::Level::Quiet, Log::Sink::Memory};
   int passes = 0;
@@ -282,7 +289,13 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   const RenderJob& job = state.job;
   const Clock::time_point start = Clock::now();
   for (Worker& worker : state.workers) worker.passNotes.Reset();
-  state.Preprocess(pass.preprocessSeed, job.progress);
+  try {
+    state.Preprocess(pass.preprocessSeed, job.progress);
+  } catch (const PreprocessStopped&) {
+    job.progress.End();
+    state.wasStopped = true;
+    return false;
+  }
   ++state.passes;
   state.preprocessSeconds = secondsSince(start);
 
@@ -304,7 +317,9 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
 }
 
 RenderResult PassRenderer::Finish() {
-  return Summarize(state_->job, state_->workers, state_->nonFinite);
+  RenderResult result = Summarize(state_->job, state_->workers, state_->nonFinite);
+  result.isComplete &= !state_->wasStopped;
+  return result;
 }
 
 RenderResult Render(const RenderJob& job, const RenderOptions& options) {

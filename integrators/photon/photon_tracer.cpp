@@ -319,6 +319,7 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
   std::vector<PhotonChunk> chunks;
   context.progress.Begin("Shooting photons", 1000);
   for (std::int64_t batch = kChunkPaths; open[0] || open[1] || open[2];) {
+    context.CheckStop();
     chunks.resize(std::size_t(batch / kChunkPaths));
     context.threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int worker) {
       TraceChunk(harvest.paths + c * kChunkPaths, open, targets.radianceFraction,

@@ -3,6 +3,7 @@
 // closed forms. The text is what a scene file says; furnace scenes and the like are made here.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,6 +25,7 @@ struct TestRenderOptions {
   TileOrder tileOrder = TileOrder::Scanline;
   bool isStrict = true;  // a non-finite sample throws
   LayerSet layers;       // appended to the image's channels
+  const std::atomic<bool>* stop = nullptr;
 };
 
 struct TestRender {

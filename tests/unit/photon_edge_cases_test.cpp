@@ -221,5 +221,21 @@ TEST(PhotonEdgeCases, SaysWhatTheDepthLimitCutsOffGatherRays) {
   EXPECT_FALSE(render(20).Says("could see"));
 }
 
+TEST(PhotonEdgeCases, AnInterruptDoesNotWaitUntilAllPhotonsAreShot) {
+  const std::atomic<bool> stop = true;
+  TestRenderOptions options;
+  options.stop = &stop;
+  for (const char* integrator : {"exphotonmap", "photonmap"}) {
+    const TestRender render = RenderSceneText(
+        TestHeader('"' + std::string(integrator) + "\" \"integer indirectphotons\" 20000000", 4, 4,
+                   1) +
+            FurnaceWorld(1, "\"matte\""),
+        options);
+    EXPECT_FALSE(render.result.isComplete);
+    EXPECT_TRUE(std::isnan(render.Counter("photons/indirect stored")));
+    EXPECT_EQ(MeanRadiance(render.image), 0);
+  }
+}
+
 }  // namespace
 }  // namespace exphoton
