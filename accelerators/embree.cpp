@@ -7,7 +7,7 @@
 //
 // Embree ignores boxes beyond 1.8e18, and its products over- and underflow much earlier. It
 // therefore sees the world scaled by a power of two to the size 1, and directions likewise, so that
-// the range is that of the other accelerators. Powers of two change no rounding.
+// it has the same range as the other accelerators. Powers of two change no rounding.
 #include "core/plugin.h"
 
 #if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)

@@ -42,8 +42,8 @@ std::string ReadSmallFile(const std::string& path) {
   return text.str();
 }
 
-// Numbers between blanks; '#' begins a comment. Lines end with LF, CR LF or CR. The C locale is
-// that of the program.
+// Numbers between blanks; '#' begins a comment. Lines end with LF, CR LF or CR. Numbers are
+// read in the C locale.
 std::vector<double> ParseNumbers(std::string text) {
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';

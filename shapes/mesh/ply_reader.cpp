@@ -221,7 +221,7 @@ std::unique_ptr<TriangleMesh> ReadPly(const std::string& path, std::uint64_t mos
     const int count = gzread(file.get(), block.data(), unsigned(block.size()));
     if (count < 0) throw PlyError("it cannot be read, or is not valid gzip data");
     if (count == 0) break;
-    if (bytes.size() + std::size_t(count) > mostBytes) {
+    if (!gzdirect(file.get()) && bytes.size() + std::size_t(count) > mostBytes) {
       throw PlyError("it is longer than the limit of " + std::to_string(mostBytes >> 20) +
                      " MiB, decompressed");
     }
