@@ -222,25 +222,6 @@ TEST(Sampler, RequestsAreUncorrelated) {
   }
 }
 
-// Two nets with one scrambling would be nets still, but x would be y in many points.
-TEST(Sampler, AxesOfAPointAreScrambledApart) {
-  TestPlugins plugins;
-  const Requests r;
-  for (const char* text : kSamplers) {
-    if (std::string(text).find("jitter") != std::string::npos) continue;  // middles of cells
-    const auto sampler = plugins.MakeSampler(text);
-    int equal = 0;
-    for (int i = 0; i < 3200; ++i) {
-      CameraSamples s{r.layout};
-      sampler->Generate({1, {i / 16, 3}, i % 16}, &s);
-      equal += s.film.x == s.film.y;
-      equal += s.Array2D(r.one2)[0].x == s.Array2D(r.one2)[0].y;
-      for (const Point2& u : s.Array2D(r.sixteen2)) equal += u.x == u.y;
-    }
-    EXPECT_LE(equal, 2) << text;  // of 57,600 pairs of 24 bits
-  }
-}
-
 // Within a stratum, too: where a sample lies in its cell says nothing of where it lies there along
 // the other axis, nor in another request.
 TEST(Sampler, PlacesWithinStrataAreUncorrelated) {
