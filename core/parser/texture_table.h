@@ -49,7 +49,7 @@ class TextureTable final : public TextureLookup {
   std::map<std::string, Entry<Spectrum>> color_;
 };
 
-// Finds textures in a table, and adds up the graphs of those that were found.
+// Finds textures in a table, and adds up the graphs of the textures found.
 class TextureUse final : public TextureLookup {
  public:
   explicit TextureUse(const TextureTable& table) : table_(table) {}

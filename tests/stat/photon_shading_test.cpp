@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons that leave a plate whose shading normals are tilted: the irradiance that they bring to a
-// floor is that of the constant radiance which cameras see on the plate.
+// Photons that leave a plate whose shading normals are tilted. Cameras see a constant radiance on
+// the plate, and the photons must bring the irradiance of this radiance to a floor.
 #include <gtest/gtest.h>
 
 #include <cmath>

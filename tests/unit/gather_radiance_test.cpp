@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kPi64 = 3.14159265358979;
 constexpr double kReflected = .3, kTransmitted = .6;
-// Powers of photons above the pane and below; the irradiance on each side is this times that of the
-// lattice: about one of its points 49 lie nearer than the 50th, at a squared distance of .17.
+// Powers of photons above the pane and below. The irradiance on each side is the power times the
+// density of the lattice: around a lattice point, 49 points lie nearer than the 50th, which has a
+// squared distance of .17.
 constexpr double kAbove = 1, kBelow = 3;
 constexpr double kLattice = 49 / (.17 * kPi64) / 100;
 

@@ -91,11 +91,10 @@ TEST(MipMap, WrapsAsAsked) {
   EXPECT_EQ(repeat.Lookup({Real(50.125), Real(.5)}), 1);
 }
 
-// Ewa's answer over st to one bright texel is its filter; that of a round footprint of a texels has
-// the Gaussian's variance on the level 2^L = a, widened by one of the level's texels: 4^L ((a /
-// 2^L)^2
-// + 1) m texels^2 on each axis about the middle of the level's texel, where m = .1361 is the
-// variance of exp(-2 r^2) - exp(-2) on the unit disk.
+// Ewa's answer over st to one bright texel is its filter. A round footprint of a texels is filtered
+// on the level 2^L = a by a Gaussian that is widened by one texel of the level. Its variance on each
+// axis, about the middle of the level's texel, is 4^L ((a / 2^L)^2 + 1) m texels^2, where m = .1361
+// is the variance of exp(-2 r^2) - exp(-2) on the unit disk.
 TEST(MipMap, EllipticalFilterIsAsWideAsItsFootprint) {
   constexpr int n = 256, kAt = 128, kReach = 24, kSteps = 4;
   std::vector<Real> texels(n * n, Real(0));
