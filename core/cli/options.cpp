@@ -65,6 +65,11 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
       .Between(0, kMaxThreads)
       .TypeName("N");
   app.Add("--seed", command.seed, "another seed gives other noise").TypeName("N");
+  app.Add("--footprint-spp", command.footprintSamples,
+          "filter textures and bumps as with N samples a pixel, whatever --spp says; for renders "
+          "that are compared")
+      .Between(std::int64_t(1), kMaxSamplesPerPixel)
+      .TypeName("N");
   app.AddFlag("--half", raw.asHalf, "16-bit channels (default)");
   app.AddFlag("--float", raw.asFloat, "32-bit channels");
   app.Add("--time-limit", raw.timeLimit,

@@ -36,6 +36,7 @@ struct RenderCommand {
   bool showsProgress = true;
   int threadCount = 0;  // 0: all cores
   std::uint64_t seed = 0;
+  std::int64_t footprintSamples = 0;  // RenderOptions
   Log::Level logLevel = Log::Level::Normal;
   std::string commandLine;  // as it was typed, for the picture's attributes
 };

@@ -57,6 +57,7 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   attributes["effects"] = setup.scene->Effects().Describe();
   attributes["seed"] = std::to_string(run.seed);
   attributes["samplesPerPixel"] = int(run.samplesPerPixel);
+  if (run.footprintSamples > 0) attributes["footprintSamplesPerPixel"] = int(run.footprintSamples);
   attributes["passes"] = run.passes;
   attributes["stoppedBy"] = run.stoppedBy;
   if (run.noise) attributes["noise"] = float(*run.noise);  // estimated noise part of relMSE

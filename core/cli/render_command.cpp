@@ -144,6 +144,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   RenderOptions options;
   options.seed = command_.seed;
   options.isStrict = command_.load.isStrict;
+  options.footprintSamples = command_.footprintSamples;
   options.stop = &StopFlag();
   options.pixelsBegun = &watch_.MustFinish();
   options.layers = films.layers.get();
@@ -190,6 +191,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->isComplete = result.render.isComplete;
   run->nonFiniteSamples = result.render.nonFiniteSamples;
   run->samplesPerPixel = result.samplesPerPixel;
+  run->footprintSamples = command_.footprintSamples;
   run->passes = result.passes;
   run->stoppedBy = StopReasonName(result.reason);
   run->noise = result.noise;

@@ -86,6 +86,8 @@ void AddScene(const RunRecord& run, JsonWriter* json) {
     json->Integer(edge);
   json->Close(']');
   json->Key("samplesPerPixel"), json->Integer(run.samplesPerPixel);
+  if (run.footprintSamples > 0)
+    json->Key("footprintSamplesPerPixel"), json->Integer(run.footprintSamples);
   json->Key("effects"), json->Open('{');
   for (int i = 0; i < kEffectCount; ++i) {
     const EffectPlan::Row& row = setup.scene->Effects().Get(Effect(i));

@@ -28,6 +28,7 @@ struct RunRecord {
   bool isComplete = true;
   std::int64_t nonFiniteSamples = 0;
   std::int64_t samplesPerPixel = 0;
+  std::int64_t footprintSamples = 0;  // 0: samplesPerPixel
   // How it was decided how much to render.
   int passes = 1;
   std::string stoppedBy;        // StopReasonName

@@ -138,6 +138,10 @@ void AddRender(OptionParser& app, StudyOptions& options, RawOptions& raw) {
   app.Add("--resolution", raw.resolution, "of all pictures").TakeLast().TypeName("WIDTHxHEIGHT");
   app.Add("--set", options.sets, "for all renders, as in exphoton render").OnePerUse();
   app.Add("--cropwindow", options.cropWindow, "render a part only").TakeLast();
+  app.Add("--footprint-spp", options.footprintSamples,
+          "filter textures and bumps of all renders as with N samples a pixel (default 16)")
+      .Between(std::int64_t(1), std::int64_t(1) << 30)
+      .TakeLast();
   app.Add("--crop", options.crops, "a part to show larger on the page: x0,x1,y0,y1 from 0 to 1")
       .OnePerUse();
   app.Add("--nthreads,--ncores", options.threads, "threads of each render; 0: all cores")

@@ -21,6 +21,7 @@ struct StudyOptions {
   std::string limits;                   // of every render
   std::vector<std::string> inputFiles;  // study files, scenes and references
   std::string cropWindow;               // of every render
+  std::int64_t footprintSamples = 16;   // of every render, so that all show the same picture
   std::vector<std::string> crops;       // parts shown larger on the page: "x0,x1,y0,y1"
   std::vector<std::string> references;  // none, one, or two halves
   std::string makeReference;            // a setting, for example "path maxdepth=100"; "": none

@@ -188,6 +188,7 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
   if (!options.cropWindow.empty()) add("--cropwindow", options.cropWindow);
   for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
   if (options.allowsScenePlugins) arguments.push_back("--allow-scene-plugins");
+  add("--footprint-spp", std::to_string(options.footprintSamples));
   add("--nthreads", std::to_string(options.threads));
   add("--seed", std::to_string(seed));
   arguments.push_back("--float");

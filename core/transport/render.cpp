@@ -28,6 +28,11 @@ struct Worker {
   bool wasStopped = false;
 };
 
+std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options) {
+  if (options.footprintSamples > 0) return options.footprintSamples;
+  return std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1);
+}
+
 // Brings the neighbouring rays from a pixel's distance to the mean distance of a pixel's samples.
 void ScaleDifferentials(RayDifferential* ray, Real scale) {
   ray->xOrigin = ray->o + (ray->xOrigin - ray->o) * scale;
@@ -88,9 +93,7 @@ class TileRenderer {
         target_(target),
         log_(log),
         layers_(options.layers),
-        differentialScale_(
-            Real(1 / std::sqrt(double(std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1))))) {
-  }
+        differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))) {}
 
   void RenderTile(const PixelBounds& tile, Worker* worker) const {
     for (int y = tile.y0; y < tile.y1; ++y) {

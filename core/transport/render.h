@@ -29,10 +29,13 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   int tileSize = 16;
   TileOrder tileOrder = TileOrder::Scanline;
-  bool isStrict = false;              // a non-finite sample ends the render: throws Error(Internal)
-  const std::atomic<bool>* stop = nullptr;  // set from outside (a signal): stop at the next pixel
+  bool isStrict = false;  // a non-finite sample ends the render: throws Error(Internal)
+  const std::atomic<bool>* stop = nullptr;   // set from outside (a signal): stop at the next pixel
   std::atomic<bool>* pixelsBegun = nullptr;  // set here once there may be something to keep
-  LayerFilm* layers = nullptr;  // filled beside the film; null: no layer was asked for
+  LayerFilm* layers = nullptr;               // filled beside the film; null: no layer was asked for
+  // Textures are filtered, and bumps differenced, over the footprint of one of so many samples a
+  // pixel; 0: of as many as are taken. Two renders that are compared need the same footprint.
+  std::int64_t footprintSamples = 0;
 };
 
 struct RenderJob {
@@ -50,8 +53,8 @@ struct RenderJob {
 };
 
 struct RenderResult {
-  bool isComplete = true;  // false where stopped
-  std::int64_t nonFiniteSamples = 0;  // dropped, counted as black
+  bool isComplete = true;                     // false where stopped
+  std::int64_t nonFiniteSamples = 0;          // dropped, counted as black
   std::vector<std::string> nonFiniteReports;  // the first few: pixel, sample, seed
 };
 
@@ -72,8 +75,9 @@ class PassRenderer {
   PassRenderer(const RenderJob& job, const RenderOptions& options);
   ~PassRenderer();
 
-  // Preprocesses, and adds the pass's samples to the film. Messages of a preprocessing that was done
-  // before with another seed are not repeated. False where stopped; then some pixels lack samples.
+  // Preprocesses, and adds the pass's samples to the film. Messages of a preprocessing that was
+  // done before with another seed are not repeated. False where stopped; then some pixels lack
+  // samples.
   bool Run(const RenderPass& pass, const Sampler& sampler, Film* film);
   // Fills the job's statistics and says what went wrong. Once, at the end.
   RenderResult Finish();

@@ -96,13 +96,15 @@ Image MeanOf(const std::vector<Image>& pictures) {
 }  // namespace
 
 Reference LoadReference(const std::string& name) {
-  const study::Reference measured = study::MakeReference(
-      ReadExr(kReferenceFolder + name + "-a.exr"), ReadExr(kReferenceFolder + name + "-b.exr"));
+  const Image half = ReadExr(kReferenceFolder + name + "-a.exr");
+  const study::Reference measured =
+      study::MakeReference(half, ReadExr(kReferenceFolder + name + "-b.exr"));
   Reference reference{measured.mean, {}, {}, measured};
+  reference.footprintSamples = std::get<int>(half.attributes.at("samplesPerPixel"));
   reference.counts = FindCounting(reference.image);
-  const std::vector<float>& half = measured.halfDifference;
-  for (std::size_t i = 0; i < half.size(); i += 3) {
-    const double grey = (double(half[i]) + double(half[i + 1]) + double(half[i + 2])) / 3;
+  const std::vector<float>& error = measured.halfDifference;
+  for (std::size_t i = 0; i < error.size(); i += 3) {
+    const double grey = (double(error[i]) + double(error[i + 1]) + double(error[i + 2])) / 3;
     reference.variance.push_back(grey * grey);
   }
   return reference;

@@ -24,6 +24,9 @@ struct Reference {
   std::vector<double> variance;  // ((a - b) / 2)^2
   std::vector<bool> counts;
   study::Reference measured;  // the same for relMSE, noise and bias
+  // Samples a pixel of each half. Bumps and textures look different over another footprint, so
+  // renders that are compared take this one.
+  std::int64_t footprintSamples = 0;
 };
 Reference LoadReference(const std::string& name);
 
@@ -50,8 +53,8 @@ double LargestFirefly(const Reference& reference, const std::vector<Image>& pict
 // Pixels, and negative values.
 long long CountNonFinite(const std::vector<Image>& pictures);
 
-// Writes the pictures' mean, the reference and the differences (of exphoton compare) to failed-images/NAME* in
-// the working directory; returns the path of the first.
+// Writes the pictures' mean, the reference and the differences (of exphoton compare) to
+// failed-images/NAME* in the working directory; returns the path of the first.
 std::string WriteFailure(const std::string& name, const Reference& reference,
                          const std::vector<Image>& pictures);
 

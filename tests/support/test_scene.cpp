@@ -44,6 +44,7 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
   renderOptions.tileSize = options.tileSize;
   renderOptions.tileOrder = options.tileOrder;
   renderOptions.isStrict = options.isStrict;
+  renderOptions.footprintSamples = options.footprintSamples;
   renderOptions.stop = options.stop;
   std::optional<LayerFilm> layers;
   if (!options.layers.IsEmpty()) renderOptions.layers = &layers.emplace(setup.crop, options.layers);

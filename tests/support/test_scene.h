@@ -23,6 +23,7 @@ struct TestRenderOptions {
   LoadOptions load;  // integrator, samplesPerPixel, effects ...; the plugin folder is filled in
   int tileSize = 16;
   TileOrder tileOrder = TileOrder::Scanline;
+  std::int64_t footprintSamples = 0;  // RenderOptions
   bool isStrict = true;  // a non-finite sample throws
   LayerSet layers;       // appended to the image's channels
   const std::atomic<bool>* stop = nullptr;

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/test_plugin.h"
+#include "tests/support/test_scene.h"
 
 namespace exphoton {
 namespace {
@@ -200,6 +201,26 @@ TEST_F(RenderTest, AOnePixelPictureIsFiniteUnderEveryFilter) {
     for (std::uint64_t seed = 0; seed < 50; ++seed)
       for (float v : Pixels({.crop = {0, 0, 1, 1}, .seed = seed})) EXPECT_TRUE(std::isfinite(v));
   }
+}
+
+// A checkerboard that is filtered: its colours depend on the footprint of a pixel.
+constexpr char kCheckerboard[] = R"(
+  Camera "perspective" Film "image" "integer xresolution" 16 "integer yresolution" 12
+  SurfaceIntegrator "directlighting" WorldBegin
+  LightSource "point" "point from" [0 1 0]
+  Texture "board" "color" "checkerboard" "color tex1" [1 1 1]
+    "color tex2" [0 0 0] "float uscale" 9 "float vscale" 9
+  Material "matte" "texture Kd" "board" Translate 0 0 2 Shape "disk" "float radius" 3 WorldEnd)";
+
+TEST(Footprint, OfAPixelIsThatOfItsSamplesUnlessAnotherIsAskedFor) {
+  const auto pixels = [](int samples, int footprint) {
+    TestRenderOptions options;
+    options.load.samplesPerPixel = samples;
+    options.footprintSamples = footprint;
+    return RenderSceneText(kCheckerboard, options).image.pixels;
+  };
+  EXPECT_EQ(pixels(4, 4), pixels(4, 0));
+  EXPECT_NE(pixels(4, 64), pixels(4, 0));
 }
 
 }  // namespace
