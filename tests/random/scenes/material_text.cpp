@@ -83,9 +83,15 @@ std::string BumpText(int bump, int* next, std::string* text) {
   return " \"texture bumpmap\" " + Name(number);
 }
 
-std::string Roughness(const MaterialModel& m) {
-  constexpr std::array<const char*, 3> kValues{".1", ".3", ".02"};
-  return kValues[std::size_t(m.roughness)];
+// A float parameter: one of three values, or a texture between the first and the second.
+std::string Choice(const std::string& name, int choice, const std::array<const char*, 3>& values,
+                   int* next, std::string* text) {
+  if (choice < 3) return " \"float " + name + "\" " + values[std::size_t(choice)];
+  const int number = (*next)++;
+  *text += Define(number, "float",
+                  std::string("\"checkerboard\" \"float vscale\" 3 \"float tex1\" ") + values[0] +
+                      " \"float tex2\" " + values[1]);
+  return " \"texture " + name + "\" " + Name(number);
 }
 
 // uber's opacity: 3 is a texture.
@@ -94,7 +100,14 @@ std::string OpacityText(int opacity, int* next, std::string* text) {
   if (opacity == 1) return " \"color opacity\" [.5 .5 .5]";
   if (opacity == 2) return " \"color opacity\" [0 0 1]";
   const int number = (*next)++;
-  *text += Define(number, "color", "\"checkerboard\" \"color tex1\" [1 1 1]");
+  if (opacity == 4) {
+    const int amount = (*next)++;
+    *text += Define(amount, "float", "\"bilerp\" \"float v01\" .1 \"float v10\" .3");
+    *text += Define(number, "color",
+                    "\"mix\" \"color tex1\" [1 1 1] \"texture amount\" " + Name(amount));
+  } else {
+    *text += Define(number, "color", "\"checkerboard\" \"color tex1\" [1 1 1]");
+  }
   return " \"texture opacity\" " + Name(number);
 }
 
@@ -158,13 +171,15 @@ std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
   const auto add = [&](const std::string& name, const TextureModel& texture, double factor) {
     parameters += Coefficient(name, texture, factor, next, &text);
   };
-  const std::string roughness = " \"float roughness\" " + Roughness(m);
+  const auto choose = [&](const char* name, const std::array<const char*, 3>& values) {
+    parameters += Choice(name, m.roughness, values, next, &text);
+  };
+  const std::array<const char*, 3> rough{".1", ".3", ".02"};
   const std::string fresnel = m.isPhysical ? " \"string fresnel\" \"physical\"" : "";
   switch (m.kind) {
     case MaterialKind::Matte:
       add("Kd", m.diffuse, kReflected);
-      if (m.roughness > 0)
-        parameters += m.roughness == 1 ? " \"float sigma\" 15" : " \"float sigma\" 40";
+      choose("sigma", {"0", "15", "40"});
       break;
     case MaterialKind::Mirror:
       add("Kr", m.mirror, 1);
@@ -172,12 +187,10 @@ std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
     case MaterialKind::Glass:
       add("Kt", m.diffuse, 1);
       add("Kr", m.glossy, 1);
-      parameters += m.roughness == 0   ? ""
-                    : m.roughness == 1 ? " \"float index\" 1.1"
-                                       : " \"float index\" 1";
+      choose("index", {"1.5", "1.1", "1"});
       break;
     case MaterialKind::Metal:
-      parameters = roughness;
+      choose("roughness", rough);
       break;
     case MaterialKind::Plastic:
     case MaterialKind::Translucent:
@@ -189,17 +202,19 @@ std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
         add("Kr", m.mirror, glossy / 2);
         parameters += OpacityText(m.opacity, next, &text);
       }
-      parameters += roughness + fresnel;
+      choose("roughness", rough);
+      parameters += fresnel;
       break;
     case MaterialKind::Substrate:
       add("Kd", m.diffuse, diffuse);
       add("Ks", m.glossy, glossy);
-      parameters += " \"float uroughness\" " + Roughness(m) + " \"float vroughness\" .2";
+      choose("uroughness", rough);
+      parameters += " \"float vroughness\" .2";
       break;
     case MaterialKind::ShinyMetal:
       add("Ks", m.glossy, .5);
       add("Kr", m.mirror, .5);
-      parameters += roughness;
+      choose("roughness", rough);
       break;
   }
   if (hasBumps) parameters += BumpText(m.bump, next, &text);

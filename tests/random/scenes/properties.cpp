@@ -22,7 +22,7 @@ struct Variation {
   int tileSize = 16;
   std::string accelerator = "bvh";
   bool keepsLastElements = true;
-  std::string integrator;  // empty: the scene's own
+  std::string integrator = "";  // empty: the scene's own
 };
 
 Image Rendered(const SceneModel& scene, const Variation& variation) {

@@ -55,8 +55,8 @@ rc::Gen<MaterialModel> AnyMaterial() {
   return gen::build<M>(gen::set(&M::kind, EvenKind<MaterialKind>(kMaterialKinds)),
                        gen::set(&M::diffuse, AnyTexture()), gen::set(&M::glossy, AnyTexture()),
                        gen::set(&M::mirror, AnyTexture()), gen::set(&M::share, Of({0, 1, 2})),
-                       gen::set(&M::roughness, Of({0, 0, 1, 2})),
-                       gen::set(&M::opacity, Of({0, 0, 1, 2, 3})),
+                       gen::set(&M::roughness, Of({0, 0, 1, 2, 3})),
+                       gen::set(&M::opacity, Of({0, 0, 1, 2, 3, 4})),
                        gen::set(&M::bump, Of({0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4})),
                        gen::set(&M::isPhysical, Of({0, 1})));
 }
@@ -100,7 +100,7 @@ rc::Gen<CameraModel> AnyCamera() {
   return gen::build<C>(
       gen::set(&C::kind, Of({0, 0, 0, 1, 2})), gen::set(&C::lens, Of({0, 0, 0, 1})),
       gen::set(&C::motion, Of({0, 0, 0, 0, 1, 2})), gen::set(&C::shutter, Of({0, 0, 0, 1, 2})),
-      gen::set(&C::place, Of({0, 0, 1, 2})));
+      gen::set(&C::times, Of({0, 0, 0, 1, 2})), gen::set(&C::place, Of({0, 0, 1, 2})));
 }
 
 // Up to three elements; `often` of ten lists may have elements.

@@ -52,8 +52,9 @@ struct MaterialModel {
   MaterialKind kind = MaterialKind::Matte;
   TextureModel diffuse, glossy, mirror;
   int share = 0;      // of the light that the diffuse lobes may reflect: 0: .8, 1: .5, 2: .2
-  int roughness = 0;  // 0: .1, 1: .3, 2: .02; of matte: 0, 15 and 40 degrees
-  int opacity = 0;    // of uber: 0: opaque, 1: .5, 2: red and green pass, 3: a texture
+  int roughness = 0;  // 0: .1, 1: .3, 2: .02, 3: a texture; of matte 0, 15 and 40 degrees
+  // Of uber: 0: opaque, 1: .5, 2: red and green pass, 3: a texture, 4: a blend of 1 and 1.
+  int opacity = 0;
   int bump = 0;       // 0: none, 1: constant, 2: checkerboard, 3: bilerp, 4: image
   int isPhysical = 0;
 };
@@ -115,6 +116,7 @@ struct CameraModel {
   int lens = 0;
   int motion = 0;   // 0: none, 1: travels, 2: turns
   int shutter = 0;  // 0: from 0 to 1, 1: closed, 2: from .25 to .5
+  int times = 0;    // of all motion: 0: from 0 to 1, 1: from 0 to .2, 2: from .3 to .4
   int place = 0;    // 0: at the front wall, 1: in the middle, 2: at the left
 };
 

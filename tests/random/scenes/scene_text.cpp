@@ -180,7 +180,10 @@ std::string MediumText(const MediumModel& medium, bool mayEmit) {
 
 std::string CameraText(const CameraModel& camera) {
   constexpr std::array<const char*, 3> kPlaces{"-.1 -.2 1.9", "-.1 -.2 .1", "1.5 .1 1.2"};
-  std::string text = "Translate " + std::string(kPlaces[std::size_t(camera.place)]) + "\n";
+  std::string text;
+  if (camera.times != 0)
+    text = camera.times == 1 ? "TransformTimes 0 .2\n" : "TransformTimes .3 .4\n";
+  text += "Translate " + std::string(kPlaces[std::size_t(camera.place)]) + "\n";
   if (camera.motion == 1) text += "ActiveTransform EndTime Translate .3 0 0 ActiveTransform All\n";
   if (camera.motion == 2) text += "ActiveTransform EndTime Rotate 20 0 1 0 ActiveTransform All\n";
   text += camera.kind == 0   ? "Camera \"perspective\" \"float fov\" 80"
