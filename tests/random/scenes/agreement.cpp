@@ -33,6 +33,8 @@ namespace {
 
 constexpr int kSeeds = 6;
 constexpr double kPictureMargin = .02, kBlockMargin = .05, kEnergyMargin = .01;
+// Of exphotonmap against itself without radiance photons, with the same photons.
+constexpr double kPairPictureMargin = .01, kPairBlockMargin = .03;
 constexpr int kBlocks = 2;  // along each axis
 // Mean radiance below which pictures are not compared; lamps have .2 to 3.6.
 constexpr double kDark = .005;
@@ -45,6 +47,8 @@ struct Method {
 constexpr Method kPath{"\"path\" \"integer maxdepth\" 60", 32, 1};
 constexpr Method kPhotonMap{
     "\"photonmap\" \"integer maxdepth\" 24 \"string lightselection\" \"power\"", 4, 4};
+constexpr Method kDensityEstimates{
+    "\"exphotonmap\" \"integer maxdepth\" 24 \"bool radiancephotons\" \"false\"", 4, 8};
 constexpr Method kExPhotonMap{"\"exphotonmap\" \"integer maxdepth\" 24", 4, 8};
 
 bool IsSpecular(const MaterialModel& m) {
@@ -119,6 +123,23 @@ void Compare(const std::string& what, const Means& a, const Means& b,
   }
 }
 
+// The same seeds give the same photons and gather rays, so the differences of pairs have less noise
+// than those of means.
+void ComparePairs(const std::string& what, const Means& a, const Means& b,
+                  std::vector<Comparison>* comparisons) {
+  const double whole = SampleOf(b[0]).mean;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::vector<double> differences;
+    for (std::size_t k = 0; k < a[i].size(); ++k) differences.push_back(a[i][k] - b[i][k]);
+    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]), pairs = SampleOf(differences);
+    const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
+    const double margin = (i == 0 ? kPairPictureMargin : kPairBlockMargin) * scale;
+    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
+                            ChanceBeyond(pairs, {0, 0, pairs.count}, margin),
+                            Describe(left, right)});
+  }
+}
+
 double Length(const Place& place, double x, double y, double z) {
   return std::hypot(.3 * place.x - x, .3 * place.y - y, .3 * place.z - z);
 }
@@ -172,6 +193,8 @@ std::vector<Comparison> CompareIntegrators(const SceneModel& scene, const Effort
   if (!(SampleOf(path[0]).mean > kDark)) return comparisons;
   const Means extended = means(kExPhotonMap, 1);
   Compare("exphotonmap against path", extended, path, &comparisons);
+  ComparePairs("exphotonmap against its density estimates", extended, means(kDensityEstimates, 1),
+               &comparisons);
   const Means plain = means(kPhotonMap, 2);
   Compare("photonmap against path", plain, path, &comparisons);
   Compare("exphotonmap against photonmap", extended, plain, &comparisons);

@@ -50,11 +50,21 @@ rc::Gen<TextureModel> AnyTexture() {
                                   gen::set(&TextureModel::second, AnyColour()));
 }
 
+// The middle of each channel is its top: gloss that matters.
+rc::Gen<TextureModel> BrightTexture() {
+  return gen::map(AnyTexture(), [](TextureModel t) {
+    for (Colour* colour : {&t.first, &t.second})
+      for (int* channel : {&colour->red, &colour->green, &colour->blue})
+        if (*channel == 5) *channel = 9;
+    return t;
+  });
+}
+
 rc::Gen<MaterialModel> AnyMaterial() {
   using M = MaterialModel;
   return gen::build<M>(gen::set(&M::kind, EvenKind<MaterialKind>(kMaterialKinds)),
-                       gen::set(&M::diffuse, AnyTexture()), gen::set(&M::glossy, AnyTexture()),
-                       gen::set(&M::mirror, AnyTexture()), gen::set(&M::share, Of({0, 1, 2})),
+                       gen::set(&M::diffuse, AnyTexture()), gen::set(&M::glossy, BrightTexture()),
+                       gen::set(&M::mirror, AnyTexture()), gen::set(&M::share, Of({0, 1, 2, 2})),
                        gen::set(&M::roughness, Of({0, 0, 1, 2, 3})),
                        gen::set(&M::opacity, Of({0, 0, 1, 2, 3, 4})),
                        gen::set(&M::bump, Of({0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4})),
