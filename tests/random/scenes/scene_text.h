@@ -12,7 +12,7 @@ namespace exphoton::random_scenes {
 inline constexpr int kFilmWidth = 12, kFilmHeight = 8;
 
 struct TextOptions {
-  std::string integrator;  // with parameters; empty: the scene's own
+  std::string integrator = "";  // with parameters; empty: the scene's own
   std::string accelerator = "bvh";
   int photons = 500;              // of each map
   int gatherRays = 6;             // of a camera sample
