@@ -55,7 +55,7 @@ struct MaterialModel {
   int roughness = 0;  // 0: .1, 1: .3, 2: .02, 3: a texture; of matte 0, 15 and 40 degrees
   // Of uber: 0: opaque, 1: .5, 2: red and green pass, 3: a texture, 4: a blend of 1 and 1.
   int opacity = 0;
-  int bump = 0;       // 0: none, 1: constant, 2: checkerboard, 3: bilerp, 4: image
+  int bump = 0;  // 0: none, 1: constant, 2: checkerboard, 3: bilerp, 4: image
   int isPhysical = 0;
 };
 
