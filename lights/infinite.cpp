@@ -47,12 +47,16 @@ class RadianceMap {
         const double solidAngle = CellSolidAngle(y);
         for (int c = 0; c < Spectrum::kChannels; ++c)
           integral_[std::size_t(c)] += double(mean[c]) * solidAngle;
+        for (int c = 0; c < Spectrum::kChannels; ++c)
+          largest_[c] = std::max(largest_[c], Texel(x, y)[c]);
         weights.push_back(double(mean.MaxComponent()) * solidAngle);
       }
     }
     cells_ = PiecewiseConstant2D(weights, width_, height_);
   }
 
+  // Of each channel. The integral may underflow to 0, this does not.
+  const Spectrum& Largest() const { return largest_; }
   // Of the radiance over the sphere.
   Spectrum Integral() const { return {Real(integral_[0]), Real(integral_[1]), Real(integral_[2])}; }
 
@@ -126,6 +130,7 @@ class RadianceMap {
   std::vector<Spectrum> texels_;
   int width_, height_;
   std::array<double, 3> integral_{};
+  Spectrum largest_;
   PiecewiseConstant2D cells_;
 };
 
@@ -147,7 +152,7 @@ class InfiniteLight final : public Light {
   bool IsInfinite() const override { return true; }
   bool IsFar() const override { return true; }
   bool IsProvablyBlack() const override {
-    return radiance_.IsBlack() || (map_ && (radiance_ * map_->Integral()).IsBlack());
+    return radiance_.IsBlack() || (map_ && (radiance_ * map_->Largest()).IsBlack());
   }
   int SampleCount() const override { return sampleCount_; }
   Spectrum Power() const override {
@@ -169,8 +174,8 @@ class InfiniteLight final : public Light {
   }
 
   // Density DirectionPdf per solid angle times 1 / (pi r^2) per area of the disk.
-  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
-                                               Real, Real time) const override {
+  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real,
+                                               Real time) const override {
     const auto w = SampleDirection(uDirection);
     if (!w || !(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);

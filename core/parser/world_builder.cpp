@@ -81,6 +81,18 @@ void WorldBuilder::AddVolume(const Directive& directive, const GraphicsState& st
       MediumContext{state.transform.start, log_, directive.Where()}));
 }
 
+namespace {
+
+// The plan of effects trusts ConstantValue, so Evaluate must give that very value: a blend of 1 and
+// 1 may be off by a rounding error, which would open an opaque surface.
+template <class T>
+TexturePtr<T> WithoutRounding(TexturePtr<T> texture) {
+  const auto value = texture->ConstantValue();
+  return value ? Uniform(*value) : texture;
+}
+
+}  // namespace
+
 void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* state) {
   const std::string &name = directive.strings[0], &type = directive.strings[1],
                     &plugin = directive.strings[2];
@@ -96,11 +108,11 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
   TexturePtr<Real> floats;
   TexturePtr<Spectrum> colors;
   if (isColor)
-    colors = registry_.Create<PluginKind::ColorTexture>(
-        plugin, directive.params, Bind(PluginKind::ColorTexture, plugin, &use), context);
+    colors = WithoutRounding<Spectrum>(registry_.Create<PluginKind::ColorTexture>(
+        plugin, directive.params, Bind(PluginKind::ColorTexture, plugin, &use), context));
   else
-    floats = registry_.Create<PluginKind::FloatTexture>(
-        plugin, directive.params, Bind(PluginKind::FloatTexture, plugin, &use), context);
+    floats = WithoutRounding<Real>(registry_.Create<PluginKind::FloatTexture>(
+        plugin, directive.params, Bind(PluginKind::FloatTexture, plugin, &use), context));
   const TextureGraph graph = use.Above();
   CheckGraph(graph, directive, limits_);
   const bool isKnown = state->textures->Has(name, isColor);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Random scenes with fixed seeds: the short form of what ./dev soak does.
+#include <gtest/gtest.h>
+
+#include "tests/random/scenes/run.h"
+
+namespace exphoton::random_scenes {
+namespace {
+
+void ExpectNoFailure(const SceneRun& run) {
+  for (const Failure& failure : run.Failures())
+    ADD_FAILURE() << failure.property << ", seed " << failure.seed << ": " << failure.detail << "\n"
+                  << failure.text;
+}
+
+TEST(RandomScenes, KeepTheirPixelsWithEveryPlanThreadCountAndAccelerator) {
+  SceneRun run({});
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) run.CheckInvariances(seed);
+  ExpectNoFailure(run);
+}
+
+TEST(RandomScenes, GiveNoMoreEnergyThanTheyGet) {
+  SceneRun run({});
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) run.CompareEnergy(seed);
+  run.JudgeComparisons();
+  ExpectNoFailure(run);
+}
+
+TEST(RandomScenes, LookTheSameToPathAndBothPhotonIntegrators) {
+  SceneRun run({.maxStatisticalTries = 0});
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) run.CompareAgreement(seed);
+  run.JudgeComparisons();
+  ExpectNoFailure(run);
+}
+
+}  // namespace
+}  // namespace exphoton::random_scenes

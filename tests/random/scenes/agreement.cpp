@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Agreement of the integrators, and the bound on energy.
+//
+// Left out of the comparison of integrators, by changing the scene:
+// - lights without size where a surface is specular: path tracing cannot find their caustics;
+// - shapes that move: a photon map knows the mean of the light over the exposure only;
+// - bumps and interpolated normals: radiance photons see the surface as smooth;
+// - open rooms, far lights, and shapes that are sheets: estimates near the edge of a sheet find
+//   photons of its other side, and too few beyond its edge;
+// - rough matte surfaces: radiance photons take Lambert's law;
+// - lamps that shine into their own body, and pictures that are far darker than the lamps: next to
+//   no light should come out of a closed body, but photons leak through its edges.
+// These are the biases of docs/exphotonmap.md, section 6, that have no bound. What is left, the
+// blur of photon maps, is allowed for by the margins below.
+//
+// The bound on energy: in a furnace (TextOptions::isFurnace) each surface emits at most 1 - a,
+// where a is a bound of its albedo, and the sky 1. If no radiance is above M, none that leaves a
+// surface is above (1 - a) + a M, so M <= 1. Media absorb, and scatter no more than they absorb.
+// Inside glass radiance may be the squared index times that, so the camera must not be there.
+#include "tests/random/scenes/agreement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/random/scenes/scene_text.h"
+#include "tests/random/scenes/statistics.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton::random_scenes {
+namespace {
+
+constexpr int kSeeds = 6;
+constexpr double kPictureMargin = .02, kBlockMargin = .05, kEnergyMargin = .01;
+// Of exphotonmap against itself without radiance photons, with the same photons.
+constexpr double kPairPictureMargin = .01, kPairBlockMargin = .03;
+constexpr int kBlocks = 2;  // along each axis
+// Mean radiance below which pictures are not compared; lamps have .2 to 3.6.
+constexpr double kDark = .005;
+
+struct Method {
+  const char* integrator;
+  int samples;
+  int gatherRays;
+};
+constexpr Method kPath{"\"path\" \"integer maxdepth\" 60", 32, 1};
+constexpr Method kPhotonMap{
+    "\"photonmap\" \"integer maxdepth\" 24 \"string lightselection\" \"power\"", 4, 4};
+constexpr Method kDensityEstimates{
+    "\"exphotonmap\" \"integer maxdepth\" 24 \"bool radiancephotons\" \"false\"", 4, 8};
+constexpr Method kExPhotonMap{"\"exphotonmap\" \"integer maxdepth\" 24", 4, 8};
+
+bool IsSpecular(const MaterialModel& m) {
+  return m.kind == MaterialKind::Mirror || m.kind == MaterialKind::Glass ||
+         m.kind == MaterialKind::ShinyMetal || m.kind == MaterialKind::Uber;
+}
+
+bool HasMaterial(const SceneModel& scene, bool (*is)(const MaterialModel&)) {
+  return (scene.room != RoomKind::None && is(scene.walls)) ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [&](const BodyModel& body) { return is(body.material); });
+}
+
+TextOptions OptionsOf(const Method& method, int factor) {
+  TextOptions options;
+  options.integrator = method.integrator;
+  options.samples = method.samples * factor;
+  options.gatherRays = method.gatherRays;
+  options.photons = 4000 * factor;
+  options.maxPhotonPaths = 100000 * factor;
+  return options;
+}
+
+// Luminance is not needed: the mean of the channels. [0] is the picture, then come the blocks.
+using Means = std::array<std::vector<double>, 1 + kBlocks * kBlocks>;
+
+void SubtractEmission(Image* image) {
+  for (const char* name : {"R", "G", "B"}) {
+    const int color = image->FindChannel(name);
+    const int emission = image->FindChannel(std::string("emission.") + name);
+    for (int y = 0; y < image->Height(); ++y)
+      for (int x = 0; x < image->Width(); ++x) image->At(x, y, color) -= image->At(x, y, emission);
+  }
+}
+
+// Without the lamps that the camera sees, if `hidesLamps`: they would hide an error of the rest.
+Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesLamps) {
+  Means means;
+  const int width = kFilmWidth / kBlocks, height = kFilmHeight / kBlocks;
+  for (int k = 0; k < kSeeds; ++k) {
+    TestRenderOptions options;
+    options.seed = firstSeed + std::uint64_t(k) * 1000;
+    if (hidesLamps) options.layers.Add(Layer::Emission);
+    Image image = RenderSceneText(text, options).image;
+    if (hidesLamps) SubtractEmission(&image);
+    means[0].push_back(MeanRadiance(image));
+    for (int b = 0; b < kBlocks * kBlocks; ++b) {
+      const int x = b % kBlocks * width, y = b / kBlocks * height;
+      means[std::size_t(b + 1)].push_back(MeanRadiance(image, {x, y, x + width, y + height}));
+    }
+  }
+  return means;
+}
+
+std::string Describe(const Sample& a, const Sample& b) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%.5g +- %.2g against %.5g +- %.2g (%+.1f %%)", a.mean,
+                std::sqrt(a.variance), b.mean, std::sqrt(b.variance), 100 * (a.mean / b.mean - 1));
+  return text;
+}
+
+void Compare(const std::string& what, const Means& a, const Means& b,
+             std::vector<Comparison>* comparisons) {
+  const double whole = SampleOf(b[0]).mean;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
+    // A dark block is compared with a part of the picture's mean, as an eye would.
+    const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
+    const double margin = (i == 0 ? kPictureMargin : kBlockMargin) * scale;
+    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
+                            ChanceBeyond(left, right, margin), Describe(left, right)});
+  }
+}
+
+// The same seeds give the same photons and gather rays, so the differences of pairs have less noise
+// than those of means.
+void ComparePairs(const std::string& what, const Means& a, const Means& b,
+                  std::vector<Comparison>* comparisons) {
+  const double whole = SampleOf(b[0]).mean;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::vector<double> differences;
+    for (std::size_t k = 0; k < a[i].size(); ++k) differences.push_back(a[i][k] - b[i][k]);
+    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]), pairs = SampleOf(differences);
+    const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
+    const double margin = (i == 0 ? kPairPictureMargin : kPairBlockMargin) * scale;
+    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
+                            ChanceBeyond(pairs, {0, 0, pairs.count}, margin),
+                            Describe(left, right)});
+  }
+}
+
+double Length(const Place& place, double x, double y, double z) {
+  return std::hypot(.3 * place.x - x, .3 * place.y - y, .3 * place.z - z);
+}
+
+// Whether the camera may be within a body.
+bool IsCameraInside(const SceneModel& scene) {
+  constexpr std::array<std::array<double, 3>, 3> kCameras{
+      {{.1, .2, -1.9}, {.1, .2, -.1}, {-1.5, -.1, -1.2}}};
+  const auto& c = kCameras[std::size_t(scene.camera.place)];
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodyModel& body) {
+    return body.isInstance == 2 || body.motion != 0 ||
+           Length(body.place, c[0], c[1], c[2]) < 1.8;  // the largest half-diagonal
+  });
+}
+
+}  // namespace
+
+SceneModel WithoutKnownDifferences(const SceneModel& scene) {
+  SceneModel same = scene;
+  const bool isRound = same.room == RoomKind::Sphere || same.room == RoomKind::None;
+  same.room = isRound ? RoomKind::Sphere : RoomKind::Box;
+  same.camera.shutter = 0;
+  std::erase_if(same.lights,
+                [](const LightModel& light) { return light.kind >= LightKind::Distant; });
+  // Where both are, scenes take turns in what they lose.
+  const bool keepsLights = !same.lights.empty() && same.integrator % 2 == 0;
+  const auto simplify = [&](MaterialModel* material) {
+    material->bump = 0;
+    if (keepsLights && IsSpecular(*material)) material->kind = MaterialKind::Plastic;
+    if (material->kind == MaterialKind::Matte) material->roughness = 0;
+  };
+  simplify(&same.walls);
+  for (BodyModel& body : same.bodies) {
+    if (body.kind != BodyKind::Sphere) body.kind = BodyKind::Box;
+    body.motion = 0;
+    if (body.emission != 0) body.reverse = 0;
+    simplify(&body.material);
+  }
+  if (HasMaterial(same, IsSpecular)) same.lights.clear();
+  return same;
+}
+
+std::vector<Comparison> CompareIntegrators(const SceneModel& scene, const Effort& effort) {
+  const SceneModel same = WithoutKnownDifferences(scene);
+  const auto means = [&](const Method& method, std::uint64_t seed) {
+    return MeansOfSeeds(SceneText(same, OptionsOf(method, effort.factor)), effort.firstSeed + seed,
+                        true);
+  };
+  std::vector<Comparison> comparisons;
+  const Means path = means(kPath, 0);
+  if (!(SampleOf(path[0]).mean > kDark)) return comparisons;
+  const Means extended = means(kExPhotonMap, 1);
+  Compare("exphotonmap against path", extended, path, &comparisons);
+  ComparePairs("exphotonmap against its density estimates", extended, means(kDensityEstimates, 1),
+               &comparisons);
+  const Means plain = means(kPhotonMap, 2);
+  Compare("photonmap against path", plain, path, &comparisons);
+  Compare("exphotonmap against photonmap", extended, plain, &comparisons);
+  return comparisons;
+}
+
+std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort& effort) {
+  std::vector<Comparison> comparisons;
+  // Both lobes of shinymetal go to 1 at grazing angles.
+  const auto gains = [](const MaterialModel& m) { return m.kind == MaterialKind::ShinyMetal; };
+  const auto refracts = [](const MaterialModel& m) { return m.kind == MaterialKind::Glass; };
+  if (HasMaterial(scene, gains)) return comparisons;
+  if (HasMaterial(scene, refracts) &&
+      (IsCameraInside(scene) || scene.walls.kind == MaterialKind::Glass))
+    return comparisons;
+  TextOptions options = OptionsOf(kPath, effort.factor);
+  options.isFurnace = true;
+  options.samples = 4 * effort.factor;
+  const Means path = MeansOfSeeds(SceneText(scene, options), effort.firstSeed + 3, false);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Sample sample = SampleOf(path[i]);
+    comparisons.push_back({i == 0 ? "energy, picture" : "energy, block " + std::to_string(i),
+                           ChanceAbove(sample, 1 + kEnergyMargin),
+                           Describe(sample, {1, 0, kSeeds})});
+  }
+  return comparisons;
+}
+
+std::string AgreementText(const SceneModel& scene) {
+  return SceneText(WithoutKnownDifferences(scene), OptionsOf(kExPhotonMap, 1));
+}
+
+std::string EnergyText(const SceneModel& scene) {
+  TextOptions options = OptionsOf(kPath, 1);
+  options.isFurnace = true;
+  return SceneText(scene, options);
+}
+
+}  // namespace exphoton::random_scenes

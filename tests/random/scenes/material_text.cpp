@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Materials and textures of random scenes. Coefficients are scaled so that no material but
+// shinymetal and metal can return more light than it gets.
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/random/scenes/scene_text.h"
+
+namespace exphoton::random_scenes {
+namespace {
+
+// What the lobes of a material may reflect together.
+constexpr double kReflected = .95;
+
+double DiffuseShare(const MaterialModel& material) {
+  constexpr std::array<double, 3> kShares{.8, .5, .2};
+  return kShares[std::size_t(material.share)];
+}
+
+std::string Name(int number) { return "\"t" + std::to_string(number) + "\""; }
+
+// Texture "tN" "color" CLASS
+std::string Define(int number, const std::string& type, const std::string& rest) {
+  return "  Texture " + Name(number) + " \"" + type + "\" " + rest + "\n";
+}
+
+// The class of a texture and its parameters. Textures that it needs are added to `text`.
+std::string ClassText(const TextureModel& t, int* next, std::string* text) {
+  const std::string first = ColourText(t.first, 1), second = ColourText(t.second, 1);
+  const std::string both = " \"color tex1\" " + first + " \"color tex2\" " + second;
+  switch (t.kind) {
+    case TextureKind::Scale:
+      return "\"scale\"" + both;
+    case TextureKind::Mix:
+      return "\"mix\"" + both + " \"float amount\" .3";
+    case TextureKind::Checkerboard:
+      return "\"checkerboard\" \"float uscale\" 4 \"float vscale\" 4" + both;
+    case TextureKind::CheckerboardOfSpace:
+      return "\"checkerboard\" \"integer dimension\" 3" + both;
+    case TextureKind::Bilerp:
+      return "\"bilerp\" \"color v00\" " + first + " \"color v01\" " + second + " \"color v10\" " +
+             second + " \"color v11\" " + first;
+    case TextureKind::Uv:
+      return "\"uv\"";
+    case TextureKind::Image:
+      return "\"imagemap\" \"string filename\" \"" + ImageFile() + "\"";
+    case TextureKind::Nested: {
+      const int board = (*next)++, product = (*next)++;
+      *text += Define(board, "color", "\"checkerboard\" \"string aamode\" \"none\"" + both);
+      *text += Define(product, "color",
+                      "\"scale\" \"texture tex1\" " + Name(board) + " \"color tex2\" " + second);
+      return "\"mix\" \"texture tex1\" " + Name(product) + " \"color tex2\" " + first;
+    }
+    case TextureKind::Constant:
+      break;
+  }
+  return "\"constant\" \"color value\" " + first;
+}
+
+// A parameter whose value is the texture times factor.
+std::string Coefficient(const std::string& name, const TextureModel& t, double factor, int* next,
+                        std::string* text) {
+  if (t.kind == TextureKind::Constant)
+    return " \"color " + name + "\" " + ColourText(t.first, factor);
+  const std::string definition = ClassText(t, next, text);
+  const int inner = (*next)++, outer = (*next)++;
+  *text += Define(inner, "color", definition);
+  *text += Define(outer, "color",
+                  "\"scale\" \"texture tex1\" " + Name(inner) + " \"color tex2\" " +
+                      ColourText({10, 10, 10}, factor));
+  return " \"texture " + name + "\" " + Name(outer);
+}
+
+std::string BumpText(int bump, int* next, std::string* text) {
+  if (bump == 0) return "";
+  const int number = (*next)++;
+  std::string definition = "\"constant\" \"float value\" .1";
+  if (bump == 2)
+    definition = "\"checkerboard\" \"float uscale\" 3 \"float tex1\" .1 \"float tex2\" 0";
+  if (bump == 3) definition = "\"bilerp\" \"float v01\" .2 \"float v10\" .1 \"float v11\" -.1";
+  if (bump == 4) definition = "\"imagemap\" \"string filename\" \"" + ImageFile() + "\"";
+  *text += Define(number, "float", definition);
+  return " \"texture bumpmap\" " + Name(number);
+}
+
+// A float parameter: one of three values, or a texture between the first and the second.
+std::string Choice(const std::string& name, int choice, const std::array<const char*, 3>& values,
+                   int* next, std::string* text) {
+  if (choice < 3) return " \"float " + name + "\" " + values[std::size_t(choice)];
+  const int number = (*next)++;
+  *text += Define(number, "float",
+                  std::string("\"checkerboard\" \"float vscale\" 3 \"float tex1\" ") + values[0] +
+                      " \"float tex2\" " + values[1]);
+  return " \"texture " + name + "\" " + Name(number);
+}
+
+// uber's opacity: 3 is a texture.
+std::string OpacityText(int opacity, int* next, std::string* text) {
+  if (opacity == 0) return "";
+  if (opacity == 1) return " \"color opacity\" [.5 .5 .5]";
+  if (opacity == 2) return " \"color opacity\" [0 0 1]";
+  const int number = (*next)++;
+  if (opacity == 4) {
+    const int amount = (*next)++;
+    *text += Define(amount, "float", "\"bilerp\" \"float v01\" .1 \"float v10\" .3");
+    *text += Define(number, "color",
+                    "\"mix\" \"color tex1\" [1 1 1] \"texture amount\" " + Name(amount));
+  } else {
+    *text += Define(number, "color", "\"checkerboard\" \"color tex1\" [1 1 1]");
+  }
+  return " \"texture opacity\" " + Name(number);
+}
+
+// The largest value of a texture in a channel.
+double Largest(const TextureModel& t, int Colour::*channel) {
+  if (t.kind == TextureKind::Uv || t.kind == TextureKind::Image) return 1;
+  if (t.kind == TextureKind::Constant) return .1 * (t.first.*channel);
+  return .1 * std::max(t.first.*channel, t.second.*channel);
+}
+
+double AlbedoOf(const MaterialModel& m, int Colour::*channel) {
+  const double kd = Largest(m.diffuse, channel), ks = Largest(m.glossy, channel),
+               kr = Largest(m.mirror, channel);
+  const double diffuse = DiffuseShare(m), glossy = kReflected - diffuse;
+  switch (m.kind) {
+    // Oren and Nayar's model returns up to 2 % more than its reflectance at grazing angles.
+    case MaterialKind::Matte:
+      return kReflected * kd * (m.roughness == 0 ? 1 : 1.02);
+    case MaterialKind::Mirror:
+      return kr;
+    case MaterialKind::Glass:
+      return std::max(kd, ks);
+    case MaterialKind::Plastic:
+      return diffuse * kd + glossy * ks;
+    case MaterialKind::Translucent:
+      return (diffuse * kd + glossy * ks) * (.5 + .5 * kr);
+    case MaterialKind::Uber:
+      return m.opacity != 0 ? 1 : diffuse * kd + glossy / 2 * (ks + kr);
+    case MaterialKind::Metal:
+    case MaterialKind::Substrate:
+    case MaterialKind::ShinyMetal:
+      break;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::string ColourText(const Colour& colour, double factor) {
+  char text[80];
+  std::snprintf(text, sizeof text, "[%.6g %.6g %.6g]", .1 * factor * colour.red,
+                .1 * factor * colour.green, .1 * factor * colour.blue);
+  return text;
+}
+
+std::string ImageFile() {
+  return std::string(EXPHOTON_SOURCE_DIR) + "/scenes/parts/tile_height.png";
+}
+
+std::array<double, 3> LargestAlbedo(const MaterialModel& material) {
+  return {AlbedoOf(material, &Colour::red), AlbedoOf(material, &Colour::green),
+          AlbedoOf(material, &Colour::blue)};
+}
+
+std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
+  constexpr std::array<const char*, kMaterialKinds> kNames{"matte",       "mirror", "glass",
+                                                           "plastic",     "metal",  "substrate",
+                                                           "translucent", "uber",   "shinymetal"};
+  const double diffuse = DiffuseShare(m), glossy = kReflected - diffuse;
+  std::string text, parameters;
+  const auto add = [&](const std::string& name, const TextureModel& texture, double factor) {
+    parameters += Coefficient(name, texture, factor, next, &text);
+  };
+  const auto choose = [&](const char* name, const std::array<const char*, 3>& values) {
+    parameters += Choice(name, m.roughness, values, next, &text);
+  };
+  const std::array<const char*, 3> rough{".1", ".3", ".02"};
+  const std::string fresnel = m.isPhysical ? " \"string fresnel\" \"physical\"" : "";
+  switch (m.kind) {
+    case MaterialKind::Matte:
+      add("Kd", m.diffuse, kReflected);
+      choose("sigma", {"0", "15", "40"});
+      break;
+    case MaterialKind::Mirror:
+      add("Kr", m.mirror, 1);
+      break;
+    case MaterialKind::Glass:
+      add("Kt", m.diffuse, 1);
+      add("Kr", m.glossy, 1);
+      choose("index", {"1.5", "1.1", "1"});
+      break;
+    case MaterialKind::Metal:
+      choose("roughness", rough);
+      break;
+    case MaterialKind::Plastic:
+    case MaterialKind::Translucent:
+    case MaterialKind::Uber:
+      add("Kd", m.diffuse, diffuse);
+      add("Ks", m.glossy, m.kind == MaterialKind::Uber ? glossy / 2 : glossy);
+      if (m.kind == MaterialKind::Translucent) add("transmit", m.mirror, .5);
+      if (m.kind == MaterialKind::Uber) {
+        add("Kr", m.mirror, glossy / 2);
+        parameters += OpacityText(m.opacity, next, &text);
+      }
+      choose("roughness", rough);
+      parameters += fresnel;
+      break;
+    case MaterialKind::Substrate:
+      add("Kd", m.diffuse, diffuse);
+      add("Ks", m.glossy, glossy);
+      choose("uroughness", rough);
+      parameters += " \"float vroughness\" .2";
+      break;
+    case MaterialKind::ShinyMetal:
+      add("Ks", m.glossy, .5);
+      add("Kr", m.mirror, .5);
+      choose("roughness", rough);
+      break;
+  }
+  if (hasBumps) parameters += BumpText(m.bump, next, &text);
+  return text + "  Material \"" + kNames[std::size_t(m.kind)] + "\"" + parameters + "\n";
+}
+
+}  // namespace exphoton::random_scenes

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Checking, repeating and counting.
+#include "tests/random/scenes/run.h"
+
+#include <cstdio>
+#include <exception>
+
+#include "tests/random/scenes/properties.h"
+#include "tests/random/scenes/scene_generator.h"
+#include "tests/random/scenes/scene_text.h"
+#include "tests/random/scenes/shrinking.h"
+#include "tests/random/scenes/statistics.h"
+
+namespace exphoton::random_scenes {
+namespace {
+
+constexpr double kFalseAlarms = .05;  // of the first look
+constexpr double kCertain = 1e-6;     // at the second look
+constexpr double kStillThere = 1e-4;  // while shrinking, at the effort of the first look
+
+const std::string kInvariances = "invariances", kEnergy = "energy", kAgreement = "agreement";
+
+std::vector<Comparison> Compared(const std::string& property, const SceneModel& scene,
+                                 const Effort& effort) {
+  return property == kEnergy ? CompareWithEnergy(scene, effort) : CompareIntegrators(scene, effort);
+}
+
+// The comparison of that name; a chance of 1 where there is none.
+Comparison Named(const std::vector<Comparison>& comparisons, const std::string& what) {
+  for (const Comparison& comparison : comparisons)
+    if (comparison.what == what) return comparison;
+  return {what, 1, ""};
+}
+
+}  // namespace
+
+void SceneRun::CheckInvariances(std::uint64_t seed) {
+  const auto drawn = SceneOfSeed(seed);
+  Tally& tally = tallies_[kInvariances];
+  ++tally.scenes;
+  std::string broken = BrokenInvariance(drawn.value());
+  if (broken.empty()) return;
+  ++tally.failures;
+  SceneModel scene = drawn.value();
+  if (settings_.maxTries > 0) {
+    const auto fails = [](const SceneModel& s) { return !BrokenInvariance(s).empty(); };
+    scene = Shrink(drawn, fails, settings_.maxTries).scene;
+    broken = BrokenInvariance(scene);
+  }
+  failures_.push_back({seed, kInvariances, broken, SceneText(scene, {})});
+}
+
+void SceneRun::Add(const std::string& property, std::uint64_t seed) {
+  ++tallies_[property].scenes;
+  try {
+    for (const Comparison& comparison :
+         Compared(property, SceneOfSeed(seed).value(), {.factor = 1, .firstSeed = seed}))
+      records_.push_back({seed, property, comparison});
+  } catch (const std::exception& error) {
+    ++tallies_[property].failures;
+    const SceneModel scene = SceneOfSeed(seed).value();
+    failures_.push_back({seed, property, std::string("an error: ") + error.what(),
+                         property == kEnergy ? EnergyText(scene) : AgreementText(scene)});
+  }
+}
+void SceneRun::CompareEnergy(std::uint64_t seed) { Add(kEnergy, seed); }
+void SceneRun::CompareAgreement(std::uint64_t seed) { Add(kAgreement, seed); }
+
+void SceneRun::JudgeComparisons() {
+  std::vector<double> chances;
+  for (const Record& record : records_) chances.push_back(record.comparison.chance);
+  for (const std::size_t i : Rejected(chances, kFalseAlarms)) Judge(&records_[i]);
+}
+
+void SceneRun::Judge(Record* record) {
+  if (record->isJudged) return;
+  record->isJudged = true;
+  for (const Failure& failure : failures_)  // one failure a scene and property is enough
+    if (failure.seed == record->seed && failure.property == record->property) return;
+  ++repeated_;
+  const auto drawn = SceneOfSeed(record->seed);
+  const std::string what = record->comparison.what;
+  const Comparison again = Named(Compared(record->property, drawn.value(),
+                                          {.factor = 16, .firstSeed = record->seed + 500'000'000}),
+                                 what);
+  if (!(again.chance < kCertain)) return;
+  ++tallies_[record->property].failures;
+  const auto fails = [&](const SceneModel& scene) {
+    return Named(Compared(record->property, scene, {.factor = 1, .firstSeed = record->seed}), what)
+               .chance < kStillThere;
+  };
+  const SceneModel scene = Shrink(drawn, fails, settings_.maxStatisticalTries).scene;
+  failures_.push_back({record->seed, record->property, what + ": " + again.detail,
+                       record->property == kEnergy ? EnergyText(scene) : AgreementText(scene)});
+}
+
+std::string SceneRun::Summary() const {
+  std::string text;
+  for (const auto& [property, tally] : tallies_) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%s: %d scenes, %d failures; rate at most %.3g %% (95 %%)\n",
+                  property.c_str(), tally.scenes, tally.failures,
+                  100 * LargestFailureRate(tally.failures, tally.scenes));
+    text += line;
+  }
+  return text + "comparisons repeated with 16 times the samples: " + std::to_string(repeated_) +
+         "\n";
+}
+
+}  // namespace exphoton::random_scenes

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A run over random scenes: checks the properties of each, repeats alarms of the statistical ones,
+// shrinks what fails, and counts.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/random/scenes/agreement.h"
+
+namespace exphoton::random_scenes {
+
+struct Failure {
+  std::uint64_t seed = 0;
+  std::string property, detail;
+  std::string text;  // the scene file, after shrinking
+};
+
+// How often a property was checked, and how often it failed.
+struct Tally {
+  int scenes = 0, failures = 0;
+};
+
+struct RunSettings {
+  int maxTries = 300;            // of shrinking by exact properties; 0: none
+  int maxStatisticalTries = 60;  // of shrinking by a comparison of means
+};
+
+class SceneRun {
+ public:
+  explicit SceneRun(RunSettings settings) : settings_(settings) {}
+
+  void CheckInvariances(std::uint64_t seed);
+  void CompareEnergy(std::uint64_t seed);
+  void CompareAgreement(std::uint64_t seed);
+  // Repeats what Benjamini and Hochberg's rule rejects of all comparisons so far, with fresh seeds
+  // and 16 times the samples: a failure where its p-value is then below 1e-6. To be called at the
+  // end, and now and then before.
+  void JudgeComparisons();
+
+  const std::vector<Failure>& Failures() const { return failures_; }
+  const std::map<std::string, Tally>& Tallies() const { return tallies_; }
+  int Repeated() const { return repeated_; }
+  // "invariances: 200 scenes, 0 failures; rate at most 1.5 % (95 %)", a line for each property.
+  std::string Summary() const;
+
+ private:
+  using Compare = std::function<std::vector<Comparison>(const SceneModel&, const Effort&)>;
+  struct Record {
+    std::uint64_t seed;
+    std::string property;
+    Comparison comparison;
+    bool isJudged = false;
+  };
+  void Add(const std::string& property, std::uint64_t seed);
+  void Judge(Record* record);
+
+  RunSettings settings_;
+  std::vector<Record> records_;
+  std::vector<Failure> failures_;
+  std::map<std::string, Tally> tallies_;
+  int repeated_ = 0;
+};
+
+}  // namespace exphoton::random_scenes

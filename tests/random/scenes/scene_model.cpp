@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The tables of the model.
+#include "tests/random/scenes/scene_model.h"
+
+#include <algorithm>
+
+namespace exphoton::random_scenes {
+
+int Colour::Max() const { return std::max({red, green, blue}); }
+
+const std::vector<std::string> kIntegrators{
+    "\"exphotonmap\"",
+    "\"path\"",
+    "\"photonmap\"",
+    "\"exphotonmap\" \"float rrthreshold\" 0",
+    "\"directlighting\" \"string strategy\" \"weighted\"",
+    "\"whitted\"",
+    "\"exphotonmap\" \"bool radiancephotons\" \"false\"",
+    "\"exphotonmap\" \"string radiancemode\" \"irradiance\" \"string photonaim\" \"on\"",
+    "\"exphotonmap\" \"string gathersampling\" \"bsdf\" \"string lightselection\" \"uniform\"",
+    "\"photonmap\" \"bool finalgather\" \"false\"",
+    "\"photonmap\" \"bool directwithphotons\" \"true\"",
+    "\"exphotonmap\" \"string photonroulette\" \"maxcomponent\" \"string shortgather\" \"gather\"",
+    "\"path\" \"integer maxdepth\" 20",
+    "\"directlighting\" \"string strategy\" \"near\"",
+    "\"exphotonmap\" \"integer directlights\" 1",
+};
+
+}  // namespace exphoton::random_scenes

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Cameras, lights, media and shapes of random scenes as text.
+#include "tests/random/scenes/scene_text.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace exphoton::random_scenes {
+namespace {
+
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string Triple(double x, double y, double z) {
+  return Number(x) + " " + Number(y) + " " + Number(z);
+}
+
+constexpr double kStep = .3;
+std::string PlaceText(const Place& p) { return Triple(kStep * p.x, kStep * p.y, kStep * p.z); }
+
+// The faces of the box from -1 to 1, with their normals inside; the last two triangles are its top.
+const std::string kBoxFaces = "0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 0 2 6 0 6 4 1 5 7 1 7 3";
+const std::string kBoxTop = " 2 3 7 2 7 6";
+std::string BoxMesh(const std::string& indices, double half) {
+  std::string points;
+  for (int i = 0; i < 8; ++i)
+    points += Triple(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half) + "  ";
+  return "  Shape \"trianglemesh\" \"integer indices\" [" + indices + "] \"point P\" [" + points +
+         "]\n";
+}
+
+std::string RoomText(RoomKind room) {
+  switch (room) {
+    case RoomKind::Box:
+      return BoxMesh(kBoxFaces + kBoxTop, 2);
+    case RoomKind::OpenBox:
+      return BoxMesh(kBoxFaces, 2);
+    case RoomKind::Sphere:
+      return "  ReverseOrientation Shape \"sphere\" \"float radius\" 3\n";
+    case RoomKind::Corner:
+      return "  Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2 3 5 2 3 4 5] \"point P\" "
+             "[-9 -2 -9  9 -2 -9  9 -2 2  -9 -2 2  -9 9 2  9 9 2]\n";
+    case RoomKind::None:
+      break;
+  }
+  return "";
+}
+
+std::string ShapeText(const BodyModel& body) {
+  switch (body.kind) {
+    case BodyKind::Sphere:
+      return "  Shape \"sphere\"\n";
+    case BodyKind::PartialSphere:
+      return "  Shape \"sphere\" \"float zmin\" -.6 \"float zmax\" .8 \"float phimax\" 250\n";
+    case BodyKind::Disk:
+      return "  Shape \"disk\" \"float innerradius\" .2\n";
+    case BodyKind::Cylinder:
+      return "  Shape \"cylinder\" \"float phimax\" 300\n";
+    case BodyKind::Quad:
+      return "  Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
+             "[-1 -1 0  1 -1 0  1 1 0  -1 1 0]\n";
+    case BodyKind::SmoothMesh:
+      return "  Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 0 3 1 1 3 2] \"point P\" "
+             "[0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4] \"normal N\" "
+             "[0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4] \"float uv\" [0 0 1 0 1 1 0 1]\n";
+    case BodyKind::Subdivided:
+      return "  Shape \"loopsubdiv\" \"integer nlevels\" 2 \"integer indices\" "
+             "[0 1 2 0 2 3 0 3 1 1 3 2] \"point P\" [0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4]\n";
+    case BodyKind::Box:
+      break;
+  }
+  return BoxMesh(kBoxFaces + kBoxTop, .8);
+}
+
+std::string TransformText(const BodyModel& body, bool keepsLast) {
+  constexpr std::array<double, 3> kSizes{.5, .3, .8};
+  constexpr std::array<double, 4> kLast{1, 2, .5, -1};
+  std::string text = "  Translate " + PlaceText(body.place) + "\n";
+  if (body.motion != 0) {
+    text += "  ActiveTransform EndTime";
+    if (body.motion & 1) text += " Translate .4 .2 -.1";
+    if (body.motion & 2) text += " Rotate 40 0 1 1";
+    text += " ActiveTransform All\n";
+  }
+  if (body.turn != 0) text += "  Rotate " + std::to_string(25 * body.turn) + " 1 2 3\n";
+  const double s = kSizes[std::size_t(body.size)];
+  text += "  Scale " +
+          (body.stretch == 0   ? Triple(s, s, s)
+           : body.stretch == 1 ? Triple(1.5 * s, s, .5 * s)
+                               : Triple(-s, s, s)) +
+          "\n";
+  if (body.last != 0 && keepsLast) {
+    const std::string w = Number(kLast[std::size_t(body.last)]);
+    text += "  ConcatTransform [" + w + " 0 0 0 0 " + w + " 0 0 0 0 " + w + " 0 0 0 0 " + w + "]\n";
+  }
+  return text;
+}
+
+std::string FurnaceLight(const MaterialModel& material) {
+  const auto albedo = LargestAlbedo(material);
+  return "  AreaLightSource \"area\" \"color L\" [" +
+         Triple(1 - albedo[0], 1 - albedo[1], 1 - albedo[2]) + "]\n";
+}
+
+std::string EmissionText(const BodyModel& body) {
+  if (body.emission == 0) return "";
+  return "  AreaLightSource \"area\" " +
+         (body.emission == 1   ? "\"color L\" " + ColourText(body.light, 4)
+          : body.emission == 2 ? "\"blackbody L\" [4000 1]"
+                               : std::string("\"color L\" [0 0 0]")) +
+         "\n";
+}
+
+std::string BodyText(const BodyModel& body, const TextOptions& options, int* next) {
+  std::string text = "AttributeBegin\n" + MaterialText(body.material, !options.isFurnace, next);
+  const std::string place = TransformText(body, options.keepsLastElements);
+  // Boxes are made with their normals inside.
+  const bool reverses = (body.kind == BodyKind::Box) != (body.reverse != 0);
+  const std::string shape = (reverses ? "  ReverseOrientation\n" : "") + ShapeText(body);
+  if (body.isInstance != 0) {
+    const std::string name = "\"o" + std::to_string((*next)++) + "\"";
+    text += "  ObjectBegin " + name + "\n" + shape + "  ObjectEnd\n" + place + "  ObjectInstance " +
+            name + "\n";
+    if (body.isInstance == 2) text += "  Translate .3 .8 .5 ObjectInstance " + name + "\n";
+  } else {
+    text += (options.isFurnace ? FurnaceLight(body.material) : EmissionText(body)) + place + shape;
+  }
+  return text + "AttributeEnd\n";
+}
+
+std::string LightText(const LightModel& light, const SceneModel& scene) {
+  constexpr std::array<const char*, kLightKinds> kNames{"point", "spot", "distant", "infinite",
+                                                        "infinite"};
+  constexpr std::array<const char*, 3> kCones{"40", "10", "120"};
+  const bool isFar = light.kind >= LightKind::Distant;
+  const bool isSky = light.kind >= LightKind::Infinite;
+  std::string text = "LightSource \"" + std::string(kNames[std::size_t(light.kind)]) + "\"";
+  const std::string name = isFar ? "L" : "I";
+  if (light.isBlackbody != 0)
+    text += " \"blackbody " + name + "\" [4000 " + (light.isBlackbody == 1 ? "1" : "0") + "]";
+  else
+    text += " \"color " + name + "\" " + ColourText(light.colour, isFar ? 1 : 3);
+  if (light.kind == LightKind::InfiniteMap) text += " \"string mapname\" \"" + ImageFile() + "\"";
+  if (isSky) return text + "\n";
+  const bool isInside = light.isInsideAShape != 0 && !scene.bodies.empty();
+  const Place& p = isInside ? scene.bodies.front().place : light.place;
+  const double x = kStep * p.x + .02, y = kStep * p.y + .03, z = kStep * p.z + .05;
+  text += " \"point from\" [" + Triple(x, y, z) + "]";
+  if (light.kind == LightKind::Point) return text + "\n";
+  text += " \"point to\" [" + Triple(x + .1, y - 1, z + .3) + "]";
+  if (light.kind == LightKind::Spot)
+    text += std::string(" \"float coneangle\" ") + kCones[std::size_t(light.cone)];
+  return text + "\n";
+}
+
+std::string MediumText(const MediumModel& medium, bool mayEmit) {
+  constexpr std::array<const char*, 3> kNames{"homogeneous", "exponential", "volumegrid"};
+  const double half = medium.size == 0 ? 2 : .7;
+  const Place& p = medium.size == 0 ? Place{} : medium.place;
+  const double x = kStep * p.x, y = kStep * p.y, z = kStep * p.z;
+  std::string text = "Volume \"" + std::string(kNames[std::size_t(medium.kind)]) +
+                     "\" \"point p0\" [" + Triple(x - half, y - half, z - half) +
+                     "] \"point p1\" [" + Triple(x + half, y + half, z + half) + "]";
+  const auto part = [&](int number, const char* name, const Colour& colour) {
+    if (medium.parts == number || medium.parts == 3)
+      text += " \"color " + std::string(name) + "\" " + ColourText(colour, .5);
+  };
+  part(0, "sigma_a", medium.absorbed);
+  part(1, "sigma_s", medium.scattered);
+  if (mayEmit) part(2, "Le", medium.emitted);
+  if (medium.phase != 0) text += medium.phase == 1 ? " \"float g\" .6" : " \"float g\" -.4";
+  if (medium.kind == 1) text += " \"float b\" .5";
+  if (medium.kind == 2)
+    text += " \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 2 \"float density\" [1 0 .5 2]";
+  return text + "\n";
+}
+
+std::string CameraText(const CameraModel& camera) {
+  constexpr std::array<const char*, 3> kPlaces{"-.1 -.2 1.9", "-.1 -.2 .1", "1.5 .1 1.2"};
+  std::string text;
+  if (camera.times != 0)
+    text = camera.times == 1 ? "TransformTimes 0 .2\n" : "TransformTimes .3 .4\n";
+  text += "Translate " + std::string(kPlaces[std::size_t(camera.place)]) + "\n";
+  if (camera.motion == 1) text += "ActiveTransform EndTime Translate .3 0 0 ActiveTransform All\n";
+  if (camera.motion == 2) text += "ActiveTransform EndTime Rotate 20 0 1 0 ActiveTransform All\n";
+  text += camera.kind == 0   ? "Camera \"perspective\" \"float fov\" 80"
+          : camera.kind == 1 ? "Camera \"orthographic\""
+                             : "Camera \"environment\"";
+  if (camera.lens && camera.kind != 2) text += " \"float lensradius\" .1 \"float focaldistance\" 2";
+  if (camera.shutter == 1) text += " \"float shutteropen\" 0 \"float shutterclose\" 0";
+  if (camera.shutter == 2) text += " \"float shutteropen\" .25 \"float shutterclose\" .5";
+  return text + "\n";
+}
+
+std::string SamplerText(const SceneModel& scene, int samples) {
+  constexpr std::array<const char*, 3> kFilters{"box", "gaussian", "triangle"};
+  if (samples > 0)
+    return "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" " +
+           std::to_string(samples) + "\n";
+  return "PixelFilter \"" + std::string(kFilters[std::size_t(scene.filter)]) + "\"\nSampler " +
+         (scene.sampler == 0   ? "\"lowdiscrepancy\" \"integer pixelsamples\" 2"
+          : scene.sampler == 1 ? "\"stratified\" \"integer xsamples\" 2 \"integer ysamples\" 1"
+                               : "\"random\" \"integer xsamples\" 2 \"integer ysamples\" 1") +
+         "\n";
+}
+
+std::string IntegratorText(const SceneModel& scene, const TextOptions& options) {
+  const std::string own = kIntegrators[std::size_t(scene.integrator)];
+  std::string text = "SurfaceIntegrator " + (options.integrator.empty() ? own : options.integrator);
+  if (text.find("photonmap") != std::string::npos) {
+    const auto add = [&](const char* name, int value) {
+      text += " \"integer " + std::string(name) + "\" " + std::to_string(value);
+    };
+    add("causticphotons", options.photons);
+    add("indirectphotons", options.photons);
+    add("maxphotonpaths", options.maxPhotonPaths);
+    add("finalgathersamples", options.gatherRays);
+  }
+  if (scene.volumeIntegrator == 0) return text + "\n";
+  return text + "\nVolumeIntegrator " +
+         (scene.volumeIntegrator == 1 ? "\"emission\"" : "\"single\"") + " \"float stepsize\" .5\n";
+}
+
+}  // namespace
+
+std::string SceneText(const SceneModel& scene, const TextOptions& options) {
+  std::string text = IntegratorText(scene, options) + "Accelerator \"" + options.accelerator +
+                     "\"\n" + SamplerText(scene, options.samples) +
+                     "Film \"image\" \"integer xresolution\" " + std::to_string(kFilmWidth) +
+                     " \"integer yresolution\" " + std::to_string(kFilmHeight) + "\n" +
+                     CameraText(scene.camera) + "WorldBegin\n";
+  int next = 1;
+  if (options.isFurnace) text += "LightSource \"infinite\"\n";
+  if (!options.isFurnace)
+    for (const LightModel& light : scene.lights) text += LightText(light, scene);
+  for (const MediumModel& medium : scene.media) text += MediumText(medium, !options.isFurnace);
+  if (scene.room != RoomKind::None)
+    text += "AttributeBegin\n" + MaterialText(scene.walls, !options.isFurnace, &next) +
+            (options.isFurnace ? FurnaceLight(scene.walls) : "") + RoomText(scene.room) +
+            "AttributeEnd\n";
+  for (const BodyModel& body : scene.bodies) text += BodyText(body, options, &next);
+  return text + "WorldEnd\n";
+}
+
+}  // namespace exphoton::random_scenes
