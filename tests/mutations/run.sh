@@ -59,14 +59,14 @@ for ((i = 0; i < count; ++i)); do
 done
 if [ ${#chosen[@]} = 0 ]; then echo "no defect of that name" >&2; exit 1; fi
 
-# Copies what git knows of, as it is now. Files that are equal keep their times, so that only changes
+# Copies all that git does not ignore, as it is now. Files that are equal keep their times, so that only changes
 # are built again.
 copy_sources() {
   mkdir -p "$copy"
   if [ -f "$copy/.list" ]; then
-    git -C "$top" ls-files | sort | comm -13 - "$copy/.list" | (cd "$copy" && xargs -r -d '\n' rm -f)
+    git -C "$top" ls-files -co --exclude-standard | sort | comm -13 - "$copy/.list" | (cd "$copy" && xargs -r -d '\n' rm -f)
   fi
-  git -C "$top" ls-files | sort >"$copy/.list"
+  git -C "$top" ls-files -co --exclude-standard | sort >"$copy/.list"
   while IFS= read -r file; do
     if [ -f "$top/$file" ] && ! cmp -s "$top/$file" "$copy/$file"; then
       mkdir -p "$copy/$(dirname "$file")"
@@ -218,7 +218,8 @@ prepare
 for i in "${chosen[@]}"; do
   [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ] || try "$i"
 done
-read -r user system < <(times | tail -1)
+times >"$folder/times"
+read -r user system < <(tail -n 1 "$folder/times")
 echo "$noticed noticed, of ${#chosen[@]}; $((SECONDS / 60)) min $((SECONDS % 60)) s," \
   "CPU time $user and $system in the system"
 exit $missed

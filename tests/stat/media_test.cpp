@@ -78,59 +78,44 @@ TEST(Media, AbsorbTheSameAtEverySlant) {
   EXPECT_NEAR(MeanRadiance(render.image), std::exp(-.3 * 3.5 / .8), 2e-4);
 }
 
-TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
-  const std::string world = Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") +
-                            "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
-                            "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
-                            kDisk + "WorldEnd\n";
-  const double expected = .5 / 3.14159265358979 * std::exp(-.9) * std::exp(-.9);
+// The radiance of the disk in the world, by every integrator and by photons that are stored on it.
+void ExpectLitThroughMedia(const std::string& world, double expected, int photons,
+                           double tolerance) {
   for (const char* integrator : kIntegrators) {
     const TestRender render = RenderSceneText(Header(integrator, "\"emission\"") + world);
     EXPECT_NEAR(MeanRadiance(render.image), expected, 1e-4 * expected) << integrator;
   }
-  // And photons on their way to the surface.
+  const std::string header =
+      Header("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" " +
+                 std::to_string(photons) +
+                 " \"integer indirectphotons\" 0 \"integer nused\" 8000 \"float maxdist\" 1",
+             "\"emission\"");
   const auto measure = [&](std::uint64_t seed) {
     TestRenderOptions options;
     options.seed = seed;
     options.load.samplesPerPixel = 1;
-    return MeanRadiance(RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
-                                               "\"integer directphotons\" 100000 \"integer "
-                                               "indirectphotons\" 0 \"integer nused\" 8000 "
-                                               "\"float maxdist\" 1",
-                                               "\"emission\"") +
-                                            world,
-                                        options)
-                            .image);
+    return MeanRadiance(RenderSceneText(header + world, options).image);
   };
-  EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected));
+  EXPECT_TRUE(IsWithin(tolerance, EstimateOverSeeds(measure), expected));
+}
+const char* const kLitDisk =
+    "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+    "Material \"matte\" \"color Kd\" [.5 .5 .5]\n";
+
+TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
+  const std::string world = Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") + kLitDisk;
+  ExpectLitThroughMedia(world + kDisk + "WorldEnd\n", .5 / M_PI * std::exp(-.9) * std::exp(-.9),
+                        100000, .01);
 }
 
 // The medium goes on behind the disk; only the way to it counts, for every kind of ray.
 TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {
   const std::string world =
       "Volume \"homogeneous\" \"point p0\" [-50 -50 1] \"point p1\" [50 50 50] \"color sigma_a\" "
-      "[.3 .3 .3]\nLightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
-      "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
-      kDisk + "WorldEnd\n";
-  const double expected = .5 / 3.14159265358979 * std::exp(-1.2) * std::exp(-1.2);
-  for (const char* integrator : kIntegrators) {
-    const TestRender render = RenderSceneText(Header(integrator, "\"emission\"") + world);
-    EXPECT_NEAR(MeanRadiance(render.image), expected, 1e-4 * expected) << integrator;
-  }
-  const auto measure = [&](std::uint64_t seed) {
-    TestRenderOptions options;
-    options.seed = seed;
-    options.load.samplesPerPixel = 1;
-    return MeanRadiance(RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
-                                               "\"integer directphotons\" 20000 \"integer "
-                                               "indirectphotons\" 0 \"integer nused\" 8000 "
-                                               "\"float maxdist\" 1",
-                                               "\"emission\"") +
-                                            world,
-                                        options)
-                            .image);
-  };
-  EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected));
+      "[.3 .3 .3]\n" +
+      std::string(kLitDisk);
+  ExpectLitThroughMedia(world + kDisk + "WorldEnd\n", .5 / M_PI * std::exp(-1.2) * std::exp(-1.2),
+                        20000, .03);
 }
 
 TEST(Media, EmitWithoutBias) {
