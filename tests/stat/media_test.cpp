@@ -118,6 +118,29 @@ TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {
                         20000, .03);
 }
 
+// The medium lies behind a wide lamp. Light rays that were sampled by the BSDF end at the lamp, and
+// its light is E = pi L R^2 / (R^2 + h^2).
+TEST(Media, DoNotAbsorbTheLightOfALampBeforeThem) {
+  const std::string world =
+      "Volume \"homogeneous\" \"point p0\" [-900 -900 -900] \"point p1\" [900 900 -1.5] "
+      "\"color sigma_a\" [1 1 1]\nAttributeBegin Translate 0 0 -1\n"
+      "Material \"matte\" \"color Kd\" [0 0 0]\n"
+      "AreaLightSource \"area\" \"color L\" [1 1 1] \"integer nsamples\" 4\n"
+      "Shape \"disk\" \"float radius\" 20 AttributeEnd\n"
+      "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
+      kDisk + "WorldEnd\n";
+  for (const char* integrator : {"\"directlighting\"", "\"path\""}) {
+    const auto measure = [&](std::uint64_t seed) {
+      TestRenderOptions options;
+      options.seed = seed;
+      options.load.samplesPerPixel = 1024;
+      return MeanRadiance(
+          RenderSceneText(Header(integrator, "\"emission\"") + world, options).image);
+    };
+    EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), .5 * 400 / 436)) << integrator;
+  }
+}
+
 TEST(Media, EmitWithoutBias) {
   const double sigma = .7;
   const auto measure = [&](std::uint64_t seed) {
@@ -164,6 +187,28 @@ TEST(Media, ScatterParallelLightOnceAsTheSlabFormulaSays) {
       EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected)) << g << integrator;
     }
   }
+}
+
+// Two lights at the same angle to the view, on either side of it, one three times as bright as the
+// other: together four times the light of one.
+TEST(Media, ScatterTheLightOfEveryLight) {
+  const double rate = .5 * (1 + 1 / .8);
+  const double expected = 4 * .3 / (4 * M_PI) * (1 - std::exp(-3 * rate)) / rate;
+  const auto measure = [&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    return MeanRadiance(
+        RenderSceneText(
+            Header("\"directlighting\"", "\"single\" \"float stepsize\" .25") +
+                Slab("homogeneous", "\"color sigma_s\" [.3 .3 .3] \"color sigma_a\" [.2 .2 .2]") +
+                "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [.6 0 .8]\n"
+                "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [-.6 0 .8] "
+                "\"color L\" [3 3 3]\n" +
+                kBlackDisk + "WorldEnd\n",
+            options)
+            .image);
+  };
+  EXPECT_TRUE(IsWithin(.02, EstimateOverSeeds(measure), expected));
 }
 
 TEST(Media, LeftOutOfThePlanLeaveTheSceneAsItIsWithoutThem) {

@@ -52,6 +52,18 @@ TEST(LayerFilm, AveragesAsTheFilmDoesAndCountsSamples) {
   EXPECT_EQ(image.At(0, 0, 8), 1.5f);
 }
 
+// The layer's channel is time.ms.
+TEST(LayerFilm, ShowsTheSumOfAPixelsTimesInMilliseconds) {
+  Film film(kOnePixel, kOnePixel);
+  LayerFilm layers(kOnePixel, {Layer::Time});
+  film.AddSample({0, 0}, Spectrum(1), 1, 1);
+  layers.AddTime({0, 0}, .25);
+  layers.AddTime({0, 0}, .5);
+  Image image = film.ToImage(true);
+  layers.AppendTo(film, true, &image);
+  EXPECT_EQ(image.At(0, 0, image.FindChannel("time.ms")), 750);
+}
+
 // Of n values of variance 1/12: the mean has 1/12 n.
 TEST(LayerFilm, EstimatesTheVarianceOfAPixel) {
   constexpr int kPixels = 4000, kSamples = 16;

@@ -207,6 +207,25 @@ TEST_F(Materials, MetalIsCopperUnlessToldOtherwise) {
   EXPECT_GT(rho.g, rho.b);
 }
 
+// At normal incidence F = ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2), G = 1 and, with the exponent
+// e = 1 / roughness, D = (e + 2) / 2 pi.
+TEST_F(Materials, MetalTakesItsIndexAbsorptionAndRoughness) {
+  const Bsdf bsdf =
+      Evaluate(R"("metal" "color eta" [1.5 .2 1] "color k" [0 3 2] "float roughness" .05)");
+  const Spectrum f = bsdf.f({0, 0, 1}, {0, 0, 1});
+  const double d = 22 / (2 * M_PI) / 4;
+  EXPECT_NEAR(double(f.r) / d, .04, 1e-4);
+  EXPECT_NEAR(double(f.g) / d, (.64 + 9) / (1.44 + 9), 1e-4);
+  EXPECT_NEAR(double(f.b) / d, .5, 1e-4);
+  // Off the peak: D falls by the power e of the cosine of the half vector, and G stays 1.
+  const Real angle = Radians(Real(20));
+  const Vector3 wi(std::sin(angle), 0, std::cos(angle));
+  const double half = std::cos(double(angle) / 2);
+  EXPECT_NEAR(
+      double(bsdf.f({0, 0, 1}, wi).b) / (.5 * d * std::pow(half, 20) / std::cos(double(angle))), 1,
+      2e-3);
+}
+
 TEST_F(Materials, GlassScalesRadianceButNotPhotons) {
   const auto pass = [&](TransportMode mode) {
     return Evaluate(R"("glass" "color Kr" [0 0 0])", mode).Sample({0, 0, 1}, {}, 0)->throughput.r;

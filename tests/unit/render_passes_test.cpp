@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "tests/support/test_plugin.h"
 
@@ -25,6 +28,7 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     RandomStream random = context.Stream(1);
+    if (keepsRays) rays.push_back({ray.d.x, ray.d.y});
     RandomStream blotch(HashKey({passSeed_, std::uint64_t(100 + int(100 * ray.d.x)),
                                  std::uint64_t(100 + int(100 * ray.d.y))}));
     return Spectrum(1 + sampleNoise * (random.Uniform() - Real(.5)) +
@@ -32,7 +36,8 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   }
 
   Real sampleNoise = 1, passNoise = Real(.5);
-  bool sleeps = false;
+  bool sleeps = false, keepsRays = false;
+  mutable std::vector<std::pair<Real, Real>> rays;  // of one thread
   std::set<std::uint64_t> seeds;
 
  private:
@@ -139,6 +144,21 @@ TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   EXPECT_EQ(result.reason, StopReason::Samples);
   EXPECT_EQ(result.samplesPerPixel, 20);
   EXPECT_TRUE(result.render.isComplete);
+}
+
+// Each pass goes on in the sampler's sequence where the last one of its group ended.
+TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
+  StoppingRule rule;
+  rule.targetError = 1e-9;
+  rule.maxSamples = 64;
+  integrator_.keepsRays = true;
+  const PassesResult result = Run(rule);
+  EXPECT_GT(result.passes, 16);
+  auto& rays = integrator_.rays;
+  ASSERT_EQ(rays.size(), 48u * 36 * 64);
+  std::sort(rays.begin(), rays.end());
+  const auto repeated = rays.end() - std::unique(rays.begin(), rays.end());
+  EXPECT_LT(repeated, 100);  // by rounding
 }
 
 TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
