@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Puts deliberate defects, one at a time, into a copy of the sources and runs the tests that must
 # notice each: a suite that stays green with a defect in is no suite. The defects are in defects.txt
-# beside this file.
+# and blind.txt beside this file.
 #   run.sh                            all of them
 #   run.sh NAME ...                   these alone
 #   run.sh --everything TABLE [NAME ...]  defects of another table, each with all that ./dev test runs
@@ -17,9 +17,9 @@ copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
 
 everything=
-table=$here/defects.txt
+tables=("$here/defects.txt" "$here/blind.txt")
 if [ "${1:-}" = --everything ]; then
-  everything=yes table=${2:?run.sh --everything TABLE}
+  everything=yes tables=("${2:?run.sh --everything TABLE}")
   shift 2
 fi
 
@@ -32,10 +32,10 @@ while IFS= read -r line; do
     '! '*) read -r _ program filter <<<"$line"; programs+=("$program"); filters+=("$filter") ;;
     *) read -r name file <<<"$line"; names+=("$name"); files+=("$file") ;;
   esac
-done <"$table"
+done < <(cat "${tables[@]}")
 count=${#names[@]}
 if [ "${#texts[@]} ${#insteads[@]} ${#filters[@]}" != "$count $count $count" ]; then
-  echo "$table: a defect has a line too few or too many" >&2
+  echo "${tables[*]}: a defect has a line too few or too many" >&2
   exit 1
 fi
 
@@ -129,7 +129,7 @@ take_out() {
     done
 }
 
-# Runs a test program in as many parts at once as there are jobs, until a test fails in one.
+# Runs a test program in as many parts at once as there are jobs, each until one of its tests fails.
 run_whole() {  # PROGRAM
   local part parts=() status=0
   for ((part = 0; part < jobs; ++part)); do
@@ -137,11 +137,7 @@ run_whole() {  # PROGRAM
       "bin/test_$1" --gtest_brief=1 --gtest_fail_fast >"$folder/part.$part" 2>&1) &
     parts+=($!)
   done
-  for part in "${parts[@]}"; do
-    wait -n "${parts[@]}" || { status=1; break; }
-  done
-  [ $status = 0 ] || kill "${parts[@]}" 2>/dev/null || true
-  wait || true
+  for part in "${parts[@]}"; do wait "$part" || status=1; done
   cat "$folder"/part.*
   return $status
 }

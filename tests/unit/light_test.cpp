@@ -78,8 +78,8 @@ TEST(PointLight, OnASurfaceStaysFinite) {
 
 TEST(PointLight, KeepsItsLightInAHugeWorld) {
   TestPlugins plugins;
-  for (const char* text : {R"("point" "point from" [1 2 3])",
-                           R"("spot" "point from" [1 2 3] "point to" [1 2 2])"}) {
+  for (const char* text :
+       {R"("point" "point from" [1 2 3])", R"("spot" "point from" [1 2 3] "point to" [1 2 2])"}) {
     const auto light = plugins.MakeLight(text);
     light->Prepare({{0, 0, 0}, Real(1e12)});
     const auto sample = Direct(*light, {1, 2, Real(2.5)});
@@ -146,6 +146,27 @@ TEST(SpotLight, EmitsWhereItLights) {
     }
     // pdf = falloff / power for unit intensity.
     EXPECT_NEAR(double(sample->pdfDirection * light->Power().g), double(direct->Li.g), 1e-3);
+  }
+}
+
+// The part of the photons within a cone is the part of the power there. With d = (cos - cos total)
+// / (cos inner - cos total), the rim beyond d has the part d^5 of what the rim has.
+TEST(SpotLight, EmitsIntoEachConeWhatItLightsThere) {
+  TestPlugins plugins;
+  const auto light = plugins.MakeLight(
+      R"("spot" "point to" [0 0 1] "float coneangle" 60 "float conedeltaangle" 40)");
+  const double inner = std::cos(20 * M_PI / 180), total = .5;
+  const double ofInner = 1 - inner, ofRim = (inner - total) / 5;
+  constexpr int kSide = 200;
+  for (const double d : {1., .9, .7, .5}) {
+    int within = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const Point2 u((Real(i % kSide) + Real(.5)) / kSide, (Real(i / kSide) + Real(.5)) / kSide);
+      const auto sample = light->SampleEmission({}, u, 0, 0);
+      within += double(sample->ray.d.z) > total + d * (inner - total);
+    }
+    const double expected = 1 - ofRim * std::pow(d, 5) / (ofInner + ofRim);
+    EXPECT_NEAR(within / double(kSide * kSide), expected, 2. / kSide) << d;
   }
 }
 
@@ -296,6 +317,15 @@ TEST_F(EnvironmentMap, HasItsTopRowAtPlusZAndTurnsAboutZ) {
   EXPECT_NEAR(double(light->Le({q, q, h}).g), 1, 1e-5);
   EXPECT_NEAR(double(light->Le({-q, q, h}).g), 2, 1e-5);
   EXPECT_NEAR(double(light->Le({q, -q, -h}).g), 8, 1e-5);
+}
+
+// Beyond a pole the map goes on half a turn away, so that it has no seam there.
+TEST_F(EnvironmentMap, IsTheMeanOfOppositeColumnsAtThePoles) {
+  const auto light = plugins_.MakeLight(Write(4, 2, {1, 2, 3, 4, 5, 6, 8, 9}));
+  const Real e = Real(1e-4);
+  EXPECT_NEAR(double(light->Le({e, e, 1}).g), (1 + 3) / 2., 1e-3);
+  EXPECT_NEAR(double(light->Le({-e, e, 1}).g), (2 + 4) / 2., 1e-3);
+  EXPECT_NEAR(double(light->Le({e, e, -1}).g), (5 + 8) / 2., 1e-3);
 }
 
 TEST_F(EnvironmentMap, PowerIsItsIntegralTimesTheDisk) {

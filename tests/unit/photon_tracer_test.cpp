@@ -68,6 +68,19 @@ const char* const kIntegrator =
     " \"integer indirectphotons\" 2000 \"integer directphotons\" 2000 \"bool finalgather\" "
     "\"false\" \"string show\" \"directphotons\" \"float maxdist\" .2";
 
+// The direct map is full long before the indirect one, and counts the paths up to then only.
+TEST(PhotonReport, CountsThePathsOfEachMap) {
+  LoadedScene loaded = LoadSceneText(
+      TestHeader("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 100 "
+                 "\"integer indirectphotons\" 20000 \"bool finalgather\" \"false\"",
+                 2, 2, 1) +
+      kFloor);
+  const TestRender render = RenderLoaded(loaded);
+  EXPECT_EQ(render.Counter("photons/indirect paths"), render.Counter("photons/shot"));
+  EXPECT_GE(render.Counter("photons/direct stored"), 100);
+  EXPECT_LT(render.Counter("photons/direct paths"), .1 * render.Counter("photons/shot"));
+}
+
 class PhotonSeeds : public testing::TestWithParam<const char*> {};
 
 TEST_P(PhotonSeeds, ShootOtherPhotons) {

@@ -24,7 +24,7 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   void Preprocess(const Scene&, PreprocessContext& context) override {
     passSeed_ = context.seed;
     seeds.insert(context.seed);
-    if (sleeps) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (sleep > 0) std::this_thread::sleep_for(std::chrono::milliseconds(sleep));
   }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     RandomStream random = context.Stream(1);
@@ -36,7 +36,8 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   }
 
   Real sampleNoise = 1, passNoise = Real(.5);
-  bool sleeps = false, keepsRays = false;
+  int sleep = 0;  // milliseconds of each preprocessing
+  bool keepsRays = false;
   mutable std::vector<std::pair<Real, Real>> rays;  // of one thread
   std::set<std::uint64_t> seeds;
 
@@ -162,7 +163,7 @@ TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
 }
 
 TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
-  integrator_.sleeps = true;
+  integrator_.sleep = 20;
   StoppingRule rule;
   rule.timeLimit = .5;
   rule.start = std::chrono::steady_clock::now();
@@ -172,6 +173,15 @@ TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
   EXPECT_LE(result.passes, 25);  // of 20 ms of preprocessing each
   EXPECT_GE(result.passes, 1);
   EXPECT_LT(taken.count(), 2);  // machines are busy
+}
+
+// At .9 s or later there is no time for a fourth preprocessing of .3 s.
+TEST_F(RenderPassesTest, BeginsNoPassWhosePreprocessingIsTooLong) {
+  integrator_.sleep = 300;
+  StoppingRule rule;
+  rule.timeLimit = 1;
+  rule.start = std::chrono::steady_clock::now();
+  EXPECT_LE(Run(rule).passes, 3);
 }
 
 TEST_F(RenderPassesTest, RendersOnePassWhereThereIsNoTimeAtAll) {

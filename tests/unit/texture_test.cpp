@@ -60,6 +60,13 @@ TEST_F(Textures, ScaleMultiplies) {
   EXPECT_EQ(Float(R"("scale" "float tex1" 3 "float tex2" .5)")->ConstantValue(), Real(1.5));
 }
 
+TEST_F(Textures, ScaleIsFilteredWhereEitherFactorIs) {
+  plugins_.Define("filtered", TexturePtr<Real>(Float(R"("checkerboard")")));
+  EXPECT_TRUE(Float(R"("scale" "texture tex1" "filtered")")->IsFiltered());
+  EXPECT_TRUE(Float(R"("scale" "texture tex2" "filtered")")->IsFiltered());
+  EXPECT_FALSE(Float(R"("scale")")->IsFiltered());
+}
+
 TEST_F(Textures, MixGoesFromOneToTheOther) {
   EXPECT_EQ(Color(R"("mix" "color tex1" [0 0 0] "color tex2" [2 4 8] "float amount" .25)")
                 ->ConstantValue(),
