@@ -78,7 +78,7 @@ class RadianceMap {
   }
 
   Vector3 Sample(Point2 u) const {
-    const Point2 p = cells_.Sample(u).p;
+    const Point2 p = cells_.Sample(u);
     const double y = double(p.y) * height_;
     const int row = std::min(int(y), height_ - 1);
     // 1 - cos is linear in the place within the cell; it loses nothing at the pole z = 1.

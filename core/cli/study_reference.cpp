@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Far from the seeds 1, 2, ... of the runs.
-constexpr std::uint64_t kFirstSeed = 1000001;
 constexpr const char* kState = "reference/state.txt";
 constexpr int kRounds = 8;  // about so many after the first
 
@@ -66,8 +64,8 @@ class ReferenceMaker {
     const SceneFacts facts = ExamineScene(scene_, options_);
     StudyOptions bare = options_;
     bare.threads = 0;
-    const std::string key =
-        HashOfText(facts.hash + CommandText(RenderArguments(bare, "", setting_, kFirstSeed)));
+    const std::string key = HashOfText(
+        facts.hash + CommandText(RenderArguments(bare, "", setting_, study::ReferenceSeed(0, 0))));
     MakeFolder(folder_.Path() + "/reference");
     state_ = ReadState(folder_.Path() + "/" + kState);
     const auto exists = [&](char which) { return fs::exists(folder_.Path() + "/" + Half(which)); };
@@ -105,7 +103,7 @@ class ReferenceMaker {
       study::Setting setting = setting_;
       std::erase_if(setting.parameters, [](const auto& p) { return p.first == "spp"; });
       setting.parameters.emplace_back("spp", std::to_string(samples));
-      const std::uint64_t seed = kFirstSeed + std::uint64_t(2 * state_.rounds + i);
+      const std::uint64_t seed = study::ReferenceSeed(state_.rounds, i);
       const RenderedPicture picture =
           runner_.Render(RenderArguments(options_, scene_, setting, seed));
       images[i] = ReadExr(picture.path);
@@ -140,7 +138,8 @@ class ReferenceMaker {
                         (setting_.parameters.empty() ? "" : setting_.Text());
     record.samplesPerPixel = 2 * state_.samples;
     record.seconds = state_.cpuSeconds;
-    record.command = CommandText(RenderArguments(options_, scene_, setting_, kFirstSeed));
+    record.command =
+        CommandText(RenderArguments(options_, scene_, setting_, study::ReferenceSeed(0, 0)));
     return record;
   }
 

@@ -75,10 +75,9 @@ PiecewiseConstant2D::PiecewiseConstant2D(std::span<const double> values, int wid
   marginal_ = PiecewiseConstant1D(rowIntegrals);
 }
 
-PiecewiseConstant2D::Value PiecewiseConstant2D::Sample(Point2 u) const {
+Point2 PiecewiseConstant2D::Sample(Point2 u) const {
   const auto y = marginal_.Sample(u.y);
-  const auto x = rows_[std::size_t(y.index)].Sample(u.x);
-  return {{x.x, y.x}, x.pdf * y.pdf};
+  return {rows_[std::size_t(y.index)].Sample(u.x).x, y.x};
 }
 
 Real PiecewiseConstant2D::Pdf(Point2 p) const {

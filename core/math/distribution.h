@@ -60,15 +60,10 @@ class PiecewiseConstant1D {
 // Density on [0,1)^2 proportional to a width x height image, rows from y = 0. All zero: uniform.
 class PiecewiseConstant2D {
  public:
-  struct Value {
-    Point2 p;
-    Real pdf;  // per unit area
-  };
-
   PiecewiseConstant2D() = default;
   PiecewiseConstant2D(std::span<const double> values, int width, int height);
-  Value Sample(Point2 u) const;
-  Real Pdf(Point2 p) const;
+  Point2 Sample(Point2 u) const;
+  Real Pdf(Point2 p) const;  // per unit area
   double Integral() const { return marginal_.Integral(); }
 
  private:

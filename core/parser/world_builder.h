@@ -10,6 +10,7 @@
 #include "core/base/statistics.h"
 #include "core/parser/directive.h"
 #include "core/parser/graphics_state.h"
+#include "core/parser/render_setup.h"
 #include "core/plugins/registry.h"
 #include "core/scene/scene.h"
 

@@ -3,6 +3,7 @@
 // seeds. Pure data: reading options is the command line's affair, rendering a child process's.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,5 +58,11 @@ class ParameterOracle {
 // integrator takes the place of the one for all; a parameter that the base gives stays as it is.
 // Throws std::invalid_argument where a knob applies to nothing.
 std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterOracle& oracle);
+
+// Seeds of the runs of a setting are 1, 2, ...; the two halves of a reference have others in every
+// round, so that they are independent of each other and of the runs. half: 0 or 1.
+constexpr std::uint64_t ReferenceSeed(int round, int half) {
+  return 1000001 + 2 * std::uint64_t(round) + std::uint64_t(half);
+}
 
 }  // namespace exphoton::study

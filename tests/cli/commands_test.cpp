@@ -101,6 +101,8 @@ TEST_F(CommandTest, CompareWithStatusesOfDiff) {
   EXPECT_NE(different.out.find("relative mean error +2 %"), std::string::npos) << different.out;
   EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "--max-relmse", "0.01"}).status, 0);
   EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "--max-mean", "0.01"}).status, 1);
+  EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "--max-mean", "0.03"}).status, 0);
+  EXPECT_EQ(Run({"compare", "c.exr", "a.exr", "--max-mean", "0.01"}).status, 1);  // too dark
   EXPECT_EQ(Run({"compare", "a.exr", "none.exr"}).status, 2);
   EXPECT_EQ(Run({"compare", "a.exr"}).status, 2);
 }

@@ -78,7 +78,8 @@ TEST_F(RenderCommandTest, WritesEqualFilesWhenReproducible) {
 TEST_F(RenderCommandTest, CropsToTheSamePixels) {
   RunText(SmallScene(), {"--float"});
   const Image whole = ReadExr(Path("out.exr"));
-  RunText(SmallScene(), {"--float", "--pixelbounds", "2,5,1,4"});
+  RunText(SmallScene(), {"--float", "--pixelbounds", "2,5,1,4", "--stats-json", "s.json"});
+  EXPECT_NE(Read("s.json").find("\"pixelBounds\":[2,5,1,4]"), std::string::npos);
   const Image part = ReadExr(Path("out.exr"));
   EXPECT_EQ(part.data, (PixelBounds{2, 1, 5, 4}));
   EXPECT_EQ(part.display, whole.data);

@@ -131,6 +131,21 @@ TEST_F(StoppingTest, WritesLayersInHalfAndFloat) {
   }
 }
 
+// In rows 6 and 7 is the sphere, in the last two rows of the window is nothing.
+TEST_F(StoppingTest, ScalesTheVarianceBetweenPassesByThePixelsOwnAlpha) {
+  EXPECT_EQ(RunScene({"--aov", "Variance", "--target-error", "0.01", "--pixelbounds", "0,24,6,16",
+                      "--float"})
+                .status,
+            0);
+  const Image image = ReadExr(Path("out.exr"));
+  EXPECT_EQ(image.At(12, 1, image.FindChannel("A")), 1);
+  EXPECT_EQ(image.At(12, 8, image.FindChannel("A")), 0);
+  double sum = 0;
+  for (int x = 0; x < 24; ++x)
+    for (int y = 0; y < 2; ++y) sum += double(image.At(x, y, image.FindChannel("Variance.R")));
+  EXPECT_GT(sum, 1e-5);
+}
+
 TEST_F(StoppingTest, NamesTheLayersThatThereAre) {
   ProgramResult result = RunScene({"--aov", "dirct"});
   EXPECT_EQ(result.status, 1);

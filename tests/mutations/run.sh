@@ -1,19 +1,27 @@
 #!/usr/bin/env bash
-# Puts deliberate defects into a copy of the sources and runs the tests that must notice each: a suite
-# that stays green with a defect in is no suite. The defects are in defects.txt beside this file.
-#   run.sh             all of them, several independent ones to a build
-#   run.sh NAME ...    these alone; one name: one defect to the build
-#   run.sh --texts     only looks whether the texts to replace are still there, each once or more
-#   run.sh --list      prints name, file and tests of each
+# Puts deliberate defects, one at a time, into a copy of the sources and runs the tests that must
+# notice each: a suite that stays green with a defect in is no suite. The defects are in defects.txt
+# and blind.txt beside this file.
+#   run.sh                            all of them
+#   run.sh NAME ...                   these alone
+#   run.sh --everything TABLE [NAME ...]  defects of another table, each with all that ./dev test runs
+#                                     until something fails; the table's ! line is then a remark
+#   run.sh --texts                    only looks whether the texts to replace are still there
+#   run.sh --list                     prints name, file and tests of each
 # Works in build-mutations/, a copy with its own build; the sources here are not touched.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
-copy=${MUTATION_COPY:-$top/build-mutations/src}
-build=${MUTATION_BUILD:-$top/build-mutations/build}
+folder=${MUTATION_FOLDER:-$top/build-mutations}
+copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
-table=${MUTATION_TABLE:-$here/defects.txt}
-batch_size=${MUTATIONS_A_BUILD:-10}
+
+everything=
+tables=("$here/defects.txt" "$here/blind.txt")
+if [ "${1:-}" = --everything ]; then
+  everything=yes tables=("${2:?run.sh --everything TABLE}")
+  shift 2
+fi
 
 names=() files=() texts=() insteads=() programs=() filters=()
 while IFS= read -r line; do
@@ -24,10 +32,10 @@ while IFS= read -r line; do
     '! '*) read -r _ program filter <<<"$line"; programs+=("$program"); filters+=("$filter") ;;
     *) read -r name file <<<"$line"; names+=("$name"); files+=("$file") ;;
   esac
-done <"$table"
+done < <(cat "${tables[@]}")
 count=${#names[@]}
 if [ "${#texts[@]} ${#insteads[@]} ${#filters[@]}" != "$count $count $count" ]; then
-  echo "defects.txt: a defect has a line too few or too many" >&2
+  echo "${tables[*]}: a defect has a line too few or too many" >&2
   exit 1
 fi
 
@@ -45,111 +53,169 @@ elif [ "${1:-}" = --list ]; then
   exit 0
 fi
 
-# A copy of what git knows of, as it is now. Times are kept, so that only changes are built again.
-mkdir -p "$copy"
-if [ -f "$copy/.list" ]; then
-  git -C "$top" ls-files | sort | comm -13 - "$copy/.list" | (cd "$copy" && xargs -r -d '\n' rm -f)
-fi
-git -C "$top" ls-files | sort >"$copy/.list"
-while IFS= read -r file; do
-  if [ -f "$top/$file" ] && ! cmp -s "$top/$file" "$copy/$file"; then
-    mkdir -p "$copy/$(dirname "$file")"
-    cp "$top/$file" "$copy/$file"
-  fi
-done <"$copy/.list"
-if [ ! -f "$build/build.ninja" ]; then
-  launcher=()
-  command -v ccache >/dev/null 2>&1 && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  cmake -S "$copy" -B "$build" -G Ninja -DEXPHOTON_OPTIMIZE=-O1 -DEXPHOTON_TESTS=ON \
-    "${launcher[@]}" >/dev/null
-fi
-
-targets=(exphoton plugins test_unit test_stat test_parser test_cli hardcases)
-build_all() { ninja -C "$build" -j "$jobs" "${targets[@]}" 2>&1; }
-
-# run_tests PROGRAM FILTER: prints what they say; fails where a test does.
-run_tests() {
-  local command=("$build/bin/test_$1" "--gtest_filter=$2" --gtest_brief=1)
-  [ "$1" = case ] && command=("$build/bin/hardcases" --tests --only "$2" --quiet)
-  timeout 300 "${command[@]}" 2>&1
-}
-# The first test that failed.
-noticed_by() {
-  printf '%s\n' "$1" | grep -E '^\[  FAILED  \] [^ ]+[.]|^      [^ ]' | head -1 |
-    sed -E 's/^\[  FAILED  \] //; s/^ +//; s/,? (where|\().*//'
-}
-put_in() {  # INDEX; the sources here may change meanwhile
-  cp "$copy/${files[$1]}" "$build/original.$1"
-  TEXT=${texts[$1]} INSTEAD=${insteads[$1]} awk '
-    BEGIN { text = ENVIRON["TEXT"]; instead = ENVIRON["INSTEAD"] }
-    { at = index($0, text)
-      if (at && !done) { $0 = substr($0, 1, at - 1) instead substr($0, at + length(text)); done = 1 }
-      print }
-    END { exit !done }' "$build/original.$1" >"$copy/${files[$1]}"
-}
-take_out() { cat "$build/original.$1" >"$copy/${files[$1]}"; }
-
 chosen=()
 for ((i = 0; i < count; ++i)); do
   if [ $# = 0 ] || [[ " $* " == *" ${names[i]} "* ]]; then chosen+=("$i"); fi
 done
 if [ ${#chosen[@]} = 0 ]; then echo "no defect of that name" >&2; exit 1; fi
-missed=0 noticed=0
 
-echo "building without a defect"
-build_all >"$build/mutation.log" || { tail -20 "$build/mutation.log"; exit 1; }
-declare -A passes
-for i in "${chosen[@]}"; do
-  key="${programs[i]} ${filters[i]}"
-  [ -n "${passes[$key]:-}" ] && continue
+# Copies all that git does not ignore, as it is now. Files that are equal keep their times, so that only changes
+# are built again.
+copy_sources() {
+  mkdir -p "$copy"
+  if [ -f "$copy/.list" ]; then
+    git -C "$top" ls-files -co --exclude-standard | sort | comm -13 - "$copy/.list" | (cd "$copy" && xargs -r -d '\n' rm -f)
+  fi
+  git -C "$top" ls-files -co --exclude-standard | sort >"$copy/.list"
+  while IFS= read -r file; do
+    if [ -f "$top/$file" ] && ! cmp -s "$top/$file" "$copy/$file"; then
+      mkdir -p "$copy/$(dirname "$file")"
+      cp "$top/$file" "$copy/$file"
+    fi
+  done <"$copy/.list"
+}
+
+# One source a compilation, because each defect compiles few; and a library with a defect does not
+# make its users link again.
+configure() {
+  [ -f "$build/build.ninja" ] ||
+    cmake -S "$copy" -B "$build" -G Ninja -DEXPHOTON_OPTIMIZE=-O1 -DEXPHOTON_TESTS=ON \
+      -DEXPHOTON_FILES_TOGETHER=1 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON >/dev/null
+}
+
+# target_of PROGRAM: what to build for it.
+target_of() {
+  case "$1" in case) echo hardcases ;; *) echo "test_$1" ;; esac
+}
+build_for() { ninja -C "$build" -j "$jobs" exphoton plugins "$@" >"$folder/build.log" 2>&1; }
+
+# run_tests PROGRAM FILTER: prints what they say; fails where a test does.
+run_tests() {
+  local command=("$build/bin/test_$1" "--gtest_filter=$2" --gtest_brief=1 --gtest_fail_fast)
+  [ "$1" = case ] && command=("$build/bin/hardcases" --tests --only "$2" --quiet)
+  (cd "$build" && timeout 300 "${command[@]}" 2>&1)
+}
+# The first test that failed, of what run_tests or ctest printed.
+noticed_by() {
+  local test
+  test=$(printf '%s\n' "$1" | grep -E '^\[  FAILED  \] [^ ]+[.]|^      [^ ]|\*\*\*' | head -n 1 |
+    sed -E 's/^\[  FAILED  \] //; s/^ +//; s/,? (where|\().*//; s/ \.+ *\*\*\*.*//') || true
+  echo "${test:-ended without a result}"
+}
+
+put_in() {  # INDEX; the sources here may change meanwhile
+  cp -p "$copy/${files[$1]}" "$folder/original"
+  TEXT=${texts[$1]} INSTEAD=${insteads[$1]} awk '
+    BEGIN { text = ENVIRON["TEXT"]; instead = ENVIRON["INSTEAD"] }
+    { at = index($0, text)
+      if (at && !done) { $0 = substr($0, 1, at - 1) instead substr($0, at + length(text)); done = 1 }
+      print }
+    END { exit !done }' "$folder/original" >"$copy/${files[$1]}"
+}
+# Takes the build without a defect for what take_out restores.
+remember() {
+  rm -rf "$clean"
+  cp -a "$build" "$clean"
+  sleep .1
+  touch "$folder/stamp"
+  sleep .1
+}
+# Restores source and build, with their times: nothing is compiled for it.
+take_out() {
+  cp -p "$folder/original" "$copy/${files[$1]}"
+  (cd "$build" && find . -type f -newer "$folder/stamp" -print0) |
+    while IFS= read -r -d '' file; do
+      if [ -f "$clean/$file" ]; then cp -p "$clean/$file" "$build/$file"; else rm "$build/$file"; fi
+    done
+}
+
+# Runs a test program in as many parts at once as there are jobs, each until one of its tests fails.
+run_whole() {  # PROGRAM
+  local part parts=() status=0
+  for ((part = 0; part < jobs; ++part)); do
+    (cd "$build" && GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$part exec timeout 900 \
+      "bin/test_$1" --gtest_brief=1 --gtest_fail_fast >"$folder/part.$part" 2>&1) &
+    parts+=($!)
+  done
+  for part in "${parts[@]}"; do wait "$part" || status=1; done
+  cat "$folder"/part.*
+  return $status
+}
+# All that ./dev test runs, the quick programs first; prints what the first that fails says.
+run_everything() {
+  local program output
+  for program in unit parser plugin cli stat images; do
+    output=$(run_whole "$program") || { printf '%s\n' "$output"; return 1; }
+  done
+  output=$(cd "$build" && bin/hardcases --quiet 2>&1) || { printf '%s\n' "$output"; return 1; }
+  output=$(ctest --test-dir "$build" -LE long -R '^(CommandLines|Signals|Replay)' 2>&1) ||
+    { printf '%s\n' "$output"; return 1; }
+}
+run_for() {  # INDEX
+  if [ "$everything" ]; then run_everything; else run_tests "${programs[$1]}" "${filters[$1]}"; fi
+}
+build_with() {  # INDEX: what its tests need
+  if [ "$everything" ]; then
+    ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1
+  else
+    build_for "$(target_of "${programs[$1]}")"
+  fi
+}
+
+missed=0 noticed=0
+declare -A passes targets
+# What is tested must pass without a defect, and be there.
+check_tests() {  # INDEX
+  local key="${programs[$1]} ${filters[$1]}" output
+  [ -z "${passes[$key]:-}" ] || return 0
   passes[$key]=yes
-  if ! output=$(run_tests "${programs[i]}" "${filters[i]}"); then
+  if ! output=$(run_tests "${programs[$1]}" "${filters[$1]}"); then
     echo "$key: fails without a defect: $(noticed_by "$output")"; passes[$key]=no; missed=1
   elif [[ "$output" == *"] 0 tests from"* ]]; then
     echo "$key: there is no such test"; passes[$key]=no; missed=1
   fi
-done
+}
+prepare() {
+  copy_sources
+  configure
+  echo "building without a defect"
+  for i in "${chosen[@]}"; do targets[$(target_of "${programs[i]}")]=yes; done
+  if [ "$everything" ]; then
+    ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1
+  else
+    build_for "${!targets[@]}"
+  fi || { tail -20 "$folder/build.log"; exit 1; }
+  local output
+  if [ "$everything" ]; then
+    output=$(run_everything) || { echo "fails without a defect: $(noticed_by "$output")"; exit 1; }
+  else
+    for i in "${chosen[@]}"; do check_tests "$i"; done
+  fi
+  remember
+}
 
-# Fills builds: no two defects of one hold the same file or the same tests.
-while [ ${#chosen[@]} -gt 0 ]; do
-  batch=() rest=() used=" "
-  for i in "${chosen[@]}"; do
-    suite="${programs[i]}:${filters[i]%%.*}"
-    if [ ${#batch[@]} -lt "$batch_size" ] && [[ "$used" != *" ${files[i]} "* ]] &&
-      [[ "$used" != *" $suite "* ]]; then
-      batch+=("$i") used+="${files[i]} $suite "
-    else
-      rest+=("$i")
-    fi
-  done
-  chosen=("${rest[@]}")
-  for i in "${batch[@]}"; do
-    put_in "$i" || { echo "${names[i]}: its text is not in ${files[i]}"; missed=1; }
-  done
-  # One that does not compile must not hide the others.
-  while [ ${#batch[@]} -gt 0 ] && ! build_all >"$build/mutation.log"; do
-    kept=()
-    for i in "${batch[@]}"; do
-      if grep -F -- "${files[i]}" "$build/mutation.log" | grep -q 'error'; then
-        echo "${names[i]}: does not compile"; missed=1
-        take_out "$i"
-      else
-        kept+=("$i")
-      fi
-    done
-    [ ${#kept[@]} -lt ${#batch[@]} ] || { tail -20 "$build/mutation.log"; exit 1; }
-    batch=("${kept[@]}")
-  done
-  for i in "${batch[@]}"; do
-    if [ "${passes[${programs[i]} ${filters[i]}]}" = no ]; then
-      continue
-    elif output=$(run_tests "${programs[i]}" "${filters[i]}"); then
-      echo "${names[i]}: NOT NOTICED by ${programs[i]} ${filters[i]}"; missed=1
-    else
-      echo "${names[i]}: $(noticed_by "$output")"; noticed=$((noticed + 1))
-    fi
-  done
-  for i in "${batch[@]}"; do take_out "$i"; done
+# Says which test notices a defect that is alone in the code.
+try() {  # INDEX
+  local name=${names[$1]} output
+  if ! put_in "$1"; then
+    echo "$name: its text is not in ${files[$1]}"; missed=1
+  elif ! build_with "$1"; then
+    echo "$name: does not compile: $(grep -m 1 error "$folder/build.log")"; missed=1
+  elif output=$(run_for "$1"); then
+    echo "$name: NOT NOTICED${everything:+ by anything}"; missed=1
+    [ "$everything" ] || echo "    by ${programs[$1]} ${filters[$1]}"
+  else
+    echo "$name: $(noticed_by "$output")"; noticed=$((noticed + 1))
+  fi
+  take_out "$1"
+}
+
+prepare
+for i in "${chosen[@]}"; do
+  [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ] || try "$i"
 done
-echo "$noticed noticed, of $count in the table; $((SECONDS / 60)) min $((SECONDS % 60)) s"
+times >"$folder/times"
+read -r user system < <(tail -n 1 "$folder/times")
+echo "$noticed noticed, of ${#chosen[@]}; $((SECONDS / 60)) min $((SECONDS % 60)) s," \
+  "CPU time $user and $system in the system"
 exit $missed

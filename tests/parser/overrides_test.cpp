@@ -76,6 +76,10 @@ TEST(Overrides, QuickQuartersTheResolutionAndTakesOneSample) {
   EXPECT_EQ(built.setups[0]->film.xResolution, 10);
   EXPECT_EQ(built.setups[0]->film.yResolution, 1);
   EXPECT_EQ(built.setups[0]->sampler->SamplesPerPixel(), 1);
+  options.samplesPerPixel = 16;
+  const BuiltScene sixteen = BuildText(kEmptyWorld, options);
+  ASSERT_EQ(sixteen.error, "");
+  EXPECT_EQ(sixteen.setups[0]->sampler->SamplesPerPixel(), 16);
 }
 
 TEST(Overrides, QuickDividesGivenAndDefaultCounts) {
@@ -142,8 +146,9 @@ TEST(EffectChoice, SaysWhatThePictureLoses) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
   ChooseEffects(EffectPlan(), "motion=off,lens=off", log);
   ASSERT_EQ(log.WarningCount(), 2);
-  EXPECT_EQ(log.Messages()[0],
-            "exphoton: warning: --effects motion=off shows the moment at which the shutter opens\n");
+  EXPECT_EQ(
+      log.Messages()[0],
+      "exphoton: warning: --effects motion=off shows the moment at which the shutter opens\n");
   EXPECT_EQ(log.Messages()[1],
             "exphoton: warning: --effects lens=off shows the scene through a pinhole\n");
 }

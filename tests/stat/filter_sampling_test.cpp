@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Whether filters are sampled in proportion to their absolute value. One of 7 chi-square tests: a
+// Whether filters are sampled in proportion to their absolute value. One of 10 chi-square tests: a
 // false alarm in 1 % of the seeds, and the seed is fixed.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kTests = 7;
+constexpr int kTests = 10;
 
 void TestFilter(const std::string& text) {
   TestPlugins plugins;
@@ -42,6 +42,11 @@ TEST(FilterSampling, OfASharpMitchellFilterFits) {
   TestFilter(R"("mitchell" "float B" 0 "float C" .75)");
 }
 TEST(FilterSampling, OfASincFits) { TestFilter(R"("sinc")"); }
+TEST(FilterSampling, OfUnequalWidthsFits) {
+  TestFilter(R"("gaussian" "float xwidth" 1 "float ywidth" 3 "float alpha" .5)");
+  TestFilter(R"("mitchell" "float xwidth" 1 "float ywidth" 3)");
+  TestFilter(R"("sinc" "float xwidth" 2 "float ywidth" 5)");
+}
 
 }  // namespace
 }  // namespace exphoton

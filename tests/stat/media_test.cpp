@@ -78,59 +78,67 @@ TEST(Media, AbsorbTheSameAtEverySlant) {
   EXPECT_NEAR(MeanRadiance(render.image), std::exp(-.3 * 3.5 / .8), 2e-4);
 }
 
-TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
-  const std::string world = Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") +
-                            "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
-                            "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
-                            kDisk + "WorldEnd\n";
-  const double expected = .5 / 3.14159265358979 * std::exp(-.9) * std::exp(-.9);
+// The radiance of the disk in the world, by every integrator and by photons that are stored on it.
+void ExpectLitThroughMedia(const std::string& world, double expected, int photons,
+                           double tolerance) {
   for (const char* integrator : kIntegrators) {
     const TestRender render = RenderSceneText(Header(integrator, "\"emission\"") + world);
     EXPECT_NEAR(MeanRadiance(render.image), expected, 1e-4 * expected) << integrator;
   }
-  // And photons on their way to the surface.
+  const std::string header =
+      Header("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" " +
+                 std::to_string(photons) +
+                 " \"integer indirectphotons\" 0 \"integer nused\" 8000 \"float maxdist\" 1",
+             "\"emission\"");
   const auto measure = [&](std::uint64_t seed) {
     TestRenderOptions options;
     options.seed = seed;
     options.load.samplesPerPixel = 1;
-    return MeanRadiance(RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
-                                               "\"integer directphotons\" 100000 \"integer "
-                                               "indirectphotons\" 0 \"integer nused\" 8000 "
-                                               "\"float maxdist\" 1",
-                                               "\"emission\"") +
-                                            world,
-                                        options)
-                            .image);
+    return MeanRadiance(RenderSceneText(header + world, options).image);
   };
-  EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected));
+  EXPECT_TRUE(IsWithin(tolerance, EstimateOverSeeds(measure), expected));
+}
+const char* const kLitDisk =
+    "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+    "Material \"matte\" \"color Kd\" [.5 .5 .5]\n";
+
+TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
+  const std::string world = Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") + kLitDisk;
+  ExpectLitThroughMedia(world + kDisk + "WorldEnd\n", .5 / M_PI * std::exp(-.9) * std::exp(-.9),
+                        100000, .01);
 }
 
 // The medium goes on behind the disk; only the way to it counts, for every kind of ray.
 TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {
   const std::string world =
       "Volume \"homogeneous\" \"point p0\" [-50 -50 1] \"point p1\" [50 50 50] \"color sigma_a\" "
-      "[.3 .3 .3]\nLightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+      "[.3 .3 .3]\n" +
+      std::string(kLitDisk);
+  ExpectLitThroughMedia(world + kDisk + "WorldEnd\n", .5 / M_PI * std::exp(-1.2) * std::exp(-1.2),
+                        20000, .03);
+}
+
+// The medium lies behind a wide lamp. Light rays that were sampled by the BSDF end at the lamp, and
+// its light is E = pi L R^2 / (R^2 + h^2).
+TEST(Media, DoNotAbsorbTheLightOfALampBeforeThem) {
+  const std::string world =
+      "Volume \"homogeneous\" \"point p0\" [-900 -900 -900] \"point p1\" [900 900 -1.5] "
+      "\"color sigma_a\" [1 1 1]\nAttributeBegin Translate 0 0 -1\n"
+      "Material \"matte\" \"color Kd\" [0 0 0]\n"
+      "AreaLightSource \"area\" \"color L\" [1 1 1] \"integer nsamples\" 4\n"
+      "Shape \"disk\" \"float radius\" 20 AttributeEnd\n"
       "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
       kDisk + "WorldEnd\n";
-  const double expected = .5 / 3.14159265358979 * std::exp(-1.2) * std::exp(-1.2);
-  for (const char* integrator : kIntegrators) {
-    const TestRender render = RenderSceneText(Header(integrator, "\"emission\"") + world);
-    EXPECT_NEAR(MeanRadiance(render.image), expected, 1e-4 * expected) << integrator;
+  for (const char* integrator : {"\"directlighting\"", "\"path\""}) {
+    const auto measure = [&](std::uint64_t seed) {
+      TestRenderOptions options;
+      options.seed = seed;
+      options.load.samplesPerPixel = 1024;
+      return MeanRadiance(
+          RenderSceneText(Header(integrator, "\"emission\"") + world, options).image);
+    };
+    EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), .5 * 400 / 436)) << integrator;
   }
-  const auto measure = [&](std::uint64_t seed) {
-    TestRenderOptions options;
-    options.seed = seed;
-    options.load.samplesPerPixel = 1;
-    return MeanRadiance(RenderSceneText(Header("\"photonmap\" \"bool directwithphotons\" \"true\" "
-                                               "\"integer directphotons\" 20000 \"integer "
-                                               "indirectphotons\" 0 \"integer nused\" 8000 "
-                                               "\"float maxdist\" 1",
-                                               "\"emission\"") +
-                                            world,
-                                        options)
-                            .image);
-  };
-  EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected));
 }
 
 TEST(Media, EmitWithoutBias) {
@@ -179,6 +187,28 @@ TEST(Media, ScatterParallelLightOnceAsTheSlabFormulaSays) {
       EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), expected)) << g << integrator;
     }
   }
+}
+
+// Two lights at the same angle to the view, on either side of it, one three times as bright as the
+// other: together four times the light of one.
+TEST(Media, ScatterTheLightOfEveryLight) {
+  const double rate = .5 * (1 + 1 / .8);
+  const double expected = 4 * .3 / (4 * M_PI) * (1 - std::exp(-3 * rate)) / rate;
+  const auto measure = [&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    return MeanRadiance(
+        RenderSceneText(
+            Header("\"directlighting\"", "\"single\" \"float stepsize\" .25") +
+                Slab("homogeneous", "\"color sigma_s\" [.3 .3 .3] \"color sigma_a\" [.2 .2 .2]") +
+                "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [.6 0 .8]\n"
+                "LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [-.6 0 .8] "
+                "\"color L\" [3 3 3]\n" +
+                kBlackDisk + "WorldEnd\n",
+            options)
+            .image);
+  };
+  EXPECT_TRUE(IsWithin(.02, EstimateOverSeeds(measure), expected));
 }
 
 TEST(Media, LeftOutOfThePlanLeaveTheSceneAsItIsWithoutThem) {

@@ -32,6 +32,18 @@ TEST(Bump, ASlopeTiltsTheNormal) {
   }
 }
 
+// z = x / 2 + y / 4 under footprints that are longer one way.
+TEST(Bump, SlopesDoNotDependOnTheFootprint) {
+  const Vector3 expected = Normalize(Vector3(Real(-.5), Real(-.25), 1));
+  for (const auto& [dudx, dvdy] : {std::pair<Real, Real>{.01, .08}, {.08, .01}}) {
+    SurfaceInteraction si = FlatSurface();
+    si.hasDifferentials = true;
+    si.dudx = dudx, si.dvdy = dvdy;
+    ApplyBump(Height([](const auto& at) { return at.uv.x / 2 + at.uv.y / 4; }), &si);
+    EXPECT_LT(Distance(si.shading.n, expected), Real(1e-4)) << dudx;
+  }
+}
+
 // A unit sphere with u once round the axis and v from pole to pole, displaced by d = .3 sin(4 u):
 // the normal of the surface p + d n, by central differences in double.
 TEST(Bump, OnACurvedSurfaceIsTheNormalOfTheDisplacedOne) {

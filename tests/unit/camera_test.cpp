@@ -156,6 +156,24 @@ TEST(PerspectiveCamera, NdcPutsTheFilmInTheUnitSquare) {
   }
 }
 
+// Under a window that is off centre, by unlike amounts along x and y.
+TEST(PerspectiveCamera, NdcFollowsTheWindow) {
+  TestPlugins plugins;
+  for (const std::string name : {"perspective", "orthographic"}) {
+    const auto camera = plugins.MakeCamera(
+        "\"" + name + "\" \"float screenwindow\" [-1 .5 .2 .8] \"float yon\" 5", {}, 200, 100);
+    const Ray ray = camera->GenerateRay({{150, 25}, kLensCentre, 0}, false);
+    const Matrix4 m = camera->WorldToNdc();
+    const Point3 p = ray(ray.tMax / 2);
+    const double v[4] = {double(p.x), double(p.y), double(p.z), 1};
+    double r[4] = {};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) r[i] += m.m[i][j] * v[j];
+    EXPECT_NEAR(r[0] / r[3], .5, 1e-5) << name;
+    EXPECT_NEAR(r[1] / r[3], .5, 1e-5) << name;
+  }
+}
+
 TEST(OrthographicCamera, HasParallelRays) {
   TestPlugins plugins;
   const auto camera = plugins.MakeCamera(R"("orthographic" "float hither" 0)", {}, 200, 100);

@@ -56,6 +56,32 @@ TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
   }
 }
 
+// In a cone of half-angle a, (1 - cos theta) / (1 - cos a) and the azimuth are uniform.
+TEST(ConeMixture, DrawsEvenlyFromACone) {
+  RandomStream random(6);
+  Arena arena;
+  ConeAxes axis(1, &arena);
+  axis.Add({0, 0, 1});
+  axis.Finish();
+  for (const Real degrees : {Real(10), Real(60), Real(90)}) {
+    const ConeMixture cones(axis, Cone(Radians(degrees)));
+    constexpr int n = 40000;
+    double depth = 0, depth2 = 0, x = 0, y = 0;
+    for (int i = 0; i < n; ++i) {
+      const auto s = cones.Draw(0, {random.Uniform(), random.Uniform()});
+      const double t = (1 - double(s.w.z)) / double(OneMinusCos(Radians(degrees)));
+      const double across = std::hypot(double(s.w.x), double(s.w.y));
+      depth += t / n, depth2 += t * t / n;
+      x += double(s.w.x) / across / n, y += double(s.w.y) / across / n;
+    }
+    // 4 standard errors.
+    EXPECT_NEAR(depth, .5, 4 * std::sqrt(1. / 12 / n)) << degrees;
+    EXPECT_NEAR(depth2, 1. / 3, 4 * std::sqrt(4. / 45 / n)) << degrees;
+    EXPECT_NEAR(x, 0, 4 * std::sqrt(.5 / n)) << degrees;
+    EXPECT_NEAR(y, 0, 4 * std::sqrt(.5 / n)) << degrees;
+  }
+}
+
 TEST(ConeMixture, OfASingleConeHasTheConesDensityDownToTinyAngles) {
   Arena arena;
   ConeAxes axis(1, &arena);
@@ -78,6 +104,13 @@ TEST(PowerHeuristic, WeightsOfTwoTechniquesAddUpToOne) {
       EXPECT_NEAR(double(sum), 1, 2.4e-7) << p << " " << q;
     }
   EXPECT_EQ(PowerHeuristic(1, 0, 1, 0), 0);
+}
+
+// Samples that are drawn four times count as samples of four times the density.
+TEST(PowerHeuristic, CountsMultiplyDensities) {
+  EXPECT_FLOAT_EQ(float(PowerHeuristic(4, Real(.5), 1, 3)), 4.f / 13);
+  EXPECT_FLOAT_EQ(float(PowerHeuristic(1, 3, 4, Real(.5))), 9.f / 13);
+  EXPECT_FLOAT_EQ(float(PowerHeuristic(8, 1, 2, 1)), 64.f / 68);
 }
 
 }  // namespace

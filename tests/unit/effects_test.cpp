@@ -35,6 +35,14 @@ TEST(EffectPlan, HasCausticsOnlyWithASpecularSurfaceAReceiverAndALight) {
   EXPECT_FALSE(PlanOf(matte + glass).Needs(Effect::Caustics));
 }
 
+TEST(EffectPlan, HasIndirectLightUnderAGlowingMediumAlone) {
+  const std::string medium =
+      "Volume \"homogeneous\" \"point p0\" [-1 -1 -1] \"point p1\" [1 1 1] \"color Le\" [1 1 1]\n";
+  EXPECT_TRUE(PlanOf(medium + Material(R"("matte")") + kBall).Needs(Effect::Indirect));
+  EXPECT_FALSE(PlanOf(Material(R"("matte")") + kBall).Needs(Effect::Indirect));
+  EXPECT_TRUE(PlanOf(medium + Material(R"("plastic")") + kBall).Needs(Effect::Glossy));
+}
+
 TEST(EffectPlan, OfSpecularSurfacesOnlyHasNoIndirectLight) {
   const EffectPlan plan = PlanOf(kLamp + Material(R"("mirror")") + kBall);
   EXPECT_FALSE(plan.Needs(Effect::Indirect));

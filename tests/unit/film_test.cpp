@@ -65,6 +65,18 @@ TEST(Film, WeightsThatCancelGiveTheSamePixelInASumOfFilms) {
   EXPECT_EQ(sum.SampleCount({0, 0}), 4);
 }
 
+// Where less than half of the weight is left, the mean is by the weights' absolute values.
+TEST(Film, WeightsThatNearlyCancelDoNotScaleThePixel) {
+  const auto pixel = [](int positive, int negative) {
+    Film film(kOnePixel, kOnePixel);
+    for (int i = 0; i < positive; ++i) film.AddSample({0, 0}, Spectrum(1), 1, 1);
+    for (int i = 0; i < negative; ++i) film.AddSample({0, 0}, Spectrum(0), 1, -1);
+    return film.ToImage(true).At(0, 0, 0);
+  };
+  EXPECT_FLOAT_EQ(pixel(6, 4), .6f);      // not 6 / (6 - 4)
+  EXPECT_FLOAT_EQ(pixel(8, 2), 8.f / 6);  // the filter's own weights, as long as they suffice
+}
+
 TEST(Film, APixelIsNeverNegative) {
   Film film(kOnePixel, kOnePixel);
   for (Real weight : {Real(1), Real(1), Real(1), Real(-1)})

@@ -21,13 +21,15 @@ constexpr double kReflected = .3, kTransmitted = .6;
 constexpr double kAbove = 1, kBelow = 3;
 constexpr double kLattice = 49 / (.17 * kPi64) / 100;
 
+const char* const kPane =
+    "Material \"translucent\" \"color Kd\" [1 1 1] \"color Ks\" [0 0 0] \"color reflect\" [.3 .3 "
+    ".3] "
+    "\"color transmit\" [.6 .6 .6]\nShape \"disk\" \"float radius\" 5\n";
+
 class PaneTest : public testing::Test {
  protected:
-  PaneTest()
-      : scene_(LoadSceneText("WorldBegin\nLightSource \"point\"\nMaterial \"translucent\" "
-                             "\"color Kd\" [1 1 1] \"color Ks\" [0 0 0] \"color reflect\" "
-                             "[.3 .3 .3] \"color transmit\" [.6 .6 .6]\nShape \"disk\" \"float "
-                             "radius\" 5\nWorldEnd\n")),
+  explicit PaneTest(const std::string& world = kPane)
+      : scene_(LoadSceneText("WorldBegin\nLightSource \"point\"\n" + world + "WorldEnd\n")),
         samples_(SampleLayout()),
         random_(1) {
     settings_.maxDist = 1;
@@ -124,6 +126,29 @@ TEST_F(PaneTest, IsReadFromRadiancePhotonsOnlyBeyondShortRays) {
     EXPECT_EQ(read(Real(.95) * limit), 0) << shortRays;
     EXPECT_EQ(read(Real(1.05) * limit), 1) << shortRays;
   }
+}
+
+// A sheet of glass over a matte surface.
+class SheetTest : public PaneTest {
+ protected:
+  SheetTest()
+      : PaneTest(
+            "Shape \"disk\" \"float radius\" 5\nMaterial \"glass\" \"float index\" 1.5\n"
+            "Translate 0 0 1 ReverseOrientation Shape \"disk\" \"float radius\" 5\n"
+            "Translate 0 0 .5 ReverseOrientation Shape \"disk\" \"float radius\" 5\n") {}
+};
+
+// A gather ray follows one of reflection and refraction at each side of the sheet. Each side
+// reflects the part F = .04, so the sheet transmits (1 - F) / (1 + F), and the sheet with the
+// surface behind it is as bright as that.
+TEST_F(SheetTest, DimsGatherRaysByWhatItReflects) {
+  Fill(RadianceMode::Exitant);
+  const double bare = ReadFrom({0, 0, Real(.5)}, {0, 0, -1}, nullptr).radiance;
+  ASSERT_GT(bare, .1);
+  constexpr int kRays = 20000;
+  double sum = 0;
+  for (int i = 0; i < kRays; ++i) sum += ReadFrom({0, 0, 3}, {0, 0, -1}, nullptr).radiance;
+  EXPECT_NEAR(sum / kRays / bare, .96 / 1.04, .01);
 }
 
 }  // namespace

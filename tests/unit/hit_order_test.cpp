@@ -53,6 +53,49 @@ TEST_P(EqualSurfaces, ShowTheFirstMaterial) {
   }
 }
 
+// Shapes and instances of them, too.
+TEST_P(EqualSurfaces, ShowTheFirstMaterialOfShapes) {
+  TestPlugins plugins;
+  const auto first = plugins.MakeMaterial(R"("matte")"),
+             second = plugins.MakeMaterial(R"("mirror")");
+  PrimitiveSet set;
+  for (const Material* material : {first.get(), second.get()}) {
+    ShapeGeometry disk = plugins.MakeShape(R"("disk" "float height" 1)");
+    set.AddShape(std::move(std::get<std::unique_ptr<Shape>>(disk)), {material, nullptr});
+  }
+  set.Finish();
+  const auto tested = plugins.MakeAccelerator(GetParam(), set);
+  RandomStream random(3);
+  for (int i = 0; i < 200; ++i) {
+    Ray ray;
+    ray.o = RandomVector(random) * Real(.5);
+    ray.d = Point3(0, 0, 1) - ray.o;
+    const Hit hit = tested->Intersect(ray);
+    ASSERT_TRUE(hit.IsHit());
+    ASSERT_EQ(set.Attributes(hit).material, first.get()) << "ray " << i;
+  }
+}
+
+// A shape that is met at the distance of the hit that is known so far wins where its id is lower.
+TEST(PrimitiveSet, DecidesTiesOfShapesByTheirIdsInAnyOrder) {
+  TestPlugins plugins;
+  PrimitiveSet set;
+  for (int i = 0; i < 2; ++i) {
+    ShapeGeometry disk = plugins.MakeShape(R"("disk" "float height" 1)");
+    set.AddShape(std::move(std::get<std::unique_ptr<Shape>>(disk)), {});
+  }
+  set.Finish();
+  Ray ray;
+  ray.d = {Real(.1), Real(.2), 1};
+  for (const bool isForward : {true, false}) {
+    Hit hit;
+    for (const std::uint32_t id : {isForward ? 0u : 1u, isForward ? 1u : 0u})
+      set.Intersect(id, TraceRay(ray), &hit);
+    ASSERT_TRUE(hit.IsHit());
+    EXPECT_EQ(hit.primitive, 0u) << isForward;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Accelerators, EqualSurfaces,
                          testing::Values(
 #ifdef EXPHOTON_EMBREE

@@ -3,6 +3,7 @@
 // transformation: under uneven scales normals turn otherwise than vectors do.
 #include <gtest/gtest.h>
 
+#include "core/geometry/placement.h"
 #include "tests/support/geometry_scenes.h"
 #include "tests/support/test_plugin.h"
 
@@ -71,15 +72,41 @@ TEST(InstanceSurface, OfASphereIsTheSurfaceOfTheScaledSphere) {
     ++hits;
     ExpectNear(met->found.ng, met->expected.ng, "ng");
     ExpectNear(met->found.dpdu, met->expected.dpdu, "dpdu");
+    ExpectNear(met->found.dpdv, met->expected.dpdv, "dpdv");
     ExpectNear(met->found.dndu, met->expected.dndu, "dndu");
     ExpectNear(met->found.dndv, met->expected.dndv, "dndv");
     ExpectNear(met->found.shading.n, met->expected.shading.n, "shading.n");
+    ExpectNear(met->found.shading.dpdu, met->expected.shading.dpdu, "shading.dpdu");
     ExpectNear(met->found.shading.dpdv, met->expected.shading.dpdv, "shading.dpdv");
     ExpectNear(met->found.shading.dndu, met->expected.shading.dndu, "shading.dndu");
     ExpectNear(met->found.shading.dndv, met->expected.shading.dndv, "shading.dndv");
     if (HasFailure()) FAIL() << "ray " << i;
   }
   EXPECT_GT(hits, 100);
+}
+
+// A transformation takes the parallelogram of two tangents to another one.
+TEST(AreaScale, IsTheRatioOfTheAreasOfAParallelogram) {
+  RandomStream random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Frame frame = Frame::FromZ(NormalizeOr(RandomVector(random), {0, 0, 1}));
+    const Vector3 image = Cross(kPlace.ApplyVector(frame.x), kPlace.ApplyVector(frame.y));
+    EXPECT_NEAR(double(AreaScale(kPlace, frame.z) / Length(image)), 1, 1e-5);
+  }
+}
+
+// Two small steps across a direction span its solid angle: det(w, a, b) / |w|^3.
+TEST(SolidAngleScale, IsTheRatioOfSmallSolidAngles) {
+  RandomStream random(6);
+  const Transform toLocal = kPlace.Inverted();
+  for (int i = 0; i < 100; ++i) {
+    const Frame frame = Frame::FromZ(NormalizeOr(RandomVector(random), {0, 0, 1}));
+    const Vector3 w = toLocal.ApplyVector(frame.z);
+    const Vector3 across = Cross(toLocal.ApplyVector(frame.x), toLocal.ApplyVector(frame.y));
+    const double length = double(Length(w));
+    const double expected = std::abs(double(Dot(w, across))) / (length * length * length);
+    EXPECT_NEAR(double(SolidAngleScale(kPlace, frame.z)) / expected, 1, 1e-4);
+  }
 }
 
 // Between vertices the two interpolate normals of other lengths.

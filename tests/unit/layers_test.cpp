@@ -52,6 +52,18 @@ TEST(LayerFilm, AveragesAsTheFilmDoesAndCountsSamples) {
   EXPECT_EQ(image.At(0, 0, 8), 1.5f);
 }
 
+// The layer's channel is time.ms.
+TEST(LayerFilm, ShowsTheSumOfAPixelsTimesInMilliseconds) {
+  Film film(kOnePixel, kOnePixel);
+  LayerFilm layers(kOnePixel, {Layer::Time});
+  film.AddSample({0, 0}, Spectrum(1), 1, 1);
+  layers.AddTime({0, 0}, .25);
+  layers.AddTime({0, 0}, .5);
+  Image image = film.ToImage(true);
+  layers.AppendTo(film, true, &image);
+  EXPECT_EQ(image.At(0, 0, image.FindChannel("time.ms")), 750);
+}
+
 // Of n values of variance 1/12: the mean has 1/12 n.
 TEST(LayerFilm, EstimatesTheVarianceOfAPixel) {
   constexpr int kPixels = 4000, kSamples = 16;
@@ -72,6 +84,25 @@ TEST(LayerFilm, EstimatesTheVarianceOfAPixel) {
   EXPECT_NEAR(MeanChannel(image, "Variance.R") * kSamples * 12, 1, .03);
   EXPECT_NEAR(MeanChannel(image, "Variance.G") * kSamples * 3, 1, .03);
   EXPECT_NEAR(MeanChannel(image, "Variance.B"), 0, 1e-12);
+}
+
+// Values of which half are covered by alpha 1 and half by 0: premultiplied, they are scaled by 1/2
+// and their variance by 1/4.
+TEST(LayerFilm, ScalesTheVarianceByTheSquareOfAlpha) {
+  Film film(kOnePixel, kOnePixel);
+  LayerFilm layers(kOnePixel, {Layer::Variance});
+  for (int i = 0; i < 8; ++i) {
+    const Spectrum L{Real(i)};
+    film.AddSample({0, 0}, L, Real(i % 2), 1);
+    layers.AddSample({0, 0}, {}, L, 1);
+  }
+  const auto variance = [&](bool premultiplyAlpha) {
+    Image image = film.ToImage(premultiplyAlpha);
+    layers.AppendTo(film, premultiplyAlpha, &image);
+    return MeanChannel(image, "Variance.G");
+  };
+  EXPECT_NEAR(variance(false), 6. / 8, 1e-5);  // of 0 to 7: 42 / 7, over their number
+  EXPECT_NEAR(variance(true), 6. / 8 / 4, 1e-5);
 }
 
 // Everything that light can do: lamp, sky, glass, mirror, glossy, matte.
@@ -173,6 +204,37 @@ TEST(LightLayers, AgreeBetweenPathTracingAndPhotonMapping) {
     EXPECT_GT(expected, .0005) << layer;
     EXPECT_NEAR(MeanChannel(photons, layer), expected, tolerance * expected) << layer;
   }
+}
+
+TEST(SurfaceLayers, HaveTheInterpolatedNormal) {
+  TestRenderOptions options;
+  options.layers = {Layer::Normal};
+  const Image image =
+      RenderSceneText(TestHeader("\"whitted\"", 3, 3, 1) +
+                          "WorldBegin LightSource \"point\"\nShape \"trianglemesh\" \"integer "
+                          "indices\" [0 1 2] \"point P\" [-9 -9 2 9 -9 2 0 9 2] \"normal N\" [.6 0 "
+                          "-.8 .6 0 -.8 .6 0 -.8]\nWorldEnd\n",
+                      options)
+          .image;
+  EXPECT_NEAR(image.At(1, 1, image.FindChannel("N.X")), .6, 1e-5);
+  EXPECT_NEAR(image.At(1, 1, image.FindChannel("N.Z")), -.8, 1e-5);
+}
+
+// A mirror has no photons, and the layer does not look for them in what it shows.
+TEST(SurfaceLayers, HaveNoPhotonDensityOfWhatAMirrorShows) {
+  TestRenderOptions options;
+  options.layers = {Layer::PhotonDensity};
+  const Image image =
+      RenderSceneText(
+          TestHeader("\"photonmap\" \"integer indirectphotons\" 4000", 5, 5, 1) +
+              "WorldBegin LightSource \"point\" \"point from\" [0 0 1]\n"
+              "AttributeBegin Translate 0 0 -3 Shape \"disk\" \"float radius\" 50 "
+              "AttributeEnd\nMaterial \"mirror\" Translate 0 0 4 Shape \"disk\" \"float "
+              "radius\" 50\nWorldEnd\n",
+          options)
+          .image;
+  EXPECT_GT(image.At(2, 2, image.FindChannel("G")), 0);  // the mirror shows the lit disk
+  EXPECT_EQ(image.At(2, 2, image.FindChannel("photondensity.Y")), 0);
 }
 
 TEST(SurfaceLayers, TellWhatTheCameraSees) {

@@ -51,6 +51,14 @@ TEST(LightDistribution, NeverChoosesABlackLight) {
   EXPECT_EQ(distribution.Probability(0), 0);
 }
 
+TEST(LightDistribution, SharesTheUniformPartAmongLightsThatShine) {
+  const auto lights = Lights({1, -1, 3, -1});
+  const LightDistribution distribution(lights, LightSelection::Power);
+  const double share = LightDistribution::kUniformShare;
+  EXPECT_NEAR(double(distribution.Probability(0)), (1 - share) * .25 + share * .5, 1e-6);
+  EXPECT_NEAR(double(distribution.Probability(2)), (1 - share) * .75 + share * .5, 1e-6);
+}
+
 TEST(LightDistribution, OfBlackLightsOnlyIsEmpty) {
   EXPECT_TRUE(LightDistribution(Lights({-1, -1}), LightSelection::Power).IsEmpty());
   EXPECT_TRUE(LightDistribution(Lights({}), LightSelection::Uniform).IsEmpty());

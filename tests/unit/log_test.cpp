@@ -167,6 +167,21 @@ TEST(Statistics, AddUpByName) {
   EXPECT_EQ(statistics.Phases()[0].cpuSeconds, 4);
   ASSERT_EQ(statistics.Counters().size(), 1u);
   EXPECT_EQ(statistics.Counters()[0].value, 4);
+  statistics.AddToCounter("photons", 5, "stored");
+  statistics.AddToCounter("photons", 6, "stored");
+  EXPECT_EQ(statistics.Counters()[0].value, 15);
+}
+
+TEST(Statistics, AddUpEveryCounterOfRays) {
+  RayCounters rays;
+  for (std::size_t kind = 0; kind < kRayKindCount; ++kind) rays.counts[kind] = kind + 1;
+  rays.cutThroughput = .5, rays.cutGatherThroughput = .25;
+  Statistics statistics;
+  for (int i = 0; i < 3; ++i) statistics.AddRays(rays);
+  for (std::size_t kind = 0; kind < kRayKindCount; ++kind)
+    EXPECT_EQ(statistics.Rays().counts[kind], 3 * (kind + 1)) << RayKindName(RayKind(kind));
+  EXPECT_EQ(statistics.Rays().cutThroughput, 1.5);
+  EXPECT_EQ(statistics.Rays().cutGatherThroughput, .75);
 }
 
 }  // namespace

@@ -26,6 +26,22 @@ TEST(LowDiscrepancy, SecondSobolDimensionIsThatOfItsDirectionNumbers) {
   }
 }
 
+// The first two points lie in different halves along each axis. Whether they lie in like halves of
+// these along x says nothing of whether they do so along y.
+TEST(LowDiscrepancy, ScramblesBothDimensionsIndependently) {
+  constexpr int kKeys = 4000;
+  const auto quarter = [](Real u) { return int(4 * u) % 2; };
+  int agree = 0;
+  for (int i = 0; i < kKeys; ++i) {
+    const std::uint64_t key = HashKey({std::uint64_t(i), 5});
+    const Point2 a = ScrambledSobol2(0, key), b = ScrambledSobol2(1, key);
+    ASSERT_NE(a.x < Real(.5), b.x < Real(.5));
+    ASSERT_NE(a.y < Real(.5), b.y < Real(.5));
+    agree += (quarter(a.x) == quarter(b.x)) == (quarter(a.y) == quarter(b.y));
+  }
+  EXPECT_NEAR(agree, .5 * kKeys, 5 * std::sqrt(.25 * kKeys));
+}
+
 TEST(LowDiscrepancy, ReversingBitsPutsBitKAtPlace31MinusK) {
   for (int bit = 0; bit < 32; ++bit) EXPECT_EQ(ReverseBits32(1u << bit), 1u << (31 - bit));
 }

@@ -190,6 +190,29 @@ TEST_F(Materials, UberMirrorsWithTheInvertedFresnelTerm) {
   EXPECT_NEAR(bsdf.Sample(slant, {}, 0, LobeSet::Specular)->throughput.r, .5, 1e-6);
 }
 
+// Every lobe but the one that lets light through is scaled by the opacity.
+TEST_F(Materials, UberScalesEveryLobeByItsOpacity) {
+  const std::string lobes =
+      R"("uber" "color Kd" [.3 .3 .3] "color Ks" [.4 .4 .4] "color Kr" [.5 .5 .5] )";
+  const Bsdf whole = Evaluate(lobes),
+             quarter = Evaluate(lobes + R"("color opacity" [.25 .25 .25])");
+  for (const LobeSet lobe :
+       {LobeSet::DiffuseReflection, LobeSet::GlossyReflection, LobeSet::SpecularReflection})
+    EXPECT_NEAR(quarter.Rho(lobe).g, .25 * double(whole.Rho(lobe).g), 1e-6);
+  const Vector3 z(0, 0, 1);
+  EXPECT_NEAR(quarter.f(z, z).g, .25 * double(whole.f(z, z).g), 1e-6);
+  const auto mirrored = quarter.Sample(z, {}, 0, LobeSet::SpecularReflection);
+  ASSERT_TRUE(mirrored);
+  EXPECT_NEAR(mirrored->throughput.g, .25 * .02, 1e-6);
+}
+
+// A coat that reflects all of one color leaves the base its other colors.
+TEST_F(Materials, SubstrateHasItsBaseWhereTheCoatLeavesLight) {
+  const std::string base = R"("substrate" "color Kd" [.5 .5 .5] "color Ks" )";
+  EXPECT_TRUE(Evaluate(base + "[1 .1 .1]").Has(LobeSet::DiffuseReflection));
+  EXPECT_FALSE(Evaluate(base + "[1 1 1]").Has(LobeSet::DiffuseReflection));
+}
+
 TEST_F(Materials, ShinyMetalReflectsItsColorsAtNormalIncidence) {
   const Bsdf bsdf = Evaluate(R"("shinymetal" "color Kr" [.9 .5 .2] "color Ks" [.5 .5 .5])");
   const auto mirrored = bsdf.Sample({0, 0, 1}, {}, 0, LobeSet::Specular);
@@ -205,6 +228,25 @@ TEST_F(Materials, MetalIsCopperUnlessToldOtherwise) {
   EXPECT_GT(rho.r, Real(.9));
   EXPECT_GT(rho.r, rho.g + Real(.2));
   EXPECT_GT(rho.g, rho.b);
+}
+
+// At normal incidence F = ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2), G = 1 and, with the exponent
+// e = 1 / roughness, D = (e + 2) / 2 pi.
+TEST_F(Materials, MetalTakesItsIndexAbsorptionAndRoughness) {
+  const Bsdf bsdf =
+      Evaluate(R"("metal" "color eta" [1.5 .2 1] "color k" [0 3 2] "float roughness" .05)");
+  const Spectrum f = bsdf.f({0, 0, 1}, {0, 0, 1});
+  const double d = 22 / (2 * M_PI) / 4;
+  EXPECT_NEAR(double(f.r) / d, .04, 1e-4);
+  EXPECT_NEAR(double(f.g) / d, (.64 + 9) / (1.44 + 9), 1e-4);
+  EXPECT_NEAR(double(f.b) / d, .5, 1e-4);
+  // Off the peak: D falls by the power e of the cosine of the half vector, and G stays 1.
+  const Real angle = Radians(Real(20));
+  const Vector3 wi(std::sin(angle), 0, std::cos(angle));
+  const double half = std::cos(double(angle) / 2);
+  EXPECT_NEAR(
+      double(bsdf.f({0, 0, 1}, wi).b) / (.5 * d * std::pow(half, 20) / std::cos(double(angle))), 1,
+      2e-3);
 }
 
 TEST_F(Materials, GlassScalesRadianceButNotPhotons) {

@@ -92,9 +92,9 @@ TEST(MipMap, WrapsAsAsked) {
 }
 
 // Ewa's answer over st to one bright texel is its filter. A round footprint of a texels is filtered
-// on the level 2^L = a by a Gaussian that is widened by one texel of the level. Its variance on each
-// axis, about the middle of the level's texel, is 4^L ((a / 2^L)^2 + 1) m texels^2, where m = .1361
-// is the variance of exp(-2 r^2) - exp(-2) on the unit disk.
+// on the level 2^L = a by a Gaussian that is widened by one texel of the level. Its variance on
+// each axis, about the middle of the level's texel, is 4^L ((a / 2^L)^2 + 1) m texels^2, where m =
+// .1361 is the variance of exp(-2 r^2) - exp(-2) on the unit disk.
 TEST(MipMap, EllipticalFilterIsAsWideAsItsFootprint) {
   constexpr int n = 256, kAt = 128, kReach = 24, kSteps = 4;
   std::vector<Real> texels(n * n, Real(0));
@@ -151,6 +151,32 @@ TEST(MipMap, EllipticalFilterIsAsLongAndAsTurnedAsItsFootprint) {
     limitedSum += value, limited += value * v * v;
   }
   EXPECT_GT(limited / limitedSum, 2 * across / sum);
+}
+
+// Limited to an anisotropy of 2, the same footprint's short axis grows to 2 texels and the long one
+// stays; on the level of 2 texels the variances along them are 4 (2^2 + 1) m and 4 (1 + 1) m.
+TEST(MipMap, EllipticalFilterThatIsLimitedGrowsAcrossOnly) {
+  constexpr int n = 128, kAt = 64, kReach = 16, kSteps = 4;
+  std::vector<Real> texels(n * n, Real(0));
+  texels[kAt * n + kAt] = 1;
+  const MipMap<Real> map(n, n, texels, WrapMode::Repeat);
+  const Real a = Real(4 / std::sqrt(2.)) / n, b = Real(1 / std::sqrt(2.)) / n;
+  for (const Real turn : {Real(1), Real(-1)}) {
+    double sum = 0, u1 = 0, v1 = 0, along = 0, across = 0;
+    for (int y = -kReach * kSteps; y < kReach * kSteps; ++y) {
+      for (int x = -kReach * kSteps; x < kReach * kSteps; ++x) {
+        const double dx = (x + .5) / kSteps, dy = (y + .5) / kSteps;
+        const Point2 st(Real((kAt + .5 + dx) / n), Real((kAt + .5 + dy) / n));
+        const double value = double(map.Ewa(st, {a, a * turn}, {b, -b * turn}, 2));
+        const double u = (dx + dy * double(turn)) / std::sqrt(2.);
+        const double v = (dx - dy * double(turn)) / std::sqrt(2.);
+        sum += value, u1 += value * u, v1 += value * v;
+        along += value * u * u, across += value * v * v;
+      }
+    }
+    EXPECT_NEAR((along / sum - u1 * u1 / (sum * sum)) / (20 * .1361), 1, .05) << turn;
+    EXPECT_NEAR((across / sum - v1 * v1 / (sum * sum)) / (8 * .1361), 1, .05) << turn;
+  }
 }
 
 // A long thin footprint across stripes averages them; along them it does not.

@@ -25,6 +25,20 @@ TEST(PhotonMap, WithoutPhotonsAnswersZero) {
   EXPECT_EQ(map.TypicalRadius(50, &arena), 0);
 }
 
+// A photon at height h over the plane counts as h / kFlatness away.
+TEST(PhotonMap, LooksLessFarAlongTheNormalThanAcross) {
+  const auto found = [](Real height, Real across) {
+    Arena arena;
+    const PhotonMap map = MapOf({{{across, 0, height}, {0, 0, 1}, Spectrum(1)}}, 1);
+    return map.Find({{0, 0, 0}, {0, 0, 1}, 50, 1, true}, &arena).photons.size();
+  };
+  const Real limit = PhotonMap::kFlatness;
+  EXPECT_EQ(found(0, Real(.99)), 1u);
+  EXPECT_EQ(found(Real(.98) * limit, 0), 1u);
+  EXPECT_EQ(found(Real(1.02) * limit, 0), 0u);
+  EXPECT_EQ(found(Real(-1.02) * limit, 0), 0u);
+}
+
 // Four neighbours at distance 1 and four at the diagonal; the photon itself is none of them.
 TEST(PhotonMap, OnAUnitLatticeHasTheRadiusOfItsNeighbours) {
   std::vector<Photon> photons;

@@ -15,15 +15,12 @@
 namespace exphoton {
 namespace {
 
-PhotonHarvest Shoot(const Scene& scene, std::uint64_t seed) {
+PhotonHarvest Shoot(const Scene& scene, std::uint64_t seed, const PhotonTargets& targets) {
   ThreadPool threads(1);
   Log log(Log::Level::Normal, Log::Sink::Memory);
   ProgressReporter progress(ProgressReporter::Mode::Quiet);
   Statistics statistics;
   PreprocessContext context{threads, seed, log, progress, statistics, false, nullptr, {}};
-  PhotonTargets targets;
-  targets[PhotonKind::Direct] = targets[PhotonKind::Indirect] = 2000;
-  targets.radianceFraction = Real(.5);
   return PhotonTracer(scene, PhotonSettings(), seed).Shoot(targets, context);
 }
 
@@ -32,12 +29,35 @@ TEST(PhotonTracer, GivesRadiancePhotonsTheNormalOnTheSideOfTheLight) {
   for (const std::string orientation : {"", "ReverseOrientation "}) {
     const LoadedScene loaded = LoadSceneText("WorldBegin\nLightSource \"point\"\n" + orientation +
                                              "Shape \"sphere\" \"float radius\" 2\nWorldEnd\n");
-    PhotonHarvest harvest = Shoot(*loaded.setup->scene, 1);
+    PhotonTargets targets;
+    targets[PhotonKind::Direct] = targets[PhotonKind::Indirect] = 2000;
+    targets.radianceFraction = Real(.5);
+    PhotonHarvest harvest = Shoot(*loaded.setup->scene, 1, targets);
     const auto seeds = harvest.seeds.Records();
     ASSERT_GT(seeds.size(), 500u);
     for (const RadianceSeed& seed : seeds)
       ASSERT_NEAR(Dot(seed.n, seed.p - Point3()), -2, 1e-3) << orientation;
   }
+}
+
+// A spot light over a matte floor, and a mirror behind the light: what comes over the mirror has
+// met the floor before.
+TEST(PhotonTracer, StoresNoCausticPhotonAfterADiffuseBounce) {
+  const auto shoot = [](const std::string& light) {
+    const LoadedScene loaded =
+        LoadSceneText("WorldBegin\n" + light +
+                      "\nShape \"disk\" \"float radius\" 9\nMaterial \"mirror\"\nTranslate 0 0 4\n"
+                      "ReverseOrientation Shape \"disk\" \"float radius\" 9\nWorldEnd\n");
+    PhotonTargets targets;
+    targets[PhotonKind::Caustic] = targets[PhotonKind::Indirect] = 500;
+    return Shoot(*loaded.setup->scene, 1, targets);
+  };
+  const std::string at = R"( "point from" [0 0 2] "point to" [0 0 )";
+  PhotonHarvest down = shoot(R"(LightSource "spot")" + at + "0]");
+  EXPECT_EQ(down[PhotonKind::Caustic].photons.Size(), 0u);
+  EXPECT_GE(down[PhotonKind::Indirect].photons.Size(), 500u);
+  PhotonHarvest up = shoot(R"(LightSource "spot")" + at + "4]");
+  EXPECT_GE(up[PhotonKind::Caustic].photons.Size(), 500u);
 }
 
 const char* const kFloor =
@@ -47,6 +67,19 @@ const char* const kFloor =
 const char* const kIntegrator =
     " \"integer indirectphotons\" 2000 \"integer directphotons\" 2000 \"bool finalgather\" "
     "\"false\" \"string show\" \"directphotons\" \"float maxdist\" .2";
+
+// The direct map is full long before the indirect one, and counts the paths up to then only.
+TEST(PhotonReport, CountsThePathsOfEachMap) {
+  LoadedScene loaded = LoadSceneText(
+      TestHeader("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 100 "
+                 "\"integer indirectphotons\" 20000 \"bool finalgather\" \"false\"",
+                 2, 2, 1) +
+      kFloor);
+  const TestRender render = RenderLoaded(loaded);
+  EXPECT_EQ(render.Counter("photons/indirect paths"), render.Counter("photons/shot"));
+  EXPECT_GE(render.Counter("photons/direct stored"), 100);
+  EXPECT_LT(render.Counter("photons/direct paths"), .1 * render.Counter("photons/shot"));
+}
 
 class PhotonSeeds : public testing::TestWithParam<const char*> {};
 

@@ -139,12 +139,15 @@ TEST_F(Quadrics, DiskHitAtItsCentreHasAFiniteFrame) {
 }
 
 TEST_F(Quadrics, DerivativesAgreeWithDifferences) {
-  const auto scaled = *Transform::Scale(2, 1, Real(.5));
-  for (const char* text :
-       {R"("sphere" "float zmin" -.9 "float zmax" .8 "float phimax" 300)",
-        R"("disk" "float innerradius" .1)", R"("cylinder" "float phimax" 300)"}) {
-    const auto shape = Make(text, scaled);
-    const bool isDisk = std::string(text).find("disk") != std::string::npos;
+  const char* const kinds[] = {R"("sphere" "float zmin" -.9 "float zmax" .8 "float phimax" 300)",
+                               R"("disk" "float innerradius" .1)",
+                               R"("cylinder" "float phimax" 300)"};
+  for (int i = 0; i < 12; ++i) {
+    const std::string text = kinds[i % 3];
+    const bool reverse = i / 3 % 2 == 1, mirrored = i / 6 == 1;
+    SCOPED_TRACE(text + (reverse ? ", reversed" : "") + (mirrored ? ", mirrored" : ""));
+    const auto shape = Make(text, *Transform::Scale(2, mirrored ? -1 : 1, Real(.5)), reverse);
+    const bool isDisk = text.find("disk") != std::string::npos;
     const auto at = [&](Real dx, Real dy) {
       const Ray ray =
           isDisk ? RayFromTo({Real(.4) + dx, Real(.5) + dy, 4}, {Real(.4) + dx, Real(.5) + dy, 0})

@@ -10,6 +10,14 @@
 namespace exphoton {
 namespace {
 
+TEST(SpawnRayTo, KeepsTheTimeOfItsOrigin) {
+  SurfacePoint from, to;
+  from.time = Real(.75);
+  to.p = {1, 2, 3};
+  EXPECT_EQ(SpawnRayTo(from, to).time, Real(.75));
+  EXPECT_EQ(SpawnRay(from, {0, 0, 1}).time, Real(.75));
+}
+
 TEST(RayFan, MakesTheRaysThatAreSpawnedOneByOne) {
   RandomStream random(3);
   const auto direction = [&] { return SampleUniformSphere({random.Uniform(), random.Uniform()}); };

@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "tests/support/test_plugin.h"
 
@@ -21,10 +24,11 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   void Preprocess(const Scene&, PreprocessContext& context) override {
     passSeed_ = context.seed;
     seeds.insert(context.seed);
-    if (sleeps) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (sleep > 0) std::this_thread::sleep_for(std::chrono::milliseconds(sleep));
   }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     RandomStream random = context.Stream(1);
+    if (keepsRays) rays.push_back({ray.d.x, ray.d.y});
     RandomStream blotch(HashKey({passSeed_, std::uint64_t(100 + int(100 * ray.d.x)),
                                  std::uint64_t(100 + int(100 * ray.d.y))}));
     return Spectrum(1 + sampleNoise * (random.Uniform() - Real(.5)) +
@@ -32,7 +36,9 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   }
 
   Real sampleNoise = 1, passNoise = Real(.5);
-  bool sleeps = false;
+  int sleep = 0;  // milliseconds of each preprocessing
+  bool keepsRays = false;
+  mutable std::vector<std::pair<Real, Real>> rays;  // of one thread
   std::set<std::uint64_t> seeds;
 
  private:
@@ -141,8 +147,23 @@ TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   EXPECT_TRUE(result.render.isComplete);
 }
 
+// Each pass goes on in the sampler's sequence where the last one of its group ended.
+TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
+  StoppingRule rule;
+  rule.targetError = 1e-9;
+  rule.maxSamples = 64;
+  integrator_.keepsRays = true;
+  const PassesResult result = Run(rule);
+  EXPECT_GT(result.passes, 16);
+  auto& rays = integrator_.rays;
+  ASSERT_EQ(rays.size(), 48u * 36 * 64);
+  std::sort(rays.begin(), rays.end());
+  const auto repeated = rays.end() - std::unique(rays.begin(), rays.end());
+  EXPECT_LT(repeated, 100);  // by rounding
+}
+
 TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
-  integrator_.sleeps = true;
+  integrator_.sleep = 20;
   StoppingRule rule;
   rule.timeLimit = .5;
   rule.start = std::chrono::steady_clock::now();
@@ -152,6 +173,15 @@ TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
   EXPECT_LE(result.passes, 25);  // of 20 ms of preprocessing each
   EXPECT_GE(result.passes, 1);
   EXPECT_LT(taken.count(), 2);  // machines are busy
+}
+
+// At .9 s or later there is no time for a fourth preprocessing of .3 s.
+TEST_F(RenderPassesTest, BeginsNoPassWhosePreprocessingIsTooLong) {
+  integrator_.sleep = 300;
+  StoppingRule rule;
+  rule.timeLimit = 1;
+  rule.start = std::chrono::steady_clock::now();
+  EXPECT_LE(Run(rule).passes, 3);
 }
 
 TEST_F(RenderPassesTest, RendersOnePassWhereThereIsNoTimeAtAll) {

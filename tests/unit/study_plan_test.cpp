@@ -36,6 +36,14 @@ TEST(StudyPlan, ReadsSettingsWithAndWithoutLabels) {
     EXPECT_THROW(ParseSetting(wrong), std::invalid_argument) << wrong;
 }
 
+TEST(StudyPlan, GivesEveryHalfOfEveryRoundOfAReferenceASeedOfItsOwn) {
+  std::set<std::uint64_t> seeds;
+  for (int round = 0; round < 100; ++round)
+    for (int half = 0; half < 2; ++half) seeds.insert(ReferenceSeed(round, half));
+  EXPECT_EQ(seeds.size(), 200u);
+  EXPECT_GT(*seeds.begin(), 1000000u);  // runs have 1, 2, ...
+}
+
 TEST(StudyPlan, ReadsKnobsAndBudgets) {
   const Knob knob = ParseKnob("path:spp=1,4, 16");
   EXPECT_EQ(knob.integrator, "path");

@@ -60,6 +60,13 @@ TEST_F(Textures, ScaleMultiplies) {
   EXPECT_EQ(Float(R"("scale" "float tex1" 3 "float tex2" .5)")->ConstantValue(), Real(1.5));
 }
 
+TEST_F(Textures, ScaleIsFilteredWhereEitherFactorIs) {
+  plugins_.Define("filtered", TexturePtr<Real>(Float(R"("checkerboard")")));
+  EXPECT_TRUE(Float(R"("scale" "texture tex1" "filtered")")->IsFiltered());
+  EXPECT_TRUE(Float(R"("scale" "texture tex2" "filtered")")->IsFiltered());
+  EXPECT_FALSE(Float(R"("scale")")->IsFiltered());
+}
+
 TEST_F(Textures, MixGoesFromOneToTheOther) {
   EXPECT_EQ(Color(R"("mix" "color tex1" [0 0 0] "color tex2" [2 4 8] "float amount" .25)")
                 ->ConstantValue(),
@@ -150,8 +157,8 @@ TEST(TextureMapping, DerivativesAreThoseOfTheCoordinates) {
   for (Kind kind : {Kind::Uv, Kind::Spherical, Kind::Cylindrical, Kind::Planar}) {
     TextureMapping2D::Options options;
     options.kind = kind;
-    options.uScale = 3;
-    options.v1 = {Real(.3), 1, 0};
+    options.uScale = 3, options.vScale = Real(.5);
+    options.v1 = {Real(.3), 1, 0}, options.v2 = {0, Real(.2), Real(.7)};
     const TextureMapping2D mapping(options, toWorld);
     for (int i = 0; i < 50; ++i) {
       SurfaceInteraction si = FlatSurface();
@@ -159,22 +166,40 @@ TEST(TextureMapping, DerivativesAreThoseOfTheCoordinates) {
       si.p = {4 * random.Uniform(), 5 * random.Uniform(), 6 * random.Uniform()};
       si.uv = {random.Uniform(), random.Uniform()};
       si.dpdx = {random.Uniform(), random.Uniform(), random.Uniform()};
-      si.dudx = random.Uniform();
-      si.dvdx = random.Uniform();
-      const Real step = Real(1e-2);
-      SurfaceInteraction next = si;
-      next.p = si.p + si.dpdx * step;
-      next.uv = si.uv + Point2(si.dudx, si.dvdx) * step;
+      si.dpdy = {random.Uniform(), random.Uniform(), random.Uniform()};
+      si.dudx = random.Uniform(), si.dvdx = random.Uniform();
+      si.dudy = random.Uniform(), si.dvdy = random.Uniform();
       const TexturePoint2 here = mapping.Map(si);
-      const Point2 change = (mapping.Map(next).st - here.st) * (1 / step);
-      const bool isCurved = kind == Kind::Spherical || kind == Kind::Cylindrical;
-      // Across a seam, or beyond half a turn, to which a footprint is limited.
-      if (isCurved && std::max(std::abs(change.x), std::abs(change.y)) > Real(.45)) continue;
-      const double tolerance = isCurved ? .03 : 2e-3;
-      EXPECT_NEAR(here.dstdx.x, change.x, tolerance) << int(kind);
-      EXPECT_NEAR(here.dstdx.y, change.y, tolerance) << int(kind);
+      const auto check = [&](const Vector3& dp, Point2 duv, Point2 derivative) {
+        const Real step = Real(1e-2);
+        SurfaceInteraction next = si;
+        next.p = si.p + dp * step;
+        next.uv = si.uv + duv * step;
+        const Point2 change = (mapping.Map(next).st - here.st) * (1 / step);
+        const bool isCurved = kind == Kind::Spherical || kind == Kind::Cylindrical;
+        // Across a seam, or beyond half a turn, to which a footprint is limited.
+        if (isCurved && std::max(std::abs(change.x), std::abs(change.y)) > Real(.45)) return;
+        const double tolerance = isCurved ? .03 : 2e-3;
+        EXPECT_NEAR(derivative.x, change.x, tolerance) << int(kind);
+        EXPECT_NEAR(derivative.y, change.y, tolerance) << int(kind);
+      };
+      check(si.dpdx, {si.dudx, si.dvdx}, here.dstdx);
+      check(si.dpdy, {si.dudy, si.dvdy}, here.dstdy);
     }
   }
+}
+
+TEST(TextureMapping, UvAndPlanarCoordinatesAreScaledAndShifted) {
+  TextureMapping2D::Options options;
+  options.uScale = 3, options.vScale = Real(.5);
+  options.uDelta = Real(.25), options.vDelta = -2;
+  options.v1 = {1, 2, 0}, options.v2 = {0, 1, -1};
+  SurfaceInteraction si = FlatSurface();
+  si.uv = {Real(.5), 4};
+  si.p = {1, 2, 5};
+  EXPECT_EQ(TextureMapping2D(options, {}).Map(si).st, Point2(Real(1.75), 0));
+  options.kind = TextureMapping2D::Kind::Planar;
+  EXPECT_EQ(TextureMapping2D(options, {}).Map(si).st, Point2(Real(5.25), -5));
 }
 
 TEST(TextureMapping, StaysFiniteAtPolesAndCentres) {

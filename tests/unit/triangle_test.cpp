@@ -164,6 +164,30 @@ TEST(Triangle, OutsideFollowsTheWindingAlsoWithVertexNormals) {
   EXPECT_NEAR(surface.shading.n.x, -.0995, 1e-3);
 }
 
+// Whether the vertex normals point outwards or inwards, and whether the outside is turned.
+TEST(Triangle, DerivativesOfTheNormalAgreeWithDifferences) {
+  const auto mesh = MeshOf({{Point3(0, 0, 0), Point3(2, 0, 0), Point3(0, 1, 0)}});
+  mesh->uv = {{0, 0}, {1, Real(.2)}, {Real(.1), 1}};
+  for (const Real side : {Real(1), Real(-1)}) {
+    mesh->n = {Normal3(0, 0, 1) * side, NormalizeOr({Real(.6), 0, 1}, {}) * side,
+               NormalizeOr({Real(.2), Real(.7), 1}, {}) * side};
+    for (const bool flip : {false, true}) {
+      mesh->flipNormal = flip;
+      const Real e = Real(.002), b1 = Real(.3), b2 = Real(.4);
+      const SurfaceInteraction s = TriangleSurface(*mesh, 0, b1, b2);
+      EXPECT_GT(Dot(s.shading.n, s.ng), Real(.5));
+      EXPECT_GT(Length(s.shading.dndu), Real(.3));
+      for (const SurfaceInteraction& other :
+           {TriangleSurface(*mesh, 0, b1 + e, b2), TriangleSurface(*mesh, 0, b1, b2 + e)}) {
+        const Vector3 change =
+            s.shading.dndu * (other.uv.x - s.uv.x) + s.shading.dndv * (other.uv.y - s.uv.y);
+        EXPECT_LT(Distance(other.shading.n - s.shading.n, change), Real(.01) * Length(change))
+            << side << " " << flip;
+      }
+    }
+  }
+}
+
 TEST(Triangle, DefaultTextureCoordinatesAreThoseOfVersion1) {
   const auto mesh = MeshOf({{Point3(0, 0, 0), Point3(1, 0, 0), Point3(1, 1, 0)}});
   const SurfaceInteraction surface = TriangleSurface(*mesh, 0, Real(.25), Real(.5));

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What the stratified and the low-discrepancy sampler promise of their points: strata and nets, and
+// independence beyond these.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "core/sampling/sampler.h"
+#include "tests/support/sampler_checks.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+TEST(StratifiedSampler, EachStratumIsTakenOnce) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(kSamplers[1]);
+  const Requests r;
+  for (int seed = 0; seed < 50; ++seed) {
+    std::vector<Point2> film, lens, single2, array2;
+    std::vector<Real> time, single, array, odd, oddX;
+    for (int i = 0; i < 16; ++i) {
+      CameraSamples s{r.layout};
+      sampler->Generate({std::uint64_t(seed), {5, 6}, i}, &s);
+      film.push_back(s.film), lens.push_back(s.lens), time.push_back(s.time);
+      single.push_back(s.Array1D(r.one)[0]);
+      single2.push_back(s.Array2D(r.one2)[0]);
+      const auto eight = s.Array1D(r.eight);
+      EXPECT_TRUE(IsStratified({eight.begin(), eight.end()}, 8));
+      array.insert(array.end(), eight.begin(), eight.end());
+      const auto seven = s.Array1D(r.odd);
+      EXPECT_TRUE(IsStratified({seven.begin(), seven.end()}, 7));
+      odd.insert(odd.end(), seven.begin(), seven.end());
+      const auto sixteen = s.Array2D(r.sixteen2);
+      EXPECT_TRUE(IsStratified(std::vector<Point2>(sixteen.begin(), sixteen.end()), 4, 4));
+      EXPECT_TRUE(IsStratified(std::vector<Point2>(sixteen.begin(), sixteen.end()), 16, 1));
+      EXPECT_TRUE(IsStratified(std::vector<Point2>(sixteen.begin(), sixteen.end()), 1, 16));
+      array2.insert(array2.end(), sixteen.begin(), sixteen.end());
+      for (Point2 p : s.Array2D(r.odd2)) oddX.push_back(p.x);
+    }
+    EXPECT_TRUE(IsStratified(film, 4, 4));
+    EXPECT_TRUE(IsStratified(lens, 4, 4));
+    EXPECT_TRUE(IsStratified(single2, 4, 4));
+    EXPECT_TRUE(IsStratified(time, 16));
+    EXPECT_TRUE(IsStratified(single, 16));
+    EXPECT_TRUE(IsStratified(array, 8 * 16));
+    EXPECT_TRUE(IsStratified(array2, 4, 4));
+    EXPECT_TRUE(IsStratified(array2, 16 * 16, 1));
+    EXPECT_TRUE(IsStratified(array2, 1, 16 * 16));
+    EXPECT_EQ(odd.size(), 7u * 16);
+    EXPECT_TRUE(IsStratified(odd, 7));
+    EXPECT_TRUE(IsStratified(oddX, 13));
+  }
+}
+
+TEST(StratifiedSampler, WithoutJitterTakesTheCentres) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(kSamplers[2]);
+  std::set<Real> xs;
+  for (int i = 0; i < 16; ++i) {
+    CameraSamples s{SampleLayout{}};
+    sampler->Generate({0, {0, 0}, i}, &s);
+    EXPECT_EQ(s.film.y, Real(.5));
+    xs.insert(s.film.x * 16);
+  }
+  EXPECT_EQ(xs.size(), 16u);
+  EXPECT_EQ(*xs.begin(), Real(.5));
+}
+
+TEST(LowDiscrepancySampler, FewSamplesAreANetToo) {
+  TestPlugins plugins;
+  for (int count : {1, 2, 4, 8}) {
+    const auto sampler = plugins.MakeSampler(kSamplers[3])->WithSamplesPerPixel(count);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      std::vector<Point2> film;
+      for (int i = 0; i < count; ++i) {
+        CameraSamples s{SampleLayout{}};
+        sampler->Generate({seed, {1, 2}, i}, &s);
+        film.push_back(s.film);
+      }
+      EXPECT_TRUE(IsNet(film)) << count;
+    }
+  }
+}
+
+// Whether film and lens fall into like halves: independent of one another from sample to sample, so
+// that the mean over a pixel's 64 samples has the variance 1/4 / 64.
+TEST(LowDiscrepancySampler, RequestsAreIndependentWithinAPixel) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 64)");
+  constexpr int kPixels = 4000;
+  double squares = 0;
+  for (int pixel = 0; pixel < kPixels; ++pixel) {
+    int same = 0;
+    for (int i = 0; i < 64; ++i) {
+      CameraSamples s{SampleLayout{}};
+      sampler->Generate({5, {pixel, 3}, i}, &s);
+      same += (s.film.x < Real(.5)) == (s.lens.x < Real(.5));
+    }
+    squares += (same / 64. - .5) * (same / 64. - .5);
+  }
+  // The variance of an estimated variance is about 2/n of its square; 5 deviations.
+  EXPECT_NEAR(squares / kPixels * 4 * 64, 1, .07 + 5 * std::sqrt(2. / kPixels));
+}
+
+// The keys that scramble x and y are independent. Any two samples of a pixel that has two lie in
+// different halves along each axis; whether they lie in like halves of these along x says nothing
+// of whether they do so along y.
+TEST(LowDiscrepancySampler, ScramblesItsTwoAxesIndependently) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(kSamplers[3])->WithSamplesPerPixel(2);
+  constexpr int kPixels = 4000;
+  const auto quarter = [](Real u) { return int(4 * u) % 2; };
+  const auto agree = [&](Point2 a, Point2 b) {
+    EXPECT_NE(a.x < Real(.5), b.x < Real(.5));
+    EXPECT_NE(a.y < Real(.5), b.y < Real(.5));
+    return (quarter(a.x) == quarter(b.x)) == (quarter(a.y) == quarter(b.y));
+  };
+  SampleLayout layout;
+  const int two = layout.Request2D(2);
+  int film = 0, array = 0;
+  for (int pixel = 0; pixel < kPixels; ++pixel) {
+    CameraSamples a(layout), b(layout);
+    sampler->Generate({3, {pixel, 1}, 0}, &a);
+    sampler->Generate({3, {pixel, 1}, 1}, &b);
+    film += agree(a.film, b.film);
+    array += agree(a.Array2D(two)[0], a.Array2D(two)[1]);
+  }
+  const double deviation = std::sqrt(.25 * kPixels);
+  EXPECT_NEAR(film, .5 * kPixels, 5 * deviation);
+  EXPECT_NEAR(array, .5 * kPixels, 5 * deviation);
+}
+
+TEST(LowDiscrepancySampler, PowersOfTwoAreNets) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 64)");
+  const Requests r;
+  for (int seed = 0; seed < 20; ++seed) {
+    std::vector<Point2> film, lens, single2, array2;
+    std::vector<Real> time, single, array;
+    for (int i = 0; i < 64; ++i) {
+      CameraSamples s{r.layout};
+      sampler->Generate({std::uint64_t(seed), {50, 6}, i}, &s);
+      film.push_back(s.film), lens.push_back(s.lens), time.push_back(s.time);
+      single.push_back(s.Array1D(r.one)[0]);
+      single2.push_back(s.Array2D(r.one2)[0]);
+      const auto eight = s.Array1D(r.eight);
+      EXPECT_TRUE(IsStratified({eight.begin(), eight.end()}, 8));
+      array.insert(array.end(), eight.begin(), eight.end());
+      const auto sixteen = s.Array2D(r.sixteen2);
+      EXPECT_TRUE(IsNet({sixteen.begin(), sixteen.end()}));
+      array2.insert(array2.end(), sixteen.begin(), sixteen.end());
+      if (i + 1 < 16 || ((i + 1) & i) != 0) continue;  // a render may stop here
+      EXPECT_TRUE(IsNet(film)) << i;
+      EXPECT_TRUE(IsNet(lens)) << i;
+      EXPECT_TRUE(IsNet(single2)) << i;
+      EXPECT_TRUE(IsNet(array2)) << i;
+      EXPECT_TRUE(IsStratified(time, i + 1));
+      EXPECT_TRUE(IsStratified(single, i + 1));
+      EXPECT_TRUE(IsStratified(array, 8 * (i + 1)));
+    }
+  }
+}
+
+TEST(LowDiscrepancySampler, GoesOnBeyondFourBillionPoints) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(kSamplers[3]);
+  const Requests r;
+  for (std::int64_t first : {(1ll << 32) - 8, (1ll << 28) - 8, 1ll << 40}) {
+    std::set<Real> values;
+    for (std::int64_t i = first; i < first + 16; ++i) {
+      CameraSamples s{r.layout};
+      sampler->Generate({0, {0, 0}, i}, &s);
+      const auto sixteen = s.Array2D(r.sixteen2);
+      EXPECT_TRUE(IsNet({sixteen.begin(), sixteen.end()}));
+      for (Point2 p : sixteen) values.insert(p.x);
+    }
+    EXPECT_GE(values.size(), 254u);
+  }
+}
+
+TEST(LowDiscrepancySampler, RoundsCountsToPowersOfTwo) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 3)");
+  EXPECT_EQ(sampler->SamplesPerPixel(), 4);
+  EXPECT_EQ(plugins.GetLog().WarningCount(), 1);
+  EXPECT_EQ(sampler->RoundCount(0), 1);
+  EXPECT_EQ(sampler->RoundCount(1), 1);
+  EXPECT_EQ(sampler->RoundCount(5), 8);
+  EXPECT_EQ(sampler->RoundCount(64), 64);
+  EXPECT_EQ(sampler->WithSamplesPerPixel(17)->SamplesPerPixel(), 32);
+  EXPECT_EQ(
+      plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 1048576)")->SamplesPerPixel(),
+      1 << 20);
+}
+
+}  // namespace
+}  // namespace exphoton
