@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The long run over random scenes. Usage: soak [HOURS] [--seed N] [--scenes K] [--agreement-every
-// N]
-// [--only agreement] [--folder PATH]. Seeds follow each other from N, or from the clock. Failing
-// scenes are written to the folder, shrunk. Ends with status 1 where a scene failed.
+// The long run over random scenes. Seeds follow each other from a given one, or from the clock.
+// Failing scenes are written to a folder, shrunk. Ends with status 1 where a scene failed, with 2
+// where the command line cannot be read.
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,29 +27,45 @@ struct Options {
   std::string folder = "failed-scenes";
 };
 
+constexpr const char* kUsage =
+    "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only agreement] "
+    "[--folder PATH]";
+
+// The whole text as a number of T.
+template <class T>
+T ParseNumber(const std::string& text) {
+  T value{};
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end)
+    throw std::invalid_argument("\"" + text + "\" is no number that fits here\n" + kUsage);
+  return value;
+}
+
 Options Parse(int count, char** words) {
   Options options;
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
     const auto value = [&] {
-      if (++i >= count) throw std::invalid_argument(word + " needs a value");
+      if (++i >= count) throw std::invalid_argument(word + " needs a value\n" + kUsage);
       return std::string(words[i]);
     };
     if (word == "--seed")
-      options.seed = std::stoull(value());
+      options.seed = ParseNumber<std::uint64_t>(value());
     else if (word == "--scenes")
-      options.scenes = std::stoi(value());
+      options.scenes = ParseNumber<int>(value());
     else if (word == "--agreement-every")
-      options.agreementEvery = std::stoi(value());
-    else if (word == "--only" && value() == "agreement")
-      options.onlyAgreement = true;
+      options.agreementEvery = ParseNumber<int>(value());
+    else if (word == "--only" && i + 1 < count && words[i + 1] == std::string("agreement"))
+      options.onlyAgreement = value() == "agreement";
     else if (word == "--folder")
       options.folder = value();
+    else if (word.starts_with("-"))
+      throw std::invalid_argument("there is no option \"" + word + "\"\n" + kUsage);
     else
-      options.hours = std::stod(word);
+      options.hours = ParseNumber<double>(word);
   }
-  if (options.hours <= 0 && options.scenes <= 0)
-    throw std::invalid_argument("name the hours, or --scenes");
+  if (!(options.hours > 0) && options.scenes <= 0) throw std::invalid_argument(kUsage);
   if (options.seed == 0)
     options.seed =
         std::uint64_t(std::chrono::system_clock::now().time_since_epoch().count() / 1'000'000'000) *
