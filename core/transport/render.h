@@ -33,8 +33,9 @@ struct RenderOptions {
   const std::atomic<bool>* stop = nullptr;   // set from outside (a signal): stop at the next pixel
   std::atomic<bool>* pixelsBegun = nullptr;  // set here once there may be something to keep
   LayerFilm* layers = nullptr;               // filled beside the film; null: no layer was asked for
-  // Textures are filtered, and bumps differenced, over the footprint of one of so many samples a
-  // pixel; 0: of as many as are taken. Two renders that are compared need the same footprint.
+  // Textures are filtered, and bumps differenced, over the footprint that a sample has when a pixel
+  // takes this number of samples; 0: the number that the sampler takes. Renders that are compared
+  // need the same footprint.
   std::int64_t footprintSamples = 0;
 };
 
