@@ -14,13 +14,15 @@ namespace exphoton::random_scenes {
 
 struct Comparison {
   std::string what;
-  double chance = 1;   // that chance alone gives such a difference beyond the margin
-  std::string detail;  // the two means and their standard errors
+  double chance = 1;      // that chance alone gives such a difference beyond the margin
+  double difference = 0;  // of the two means
+  std::string detail;     // the two means and their standard errors
 };
 
-// 1 for the first look, 16 for the second: multiplies samples and photons.
+// How much a comparison may cost.
 struct Effort {
-  int factor = 1;
+  int factor = 1;        // multiplies samples and photons: 1 at the first look, 16 at the second
+  int photonFactor = 1;  // multiplies the photons once more
   std::uint64_t firstSeed = 1;
 };
 
@@ -28,7 +30,9 @@ struct Effort {
 // has no bound (agreement.cpp lists them).
 SceneModel WithoutKnownDifferences(const SceneModel& scene);
 
-std::vector<Comparison> CompareIntegrators(const SceneModel& scene, const Effort& effort);
+// `only`: the name of the one comparison that is wanted, which saves the renders of the others.
+std::vector<Comparison> CompareIntegrators(const SceneModel& scene, const Effort& effort,
+                                           const std::string& only = "");
 std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort& effort);
 
 // The scene files that were compared, for a report.

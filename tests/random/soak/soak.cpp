@@ -24,12 +24,13 @@ struct Options {
   int scenes = 0;          // 0: until the time is over
   int agreementEvery = 10;
   bool onlyAgreement = false;
+  int shrinkTries = RunSettings{}.maxStatisticalTries;
   std::string folder = "failed-scenes";
 };
 
 constexpr const char* kUsage =
     "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only agreement] "
-    "[--folder PATH]";
+    "[--shrink TRIES] [--folder PATH]";
 
 // The whole text as a number of T.
 template <class T>
@@ -58,6 +59,8 @@ Options Parse(int count, char** words) {
       options.agreementEvery = ParseNumber<int>(value());
     else if (word == "--only" && i + 1 < count && words[i + 1] == std::string("agreement"))
       options.onlyAgreement = value() == "agreement";
+    else if (word == "--shrink")
+      options.shrinkTries = ParseNumber<int>(value());
     else if (word == "--folder")
       options.folder = value();
     else if (word.starts_with("-"))
@@ -88,12 +91,16 @@ int RunSoak(const Options& options) {
   constexpr int kBatch = 100;  // scenes between two looks at the comparisons
   const auto end = Clock::now() + std::chrono::duration<double>(options.hours * 3600);
   std::printf("seeds from %llu\n", static_cast<unsigned long long>(options.seed));
-  SceneRun run({});
-  std::size_t written = 0;
+  SceneRun run({.maxStatisticalTries = options.shrinkTries});
+  std::size_t written = 0, named = 0;
   const auto report = [&] {
     run.JudgeComparisons();
     for (; written < run.Failures().size(); ++written)
       Write(run.Failures()[written], options.folder);
+    for (; named < run.Blurred().size(); ++named)
+      std::printf("blur, seed %llu: %s\n",
+                  static_cast<unsigned long long>(run.Blurred()[named].seed),
+                  run.Blurred()[named].detail.c_str());
   };
   int done = 0;
   while (options.scenes > 0 ? done < options.scenes : Clock::now() < end) {
