@@ -14,7 +14,7 @@
 namespace exphoton {
 
 // Raised with every change of a core interface that plugins see.
-inline constexpr std::uint32_t kPluginAbi = 12;
+inline constexpr std::uint32_t kPluginAbi = 13;
 // Compiler, Real and core version: a plugin built with other ones is refused.
 const char* CoreBuildTag();
 #define EXPHOTON_BUILD_TAG ("exphoton 1, " __VERSION__ ", " EXPHOTON_REAL_NAME)

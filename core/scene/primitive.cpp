@@ -11,6 +11,13 @@
 #include "core/scene/hit_order.h"
 
 namespace exphoton {
+namespace {
+
+LobeSet LobesOf(const PrimitiveAttributes& attributes) {
+  return attributes.material ? attributes.material->PossibleLobes() : LobeSet::None;
+}
+
+}  // namespace
 
 void PrimitiveSet::AddMesh(std::shared_ptr<const TriangleMesh> mesh,
                            PrimitiveAttributes attributes) {
@@ -48,6 +55,18 @@ void PrimitiveSet::Finish() {
   }
   bounds_ = Bounds3();
   for (std::uint32_t id = 0; id < Count(); ++id) bounds_.Extend(Bounds(id));
+  lobes_ = LobeSet::None;
+  for (const PrimitiveAttributes& mesh : meshAttributes_) lobes_ = lobes_ | LobesOf(mesh);
+  for (const PrimitiveAttributes& shape : shapeAttributes_) lobes_ = lobes_ | LobesOf(shape);
+  for (const Instance& instance : instances_)
+    lobes_ = lobes_ | instance.object->Set().PossibleLobes();
+}
+
+LobeSet PrimitiveSet::PossibleLobes(std::uint32_t id) const {
+  if (id < triangles_.size()) return LobesOf(meshAttributes_[triangles_[id].mesh]);
+  id -= TriangleCount();
+  if (id < shapes_.size()) return LobesOf(shapeAttributes_[id]);
+  return instances_[id - shapes_.size()].object->Set().PossibleLobes();
 }
 
 std::uint32_t PrimitiveSet::Count() const {

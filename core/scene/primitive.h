@@ -61,6 +61,10 @@ class PrimitiveSet {
   // their own margin. Empty for an instance of nothing.
   Bounds3 Bounds(std::uint32_t id) const;
   Bounds3 WorldBounds() const { return bounds_; }
+  // Lobes that the materials may have: of one primitive (for an instance, of all of its object),
+  // and of the whole set once it is finished.
+  LobeSet PossibleLobes(std::uint32_t id) const;
+  LobeSet PossibleLobes() const { return lobes_; }
 
   // Vertices of a triangle, for accelerators that clip.
   const std::array<Point3, 3>& TriangleVertices(std::uint32_t id) const { return vertices_[id]; }
@@ -115,6 +119,7 @@ class PrimitiveSet {
   std::vector<Transform> worldToInstance_;
   std::vector<Bounds3> instanceBounds_;
   Bounds3 bounds_;
+  LobeSet lobes_ = LobeSet::None;
 };
 
 }  // namespace exphoton

@@ -39,7 +39,7 @@ void PhotonChunk::Clear() {
   for (auto& ofMap : photons) ofMap.clear();
   seeds.clear();
   emittedPower = cutPower = 0;
-  dropped = overgrown = 0;
+  dropped = overgrown = passedBy = 0;
   firstDropped = -1;
 }
 
@@ -69,6 +69,7 @@ void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, Th
     if (harvest->droppedPhotons == 0) harvest->firstDroppedPath = chunk.firstDropped;
     harvest->droppedPhotons += chunk.dropped;
     harvest->overgrownPaths += chunk.overgrown;
+    harvest->passedBy += chunk.passedBy;
   }
   harvest->paths += std::int64_t(chunks.size()) * PhotonTracer::kChunkPaths;
 }

@@ -18,7 +18,7 @@ struct alignas(128) PhotonChunk {
   std::vector<RadianceSeed> seeds;
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
-  std::int64_t overgrown = 0;
+  std::int64_t overgrown = 0, passedBy = 0;
 
   void Clear();  // keeps its memory
 };

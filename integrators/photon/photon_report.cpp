@@ -36,7 +36,8 @@ std::string LightName(const Scene& scene, std::size_t i) {
 bool HasShotInVain(const LightTally& light, const PhotonTargets& targets) {
   if (light.shot < kTellingShots || light.stored > 0) return false;
   // A light without caustics is no news.
-  return light.hit == 0 || targets[PhotonKind::Direct] > 0 || targets[PhotonKind::Indirect] > 0;
+  return light.hit + light.passedBy == 0 || targets[PhotonKind::Direct] > 0 ||
+         targets[PhotonKind::Indirect] > 0;
 }
 
 void NoticeVainLights(const PhotonHarvest& harvest, const PhotonTargets& targets,
@@ -49,7 +50,7 @@ void NoticeVainLights(const PhotonHarvest& harvest, const PhotonTargets& targets
     log.Notice(Text("light ", i + 1, origin.plugin.empty() ? "" : " (" + origin.plugin + ")",
                     " has shot ", light.shot, " photons and none was stored"),
                origin.where,
-               light.hit == 0
+               light.hit + light.passedBy == 0
                    ? "they hit nothing: does the light shine at the scene?"
                    : "they met surfaces, but left nothing that the photon maps still wanted");
   }
@@ -99,7 +100,12 @@ void ReportHarvest(const PhotonHarvest& harvest, const PhotonTargets& targets,
                               " photons after ", haul.paths, " paths"));
   }
   context.statistics.AddToCounter("photons/shot", double(harvest.paths),
-                                  "paths that were traced from the lights");
+                                  "paths that left the lights");
+  if (harvest.passedBy > 0)
+    context.statistics.AddToCounter(
+        "photons/passed by", double(harvest.passedBy),
+        "of them, paths for caustics alone that were not traced because "
+        "they pass all specular surfaces by");
   if (harvest.paths > 0)
     context.statistics.SetCounter("photons/emitted power",
                                   harvest.emittedPower / double(harvest.paths),

@@ -36,6 +36,11 @@ class PhotonTracer::Path {
   void Trace(Arena* arena, RayCounters* rays) {
     RayDifferential ray;
     if (!Emit(&ray)) return;
+    if (IsOnlyOpen(PhotonKind::Caustic) && tracer_.specularBoxes_.PassesBy(ray)) {
+      ++chunk_->passedBy;
+      hasPassedBy_ = true;
+      return;
+    }
     for (int hits = 1;; ++hits) {
       rays->Count(RayKind::Photon);
       const auto surface = tracer_.scene_.Intersect(ray);
@@ -71,6 +76,7 @@ class PhotonTracer::Path {
     LightTally& light = lights[std::size_t(light_)];
     ++light.shot;
     light.hit += hasHit_;
+    light.passedBy += hasPassedBy_;
     light.stored += stored_;
   }
 
@@ -169,6 +175,9 @@ class PhotonTracer::Path {
     if (chunk_->dropped++ == 0) chunk_->firstDropped = std::int64_t(index_);
   }
 
+  bool IsOnlyOpen(PhotonKind kind) const {
+    return open_[std::size_t(kind)] && std::count(open_.begin(), open_.end(), true) == 1;
+  }
   // Whether a map still wants photons of what comes after a bounce of this kind.
   bool IsWantedAfter(bool isSpecular) const {
     if (open_[std::size_t(PhotonKind::Indirect)]) return true;
@@ -229,6 +238,7 @@ class PhotonTracer::Path {
   PhotonChunk* chunk_;
   int light_ = 0;
   bool hasHit_ = false;
+  bool hasPassedBy_ = false;
   bool isOfMedia_ =
       false;  // a medium emitted the photon, or scattered it on its way from the light
   std::int64_t stored_ = 0;  // photons
@@ -279,6 +289,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
               ShareFactors(scene, aim_)),
       mediaShare_(MediaShare(scene, media_, lights_)),
+      specularBoxes_(scene.Effects().Needs(Effect::Specular) ? SpecularBoxes(scene)
+                                                             : SpecularBoxes()),
       lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       farthest_(FarthestDistance(scene)) {}
 

@@ -16,6 +16,7 @@
 #include "integrators/photon/photon.h"
 #include "integrators/photon/photon_aim.h"
 #include "integrators/photon/photon_settings.h"
+#include "integrators/photon/specular_boxes.h"
 
 namespace exphoton {
 
@@ -36,13 +37,15 @@ struct PhotonTargets {
 
 // What became of the paths that left one light.
 struct LightTally {
-  std::int64_t shot = 0;    // paths
-  std::int64_t hit = 0;     // of them, those that met a surface
-  std::int64_t stored = 0;  // photons, in all maps together
+  std::int64_t shot = 0;      // paths
+  std::int64_t hit = 0;       // of them, those that met a surface
+  std::int64_t passedBy = 0;  // of them, those that were not traced: PhotonHarvest::passedBy
+  std::int64_t stored = 0;    // photons, in all maps together
 
   void Add(const LightTally& other) {
     shot += other.shot;
     hit += other.hit;
+    passedBy += other.passedBy;
     stored += other.stored;
   }
 };
@@ -50,8 +53,11 @@ struct LightTally {
 struct PhotonHarvest {
   std::array<PhotonHaul, kPhotonKindCount> hauls;
   RecordStore<RadianceSeed> seeds;
-  std::vector<LightTally> lights;   // in the scene's order
-  std::int64_t paths = 0;           // traced in all
+  std::vector<LightTally> lights;  // in the scene's order
+  std::int64_t paths = 0;          // in all
+  // Of them, those that were not traced: only the caustic map was open, and they pass all specular
+  // surfaces by.
+  std::int64_t passedBy = 0;
   double emittedPower = 0;          // luminance, summed over the paths
   double cutPower = 0;              // of it, cut by the depth limit
   std::int64_t droppedPhotons = 0;  // whose power was not finite
@@ -101,8 +107,9 @@ class PhotonTracer {
   MediaPhotons media_;
   LightDistribution lights_;
   Real mediaShare_;  // of the paths, those that begin in a medium
-  LobeSet lobes_;    // that photons scatter by
-  Real farthest_;    // PhotonHaul::farthest
+  SpecularBoxes specularBoxes_;
+  LobeSet lobes_;  // that photons scatter by
+  Real farthest_;  // PhotonHaul::farthest
 };
 
 }  // namespace exphoton

@@ -5,24 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/log.h"
-#include "core/base/parallel.h"
-#include "core/base/progress.h"
 #include "core/imaging/film.h"
 #include "core/transport/render_passes.h"
+#include "tests/support/photon_shots.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
 namespace {
-
-PhotonHarvest Shoot(const Scene& scene, std::uint64_t seed, const PhotonTargets& targets) {
-  ThreadPool threads(1);
-  Log log(Log::Level::Normal, Log::Sink::Memory);
-  ProgressReporter progress(ProgressReporter::Mode::Quiet);
-  Statistics statistics;
-  PreprocessContext context{threads, seed, log, progress, statistics, false, nullptr, {}};
-  return PhotonTracer(scene, PhotonSettings(), seed).Shoot(targets, context);
-}
 
 // A sphere about a lamp, with its normals outwards or inwards.
 TEST(PhotonTracer, GivesRadiancePhotonsTheNormalOnTheSideOfTheLight) {
@@ -32,7 +21,7 @@ TEST(PhotonTracer, GivesRadiancePhotonsTheNormalOnTheSideOfTheLight) {
     PhotonTargets targets;
     targets[PhotonKind::Direct] = targets[PhotonKind::Indirect] = 2000;
     targets.radianceFraction = Real(.5);
-    PhotonHarvest harvest = Shoot(*loaded.setup->scene, 1, targets);
+    PhotonHarvest harvest = ShootPhotons(*loaded.setup->scene, 1, targets);
     const auto seeds = harvest.seeds.Records();
     ASSERT_GT(seeds.size(), 500u);
     for (const RadianceSeed& seed : seeds)
@@ -50,7 +39,7 @@ TEST(PhotonTracer, StoresNoCausticPhotonAfterADiffuseBounce) {
                       "ReverseOrientation Shape \"disk\" \"float radius\" 9\nWorldEnd\n");
     PhotonTargets targets;
     targets[PhotonKind::Caustic] = targets[PhotonKind::Indirect] = 500;
-    return Shoot(*loaded.setup->scene, 1, targets);
+    return ShootPhotons(*loaded.setup->scene, 1, targets);
   };
   const std::string at = R"( "point from" [0 0 2] "point to" [0 0 )";
   PhotonHarvest down = shoot(R"(LightSource "spot")" + at + "0]");

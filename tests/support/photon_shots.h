@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Shooting photons into a scene without an integrator about it.
+#pragma once
+
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "integrators/photon/photon_tracer.h"
+
+namespace exphoton {
+
+inline PhotonHarvest ShootPhotons(const Scene& scene, std::uint64_t seed,
+                                  const PhotonTargets& targets,
+                                  const PhotonSettings& settings = {}) {
+  ThreadPool threads(1);
+  Log log(Log::Level::Normal, Log::Sink::Memory);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  PreprocessContext context{threads, seed, log, progress, statistics, false, nullptr, {}};
+  return PhotonTracer(scene, settings, seed).Shoot(targets, context);
+}
+
+}  // namespace exphoton
