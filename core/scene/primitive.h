@@ -10,6 +10,7 @@
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/math/motion.h"
+#include "core/scattering/bxdf.h"
 
 namespace exphoton {
 

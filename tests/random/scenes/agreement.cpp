@@ -114,8 +114,8 @@ std::string Describe(const Sample& a, const Sample& b) {
   return text;
 }
 
-void Compare(const std::string& what, const Means& a, const Means& b,
-             std::vector<Comparison>* comparisons) {
+void CompareMeans(const std::string& what, const Means& a, const Means& b,
+                  std::vector<Comparison>* comparisons) {
   const double whole = SampleOf(b[0]).mean;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
@@ -187,27 +187,37 @@ SceneModel WithoutKnownDifferences(const SceneModel& scene) {
   return same;
 }
 
-std::vector<Comparison> CompareIntegrators(const SceneModel& scene, const Effort& effort,
-                                           const std::string& only) {
-  const SceneModel same = WithoutKnownDifferences(scene);
-  std::map<const Method*, Means> rendered;
-  const auto means = [&](const Method& method) -> const Means& {
-    const auto [at, isNew] = rendered.try_emplace(&method);
+struct IntegratorLook::Rendered {
+  SceneModel scene;
+  Effort effort;
+  std::map<const Method*, Means> means;
+
+  const Means& Of(const Method& method) {
+    const auto [at, isNew] = means.try_emplace(&method);
     if (isNew)
-      at->second = MeansOfSeeds(SceneText(same, OptionsOf(method, effort)),
+      at->second = MeansOfSeeds(SceneText(scene, OptionsOf(method, effort)),
                                 effort.firstSeed + method.seed, true);
     return at->second;
-  };
+  }
+};
+
+IntegratorLook::IntegratorLook(const SceneModel& scene, const Effort& effort)
+    : rendered_(new Rendered{WithoutKnownDifferences(scene), effort, {}}) {}
+IntegratorLook::IntegratorLook(IntegratorLook&&) noexcept = default;
+IntegratorLook::~IntegratorLook() = default;
+
+std::vector<Comparison> IntegratorLook::Compare(const std::string& only) {
   std::vector<Comparison> comparisons;
   const auto compare = [&](const char* what, const Method& a, const Method& b, auto add) {
-    if (only.empty() || only.starts_with(what)) add(what, means(a), means(b), &comparisons);
+    if (only.empty() || only.starts_with(what))
+      add(what, rendered_->Of(a), rendered_->Of(b), &comparisons);
   };
-  if (only.empty() && !(SampleOf(means(kPath)[0]).mean > kDark)) return comparisons;
-  compare("exphotonmap against path", kExPhotonMap, kPath, Compare);
+  if (only.empty() && !(SampleOf(rendered_->Of(kPath)[0]).mean > kDark)) return comparisons;
+  compare("exphotonmap against path", kExPhotonMap, kPath, CompareMeans);
   compare("exphotonmap against its density estimates", kExPhotonMap, kDensityEstimates,
           ComparePairs);
-  compare("photonmap against path", kPhotonMap, kPath, Compare);
-  compare("exphotonmap against photonmap", kExPhotonMap, kPhotonMap, Compare);
+  compare("photonmap against path", kPhotonMap, kPath, CompareMeans);
+  compare("exphotonmap against photonmap", kExPhotonMap, kPhotonMap, CompareMeans);
   return comparisons;
 }
 

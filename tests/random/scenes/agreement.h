@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,22 @@ struct Effort {
 // has no bound (agreement.cpp lists them).
 SceneModel WithoutKnownDifferences(const SceneModel& scene);
 
-// `only`: the name of the one comparison that is wanted, which saves the renders of the others.
-std::vector<Comparison> CompareIntegrators(const SceneModel& scene, const Effort& effort,
-                                           const std::string& only = "");
+// The integrators' pictures of one scene, rendered when they are first compared.
+class IntegratorLook {
+ public:
+  IntegratorLook(const SceneModel& scene, const Effort& effort);
+  IntegratorLook(IntegratorLook&&) noexcept;
+  ~IntegratorLook();
+
+  // All comparisons; with `only` those of the two integrators of the comparison of that name.
+  // None where the picture is far darker than the lamps.
+  std::vector<Comparison> Compare(const std::string& only = "");
+
+ private:
+  struct Rendered;
+  std::unique_ptr<Rendered> rendered_;
+};
+
 std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort& effort);
 
 // The scene files that were compared, for a report.

@@ -22,17 +22,15 @@ constexpr double kStillThere = 1e-4;  // while shrinking, at the effort of the f
 
 const std::string kInvariances = "invariances", kEnergy = "energy", kAgreement = "agreement";
 
-// `only`: as of CompareIntegrators.
 std::vector<Comparison> Compared(const std::string& property, const SceneModel& scene,
                                  const Effort& effort, const std::string& only = "") {
   return property == kEnergy ? CompareWithEnergy(scene, effort)
-                             : CompareIntegrators(scene, effort, only);
+                             : IntegratorLook(scene, effort).Compare(only);
 }
 
 // The comparison of that name; a chance of 1 where there is none.
-Comparison CompareOne(const std::string& property, const SceneModel& scene, const Effort& effort,
-                      const std::string& what) {
-  for (const Comparison& comparison : Compared(property, scene, effort, what))
+Comparison Named(const std::vector<Comparison>& comparisons, const std::string& what) {
+  for (const Comparison& comparison : comparisons)
     if (comparison.what == what) return comparison;
   Comparison none;
   none.what = what;
@@ -79,6 +77,18 @@ void SceneRun::JudgeComparisons() {
   for (const std::size_t i : Rejected(chances, kFalseAlarms)) Judge(&records_[i]);
 }
 
+std::vector<Comparison> SceneRun::LookAgain(const SceneModel& scene, const Record& record,
+                                            int photonFactor) {
+  const Effort effort{.factor = 16,
+                      .photonFactor = photonFactor,
+                      .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor)};
+  if (record.property == kEnergy) return CompareWithEnergy(scene, effort);
+  if (lookedSeed_ != record.seed) looks_.clear();
+  lookedSeed_ = record.seed;
+  return looks_.try_emplace(photonFactor, scene, effort)
+      .first->second.Compare(record.comparison.what);
+}
+
 void SceneRun::Judge(Record* record) {
   if (record->isJudged) return;
   record->isJudged = true;
@@ -88,10 +98,7 @@ void SceneRun::Judge(Record* record) {
   const auto drawn = SceneOfSeed(record->seed);
   const std::string what = record->comparison.what;
   const auto look = [&](int photonFactor) {
-    const Effort effort{.factor = 16,
-                        .photonFactor = photonFactor,
-                        .firstSeed = record->seed + 500'000'000 * std::uint64_t(photonFactor)};
-    return CompareOne(record->property, drawn.value(), effort, what);
+    return Named(LookAgain(drawn.value(), *record, photonFactor), what);
   };
   const Comparison again = look(1);
   if (!(again.chance < kCertain)) return;
@@ -108,7 +115,7 @@ void SceneRun::Judge(Record* record) {
   ++tallies_[record->property].failures;
   const auto fails = [&](const SceneModel& scene) {
     const Effort first{.factor = 1, .firstSeed = record->seed};
-    return CompareOne(record->property, scene, first, what).chance < kStillThere;
+    return Named(Compared(record->property, scene, first, what), what).chance < kStillThere;
   };
   const SceneModel scene = Shrink(drawn, fails, settings_.maxStatisticalTries).scene;
   failures_.push_back({record->seed, record->property, what + ": " + again.detail,

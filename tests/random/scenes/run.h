@@ -68,11 +68,16 @@ class SceneRun {
   };
   void Add(const std::string& property, std::uint64_t seed);
   void Judge(Record* record);
+  // The comparisons with 16 times the samples; a scene is rendered once for all that it alarms.
+  std::vector<Comparison> LookAgain(const SceneModel& scene, const Record& record,
+                                    int photonFactor);
 
   RunSettings settings_;
   std::vector<Record> records_;
   std::vector<Failure> failures_, blurred_;
   std::map<std::string, Tally> tallies_;
+  std::map<int, IntegratorLook> looks_;  // by photonFactor, at lookedSeed_
+  std::uint64_t lookedSeed_ = 0;
   int repeated_ = 0;
 };
 
