@@ -2,8 +2,8 @@
 // bvh: a bounding volume hierarchy with eight children a node, whose boxes and triangles are tested
 // eight at a time; what is used where a scene names no accelerator. Its hits are those of testing
 // every primitive, bit for bit, whatever vectors the machine has.
-#include "accelerators/bvh/bvh_build.h"
-#include "accelerators/bvh/traverse.h"
+#include "accelerators/bvh/build/bvh_build.h"
+#include "accelerators/bvh/traverse/traverse.h"
 #include "core/plugin.h"
 
 namespace exphoton {

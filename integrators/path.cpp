@@ -7,7 +7,7 @@
 // light only (as in pbrt-v1, whose default 5 is this one's).
 #include <algorithm>
 
-#include "core/math/mis.h"
+#include "core/math/sampling/mis.h"
 #include "core/plugin.h"
 #include "core/transport/light_sample.h"
 #include "core/transport/light_sampler.h"

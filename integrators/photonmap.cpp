@@ -24,7 +24,9 @@ const ParamTable<Settings>& Parameters() {
 class PhotonIntegrator final : public SurfaceIntegrator {
  public:
   explicit PhotonIntegrator(const Settings& settings)
-      : settings_(settings), direct_(settings.directLights), photons_(settings, settings.directWithPhotons) {}
+      : settings_(settings),
+        direct_(settings.directLights),
+        photons_(settings, settings.directWithPhotons) {}
 
   void Preprocess(const Scene& scene, PreprocessContext& context) override {
     photons_.Preprocess(scene, context);

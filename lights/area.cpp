@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Area light "area" (version 2 of the scene language: "diffuse"): a surface that emits the same
 // radiance from every point into the hemisphere round its normal, and nothing behind.
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Light "distant": parallel light, as from the sun. Its irradiance on a plane perpendicular to it
 // is L everywhere. Photons start on a disk that covers the sphere round the scene.
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/imaging/image.h"
-#include "core/math/distribution.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/distribution.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -3,7 +3,7 @@
 // acts as from a least distance (core/lights/least_distance.h), so that one on a surface stays
 // finite.
 #include "core/lights/least_distance.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {

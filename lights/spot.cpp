@@ -3,7 +3,7 @@
 // of the axis, then a quartic fall to 0 at coneangle. All angles are compared by 1 - cos, which
 // keeps narrow cones exact; photons leave in proportion to the falloff, so all weigh the same.
 #include "core/lights/least_distance.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {
@@ -75,8 +75,7 @@ class SpotLight final : public Light {
   }
 
   // Density per solid angle: falloff / integral of the falloff.
-  std::optional<EmissionSample> SampleEmission(Point2, Point2 u, Real,
-                                               Real time) const override {
+  std::optional<EmissionSample> SampleEmission(Point2, Point2 u, Real, Real time) const override {
     const Real area = inner_ + rim_ / 5;  // over 2 pi
     const Real inInner = u.x * area;
     Real oneMinusCos = inInner, falloff = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // glass: a smooth dielectric boundary from index 1 (outside, the normal's side) to `index`, that
 // reflects and refracts by Fresnel's equations.
-#include "core/scattering/specular.h"
+#include "core/scattering/lobes/specular.h"
 #include "materials/common/surface_material.h"
 
 namespace exphoton {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // matte: diffuse reflection, Lambert's or with sigma > 0 that of Oren and Nayar 1994.
-#include "core/scattering/lambert.h"
-#include "core/scattering/oren_nayar.h"
+#include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/oren_nayar.h"
 #include "materials/common/surface_material.h"
 
 namespace exphoton {

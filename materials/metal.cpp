@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // metal: glossy reflection with the Fresnel term of a measured conductor; copper unless told
 // otherwise.
-#include "core/scattering/microfacet.h"
+#include "core/scattering/lobes/microfacet.h"
 #include "materials/common/surface_material.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // mirror: ideal specular reflection, the same at every angle.
-#include "core/scattering/specular.h"
+#include "core/scattering/lobes/specular.h"
 #include "materials/common/surface_material.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // plastic: diffuse reflection under a coat with glossy highlights.
-#include "core/scattering/lambert.h"
+#include "core/scattering/lobes/lambert.h"
 #include "materials/common/gloss.h"
 
 namespace exphoton {

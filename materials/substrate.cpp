@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // substrate: a diffuse base under an anisotropic glossy coat (Ashikhmin and Shirley 2000):
 // varnished wood, painted surfaces.
-#include "core/scattering/blinn.h"
-#include "core/scattering/fresnel_blend.h"
+#include "core/scattering/lobes/blinn.h"
+#include "core/scattering/lobes/fresnel_blend.h"
 #include "materials/common/surface_material.h"
 
 namespace exphoton {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // translucent: diffuse and glossy reflection, and the same mirrored through the surface to its
 // other side: leaves, lamp shades, paper.
-#include "core/scattering/lambert.h"
-#include "core/scattering/transmitted.h"
+#include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/transmitted.h"
 #include "materials/common/gloss.h"
 
 namespace exphoton {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // uber: diffuse, glossy and mirror reflection together, and an opacity that lets the rest through
 // in a straight line.
-#include "core/scattering/lambert.h"
-#include "core/scattering/specular.h"
+#include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/specular.h"
 #include "materials/common/gloss.h"
 
 namespace exphoton {

@@ -7,8 +7,8 @@
 #include <bit>
 #include <utility>
 
-#include "core/math/low_discrepancy.h"
-#include "core/math/scramble_run.h"
+#include "core/math/sampling/low_discrepancy.h"
+#include "core/math/sampling/scramble_run.h"
 #include "core/plugin.h"
 
 namespace exphoton {

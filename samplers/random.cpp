@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Sampler "random": independent uniform points. The slowest to converge, and the yardstick for the
 // others.
-#include "core/math/random.h"
+#include "core/math/sampling/random.h"
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/math/random.h"
+#include "core/math/sampling/random.h"
 #include "core/plugin.h"
 
 namespace exphoton {

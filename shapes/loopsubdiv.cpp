@@ -34,7 +34,8 @@ const ParamTable<Settings>& Parameters() {
 constexpr double kMostTriangles = 1 << 27;
 
 // Peak of LoopSubdivide for each triangle of the finest mesh: its sides while they are sorted, its
-// edges, the sums round its vertices, two meshes. Measured, with the program: 155 bytes at 9 levels, 126 at 10.
+// edges, the sums round its vertices, two meshes. Measured, with the program: 155 bytes at 9
+// levels, 126 at 10.
 constexpr double kBytesPerTriangle = 160;
 
 // Refused before it begins: a machine that runs out of memory may end other programs, too.

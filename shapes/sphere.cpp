@@ -4,7 +4,7 @@
 // towards a point by the cone that it fills; parts of one by area. An ellipsoid (a sphere under
 // uneven scale) is sampled as the sphere that it is in its own space.
 #include "core/geometry/placed_emitter.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 #include "shapes/quadric/quadric.h"
 

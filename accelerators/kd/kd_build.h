@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "accelerators/bvh/block_test.h"
+#include "accelerators/bvh/traverse/block_test.h"
 #include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 

@@ -24,7 +24,10 @@ class Error : public std::runtime_error {
  public:
   Error(ExitStatus status, const std::string& text) : std::runtime_error(text), status_(status) {}
   Error(ExitStatus status, const std::string& text, SourceLocation where, std::string hint = {})
-      : std::runtime_error(text), status_(status), where_(std::move(where)), hint_(std::move(hint)) {}
+      : std::runtime_error(text),
+        status_(status),
+        where_(std::move(where)),
+        hint_(std::move(hint)) {}
 
   ExitStatus Status() const { return status_; }
   const std::optional<SourceLocation>& Where() const { return where_; }

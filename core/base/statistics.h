@@ -34,7 +34,7 @@ struct RayCounters {
 class Statistics {
  public:
   struct Counter {
-    std::string name;     // "photons/caustic stored"
+    std::string name;  // "photons/caustic stored"
     double value;
     std::string meaning;  // one line for people
   };
@@ -43,7 +43,7 @@ class Statistics {
     double wallSeconds, cpuSeconds;
   };
 
-  void AddRays(const RayCounters& rays);        // any thread
+  void AddRays(const RayCounters& rays);  // any thread
   void SetCounter(std::string name, double value, std::string meaning);
   // Adds to what the counter has, for work that a render may do several times.
   void AddToCounter(std::string name, double value, std::string meaning);

@@ -12,7 +12,7 @@ class AreaLight;
 class Motion;
 
 struct SurfaceInteraction : SurfacePoint {  // p, pError, ng, time
-  Vector3 wo;  // unit, back along the ray
+  Vector3 wo;                               // unit, back along the ray
   Point2 uv;
   Vector3 dpdu, dpdv;  // of the true surface; never 0 nor parallel (a frame round ng replaces such)
   Normal3 dndu, dndv;

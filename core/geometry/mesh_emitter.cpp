@@ -5,8 +5,8 @@
 
 #include "core/geometry/triangle_mesh.h"
 #include "core/geometry/vec3d.h"
-#include "core/math/distribution.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/distribution.h"
+#include "core/math/sampling/sampling.h"
 
 namespace exphoton {
 

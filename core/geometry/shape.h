@@ -14,8 +14,8 @@
 namespace exphoton {
 
 struct ShapeHit {
-  Real t;      // 0 < t < tMax, beyond its own error bound
-  Point2 uv;   // whatever two numbers the shape wants back in Surface()
+  Real t;     // 0 < t < tMax, beyond its own error bound
+  Point2 uv;  // whatever two numbers the shape wants back in Surface()
 };
 
 struct EmitterSample {
@@ -41,8 +41,8 @@ class EmitterSurface {
   // where there are several. The caller sets the point's time.
   virtual EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const = 0;
 
-  // A point seen from ref; density per solid angle at ref. nullopt: no sample (edge-on, degenerate).
-  // Base class: by area, converted.
+  // A point seen from ref; density per solid angle at ref. nullopt: no sample (edge-on,
+  // degenerate). Base class: by area, converted.
   virtual std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
                                                     Real uPart) const;
   // Density with which SampleToward makes the direction from ref to `on`, a point on this surface

@@ -71,8 +71,8 @@ template <class Corner>
                      LargeVolume::least;
   const Real volume = (e[0] * z[0] + e[1] * z[1]) + e[2] * z[2];
   const Real determinant = (e[0] + e[1]) + e[2];
-  const bool isLarge = std::min({e[0], e[1], e[2]}) * std::max({e[0], e[1], e[2]}) > 0 &&
-                       std::abs(volume) > bound;
+  const bool isLarge =
+      std::min({e[0], e[1], e[2]}) * std::max({e[0], e[1], e[2]}) > 0 && std::abs(volume) > bound;
   if (!isLarge) return std::nullopt;
   const Real t = volume / determinant * ray.sz;
   if (!(t > kLeastSingle && t < kLargestSingle)) return std::nullopt;

@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "core/files/input_file.h"
-#include "core/imaging/exr.h"
-#include "core/imaging/png.h"
+#include "core/imaging/files/exr.h"
+#include "core/imaging/files/png.h"
 
 namespace exphoton {
 

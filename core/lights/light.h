@@ -13,18 +13,18 @@ namespace exphoton {
 
 // One way to light a point, at the time of the point.
 struct DirectSample {
-  Vector3 wi;      // from the point towards the light
-  Spectrum Li;     // radiance arriving along wi if nothing blocks it; delta lights: the irradiance
-                   // on a plane perpendicular to wi
-  Real pdf = 0;    // per solid angle, > 0; 1 for a delta light
-  Ray shadowRay;   // occluders lie in 0 < t < tMax
+  Vector3 wi;     // from the point towards the light
+  Spectrum Li;    // radiance arriving along wi if nothing blocks it; delta lights: the irradiance
+                  // on a plane perpendicular to wi
+  Real pdf = 0;   // per solid angle, > 0; 1 for a delta light
+  Ray shadowRay;  // occluders lie in 0 < t < tMax
 };
 
 // A ray that leaves the light, carrying power.
 struct EmissionSample {
-  Ray ray;              // direction unit; origin offset from the light's own surface
-  Spectrum power;       // Le |cos| / (pdfPosition pdfDirection): its mean is Power() (where a light
-                        // changes its size as it moves, that is about the mean over time)
+  Ray ray;         // direction unit; origin offset from the light's own surface
+  Spectrum power;  // Le |cos| / (pdfPosition pdfDirection): its mean is Power() (where a light
+                   // changes its size as it moves, that is about the mean over time)
   Real pdfPosition = 0;   // per area (of the light, or of the disk that covers the scene);
                           // 1 for a light at a point
   Real pdfDirection = 0;  // per solid angle; 1 for a single direction
@@ -43,8 +43,8 @@ class Light {
   virtual std::optional<Bounds3> Bounds() const { return std::nullopt; }
   // Photons start on a disk that covers the scene, and are alike at all of its places.
   virtual bool IsFar() const { return false; }
-  virtual bool IsProvablyBlack() const = 0;          // emits nothing at all
-  virtual int SampleCount() const { return 1; }      // shadow rays a shading point ("nsamples")
+  virtual bool IsProvablyBlack() const = 0;      // emits nothing at all
+  virtual int SampleCount() const { return 1; }  // shadow rays a shading point ("nsamples")
 
   // Total emitted power in this scene, per channel. An estimate only for textured emission.
   virtual Spectrum Power() const = 0;
@@ -62,7 +62,10 @@ class Light {
   virtual bool MayMeet(const Ray& ray) const { return (void)ray, true; }
 
   // Radiance that a ray escaping in direction w sees.
-  virtual Spectrum Le(const Vector3& w) const { (void)w; return {}; }
+  virtual Spectrum Le(const Vector3& w) const {
+    (void)w;
+    return {};
+  }
 
   // A ray that leaves at a time. nullopt: a sample without light (counts as a path all the same).
   virtual std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,

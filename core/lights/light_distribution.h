@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/lights/light.h"
-#include "core/math/distribution.h"
+#include "core/math/sampling/distribution.h"
 
 namespace exphoton {
 
@@ -27,8 +27,7 @@ class LightDistribution {
   // uniformShare, in [0,1]: what part of the choices by Power is uniform. powerFactors: what each
   // light's power is multiplied by first; empty: 1.
   LightDistribution(const std::vector<std::unique_ptr<Light>>& lights, LightSelection selection,
-                    double uniformShare = kUniformShare,
-                    std::span<const double> powerFactors = {});
+                    double uniformShare = kUniformShare, std::span<const double> powerFactors = {});
 
   bool IsEmpty() const { return distribution_.IsEmpty(); }  // every light is black
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/lights/light.h"
-#include "core/math/distribution.h"
+#include "core/math/sampling/distribution.h"
 
 namespace exphoton {
 

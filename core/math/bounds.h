@@ -19,8 +19,14 @@ struct Bounds3 {
   Bounds3(const Point3& a, const Point3& b) : min(Min(a, b)), max(Max(a, b)) {}
 
   bool IsEmpty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
-  void Extend(const Point3& p) { min = Min(min, p); max = Max(max, p); }
-  void Extend(const Bounds3& b) { min = Min(min, b.min); max = Max(max, b.max); }
+  void Extend(const Point3& p) {
+    min = Min(min, p);
+    max = Max(max, p);
+  }
+  void Extend(const Bounds3& b) {
+    min = Min(min, b.min);
+    max = Max(max, b.max);
+  }
   Vector3 Diagonal() const { return max - min; }
   int LongestAxis() const {  // the first of equals
     const Vector3 d = Diagonal();

@@ -21,8 +21,8 @@ Spectrum RgbFromXyz(double x, double y, double z);
 // constant beyond them. Normalised so that a spectrum that is 1 everywhere has luminance 1.
 Spectrum RgbFromSamples(const std::vector<SpectralSample>& samples);
 
-// The colour of Planck's law at `kelvin` in (0, 1e9], scaled so that the largest value of the spectrum over
-// all wavelengths is 1.
+// The colour of Planck's law at `kelvin` in (0, 1e9], scaled so that the largest value of the
+// spectrum over all wavelengths is 1.
 Spectrum RgbOfBlackbody(double kelvin);
 
 }  // namespace exphoton

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Unit vectors in 32 bits: the sphere is projected onto an octahedron, which is unfolded into a
-// square of 2 x 16 bits. Within 7e-5 radians; the axes are exact. Or within 1.2e-3, and eight of the
-// bits say something else.
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
+// square of 2 x 16 bits. Within 7e-5 radians; the axes are exact. Or within 1.2e-3, and eight of
+// the bits say something else. Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors".
 #pragma once
 
 #include <cmath>

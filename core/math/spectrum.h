@@ -18,18 +18,41 @@ struct Spectrum {
   constexpr Real operator[](int i) const { return i == 0 ? r : i == 1 ? g : b; }
   constexpr Real& operator[](int i) { return i == 0 ? r : i == 1 ? g : b; }
 
-  constexpr Spectrum& operator+=(const Spectrum& s) { r += s.r; g += s.g; b += s.b; return *this; }
-  constexpr Spectrum& operator-=(const Spectrum& s) { r -= s.r; g -= s.g; b -= s.b; return *this; }
-  constexpr Spectrum& operator*=(const Spectrum& s) { r *= s.r; g *= s.g; b *= s.b; return *this; }
-  constexpr Spectrum& operator*=(Real s) { r *= s; g *= s; b *= s; return *this; }
-  constexpr Spectrum& operator/=(Real s) { r /= s; g /= s; b /= s; return *this; }
+  constexpr Spectrum& operator+=(const Spectrum& s) {
+    r += s.r;
+    g += s.g;
+    b += s.b;
+    return *this;
+  }
+  constexpr Spectrum& operator-=(const Spectrum& s) {
+    r -= s.r;
+    g -= s.g;
+    b -= s.b;
+    return *this;
+  }
+  constexpr Spectrum& operator*=(const Spectrum& s) {
+    r *= s.r;
+    g *= s.g;
+    b *= s.b;
+    return *this;
+  }
+  constexpr Spectrum& operator*=(Real s) {
+    r *= s;
+    g *= s;
+    b *= s;
+    return *this;
+  }
+  constexpr Spectrum& operator/=(Real s) {
+    r /= s;
+    g /= s;
+    b /= s;
+    return *this;
+  }
   friend constexpr bool operator==(const Spectrum&, const Spectrum&) = default;
 
   constexpr bool IsBlack() const { return r == 0 && g == 0 && b == 0; }
   // Luminance: the Y of CIE XYZ for Rec. 709 primaries.
-  constexpr Real Y() const {
-    return Real(0.212671) * r + Real(0.715160) * g + Real(0.072169) * b;
-  }
+  constexpr Real Y() const { return Real(0.212671) * r + Real(0.715160) * g + Real(0.072169) * b; }
   constexpr Real MaxComponent() const { return std::max({r, g, b}); }
   constexpr Real MinComponent() const { return std::min({r, g, b}); }
   bool IsFinite() const { return std::isfinite(r) && std::isfinite(g) && std::isfinite(b); }

@@ -127,8 +127,7 @@ std::optional<Transform> Transform::Rotate(double degrees, const Vector3& axis) 
   const double s = std::sin(radians), c = std::cos(radians);
   Matrix4 m;
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      m.m[i][j] = a[i] * a[j] * (1 - c) + (i == j ? c : 0.0);
+    for (std::size_t j = 0; j < 3; ++j) m.m[i][j] = a[i] * a[j] * (1 - c) + (i == j ? c : 0.0);
   m.m[0][1] -= a[2] * s;
   m.m[1][0] += a[2] * s;
   m.m[0][2] += a[1] * s;
@@ -177,8 +176,8 @@ Point3 Transform::ApplyPoint(const Point3& p, const Vector3& pError, Vector3* er
                               std::abs(row[2]) * double(pError.z);
     const double magnitude = std::abs(row[0] * double(p.x)) + std::abs(row[1] * double(p.y)) +
                              std::abs(row[2] * double(p.z)) + std::abs(row[3]);
-    const double rounding = double(kMachineEpsilon) * std::abs(double(result[i])) +
-                            8 * 1.2e-16 * magnitude;
+    const double rounding =
+        double(kMachineEpsilon) * std::abs(double(result[i])) + 8 * 1.2e-16 * magnitude;
     (*error)[i] = Real((propagated + rounding) * (1 + double(Gamma(2))));
   }
   return result;

@@ -32,7 +32,8 @@ class Transform {
   static std::optional<Transform> Scale(double x, double y, double z);
   // Counter-clockwise about `axis` (left-handed coordinates as in pbrt); nullopt for axis 0.
   static std::optional<Transform> Rotate(double degrees, const Vector3& axis);
-  // World to camera, v1 meaning: right = direction x up. nullopt where eye = look or up is parallel.
+  // World to camera, v1 meaning: right = direction x up. nullopt where eye = look or up is
+  // parallel.
   static std::optional<Transform> LookAt(const Point3& eye, const Point3& look, const Vector3& up);
 
   Point3 ApplyPoint(const Point3& p) const;

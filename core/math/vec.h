@@ -17,9 +17,24 @@ struct Vec3 {
   constexpr Real operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   constexpr Real& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
 
-  constexpr Vec3& operator+=(const Vec3& b) { x += b.x; y += b.y; z += b.z; return *this; }
-  constexpr Vec3& operator-=(const Vec3& b) { x -= b.x; y -= b.y; z -= b.z; return *this; }
-  constexpr Vec3& operator*=(Real s) { x *= s; y *= s; z *= s; return *this; }
+  constexpr Vec3& operator+=(const Vec3& b) {
+    x += b.x;
+    y += b.y;
+    z += b.z;
+    return *this;
+  }
+  constexpr Vec3& operator-=(const Vec3& b) {
+    x -= b.x;
+    y -= b.y;
+    z -= b.z;
+    return *this;
+  }
+  constexpr Vec3& operator*=(Real s) {
+    x *= s;
+    y *= s;
+    z *= s;
+    return *this;
+  }
   constexpr Vec3 operator-() const { return {-x, -y, -z}; }
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };

@@ -3,7 +3,7 @@
 // here.
 #pragma once
 
-#include "core/imaging/film.h"
+#include "core/imaging/film/film.h"
 #include "core/params/param_table.h"
 
 namespace exphoton {

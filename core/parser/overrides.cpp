@@ -14,8 +14,8 @@ namespace exphoton {
 namespace {
 
 constexpr std::array<std::string_view, 7> kSettableDirectives{
-    "Accelerator", "Camera",           "Film", "PixelFilter",
-    "Sampler",     "SurfaceIntegrator", "VolumeIntegrator"};
+    "Accelerator",       "Camera",          "Film", "PixelFilter", "Sampler",
+    "SurfaceIntegrator", "VolumeIntegrator"};
 struct QuickRule {
   std::string_view parameter;
   int divisor;
@@ -118,7 +118,8 @@ ParsedParam ParamOf(const ParameterOverride& override, ParamType type) {
 
 void CheckOverrides(const std::vector<ParameterOverride>& overrides) {
   for (const ParameterOverride& override : overrides) {
-    if (std::find(kSettableDirectives.begin(), kSettableDirectives.end(), override.directive) != kSettableDirectives.end())
+    if (std::find(kSettableDirectives.begin(), kSettableDirectives.end(), override.directive) !=
+        kSettableDirectives.end())
       continue;
     const std::vector<std::string> known(kSettableDirectives.begin(), kSettableDirectives.end());
     std::string list;

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "core/imaging/camera.h"
-#include "core/imaging/film.h"
-#include "core/parser/scene_limits.h"
-#include "core/parser/source.h"
+#include "core/imaging/film/camera.h"
+#include "core/imaging/film/film.h"
+#include "core/parser/syntax/scene_limits.h"
+#include "core/parser/syntax/source.h"
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"

@@ -7,7 +7,7 @@
 
 #include "core/base/log.h"
 #include "core/params/scene_path.h"
-#include "core/parser/parser.h"
+#include "core/parser/syntax/parser.h"
 
 namespace exphoton {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/parser/directive.h"
 #include "core/parser/render_setup.h"
-#include "core/parser/source.h"
+#include "core/parser/syntax/directive.h"
+#include "core/parser/syntax/source.h"
 
 namespace exphoton {
 

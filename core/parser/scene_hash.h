@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/parser/directive.h"
+#include "core/parser/syntax/directive.h"
 
 namespace exphoton {
 

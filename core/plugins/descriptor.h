@@ -68,22 +68,22 @@ bool RegisterStaticPlugin(PluginEntry entry);
 //   EXPHOTON_PLUGIN("matte", "diffuse reflection",
 //                   exphoton::MakeForm<exphoton::PluginKind::Material>(Parameters(), Create))
 #ifdef EXPHOTON_STATIC_PLUGINS
-#define EXPHOTON_PLUGIN(pluginName, pluginSummary, ...)                                      \
-  namespace {                                                                                \
-  const ::exphoton::PluginDescriptor* ExphotonStaticPlugin() {                               \
-    static const ::exphoton::PluginDescriptor descriptor{                                    \
+#define EXPHOTON_PLUGIN(pluginName, pluginSummary, ...)                                        \
+  namespace {                                                                                  \
+  const ::exphoton::PluginDescriptor* ExphotonStaticPlugin() {                                 \
+    static const ::exphoton::PluginDescriptor descriptor{                                      \
         ::exphoton::kPluginAbi, EXPHOTON_BUILD_TAG, pluginName, pluginSummary, {__VA_ARGS__}}; \
-    return &descriptor;                                                                      \
-  }                                                                                          \
-  [[maybe_unused]] const bool exphotonRegistered =                                           \
-      ::exphoton::RegisterStaticPlugin(&ExphotonStaticPlugin);                               \
+    return &descriptor;                                                                        \
+  }                                                                                            \
+  [[maybe_unused]] const bool exphotonRegistered =                                             \
+      ::exphoton::RegisterStaticPlugin(&ExphotonStaticPlugin);                                 \
   }
 #else
-#define EXPHOTON_PLUGIN(pluginName, pluginSummary, ...)                                      \
-  extern "C" __attribute__((visibility("default"))) const ::exphoton::PluginDescriptor*      \
-  ExphotonPlugin() {                                                                         \
-    static const ::exphoton::PluginDescriptor descriptor{                                    \
+#define EXPHOTON_PLUGIN(pluginName, pluginSummary, ...)                                        \
+  extern "C" __attribute__((visibility("default"))) const ::exphoton::PluginDescriptor*        \
+  ExphotonPlugin() {                                                                           \
+    static const ::exphoton::PluginDescriptor descriptor{                                      \
         ::exphoton::kPluginAbi, EXPHOTON_BUILD_TAG, pluginName, pluginSummary, {__VA_ARGS__}}; \
-    return &descriptor;                                                                      \
+    return &descriptor;                                                                        \
   }
 #endif

@@ -10,7 +10,7 @@
 #include "core/base/shared_cache.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle_mesh.h"
-#include "core/imaging/camera.h"
+#include "core/imaging/film/camera.h"
 #include "core/lights/light.h"
 #include "core/math/transform.h"
 #include "core/sampling/filter.h"
@@ -27,8 +27,19 @@ namespace exphoton {
 class Log;
 
 enum class PluginKind {
-  Integrator, Accelerator, Shape, Light, AreaLight, Material, FloatTexture, ColorTexture, Sampler,
-  Filter, Camera, Volume, VolumeIntegrator,
+  Integrator,
+  Accelerator,
+  Shape,
+  Light,
+  AreaLight,
+  Material,
+  FloatTexture,
+  ColorTexture,
+  Sampler,
+  Filter,
+  Camera,
+  Volume,
+  VolumeIntegrator,
 };
 inline constexpr int kPluginKindCount = 13;
 const char* PluginKindName(PluginKind kind);    // "area light": in messages
@@ -91,18 +102,32 @@ struct PluginTraitsOf {
   using Product = P;
   using Context = C;
 };
-template <> struct PluginTraits<PluginKind::Integrator> : PluginTraitsOf<SurfaceIntegrator, IntegratorContext> {};
-template <> struct PluginTraits<PluginKind::Accelerator> : PluginTraitsOf<Aggregate, AcceleratorContext> {};
-template <> struct PluginTraits<PluginKind::Shape> : PluginTraitsOf<ShapeGeometry, ShapeContext> {};
-template <> struct PluginTraits<PluginKind::Light> : PluginTraitsOf<Light, LightContext> {};
-template <> struct PluginTraits<PluginKind::AreaLight> : PluginTraitsOf<AreaLight, AreaLightContext> {};
-template <> struct PluginTraits<PluginKind::Material> : PluginTraitsOf<Material, MaterialContext> {};
-template <> struct PluginTraits<PluginKind::FloatTexture> : PluginTraitsOf<FloatTexture, TextureContext> {};
-template <> struct PluginTraits<PluginKind::ColorTexture> : PluginTraitsOf<ColorTexture, TextureContext> {};
-template <> struct PluginTraits<PluginKind::Sampler> : PluginTraitsOf<Sampler, SamplerContext> {};
-template <> struct PluginTraits<PluginKind::Filter> : PluginTraitsOf<Filter, NoContext> {};
-template <> struct PluginTraits<PluginKind::Camera> : PluginTraitsOf<Camera, CameraContext> {};
-template <> struct PluginTraits<PluginKind::Volume> : PluginTraitsOf<Medium, MediumContext> {};
-template <> struct PluginTraits<PluginKind::VolumeIntegrator> : PluginTraitsOf<VolumeIntegrator, NoContext> {};
+template <>
+struct PluginTraits<PluginKind::Integrator> : PluginTraitsOf<SurfaceIntegrator, IntegratorContext> {
+};
+template <>
+struct PluginTraits<PluginKind::Accelerator> : PluginTraitsOf<Aggregate, AcceleratorContext> {};
+template <>
+struct PluginTraits<PluginKind::Shape> : PluginTraitsOf<ShapeGeometry, ShapeContext> {};
+template <>
+struct PluginTraits<PluginKind::Light> : PluginTraitsOf<Light, LightContext> {};
+template <>
+struct PluginTraits<PluginKind::AreaLight> : PluginTraitsOf<AreaLight, AreaLightContext> {};
+template <>
+struct PluginTraits<PluginKind::Material> : PluginTraitsOf<Material, MaterialContext> {};
+template <>
+struct PluginTraits<PluginKind::FloatTexture> : PluginTraitsOf<FloatTexture, TextureContext> {};
+template <>
+struct PluginTraits<PluginKind::ColorTexture> : PluginTraitsOf<ColorTexture, TextureContext> {};
+template <>
+struct PluginTraits<PluginKind::Sampler> : PluginTraitsOf<Sampler, SamplerContext> {};
+template <>
+struct PluginTraits<PluginKind::Filter> : PluginTraitsOf<Filter, NoContext> {};
+template <>
+struct PluginTraits<PluginKind::Camera> : PluginTraitsOf<Camera, CameraContext> {};
+template <>
+struct PluginTraits<PluginKind::Volume> : PluginTraitsOf<Medium, MediumContext> {};
+template <>
+struct PluginTraits<PluginKind::VolumeIntegrator> : PluginTraitsOf<VolumeIntegrator, NoContext> {};
 
 }  // namespace exphoton

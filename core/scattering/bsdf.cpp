@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/base/error.h"
-#include "core/scattering/local_frame.h"
+#include "core/scattering/lobes/local_frame.h"
 
 namespace exphoton {
 namespace {

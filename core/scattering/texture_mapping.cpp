@@ -2,7 +2,7 @@
 // Texture coordinates and their derivatives along the pixel's steps.
 #include "core/scattering/texture_mapping.h"
 
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 
 namespace exphoton {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Aggregate: the interface of accelerators (plugins): which primitive of a set does a ray hit first.
-// It refers to the PrimitiveSet it was built over and owns nothing of it.
+// Aggregate: the interface of accelerators (plugins): which primitive of a set does a ray hit
+// first. It refers to the PrimitiveSet it was built over and owns nothing of it.
 #pragma once
 
 #include <memory>

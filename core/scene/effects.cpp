@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/imaging/camera.h"
+#include "core/imaging/film/camera.h"
 #include "core/scene/scene.h"
 
 namespace exphoton {

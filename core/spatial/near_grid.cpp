@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/spatial/nearest_search.h"
+#include "core/spatial/nearest/nearest_search.h"
 
 namespace exphoton {
 

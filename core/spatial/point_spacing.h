@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/spatial/nearest_search.h"
+#include "core/spatial/nearest/nearest_search.h"
 
 namespace exphoton {
 

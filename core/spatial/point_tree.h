@@ -7,7 +7,7 @@
 
 #include "core/spatial/block_order.h"
 #include "core/spatial/block_store.h"
-#include "core/spatial/nearest_search.h"
+#include "core/spatial/nearest/nearest_search.h"
 
 namespace exphoton {
 

@@ -11,8 +11,8 @@
 
 #include "core/base/arena.h"
 #include "core/base/statistics.h"
-#include "core/imaging/layers.h"
-#include "core/math/random.h"
+#include "core/imaging/film/layers.h"
+#include "core/math/sampling/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "core/transport/pass_notes.h"
@@ -40,7 +40,7 @@ struct PreprocessContext {
   const Camera* camera = nullptr;  // for what depends on the view; null: nothing may
   Point2i resolution;              // of the full image, whatever part of it is rendered
   const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
-  const std::atomic<bool>* stop = nullptr;  // set from outside; null: cannot be stopped
+  const std::atomic<bool>* stop = nullptr;   // set from outside; null: cannot be stopped
 
   // To be called now and then by long work. Throws PreprocessStopped.
   void CheckStop() const {

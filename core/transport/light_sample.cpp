@@ -2,7 +2,7 @@
 // LightSample: a shadow ray only where something would come of it.
 #include "core/transport/light_sample.h"
 
-#include "core/math/mis.h"
+#include "core/math/sampling/mis.h"
 
 namespace exphoton {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/math/mis.h"
+#include "core/math/sampling/mis.h"
 #include "core/transport/light_sample.h"
 
 namespace exphoton {

@@ -76,8 +76,8 @@ class SpecularTree {
 
   // What media between the camera and its surface do to the layers; their own light is emission.
   static void Cover(const MediaSegment& media, LayerSample* layers) {
-    for (Spectrum* layer : {&layers->emission, &layers->direct, &layers->caustic,
-                            &layers->indirect, &layers->specular})
+    for (Spectrum* layer : {&layers->emission, &layers->direct, &layers->caustic, &layers->indirect,
+                            &layers->specular})
       *layer *= media.transmittance;
     layers->emission += media.radiance;
   }

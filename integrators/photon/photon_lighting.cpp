@@ -8,10 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "integrators/photon/gather_radiance.h"
+#include "integrators/photon/gather/gather_radiance.h"
+#include "integrators/photon/maps/rest_pose.h"
 #include "integrators/photon/photon_report.h"
-#include "integrators/photon/rest_pose.h"
-#include "integrators/photon/seen_points.h"
+#include "integrators/photon/shooting/seen_points.h"
 
 namespace exphoton {
 

@@ -9,10 +9,10 @@
 #include "core/transport/integrator.h"
 #include "core/transport/light_sampler.h"
 #include "core/transport/specular_tree.h"
-#include "integrators/photon/final_gather.h"
-#include "integrators/photon/photon_aim.h"
-#include "integrators/photon/photon_maps.h"
-#include "integrators/photon/radiance_map.h"
+#include "integrators/photon/gather/final_gather.h"
+#include "integrators/photon/maps/photon_maps.h"
+#include "integrators/photon/maps/radiance_map.h"
+#include "integrators/photon/shooting/photon_aim.h"
 
 namespace exphoton {
 

@@ -3,9 +3,9 @@
 // the counters of --stats.
 #pragma once
 
-#include "integrators/photon/photon_maps.h"
-#include "integrators/photon/photon_tracer.h"
-#include "integrators/photon/radiance_map.h"
+#include "integrators/photon/maps/photon_maps.h"
+#include "integrators/photon/maps/radiance_map.h"
+#include "integrators/photon/shooting/photon_tracer.h"
 
 namespace exphoton {
 

@@ -2,7 +2,7 @@
 // The glossy coat that plastic, uber and translucent share: its roughness and its Fresnel term.
 #pragma once
 
-#include "core/scattering/microfacet.h"
+#include "core/scattering/lobes/microfacet.h"
 #include "materials/common/surface_material.h"
 
 namespace exphoton {

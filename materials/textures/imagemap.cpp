@@ -78,9 +78,8 @@ MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& contex
 template <class T>
 std::shared_ptr<const MipMap<T>> SharedMipMap(const ImageSettings& settings,
                                               const TextureContext& context) {
-  return context.shared.GetOrMake<MipMap<T>>(
-      std::to_string(int(settings.wrap)) + settings.filename,
-      [&] { return ReadMipMap<T>(settings, context); });
+  return context.shared.GetOrMake<MipMap<T>>(std::to_string(int(settings.wrap)) + settings.filename,
+                                             [&] { return ReadMipMap<T>(settings, context); });
 }
 
 template <class T>

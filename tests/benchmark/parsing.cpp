@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/base/log.h"
-#include "core/parser/parser.h"
+#include "core/parser/syntax/parser.h"
 #include "tests/benchmark/contest.h"
 #include "tests/benchmark/parts.h"
 #include "tests/benchmark/room.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/math/random.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/random.h"
+#include "core/math/sampling/sampling.h"
 
 namespace exphoton {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "tests/benchmark/room.h"
 #include "tests/support/test_plugin.h"
 

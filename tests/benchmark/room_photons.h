@@ -2,8 +2,8 @@
 // Photons of a lamp in the room of the benchmarks, and the places where a renderer asks for them.
 #pragma once
 
-#include "integrators/photon/photon.h"
-#include "integrators/photon/radiance_map.h"
+#include "integrators/photon/maps/photon.h"
+#include "integrators/photon/maps/radiance_map.h"
 
 namespace exphoton {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {

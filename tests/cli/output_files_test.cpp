@@ -7,7 +7,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {

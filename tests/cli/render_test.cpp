@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "core/cli/app.h"
-#include "core/imaging/exr.h"
+#include "core/app/options/app.h"
+#include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {

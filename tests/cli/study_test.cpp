@@ -5,8 +5,8 @@
 #include <csignal>
 #include <filesystem>
 
-#include "core/imaging/exr.h"
-#include "core/study/results.h"
+#include "core/app/analysis/results.h"
+#include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // What is laid out by hand must be right in double too, a build that few make: that this compiles
 // with EXPHOTON_DOUBLE, in every build, is the test.
-#include "accelerators/bvh/traverse.h"
+#include "accelerators/bvh/traverse/traverse.h"
 #include "accelerators/kd/kd_build.h"
-#include "integrators/photon/cone_axes.h"
-#include "integrators/photon/photon_maps.h"
-#include "integrators/photon/radiance_map.h"
+#include "integrators/photon/gather/cone_axes.h"
+#include "integrators/photon/maps/photon_maps.h"
+#include "integrators/photon/maps/radiance_map.h"
 
 namespace exphoton {
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/fuzz/input.h"
 
 using namespace exphoton;
@@ -19,8 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
       const Image image = ReadExr(path);
       fuzz::Require(image.pixels.size() == std::size_t(image.Width()) *
-                                               std::size_t(image.Height()) *
-                                               image.channels.size(),
+                                               std::size_t(image.Height()) * image.channels.size(),
                     "as many values as the windows say");
     } catch (const ImageError&) {
     }

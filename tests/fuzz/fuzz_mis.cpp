@@ -3,8 +3,8 @@
 // draw, with a density that is positive and finite.
 #include <cmath>
 
-#include "core/math/mis.h"
-#include "integrators/photon/cone_mixture.h"
+#include "core/math/sampling/mis.h"
+#include "integrators/photon/gather/cone_mixture.h"
 #include "tests/fuzz/input.h"
 
 using namespace exphoton;

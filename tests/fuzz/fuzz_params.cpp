@@ -11,8 +11,8 @@ using namespace exphoton;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return 0;
-  static constexpr std::array<const char*, 5> kBefore{
-      "SurfaceIntegrator ", "Sampler ", "PixelFilter ", "Camera ", "Accelerator "};
+  static constexpr std::array<const char*, 5> kBefore{"SurfaceIntegrator ", "Sampler ",
+                                                      "PixelFilter ", "Camera ", "Accelerator "};
   static constexpr std::array<const char*, 4> kWithin{"Material ", "LightSource ", "Shape ",
                                                       "AreaLightSource "};
   const std::size_t choice = data[0] % (kBefore.size() + kWithin.size());
@@ -21,10 +21,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool isBefore = choice < kBefore.size();
   const std::string line =
       (isBefore ? kBefore[choice] : kWithin[choice - kBefore.size()]) + rest + "\n";
-  const std::string text =
-      "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\n" +
-      (isBefore ? line : "") + "WorldBegin LightSource \"point\" Translate 0 0 3\n" +
-      (isBefore ? "" : line) + "Shape \"sphere\"\nWorldEnd\n";
+  const std::string text = "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\n" +
+                           (isBefore ? line : "") +
+                           "WorldBegin LightSource \"point\" Translate 0 0 3\n" +
+                           (isBefore ? "" : line) + "Shape \"sphere\"\nWorldEnd\n";
   try {
     LoadSceneText(text);
   } catch (const Error& error) {

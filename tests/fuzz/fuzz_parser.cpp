@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Any text is directives or an error. Includes find the text itself and a harmless file.
 #include "core/base/log.h"
-#include "core/parser/parser.h"
+#include "core/parser/syntax/parser.h"
 #include "tests/fuzz/input.h"
 
 using namespace exphoton;

@@ -2,7 +2,7 @@
 // Any bytes are tokens or an error with its place; numbers are finite.
 #include <cmath>
 
-#include "core/parser/tokenizer.h"
+#include "core/parser/syntax/tokenizer.h"
 #include "tests/fuzz/input.h"
 
 using namespace exphoton;

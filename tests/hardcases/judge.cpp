@@ -7,7 +7,7 @@
 #include <cmath>
 #include <regex>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/hardcases/picture_checks.h"
 
 namespace exphoton::hardcases {

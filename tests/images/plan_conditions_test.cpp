@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {

@@ -9,15 +9,15 @@
 #include <stdexcept>
 
 #include "core/base/log.h"
-#include "core/imaging/exr.h"
-#include "core/imaging/metrics.h"
-#include "core/imaging/png.h"
+#include "core/imaging/files/exr.h"
+#include "core/imaging/files/png.h"
+#include "core/imaging/metrics/metrics.h"
 #include "tests/support/equivalence.h"
 
 namespace exphoton {
 namespace {
 
-const std::string kReferenceFolder = std::string(EXPHOTON_SOURCE_DIR) + "/tests/references/";
+const std::string kReferenceFolder = std::string(EXPHOTON_SOURCE_DIR) + "/tests/images/references/";
 
 double Grey(const Image& image, int x, int y) {
   double sum = 0;

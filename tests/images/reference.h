@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Renders of our scenes against the pictures of tests/references: means over the picture and over
-// 4 x 3 blocks by the equivalence rule (equivalence.h), with the noise of the reference taken from
-// the difference of its two halves. Makes no references: tests/references/make.sh does.
+// Renders of our scenes against the pictures of tests/images/references: means over the picture and
+// over 4 x 3 blocks by the equivalence rule (equivalence.h), with the noise of the reference taken
+// from the difference of its two halves. Makes no references: tests/images/references/make.sh does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/app/analysis/separation.h"
 #include "core/imaging/image.h"
-#include "core/study/separation.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {

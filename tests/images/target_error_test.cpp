@@ -4,7 +4,7 @@
 // (docs/decisions/0007-stopping-rules.md), so the caustics are path traced here.
 #include <gtest/gtest.h>
 
-#include "core/transport/render_passes.h"
+#include "core/render/render_passes.h"
 #include "tests/images/reference.h"
 
 namespace exphoton {

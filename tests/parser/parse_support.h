@@ -9,8 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
-#include "core/parser/parser.h"
 #include "core/parser/render_setup.h"
+#include "core/parser/syntax/parser.h"
 
 namespace exphoton {
 

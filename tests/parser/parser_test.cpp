@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // How directives and parameters are written, and the exact words of what is wrong with them.
-#include "core/parser/parser.h"
+#include "core/parser/syntax/parser.h"
 
 #include <gtest/gtest.h>
 

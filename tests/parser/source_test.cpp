@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Scene files on disk: folders, devices, pipes, links and compressed files. And: no sequence of
 // bytes makes the parser do anything but parse or say an error.
-#include "core/parser/source.h"
+#include "core/parser/syntax/source.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

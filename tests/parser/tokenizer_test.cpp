@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The lexical rules: numbers, strings, comments, bytes that do not belong into text.
-#include "core/parser/tokenizer.h"
+#include "core/parser/syntax/tokenizer.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

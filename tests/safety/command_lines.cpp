@@ -20,8 +20,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/cli/app.h"
-#include "core/imaging/exr.h"
+#include "core/app/options/app.h"
+#include "core/imaging/files/exr.h"
 #include "tests/support/process.h"
 
 namespace exphoton {

@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/imaging/exr.h"
+#include "core/imaging/files/exr.h"
 #include "tests/support/process.h"
 
 namespace exphoton {

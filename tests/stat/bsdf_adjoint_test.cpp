@@ -3,11 +3,11 @@
 // (that photons do carry it: photon_shading_test.cpp): the integral of
 // g(wo) |wo.ng| f(wo, wi) |wi.ns| h(wi) over both directions, once from wo as camera paths sample
 // it and once from wi as photons do (Veach 1997, section 5.3), for patterns g and h.
-#include "core/math/random.h"
-#include "core/math/sampling.h"
-#include "core/scattering/lambert.h"
-#include "core/scattering/microfacet.h"
-#include "core/scattering/transmitted.h"
+#include "core/math/sampling/random.h"
+#include "core/math/sampling/sampling.h"
+#include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/microfacet.h"
+#include "core/scattering/lobes/transmitted.h"
 #include "core/transport/shading_normal.h"
 #include "tests/support/equivalence.h"
 #include "tests/support/scattering.h"

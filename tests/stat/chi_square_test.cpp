@@ -3,7 +3,7 @@
 // the three tests of samplers that are right.
 #include "tests/support/chi_square.h"
 
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 
 namespace exphoton {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "core/math/random.h"
-#include "integrators/photon/density_kernel.h"
-#include "integrators/photon/photon_map.h"
+#include "core/math/sampling/random.h"
+#include "integrators/photon/maps/density_kernel.h"
+#include "integrators/photon/maps/photon_map.h"
 
 namespace exphoton {
 namespace {

@@ -4,8 +4,8 @@
 // chi-square tests of this file together.
 #include <gtest/gtest.h>
 
-#include "core/imaging/exr.h"
-#include "core/math/sampling.h"
+#include "core/imaging/files/exr.h"
+#include "core/math/sampling/sampling.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/equivalence.h"
 #include "tests/support/test_plugin.h"

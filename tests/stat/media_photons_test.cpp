@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Light that media send to surfaces: the photon integrators against path tracing, in a closed box
 // that fog or a glowing medium lights, and the power of the photons against its closed form.
-#include "integrators/photon/media_photons.h"
+#include "integrators/photon/shooting/media_photons.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/moving_emitter.h"
-#include "core/math/random.h"
-#include "core/math/sampling.h"
+#include "core/math/sampling/random.h"
+#include "core/math/sampling/sampling.h"
 #include "tests/support/test_plugin.h"
 
 namespace exphoton {

@@ -2,7 +2,7 @@
 // The numbers of photon paths: every pair of coordinates fills the square evenly, within a request
 // as a (0,2)-sequence does and between requests at least as independent numbers do. Requests that
 // keep the same order give a wrong mean for each seed, however many the photons.
-#include "integrators/photon/path_samples.h"
+#include "integrators/photon/shooting/path_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Pictures of the photon integrators that must be equal bit for bit: plain switches, threads, tiles,
-// crops, scale of the scene and of its lights, twice in one process.
+// Pictures of the photon integrators that must be equal bit for bit: plain switches, threads,
+// tiles, crops, scale of the scene and of its lights, twice in one process.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,9 +56,10 @@ Image Picture(const std::string& scene, const TestRenderOptions& options = {}) {
 }
 
 const std::string kPlain =
-    std::string("\"exphotonmap\" \"string lightselection\" \"uniform\" \"string photonroulette\" "
-                "\"half\" \"bool radiancephotons\" \"false\" \"string gathersampling\" \"bsdf\" "
-                "\"string kernel\" \"constant\" \"float rrthreshold\" 0") +
+    std::string(
+        "\"exphotonmap\" \"string lightselection\" \"uniform\" \"string photonroulette\" "
+        "\"half\" \"bool radiancephotons\" \"false\" \"string gathersampling\" \"bsdf\" "
+        "\"string kernel\" \"constant\" \"float rrthreshold\" 0") +
     kCounts;
 
 TEST(PhotonIdentity, ExphotonmapWithPlainSwitchesIsPhotonmapBitForBit) {

@@ -10,7 +10,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/math/random.h"
+#include "core/math/sampling/random.h"
 #include "core/math/vec.h"
 
 namespace exphoton {

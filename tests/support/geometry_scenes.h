@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/math/random.h"
+#include "core/math/sampling/random.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/primitive.h"
 

@@ -5,7 +5,7 @@
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
-#include "integrators/photon/photon_tracer.h"
+#include "integrators/photon/shooting/photon_tracer.h"
 
 namespace exphoton {
 

@@ -2,12 +2,12 @@
 // Surfaces, lobes and integrals for tests of scattering.
 #include "tests/support/scattering.h"
 
-#include "core/math/sampling.h"
-#include "core/scattering/fresnel_blend.h"
-#include "core/scattering/lambert.h"
-#include "core/scattering/microfacet.h"
-#include "core/scattering/oren_nayar.h"
-#include "core/scattering/transmitted.h"
+#include "core/math/sampling/sampling.h"
+#include "core/scattering/lobes/fresnel_blend.h"
+#include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/microfacet.h"
+#include "core/scattering/lobes/oren_nayar.h"
+#include "core/scattering/lobes/transmitted.h"
 
 namespace exphoton {
 

@@ -2,7 +2,7 @@
 // TestPlugins: parses one directive from memory and lets the registry make the plugin.
 #include "tests/support/test_plugin.h"
 
-#include "core/parser/parser.h"
+#include "core/parser/syntax/parser.h"
 
 namespace exphoton {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/base/log.h"
-#include "core/imaging/film.h"
+#include "core/imaging/film/film.h"
 
 namespace exphoton {
 

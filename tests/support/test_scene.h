@@ -13,7 +13,7 @@
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
-#include "core/transport/render.h"
+#include "core/render/render.h"
 
 namespace exphoton {
 
@@ -24,8 +24,8 @@ struct TestRenderOptions {
   int tileSize = 16;
   TileOrder tileOrder = TileOrder::Scanline;
   std::int64_t footprintSamples = 0;  // RenderOptions
-  bool isStrict = true;  // a non-finite sample throws
-  LayerSet layers;       // appended to the image's channels
+  bool isStrict = true;               // a non-finite sample throws
+  LayerSet layers;                    // appended to the image's channels
   const std::atomic<bool>* stop = nullptr;
 };
 

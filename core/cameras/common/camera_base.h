@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -40,10 +40,10 @@ inline const ParamTable<MappingSettings>& MappingParameters() {
 }  // namespace exphoton
 
 // A plugin of both texture kinds from templates Parameters<T>() and Create<T>.
-#define EXPHOTON_TEXTURE_PLUGIN(pluginName, pluginSummary)                               \
-  EXPHOTON_PLUGIN(                                                                       \
-      pluginName, pluginSummary,                                                         \
-      exphoton::MakeForm<exphoton::PluginKind::FloatTexture>(                            \
-          exphoton::Parameters<exphoton::Real>(), exphoton::Create<exphoton::Real>),     \
-      exphoton::MakeForm<exphoton::PluginKind::ColorTexture>(                            \
+#define EXPHOTON_TEXTURE_PLUGIN(pluginName, pluginSummary)                           \
+  EXPHOTON_PLUGIN(                                                                   \
+      pluginName, pluginSummary,                                                     \
+      exphoton::MakeForm<exphoton::PluginKind::FloatTexture>(                        \
+          exphoton::Parameters<exphoton::Real>(), exphoton::Create<exphoton::Real>), \
+      exphoton::MakeForm<exphoton::PluginKind::ColorTexture>(                        \
           exphoton::Parameters<exphoton::Spectrum>(), exphoton::Create<exphoton::Spectrum>))

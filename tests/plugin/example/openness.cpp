@@ -2,7 +2,7 @@
 // Integrator "openness": the share of the hemisphere over a point that is open, weighted by the
 // cosine; also called ambient occlusion. No light and no material plays a part.
 // Source: Zhukov, Iones and Kronin 1998, "An Ambient Light Illumination Model".
-#include "core/math/sampling.h"
+#include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The traversal, written on what the including file defines for its vectors: Real8 (Load, Store,
+// All, +, -, *, /, MultiplyAdd, Min, Max, Abs, LessMask), Axes (All, +, -, *, /, Abs, AxesOf,
+// AllOf), IsWorthTracing (IsTraceable), PresentMask, kHitsInSingle (whether vectors may tell hits),
+// and PushOrder, whose Push finds the children where first <= last and returns how many: the first
+// of the order is *next, and the stack has the others above what was there, the second on top.
+// Included into an unnamed namespace.
+//
+// Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
+// slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
+// earliest crossing of a plane is (plane - o) / (|d_axis| + slope) and whose latest
+// (plane - o) / (|d_axis| - slope). On an axis to which the ray is perpendicular within the slope,
+// planes are moved by what the cone spreads to on its way through the scene instead.
+
+// Of lambdas: a call would put vectors into memory.
+#define EXPHOTON_INLINE __attribute__((always_inline))
+
+#include "accelerators/bvh/traverse/box_rays.inl"
+
+// Vectors compare with a little more than t: what rounding may add to a distance on the way.
+inline Real Limit(Real t) { return t * (1 + Gamma(8)); }
+
+#include "accelerators/bvh/traverse/block_ray.inl"
+
+// The triangle of a lane, as DecideTriangle wants it.
+inline auto CornersOf(const BvhBlock& block, int lane) {
+  return TriangleCorners<3 * kBvhWidth, kBvhWidth>{&block.vertices[0][0][lane]};
+}
+
+// A way down leaves at most seven children waiting at each node; and all eight lanes are written.
+constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
+
+// Walks the tree from near to far or, where any hit will do, first to where one is likely.
+// visit(child) deals with a leaf, and returns the t beyond which nothing matters any more (ties at
+// it do); a negative one ends the walk.
+template <bool kIsAny, class BoxRay, class Visit>
+[[gnu::always_inline]] inline void Walk(const BvhArrays& arrays, const TraceRay& trace,
+                                        const BoxRay& ray, const Visit& visit) {
+  // The stack has the nearest on top; an order for the opposite direction is read backwards.
+  const unsigned backward = ray.rows.backward;
+  const bool isOpposite = !kIsAny && backward & 4;
+  const PushOrder order(isOpposite);
+  const std::size_t orderIndex = kIsAny       ? kBvhBlockingOrder
+                                 : isOpposite ? 7 - backward
+                                              : backward;
+  const BvhLine* const lines = arrays.lines.data();
+  BvhChild children[kStackSize];
+  Real enters[kStackSize];
+  std::size_t size = 0;
+  BvhChild child(BvhChild::Kind::Node, 0);
+  Real tMax = trace.ray.tMax;
+  Real limit = Limit(tMax);
+  for (;;) {
+    if (child.IsNode()) {
+      const BvhNode& node = child.Node(lines);
+      const Crossings crossings = ray.Cross(node, Real8::All(limit));
+      const std::size_t met = order.Push(node, orderIndex, crossings.first, crossings.last,
+                                         children + size, enters + size, &child);
+      if (met > 0) {
+        size += met - 1;
+        if (!kIsAny && size > 0) children[size - 1].Prefetch(lines);
+        continue;
+      }
+    } else {
+      tMax = visit(child);
+      if (tMax < 0) return;
+      if (!kIsAny) limit = Limit(tMax);
+    }
+    do {
+      if (size == 0) return;
+      --size;
+    } while (!kIsAny && enters[size] > tMax);
+    child = children[size];
+  }
+}
+
+template <bool kIsAny, class Visit>
+[[gnu::always_inline]] inline void WalkAs(const BvhArrays& arrays, const TraceRay& trace,
+                                          const Visit& visit) {
+  if (arrays.lines.empty()) return;
+  const SlantedRay slanted(trace.ray);
+  if (slanted.isSlanted) [[likely]] {
+    Walk<kIsAny>(arrays, trace, slanted, visit);
+  } else {
+    Walk<kIsAny>(arrays, trace, AnyRay(trace.ray, trace.triangle.kz, arrays.bounds), visit);
+  }
+}
+
+// Decides the distance by which the nearest is ordered.
+[[gnu::noinline]] void Settle(const TriangleRay& ray, NearestHit* nearest) {
+  if (nearest->low == nearest->high) return;
+  const auto found = DecideTriangle(ray, kInfinity, CornersOf(*nearest->block, nearest->lane));
+  if (found) nearest->low = nearest->high = found->t;
+}
+
+// Whether DecideTriangle refuses a triangle that the ray's line crosses, with this determinant, as
+// lying behind the ray's origin: most often the one that the ray starts on.
+inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Real determinant) {
+  return PlaneIsBehind(ray.o, CornersOf(block, lane), -double(determinant) * double(ray.sz));
+}
+
+// Decides a triangle, and whether it wins over the nearest.
+[[gnu::noinline]] void Decide(const BvhBlock& block, int lane, const TriangleRay& ray,
+                              NearestHit* nearest) {
+  const std::uint32_t id = block.ids[lane];
+  if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;  // met before
+  const auto corners = CornersOf(block, lane);
+  const auto decided = DecideTriangle(ray, nearest->high, corners);
+  if (!decided) return;
+  Settle(ray, nearest);
+  Hit ordered = nearest->hit;
+  ordered.t = nearest->high;
+  if (!Wins(decided->t, kNoId, id, ordered)) return;
+  const TriangleHit told = HitInSingle(ray, corners).value_or(*decided);
+  nearest->hit = {told.t, {told.b1, told.b2}, id, kNoId};
+  nearest->low = nearest->high = decided->t;
+}
+
+// Tests a block; replaces the nearest where a triangle of it wins.
+[[gnu::always_inline]] inline void IntersectBlock(const BvhBlock& block, const BlockRay& blockRay,
+                                                  const TriangleRay& ray, NearestHit* nearest) {
+  const BlockHits hits = blockRay.Hits(block, nearest->high);
+  if (hits.possible == 0) return;
+  Real t[kBvhWidth], e1[kBvhWidth], e2[kBvhWidth], determinant[kBvhWidth];
+  hits.t.Store(t), hits.e1.Store(e1), hits.e2.Store(e2), hits.determinant.Store(determinant);
+  for (unsigned open = hits.possible; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    const Real high = t[lane] * (1 + kSingleError);
+    if ((hits.sure >> lane & 1) && high < nearest->low) {
+      nearest->hit = {t[lane], {e1[lane] / determinant[lane], e2[lane] / determinant[lane]},
+                      block.ids[lane], kNoId};
+      nearest->low = t[lane] * (1 - kSingleError), nearest->high = high;
+      nearest->block = &block, nearest->lane = lane;
+    } else if (!(hits.crossed >> lane & 1) || !IsBehind(block, lane, ray, determinant[lane])) {
+      Decide(block, lane, ray, nearest);
+    }
+  }
+}
+
+[[gnu::noinline]] bool DecideBlocked(const BvhBlock& block, int lane, const TriangleRay& ray,
+                                     Real tMax) {
+  const auto found = DecideTriangle(ray, tMax, CornersOf(block, lane));
+  return found && found->t < tMax;
+}
+
+[[gnu::always_inline]] inline bool IsBlockedBy(const BvhBlock& block, const BlockRay& blockRay,
+                                               const TraceRay& trace) {
+  const Real tMax = trace.ray.tMax;
+  const BlockHits hits = blockRay.Hits(block, tMax);
+  if (hits.possible == 0) return false;
+  if ((hits.sure & LessMask(hits.t, Real8::All(tMax * (1 - 2 * kSingleError)))) != 0) return true;
+  Real determinant[kBvhWidth];
+  hits.determinant.Store(determinant);
+  for (unsigned open = hits.possible; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    if ((hits.crossed >> lane & 1) && IsBehind(block, lane, trace.triangle, determinant[lane]))
+      continue;
+    if (DecideBlocked(block, lane, trace.triangle, tMax)) return true;
+  }
+  return false;
+}
+
+Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
+  if (!IsWorthTracing(ray)) return {};
+  const TraceRay trace(ray);
+  const BlockRay blockRay(trace.triangle);
+  NearestHit nearest(ray.tMax);
+  WalkAs<false>(arrays, trace, [&](BvhChild leaf) EXPHOTON_INLINE {
+    if (leaf.IsTriangles()) {
+      IntersectBlock(leaf.Block(arrays.lines.data()), blockRay, trace.triangle, &nearest);
+      return nearest.high;
+    }
+    Settle(trace.triangle, &nearest);
+    const std::uint32_t* list = arrays.others.data() + leaf.Index();
+    for (std::uint32_t i = 1; i <= list[0]; ++i)
+      IntersectOther(primitives, list[i], trace, &nearest);
+    return nearest.high;
+  });
+  return nearest.hit;
+}
+
+bool Occluded(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray& ray) {
+  if (!IsWorthTracing(ray)) return false;
+  const TraceRay trace(ray);
+  const BlockRay blockRay(trace.triangle);
+  bool isOccluded = false;
+  WalkAs<true>(arrays, trace, [&](BvhChild leaf) EXPHOTON_INLINE {
+    if (leaf.IsTriangles()) {
+      isOccluded = IsBlockedBy(leaf.Block(arrays.lines.data()), blockRay, trace);
+    } else {
+      const std::uint32_t* list = arrays.others.data() + leaf.Index();
+      for (std::uint32_t i = 1; i <= list[0] && !isOccluded; ++i)
+        isOccluded = primitives.Occludes(list[i], trace);
+    }
+    return isOccluded ? Real(-1) : ray.tMax;
+  });
+  return isOccluded;
+}
+
+void MakeBlockRay(const TriangleRay& ray, BlockRayRoom* room) {
+  static_assert(sizeof(BlockRay) <= sizeof(room->bytes));
+  static_assert(alignof(BlockRay) <= alignof(BlockRayRoom));
+  new (room->bytes) BlockRay(ray);
+}
+
+const BlockRay& BlockRayIn(const BlockRayRoom& room) {
+  return *std::launder(reinterpret_cast<const BlockRay*>(room.bytes));
+}
+
+void IntersectBlocks(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom& room,
+                     const TriangleRay& ray, NearestHit* nearest) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    IntersectBlock(blocks[i], BlockRayIn(room), ray, nearest);
+}
+
+bool OccludedByBlocks(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom& room,
+                      const TraceRay& trace) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (IsBlockedBy(blocks[i], BlockRayIn(room), trace)) return true;
+  return false;
+}
+
+#undef EXPHOTON_INLINE

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Reading settings and knobs, and multiplying them out.
+#include "core/app/analysis/plan.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
+
+namespace exphoton::study {
+namespace {
+
+std::string Trim(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// "name=value"; false where it is something else.
+bool ParseParameter(const std::string& text, Parameter* parameter) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) return false;
+  *parameter = {text.substr(0, equals), text.substr(equals + 1)};
+  return true;
+}
+
+bool AppliesToAny(const std::string& parameter) {
+  return parameter == "spp" || parameter.find('.') != std::string::npos;
+}
+
+std::string BudgetText(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", seconds);
+  return text;
+}
+
+// The knobs of one base: special ones hide general ones.
+std::vector<const Knob*> KnobsOf(const Setting& base, const StudyPlan& plan,
+                                 const ParameterOracle& oracle) {
+  std::vector<const Knob*> chosen;
+  for (const Knob& knob : plan.knobs) {
+    const bool isSpecial = !knob.integrator.empty();
+    if (isSpecial && knob.integrator != base.integrator && knob.integrator != base.label) continue;
+    if (base.Find(knob.parameter)) continue;
+    if (!isSpecial && !AppliesToAny(knob.parameter) && !oracle.Has(base.integrator, knob.parameter))
+      continue;
+    const auto same = std::find_if(chosen.begin(), chosen.end(), [&](const Knob* other) {
+      return other->parameter == knob.parameter;
+    });
+    if (same == chosen.end())
+      chosen.push_back(&knob);
+    else if (isSpecial)
+      *same = &knob;
+  }
+  return chosen;
+}
+
+void Multiply(const std::string& parameter, const std::vector<std::string>& values,
+              std::vector<Setting>* settings) {
+  std::vector<Setting> product;
+  for (const Setting& setting : *settings) {
+    for (const std::string& value : values) {
+      product.push_back(setting);
+      product.back().parameters.emplace_back(parameter, value);
+    }
+  }
+  *settings = std::move(product);
+}
+
+}  // namespace
+
+std::string Setting::Text() const {
+  std::string text;
+  for (const auto& [name, value] : parameters)
+    text += (text.empty() ? "" : " ") + name + "=" + value;
+  return text.empty() ? "as the scene says" : text;
+}
+
+const std::string* Setting::Find(const std::string& parameter) const {
+  for (const auto& [name, value] : parameters)
+    if (name == parameter) return &value;
+  return nullptr;
+}
+
+std::vector<std::string> SplitList(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');)
+    if (!Trim(part).empty()) parts.push_back(Trim(part));
+  return parts;
+}
+
+Setting ParseSetting(const std::string& text) {
+  Setting setting;
+  const std::size_t colon = text.find(": ");
+  std::istringstream words(colon == std::string::npos ? text : text.substr(colon + 1));
+  words >> setting.integrator;
+  if (setting.integrator.empty() || setting.integrator.find('=') != std::string::npos)
+    throw std::invalid_argument("a setting is \"[LABEL: ]INTEGRATOR [name=value ...]\", not \"" +
+                                text + "\"");
+  setting.label = colon == std::string::npos ? setting.integrator : Trim(text.substr(0, colon));
+  for (std::string word; words >> word;) {
+    Parameter parameter;
+    if (!ParseParameter(word, &parameter))
+      throw std::invalid_argument("\"" + word + "\" of the setting \"" + text +
+                                  "\" is not name=value");
+    setting.parameters.push_back(parameter);
+  }
+  return setting;
+}
+
+Knob ParseKnob(const std::string& text) {
+  Knob knob;
+  const std::size_t equals = text.find('=');
+  const std::size_t colon = text.substr(0, equals).rfind(':');
+  if (colon != std::string::npos) knob.integrator = Trim(text.substr(0, colon));
+  Parameter parameter;
+  const std::string rest = colon == std::string::npos ? text : text.substr(colon + 1);
+  if (ParseParameter(Trim(rest), &parameter)) {
+    knob.parameter = parameter.first;
+    knob.values = SplitList(parameter.second);
+  }
+  if (knob.values.empty())
+    throw std::invalid_argument("what varies is \"[INTEGRATOR:]name=value,value,...\", not \"" +
+                                text + "\"");
+  return knob;
+}
+
+double ParseSeconds(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, value);
+  const std::string unit(next, end);
+  const double factor = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
+  if (error != std::errc{} || !(value > 0) || factor == 0 || !(value * factor < 1e9))
+    throw std::invalid_argument("a time is a number of seconds, or like 90s, 30m, 2h, not \"" +
+                                text + "\"");
+  return value * factor;
+}
+
+std::vector<double> ParseBudgets(const std::string& text) {
+  std::vector<std::string> parts = SplitList(text);
+  if (parts.empty()) throw std::invalid_argument("no budget in \"" + text + "\"");
+  const std::string& last = parts.back();
+  const char unit = last.back();
+  std::vector<double> budgets;
+  for (std::string part : parts) {
+    const bool isBare = part.find_first_not_of("0123456789.") == std::string::npos;
+    if (isBare && (unit == 's' || unit == 'm' || unit == 'h')) part += unit;
+    budgets.push_back(ParseSeconds(part));
+  }
+  return budgets;
+}
+
+std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterOracle& oracle) {
+  std::vector<Setting> all;
+  std::vector<const Knob*> used;
+  for (const Setting& base : plan.bases) {
+    std::vector<Setting> settings{base};
+    for (const Knob* knob : KnobsOf(base, plan, oracle)) {
+      used.push_back(knob);
+      Multiply(knob->parameter, knob->values, &settings);
+    }
+    if (!plan.budgets.empty() && !base.Find("time")) {
+      std::vector<std::string> texts;
+      for (const double budget : plan.budgets) texts.push_back(BudgetText(budget));
+      Multiply("time", texts, &settings);
+    }
+    for (const Setting& setting : settings)
+      if (std::find(all.begin(), all.end(), setting) == all.end()) all.push_back(setting);
+  }
+  for (const Knob& knob : plan.knobs)
+    if (std::find(used.begin(), used.end(), &knob) == used.end())
+      throw std::invalid_argument("nothing has the parameter \"" + knob.parameter +
+                                  "\" that should vary" +
+                                  (knob.integrator.empty() ? "" : " for " + knob.integrator));
+  return all;
+}
+
+}  // namespace exphoton::study

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Results as JSON (RFC 8259, by nlohmann's library) and as CSV (RFC 4180).
+#include "core/app/analysis/results.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+namespace exphoton::study {
+namespace {
+
+// Members stay in the order in which they are written.
+using Json = nlohmann::ordered_json;
+constexpr int kFormat = 1;
+
+Json FromValues(const NamedValues& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = value;
+  return json;
+}
+
+NamedValues ToValues(const Json& json) {
+  NamedValues values;
+  for (const auto& [name, value] : json.items())
+    if (value.is_number()) values.emplace_back(name, value.get<double>());
+  return values;
+}
+
+// Members that may be absent, or null where a number was not finite.
+double Number(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  return found != json.end() && found->is_number() ? found->get<double>() : 0;
+}
+std::string Text(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+Json FromSetting(const Setting& setting) {
+  Json parameters = Json::array();
+  for (const auto& [name, value] : setting.parameters) parameters.push_back({name, value});
+  return {{"label", setting.label}, {"integrator", setting.integrator}, {"parameters", parameters}};
+}
+
+Setting ToSetting(const Json& json) {
+  Setting setting{Text(json, "label"), Text(json, "integrator"), {}};
+  for (const Json& pair : json.at("parameters"))
+    setting.parameters.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
+  return setting;
+}
+
+NamedValues MetricValues(const RunRow& row) {
+  const ImageDifference& m = row.metrics;
+  return {{"relMSE", m.relMse},
+          {"trimmedRelMSE", m.trimmedRelMse},
+          {"MSE", m.mse},
+          {"meanError", m.meanError},
+          {"meanReference", m.meanReference},
+          {"relativeMeanError", m.relativeMeanError},
+          {"p99", m.p99},
+          {"FLIP", row.flip},
+          {"nonFinitePixels", double(m.nonFinitePixels)}};
+}
+
+// What does not depend on the study.
+Json FromRun(const RunRow& row) {
+  return {{"key", row.key},
+          {"seed", row.seed},
+          {"threads", row.threads},
+          {"samplesPerPixel", row.samplesPerPixel},
+          {"complete", row.isComplete},
+          {"wallSeconds", row.wallSeconds},
+          {"cpuSeconds", row.cpuSeconds},
+          {"peakMemoryBytes", row.peakMemory},
+          {"phases", FromValues(row.phases)},
+          {"phaseWallSeconds", FromValues(row.phaseWall)},
+          {"rays", FromValues(row.rays)},
+          {"counters", FromValues(row.counters)},
+          {"image", row.image},
+          {"command", row.command}};
+}
+
+Json FromRow(const RunRow& row, const Results& results) {
+  const Setting& setting = results.settings.at(row.setting);
+  Json json = {{"scene", results.title},
+               {"setting", row.setting},
+               {"label", setting.label},
+               {"integrator", setting.integrator},
+               {"parameters", setting.Text()}};
+  json.update(FromRun(row));
+  if (row.hasMetrics) json["metrics"] = FromValues(MetricValues(row));
+  return json;
+}
+
+RunRow ToRow(const Json& json) {
+  RunRow row;
+  row.key = Text(json, "key");
+  row.setting = json.value("setting", std::size_t(0));
+  row.seed = json.at("seed").get<std::uint64_t>();
+  row.threads = int(Number(json, "threads"));
+  row.samplesPerPixel = Number(json, "samplesPerPixel");
+  row.isComplete = json.value("complete", true);
+  row.wallSeconds = Number(json, "wallSeconds");
+  row.cpuSeconds = Number(json, "cpuSeconds");
+  row.peakMemory = Number(json, "peakMemoryBytes");
+  row.phases = ToValues(json.value("phases", Json::object()));
+  row.phaseWall = ToValues(json.value("phaseWallSeconds", Json::object()));
+  row.rays = ToValues(json.value("rays", Json::object()));
+  row.counters = ToValues(json.value("counters", Json::object()));
+  row.image = Text(json, "image");
+  row.command = Text(json, "command");
+  return row;  // metrics are measured anew from the pictures
+}
+
+Json FromReference(const ReferenceRecord& reference) {
+  return {{"a", reference.a},
+          {"b", reference.b},
+          {"scene", reference.scene},
+          {"sceneHash", reference.sceneHash},
+          {"integrator", reference.integrator},
+          {"samplesPerPixel", reference.samplesPerPixel},
+          {"cpuSeconds", reference.seconds},
+          {"command", reference.command}};
+}
+
+ReferenceRecord ToReference(const Json& json) {
+  ReferenceRecord reference;
+  reference.a = Text(json, "a");
+  reference.b = Text(json, "b");
+  reference.scene = Text(json, "scene");
+  reference.sceneHash = Text(json, "sceneHash");
+  reference.integrator = Text(json, "integrator");
+  reference.samplesPerPixel = Number(json, "samplesPerPixel");
+  reference.seconds = Number(json, "cpuSeconds");
+  reference.command = Text(json, "command");
+  return reference;
+}
+
+Results Parse(const std::string& text) {
+  const Json json = Json::parse(text);
+  if (json.at("format").get<int>() != kFormat)
+    throw std::runtime_error("results.json was written by another version of the program");
+  Results results;
+  results.program = Text(json, "program");
+  results.fingerprint = Text(json, "fingerprint");
+  results.processor = Text(json, "processor");
+  results.system = Text(json, "system");
+  results.cores = int(Number(json, "cores"));
+  results.title = Text(json, "title");
+  results.scene = Text(json, "scene");
+  results.sceneHash = Text(json, "sceneHash");
+  results.command = Text(json, "command");
+  results.clock = Text(json, "clock");
+  results.seeds = int(Number(json, "seeds"));
+  results.targets = json.at("targets").get<std::vector<double>>();
+  results.crops = json.at("crops").get<std::vector<std::array<double, 4>>>();
+  for (const Json& setting : json.at("settings")) results.settings.push_back(ToSetting(setting));
+  results.reference = ToReference(json.at("reference"));
+  for (const Json& map : json.at("maps"))
+    results.maps.push_back(
+        {Text(map, "image"), Text(map, "channel"), Text(map, "title"), Text(map, "unit")});
+  for (const Json& row : json.at("runs")) {
+    results.runs.push_back(ToRow(row));
+    if (results.runs.back().setting >= results.settings.size())
+      throw std::runtime_error("results.json: a run names a setting that is not there");
+  }
+  return results;
+}
+
+std::string CsvNumber(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+// The names that any row has, in a stable order.
+std::set<std::string> Names(const Results& results, NamedValues RunRow::*member) {
+  std::set<std::string> names;
+  for (const RunRow& row : results.runs)
+    for (const auto& value : row.*member) names.insert(value.first);
+  return names;
+}
+
+double Find(const NamedValues& values, const std::string& name) {
+  for (const auto& value : values)
+    if (value.first == name) return value.second;
+  return 0;
+}
+
+}  // namespace
+
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string PathOf(const std::string& folder, const std::string& name) {
+  return std::filesystem::path(name).is_absolute() ? name : folder + "/" + name;
+}
+
+double RunRow::Counter(const std::string& name) const { return Find(counters, name); }
+
+double RunRow::PhotonsStored() const {
+  double sum = 0;
+  for (const auto& [name, value] : counters)
+    if (name.starts_with("photons/") && name.ends_with(" stored")) sum += value;
+  return sum;
+}
+
+double RunRow::PhotonPaths() const {
+  double most = 0;  // maps are filled by the same paths
+  for (const auto& [name, value] : counters)
+    if (name.starts_with("photons/") && name.ends_with(" paths")) most = std::max(most, value);
+  return most;
+}
+
+std::string ToJson(const Results& results) {
+  Json json = {{"format", kFormat},
+               {"program", results.program},
+               {"fingerprint", results.fingerprint},
+               {"processor", results.processor},
+               {"system", results.system},
+               {"cores", results.cores},
+               {"title", results.title},
+               {"scene", results.scene},
+               {"sceneHash", results.sceneHash},
+               {"command", results.command},
+               {"clock", results.clock},
+               {"seeds", results.seeds},
+               {"targets", results.targets},
+               {"crops", results.crops}};
+  json["reference"] = FromReference(results.reference);
+  json["settings"] = Json::array();
+  for (const Setting& setting : results.settings) json["settings"].push_back(FromSetting(setting));
+  json["maps"] = Json::array();
+  for (const MapRecord& map : results.maps)
+    json["maps"].push_back(
+        {{"image", map.image}, {"channel", map.channel}, {"title", map.title}, {"unit", map.unit}});
+  json["runs"] = Json::array();
+  for (const RunRow& row : results.runs) json["runs"].push_back(FromRow(row, results));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Results FromJson(const std::string& text) {
+  try {
+    return Parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("results.json cannot be read: ") + error.what());
+  }
+}
+
+std::string ToCsv(const Results& results) {
+  std::string text =
+      "scene,integrator,label,parameters,seed,threads,samplesPerPixel,complete,wallSeconds,"
+      "cpuSeconds,peakMemoryBytes";
+  const std::set<std::string> phases = Names(results, &RunRow::phases),
+                              rays = Names(results, &RunRow::rays),
+                              counters = Names(results, &RunRow::counters);
+  for (const std::string& name : phases) text += "," + CsvField("seconds: " + name);
+  for (const std::string& name : rays) text += "," + CsvField("rays: " + name);
+  for (const std::string& name : counters) text += "," + CsvField(name);
+  for (const auto& metric : MetricValues(RunRow())) text += "," + metric.first;
+  text += ",image\r\n";
+  for (const RunRow& row : results.runs) {
+    const Setting& setting = results.settings.at(row.setting);
+    text += CsvField(results.title) + "," + CsvField(setting.integrator) + "," +
+            CsvField(setting.label) + "," + CsvField(setting.Text()) + "," +
+            std::to_string(row.seed) + "," + std::to_string(row.threads) + "," +
+            CsvNumber(row.samplesPerPixel) + "," + (row.isComplete ? "yes" : "no") + "," +
+            CsvNumber(row.wallSeconds) + "," + CsvNumber(row.cpuSeconds) + "," +
+            CsvNumber(row.peakMemory);
+    for (const std::string& name : phases) text += "," + CsvNumber(Find(row.phases, name));
+    for (const std::string& name : rays) text += "," + CsvNumber(Find(row.rays, name));
+    for (const std::string& name : counters) text += "," + CsvNumber(Find(row.counters, name));
+    for (const auto& metric : MetricValues(row))
+      text += "," + (row.hasMetrics ? CsvNumber(metric.second) : std::string());
+    text += "," + CsvField(row.image) + "\r\n";
+  }
+  return text;
+}
+
+std::string RowToJson(const RunRow& row) { return FromRun(row).dump(1) + "\n"; }
+
+RunRow RowFromJson(const std::string& text) {
+  try {
+    return ToRow(Json::parse(text));
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
+void AddRunStatistics(const std::string& text, RunRow* row) {
+  try {
+    const Json json = Json::parse(text);
+    row->threads = int(Number(json, "threads"));
+    row->samplesPerPixel = Number(json, "samplesPerPixel");
+    row->isComplete = json.value("complete", true);
+    if (const auto phases = json.find("phases"); phases != json.end() && phases->is_array()) {
+      for (const Json& phase : *phases) {
+        row->phases.emplace_back(Text(phase, "name"), Number(phase, "cpuSeconds"));
+        row->phaseWall.emplace_back(Text(phase, "name"), Number(phase, "seconds"));
+      }
+    }
+    row->rays = ToValues(json.value("rays", Json::object()));
+    row->counters = ToValues(json.value("counters", Json::object()));
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("the statistics of a run cannot be read: ") +
+                             error.what());
+  }
+}
+
+}  // namespace exphoton::study

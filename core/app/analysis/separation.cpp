@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Sums over pixels in double; pixels that are not finite anywhere are left out of all of them.
+#include "core/app/analysis/separation.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/imaging/metrics/metrics.h"
+
+namespace exphoton::study {
+namespace {
+
+// The values of R, G, B of a picture, pixel by pixel.
+std::vector<float> Colors(const Image& image, const std::string& name) {
+  const std::array<int, 3> from = FindColors(image, name);
+  std::vector<float> values;
+  values.reserve(3 * std::size_t(image.Width()) * std::size_t(image.Height()));
+  for (int y = 0; y < image.Height(); ++y)
+    for (int x = 0; x < image.Width(); ++x)
+      for (const int channel : from) values.push_back(image.At(x, y, channel));
+  return values;
+}
+
+bool IsFinitePixel(const std::vector<float>& values, std::size_t pixel) {
+  return std::isfinite(values[3 * pixel]) && std::isfinite(values[3 * pixel + 1]) &&
+         std::isfinite(values[3 * pixel + 2]);
+}
+
+// One seed's, and each set's without one seed: weighted means over the values that count.
+class Sums {
+ public:
+  Sums(const std::vector<std::vector<float>>& pictures, const std::vector<float>& truth)
+      : pictures_(pictures), truth_(truth) {
+    for (std::size_t p = 0; p < truth.size() / 3; ++p) {
+      bool counts = IsFinitePixel(truth, p);
+      for (const auto& picture : pictures) counts = counts && IsFinitePixel(picture, p);
+      if (counts) pixels_.push_back(p);
+    }
+  }
+  const std::vector<std::size_t>& Pixels() const { return pixels_; }
+  double Count() const { return 3 * double(pixels_.size()); }
+
+  // mean w (x_k - r)^2
+  double RelMse(std::size_t k) const {
+    double sum = 0;
+    ForValues([&](std::size_t i, double w) {
+      const double d = double(pictures_[k][i]) - double(truth_[i]);
+      sum += w * d * d;
+    });
+    return sum / Count();
+  }
+  // mean w s^2 over all seeds but `without`; K or more: over all.
+  double Variance(std::size_t without) const {
+    const std::size_t all = pictures_.size();
+    const double count = double(without < all ? all - 1 : all);
+    double sum = 0;
+    ForValues([&](std::size_t i, double w) {
+      double mean = 0, squares = 0;
+      for (std::size_t k = 0; k < all; ++k)
+        if (k != without) mean += double(pictures_[k][i]) / count;
+      for (std::size_t k = 0; k < all; ++k) {
+        const double d = double(pictures_[k][i]) - mean;
+        if (k != without) squares += d * d;
+      }
+      sum += w * squares / (count - 1);
+    });
+    return sum / Count();
+  }
+  template <class Visit>
+  void ForValues(Visit&& visit) const {
+    for (const std::size_t p : pixels_)
+      for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) visit(i, RelMseWeight(double(truth_[i])));
+  }
+
+ private:
+  const std::vector<std::vector<float>>& pictures_;
+  const std::vector<float>& truth_;
+  std::vector<std::size_t> pixels_;
+};
+
+// The jackknife's standard error from the values without one seed each.
+double Jackknife(const std::vector<double>& partial) {
+  const Measured mean = MeanOf(partial);
+  double squares = 0;
+  for (const double v : partial) squares += (v - mean.value) * (v - mean.value);
+  const double count = double(partial.size());
+  return std::sqrt((count - 1) / count * squares);
+}
+
+// Standard error of 2 mean w (m - truth)(truth - r), the part of relMse that comes from the
+// reference's noise meeting the error; (a - b) / 2 stands for that noise.
+double CrossError(const Sums& sums, const std::vector<float>& mean, const std::vector<float>& truth,
+                  const std::vector<float>& noise) {
+  if (noise.empty()) return 0;
+  double squares = 0;
+  for (const std::size_t p : sums.Pixels()) {
+    double pixel = 0;
+    for (std::size_t i = 3 * p; i < 3 * p + 3; ++i)
+      pixel +=
+          RelMseWeight(double(truth[i])) * (double(mean[i]) - double(truth[i])) * double(noise[i]);
+    squares += pixel * pixel;
+  }
+  return 2 * std::sqrt(squares) / sums.Count();
+}
+
+}  // namespace
+
+Measured MeanOf(const std::vector<double>& values) {
+  Measured result;
+  if (values.empty()) return result;
+  const double count = double(values.size());
+  result.value = 0;
+  for (const double v : values) result.value += v / count;
+  if (values.size() < 2) return result;
+  double squares = 0;
+  for (const double v : values) squares += (v - result.value) * (v - result.value);
+  result.error = std::sqrt(squares / (count - 1) / count);
+  return result;
+}
+
+Reference MakeReference(Image a) {
+  FindColors(a, "the reference");
+  return {std::move(a), {}, {}};
+}
+
+Reference MakeReference(const Image& a, const Image& b) {
+  CompareImages(a, b);  // the checks
+  Reference reference;
+  const std::vector<float> first = Colors(a, "half a"), second = Colors(b, "half b");
+  reference.mean = Image(a.data, a.display, {"R", "G", "B"});
+  std::vector<double> squares;  // of the pixels
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    reference.mean.pixels[i] = float((double(first[i]) + double(second[i])) / 2);
+    reference.halfDifference.push_back(float((double(first[i]) - double(second[i])) / 2));
+  }
+  for (std::size_t p = 0; p < first.size() / 3; ++p) {
+    if (!IsFinitePixel(first, p) || !IsFinitePixel(second, p)) continue;
+    double sum = 0;
+    for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
+      const double d = double(reference.halfDifference[i]);
+      sum += RelMseWeight(double(reference.mean.pixels[i])) * d * d / 3;
+    }
+    squares.push_back(sum);
+  }
+  reference.variance = MeanOf(squares);
+  return reference;
+}
+
+Separation Separate(const std::vector<Image>& pictures, const Reference& reference) {
+  Separation result;
+  result.seeds = int(pictures.size());
+  std::vector<std::vector<float>> values;
+  for (const Image& picture : pictures) {
+    CompareImages(reference.mean, picture);  // the checks
+    values.push_back(Colors(picture, "the picture"));
+  }
+  const std::vector<float> truth = Colors(reference.mean, "the reference");
+  result.mean.resize(truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    double sum = 0;
+    for (const auto& picture : values) sum += double(picture[i]);
+    result.mean[i] = float(sum / double(values.size()));
+  }
+  const Sums sums(values, truth);
+  if (values.empty() || sums.Count() == 0) return result;
+  const std::size_t count = values.size();
+  std::vector<double> relMses;
+  for (std::size_t k = 0; k < count; ++k) relMses.push_back(sums.RelMse(k));
+  result.relMse = MeanOf(relMses);
+  const double noise = reference.variance.IsKnown() ? reference.variance.value : 0;
+  const double noiseError = std::isfinite(reference.variance.error) ? reference.variance.error : 0;
+  const double cross = CrossError(sums, result.mean, truth, reference.halfDifference);
+  result.error = {result.relMse.value - noise, std::hypot(result.relMse.error, noiseError, cross)};
+  if (count < 2) return result;
+  result.variance.value = sums.Variance(count);
+  result.bias2.value = result.error.value - result.variance.value;
+  if (count < 3) return result;
+  std::vector<double> variances, biases;
+  for (std::size_t k = 0; k < count; ++k) {
+    double others = 0;
+    for (std::size_t j = 0; j < count; ++j)
+      if (j != k) others += relMses[j] / double(count - 1);
+    variances.push_back(sums.Variance(k));
+    biases.push_back(others - variances.back());
+  }
+  result.variance.error = Jackknife(variances);
+  result.bias2.error = std::hypot(Jackknife(biases), noiseError, cross);
+  return result;
+}
+
+double ReferenceShortfall(const Reference& reference, double error) {
+  if (!reference.variance.IsKnown()) return 0;
+  if (!(error > 0)) return std::numeric_limits<double>::infinity();
+  return reference.variance.value / (kMaxReferenceShare * error);
+}
+
+}  // namespace exphoton::study

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Looking at pictures and changing their format.
+#include "core/app/commands/image_commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/app/commands/photons_command.h"
+#include "core/app/options/errors.h"
+#include "core/app/options/limits.h"
+#include "core/app/options/option_parser.h"
+#include "core/app/options/values.h"
+#include "core/app/output/output_files.h"
+#include "core/app/output/run_files.h"
+#include "core/app/process/interrupt_watch.h"
+#include "core/base/error.h"
+#include "core/base/log.h"
+#include "core/imaging/files/exr.h"
+#include "core/imaging/files/png.h"
+
+namespace exphoton::cli {
+namespace {
+
+template <class... Args>
+std::string Print(const char* format, Args... args) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+std::string WindowText(const char* name, const PixelBounds& window) {
+  return Print("%-16s %d x %d at (%d, %d)\n", name, window.Width(), window.Height(), window.x0,
+               window.y0);
+}
+
+// Least, mean and greatest of the finite values.
+std::string ChannelText(const Image& image, int channel) {
+  double sum = 0;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  long long finite = 0, nonFinite = 0;
+  for (int y = 0; y < image.Height(); ++y) {
+    for (int x = 0; x < image.Width(); ++x) {
+      const float value = image.At(x, y, channel);
+      if (!std::isfinite(value)) {
+        ++nonFinite;
+        continue;
+      }
+      ++finite;
+      sum += double(value);
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  std::string text = Print("  %-14s ", image.channels[std::size_t(channel)].c_str());
+  text += finite > 0 ? Print("min %-12.6g mean %-12.6g max %-12.6g", double(low),
+                             sum / double(finite), double(high))
+                     : std::string("no finite value");
+  if (nonFinite > 0) text += Print(" (%lld not finite)", nonFinite);
+  return text + "\n";
+}
+
+std::string AttributeText(const ImageAttribute& attribute) {
+  if (const auto* text = std::get_if<std::string>(&attribute)) {
+    std::string indented;
+    std::string_view rest = *text;
+    while (rest.ends_with('\n')) rest.remove_suffix(1);
+    for (const char c : rest)
+      indented += c == '\n' ? std::string("\n") + std::string(17, ' ') : std::string(1, c);
+    return indented;
+  }
+  if (const auto* number = std::get_if<float>(&attribute)) return Print("%.9g", double(*number));
+  if (const auto* integer = std::get_if<int>(&attribute)) return std::to_string(*integer);
+  std::string list;
+  for (const float value : std::get<std::vector<float>>(attribute))
+    list += Print(list.empty() ? "%.9g" : " %.9g", double(value));
+  return list;
+}
+
+std::string InfoText(const std::string& path, const Image& image) {
+  std::string text = path + "\n" + WindowText("data window", image.data) +
+                     WindowText("display window", image.display) + "channels\n";
+  for (int c = 0; c < image.ChannelCount(); ++c) text += ChannelText(image, c);
+  if (!image.attributes.empty()) text += "attributes\n";
+  for (const auto& [name, value] : image.attributes)
+    text += Print("  %-14s ", name.c_str()) + AttributeText(value) + "\n";
+  return text;
+}
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+int RunInfo(const std::vector<std::string>& arguments) {
+  return Guarded([&] {
+    const auto isPhotons = [](const std::string& a) { return a.starts_with("--photons-at"); };
+    if (std::any_of(arguments.begin(), arguments.end(), isPhotons))
+      return PrintPhotonsAt(arguments);
+    OptionParser app(
+        "Prints windows, channels, attributes and ranges of pictures; with --photons-at x,y SCENE "
+        "the photons around what a pixel shows (see its --help).",
+        "exphoton info");
+    std::vector<std::string> files;
+    std::string limitsText;
+    app.Add("files", files, "EXR or PNG files").Required();
+    AddLimitsOption(app, &limitsText);
+    app.Parse(arguments);
+    const Limits limits = ParseLimits(limitsText);
+    LimitMemory(limits);
+    const InterruptWatch watch(limits.seconds);
+    for (const std::string& file : files) PrintOut(InfoText(file, ReadImage(file)));
+  });
+}
+
+int RunConvert(const std::vector<std::string>& arguments) {
+  return Guarded([&] {
+    OptionParser app("Converts between EXR (linear) and PNG (sRGB), by the names' endings.",
+                     "exphoton convert");
+    std::string from, to, limitsText;
+    float exposure = 0;
+    bool asFloat = false;
+    app.Add("from", from, "picture to read").Required();
+    app.Add("to", to, "picture to write: NAME.exr or NAME.png").Required();
+    app.Add("--exposure", exposure, "for PNG: multiply by 2 to this power")
+        .Between(-100.0, 100.0)
+        .DefaultText("0");
+    app.AddFlag("--float", asFloat, "for EXR: 32-bit channels");
+    AddLimitsOption(app, &limitsText);
+    app.Parse(arguments);
+    const bool isPng = EndsWith(to, ".png");
+    if (!isPng && !EndsWith(to, ".exr")) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
+    if (!isPng && exposure != 0) FailUsage("--exposure is for PNG: an EXR stays linear");
+    RunFiles files;
+    files.AddInput(from, "this command");
+    files.AddOutput("to", {to, "the picture", "another name keeps both pictures"});
+    Log log;
+    files.Check(log);
+    const Limits limits = ParseLimits(limitsText);
+    LimitMemory(limits);
+    const InterruptWatch watch(limits.seconds);
+    const Image image = ReadImage(from);
+    if (isPng)
+      WritePng(to, image, exposure);
+    else
+      WriteExr(to, image, !asFloat);
+  });
+}
+
+}  // namespace exphoton::cli

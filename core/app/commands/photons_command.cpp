@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Loads the scene, shoots its photons, follows one camera ray through the middle of a pixel and
+// asks the integrator what lies around the point it meets. A table, and a plot of directions on the
+// hemisphere over that point.
+#include "core/app/commands/photons_command.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/app/options/limits.h"
+#include "core/app/options/option_parser.h"
+#include "core/app/options/values.h"
+#include "core/app/output/output_files.h"
+#include "core/app/output/run_files.h"
+#include "core/app/process/interrupt_watch.h"
+#include "core/app/process/signals.h"
+#include "core/app/report/markup.h"
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/parser/render_setup.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton::cli {
+namespace {
+
+struct Options {
+  std::string scene, pixel, map = "indirect", plotFile, integrator;
+  std::vector<std::string> sets, pluginFolders;
+  int count = 50, threads = 0;
+  std::uint64_t seed = 0;
+  bool allowsScenePlugins = false;
+  std::string limits;
+};
+
+Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
+  Options options;
+  OptionParser app("Prints the photons nearest to what a pixel shows.",
+                   "exphoton info --photons-at");
+  app.Add("--photons-at", options.pixel, "the pixel").Required().TypeName("x,y");
+  app.Add("scene", options.scene, "the scene").Required();
+  app.Add("--map", options.map, "indirect (default), direct or caustic")
+      .OneOf({"indirect", "direct", "caustic"});
+  app.Add("--count", options.count, "so many photons (default 50)").Between(1, 1000000);
+  app.Add("--plot", options.plotFile, "also plot their directions to this file")
+      .TypeName("FILE.svg");
+  app.Add("--integrator", options.integrator, "as in exphoton render");
+  app.Add("--set", options.sets, "as in exphoton render").OnePerUse();
+  app.Add("--seed", options.seed, "other photons");
+  app.Add("--nthreads,--ncores", options.threads, "threads; 0: all cores").Between(0, 4096);
+  app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
+      .OnePerUse();
+  AddScenePluginsOption(app, &options.allowsScenePlugins);
+  AddLimitsOption(app, &options.limits);
+  app.Parse(arguments);
+  return options;
+}
+
+LoadOptions SceneOptions(const Options& options) {
+  LoadOptions load;
+  load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
+  load.allowsScenePlugins = options.allowsScenePlugins;
+  load.limits = ParseLimits(options.limits).scene;
+  load.stop = &StopFlag();
+  load.threads = options.threads;
+  if (!options.integrator.empty()) load.integrator = options.integrator;
+  for (const std::string& set : options.sets) load.parameters.push_back(ParseOverride(set));
+  return load;
+}
+
+// A surface point with its frame: n towards the viewer, and two directions along the surface.
+struct Place {
+  Point3 p;
+  Normal3 n;
+  Vector3 s, t;
+
+  // Angle to the normal and about it, in degrees, and whether it is above the surface.
+  double Polar(const Vector3& w) const {
+    return std::acos(std::clamp(double(Dot(w, n)), -1., 1.)) * 180 / 3.14159265358979;
+  }
+  double Azimuth(const Vector3& w) const {
+    return std::atan2(double(Dot(w, t)), double(Dot(w, s))) * 180 / 3.14159265358979;
+  }
+};
+
+Place FindPlace(const RenderSetup& setup, const PixelBounds& pixel) {
+  if (pixel.x1 > setup.film.xResolution || pixel.y1 > setup.film.yResolution)
+    FailUsage("--photons-at lies outside the picture");
+  CameraSample sample;
+  sample.film = {Real(pixel.x0) + Real(.5), Real(pixel.y0) + Real(.5)};
+  sample.lens = {Real(.5), Real(.5)};
+  const RayDifferential ray = setup.camera->GenerateRay(sample, false);
+  const auto hit = setup.scene->Intersect(ray);
+  if (!hit) FailUsage("nothing is seen at this pixel");
+  Place place{hit->p, FaceForward(hit->ng, -ray.d), {}, {}};
+  // s along the world's x axis, or its z axis where the surface faces x.
+  const Vector3 n(place.n);
+  const Vector3 axis = std::abs(n.x) < Real(.9) ? Vector3(1, 0, 0) : Vector3(0, 0, 1);
+  place.s = Normalize(axis - n * Dot(axis, n));
+  place.t = Cross(n, place.s);
+  return place;
+}
+
+std::string TableText(const Place& place, const std::vector<StoredPhoton>& photons) {
+  char line[256];
+  std::snprintf(line, sizeof line, "# point %.6g %.6g %.6g, normal %.4f %.4f %.4f\n",
+                double(place.p.x), double(place.p.y), double(place.p.z), double(place.n.x),
+                double(place.n.y), double(place.n.z));
+  std::string text = line;
+  text +=
+      "# distance; direction to where it came from: x y z, degrees from the normal, degrees about "
+      "it; power R G B\n";
+  for (const StoredPhoton& photon : photons) {
+    std::snprintf(line, sizeof line, "%-12.6g %8.4f %8.4f %8.4f %7.2f %8.2f  %.5g %.5g %.5g\n",
+                  double(photon.distance), double(photon.wi.x), double(photon.wi.y),
+                  double(photon.wi.z), place.Polar(photon.wi), place.Azimuth(photon.wi),
+                  double(photon.power[0]), double(photon.power[1]), double(photon.power[2]));
+    text += line;
+  }
+  return text;
+}
+
+// Directions on the unit disk, where areas are solid angles (Lambert's projection); a photon's area
+// is its power.
+std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photons) {
+  using study::Coordinate;
+  constexpr double kSize = 360, kRadius = 150, kDegree = 3.14159265358979 / 180;
+  const auto radius = [](double polar) {
+    return kRadius * std::sqrt(2.) * std::sin(polar * kDegree / 2);
+  };
+  std::string text =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + Coordinate(kSize) + " " +
+      Coordinate(kSize) +
+      "\" width=\"360\" height=\"360\"><style>text{font:11px sans-serif;fill:#777}"
+      "circle.ring{fill:none;stroke:#9a9a9a;stroke-width:.7}"
+      "circle.dot{fill:#0b5fa5;fill-opacity:.55;stroke:#0b5fa5}"
+      "@media (prefers-color-scheme:dark){circle.dot{fill:#7cc0ff;stroke:#7cc0ff}}</style>\n";
+  for (const double polar : {30., 60., 90.}) {
+    const double r = radius(polar);
+    text += "<circle class=\"ring\" cx=\"180\" cy=\"180\" r=\"" + Coordinate(r) + "\"/>";
+    text += study::SvgText({180, 180 - r - 3}, Coordinate(polar) + "°", "middle") + "\n";
+  }
+  double mean = 0;
+  for (const StoredPhoton& photon : photons)
+    mean += double(photon.power.Y()) / double(photons.size());
+  for (const StoredPhoton& photon : photons) {
+    const double r = radius(place.Polar(photon.wi)), angle = place.Azimuth(photon.wi) * kDegree;
+    const double size = 4 * std::sqrt(std::max(0., double(photon.power.Y()) / mean));
+    text += "<circle class=\"dot\" cx=\"" + Coordinate(180 + r * std::cos(angle)) + "\" cy=\"" +
+            Coordinate(180 - r * std::sin(angle)) + "\" r=\"" + Coordinate(size) + "\"/>\n";
+  }
+  return text + "</svg>\n";
+}
+
+void CheckFiles(const Options& options, const RenderSetup& setup, Log& log) {
+  if (options.plotFile.empty()) return;
+  RunFiles files;
+  files.AddPluginFolders(PluginRegistry::DefaultFolders(options.pluginFolders));
+  files.AddScene(setup);
+  files.AddOutput("plot", {options.plotFile, "the plot", "--plot FILE.svg names another file"});
+  files.Check(log);
+}
+
+}  // namespace
+
+void PrintPhotonsAt(const std::vector<std::string>& arguments) {
+  const Options options = ParsePhotonsOptions(arguments);
+  const PixelBounds pixel = ParsePixel(options.pixel);
+  Log log(Log::Level::Quiet);
+  FileSource source;
+  const Limits limits = ParseLimits(options.limits);
+  LimitMemory(limits);
+  const InterruptWatch watch(limits.seconds);
+  const auto setups = LoadScenes(source, options.scene, SceneOptions(options), log);
+  const RenderSetup& setup = *setups.front();
+  CheckFiles(options, setup, log);
+  const Place place = FindPlace(setup, pixel);
+  ThreadPool threads(options.threads);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  SampleLayout layout;
+  setup.integrator->RequestSamples(*setup.scene, *setup.sampler, &layout);
+  PreprocessContext context{threads,
+                            options.seed,
+                            log,
+                            progress,
+                            statistics,
+                            false,
+                            setup.camera.get(),
+                            {setup.film.xResolution, setup.film.yResolution},
+                            setup.volumeIntegrator.get()};
+  setup.integrator->Preprocess(*setup.scene, context);
+  const auto photons = setup.integrator->PhotonsNear(place.p, options.map, options.count);
+  if (photons.empty())
+    log.Warning("integrator \"" + setup.integratorName + "\" has no " + options.map +
+                " photons in this scene");
+  PrintOut(TableText(place, photons));
+  if (!options.plotFile.empty()) WriteTextFile(options.plotFile, PlotText(place, photons));
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// From scene files to pictures: check all files of the run, then load, render, write and report one
+// scene file after the other.
+#include "core/app/commands/render_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+
+#include "core/app/options/errors.h"
+#include "core/app/output/output_files.h"
+#include "core/app/output/output_names.h"
+#include "core/app/output/picture.h"
+#include "core/app/output/run_files.h"
+#include "core/app/output/run_record.h"
+#include "core/app/process/interrupt_watch.h"
+#include "core/app/process/signals.h"
+#include "core/base/memory.h"
+#include "core/base/progress.h"
+#include "core/imaging/files/exr.h"
+#include "core/imaging/files/png.h"
+#include "core/parser/scene_files.h"
+
+namespace exphoton::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Setups = std::vector<std::unique_ptr<RenderSetup>>;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// When the work for a picture began, and what of it was reading the scene.
+struct Begin {
+  Clock::time_point wall = Clock::now();
+  double cpu = ProcessCpuSeconds();
+  double loadWall = 0, loadCpu = 0;
+};
+
+// Thrown after an interrupted picture has been written.
+struct Interrupted {};
+
+// What the scene files of a command line share.
+struct Run {
+  RunFiles files;
+  std::string statistics;  // of all pictures so far, as JSON
+  FileSource::Streams streams;
+};
+
+// Renders the scenes of one file.
+class FileRenderer {
+ public:
+  FileRenderer(const RenderCommand& command, Run& run, Log& log)
+      : command_(command), names_(command), run_(run), log_(log), watch_(command.limits.seconds) {}
+
+  // `index`: of the file among the command line's.
+  void Render(std::size_t index) {
+    const std::string& path = command_.scenes[index];
+    Setups setups = Load(path);
+    if (command_.mode == RenderMode::Check) return log_.Verbose("\"" + path + "\" has no errors");
+    if (command_.mode == RenderMode::Explain) {
+      for (const auto& setup : setups) PrintOut(ExplainText(*setup));
+      return;
+    }
+    CheckOutputs(setups, index);
+    for (std::unique_ptr<RenderSetup>& setup : setups) {
+      watch_.MustFinish() = false;
+      RenderOne(*setup);
+      setup.reset();
+    }
+  }
+
+ private:
+  // What has been written.
+  struct Picture {
+    std::string path;
+    Image image;
+    ExrWriteReport report;
+  };
+
+  Setups Load(const std::string& path);
+  void CheckOutputs(const Setups& setups, std::size_t index);
+  void RenderOne(const RenderSetup& setup);
+  void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
+  void TakeResult(const PassesResult& result, RunRecord* run) const;
+  Picture Write(const RunRecord& run, Image image, Statistics& statistics);
+  void Announce(const RunRecord& run, const Picture& picture);
+  void Report(const RunRecord& run);
+
+  const RenderCommand& command_;
+  const OutputNames names_;
+  Run& run_;
+  Log& log_;
+  InterruptWatch watch_;
+  std::optional<Begin> begin_;  // of the first picture
+};
+
+Setups FileRenderer::Load(const std::string& path) {
+  Begin& begin = begin_.emplace();
+  LoadOptions options = command_.load;
+  options.stop = &StopFlag();
+  options.threads = command_.threadCount;
+  FileSource source(&run_.streams);
+  Setups setups = LoadScenes(source, path, options, log_);
+  begin.loadWall = SecondsSince(begin.wall);
+  begin.loadCpu = ProcessCpuSeconds() - begin.cpu;
+  return setups;
+}
+
+void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
+  const std::string& scenePath = command_.scenes[index];
+  if (!command_.outfile.empty() && setups.size() > 1)
+    throw Error(ExitStatus::CommandLine, "--outfile names one picture, but \"" + scenePath +
+                                             "\" holds " + std::to_string(setups.size()) +
+                                             " scenes");
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    CheckLayers(command_, *setups[i]);
+    run_.files.AddScene(*setups[i]);
+    names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
+  }
+  run_.files.Check(log_);
+  for (const auto& setup : setups) {
+    const std::string output = names_.Picture(setup->film.filename);
+    if (std::filesystem::path(output).extension() != ".exr")
+      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, whatever its name");
+  }
+}
+
+void FileRenderer::RenderOne(const RenderSetup& setup) {
+  const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
+  log_.Notice("effects:\n" + setup.scene->Effects().Describe());
+  PictureFilms films(command_, setup);
+  ThreadPool threads(command_.threadCount);
+  if (threads.Count() < command_.threadCount)
+    log_.Warning("only " + std::to_string(threads.Count()) + " of " +
+                 std::to_string(command_.threadCount) + " threads could be started");
+  ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
+                                                   : ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  AddLoadingTimes(setup, begin, &statistics);
+  RenderOptions options;
+  options.seed = command_.seed;
+  options.isStrict = command_.load.isStrict;
+  options.footprintSamples = command_.footprintSamples;
+  options.stop = &StopFlag();
+  options.pixelsBegun = &watch_.MustFinish();
+  options.layers = films.layers.get();
+
+  const Clock::time_point start = Clock::now();
+  const PassesResult result =
+      RenderPicture(command_,
+                    {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera,
+                     films.film, threads, log_, progress, statistics, setup.volumeIntegrator.get()},
+                    options, begin.wall, &films);
+  watch_.MustFinish() = true;
+  RunRecord run(setup, statistics);
+  run.commandLine = command_.commandLine;
+  run.threads = threads.Count();
+  run.renderSeconds = SecondsSince(start);
+  TakeResult(result, &run);
+  const Picture picture =
+      Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
+  try {
+    Announce(run, picture);
+    run.wallSeconds = SecondsSince(begin.wall);
+    run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
+    run.peakMemory = PeakMemoryBytes();
+    statistics.SetCounter("memory/peak", run.peakMemory, "most bytes of memory held at any time");
+    Report(run);
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::Resource, "out of memory after the picture \"" + picture.path +
+                                          "\" was written; " + MemoryLimit());
+  }
+  if (!run.isComplete) throw Interrupted();
+}
+
+// Reading the scene is work for the first picture of a file.
+void FileRenderer::AddLoadingTimes(const RenderSetup& setup, const Begin& begin,
+                                   Statistics* statistics) const {
+  const double wall = begin.loadWall - setup.acceleratorSeconds;
+  const double cpu = begin.loadCpu - setup.acceleratorCpuSeconds;
+  statistics->AddPhase("parse", std::max(wall, 0.), std::max(cpu, 0.));
+  statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
+}
+
+void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
+  run->seed = command_.seed;
+  run->isComplete = result.render.isComplete;
+  run->nonFiniteSamples = result.render.nonFiniteSamples;
+  run->samplesPerPixel = result.samplesPerPixel;
+  run->footprintSamples = command_.footprintSamples;
+  run->passes = result.passes;
+  run->stoppedBy = StopReasonName(result.reason);
+  run->noise = result.noise;
+  run->timeLimit = command_.timeLimit;
+  run->targetError = command_.targetError;
+  run->layers = LayerNames(command_);
+  if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
+}
+
+FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
+                                          Statistics& statistics) {
+  const PhaseTimer timer(statistics, "write");
+  Picture picture{names_.Picture(run.setup.film.filename), std::move(image), {}};
+  if (!run.isComplete) picture.path = run_.files.PartialPicture(picture.path);
+  picture.image.attributes = PictureAttributes(run, command_.isReproducible);
+  picture.report = WriteExr(picture.path, picture.image, command_.asHalf);
+  return picture;
+}
+
+// What follows once there is a picture.
+void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
+  if (picture.report.clampedToHalf > 0)
+    log_.Warning(std::to_string(picture.report.clampedToHalf) +
+                 " values above 65504 were written as 65504; --float stores them as they are");
+  if (!command_.previewFile.empty() && run.isComplete)
+    WritePng(command_.previewFile, picture.image);
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.2f s", run.renderSeconds);
+  log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") +
+              picture.path + "\" (rendered in " + seconds + ")");
+}
+
+// The file has a line for each picture so far, so that an interrupted run keeps them.
+void FileRenderer::Report(const RunRecord& run) {
+  if (command_.printsStatistics) PrintOut(StatisticsTable(run));
+  if (command_.statsFile.empty()) return;
+  const std::string line = StatisticsJson(run);
+  if (command_.statsFile == "-") return PrintOut(line);
+  run_.statistics += line;
+  WriteTextFile(command_.statsFile, run_.statistics);
+}
+
+// With several scene files, what each writes is known only by reading them all. Nothing is loaded
+// for that, and what is wrong in a file is said later, when it is loaded.
+void CheckAllFiles(const RenderCommand& command, Run& run, Log& log) {
+  if (command.mode != RenderMode::Render || command.scenes.size() < 2) return;
+  const InterruptWatch watch(command.limits.seconds);
+  const OutputNames names(command);
+  LoadOptions options = command.load;
+  options.stop = &StopFlag();
+  for (std::size_t index = 0; index < command.scenes.size(); ++index) {
+    FileSource source(&run.streams);
+    const SceneFiles files = ScanScene(source, command.scenes[index], options);
+    run.files.AddScene(command.scenes[index], files.inputs);
+    if (!files.isWhole) continue;
+    for (std::size_t i = 0; i < files.pictures.size(); ++i)
+      names.AddTo(run.files, {index, i}, files.pictures[i]);
+  }
+  run.files.Check(log);
+}
+
+// Renders one file after the other. Returns the status of the first file that failed.
+int RenderFiles(const RenderCommand& command, Run& run) {
+  int status = 0;
+  for (std::size_t index = 0; index < command.scenes.size(); ++index) {
+    Log log(command.logLevel);
+    const int result = Guarded([&] {
+      try {
+        FileRenderer(command, run, log).Render(index);
+      } catch (const Interrupted&) {
+        // Its picture is written; the status says the rest.
+      }
+    });
+    log.Summarize();
+    if (status == 0) status = result;
+    if (SignalNumber() != 0) return 128 + SignalNumber();
+  }
+  return status;
+}
+
+}  // namespace
+
+int RunRender(const RenderCommand& command) {
+  LimitMemory(command.limits);
+  Run run;
+  run.files.AddPluginFolders(command.load.pluginFolders);
+  Log log(command.logLevel);
+  CheckAllFiles(command, run, log);
+  log.Summarize();
+  return RenderFiles(command, run);
+}
+
+}  // namespace exphoton::cli

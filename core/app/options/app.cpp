@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Dispatch by the first argument; without a command's name it is a scene to render.
+#include "core/app/options/app.h"
+
+#include "core/app/commands/compare_command.h"
+#include "core/app/commands/image_commands.h"
+#include "core/app/commands/plugins_command.h"
+#include "core/app/commands/render_command.h"
+#include "core/app/options/arguments.h"
+#include "core/app/options/errors.h"
+#include "core/app/options/options.h"
+#include "core/app/process/signals.h"
+#include "core/app/study/study_command.h"
+
+namespace exphoton::cli {
+namespace {
+
+int RunScenes(const std::vector<std::string>& program, const std::vector<std::string>& arguments,
+              RenderMode mode) {
+  int result = 0;
+  const int status = Guarded([&] {
+    RenderCommand command = ParseRenderCommand(arguments, mode);
+    command.commandLine = CommandLineText(program);
+    result = RunRender(command);
+  });
+  return status ? status : result;
+}
+
+}  // namespace
+
+int RunProgram(const std::vector<std::string>& arguments) {
+  WatchSignals();
+  const std::string command = arguments.size() > 1 ? arguments[1] : "";
+  const std::vector<std::string> rest(
+      arguments.begin() + std::min<std::ptrdiff_t>(2, std::ptrdiff_t(arguments.size())),
+      arguments.end());
+  if (command == "render") return RunScenes(arguments, rest, RenderMode::Render);
+  if (command == "explain") return RunScenes(arguments, rest, RenderMode::Explain);
+  if (command == "plugins") return RunPlugins(rest);
+  if (command == "info") return RunInfo(rest);
+  if (command == "convert") return RunConvert(rest);
+  if (command == "compare") return RunCompare(rest);
+  if (command == "study") return RunStudy(rest, CommandLineText(arguments));
+  if (command == "report") return RunReport(rest);
+  const std::vector<std::string> all(
+      arguments.begin() + std::min<std::ptrdiff_t>(1, std::ptrdiff_t(arguments.size())),
+      arguments.end());
+  return RunScenes(arguments, all, RenderMode::Render);
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The last place that an exception reaches.
+#include "core/app/options/errors.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/app/options/option_parser.h"
+#include "core/app/output/output_files.h"
+#include "core/app/process/signals.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/base/terminal.h"
+#include "core/imaging/image.h"
+#include "core/parser/render_setup.h"
+
+namespace exphoton::cli {
+namespace {
+
+int Fail(ExitStatus status, const std::string& text,
+         const std::optional<SourceLocation>& where = {}, const std::string& hint = {}) {
+  const std::string message = FormatDiagnostic("error", text, where, hint);
+  const std::string shown = (IsRedrawable() ? "\r\x1b[K" : "") + Colored(message, "error");
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
+  return int(status);
+}
+
+// With nothing that allocates: what fails here has nowhere left to go.
+int FailWithoutMemory() {
+  if (IsRedrawable()) std::fputs("\r\x1b[K", stderr);
+  std::fputs("exphoton: error: ", stderr);
+  std::fputs(OutOfMemoryText(), stderr);
+  std::fputs("\n", stderr);
+  return int(ExitStatus::Resource);
+}
+
+int FailBySystem(ExitStatus status, const std::string& text, const std::error_code& code) {
+  if (code == std::errc::not_enough_memory) throw std::bad_alloc();
+  return Fail(status, text);
+}
+
+// Writing the message of a failure may run out of memory itself.
+int Try(void (*work)(const void*), const void* context) {
+  try {
+    work(context);
+    return 0;
+  } catch (const TextRequest& request) {
+    return Guarded([&request] { PrintOut(request.text); });
+  } catch (const LoadingStopped&) {
+    std::fputs("exphoton: interrupted before anything was rendered\n", stderr);
+    return 128 + SignalNumber();
+  } catch (const Error& error) {
+    return Fail(error.Status(), error.what(), error.Where(), error.Hint());
+  } catch (const ImageError& error) {
+    return Fail(ExitStatus::File, error.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::length_error&) {
+    return Fail(ExitStatus::Resource, "out of memory: something is larger than any memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return FailBySystem(ExitStatus::File,
+                        std::string("cannot use a file or folder: ") + error.what(), error.code());
+  } catch (const std::system_error& error) {
+    return FailBySystem(ExitStatus::Resource, error.what(), error.code());
+  } catch (const std::exception& error) {
+    return Fail(ExitStatus::Internal, std::string("internal error: ") + error.what());
+  } catch (...) {
+    return Fail(ExitStatus::Internal, "internal error of an unknown kind");
+  }
+}
+
+}  // namespace
+
+int GuardedCall(void (*work)(const void*), const void* context) {
+  try {
+    return Try(work, context);
+  } catch (const std::bad_alloc&) {
+    return FailWithoutMemory();
+  }
+}
+
+}  // namespace exphoton::cli

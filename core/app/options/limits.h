@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// --limits: how much memory and time the files of a command may cost, for files from strangers, and
+// what a scene may ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/parser/syntax/scene_limits.h"
+
+namespace exphoton::cli {
+
+class OptionParser;
+
+struct Limits {
+  std::optional<double> memoryBytes;
+  std::optional<double> seconds;  // until the first pixel, or of a command that renders nothing
+  SceneLimits scene;
+};
+
+// "memory=2G,time=60s,includes=1000000,texturenodes=10000000". Throws Error(CommandLine).
+Limits ParseLimits(const std::string& text);
+
+// Limits the memory of this process and its children. Throws Error(Resource).
+void LimitMemory(const Limits& limits);
+
+// Declares the option, as text for ParseLimits.
+void AddLimitsOption(OptionParser& app, std::string* text);
+
+// Declares --allow-scene-plugins.
+void AddScenePluginsOption(OptionParser& app, bool* allows);
+
+}  // namespace exphoton::cli

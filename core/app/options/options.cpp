@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The options of `exphoton render`, declared to CLI11.
+#include "core/app/options/options.h"
+
+#include <algorithm>
+
+#include "core/app/options/limits.h"
+#include "core/app/options/option_parser.h"
+#include "core/app/options/values.h"
+#include "core/parser/effect_choice.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr int kMaxThreads = 4096;
+constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
+
+// What CLI11 stores as text and is read afterwards.
+struct RawOptions {
+  std::string cropWindow, pixelBounds, pixel, dialect = "v1";
+  std::vector<std::string> sets, pluginFolders;
+  std::string integrator, layers, timeLimit, limits;
+  std::int64_t samplesPerPixel = 0;
+  bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
+  bool checks = false, explains = false;
+};
+
+void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Add("scenes", command.scenes, "scene files; none or \"-\": standard input").TypeName("FILE");
+  app.Add("--integrator", raw.integrator, "use this surface integrator instead of the scene's")
+      .TypeName("NAME");
+  app.Add("--set", raw.sets, "set a parameter, for example SurfaceIntegrator.maxdist=1.5")
+      .TypeName("Directive.parameter=value")
+      .OnePerUse();
+  app.Add("--spp", raw.samplesPerPixel, "samples a pixel")
+      .Between(std::int64_t(1), kMaxSamplesPerPixel)
+      .TypeName("N");
+  app.Add("--cropwindow", raw.cropWindow, "a part of the picture, in fractions of it")
+      .TypeName("x0,x1,y0,y1");
+  app.Add("--pixelbounds", raw.pixelBounds, "a part in pixels, the upper ones excluded")
+      .TypeName("x0,x1,y0,y1");
+  app.Add("--pixel", raw.pixel, "one pixel").TypeName("x,y");
+  app.AddFlag("--quick", command.load.isQuick,
+              "a quarter of the resolution, 1 sample a pixel, a tenth of the photons");
+  app.Add("--effects", command.load.effects,
+          "what to compute: auto, all, or a list such as caustics=off,lens=on")
+      .TypeName("LIST");
+  app.Add("--dialect", raw.dialect, "how LookAt is meant: v1 (default) or v2")
+      .OneOf({"v1", "v2"})
+      .TypeName("");
+  app.AddFlag("--strict", command.load.isStrict,
+              "unknown parameters and samples that are not finite are errors");
+  app.Add("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
+      .TypeName("DIR")
+      .OnePerUse();
+  AddScenePluginsOption(app, &command.load.allowsScenePlugins);
+  AddLimitsOption(app, &raw.limits);
+}
+
+void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Add("-o,--outfile", command.outfile, "the picture's file instead of the scene's")
+      .TypeName("FILE");
+  app.Add("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
+      .Between(0, kMaxThreads)
+      .TypeName("N");
+  app.Add("--seed", command.seed, "another seed gives other noise").TypeName("N");
+  app.Add("--footprint-spp", command.footprintSamples,
+          "filter textures and bumps as with N samples a pixel, whatever --spp says; for renders "
+          "that are compared")
+      .Between(std::int64_t(1), kMaxSamplesPerPixel)
+      .TypeName("N");
+  app.AddFlag("--half", raw.asHalf, "16-bit channels (default)");
+  app.AddFlag("--float", raw.asFloat, "32-bit channels");
+  app.Add("--time-limit", raw.timeLimit,
+          "render whole passes until so much time is over: 90, 90s, 2m, 1h")
+      .TypeName("TIME");
+  app.Add("--target-error", command.targetError,
+          "render whole passes until the noise part of relMSE is estimated below this")
+      .TypeName("X");
+  app.AddFlag("--two-halves", command.asTwoHalves,
+              "render two independent halves, say how far apart they are, write both as layers");
+  app.Add("--aov", raw.layers, "also write these layers: " + AllLayerNames()).TypeName("LIST");
+  app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
+  app.AddFlag("--reproducible", command.isReproducible,
+              "leave times, dates, threads and command line out of the picture's file");
+  app.AddFlag("--check", raw.checks, "read the scene, report errors, render nothing");
+  app.AddFlag("--explain", raw.explains, "print what would be computed and why, render nothing");
+  app.AddFlag("--stats", command.printsStatistics, "print times, rays and counts at the end");
+  app.Add("--stats-json", command.statsFile, "write them to this file (-: print them)")
+      .TypeName("FILE");
+  app.AddFlag("--quiet", raw.isQuiet, "errors and warnings only");
+  app.AddFlag("--verbose", raw.isVerbose, "say more");
+  app.AddFlag("--no-progress", raw.hidesProgress, "no progress bar");
+}
+
+void Exclude(bool first, bool second, const char* text) {
+  if (first && second) FailUsage(text);
+}
+
+void TakeRaw(const RawOptions& raw, RenderCommand* command) {
+  LoadOptions& load = command->load;
+  Exclude(raw.asHalf, raw.asFloat, "--half and --float exclude each other");
+  Exclude(raw.isQuiet, raw.isVerbose, "--quiet and --verbose exclude each other");
+  Exclude(raw.checks, raw.explains, "--check and --explain exclude each other");
+  const int regions =
+      int(!raw.cropWindow.empty()) + int(!raw.pixelBounds.empty()) + int(!raw.pixel.empty());
+  if (regions > 1) FailUsage("--cropwindow, --pixelbounds and --pixel exclude each other");
+  if (!raw.cropWindow.empty()) load.cropWindow = ParseCropWindow(raw.cropWindow);
+  if (!raw.pixelBounds.empty()) load.pixelBounds = ParsePixelBounds(raw.pixelBounds);
+  if (!raw.pixel.empty()) load.pixelBounds = ParsePixel(raw.pixel);
+  for (const std::string& text : raw.sets) load.parameters.push_back(ParseOverride(text));
+  if (!raw.integrator.empty()) load.integrator = raw.integrator;
+  if (raw.samplesPerPixel > 0) load.samplesPerPixel = raw.samplesPerPixel;
+  load.dialect = raw.dialect == "v2" ? Dialect::V2 : Dialect::V1;
+  load.pluginFolders = PluginRegistry::DefaultFolders(raw.pluginFolders);
+  if (!raw.timeLimit.empty()) command->timeLimit = ParseDuration("--time-limit", raw.timeLimit);
+  if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
+    FailUsage("--target-error takes a number above 0");
+  Exclude(command->asTwoHalves, command->HasStoppingRule(),
+          "--two-halves and --time-limit or --target-error exclude each other");
+  command->limits = ParseLimits(raw.limits);
+  load.limits = command->limits.scene;
+  if (!raw.layers.empty()) command->layers = ParseLayerList(raw.layers);
+  command->asHalf = !raw.asFloat;
+  command->showsProgress = !raw.hidesProgress && !raw.isQuiet;
+  if (raw.isQuiet) command->logLevel = Log::Level::Quiet;
+  if (raw.isVerbose) command->logLevel = Log::Level::Verbose;
+  if (raw.checks) command->mode = RenderMode::Check;
+  if (raw.explains) command->mode = RenderMode::Explain;
+  if (command->scenes.empty()) command->scenes.push_back("-");
+  if (std::count(command->scenes.begin(), command->scenes.end(), "-") > 1)
+    FailUsage("standard input (-) is named twice");
+  if (!command->outfile.empty() && command->scenes.size() > 1)
+    FailUsage("--outfile names one picture, but there are several scenes");
+  Log quiet(Log::Level::Quiet, Log::Sink::Memory);
+  ChooseEffects(EffectPlan(), load.effects, quiet);  // throws where it cannot be read
+}
+
+}  // namespace
+
+RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, RenderMode mode) {
+  RenderCommand command;
+  command.mode = mode;
+  RawOptions raw;
+  OptionParser app("Renders scenes in the language of pbrt, versions 1 and 2, to OpenEXR pictures.",
+                   "exphoton [render]");
+  app.Footer(
+      "\nOther commands: exphoton study | report | compare | info | convert | plugins | "
+      "explain,\neach with --help.\n"
+      "Exit status: 0 complete, 1 command line, 2 scene, 3 files, 4 resources, 5 internal,\n"
+      "128 + n on signal n.");
+  AddSceneOptions(app, command, raw);
+  AddRunOptions(app, command, raw);
+  app.AddVersion(VersionText());
+  app.Parse(arguments);
+  TakeRaw(raw, &command);
+  return command;
+}
+
+std::string VersionText() { return "exphoton " EXPHOTON_VERSION; }
+
+}  // namespace exphoton::cli

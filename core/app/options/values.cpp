@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Lists of numbers separated by commas, and --set.
+#include "core/app/options/values.h"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/params/suggestions.h"
+#include "core/parser/film_parameters.h"
+
+namespace exphoton::cli {
+namespace {
+
+// Exactly `count` numbers, or a usage error.
+template <class T>
+std::vector<T> ParseList(const std::string& option, const std::string& text, std::size_t count,
+                         const std::string& form) {
+  std::vector<T> values;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at < end) {
+    if (*at == '+' || *at == ' ') {
+      ++at;
+      continue;
+    }
+    T value{};
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc{} || (next != end && *next != ',')) break;
+    values.push_back(value);
+    if (next == end) {
+      at = end;
+      break;
+    }
+    at = next + 1;
+    if (at == end) break;  // a comma at the end
+  }
+  const bool isWhole = at == end && !text.empty() && text.back() != ',';
+  if (!isWhole || values.size() != count)
+    FailUsage(option + " takes " + form + ", not \"" + text + "\"");
+  return values;
+}
+
+}  // namespace
+
+void FailUsage(const std::string& text, const std::string& hint) {
+  throw Error(ExitStatus::CommandLine, text, SourceLocation(), hint);
+}
+
+std::vector<Real> ParseCropWindow(const std::string& text) {
+  std::vector<Real> window = ParseList<Real>("--cropwindow", text, 4, "x0,x1,y0,y1");
+  if (const std::string problem = CheckCropWindow(window); !problem.empty())
+    FailUsage("--cropwindow " + text + " " + problem);
+  return window;
+}
+
+PixelBounds ParsePixelBounds(const std::string& text) {
+  const std::vector<int> v = ParseList<int>("--pixelbounds", text, 4, "x0,x1,y0,y1 in pixels");
+  const PixelBounds bounds{v[0], v[2], v[1], v[3]};
+  if (bounds.IsEmpty()) FailUsage("--pixelbounds " + text + " is empty or reversed");
+  return bounds;
+}
+
+PixelBounds ParsePixel(const std::string& text) {
+  const std::vector<int> v = ParseList<int>("--pixel", text, 2, "x,y");
+  if (v[0] < 0 || v[1] < 0 || v[0] >= 1 << 30 || v[1] >= 1 << 30)
+    FailUsage("--pixel " + text + " lies outside every picture");
+  return {v[0], v[1], v[0] + 1, v[1] + 1};
+}
+
+ParameterOverride ParseOverride(const std::string& text) {
+  const std::size_t dot = text.find('.');
+  const std::size_t equals = text.find('=');
+  if (dot == std::string::npos || equals == std::string::npos || dot == 0 || equals < dot + 2)
+    FailUsage("--set takes Directive.parameter=value, not \"" + text + "\"",
+              "for example --set SurfaceIntegrator.maxdepth=8");
+  return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+double ParseDuration(const std::string& option, const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, value);
+  const std::string_view unit(next, std::size_t(end - next));
+  const double seconds = unit.empty() || unit == "s" ? 1
+                         : unit == "m"               ? 60
+                         : unit == "h"               ? 3600
+                                                     : 0;
+  value *= seconds;
+  if (error != std::errc{} || !(value > 0) || !(value < 1e9))
+    FailUsage(option + " takes a time such as 90, 90s, 2m or 1h, not \"" + text + "\"");
+  return value;
+}
+
+std::string AllLayerNames() {
+  LayerSet all;
+  for (int i = 0; i < kLayerCount; ++i) all.Add(Layer(i));
+  return all.Names() + ", light (all light layers)";
+}
+
+LayerSet ParseLayerList(const std::string& text) {
+  std::string unknown;
+  if (const auto layers = ParseLayers(text, &unknown)) return *layers;
+  std::vector<std::string> names{"light"};
+  for (int i = 0; i < kLayerCount; ++i) names.emplace_back(GetLayerInfo(Layer(i)).name);
+  FailUsage("--aov: unknown layer \"" + unknown + "\"; layers are " + AllLayerNames(),
+            DidYouMean(unknown, names));
+}
+
+}  // namespace exphoton::cli

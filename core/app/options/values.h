@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Values of options that are more than one number or word. Errors name the option.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/imaging/film/layers.h"
+#include "core/imaging/image.h"
+#include "core/parser/render_setup.h"
+
+namespace exphoton::cli {
+
+// "0.25,0.75,0,1" for x0 x1 y0 y1.
+std::vector<Real> ParseCropWindow(const std::string& text);
+// "10,20,0,5": columns 10 to 19 of rows 0 to 4.
+PixelBounds ParsePixelBounds(const std::string& text);
+// "x,y": that pixel alone.
+PixelBounds ParsePixel(const std::string& text);
+// "SurfaceIntegrator.maxdist=1.5".
+ParameterOverride ParseOverride(const std::string& text);
+
+// "90", "90s", "1.5m", "1h": seconds, more than 0.
+double ParseDuration(const std::string& option, const std::string& text);
+// "Albedo,N,direct".
+LayerSet ParseLayerList(const std::string& text);
+std::string AllLayerNames();
+
+[[noreturn]] void FailUsage(const std::string& text, const std::string& hint = {});
+
+}  // namespace exphoton::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Names from the command line win over those of scene files.
+#include "core/app/output/output_names.h"
+
+#include "core/app/options/arguments.h"
+
+namespace exphoton::cli {
+
+std::optional<std::string> OutputNames::NameFromUser() const {
+  if (!command_.outfile.empty()) return command_.outfile;
+  std::optional<std::string> name;
+  for (const ParameterOverride& set : command_.load.parameters)
+    if (set.directive == "Film" && set.parameter == "filename") name = set.value;
+  return name;
+}
+
+std::string OutputNames::Picture(const std::string& name) const {
+  return FollowLinks(NameFromUser().value_or(name));
+}
+
+// The whole command again, where one scene is rendered; otherwise one for this scene.
+std::string OutputNames::LineWithOutput(const std::string& scene, const std::string& name) const {
+  const bool isAlone = command_.scenes.size() == 1 && !command_.commandLine.empty();
+  const std::string line = isAlone ? command_.commandLine : "exphoton " + CommandLineText({scene});
+  return line + " -o " + CommandLineText({name});
+}
+
+void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& name) const {
+  const std::string& scene = command_.scenes[place.file];
+  const std::string key = std::to_string(place.file) + ":" + std::to_string(place.picture);
+  const std::string of = scene == "-" ? " of standard input" : " of \"" + scene + '"';
+  OutputFile picture{NameFromUser().value_or(name), "the picture" + of,
+                     "-o FILE names another file for the picture"};
+  if (!NameFromUser()) {
+    picture.namedBy = scene;
+    picture.remedy = "to name the file yourself: " + LineWithOutput(scene, name);
+  }
+  files.AddOutput("1 " + key, picture);
+  if (!command_.previewFile.empty())
+    files.AddOutput("2 " + key, {command_.previewFile, "the preview" + of,
+                                 "--preview FILE.png names another file, for one picture"});
+  if (!command_.statsFile.empty() && command_.statsFile != "-")
+    files.AddOutput("3", {command_.statsFile, "the statistics",
+                          "--stats-json FILE names another file for them"});
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// From a command to films, and from films to an image.
+#include "core/app/output/picture.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr const char* kHalfNames[2] = {"half1", "half2"};
+
+PassesResult RenderFixed(const RenderJob& job, const RenderOptions& options) {
+  PassesResult result;
+  result.render = Render(job, options);
+  result.passes = 1;
+  result.samplesPerPixel = job.sampler.SamplesPerPixel();
+  if (!result.render.isComplete) result.reason = StopReason::Signal;
+  return result;
+}
+
+// Between passes the photons' noise shows too, which the samples of one pixel do not know.
+void ReplaceVariance(const std::vector<float>& variances, const Film& film, bool premultiplyAlpha,
+                     Image* image) {
+  const int channel = image->FindChannel("Variance.R");
+  if (channel < 0 || variances.empty()) return;
+  const PixelBounds& crop = film.Crop();
+  std::size_t at = 0;
+  for (int y = 0; y < crop.Height(); ++y) {
+    for (int x = 0; x < crop.Width(); ++x) {
+      const double alpha = film.MeanOf({crop.x0 + x, crop.y0 + y})[3];
+      const double scale = premultiplyAlpha ? std::clamp(alpha, 0., 1.) : 1;
+      for (int c = 0; c < 3; ++c)
+        image->At(x, y, channel + c) = float(double(variances[at++]) * scale * scale);
+    }
+  }
+}
+
+void AppendHalf(const char* name, const Film& half, bool premultiplyAlpha, Image* image) {
+  const Image picture = half.ToImage(premultiplyAlpha);
+  std::vector<std::string> names;
+  std::vector<float> values;
+  for (int c = 0; c < 3; ++c)
+    names.push_back(std::string(name) + "." + picture.channels[std::size_t(c)]);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+    if (i % 4 != 3) values.push_back(picture.pixels[i]);
+  AppendChannels(names, values, image);
+}
+
+}  // namespace
+
+PictureFilms::PictureFilms(const RenderCommand& command, const RenderSetup& setup)
+    : film(setup.film.Full(), setup.crop) {
+  if (!command.layers.IsEmpty()) layers = std::make_unique<LayerFilm>(setup.crop, command.layers);
+  if (!command.asTwoHalves) return;
+  for (auto& half : halves) half = std::make_unique<Film>(setup.film.Full(), setup.crop);
+}
+
+PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
+                           const RenderOptions& options,
+                           std::chrono::steady_clock::time_point start, PictureFilms* films) {
+  if (command.asTwoHalves)
+    return RenderTwoHalves(job, options, films->halves[0].get(), films->halves[1].get());
+  if (!command.HasStoppingRule()) return RenderFixed(job, options);
+  StoppingRule rule;
+  rule.targetError = command.targetError;
+  rule.timeLimit = command.timeLimit;
+  rule.start = start;
+  if (command.load.samplesPerPixel) rule.maxSamples = *command.load.samplesPerPixel;
+  return RenderInPasses(job, options, rule);
+}
+
+Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha) {
+  Image image = films.film.ToImage(premultiplyAlpha);
+  if (films.layers) films.layers->AppendTo(films.film, premultiplyAlpha, &image);
+  ReplaceVariance(result.variances, films.film, premultiplyAlpha, &image);
+  for (int i = 0; i < 2; ++i)
+    if (films.halves[i]) AppendHalf(kHalfNames[i], *films.halves[i], premultiplyAlpha, &image);
+  return image;
+}
+
+void CheckLayers(const RenderCommand& command, const RenderSetup& setup) {
+  const LayerSet known = kRendererLayers | setup.integrator->Layers();
+  const LayerSet lacking = command.layers.Without(known);
+  if (lacking.IsEmpty()) return;
+  throw Error(ExitStatus::CommandLine, "--aov: integrator \"" + setup.integratorName +
+                                           "\" with these parameters has no layer " +
+                                           lacking.Names() + "; it has " + known.Names());
+}
+
+std::string LayerNames(const RenderCommand& command) {
+  std::string names = command.layers.Names();
+  if (command.asTwoHalves) names += (names.empty() ? "" : ", ") + std::string("half1, half2");
+  return names;
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The attributes that an EXR carries; names as pbrt-v4 and the OpenEXR standard have them.
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+#include "core/app/options/options.h"
+#include "core/app/output/run_record.h"
+
+namespace exphoton::cli {
+namespace {
+
+// OpenEXR multiplies row vectors from the left: the transpose of ours.
+std::vector<float> MatrixAttribute(const Matrix4& matrix) {
+  std::vector<float> values;
+  for (std::size_t column = 0; column < 4; ++column)
+    for (std::size_t row = 0; row < 4; ++row) values.push_back(float(matrix.m[row][column]));
+  return values;
+}
+
+std::string PhaseTimes(const Statistics& statistics) {
+  std::string text;
+  char line[160];
+  for (const Statistics::Phase& phase : statistics.Phases()) {
+    std::snprintf(line, sizeof line, "%s%s %.3f s (%.3f s CPU)", text.empty() ? "" : "; ",
+                  phase.name.c_str(), phase.wallSeconds, phase.cpuSeconds);
+    text += line;
+  }
+  return text;
+}
+
+void AddTimes(const RunRecord& run, std::map<std::string, ImageAttribute>* attributes) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char date[32];
+  std::strftime(date, sizeof date, "%Y:%m:%d %H:%M:%S", &local);
+  (*attributes)["capDate"] = std::string(date);
+  (*attributes)["utcOffset"] = float(-local.tm_gmtoff);  // seconds to add to get UTC
+  if (const char* user = std::getenv("USER")) (*attributes)["owner"] = std::string(user);
+  (*attributes)["commandLine"] = run.commandLine;
+  (*attributes)["phaseTimes"] = PhaseTimes(run.statistics);
+  (*attributes)["renderTimeSeconds"] = float(run.renderSeconds);
+  (*attributes)["threads"] = run.threads;
+  if (run.timeLimit) (*attributes)["timeLimit"] = float(*run.timeLimit);
+}
+
+}  // namespace
+
+std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bool isReproducible) {
+  const RenderSetup& setup = run.setup;
+  std::map<std::string, ImageAttribute> attributes;
+  attributes["software"] = VersionText();
+  attributes["scene"] = setup.sceneName;
+  attributes["sceneHash"] = HashText(setup.sceneHash);
+  attributes["integrator"] = setup.integratorName;
+  attributes["effects"] = setup.scene->Effects().Describe();
+  attributes["seed"] = std::to_string(run.seed);
+  attributes["samplesPerPixel"] = int(run.samplesPerPixel);
+  if (run.footprintSamples > 0) attributes["footprintSamplesPerPixel"] = int(run.footprintSamples);
+  attributes["passes"] = run.passes;
+  attributes["stoppedBy"] = run.stoppedBy;
+  if (run.noise) attributes["noise"] = float(*run.noise);  // estimated noise part of relMSE
+  if (run.targetError) attributes["targetError"] = float(*run.targetError);
+  attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
+                           "sampler " + setup.samplerName + ", filter " + setup.filterName +
+                           ", camera " + setup.cameraName;
+  attributes["worldToCamera"] = MatrixAttribute(setup.camera->CameraToWorld().InverseMatrix());
+  attributes["worldToNDC"] = MatrixAttribute(setup.camera->WorldToNdc());
+  if (!isReproducible) AddTimes(run, &attributes);
+  return attributes;
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A run record as one line of JSON (RFC 8259).
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/app/output/run_record.h"
+
+namespace exphoton::cli {
+namespace {
+
+// Writes members one after the other and puts the commas.
+class JsonWriter {
+ public:
+  void Open(char bracket) {
+    Separate();
+    text_ += bracket;
+    isFirst_ = true;
+  }
+  void Close(char bracket) {
+    text_ += bracket;
+    isFirst_ = false;
+  }
+  void Key(const std::string& name) {
+    Separate();
+    AppendQuoted(name);
+    text_ += ':';
+    isFirst_ = true;
+  }
+  void Text(const std::string& value) {
+    Separate();
+    AppendQuoted(value);
+  }
+  void Bool(bool value) {
+    Separate();
+    text_ += value ? "true" : "false";
+  }
+  void Integer(long long value) {
+    Separate();
+    text_ += std::to_string(value);
+  }
+  void Number(double value) {
+    Separate();
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.17g", value);
+    text_ += std::isfinite(value) ? digits : "null";
+  }
+  std::string Take() { return std::move(text_); }
+
+ private:
+  void Separate() {
+    if (!isFirst_) text_ += ',';
+    isFirst_ = false;
+  }
+  void AppendQuoted(const std::string& value) {
+    text_ += '"';
+    for (const char c : value) {
+      const auto byte = static_cast<unsigned char>(c);
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04x", unsigned(byte));
+      if (c == '"' || c == '\\') text_ += '\\';
+      if (byte < 32)
+        text_ += escape;
+      else
+        text_ += c;
+    }
+    text_ += '"';
+  }
+
+  std::string text_;
+  bool isFirst_ = true;
+};
+
+void AddScene(const RunRecord& run, JsonWriter* json) {
+  const RenderSetup& setup = run.setup;
+  json->Key("scene"), json->Text(setup.sceneName);
+  json->Key("sceneHash"), json->Text(HashText(setup.sceneHash));
+  json->Key("integrator"), json->Text(setup.integratorName);
+  json->Key("sampler"), json->Text(setup.samplerName);
+  json->Key("accelerator"), json->Text(setup.acceleratorName);
+  json->Key("resolution"), json->Open('[');
+  for (const int size : {setup.film.xResolution, setup.film.yResolution}) json->Integer(size);
+  json->Close(']');
+  json->Key("pixelBounds"), json->Open('[');
+  for (const int edge : {setup.crop.x0, setup.crop.x1, setup.crop.y0, setup.crop.y1})
+    json->Integer(edge);
+  json->Close(']');
+  json->Key("samplesPerPixel"), json->Integer(run.samplesPerPixel);
+  if (run.footprintSamples > 0)
+    json->Key("footprintSamplesPerPixel"), json->Integer(run.footprintSamples);
+  json->Key("effects"), json->Open('{');
+  for (int i = 0; i < kEffectCount; ++i) {
+    const EffectPlan::Row& row = setup.scene->Effects().Get(Effect(i));
+    json->Key(EffectName(Effect(i))), json->Open('{');
+    json->Key("on"), json->Bool(row.on);
+    json->Key("reason"), json->Text(row.reason);
+    json->Close('}');
+  }
+  json->Close('}');
+}
+
+void AddOptional(const char* key, const std::optional<double>& value, JsonWriter* json) {
+  json->Key(key), json->Number(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+// What was reached, and by which rule.
+void AddStopping(const RunRecord& run, JsonWriter* json) {
+  json->Key("passes"), json->Integer(run.passes);
+  json->Key("stoppedBy"), json->Text(run.stoppedBy);
+  AddOptional("noise", run.noise, json);
+  AddOptional("targetError", run.targetError, json);
+  AddOptional("timeLimit", run.timeLimit, json);
+  json->Key("layers"), json->Text(run.layers);
+}
+
+void AddStatistics(const Statistics& statistics, JsonWriter* json) {
+  json->Key("phases"), json->Open('[');
+  for (const Statistics::Phase& phase : statistics.Phases()) {
+    json->Open('{');
+    json->Key("name"), json->Text(phase.name);
+    json->Key("seconds"), json->Number(phase.wallSeconds);
+    json->Key("cpuSeconds"), json->Number(phase.cpuSeconds);
+    json->Close('}');
+  }
+  json->Close(']');
+  const RayCounters rays = statistics.Rays();
+  json->Key("rays"), json->Open('{');
+  for (int i = 0; i < kRayKindCount; ++i) {
+    json->Key(RayKindName(RayKind(i)));
+    json->Integer(static_cast<long long>(rays.counts[std::size_t(i)]));
+  }
+  json->Close('}');
+  json->Key("counters"), json->Open('{');
+  for (const Statistics::Counter& counter : statistics.Counters())
+    json->Key(counter.name), json->Number(counter.value);
+  json->Close('}');
+}
+
+}  // namespace
+
+std::string StatisticsJson(const RunRecord& run) {
+  JsonWriter json;
+  json.Open('{');
+  AddScene(run, &json);
+  json.Key("seed"), json.Text(std::to_string(run.seed));  // 64 bits: no JSON number holds them
+  json.Key("threads"), json.Integer(run.threads);
+  json.Key("complete"), json.Bool(run.isComplete);
+  json.Key("nonFiniteSamples"), json.Integer(run.nonFiniteSamples);
+  json.Key("renderSeconds"), json.Number(run.renderSeconds);
+  json.Key("wallSeconds"), json.Number(run.wallSeconds);
+  json.Key("cpuSeconds"), json.Number(run.cpuSeconds);
+  json.Key("peakMemoryBytes"), json.Number(run.peakMemory);
+  AddStopping(run, &json);
+  AddStatistics(run.statistics, &json);
+  json.Close('}');
+  return json.Take() + "\n";
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Statistics as a table, and the text of `exphoton explain`. JSON is in run_json.cpp.
+#include "core/app/output/run_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace exphoton::cli {
+namespace {
+
+template <class... Args>
+std::string Print(const char* format, Args... args) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+// Counts without decimals, others with what they need.
+std::string Number(double value) {
+  return value == std::floor(value) && std::abs(value) < 1e15 ? Print("%.0f", value)
+                                                              : Print("%.6g", value);
+}
+
+std::string Resolution(const RenderSetup& setup) {
+  const PixelBounds &full = setup.film.Full(), &crop = setup.crop;
+  std::string text = Print("%d x %d", full.Width(), full.Height());
+  if (!(crop == full))
+    text += Print(", of which x %d to %d, y %d to %d", crop.x0, crop.x1 - 1, crop.y0, crop.y1 - 1);
+  return text;
+}
+
+std::string Row(const std::string& label, const std::string& text) {
+  return Print("%-13s ", label.c_str()) + text + "\n";
+}
+
+// What a phase of Statistics does; "" for those of plugins, whose names must do.
+const char* PhaseMeaning(const std::string& name) {
+  const std::pair<const char*, const char*> meanings[] = {
+      {"parse", "reading the scene: files, plugins, textures, meshes"},
+      {"accelerator", "building what finds the first surface along a ray"},
+      {"shoot", "tracing photons from the lights"},
+      {"kd-trees", "sorting photons for searching, and choosing radii"},
+      {"radiance", "computing the radiance at radiance photons"},
+      {"render", "camera rays and everything they cause"},
+      {"write", "writing the picture"}};
+  for (const auto& [known, meaning] : meanings)
+    if (name == known) return meaning;
+  return "";
+}
+
+const char* RayMeaning(RayKind kind) {
+  switch (kind) {
+    case RayKind::Camera:
+      return "from the camera";
+    case RayKind::Shadow:
+      return "from a surface to a point on a light";
+    case RayKind::Bsdf:
+      return "from a surface, in a direction that its material chose";
+    case RayKind::Specular:
+      return "over mirrors and through glass, on the camera's side";
+    case RayKind::Gather:
+      return "of the final gather, over the hemisphere of a surface";
+    case RayKind::Photon:
+      return "that carried a photon";
+  }
+  return "";
+}
+
+std::string PhaseTable(const RunRecord& run) {
+  std::string text = Print("\n%-30s %12s %12s  meaning\n", "phase", "seconds", "CPU seconds");
+  const auto row = [&text](const char* name, double wall, double cpu, const char* meaning) {
+    text += Print("%-30s %12.3f %12.3f  ", name, wall, cpu) + meaning + "\n";
+  };
+  for (const Statistics::Phase& phase : run.statistics.Phases())
+    row(phase.name.c_str(), phase.wallSeconds, phase.cpuSeconds, PhaseMeaning(phase.name));
+  row("all", run.wallSeconds, run.cpuSeconds, "from reading the scene to writing the picture");
+  return text;
+}
+
+std::string RayTable(const RayCounters& rays) {
+  std::string text = Print("\n%-30s %12s  meaning\n", "rays", "count");
+  std::uint64_t total = 0;
+  const auto row = [&text](const char* name, std::uint64_t count, const char* meaning) {
+    text += Print("%-30s %12llu  ", name, static_cast<unsigned long long>(count)) + meaning + "\n";
+  };
+  for (int i = 0; i < kRayKindCount; ++i) {
+    total += rays.counts[std::size_t(i)];
+    row(RayKindName(RayKind(i)), rays.counts[std::size_t(i)], RayMeaning(RayKind(i)));
+  }
+  row("all", total, "rays that were traced");
+  return text;
+}
+
+std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
+  std::string text;
+  if (!counters.empty()) text = Print("\n%-30s %12s  meaning\n", "counter", "value");
+  for (const Statistics::Counter& counter : counters)
+    text += Print("%-30s %12s  ", counter.name.c_str(), Number(counter.value).c_str()) +
+            counter.meaning + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string HashText(std::uint64_t hash) {
+  return Print("%016llx", static_cast<unsigned long long>(hash));
+}
+
+std::string StatisticsTable(const RunRecord& run) {
+  std::string text =
+      Row("scene", run.setup.sceneName) + Row("integrator", run.setup.integratorName) +
+      Row("picture", Resolution(run.setup)) +
+      Row("samples", std::to_string(run.samplesPerPixel) + " a pixel in " +
+                         std::to_string(run.passes) + (run.passes == 1 ? " pass" : " passes")) +
+      Row("threads", std::to_string(run.threads));
+  if (run.noise)
+    text += Row("noise", Print("%.3g", *run.noise) +
+                             " of relMSE, estimated between passes (bias not included)");
+  return text + PhaseTable(run) + RayTable(run.statistics.Rays()) +
+         CounterTable(run.statistics.Counters());
+}
+
+std::string StoppingText(const RunRecord& run) {
+  std::string text;
+  if (run.stoppedBy == "target-error")
+    text = Print("reached the target error %.3g", *run.targetError);
+  else if (run.stoppedBy == "time-limit")
+    text = Print("stopped at the last whole pass within %.6g s", *run.timeLimit);
+  else if (run.targetError || run.timeLimit)
+    text = "stopped at the limit of samples";
+  else
+    text = "two independent halves";
+  if (!run.isComplete) text = "stopped by a signal";
+  text += Print(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
+                run.passes, run.passes == 1 ? "pass" : "passes");
+  if (!run.noise) return text + ", which tell nothing of the noise";
+  return text + Print("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
+                      100 * std::sqrt(*run.noise), *run.noise);
+}
+
+std::string ExplainText(const RenderSetup& setup) {
+  std::string plugins = std::to_string(setup.plugins.size()) + " loaded";
+  for (std::size_t i = 0; i < setup.plugins.size(); ++i)
+    plugins += (i ? ", " : ": ") + setup.plugins[i];
+  std::string computed;
+  for (const std::string& line : setup.integrator->Explain(*setup.scene)) computed += line + "\n";
+  return Row("scene", setup.sceneName) + Row("hash", HashText(setup.sceneHash)) +
+         Row("integrator", setup.integratorName) + Row("sampler", setup.samplerName) +
+         Row("samples", std::to_string(setup.sampler->SamplesPerPixel()) + " a pixel") +
+         Row("filter", setup.filterName) + Row("camera", setup.cameraName) +
+         Row("accelerator", setup.acceleratorName) + Row("picture", Resolution(setup)) +
+         Row("primitives", std::to_string(setup.scene->Primitives().Count())) +
+         setup.scene->Effects().Describe() + computed + Row("plugins", plugins);
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A thread that looks at the stop flag ten times a second.
+#include "core/app/process/interrupt_watch.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+
+#include "core/app/process/signals.h"
+#include "core/base/error.h"
+#include "core/files/temporary_file.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval(100);
+constexpr int kGraceIntervals = 5;  // for what looks at the flag itself
+
+}  // namespace
+
+InterruptWatch::InterruptWatch(std::optional<double> limitSeconds) : limitSeconds_(limitSeconds) {
+  try {
+    thread_ = std::thread([this] { Watch(); });
+  } catch (const std::system_error&) {
+    // No thread to be had: an interrupt then waits for the work that is under way.
+  }
+}
+
+InterruptWatch::~InterruptWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    isOver_ = true;
+  }
+  over_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void InterruptWatch::End(const char* message, int status) {
+  std::fputs(message, stderr);
+  RemoveTemporaryFiles();
+  std::_Exit(status);
+}
+
+void InterruptWatch::Watch() {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  std::unique_lock lock(mutex_);
+  for (int seen = 0; !over_.wait_for(lock, kInterval, [this] { return isOver_; });) {
+    if (mustFinish_) continue;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (limitSeconds_ && seconds > *limitSeconds_)
+      End("exphoton: error: this takes longer than --limits allows\n", int(ExitStatus::Resource));
+    if (!StopFlag() || ++seen < kGraceIntervals) continue;
+    End("exphoton: interrupted before anything was rendered\n", 128 + SignalNumber());
+  }
+}
+
+}  // namespace exphoton::cli

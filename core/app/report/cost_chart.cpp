@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Error against seconds. Drawn with it: error bars of one standard error, the slope that pure noise
+// has, floors where bias dominates, and where the reference's noise forbids to read anything.
+#include "core/app/report/cost_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/app/report/markup.h"
+
+namespace exphoton::study {
+namespace {
+
+constexpr double kWidth = 820, kHeight = 500;
+constexpr double kLeft = 66, kRight = 20, kTop = 18, kBottom = 54;
+
+bool IsShown(const CostPoint& point) {
+  return point.seconds.value > 0 && point.error.value > 0 && std::isfinite(point.error.value);
+}
+
+class Chart {
+ public:
+  Chart(const Results& results, const Analysis& analysis, double lowX, double highX, double lowY,
+        double highY)
+      : results_(results),
+        analysis_(analysis),
+        x_(lowX, highX, kLeft, kWidth - kRight),
+        y_(lowY, highY, kHeight - kBottom, kTop) {}
+
+  std::string Draw() {
+    AddGrid();
+    AddReferenceLimit();
+    AddSlope();
+    AddFloors();
+    for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddLine(i);
+    AddNumbers();
+    for (const auto& [number, end] : ends_) AddName(number, end);
+    return "<svg class=\"chart\" viewBox=\"0 0 " + Coordinate(kWidth) + " " + Coordinate(kHeight) +
+           "\" role=\"img\" aria-label=\"Error against seconds\">" + text_ + "</svg>";
+  }
+
+ private:
+  void AddGrid() {
+    for (const LogScale::Tick& tick : x_.Ticks()) {
+      const double x = x_(tick.value);
+      text_ += SvgLine({x, kTop}, {x, kHeight - kBottom}, tick.isDecade ? "grid major" : "grid");
+      text_ += SvgText({x, kHeight - kBottom + 18}, ShortNumber(tick.value), "middle", "tick");
+    }
+    for (const LogScale::Tick& tick : y_.Ticks()) {
+      const double y = y_(tick.value);
+      text_ += SvgLine({kLeft, y}, {kWidth - kRight, y}, tick.isDecade ? "grid major" : "grid");
+      text_ += SvgText({kLeft - 8, y + 4}, ShortNumber(tick.value), "end", "tick");
+    }
+    text_ += SvgText({(kLeft + kWidth - kRight) / 2, kHeight - 12},
+                     results_.clock == "wall" ? "seconds" : "CPU seconds", "middle", "axis");
+    const std::string name = analysis_.hasReference ? "error (relMSE)" : "noise (relMSE)";
+    text_ += "<text class=\"axis\" text-anchor=\"middle\" transform=\"translate(16 " +
+             Coordinate((kTop + kHeight - kBottom) / 2) + ") rotate(-90)\">" + name + "</text>";
+  }
+
+  // Below ten times the reference's noise nothing is compared.
+  void AddReferenceLimit() {
+    if (!analysis_.reference.variance.IsKnown()) return;
+    const double limit = analysis_.reference.variance.value / kMaxReferenceShare;
+    if (limit < y_.Low()) return;
+    const double y = std::max(y_(limit), kTop);
+    text_ += SvgRect({kLeft, y}, {kWidth - kRight - kLeft, kHeight - kBottom - y}, "limit");
+    text_ += SvgText({kWidth - kRight - 6, std::min(y + 15, kHeight - kBottom - 4)},
+                     "below: the reference is too noisy to compare", "end", "note");
+  }
+
+  // Below all points: error ~ 1 / seconds.
+  void AddSlope() {
+    double product = 1e300;
+    for (const SettingResult& setting : analysis_.settings)
+      if (IsShown(setting.cost))
+        product = std::min(product, setting.cost.seconds.value * setting.cost.error.value);
+    product *= .7;
+    const double left = std::max(x_.Low(), product / y_.High());
+    const double right = std::min(x_.High(), product / y_.Low());
+    if (!(left < right)) return;
+    const Point2d a{x_(left), y_(product / left)}, b{x_(right), y_(product / right)};
+    text_ += SvgLine(a, b, "slope");
+    const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / 3.14159265358979;
+    const Point2d at{a.x + .4 * (b.x - a.x), a.y + .4 * (b.y - a.y) + 16};
+    text_ += "<text class=\"note\" text-anchor=\"middle\" transform=\"translate(" +
+             Coordinate(at.x) + " " + Coordinate(at.y) + ") rotate(" + Coordinate(angle) +
+             ")\">pure noise: its root falls with slope −1/2</text>";
+  }
+
+  // The least bias of each line, where it is certain (two standard errors).
+  void AddFloors() {
+    for (std::size_t i = 0; i < analysis_.lines.size(); ++i) {
+      const auto points = analysis_.Points(analysis_.lines[i]);
+      const auto front = ParetoFront(points);
+      if (front.empty()) continue;
+      const SettingResult& best = analysis_.settings[analysis_.lines[i].settings[front.back()]];
+      const Measured& bias = best.separation.bias2;
+      if (!bias.IsKnown() || !std::isfinite(bias.error) || bias.value < 2 * bias.error) continue;
+      if (bias.value < .1 * best.cost.error.value || bias.value < y_.Low()) continue;
+      const double y = y_(bias.value), x = x_(best.cost.seconds.value);
+      const double start = std::max(kLeft, x - 90), end = kWidth - kRight;
+      text_ += SvgLine({start, y}, {end, y}, "floor " + Color(i));
+      text_ += SvgText({end - 4, y - 5}, "bias² of " + analysis_.lines[i].label, "end",
+                       "note text" + Color(i));
+    }
+  }
+
+  void AddLine(std::size_t number) {
+    const Line& line = analysis_.lines[number];
+    const auto points = analysis_.Points(line);
+    const auto front = ParetoFront(points);
+    std::vector<Point2d> corners;
+    for (const std::size_t i : front)
+      corners.push_back({x_(points[i].seconds.value), y_(points[i].error.value)});
+    text_ += SvgPolyline(corners, "series " + Color(number));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!IsShown(points[i])) continue;
+      const bool isFront = std::find(front.begin(), front.end(), i) != front.end();
+      AddPoint(number, line.settings[i], isFront);
+    }
+    if (!corners.empty()) ends_.emplace_back(number, corners.back());
+  }
+
+  // The line's name at its end, moved where it would lie on another.
+  void AddName(std::size_t number, Point2d end) {
+    constexpr double kHeightOfText = 14, kWidthOfLetter = 9.8;
+    const std::string& label = analysis_.lines[number].label;
+    const double width = kWidthOfLetter * double(label.size());
+    const bool isRight = end.x + 11 + width > kWidth - kRight;
+    Point2d at{isRight ? end.x - width : end.x + 11, isRight ? end.y + 20 : end.y + 4};
+    const auto overlaps = [&](const Point2d& p, double otherWidth) {
+      return at.x < p.x + otherWidth && p.x < at.x + width && std::abs(at.y - p.y) < kHeightOfText;
+    };
+    for (int tries = 0; tries < 12; ++tries) {
+      const auto hit = std::find_if(taken_.begin(), taken_.end(), [&](const auto& name) {
+        return overlaps(name.first, name.second);
+      });
+      if (hit == taken_.end()) break;
+      at.y = hit->first.y + kHeightOfText + 1;
+    }
+    taken_.emplace_back(at, width);
+    text_ += SvgText(at, label, "start", "name text" + Color(number));
+  }
+
+  void AddPoint(std::size_t line, std::size_t index, bool isFront) {
+    const SettingResult& setting = analysis_.settings[index];
+    const Measured &s = setting.cost.seconds, &e = setting.cost.error;
+    const Point2d at{x_(s.value), y_(e.value)};
+    if (std::isfinite(e.error)) {
+      const double low = std::max(e.value - e.error, y_.Low());
+      text_ += SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "whisker " + Color(line));
+    }
+    if (std::isfinite(s.error) && s.error < s.value)
+      text_ += SvgLine({x_(s.value - s.error), at.y}, {x_(s.value + s.error), at.y},
+                       "whisker " + Color(line));
+    taken_.emplace_back(Point2d{at.x - 5, at.y + 4}, 10);
+    const std::string title = analysis_.lines[line].label + ", " +
+                              results_.settings[setting.setting].Text() + ": " +
+                              SecondsText(s.value) + ", " + ShortNumber(e.value);
+    text_ += SvgMarker(int(line), at, isFront ? 5 : 4,
+                       std::string(isFront ? "point " : "point hollow ") + Color(line), title);
+  }
+
+  void AddNumbers() {
+    int number = 0;
+    for (const std::size_t i : FrontOf(analysis_)) {
+      const CostPoint& cost = analysis_.settings[i].cost;
+      text_ += SvgText({x_(cost.seconds.value) - 7, y_(cost.error.value) + 16},
+                       std::to_string(++number), "end", "number");
+    }
+  }
+
+  static std::string Color(std::size_t line) {
+    return "c" + std::to_string(line % std::size_t(kSeriesColors));
+  }
+
+  const Results& results_;
+  const Analysis& analysis_;
+  LogScale x_, y_;
+  std::string text_;
+  // Where something stands that a name must not cover, and how wide it is.
+  std::vector<std::pair<Point2d, double>> taken_;
+  std::vector<std::pair<std::size_t, Point2d>> ends_;  // of the lines, by their numbers
+};
+
+}  // namespace
+
+std::vector<std::size_t> FrontOf(const Analysis& analysis) {
+  return ParetoFront(analysis.Points());
+}
+
+std::string CostChart(const Results& results, const Analysis& analysis) {
+  double lowX = 1e300, highX = 0, lowY = 1e300, highY = 0;
+  for (const SettingResult& setting : analysis.settings) {
+    const CostPoint& p = setting.cost;
+    if (!IsShown(p)) continue;
+    lowX = std::min(lowX, p.seconds.value);
+    highX = std::max(highX, p.seconds.value);
+    lowY = std::min(lowY, p.error.value);
+    highY = std::max(highY, p.error.value);
+  }
+  if (highX == 0) return "<p>No setting has an error that can be shown.</p>";
+  return Chart(results, analysis, lowX, highX, lowY, highY).Draw();
+}
+
+}  // namespace exphoton::study

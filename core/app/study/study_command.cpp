@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// A study from its options to its page: reference, runs, measurements, files.
+#include "core/app/study/study_command.h"
+
+#include <filesystem>
+
+#include "core/app/analysis/summary.h"
+#include "core/app/options/errors.h"
+#include "core/app/options/limits.h"
+#include "core/app/options/option_parser.h"
+#include "core/app/options/values.h"
+#include "core/app/output/output_files.h"
+#include "core/app/output/run_files.h"
+#include "core/app/process/signals.h"
+#include "core/app/report/report.h"
+#include "core/app/study/study_runner.h"
+#include "core/base/error.h"
+#include "core/imaging/metrics/metrics.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "skylight-room" for .../skylight-room/exphotonmap.pbrt: variants of a scene share a folder.
+std::string TitleOf(const StudyOptions& options) {
+  if (!options.title.empty()) return options.title;
+  const fs::path scene = fs::absolute(options.scene);
+  for (const study::Setting& base : options.plan.bases)
+    if (scene.stem() == base.integrator) return scene.parent_path().filename().string();
+  return scene.stem().string();
+}
+
+study::Results Describe(const StudyOptions& options, const SceneFacts& scene,
+                        const ProgramFacts& program) {
+  study::Results results;
+  results.program = program.version;
+  results.fingerprint = program.fingerprint;
+  results.processor = program.processor;
+  results.system = program.system;
+  results.cores = program.cores;
+  results.title = TitleOf(options);
+  results.scene = options.scene;
+  results.sceneHash = scene.hash;
+  results.command = options.commandLine;
+  results.clock = options.clock;
+  results.seeds = options.seeds;
+  results.targets = options.targets;
+  for (const std::string& crop : options.crops) {
+    const std::vector<Real> c = ParseCropWindow(crop);
+    results.crops.push_back({double(c[0]), double(c[1]), double(c[2]), double(c[3])});
+  }
+  return results;
+}
+
+// One more render, of the first setting with photon maps, that shows where time and photons are.
+std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
+                                       const std::vector<study::Setting>& settings,
+                                       StudyRunner& runner) {
+  if (!options.makesMaps) return {};
+  const study::Setting* chosen = nullptr;
+  for (const study::Setting& setting : settings)
+    if (!chosen && setting.integrator == "exphotonmap") chosen = &setting;
+  if (!chosen && !settings.empty()) chosen = &settings.front();
+  if (!chosen) return {};
+  study::Setting setting = *chosen;
+  std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
+  // Photons have maps only in some integrators, and with some of their switches.
+  study::RunRow row;
+  for (const char* layers : {"time,photondensity,radiancedistance", "time,photondensity", "time"}) {
+    try {
+      row = runner.RunOne(setting, 1, {"--aov", layers});
+      break;
+    } catch (const Error& error) {
+      if (error.Status() != ExitStatus::CommandLine) throw;
+    }
+  }
+  const std::string of = " (" + setting.label + ", " + setting.Text() + ")";
+  return {{row.image, "time.ms", "Cost of each pixel" + of, "ms"},
+          {row.image, "photondensity.Y", "Photon density" + of, "photons per unit of area"},
+          {row.image, "radiancedistance.Y",
+           "Distance from gather hits to the radiance photon used" + of, "units of length"}};
+}
+
+// Reads pictures, measures, and writes every file that is made from them.
+void WriteResults(StudyFolder& folder, study::Results* results) {
+  const std::string& path = folder.Path();
+  study::MeasureRuns(path, results);
+  const study::Analysis analysis = study::Analyse(path, *results);
+  WriteTextFile(folder.Claim("results.json"), study::ToJson(*results));
+  WriteTextFile(folder.Claim("results.csv"), study::ToCsv(*results));
+  WriteTextFile(folder.Claim("summary.csv"), study::SummaryCsv(*results, analysis));
+  WriteTextFile(folder.Claim("report.html"), study::MakeReport(path, *results, analysis));
+  PrintOut(analysis.headline + "\n" + path + "/report.html\n");
+}
+
+// Before hours of rendering: it must have the size of what is rendered, and R, G and B.
+void CheckReference(const StudyOptions& options, const SceneFacts& scene,
+                    const study::ReferenceRecord& reference) {
+  for (const std::string& name : {reference.a, reference.b}) {
+    if (name.empty()) continue;
+    const std::string path = fs::path(name).is_absolute() ? name : options.folder + "/" + name;
+    const Image image = ReadImage(path);
+    FindColors(image, path);
+    if (image.Width() == scene.width && image.Height() == scene.height) continue;
+    throw ImageError(path + " has " + std::to_string(image.Width()) + " x " +
+                     std::to_string(image.Height()) + " pixels, the study's pictures " +
+                     std::to_string(scene.width) + " x " + std::to_string(scene.height));
+  }
+}
+
+std::string PlanText(const StudyOptions& options, const std::vector<study::Setting>& settings) {
+  std::string text = std::to_string(settings.size()) + " settings, " +
+                     std::to_string(options.seeds) + " seeds each\n";
+  for (const study::Setting& setting : settings)
+    text += setting.label + ": " +
+            CommandText(RenderArguments(options, options.scene, setting, 1)) + "\n";
+  return text;
+}
+
+// Before hours of rendering: the results must not be what the study reads, nor somebody else's.
+void ClaimResults(const StudyOptions& options, const SceneFacts& scene, StudyFolder& folder) {
+  RunFiles files;
+  for (const std::string& input : options.inputFiles) files.AddInput(input, "the study");
+  for (const std::string& input : scene.inputFiles) files.AddInput(input, "the scene");
+  for (const char* name : kStudyResults)
+    files.AddOutput(name, {folder.Path() + "/" + name, "a result of the study",
+                           "--out FOLDER names another folder"});
+  Log log(options.isQuiet ? Log::Level::Quiet : Log::Level::Normal);
+  files.Check(log);
+  for (const char* name : kStudyResults) folder.Claim(name);
+}
+
+void Study(const std::vector<std::string>& arguments, const std::string& commandLine) {
+  StudyOptions options = ParseStudyOptions(arguments);
+  options.commandLine = commandLine;
+  const Limits limits = ParseLimits(options.limits);
+  LimitMemory(limits);
+  const SceneFacts scene = ExamineScene(options.scene, options);
+  study::Results results = Describe(options, scene, ExamineProgram(options));
+  results.settings = PlanSettings(options);
+  if (options.onlyPlans) return PrintOut(PlanText(options, results.settings));
+  StudyFolder folder(options.folder);
+  ClaimResults(options, scene, folder);
+  MakeFolder(options.folder + "/images");
+  StudyRunner runner(options, folder, scene, ExamineProgram(options));
+  results.reference = PrepareReference(options, runner);
+  CheckReference(options, scene, results.reference);
+  results.runs = runner.RunAll(results.settings);
+  results.maps = MakeMaps(options, results.settings, runner);
+  WriteResults(folder, &results);
+}
+
+}  // namespace
+
+int RunStudy(const std::vector<std::string>& arguments, const std::string& commandLine) {
+  bool wasInterrupted = false;
+  const int status = Guarded([&] {
+    try {
+      Study(arguments, commandLine);
+    } catch (const StudyInterrupted&) {
+      wasInterrupted = true;
+      std::fputs("exphoton: interrupted; the same command goes on where this stopped\n", stderr);
+    }
+  });
+  return wasInterrupted ? 128 + SignalNumber() : status;
+}
+
+int RunReport(const std::vector<std::string>& arguments) {
+  return Guarded([&] {
+    OptionParser app("Makes the page of a study again from its data, without rendering.",
+                     "exphoton report");
+    std::string folder, clock;
+    app.Add("folder", folder, "the folder of a study").Required();
+    app.Add("--clock", clock, "seconds of what: cpu or wall").OneOf({"cpu", "wall"});
+    app.Parse(arguments);
+    const std::string text = ReadTextFile(folder + "/results.json");
+    if (text.empty())
+      throw Error(ExitStatus::File, "\"" + folder + "\" holds no results.json of a finished study");
+    study::Results results;
+    try {
+      results = study::FromJson(text);
+    } catch (const std::runtime_error& error) {
+      throw Error(ExitStatus::File, folder + ": " + error.what());
+    }
+    if (!clock.empty()) results.clock = clock;
+    StudyFolder own(folder);
+    WriteResults(own, &results);
+  });
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The options, declared to CLI11, and study files turned into arguments.
+#include "core/app/study/study_options.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "core/app/options/arguments.h"
+#include "core/app/options/limits.h"
+#include "core/app/options/option_parser.h"
+#include "core/app/options/values.h"
+#include "core/base/error.h"
+#include "core/files/file_identity.h"
+#include "core/files/input_file.h"
+#include "core/parser/syntax/tokenizer.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RawOptions {
+  std::string integrators, budgets, referenceTime, resolution, targets;
+  std::vector<std::string> settings, knobs;
+  bool hidesMaps = false;
+};
+
+bool IsStudyFile(const std::string& path) { return fs::path(path).extension() == ".study"; }
+
+// Options of a study file whose values are paths.
+bool NamesAFile(const std::string& option) {
+  return option == "scene" || option == "reference" || option == "reference-scene";
+}
+
+// Options of this study file, in messages.
+std::string PlaceIn(const std::string& path, int line) {
+  return path + ":" + std::to_string(line) + ": ";
+}
+
+// A study file may come from anybody, so these are the user's alone.
+void CheckIsTheirs(const std::string& name, const std::string& value, const std::string& place) {
+  const bool isTheirs = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
+  if (isTheirs) return;
+  throw Error(ExitStatus::File, place + "\"" + name + "\" is an option of the command line alone",
+              SourceLocation(),
+              "to choose it yourself: exphoton study ... --" + name +
+                  (value.empty() ? "" : " " + CommandLineText({value})));
+}
+
+// It may only add a folder, or go on in a study's, near the working folder or the study file.
+void CheckFolder(const std::string& folder, const std::string& file, const std::string& place) {
+  if (LiesIn(folder, ".") || LiesIn(folder, FolderOf(file))) return;
+  throw Error(ExitStatus::File,
+              place + "the folder \"" + folder +
+                  "\" lies neither in the working folder nor in the study file's",
+              SourceLocation(),
+              "to choose it yourself: exphoton study " + CommandLineText({file, "--out", folder}));
+}
+
+std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::string& path) {
+  try {
+    RequireRegularFile(path);
+  } catch (const InputFileError& error) {
+    throw Error(ExitStatus::File, "cannot read the study file \"" + path + "\": " + error.what());
+  }
+  std::ifstream file(path);
+  std::vector<std::string> arguments;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    line = line.substr(first, last - first + 1);
+    const std::size_t space = line.find_first_of(" \t");
+    const std::string name = line.substr(0, space), place = PlaceIn(path, number);
+    std::string value;
+    if (space != std::string::npos) value = line.substr(line.find_first_not_of(" \t", space));
+    if (name[0] == '-')
+      throw Error(ExitStatus::CommandLine, place + "options have no dashes in a study file");
+    if (!app.Has("--" + name))
+      throw Error(ExitStatus::CommandLine, place + "there is no option \"" + Printable(name) + '"');
+    CheckIsTheirs(name, value, place);
+    if (name == "out") CheckFolder(value, path, place);
+    if (NamesAFile(name) && fs::path(value).is_relative())
+      value = (fs::path(path).parent_path() / value).lexically_normal().string();
+    arguments.push_back(value.empty() ? "--" + name : "--" + name + "=" + value);
+  }
+  return arguments;
+}
+
+void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+  app.Add("file", options.scene, "the scene, or a study file (NAME.study)")
+      .TypeName("SCENE.pbrt|NAME.study");
+  app.Add("--scene", options.scene, "the scene").TakeLast();
+  app.Add("-o,--out", options.folder, "the folder for everything").TakeLast();
+  app.Add("--title", options.title, "the scene's name on the page").TakeLast();
+  app.Add("--integrators", raw.integrators, "for example exphotonmap,photonmap,path")
+      .TakeLast()
+      .TypeName("LIST");
+  app.Add("--setting", raw.settings,
+          "one more thing to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
+      .OnePerUse();
+  app.Add("--vary", raw.knobs,
+          "a parameter and its values, [INTEGRATOR:]name=v1,v2,...; \"spp\" too. Several "
+          "are multiplied")
+      .OnePerUse();
+  app.Add("--budgets", raw.budgets, "seconds that renders may take: 1,4,16,64s")
+      .TakeLast()
+      .TypeName("LIST");
+  app.Add("--seeds", options.seeds, "independent renders of each setting (default 4)")
+      .Between(1, 1000)
+      .TakeLast();
+  app.Add("--targets", raw.targets, "errors of the price list (default .1,.03,.01,.003)")
+      .TakeLast()
+      .TypeName("LIST");
+  app.Add("--clock", options.clock, "seconds of what: cpu (default) or wall")
+      .OneOf({"cpu", "wall"})
+      .TakeLast();
+}
+
+void AddReference(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+  app.Add("--reference", options.references,
+          "the true picture; given twice: two independent halves of it")
+      .OnePerUse();
+  app.Add("--make-reference", options.makeReference,
+          "render one, in two halves, with this: \"path maxdepth=100\"")
+      .TakeLast();
+  app.Add("--reference-time", raw.referenceTime, "for so long (default 30m)").TakeLast();
+  app.Add("--reference-scene", options.referenceScene,
+          "another scene file that has the same picture")
+      .TakeLast();
+}
+
+void AddRender(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+  app.Add("--resolution", raw.resolution, "of all pictures").TakeLast().TypeName("WIDTHxHEIGHT");
+  app.Add("--set", options.sets, "for all renders, as in exphoton render").OnePerUse();
+  app.Add("--cropwindow", options.cropWindow, "render a part only").TakeLast();
+  app.Add("--footprint-spp", options.footprintSamples,
+          "filter textures and bumps of all renders as with N samples a pixel (default 16)")
+      .Between(std::int64_t(1), std::int64_t(1) << 30)
+      .TakeLast();
+  app.Add("--crop", options.crops, "a part to show larger on the page: x0,x1,y0,y1 from 0 to 1")
+      .OnePerUse();
+  app.Add("--nthreads,--ncores", options.threads, "threads of each render; 0: all cores")
+      .Between(0, 4096)
+      .TakeLast();
+  app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
+      .OnePerUse();
+  AddScenePluginsOption(app, &options.allowsScenePlugins);
+  AddLimitsOption(app, &options.limits);
+  app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
+  app.AddFlag("--quiet", options.isQuiet, "no progress");
+  app.AddFlag("--plan", options.onlyPlans, "print what would be rendered, and render nothing");
+}
+
+void TakeResolution(const std::string& text, StudyOptions* options) {
+  if (text.empty()) return;
+  const std::size_t x = text.find('x');
+  const auto isNumber = [](const std::string& part) {
+    return !part.empty() && part.size() < 7 &&
+           part.find_first_not_of("0123456789") == std::string::npos && part != "0";
+  };
+  if (x == std::string::npos || !isNumber(text.substr(0, x)) || !isNumber(text.substr(x + 1)))
+    FailUsage("--resolution takes WIDTHxHEIGHT, for example 128x96, not \"" + text + "\"");
+  options->sets.push_back("Film.xresolution=" + text.substr(0, x));
+  options->sets.push_back("Film.yresolution=" + text.substr(x + 1));
+}
+
+std::vector<double> ParseTargets(const std::string& text) {
+  std::vector<double> targets;
+  for (const std::string& part : study::SplitList(text)) {
+    std::size_t used = 0;
+    double value = 0;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used != part.size() || !(value > 0))
+      FailUsage("--targets takes errors, not \"" + text + "\"");
+    targets.push_back(value);
+  }
+  std::sort(targets.rbegin(), targets.rend());
+  return targets;
+}
+
+void TakePlan(const RawOptions& raw, StudyOptions* options) {
+  for (const std::string& name : study::SplitList(raw.integrators))
+    options->plan.bases.push_back(study::ParseSetting(name));
+  for (const std::string& text : raw.settings)
+    options->plan.bases.push_back(study::ParseSetting(text));
+  for (const std::string& text : raw.knobs) options->plan.knobs.push_back(study::ParseKnob(text));
+  if (!raw.budgets.empty()) options->plan.budgets = study::ParseBudgets(raw.budgets);
+  if (!raw.referenceTime.empty())
+    options->referenceSeconds = study::ParseSeconds(raw.referenceTime);
+  if (!options->makeReference.empty()) study::ParseSetting(options->makeReference);
+  if (options->plan.bases.empty())
+    for (const char* name : {"exphotonmap", "photonmap", "path"})
+      options->plan.bases.push_back(study::ParseSetting(name));
+}
+
+void Check(const StudyOptions& options) {
+  if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
+  if (options.folder.empty() && !options.onlyPlans) FailUsage("exphoton study needs --out FOLDER");
+  ParseLimits(options.limits);
+  if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
+  if (!options.references.empty() && !options.makeReference.empty())
+    FailUsage("--reference and --make-reference exclude each other");
+  for (const std::string& set : options.sets) ParseOverride(set);
+  for (const std::string& crop : options.crops) ParseCropWindow(crop);
+  if (!options.cropWindow.empty()) ParseCropWindow(options.cropWindow);
+}
+
+// A study reads its files more than once, so none can be a pipe.
+void TakeInputFiles(StudyOptions* options) {
+  std::vector<std::string> files{options->scene};
+  files.insert(files.end(), options->references.begin(), options->references.end());
+  if (!options->referenceScene.empty()) files.push_back(options->referenceScene);
+  for (const std::string& file : files) {
+    try {
+      RequireRegularFile(file);
+    } catch (const InputFileError& error) {
+      throw Error(ExitStatus::File, "cannot read \"" + file + "\": " + error.what());
+    }
+    options->inputFiles.push_back(file);
+  }
+}
+
+}  // namespace
+
+StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
+  StudyOptions options;
+  RawOptions raw;
+  OptionParser app(
+      "Renders a scene with several integrators and settings, each with several seeds, and shows "
+      "what accuracy costs in time: results.csv, results.json, images/ and report.html in one "
+      "folder. Started again it goes on where it stopped.",
+      "exphoton study");
+  AddWhat(app, options, raw);
+  AddReference(app, options, raw);
+  AddRender(app, options, raw);
+  // A study file's options come first, whichever place it has.
+  std::vector<std::string> arguments, rest;
+  for (const std::string& argument : given) {
+    const bool isFile = IsStudyFile(argument) && argument[0] != '-';
+    const std::vector<std::string> read =
+        isFile ? ReadStudyFile(app, argument) : std::vector<std::string>();
+    if (isFile) options.inputFiles.push_back(argument);
+    arguments.insert(arguments.end(), read.begin(), read.end());
+    if (!isFile) rest.push_back(argument);
+  }
+  arguments.insert(arguments.end(), rest.begin(), rest.end());
+  app.Parse(arguments);
+  try {
+    TakePlan(raw, &options);
+  } catch (const std::invalid_argument& error) {
+    FailUsage(error.what());
+  }
+  TakeResolution(raw.resolution, &options);
+  if (!raw.targets.empty()) options.targets = ParseTargets(raw.targets);
+  options.makesMaps = !raw.hidesMaps;
+  Check(options);
+  TakeInputFiles(&options);
+  return options;
+}
+
+}  // namespace exphoton::cli

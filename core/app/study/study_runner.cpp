@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// One process after the other. A run's picture gets its name first and its row last: a row without
+// a picture cannot be, and a picture without a row is rendered again.
+#include "core/app/study/study_runner.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "core/app/output/output_files.h"
+#include "core/app/process/child_process.h"
+#include "core/app/process/signals.h"
+#include "core/base/error.h"
+#include "core/imaging/files/exr.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Duration(double seconds) {
+  char text[64];
+  if (seconds < 100)
+    std::snprintf(text, sizeof text, "%.0f s", std::max(seconds, 1.));
+  else if (seconds < 6000)
+    std::snprintf(text, sizeof text, "%.0f min", seconds / 60);
+  else
+    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600);
+  return text;
+}
+
+void Rename(const std::string& from, const std::string& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw Error(ExitStatus::File, "cannot write \"" + to + "\": " + error.message());
+}
+
+// Mean seconds of the runs of each setting, for the time that remains.
+class Forecast {
+ public:
+  void Add(std::size_t setting, double seconds) {
+    auto& entry = means_[setting];
+    entry.first += seconds;
+    ++entry.second;
+    total_ += seconds;
+    ++count_;
+  }
+  // Of a setting that was not seen: the mean of all.
+  double Of(std::size_t setting) const {
+    const auto found = means_.find(setting);
+    if (found != means_.end()) return found->second.first / found->second.second;
+    return count_ > 0 ? total_ / count_ : 0;
+  }
+
+ private:
+  std::map<std::size_t, std::pair<double, int>> means_;
+  double total_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace
+
+void Say(const StudyOptions& options, const std::string& text) {
+  if (!options.isQuiet) std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
+  const std::string statistics = folder_.Running("render.json");
+  RenderedPicture result{{}, folder_.Running("render.exr")};
+  std::vector<std::string> all = arguments;
+  all.insert(all.end(),
+             {"--quiet", "--no-progress", "--stats-json", statistics, "-o", result.path});
+  if (!options_.limits.empty()) all.insert(all.end(), {"--limits", options_.limits});
+  if (StopFlag()) throw StudyInterrupted();
+  const ChildResult child = RunSelf(all, folder_.Running("render.log"), StopFlag());
+  if (child.wasInterrupted || StopFlag()) {
+    folder_.RemoveRunning();
+    throw StudyInterrupted();
+  }
+  if (child.status != 0) {
+    folder_.RemoveRunning();
+    throw Error(child.status < 6 ? ExitStatus(child.status) : ExitStatus::Internal,
+                "a render of the study failed (status " + std::to_string(child.status) +
+                    "): " + CommandText(arguments) + "\n" + child.messages);
+  }
+  study::AddRunStatistics(ReadTextFile(statistics), &result.row);
+  result.row.wallSeconds = child.wallSeconds;
+  result.row.cpuSeconds = child.cpuSeconds;
+  result.row.peakMemory = child.peakMemory;
+  result.row.command = CommandText(arguments);
+  std::error_code ignored;
+  fs::remove(statistics, ignored);
+  return result;
+}
+
+std::string StudyRunner::KeyOf(const std::vector<std::string>& arguments) const {
+  std::string text = program_.fingerprint + "|" + program_.processor + "|" + scene_.hash;
+  for (std::size_t i = 2; i < arguments.size(); ++i) text += "|" + arguments[i];  // not the file
+  return HashOfText(text);
+}
+
+std::string StudyRunner::NameOf(const study::Setting& setting, std::uint64_t seed,
+                                const std::string& key) const {
+  return "images/" + setting.integrator + "-" + key.substr(0, 12) + "-seed" + std::to_string(seed);
+}
+
+bool StudyRunner::FindDone(const std::string& name, const std::string& key,
+                           study::RunRow* row) const {
+  const std::string base = folder_.Path() + "/" + name;
+  std::error_code error;
+  if (!fs::exists(base + ".json", error) || error) return false;
+  try {
+    *row = study::RowFromJson(ReadTextFile(base + ".json"));
+    const Image image = ReadExr(base + ".exr");
+    return row->key == key && image.Width() == scene_.width && image.Height() == scene_.height;
+  } catch (const std::exception&) {
+    return false;  // damaged: rendered again
+  }
+}
+
+study::RunRow StudyRunner::RunOne(const study::Setting& setting, std::uint64_t seed,
+                                  const std::vector<std::string>& extra) {
+  std::vector<std::string> arguments = RenderArguments(options_, options_.scene, setting, seed);
+  arguments.insert(arguments.end(), extra.begin(), extra.end());
+  const std::string key = KeyOf(arguments), name = NameOf(setting, seed, key);
+  study::RunRow row;
+  wasFound_ = FindDone(name, key, &row);
+  if (wasFound_) return row;
+  RenderedPicture picture = Render(arguments);
+  picture.row.key = key;
+  picture.row.seed = seed;
+  picture.row.image = name + ".exr";
+  Rename(picture.path, folder_.Claim(name + ".exr"));
+  WriteTextFile(folder_.Claim(name + ".json"), study::RowToJson(picture.row));
+  return picture.row;
+}
+
+std::vector<study::RunRow> StudyRunner::RunAll(const std::vector<study::Setting>& settings) {
+  std::vector<Run> todo;
+  for (int seed = 1; seed <= options_.seeds; ++seed)
+    for (std::size_t i = 0; i < settings.size(); ++i) todo.push_back({i, std::uint64_t(seed)});
+  std::vector<study::RunRow> rows;
+  Forecast forecast;
+  int found = 0;
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    const study::Setting& setting = settings[todo[i].setting];
+    study::RunRow row = RunOne(setting, todo[i].seed);
+    row.setting = todo[i].setting;
+    forecast.Add(row.setting, row.wallSeconds);
+    rows.push_back(row);
+    found += int(wasFound_);
+    if (wasFound_) continue;
+    double left = 0;
+    for (std::size_t j = i + 1; j < todo.size(); ++j) left += forecast.Of(todo[j].setting);
+    char text[512];
+    std::snprintf(text, sizeof text, "[%zu/%zu] %s, %s, seed %llu: %.2f s%s", i + 1, todo.size(),
+                  setting.label.c_str(), setting.Text().c_str(),
+                  static_cast<unsigned long long>(row.seed), row.wallSeconds,
+                  left > 0 ? (", about " + Duration(left) + " left").c_str() : "");
+    Say(options_, text);
+  }
+  if (found > 0) Say(options_, std::to_string(found) + " renders were there already");
+  return rows;
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Scenes are loaded once, in this process, only to be looked at; the hash is FNV-1a, which tells
+// files apart and is no protection against malice.
+#include "core/app/study/study_scene.h"
+
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "core/app/options/arguments.h"
+#include "core/app/options/limits.h"
+#include "core/app/options/options.h"
+#include "core/app/options/values.h"
+#include "core/app/output/run_record.h"
+#include "core/app/process/child_process.h"
+#include "core/app/process/interrupt_watch.h"
+#include "core/app/process/signals.h"
+#include "core/base/log.h"
+#include "core/files/input_file.h"
+#include "core/parser/render_setup.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Hash {
+ public:
+  void Add(const std::string& text) {
+    for (const char c : text) Add(static_cast<unsigned char>(c));
+    Add(0);
+  }
+  std::string Text() const { return HashText(value_); }
+
+ private:
+  void Add(unsigned byte) { value_ = (value_ ^ byte) * 0x100000001b3ull; }
+  std::uint64_t value_ = 0xcbf29ce484222325ull;
+};
+
+LoadOptions SceneOptions(const StudyOptions& options) {
+  LoadOptions load;
+  load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
+  load.allowsScenePlugins = options.allowsScenePlugins;
+  load.limits = ParseLimits(options.limits).scene;
+  load.stop = &StopFlag();
+  for (const std::string& set : options.sets) {
+    const ParameterOverride value = ParseOverride(set);
+    if (value.directive != "SurfaceIntegrator") load.parameters.push_back(value);
+  }
+  if (!options.cropWindow.empty()) load.cropWindow = ParseCropWindow(options.cropWindow);
+  return load;
+}
+
+std::string ProcessorName() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown processor";
+}
+
+// Asks the plugins' own declarations.
+class PluginOracle final : public study::ParameterOracle {
+ public:
+  explicit PluginOracle(const StudyOptions& options)
+      : log_(Log::Level::Quiet),
+        registry_(PluginRegistry::DefaultFolders(options.pluginFolders), &log_) {}
+
+  void Check(const std::string& integrator) {
+    registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
+  }
+  bool Has(const std::string& integrator, const std::string& parameter) const override {
+    const PluginForm& form = registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
+    const auto& declared = form.parameters->Declarations();
+    return std::any_of(declared.begin(), declared.end(),
+                       [&](const ParamDecl& decl) { return decl.name == parameter; });
+  }
+
+ private:
+  Log log_;
+  mutable PluginRegistry registry_;
+};
+
+}  // namespace
+
+std::string ReadTextFile(const std::string& path) {
+  try {
+    RequireRegularFile(path);
+  } catch (const InputFileError&) {
+    return "";
+  }
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::string HashOfText(const std::string& text) {
+  Hash hash;
+  hash.Add(text);
+  return hash.Text();
+}
+
+SceneFacts ExamineScene(const std::string& path, const StudyOptions& options) {
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
+  const InterruptWatch watch(ParseLimits(options.limits).seconds);
+  FileSource source;
+  const auto setups = LoadScenes(source, path, SceneOptions(options), log);
+  if (setups.size() != 1)
+    throw Error(ExitStatus::Scene, "\"" + path + "\" holds " + std::to_string(setups.size()) +
+                                       " scenes; a study renders one");
+  const RenderSetup& setup = *setups.front();
+  Hash hash;
+  hash.Add(HashText(setup.sceneHash));
+  for (const std::string& file : setup.inputFiles) hash.Add(ReadTextFile(file));
+  return {setup.crop.Width(), setup.crop.Height(), hash.Text(), setup.inputFiles};
+}
+
+ProgramFacts ExamineProgram(const StudyOptions& options) {
+  ProgramFacts facts;
+  facts.version = VersionText();
+  const fs::path program = OwnProgram();
+  std::vector<fs::path> files{program};
+  std::vector<fs::path> folders{program.parent_path().parent_path() / "lib"};
+  for (const std::string& folder : PluginRegistry::DefaultFolders(options.pluginFolders))
+    folders.push_back(folder);
+  std::error_code ignored;
+  for (const fs::path& folder : folders)
+    for (const auto& entry : fs::recursive_directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".so") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  Hash hash;
+  for (const fs::path& file : files) hash.Add(ReadTextFile(file));
+  facts.fingerprint = hash.Text();
+  facts.processor = ProcessorName();
+  facts.cores = int(std::thread::hardware_concurrency());
+  utsname system{};
+  if (uname(&system) == 0) facts.system = std::string(system.sysname) + " " + system.release;
+  return facts;
+}
+
+std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
+  PluginOracle oracle(options);
+  const auto check = [&](const study::Setting& setting) {
+    oracle.Check(setting.integrator);
+    for (const auto& [name, value] : setting.parameters) {
+      const bool isKnown = name == "spp" || name == "time" || name.find('.') != std::string::npos ||
+                           oracle.Has(setting.integrator, name);
+      if (!isKnown)
+        FailUsage("integrator \"" + setting.integrator + "\" has no parameter \"" + name + "\"",
+                  "exphoton plugins " + setting.integrator + " lists them");
+    }
+  };
+  try {
+    std::vector<study::Setting> settings;
+    for (const study::Setting& base : options.plan.bases) check(base);
+    settings = study::ExpandPlan(options.plan, oracle);
+    for (const study::Setting& setting : settings) check(setting);
+    return settings;
+  } catch (const std::invalid_argument& error) {
+    FailUsage(error.what());
+  }
+}
+
+std::vector<std::string> RenderArguments(const StudyOptions& options, const std::string& scene,
+                                         const study::Setting& setting, std::uint64_t seed) {
+  std::vector<std::string> arguments{"render", scene, "--integrator", setting.integrator};
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.insert(arguments.end(), {option, value});
+  };
+  for (const std::string& set : options.sets) add("--set", set);
+  for (const auto& [name, value] : setting.parameters) {
+    if (name == "spp")
+      add("--spp", value);
+    else if (name == "time")
+      add("--time-limit", value + "s");
+    else if (name.find('.') != std::string::npos)
+      add("--set", name + "=" + value);
+    else
+      add("--set", "SurfaceIntegrator." + name + "=" + value);
+  }
+  if (!options.cropWindow.empty()) add("--cropwindow", options.cropWindow);
+  for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
+  if (options.allowsScenePlugins) arguments.push_back("--allow-scene-plugins");
+  add("--footprint-spp", std::to_string(options.footprintSamples));
+  add("--nthreads", std::to_string(options.threads));
+  add("--seed", std::to_string(seed));
+  arguments.push_back("--float");
+  arguments.push_back("--reproducible");
+  return arguments;
+}
+
+std::string CommandText(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"exphoton"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return CommandLineText(words);
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PNG by libpng's simplified interface. 8-bit samples are decoded here, exactly; 16-bit ones are
+// taken as sRGB and decoded by the library to 16 linear bits.
+#include "core/imaging/files/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <new>
+
+#include "core/base/error.h"
+#include "core/base/fp_traps.h"
+#include "core/base/memory.h"
+#include "core/files/atomic_file.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::uint64_t kMaxPixels = std::uint64_t(1) << 28;
+
+// IEC 61966-2-1.
+double DecodeSrgb(double v) {
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+double EncodeSrgb(double v) {
+  return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+std::uint8_t ToByte(double v) { return std::uint8_t(std::lround(std::clamp(v, 0., 1.) * 255)); }
+
+// Frees what the library holds, however the scope is left.
+struct PngImage {
+  png_image image{};
+  PngImage() { image.version = PNG_IMAGE_VERSION; }
+  ~PngImage() { png_image_free(&image); }
+};
+
+[[noreturn]] void Fail(const std::string& path, const png_image& image) {
+  throw ImageError(path + ": " + image.message);
+}
+
+Image Read8(const std::string& path, png_image* png, int channels, Image result) {
+  png->format = channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> bytes(result.pixels.size());
+  if (!png_image_finish_read(png, nullptr, bytes.data(), 0, nullptr)) Fail(path, *png);
+  std::array<float, 256> linear;
+  for (std::size_t i = 0; i < 256; ++i) linear[i] = float(DecodeSrgb(double(i) / 255));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const bool isAlpha = channels == 4 && i % 4 == 3;
+    result.pixels[i] = isAlpha ? float(bytes[i]) / 255.f : linear[bytes[i]];
+  }
+  return result;
+}
+
+// The library's linear formats have colours multiplied by alpha; that is undone.
+Image Read16(const std::string& path, png_image* png, int channels, Image result) {
+  png->format = channels == 4 ? PNG_FORMAT_LINEAR_RGB_ALPHA : PNG_FORMAT_LINEAR_RGB;
+  png->flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+  std::vector<std::uint16_t> values(result.pixels.size());
+  if (!png_image_finish_read(png, nullptr, values.data(), 0, nullptr)) Fail(path, *png);
+  for (std::size_t i = 0; i < values.size(); i += std::size_t(channels)) {
+    const float alpha = channels == 4 ? float(values[i + 3]) : 65535.f;
+    for (std::size_t c = 0; c < 3; ++c)
+      result.pixels[i + c] = alpha > 0 ? float(values[i + c]) / alpha : 0;
+    if (channels == 4) result.pixels[i + 3] = alpha / 65535.f;
+  }
+  return result;
+}
+
+Image Read(const std::string& path) {
+  CheckImageFile(path);
+  PngImage png;
+  if (!png_image_begin_read_from_file(&png.image, path.c_str())) Fail(path, png.image);
+  const std::uint64_t pixels = std::uint64_t(png.image.width) * png.image.height;
+  if (pixels > kMaxPixels || png.image.width > (1u << 30) || png.image.height > (1u << 30))
+    throw ImageError(path + ": more than 2^28 pixels");
+  const bool hasAlpha = png.image.format & PNG_FORMAT_FLAG_ALPHA;
+  std::vector<std::string> names = {"R", "G", "B"};
+  if (hasAlpha) names.push_back("A");
+  const int channels = int(names.size());
+  Image result(int(png.image.width), int(png.image.height), names);
+  const bool is16 = png.image.format & PNG_FORMAT_FLAG_LINEAR;
+  return is16 ? Read16(path, &png.image, channels, std::move(result))
+              : Read8(path, &png.image, channels, std::move(result));
+}
+
+std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& from,
+                                  std::size_t channels, float exposure) {
+  const double scale = std::exp2(double(exposure));
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(std::size_t(image.Width()) * std::size_t(image.Height()) * channels);
+  for (int y = 0; y < image.Height(); ++y) {
+    for (int x = 0; x < image.Width(); ++x) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        double v = image.At(x, y, from[c]);
+        if (!(v > 0)) v = 0;  // NaN too
+        bytes.push_back(ToByte(c == 3 ? v : EncodeSrgb(std::min(v * scale, 1.))));
+      }
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string EncodePng(const Image& image, float exposure) {
+  const UntrappedLibraryCall guard;
+  const std::array<int, 4> from = {image.FindChannel("R"), image.FindChannel("G"),
+                                   image.FindChannel("B"), image.FindChannel("A")};
+  if (from[0] < 0 || from[1] < 0 || from[2] < 0)
+    throw Error(ExitStatus::File, "no channels R, G, B for a PNG");
+  const std::size_t channels = from[3] >= 0 ? 4 : 3;
+  const std::vector<std::uint8_t> bytes = ToneMap(image, from, channels, exposure);
+
+  PngImage png;
+  png.image.width = png_uint_32(image.Width());
+  png.image.height = png_uint_32(image.Height());
+  png.image.format = channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);
+  std::string encoded(size, '\0');
+  if (!png_image_write_to_memory(&png.image, encoded.data(), &size, 0, bytes.data(), 0, nullptr))
+    throw Error(ExitStatus::File, std::string("cannot encode a PNG: ") + png.image.message);
+  encoded.resize(size);
+  return encoded;
+}
+
+void WritePng(const std::string& path, const Image& image, float exposure) {
+  std::string encoded;
+  try {
+    encoded = EncodePng(image, exposure);
+  } catch (const Error& error) {
+    throw Error(error.Status(), "cannot write \"" + path + "\": " + error.what());
+  }
+  AtomicFile file(path);
+  file.Write(encoded.data(), encoded.size());
+  file.Commit();
+}
+
+Image ReadPng(const std::string& path) {
+  const UntrappedLibraryCall guard;
+  try {
+    return Read(path);
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::Resource,
+                "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
+  }
+}
+
+}  // namespace exphoton

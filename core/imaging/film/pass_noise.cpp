@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The estimator: how far each group lies from the mean of all, over what the picture is nearby.
+#include "core/imaging/film/pass_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/imaging/metrics/metrics.h"
+
+namespace exphoton {
+namespace {
+
+// sum(w) where it may be divided by. Filters with negative lobes can make it small by chance.
+double SafeWeight(double weight, double samples) { return std::max(weight, .5 * samples); }
+
+// The mean over the (2 kReach + 1)^2 pixels round each, as far as they exist. Three channels.
+std::vector<float> BoxMean(const std::vector<float>& values, std::size_t width) {
+  constexpr std::ptrdiff_t kReach = 2;
+  const auto columns = std::ptrdiff_t(width);
+  const std::ptrdiff_t rows = std::ptrdiff_t(values.size() / 3) / columns;
+  const auto along = [&](const std::vector<float>& from, bool isRow) {
+    std::vector<float> to(from.size());
+    const std::ptrdiff_t count = isRow ? columns : rows, step = isRow ? 3 : 3 * columns;
+    for (std::ptrdiff_t y = 0; y < rows; ++y) {
+      for (std::ptrdiff_t x = 0; x < columns; ++x) {
+        const std::ptrdiff_t place = isRow ? x : y, at = 3 * (y * columns + x);
+        const std::ptrdiff_t first = std::max<std::ptrdiff_t>(place - kReach, 0);
+        const std::ptrdiff_t last = std::min(place + kReach, count - 1);
+        for (std::ptrdiff_t c = 0; c < 3; ++c) {
+          double sum = 0;
+          for (std::ptrdiff_t k = first; k <= last; ++k)
+            sum += double(from[std::size_t(at + (k - place) * step + c)]);
+          to[std::size_t(at + c)] = float(sum / double(last - first + 1));
+        }
+      }
+    }
+    return to;
+  };
+  return along(along(values, true), false);
+}
+
+}  // namespace
+
+PassNoise::PassNoise(const PixelBounds& crop, int groups)
+    : width_(std::size_t(crop.Width())),
+      pixelCount_(std::size_t(crop.Width()) * std::size_t(crop.Height())),
+      sums_(std::size_t(groups)),
+      samples_(std::size_t(groups), 0) {}
+
+void PassNoise::Add(int group, const Film& pass, std::int64_t samplesPerPixel) {
+  std::vector<Sums>& sums = sums_[std::size_t(group)];
+  sums.resize(pixelCount_);
+  for (std::size_t i = 0; i < pixelCount_; ++i) {
+    const Film::Sums from = pass.SumsOf(i);
+    Sums& to = sums[i];
+    to.rgb[0] += float(from.r);
+    to.rgb[1] += float(from.g);
+    to.rgb[2] += float(from.b);
+    to.weight += float(from.weight);
+  }
+  samples_[std::size_t(group)] += samplesPerPixel;
+}
+
+int PassNoise::SmallestGroup() const {
+  return int(std::min_element(samples_.begin(), samples_.end()) - samples_.begin());
+}
+
+double PassNoise::SampleCount() const {
+  double total = 0;
+  for (const std::int64_t count : samples_) total += double(count);
+  return total;
+}
+
+std::vector<PassNoise::Group> PassNoise::Groups() const {
+  const double total = SampleCount();
+  std::vector<Group> groups;
+  for (std::size_t g = 0; g < sums_.size(); ++g)
+    if (samples_[g] > 0) groups.push_back({sums_[g].data(), double(samples_[g]) / total});
+  return groups;
+}
+
+PassNoise::Sums PassNoise::TotalOf(const std::vector<Group>& groups, std::size_t pixel) const {
+  Sums total;
+  for (const Group& group : groups) {
+    for (int c = 0; c < 3; ++c) total.rgb[c] += group.pixels[pixel].rgb[c];
+    total.weight += group.pixels[pixel].weight;
+  }
+  return total;
+}
+
+double PassNoise::RelativeVariance() const {
+  if (Groups().size() < 2) return std::numeric_limits<double>::infinity();
+  const std::vector<float> variances = Variances();
+  const std::vector<float> smooth = BoxMean(Means(), width_);
+  double sum = 0;
+  for (std::size_t i = 0; i < variances.size(); ++i) {
+    const double r = smooth[i];
+    sum += double(variances[i]) / (r * r + kRelMseOffset);
+  }
+  return sum / double(variances.size());
+}
+
+std::vector<float> PassNoise::Means() const {
+  const std::vector<Group> groups = Groups();
+  std::vector<float> means(3 * pixelCount_);
+  const double samples = SampleCount();
+  for (std::size_t i = 0; i < pixelCount_; ++i) {
+    const Sums total = TotalOf(groups, i);
+    const double weight = SafeWeight(double(total.weight), samples);
+    for (std::size_t c = 0; c < 3; ++c)
+      means[3 * i + c] = float(std::max(0., double(total.rgb[c]) / weight));
+  }
+  return means;
+}
+
+std::vector<float> PassNoise::Variances() const {
+  const std::vector<Group> groups = Groups();
+  std::vector<float> variances(3 * pixelCount_);
+  if (groups.size() < 2) return variances;
+  const double samples = SampleCount();
+  for (std::size_t i = 0; i < pixelCount_; ++i) {
+    const Sums total = TotalOf(groups, i);
+    const double weight = SafeWeight(double(total.weight), samples);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double mean = double(total.rgb[c]) / weight;
+      double sum = 0;
+      for (const Group& group : groups) {
+        const Sums& own = group.pixels[i];
+        const double distance = (double(own.rgb[c]) - mean * double(own.weight)) / weight;
+        sum += distance * distance / (1 - group.share);
+      }
+      variances[3 * i + c] = float(sum);
+    }
+  }
+  return variances;
+}
+
+}  // namespace exphoton

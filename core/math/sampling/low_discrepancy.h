@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Low-discrepancy points with keyed randomisation and 64-bit indices.
+//   (0,2)-sequence: first two Sobol' dimensions, Owen-scrambled by hashing
+//     (Laine and Karras 2011; Burley 2020, "Practical Hash-based Owen Scrambling").
+//   Halton: radical inverses with Owen-scrambled (position- and prefix-dependent) digits
+//     (Owen 1995; Faure and Tezuka 2002 for the plain permutations).
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/sampling/random.h"
+#include "core/math/vec.h"
+
+namespace exphoton {
+
+constexpr std::uint32_t ReverseBits32(std::uint32_t v) {
+  v = __builtin_bswap32(v);
+  v = ((v & 0x0f0f0f0fu) << 4) | ((v & 0xf0f0f0f0u) >> 4);
+  v = ((v & 0x33333333u) << 2) | ((v & 0xccccccccu) >> 2);
+  return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
+}
+
+// Owen scrambling of a 32-bit binary fraction, tree chosen by `key`; of its bits in reverse order,
+// and with the result in reverse order too: what it costs without turning the bits round.
+constexpr std::uint32_t OwenScrambleReversed(std::uint32_t v, std::uint32_t key) {
+  v += key;
+  v ^= v * 0x6c50b47cu;
+  v ^= v * 0xb82f1e52u;
+  v ^= v * 0xc7afe638u;
+  v ^= v * 0x8d22f6e6u;
+  return v;
+}
+constexpr std::uint32_t OwenScramble(std::uint32_t v, std::uint32_t key) {
+  return ReverseBits32(OwenScrambleReversed(ReverseBits32(v), key));
+}
+
+// Second Sobol' dimension (the first is the bit-reversed index) as a 32-bit fraction, its bits in
+// reverse order. Its matrix is Pascal's triangle modulo 2, and C(j, i) is odd where the bits of i
+// are among those of j (Lucas): bit i is the sum of all bits j whose number contains the bits of i.
+constexpr std::uint32_t SobolSecondReversed(std::uint32_t index) {
+  index ^= (index >> 16) & 0x0000ffffu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 1) & 0x55555555u;
+  return index;
+}
+constexpr std::uint32_t SobolSecond(std::uint32_t index) {
+  return ReverseBits32(SobolSecondReversed(index));
+}
+
+// Cut off, not rounded, so that no point leaves its binary stratum.
+inline Real FractionToReal(std::uint32_t v) {
+  if constexpr (sizeof(Real) == 4) return Real(std::int32_t(v >> 8)) * Real(1.0 / 16777216.0);
+  return Real(v) * Real(1.0 / 4294967296.0);
+}
+
+// Point `index` of the scrambled van der Corput sequence and of the scrambled (0,2)-sequence.
+inline Real ScrambledVanDerCorput(std::uint32_t index, std::uint32_t key) {
+  return FractionToReal(ReverseBits32(OwenScrambleReversed(index, key)));
+}
+inline Point2 ScrambledSobol2(std::uint32_t index, std::uint64_t key) {
+  const std::uint32_t first = OwenScrambleReversed(index, std::uint32_t(key));
+  const std::uint32_t second =
+      OwenScrambleReversed(SobolSecondReversed(index), std::uint32_t(key >> 32));
+  return {FractionToReal(ReverseBits32(first)), FractionToReal(ReverseBits32(second))};
+}
+
+inline constexpr std::uint32_t kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+
+// Radical inverse of a 64-bit index in `base`, every digit permuted by a permutation chosen by
+// key and by the digits before it (nested, Owen); in [0, kOneMinusEpsilon]. Trailing zero digits
+// are permuted too, down to the resolution of Real.
+inline Real ScrambledRadicalInverse(std::uint32_t base, std::uint64_t index, std::uint64_t key) {
+  const double inverseBase = 1.0 / base;
+  double scale = inverseBase, value = 0;
+  std::uint64_t prefix = key;
+  for (int digitIndex = 0; scale > 1e-9 || index != 0; ++digitIndex, scale *= inverseBase) {
+    const auto digit = static_cast<std::uint32_t>(index % base);
+    index /= base;
+    const std::uint32_t permuted =
+        PermuteIndex(digit, base, static_cast<std::uint32_t>(MixBits(prefix)));
+    value += permuted * scale;
+    prefix = MixBits(prefix + 0x9e3779b97f4a7c15ull * (permuted + 1));
+    if (scale < 1e-300) break;
+  }
+  return std::min(Real(value), kOneMinusEpsilon);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Saving, restoring and sharing graphics states.
+#include "core/parser/builder/graphics_state.h"
+
+namespace exphoton {
+namespace {
+
+const char* BlockName(StateStack::Block block) {
+  switch (block) {
+    case StateStack::Block::Attribute:
+      return "AttributeBegin";
+    case StateStack::Block::Transform:
+      return "TransformBegin";
+    case StateStack::Block::Object:
+      return "ObjectBegin";
+  }
+  return "";
+}
+
+}  // namespace
+
+TextureTable& GraphicsState::OwnTextures() {
+  if (textures.use_count() > 1) textures = std::make_shared<TextureTable>(*textures);
+  return *textures;
+}
+
+GraphicsState::MaterialMap& GraphicsState::OwnNamedMaterials() {
+  if (namedMaterials.use_count() > 1)
+    namedMaterials = std::make_shared<MaterialMap>(*namedMaterials);
+  return *namedMaterials;
+}
+
+void StateStack::Push(Block block, const GraphicsState& state, const SourceLocation& where) {
+  if (entries_.size() >= kMaxDepth)
+    FailAt(where, "blocks are nested more than " + std::to_string(kMaxDepth) + " deep");
+  entries_.push_back({block, state, where});
+}
+
+void StateStack::Pop(Block block, const std::string& name, const SourceLocation& where,
+                     GraphicsState* state) {
+  if (entries_.empty()) FailAt(where, name + " without " + BlockName(block));
+  Entry& entry = entries_.back();
+  if (entry.block != block)
+    FailAt(where, name + " does not match the " + BlockName(entry.block) + " at " +
+                      PlaceName(entry.where));
+  if (block == Block::Transform) {
+    state->transform = entry.state.transform;
+    state->active = entry.state.active;
+  } else {
+    *state = std::move(entry.state);
+  }
+  entries_.pop_back();
+}
+
+const char* StateStack::InnermostName() const { return BlockName(entries_.back().block); }
+
+std::string PlaceName(const SourceLocation& where) {
+  return where.file + ":" + std::to_string(where.line);
+}
+
+void FailAt(const SourceLocation& where, const std::string& text, const std::string& hint) {
+  throw Error(ExitStatus::Scene, text, where, hint);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// From two matrices of a scene file to a motion, with what people need to hear of it.
+#include "core/parser/builder/moving_transform.h"
+
+#include "core/base/log.h"
+
+namespace exphoton {
+
+AnimatedTransform MotionBetween(const MovingTransform& transform, Interval times,
+                                const std::string& what, const SourceLocation& where, Log& log) {
+  const char* problem = "";
+  const auto motion = AnimatedTransform::Between(transform.start, transform.end, times, &problem);
+  if (!motion)
+    throw Error(ExitStatus::Scene, what + " cannot move so: " + problem, where,
+                "its transformations at StartTime and at EndTime are interpolated");
+  if (motion->IsHalfTurn())
+    log.Warning(what + " turns by half a turn: which way round is left to chance", where,
+                "turn by less, 179 degrees for example");
+  return *motion;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Defaults, overrides from the command line, and the making of camera, film, sampler, filter and
+// integrator.
+#include "core/parser/builder/render_directives.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/log.h"
+#include "core/params/suggestions.h"
+#include "core/parser/builder/graphics_state.h"
+#include "core/parser/film_parameters.h"
+#include "core/parser/overrides.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kQuickResolutionDivisor = 4;
+
+// The one class of objects that the core itself makes, or accepts without effect.
+void RequireName(const std::string& what, const std::string& name, const SourceLocation& where,
+                 const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  std::string list;
+  for (const std::string& each : known) list += (list.empty() ? "\"" : ", \"") + each + "\"";
+  FailAt(where, "unknown " + what + " \"" + name + "\"; known: " + list, DidYouMean(name, known));
+}
+
+}  // namespace
+
+RenderDirectives::RenderDirectives(const LoadOptions& options) : options_(options) {
+  OverrideIntegrator();
+}
+
+// Its parameters stay: those of another integrator are only noticed.
+void RenderDirectives::OverrideIntegrator() {
+  if (!options_.integrator) return;
+  integrator_.name = *options_.integrator;
+  integrator_.params.where = SourceLocation();
+  integrator_.params.where.file = kCommandLinePlace;
+  integrator_.params.where.line = 1;
+  integrator_.params.where.lineText = "--integrator " + integrator_.name;
+  integrator_.params.where.column = int(std::string("--integrator ").size()) + 1;
+}
+
+void RenderDirectives::Handle(Directive directive, const MovingTransform& current) {
+  const std::string& name = directive.strings[0];
+  Choice* choice = nullptr;
+  switch (directive.spec->id) {
+    case DirectiveId::Accelerator:
+      choice = &accelerator_;
+      break;
+    case DirectiveId::Camera:
+      choice = &camera_;
+      worldToCamera_ = current;
+      break;
+    case DirectiveId::Film:
+      RequireName("film", name, directive.Where(), {"image"});
+      choice = &film_;
+      break;
+    case DirectiveId::PixelFilter:
+      choice = &filter_;
+      break;
+    case DirectiveId::Renderer:
+      RequireName("renderer", name, directive.Where(), {"sampler"});
+      choice = &renderer_;
+      break;
+    case DirectiveId::Sampler:
+      choice = &sampler_;
+      break;
+    case DirectiveId::SurfaceIntegrator:
+      choice = &integrator_;
+      break;
+    case DirectiveId::VolumeIntegrator:
+      choice = &volumeIntegrator_;
+      break;
+    default:
+      return;
+  }
+  *choice = {name, std::move(directive.params), true};
+  if (choice == &integrator_) OverrideIntegrator();
+}
+
+void RenderDirectives::SetDefaultPlace(const SourceLocation& where) {
+  for (Choice* choice : {&filter_, &film_, &sampler_, &accelerator_, &integrator_, &camera_})
+    if (choice->params.where.file.empty()) choice->params.where = where;
+}
+
+BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log& log) const {
+  BindContext bind;
+  bind.log = &log;
+  bind.isStrict = options_.isStrict;
+  bind.what = std::string(PluginKindName(kind)) + " \"" + name + "\"";
+  return bind;
+}
+
+ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choice, PluginKind kind,
+                                      PluginRegistry& registry) const {
+  ParamSet params = choice.params;
+  const auto& declared =
+      registry.Find(kind, choice.name, choice.params.where).parameters->Declarations();
+  ApplyOverrides(options_.parameters, directive,
+                 std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", declared, &params);
+  if (kind == PluginKind::Integrator && options_.isQuick) ScaleForQuick(declared, &params);
+  return params;
+}
+
+AcceleratorSpec RenderDirectives::Accelerator(PluginRegistry& registry) const {
+  return {accelerator_.name,
+          Overridden("Accelerator", accelerator_, PluginKind::Accelerator, registry),
+          options_.threads};
+}
+
+void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
+  ParamSet params = film_.params;
+  ApplyOverrides(options_.parameters, "Film", "film \"image\"", FilmParameterTable().Declarations(),
+                 &params);
+  BindContext bind;
+  bind.log = &log;
+  bind.isStrict = options_.isStrict;
+  bind.what = "film \"image\"";
+  setup->film = FilmParameterTable().Bind(params, bind);
+  if (options_.cropWindow) setup->film.cropWindow = options_.cropWindow;
+  if (options_.isQuick) {
+    setup->film.xResolution = std::max(1, setup->film.xResolution / kQuickResolutionDivisor);
+    setup->film.yResolution = std::max(1, setup->film.yResolution / kQuickResolutionDivisor);
+  }
+  setup->crop = options_.pixelBounds.value_or(setup->film.Crop());
+  const PixelBounds full = setup->film.Full();
+  if (options_.pixelBounds) {
+    setup->crop = {std::max(setup->crop.x0, full.x0), std::max(setup->crop.y0, full.y0),
+                   std::min(setup->crop.x1, full.x1), std::min(setup->crop.y1, full.y1)};
+    if (setup->crop.IsEmpty())
+      throw Error(ExitStatus::CommandLine, "the pixels asked for lie outside the picture of " +
+                                               std::to_string(full.x1) + " x " +
+                                               std::to_string(full.y1));
+  }
+  if (!setup->crop.IsEmpty()) return;
+  const ParsedParam* window = params.Find("cropwindow");
+  if (options_.cropWindow || !window)
+    throw Error(ExitStatus::CommandLine, "the crop window holds no pixel's centre");
+  FailAt(window->where, "the crop window holds no pixel's centre");
+}
+
+void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
+  const ParamSet params = Overridden("Sampler", sampler_, PluginKind::Sampler, registry);
+  setup->samplerName = sampler_.name;
+  setup->sampler = registry.Create<PluginKind::Sampler>(
+      sampler_.name, params, Bind(PluginKind::Sampler, sampler_.name, log),
+      SamplerContext{log, sampler_.params.where});
+  std::optional<std::int64_t> count = options_.samplesPerPixel;
+  if (options_.isQuick && !count) count = 1;
+  if (!count) return;
+  setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
+  const std::int64_t made = setup->sampler->SamplesPerPixel();
+  if (made != *count)
+    log.Notice("sampler \"" + sampler_.name + "\" takes " + std::to_string(made) +
+               " samples a pixel instead of " + std::to_string(*count));
+}
+
+void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,
+                                        RenderSetup* setup) const {
+  const ParamSet params =
+      Overridden("SurfaceIntegrator", integrator_, PluginKind::Integrator, registry);
+  setup->integratorName = integrator_.name;
+  setup->integrator = registry.Create<PluginKind::Integrator>(
+      integrator_.name, params, Bind(PluginKind::Integrator, integrator_.name, log),
+      IntegratorContext{log});
+}
+
+void RenderDirectives::CreateVolumeIntegrator(PluginRegistry& registry, Log& log, bool hasMedia,
+                                              RenderSetup* setup) const {
+  if (!hasMedia && !volumeIntegrator_.isGiven) return;
+  const ParamSet params =
+      Overridden("VolumeIntegrator", volumeIntegrator_, PluginKind::VolumeIntegrator, registry);
+  auto integrator = registry.Create<PluginKind::VolumeIntegrator>(
+      volumeIntegrator_.name, params,
+      Bind(PluginKind::VolumeIntegrator, volumeIntegrator_.name, log), NoContext{});
+  if (hasMedia) {
+    setup->volumeIntegrator = std::move(integrator);
+  } else {
+    log.Notice("the scene has no Volume: volume integrator \"" + volumeIntegrator_.name +
+                   "\" has nothing to do",
+               volumeIntegrator_.params.where);
+  }
+}
+
+void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
+                              RenderSetup* setup) const {
+  CreateFilm(log, setup);
+  CreateVolumeIntegrator(registry, log, hasMedia, setup);
+  const ParamSet camera = Overridden("Camera", camera_, PluginKind::Camera, registry);
+  setup->cameraName = camera_.name;
+  setup->camera = registry.Create<PluginKind::Camera>(
+      camera_.name, camera, Bind(PluginKind::Camera, camera_.name, log),
+      CameraContext{MotionBetween(worldToCamera_.Inverted(), transformTimes_, "the camera",
+                                  camera_.params.where, log),
+                    setup->film.xResolution, setup->film.yResolution});
+  const ParamSet filter = Overridden("PixelFilter", filter_, PluginKind::Filter, registry);
+  setup->filterName = filter_.name;
+  setup->filter = registry.Create<PluginKind::Filter>(
+      filter_.name, filter, Bind(PluginKind::Filter, filter_.name, log), NoContext{});
+  CreateSampler(registry, log, setup);
+  CreateIntegrator(registry, log, setup);
+  setup->acceleratorName = accelerator_.name;
+}
+
+}  // namespace exphoton

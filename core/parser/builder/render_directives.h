@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// RenderDirectives: what a file says before WorldBegin about how to render, and the objects made
+// from it at WorldEnd.
+#pragma once
+
+#include <string>
+
+#include "core/parser/builder/moving_transform.h"
+#include "core/parser/builder/world_builder.h"
+#include "core/parser/render_setup.h"
+#include "core/parser/syntax/directive.h"
+#include "core/plugins/registry.h"
+
+namespace exphoton {
+
+class RenderDirectives {
+ public:
+  explicit RenderDirectives(const LoadOptions& options);
+
+  // Camera, Film, Sampler ...: the last one of each wins.
+  void Handle(Directive directive, const MovingTransform& current);
+  // Between which the transformations of moving things run; for all of the scene.
+  void SetTransformTimes(Interval times) { transformTimes_ = times; }
+  Interval TransformTimes() const { return transformTimes_; }
+
+  // The place of errors in what the file leaves to the defaults.
+  void SetDefaultPlace(const SourceLocation& where);
+
+  AcceleratorSpec Accelerator(PluginRegistry& registry) const;
+
+  // Makes everything but the scene.
+  void Create(PluginRegistry& registry, Log& log, bool hasMedia, RenderSetup* setup) const;
+
+ private:
+  struct Choice {
+    std::string name;
+    ParamSet params;
+    bool isGiven = false;
+  };
+
+  void OverrideIntegrator();
+  ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
+                      PluginRegistry& registry) const;
+  BindContext Bind(PluginKind kind, const std::string& name, Log& log) const;
+  void CreateFilm(Log& log, RenderSetup* setup) const;
+  void CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  void CreateIntegrator(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  void CreateVolumeIntegrator(PluginRegistry& registry, Log& log, bool hasMedia,
+                              RenderSetup* setup) const;
+
+  const LoadOptions& options_;
+  Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
+      accelerator_{"bvh", {}}, integrator_{"directlighting", {}}, volumeIntegrator_{"emission", {}},
+      camera_{"perspective", {}}, renderer_{"sampler", {}};
+  MovingTransform worldToCamera_;
+  Interval transformTimes_{0, 1};
+};
+
+}  // namespace exphoton

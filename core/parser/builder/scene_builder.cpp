@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The state machine of the scene language. WorldEnd makes a setup and resets the state.
+#include "core/parser/builder/scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/log.h"
+#include "core/files/file_identity.h"
+#include "core/params/suggestions.h"
+#include "core/parser/builder/transform_directives.h"
+#include "core/parser/overrides.h"
+#include "core/parser/scene_files.h"
+#include "core/parser/scene_hash.h"
+#include "core/scene/effects.h"
+
+namespace exphoton {
+
+SceneBuilder::SceneBuilder(std::string sceneName, const LoadOptions& options, Log& log)
+    : sceneName_(std::move(sceneName)), options_(options), log_(log) {
+  CheckOverrides(options_.parameters);
+  Reset();
+}
+
+void SceneBuilder::Reset() {
+  pluginFolders_ = ChosenFolders(options_.pluginFolders);
+  registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_);
+  world_.reset();
+  worldBegin_.reset();
+  render_.emplace(options_);
+  state_ = GraphicsState();
+  stack_.Clear();
+  coordinateSystems_.clear();
+  hash_ = 0;
+  inputFiles_ = {sceneName_};
+}
+
+void SceneBuilder::CheckScope(const Directive& directive) const {
+  const std::string name(directive.spec->name);
+  if (directive.spec->id == DirectiveId::WorldEnd && !world_)
+    FailAt(directive.Where(), "WorldEnd without WorldBegin");
+  if (directive.spec->id == DirectiveId::WorldBegin && world_)
+    FailAt(directive.Where(),
+           "WorldBegin inside the world that begins at " + PlaceName(*worldBegin_));
+  if (directive.spec->scope == DirectiveScope::World && !world_)
+    FailAt(directive.Where(), name + " must stand between WorldBegin and WorldEnd");
+  if (directive.spec->scope == DirectiveScope::Options && world_)
+    FailAt(directive.Where(), name + " must stand before WorldBegin");
+}
+
+void SceneBuilder::Handle(Directive directive) {
+  if (options_.stop && *options_.stop) throw LoadingStopped();
+  CheckScope(directive);
+  hash_ = HashDirective(hash_, directive);
+  NoteInputFiles(directive, &inputFiles_);
+  const DirectiveId id = directive.spec->id;
+  if (IsTransformDirective(id)) return ChangeTransform(directive);
+  switch (id) {
+    case DirectiveId::ActiveTransform:
+      return SetActiveTransform(directive);
+    case DirectiveId::TransformTimes:
+      return SetTransformTimes(directive);
+    case DirectiveId::CoordinateSystem:
+      coordinateSystems_[directive.strings[0]] = state_.transform;
+      return;
+    case DirectiveId::CoordSysTransform:
+      return UseCoordinateSystem(directive);
+    case DirectiveId::SearchPath:
+      return SetSearchPath(directive);
+    case DirectiveId::WorldBegin:
+      return BeginWorld(directive);
+    case DirectiveId::WorldEnd:
+      return EndWorld(directive);
+    case DirectiveId::Camera:
+      coordinateSystems_["camera"] = state_.transform.Inverted();
+      break;
+    default:
+      break;
+  }
+  if (world_) return HandleWorld(std::move(directive));
+  render_->Handle(std::move(directive), state_.transform);
+}
+
+void SceneBuilder::HandleWorld(Directive directive) {
+  using Block = StateStack::Block;
+  switch (directive.spec->id) {
+    case DirectiveId::AttributeBegin:
+      return stack_.Push(Block::Attribute, state_, directive.Where());
+    case DirectiveId::AttributeEnd:
+      return EndBlock(Block::Attribute, directive);
+    case DirectiveId::TransformBegin:
+      return stack_.Push(Block::Transform, state_, directive.Where());
+    case DirectiveId::TransformEnd:
+      return EndBlock(Block::Transform, directive);
+    case DirectiveId::ObjectBegin:
+      world_->BeginObject(directive);
+      return stack_.Push(Block::Object, state_, directive.Where());
+    case DirectiveId::ObjectEnd:
+      return EndBlock(Block::Object, directive);
+    case DirectiveId::ObjectInstance:
+      return world_->AddInstance(directive, state_);
+    case DirectiveId::ReverseOrientation:
+      state_.reverseOrientation = !state_.reverseOrientation;
+      return;
+    case DirectiveId::Texture:
+      return world_->DefineTexture(directive, &state_);
+    case DirectiveId::Material:
+      return SetMaterial(std::move(directive));
+    case DirectiveId::MakeNamedMaterial:
+      return MakeNamedMaterial(std::move(directive));
+    case DirectiveId::NamedMaterial:
+      return UseNamedMaterial(directive);
+    case DirectiveId::LightSource:
+      return world_->AddLight(directive, state_);
+    case DirectiveId::AreaLightSource:
+      state_.areaLight = world_->MakeAreaLightSpec(std::move(directive));
+      return;
+    case DirectiveId::Shape:
+      return world_->AddShape(std::move(directive), state_);
+    case DirectiveId::Volume:
+      return world_->AddVolume(directive, state_);
+    default:
+      return;
+  }
+}
+
+void SceneBuilder::EndBlock(StateStack::Block block, const Directive& directive) {
+  stack_.Pop(block, std::string(directive.spec->name), directive.Where(), &state_);
+  if (block == StateStack::Block::Object) world_->EndObject();
+}
+
+void SceneBuilder::ChangeTransform(const Directive& directive) {
+  MovingTransform& current = state_.transform;
+  if (state_.active != ActiveTimes::End)
+    current.start = ApplyTransform(current.start, directive, options_.dialect);
+  if (state_.active != ActiveTimes::Start)
+    current.end = ApplyTransform(current.end, directive, options_.dialect);
+  if (state_.active != ActiveTimes::All && directive.spec->id == DirectiveId::Rotate &&
+      std::abs(directive.numbers[0]) > 180)
+    log_.Warning("a rotation by more than half a turn: what moves turns the shortest way",
+                 directive.Where());
+}
+
+void SceneBuilder::SetActiveTransform(const Directive& directive) {
+  const std::string& when = directive.strings[0];
+  const std::vector<std::string> known{"All", "StartTime", "EndTime"};  // in ActiveTimes' order
+  const auto found = std::find(known.begin(), known.end(), when);
+  if (found == known.end())
+    FailAt(directive.Where(),
+           "unknown time \"" + when + "\" of ActiveTransform; known: All, StartTime, EndTime",
+           DidYouMean(when, known));
+  state_.active = ActiveTimes(found - known.begin());
+}
+
+void SceneBuilder::SetTransformTimes(const Directive& directive) {
+  const Interval times{Real(directive.numbers[0]), Real(directive.numbers[1])};
+  if (!(times.min < times.max) || !std::isfinite(times.min) || !std::isfinite(times.max))
+    FailAt(directive.Where(), "TransformTimes: the end must come after the start");
+  render_->SetTransformTimes(times);
+}
+
+void SceneBuilder::UseCoordinateSystem(const Directive& directive) {
+  const std::string& name = directive.strings[0];
+  const auto found = coordinateSystems_.find(name);
+  if (found == coordinateSystems_.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, transform] : coordinateSystems_) known.push_back(other);
+    FailAt(directive.Where(), "no coordinate system \"" + name + "\" has been named",
+           DidYouMean(name, known));
+  }
+  state_.transform = found->second;
+}
+
+void SceneBuilder::SetMaterial(Directive directive) {
+  state_.material =
+      world_->MakeMaterialSpec(std::move(directive.strings[0]), std::move(directive.params));
+}
+
+// Version 2: the plugin's name is the parameter "type".
+void SceneBuilder::MakeNamedMaterial(Directive directive) {
+  const std::string& name = directive.strings[0];
+  const ParsedParam* type = directive.params.Find("type");
+  if (!type || type->type != "string" || type->strings.size() != 1)
+    FailAt(directive.Where(), "MakeNamedMaterial \"" + name +
+                                  "\" needs a parameter \"string type\" with the material's name");
+  ParamSet params;
+  params.where = directive.Where();
+  for (const ParsedParam& param : directive.params.All())
+    if (param.name != "type") params.Add(param);
+  std::shared_ptr<MaterialSpec> spec = world_->MakeMaterialSpec(type->strings[0], params);
+  spec->textures = state_.textures;
+  GraphicsState::MaterialMap& materials = state_.OwnNamedMaterials();
+  if (materials.contains(name))
+    log_.Warning("material \"" + name + "\" is defined again: shapes from here on get the new one",
+                 directive.Where());
+  materials[name] = std::move(spec);
+}
+
+void SceneBuilder::UseNamedMaterial(const Directive& directive) {
+  const std::string& name = directive.strings[0];
+  const auto found = state_.namedMaterials->find(name);
+  if (found == state_.namedMaterials->end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, spec] : *state_.namedMaterials) known.push_back(other);
+    FailAt(directive.Where(), "no material \"" + name + "\" has been defined",
+           DidYouMean(name, known));
+  }
+  state_.material = found->second;
+}
+
+// A scene file may come from anybody, and a plugin is code: its folder must lie in one that the
+// user has named, or the user must have allowed it.
+PluginFolder SceneBuilder::JudgeFolder(const std::string& path, const SourceLocation& where) {
+  for (const std::string& chosen : options_.pluginFolders)
+    if (LiesIn(path, chosen)) return {path, PluginTrust::Chosen};
+  if (options_.allowsScenePlugins) return {path, PluginTrust::Allowed};
+  log_.Notice("the scene's SearchPath \"" + path + "\" is not searched for plugins", where,
+              "plugins are code that runs with your rights: --allow-scene-plugins allows this");
+  return {path, PluginTrust::Skipped};
+}
+
+// The program's own folders stay at the end, so that old paths do no harm.
+void SceneBuilder::SetSearchPath(const Directive& directive) {
+  const std::string& text = directive.strings[0];
+  PluginFolders folders;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(':', at), text.size());
+    const std::string folder = text.substr(at, end - at);
+    if (folder == "&")
+      folders.insert(folders.end(), pluginFolders_.begin(), pluginFolders_.end());
+    else if (!folder.empty())
+      folders.push_back(JudgeFolder(folder, directive.Where()));
+    at = end + 1;
+  }
+  for (const std::string& folder : options_.pluginFolders) folders.push_back({folder});
+  pluginFolders_ = std::move(folders);
+  registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_);
+}
+
+}  // namespace exphoton

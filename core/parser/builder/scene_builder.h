@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SceneBuilder: directives in, render setups out. It keeps the state of the language: which block
+// is open, the current transformation, named coordinate systems.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/parser/builder/graphics_state.h"
+#include "core/parser/builder/render_directives.h"
+#include "core/parser/builder/world_builder.h"
+#include "core/parser/render_setup.h"
+#include "core/parser/syntax/parser.h"
+
+namespace exphoton {
+
+class SceneBuilder final : public DirectiveHandler {
+ public:
+  // options and log must outlive the builder; log must outlive what it makes.
+  SceneBuilder(std::string sceneName, const LoadOptions& options, Log& log);
+
+  void Handle(Directive directive) override;
+  void Finish(const SourceLocation& end) override;
+  std::vector<std::unique_ptr<RenderSetup>> TakeSetups() { return std::move(setups_); }
+
+ private:
+  void CheckScope(const Directive& directive) const;
+  void ChangeTransform(const Directive& directive);
+  void SetActiveTransform(const Directive& directive);
+  void SetTransformTimes(const Directive& directive);
+  void UseCoordinateSystem(const Directive& directive);
+  void HandleWorld(Directive directive);
+  void SetMaterial(Directive directive);
+  void MakeNamedMaterial(Directive directive);
+  void UseNamedMaterial(const Directive& directive);
+  void EndBlock(StateStack::Block block, const Directive& directive);
+  void SetSearchPath(const Directive& directive);
+  PluginFolder JudgeFolder(const std::string& path, const SourceLocation& where);
+  void BeginWorld(const Directive& directive);
+  void EndWorld(const Directive& directive);
+  void Reset();  // to the state at the beginning of a file
+
+  std::string sceneName_;
+  const LoadOptions& options_;
+  Log& log_;
+  PluginFolders pluginFolders_;
+  std::unique_ptr<PluginRegistry> registry_;
+
+  std::optional<RenderDirectives> render_;
+  std::optional<WorldBuilder> world_;  // while a world is open
+  std::optional<SourceLocation> worldBegin_;
+  GraphicsState state_;
+  StateStack stack_;
+  std::map<std::string, MovingTransform> coordinateSystems_;
+  std::uint64_t hash_ = 0;
+  std::set<std::string> inputFiles_;
+  std::vector<std::unique_ptr<RenderSetup>> setups_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The world's beginning and end: where a scene becomes a render setup.
+#include <algorithm>
+#include <utility>
+
+#include "core/base/log.h"
+#include "core/parser/builder/scene_builder.h"
+#include "core/parser/effect_choice.h"
+
+namespace exphoton {
+
+void SceneBuilder::BeginWorld(const Directive& directive) {
+  worldBegin_ = directive.Where();
+  render_->SetDefaultPlace(directive.Where());
+  world_.emplace(*registry_, log_, options_, render_->Accelerator(*registry_),
+                 render_->TransformTimes());
+  state_.transform = MovingTransform();
+  state_.active = ActiveTimes::All;
+  if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = MovingTransform();
+  coordinateSystems_["world"] = MovingTransform();
+  state_.material = std::make_shared<MaterialSpec>();  // loaded only if a shape wears it
+  state_.material->name = "matte";
+  state_.material->params.where = directive.Where();
+}
+
+void SceneBuilder::EndWorld(const Directive& directive) {
+  if (world_->IsInObject())
+    FailAt(directive.Where(),
+           "the object that begins at " + PlaceName(stack_.Innermost()) + " has no ObjectEnd");
+  if (!stack_.IsEmpty())
+    log_.Warning(std::string(stack_.InnermostName()) + " without its end", stack_.Innermost());
+
+  auto setup = std::make_unique<RenderSetup>();
+  setup->sceneName = sceneName_;
+  setup->sceneHash = hash_;
+  setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
+  SceneParts parts = world_->Take();
+  render_->Create(*registry_, log_, !parts.media.empty(), setup.get());
+  for (const Statistics::Phase& phase : world_->Times().Phases()) {
+    setup->acceleratorSeconds += phase.wallSeconds;
+    setup->acceleratorCpuSeconds += phase.cpuSeconds;
+  }
+  const bool glows = std::any_of(parts.media.begin(), parts.media.end(),
+                                 [](const auto& medium) { return medium->Emits(); });
+  if (parts.lights.empty() && !glows) log_.Warning("the scene has no light", directive.Where());
+  setup->scene = std::make_unique<Scene>(std::move(parts));
+  EffectPlan plan =
+      ChooseEffects(PlanEffects(*setup->scene, *setup->camera), options_.effects, log_);
+  NoteTimes(*setup->scene, *setup->camera, &plan);
+  setup->scene->SetEffects(std::move(plan), setup->camera->Shutter());
+  setup->plugins = registry_->Loaded();
+  setups_.push_back(std::move(setup));
+  Reset();
+}
+
+void SceneBuilder::Finish(const SourceLocation& end) {
+  if (world_) FailAt(end, "WorldEnd is missing: the world begins at " + PlaceName(*worldBegin_));
+  if (setups_.empty()) FailAt(end, "the file has no WorldBegin: there is nothing to render");
+}
+
+namespace {
+
+// Included files may belong to several scenes.
+void AddFilesRead(const SceneSource& source, RenderSetup* setup) {
+  std::set<std::string> files = source.FilesRead();
+  files.insert(setup->inputFiles.begin(), setup->inputFiles.end());
+  setup->inputFiles.assign(files.begin(), files.end());
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
+                                                     const LoadOptions& options, Log& log) {
+  try {
+    SceneBuilder builder(path == "-" ? "<stdin>" : path, options, log);
+    ParseScene(source, path, builder, log, options.limits);
+    std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();
+    for (const auto& setup : setups) AddFilesRead(source, setup.get());
+    return setups;
+  } catch (const Error& error) {
+    const bool isCommandLine = error.Where() && error.Where()->file == kCommandLinePlace;
+    if (!isCommandLine || error.Status() == ExitStatus::CommandLine) throw;
+    throw Error(ExitStatus::CommandLine, error.what(), *error.Where(), error.Hint());
+  }
+}
+
+}  // namespace exphoton

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Textures by name, and sums over their graphs that cannot overflow.
+#include "core/parser/builder/texture_table.h"
+
+#include <algorithm>
+
+namespace exphoton {
+namespace {
+
+constexpr std::int64_t kMostNodes = std::int64_t(1) << 60;
+
+template <class Map>
+auto TextureIn(const Map& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? decltype(found->second.texture)() : found->second.texture;
+}
+
+template <class Map>
+TextureGraph GraphIn(const Map& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? TextureGraph() : found->second.graph;
+}
+
+}  // namespace
+
+void TextureGraph::Include(const TextureGraph& other) {
+  depth = std::max(depth, other.depth);
+  nodes = std::min(nodes + other.nodes, kMostNodes);
+}
+
+TexturePtr<Real> TextureTable::Float(const std::string& name) const {
+  return TextureIn(float_, name);
+}
+TexturePtr<Spectrum> TextureTable::Color(const std::string& name) const {
+  return TextureIn(color_, name);
+}
+
+std::vector<std::string> TextureTable::Names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : float_) names.push_back(name);
+  for (const auto& [name, entry] : color_)
+    if (!float_.contains(name)) names.push_back(name);
+  return names;
+}
+
+bool TextureTable::Has(const std::string& name, bool isColor) const {
+  return isColor ? color_.contains(name) : float_.contains(name);
+}
+
+TextureGraph TextureTable::Graph(const std::string& name, bool isColor) const {
+  return isColor ? GraphIn(color_, name) : GraphIn(float_, name);
+}
+
+void TextureTable::Define(const std::string& name, TexturePtr<Real> texture,
+                          const TextureGraph& graph) {
+  float_[name] = {std::move(texture), graph};
+}
+void TextureTable::Define(const std::string& name, TexturePtr<Spectrum> texture,
+                          const TextureGraph& graph) {
+  color_[name] = {std::move(texture), graph};
+}
+
+TextureGraph TextureUse::Above() const {
+  TextureGraph graph = used_;
+  ++graph.depth;
+  graph.Include({0, 1});
+  return graph;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Shapes with their materials and area lights, lights, and textures. Instances are in
+// world_objects.cpp.
+#include "core/parser/builder/world_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/log.h"
+#include "core/geometry/moving_emitter.h"
+
+namespace exphoton {
+namespace {
+
+void RequireRest(const GraphicsState& state, const Directive& directive, const std::string& what) {
+  if (!state.transform.Moves()) return;
+  FailAt(directive.Where(),
+         what + " cannot move; shapes, area lights on them, instances and the camera can",
+         "the transformation is not the same at StartTime and EndTime");
+}
+
+// Refuses a texture whose lookup could overflow the stack or would not end.
+void CheckGraph(const TextureGraph& graph, const Directive& directive, const SceneLimits& limits) {
+  const std::string subject = "texture \"" + directive.strings[0] + "\" ";
+  if (graph.depth > kMaxTextureDepth)
+    FailAt(directive.Where(), subject + "is the top of a chain of more than " +
+                                  std::to_string(kMaxTextureDepth) +
+                                  " textures that use each other");
+  if (graph.nodes > limits.textureNodes)
+    FailAt(directive.Where(),
+           subject + "evaluates more than " + std::to_string(limits.textureNodes) +
+               " textures a lookup, because textures below it are used several times",
+           "--limits texturenodes=N allows N of them");
+}
+
+}  // namespace
+
+WorldBuilder::WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options,
+                           AcceleratorSpec accelerator, Interval transformTimes)
+    : registry_(registry),
+      log_(log),
+      isStrict_(options.isStrict),
+      limits_(options.limits),
+      accelerator_(std::move(accelerator)),
+      transformTimes_(transformTimes) {
+  parts_.primitives = std::make_unique<PrimitiveSet>();
+}
+
+BindContext WorldBuilder::Bind(PluginKind kind, const std::string& name,
+                               const TextureLookup* textures) const {
+  BindContext bind;
+  bind.textures = textures;
+  bind.log = &log_;
+  bind.isStrict = isStrict_;
+  bind.what = std::string(PluginKindName(kind)) + " \"" + name + "\"";
+  return bind;
+}
+
+void WorldBuilder::AddLight(const Directive& directive, const GraphicsState& state) {
+  if (IsInObject())
+    log_.Warning(
+        "a light in an object is not repeated with its instances: it shines once, where "
+        "the object is defined",
+        directive.Where());
+  RequireRest(state, directive, "a light source");
+  const std::string& name = directive.strings[0];
+  parts_.lights.push_back(registry_.Create<PluginKind::Light>(
+      name, directive.params, Bind(PluginKind::Light, name, state.textures.get()),
+      LightContext{state.transform.start, log_, directive.Where()}));
+  parts_.lightOrigins.push_back({name, directive.Where()});
+}
+
+void WorldBuilder::AddVolume(const Directive& directive, const GraphicsState& state) {
+  if (IsInObject())
+    log_.Warning("a volume in an object is not repeated with its instances", directive.Where());
+  RequireRest(state, directive, "a volume");
+  const std::string& name = directive.strings[0];
+  parts_.media.push_back(registry_.Create<PluginKind::Volume>(
+      name, directive.params, Bind(PluginKind::Volume, name, state.textures.get()),
+      MediumContext{state.transform.start, log_, directive.Where()}));
+}
+
+namespace {
+
+// The plan of effects trusts ConstantValue, so Evaluate must give that very value: a blend of 1 and
+// 1 may be off by a rounding error, which would open an opaque surface.
+template <class T>
+TexturePtr<T> WithoutRounding(TexturePtr<T> texture) {
+  const auto value = texture->ConstantValue();
+  return value ? Uniform(*value) : texture;
+}
+
+}  // namespace
+
+void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* state) {
+  const std::string &name = directive.strings[0], &type = directive.strings[1],
+                    &plugin = directive.strings[2];
+  const bool isColor = type == "color" || type == "spectrum";
+  if (!isColor && type != "float")
+    FailAt(directive.Where(), "texture \"" + name + "\" has type \"" + type +
+                                  "\"; types of textures are \"float\" and \"color\"");
+  if (state->transform.Moves())
+    log_.Warning("a texture does not move: it stays where the transformation starts",
+                 directive.Where());
+  const TextureContext context{state->transform.start, log_, directive.Where(), shared_};
+  const TextureUse use(*state->textures);
+  TexturePtr<Real> floats;
+  TexturePtr<Spectrum> colors;
+  if (isColor)
+    colors = WithoutRounding<Spectrum>(registry_.Create<PluginKind::ColorTexture>(
+        plugin, directive.params, Bind(PluginKind::ColorTexture, plugin, &use), context));
+  else
+    floats = WithoutRounding<Real>(registry_.Create<PluginKind::FloatTexture>(
+        plugin, directive.params, Bind(PluginKind::FloatTexture, plugin, &use), context));
+  const TextureGraph graph = use.Above();
+  CheckGraph(graph, directive, limits_);
+  const bool isKnown = state->textures->Has(name, isColor);
+  if (isKnown)
+    log_.Warning("texture \"" + name + "\" is defined again: shapes from here on get the new one",
+                 directive.Where());
+  TextureTable& table = state->OwnTextures();
+  if (isKnown) table.generation = ++textureGenerations_;
+  if (isColor)
+    table.Define(name, std::move(colors), graph);
+  else
+    table.Define(name, std::move(floats), graph);
+}
+
+std::shared_ptr<MaterialSpec> WorldBuilder::MakeMaterialSpec(std::string name, ParamSet params) {
+  registry_.Find(PluginKind::Material, name, params.where);
+  auto spec = std::make_shared<MaterialSpec>();
+  spec->name = std::move(name);
+  spec->params = std::move(params);
+  return spec;
+}
+
+std::shared_ptr<AreaLightSpec> WorldBuilder::MakeAreaLightSpec(Directive directive) {
+  registry_.Find(PluginKind::AreaLight, directive.strings[0], directive.Where());
+  return std::make_shared<AreaLightSpec>(
+      AreaLightSpec{std::move(directive.strings[0]), std::move(directive.params)});
+}
+
+bool WorldBuilder::Declares(PluginKind kind, const std::string& plugin,
+                            const std::string& parameter, const SourceLocation& where) {
+  const auto& declared = registry_.Find(kind, plugin, where).parameters->Declarations();
+  return std::any_of(declared.begin(), declared.end(),
+                     [&](const ParamDecl& decl) { return decl.name == parameter; });
+}
+
+ParamSet WorldBuilder::WithoutMaterialParameters(const std::string& shape,
+                                                 const std::string& material, ParamSet params) {
+  const auto isMaterialOnly = [&](const ParsedParam& param) {
+    return !Declares(PluginKind::Shape, shape, param.name, params.where) &&
+           Declares(PluginKind::Material, material, param.name, params.where);
+  };
+  const std::vector<ParsedParam>& all = params.All();
+  if (std::none_of(all.begin(), all.end(), isMaterialOnly)) return params;
+  ParamSet own;
+  own.where = params.where;
+  for (const ParsedParam& param : all)
+    if (!isMaterialOnly(param)) own.Add(param);
+  return own;
+}
+
+const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& shape,
+                                          const GraphicsState& state) {
+  const std::vector<ParsedParam>& all = shape.All();
+  const bool overrides = std::any_of(all.begin(), all.end(), [&](const ParsedParam& param) {
+    return Declares(PluginKind::Material, spec.name, param.name, spec.params.where);
+  });
+  const TextureTable& textures = spec.textures ? *spec.textures : *state.textures;
+  if (!overrides && spec.made && spec.madeGeneration == textures.generation) return spec.made.get();
+  BindContext bind = Bind(PluginKind::Material, spec.name, &textures);
+  if (overrides) bind.overrides = &shape;
+  std::shared_ptr<const Material> material = registry_.Create<PluginKind::Material>(
+      spec.name, spec.params, std::move(bind), MaterialContext{log_, spec.params.where});
+  parts_.materials.push_back(material);
+  if (!overrides) {
+    spec.made = material;
+    spec.madeGeneration = textures.generation;
+  }
+  return material.get();
+}
+
+const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
+                                            std::shared_ptr<const EmitterSurface> surface,
+                                            const Directive& shape, const GraphicsState& state) {
+  if (!spec) return nullptr;
+  if (IsInObject()) {
+    log_.Warning("a shape in an object cannot be an area light: it does not emit", shape.Where());
+    return nullptr;
+  }
+  // The light itself refuses a surface that has a problem, with the true reason.
+  const Real area = surface->EmitterProblem() ? Real(1) : surface->Area();
+  if (!(area > 0) || !std::isfinite(area)) {
+    log_.Warning("an area light of area 0 does not emit", shape.Where());
+    return nullptr;
+  }
+  std::unique_ptr<AreaLight> light = registry_.Create<PluginKind::AreaLight>(
+      spec->name, spec->params, Bind(PluginKind::AreaLight, spec->name, state.textures.get()),
+      AreaLightContext{std::move(surface), log_, spec->params.where});
+  const AreaLight* made = light.get();
+  parts_.lights.push_back(std::move(light));
+  parts_.lightOrigins.push_back({spec->name, shape.Where()});
+  return made;
+}
+
+void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
+  const std::string& name = directive.strings[0];
+  const Material* material = MaterialFor(*state.material, directive.params, state);
+  const SourceLocation where = directive.Where();
+  const ParamSet params =
+      WithoutMaterialParameters(name, state.material->name, std::exchange(directive.params, {}));
+  directive.params.where = where;
+  const std::shared_ptr<const Motion> motion = MotionFor(directive, state);
+  // What moves is made in its own space, a set of its own, and placed by its motion.
+  const Transform toWorld = motion ? Transform() : state.transform.start;
+  std::unique_ptr<ShapeGeometry> geometry = registry_.Create<PluginKind::Shape>(
+      name, params, Bind(PluginKind::Shape, name, state.textures.get()),
+      ShapeContext{toWorld, state.reverseOrientation, log_, where});
+  PrimitiveSet& world = object_ ? *object_->set : *parts_.primitives;
+  if (!motion)
+    return AddGeometry({std::move(*geometry), world, nullptr}, material, directive, state);
+  auto set = std::make_unique<PrimitiveSet>();
+  AddGeometry({std::move(*geometry), *set, motion.get()}, material, directive, state);
+  const Instance instance{motion->Start(), MakeObject(std::move(set)), motion};
+  if (instance.object->Set().Count() == 0) return;
+  if (object_)
+    object_->moving.push_back(instance);
+  else
+    world.AddInstance(instance);
+}
+
+std::shared_ptr<const Motion> WorldBuilder::MotionFor(const Directive& directive,
+                                                      const GraphicsState& state) const {
+  if (!state.transform.Moves()) return nullptr;
+  return std::make_shared<Motion>(MotionBetween(state.transform, transformTimes_,
+                                                directive.strings[0], directive.Where(), log_));
+}
+
+void WorldBuilder::AddGeometry(Placed placed, const Material* material, const Directive& directive,
+                               const GraphicsState& state) {
+  const AreaLightSpec* light = state.areaLight.get();
+  const auto lightOn = [&](std::shared_ptr<const EmitterSurface> surface) {
+    if (light && placed.motion && !IsInObject())
+      surface = std::make_shared<MovingEmitter>(std::move(surface), *placed.motion);
+    return AreaLightFor(light, std::move(surface), directive, state);
+  };
+  if (auto* owned = std::get_if<std::unique_ptr<Shape>>(&placed.geometry)) {
+    const std::shared_ptr<const Shape> shape = std::move(*owned);
+    placed.set.AddShape(shape, {material, lightOn(shape)});
+    return;
+  }
+  const std::shared_ptr<const TriangleMesh> mesh =
+      std::move(std::get<std::unique_ptr<TriangleMesh>>(placed.geometry));
+  if (mesh->TriangleCount() == 0) return;
+  std::shared_ptr<const EmitterSurface> surface;
+  if (light && !IsInObject()) {
+    surface = MakeMeshEmitter(*mesh);
+    parts_.emitters.push_back(surface);
+  }
+  placed.set.AddMesh(mesh, {material, lightOn(surface)});
+}
+
+}  // namespace exphoton

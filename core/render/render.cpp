@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The tile loop. A tile is only a unit of work: every camera sample is a function of (seed, pixel,
+// sample index), and a pixel's sums are added by one thread in the order of the index.
+#include "core/render/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <sstream>
+
+#include "core/render/non_finite_log.h"
+#include "core/render/tiles.h"
+#include "core/transport/shading_point.h"
+
+namespace exphoton {
+namespace {
+
+// What one thread works with; its arena keeps it on lines of the cache of its own.
+struct Worker {
+  explicit Worker(const SampleLayout& layout) : samples(layout) {}
+
+  CameraSamples samples;
+  Arena arena;
+  PixelNotes notes;
+  PassNotes passNotes;
+  RayCounters rays;
+  std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
+  bool wasStopped = false;
+};
+
+std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options) {
+  if (options.footprintSamples > 0) return options.footprintSamples;
+  return std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1);
+}
+
+// Brings the neighbouring rays from a pixel's distance to the mean distance of a pixel's samples.
+void ScaleDifferentials(RayDifferential* ray, Real scale) {
+  ray->xOrigin = ray->o + (ray->xOrigin - ray->o) * scale;
+  ray->yOrigin = ray->o + (ray->yOrigin - ray->o) * scale;
+  ray->xDirection = ray->d + (ray->xDirection - ray->d) * scale;
+  ray->yDirection = ray->d + (ray->yDirection - ray->d) * scale;
+}
+
+// seed: what the user said; that of a pass is made from it.
+std::string Describe(const Spectrum& L, const SampleKey& key, std::uint64_t seed) {
+  std::ostringstream text;
+  text << "radiance (" << L.r << ", " << L.g << ", " << L.b << ") at pixel " << key.pixel.x << ","
+       << key.pixel.y << ", sample " << key.index << ", seed " << seed;
+  if (key.seed != seed) text << " (of a pass: " << key.seed << ")";
+  return text.str();
+}
+
+// What the layers say of the first surface; the integrator is not asked.
+void DescribeSurface(const Scene& scene, const RayDifferential& ray, Arena* arena,
+                     LayerSample* sample) {
+  const auto surface = scene.Intersect(ray);
+  if (!surface) return;
+  const Arena::Mark mark = arena->GetMark();
+  const ShadingPoint point = MakeShadingPoint(*surface, ray, 0, TransportMode::Radiance, arena);
+  sample->albedo = point.bsdf.Rho(LobeSet::All);
+  sample->n = FaceForward(point.bsdf.Ns(), point.Wo());
+  sample->p = point.surface.p;
+  arena->Rewind(mark);
+}
+
+void Blacken(LayerSample* sample) {
+  sample->emission = sample->direct = sample->caustic = sample->indirect = sample->specular = {};
+}
+
+// Where the sample is negative it counts as 0, and so do its parts.
+void ClampNegative(Spectrum* L, LayerSample* sample) {
+  for (Real Spectrum::*channel : {&Spectrum::r, &Spectrum::g, &Spectrum::b}) {
+    if (!(L->*channel < 0)) continue;
+    for (Spectrum* part : {L, &sample->emission, &sample->direct, &sample->caustic,
+                           &sample->indirect, &sample->specular})
+      part->*channel = 0;
+  }
+}
+
+class TileRenderer {
+ public:
+  struct Target {
+    const RenderPass& pass;
+    const Sampler& sampler;
+    Film& film;
+    ProgressReporter& progress;
+  };
+
+  TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
+               NonFiniteLog* log)
+      : job_(job),
+        options_(options),
+        target_(target),
+        log_(log),
+        layers_(options.layers),
+        differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))) {}
+
+  void RenderTile(const PixelBounds& tile, Worker* worker) const {
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x)
+        if (!RenderPixel({x, y}, worker)) return;
+      target_.progress.Advance(tile.Width());
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool Needs(Effect effect) const { return job_.scene.Effects().Needs(effect); }
+  bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+
+  // False where stopped.
+  bool RenderPixel(Point2i pixel, Worker* worker) const {
+    if (!layers_ || !layers_->NeedsTime()) return RenderSamples(pixel, worker);
+    const Clock::time_point start = Clock::now();
+    const bool isDone = RenderSamples(pixel, worker);
+    layers_->AddTime(pixel, std::chrono::duration<double>(Clock::now() - start).count());
+    return isDone;
+  }
+
+  bool RenderSamples(Point2i pixel, Worker* worker) const {
+    worker->notes.Reset();
+    const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
+    for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
+      if (IsStopped()) {
+        worker->wasStopped = true;
+        return false;
+      }
+      RenderSample({target_.pass.sampleSeed, pixel, i}, worker);
+    }
+    return true;
+  }
+
+  void RenderSample(const SampleKey& key, Worker* worker) const {
+    CameraSamples& samples = worker->samples;
+    target_.sampler.Generate(key, &samples);
+    const FilterSample filter = job_.filter.Sample(samples.film);
+    CameraSample sample;
+    sample.film =
+        Point2(Real(key.pixel.x) + Real(.5), Real(key.pixel.y) + Real(.5)) + filter.offset;
+    sample.lens = Needs(Effect::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
+    sample.time = Needs(Effect::Motion) ? samples.time : 0;
+    RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Effect::Filtering));
+    if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
+
+    worker->arena.Reset();
+    LiContext context{job_.scene, samples, worker->arena, worker->rays,
+                      HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
+                               std::uint64_t(key.index)})};
+    context.notes = &worker->notes;
+    context.passNotes = &worker->passNotes;
+    context.volume = job_.volume;
+    LayerSample layers;
+    if (layers_) {
+      layers.wanted = layers_->Wanted();
+      context.layers = &layers;
+      if (layers_->NeedsSurface()) DescribeSurface(job_.scene, ray, &worker->arena, &layers);
+    }
+    Spectrum L = job_.integrator.Li(ray, context);
+    ++worker->cameraSamples;
+    const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
+    if (!L.IsFinite()) {
+      Drop(L, key, worker);
+      L = Spectrum();
+      Blacken(&layers);
+    } else if (L.MinComponent() < 0) {
+      ++worker->negative;
+      ClampNegative(&L, &layers);
+    }
+    target_.film.AddSample(key.pixel, L, alpha, filter.weight);
+    if (layers_) layers_->AddSample(key.pixel, layers, L, filter.weight);
+  }
+
+  void Drop(const Spectrum& L, const SampleKey& key, Worker* worker) const {
+    const std::string text = Describe(L, key, options_.seed);
+    if (options_.isStrict) throw Error(ExitStatus::Internal, "non-finite " + text);
+    ++worker->nonFinite;
+    log_->Add(key.pixel, key.index, text);
+  }
+
+  const RenderJob& job_;
+  const RenderOptions& options_;
+  Target target_;
+  NonFiniteLog* log_;
+  LayerFilm* layers_;
+  Real differentialScale_;
+};
+
+// A depth limit may cut a little without a word; more is light that the picture lacks.
+void WarnOfCutPaths(const RenderJob& job, const RayCounters& rays, std::int64_t cameraSamples) {
+  constexpr double kSilentShare = 1e-3;
+  const auto warn = [&](double cut, double of, const std::string& what) {
+    const double share = cut / std::max(of, 1.);
+    if (!(share > kSilentShare)) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << "the depth limit cut specular paths that carry " << 100 * share << " % of what "
+         << what;
+    job.log.Warning(text.str(), {}, "raise \"maxdepth\" of the integrator");
+  };
+  warn(rays.cutThroughput, double(cameraSamples), "the camera could see");
+  warn(rays.cutGatherThroughput, double(rays.counts[std::size_t(RayKind::Gather)]),
+       "gather rays could see");
+}
+
+RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
+                       const NonFiniteLog& log) {
+  RenderResult result;
+  std::int64_t cameraSamples = 0, negative = 0;
+  RayCounters rays;
+  for (const Worker& worker : workers) {
+    rays.Add(worker.rays);
+    cameraSamples += worker.cameraSamples;
+    negative += worker.negative;
+    result.nonFiniteSamples += worker.nonFinite;
+    result.isComplete &= !worker.wasStopped;
+  }
+  job.statistics.AddRays(rays);
+  result.nonFiniteReports = log.Texts();
+  job.statistics.SetCounter("render/camera samples", double(cameraSamples), "camera rays started");
+  job.statistics.SetCounter("render/non-finite samples", double(result.nonFiniteSamples),
+                            "camera samples dropped, counted as black");
+  job.statistics.SetCounter("render/negative samples", double(negative),
+                            "camera samples with a component below 0, taken as 0");
+  WarnOfCutPaths(job, rays, cameraSamples);
+  if (result.nonFiniteSamples == 0) return result;
+  for (const std::string& text : result.nonFiniteReports)
+    job.log.Warning("dropped a non-finite " + text);
+  job.log.Warning(std::to_string(result.nonFiniteSamples) +
+                  " non-finite camera samples were dropped and count as black");
+  return result;
+}
+
+}  // namespace
+
+struct PassRenderer::State {
+  State(const RenderJob& aJob, const RenderOptions& someOptions)
+      : job(aJob), options(someOptions) {}
+
+  void Preprocess(std::uint64_t seed, ProgressReporter& progress) {
+    Log& log = passes == 0 ? job.log : unheard;
+    const PixelBounds& full = job.film.Full();
+    PreprocessContext context{job.threads,
+                              seed,
+                              log,
+                              progress,
+                              job.statistics,
+                              options.isStrict,
+                              &job.camera,
+                              {full.Width(), full.Height()},
+                              job.volume,
+                              Stop()};
+    job.integrator.Preprocess(job.scene, context);
+    if (job.volume) job.volume->Preprocess(job.scene);
+  }
+
+  // Before anything is worth keeping, who set the flag ends the process (RenderOptions).
+  const std::atomic<bool>* Stop() const {
+    return !options.pixelsBegun || *options.pixelsBegun ? options.stop : nullptr;
+  }
+
+  const RenderJob& job;
+  const RenderOptions& options;
+  std::deque<Worker> workers;
+  bool wasStopped = false;  // while preprocessing
+  NonFiniteLog nonFinite;
+  Log unheard{Log::Level::Quiet, Log::Sink::Memory};
+  int passes = 0;
+  double preprocessSeconds = 0, renderSeconds = 0;
+};
+
+PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
+    : state_(std::make_unique<State>(job, options)) {
+  SampleLayout layout;
+  layout.needsLens = job.scene.Effects().Needs(Effect::Lens);
+  layout.needsTime = job.scene.Effects().Needs(Effect::Motion);
+  job.integrator.RequestSamples(job.scene, job.sampler, &layout);
+  for (int i = 0; i < job.threads.Count(); ++i) state_->workers.emplace_back(layout);
+}
+
+PassRenderer::~PassRenderer() = default;
+
+double PassRenderer::PreprocessSeconds() const { return state_->preprocessSeconds; }
+double PassRenderer::RenderSeconds() const { return state_->renderSeconds; }
+
+bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* film) {
+  using Clock = std::chrono::steady_clock;
+  const auto secondsSince = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  State& state = *state_;
+  const RenderJob& job = state.job;
+  const Clock::time_point start = Clock::now();
+  for (Worker& worker : state.workers) worker.passNotes.Reset();
+  try {
+    state.Preprocess(pass.preprocessSeed, job.progress);
+  } catch (const PreprocessStopped&) {
+    job.progress.End();
+    state.wasStopped = true;
+    return false;
+  }
+  ++state.passes;
+  state.preprocessSeconds = secondsSince(start);
+
+  const Clock::time_point renderStart = Clock::now();
+  const PhaseTimer timer(job.statistics, "render");
+  const Tiles tiles(film->Crop(), state.options);
+  const TileRenderer renderer(job, state.options, {pass, sampler, *film, job.progress},
+                              &state.nonFinite);
+  const PixelBounds& crop = film->Crop();
+  if (state.options.pixelsBegun) *state.options.pixelsBegun = true;
+  job.progress.Begin("Rendering", std::int64_t(crop.Width()) * crop.Height());
+  job.threads.For(tiles.Count(), [&](std::int64_t number, int worker) {
+    renderer.RenderTile(tiles.Get(number), &state.workers[std::size_t(worker)]);
+  });
+  job.progress.End();
+  state.renderSeconds = secondsSince(renderStart);
+  return std::none_of(state.workers.begin(), state.workers.end(),
+                      [](const Worker& worker) { return worker.wasStopped; });
+}
+
+RenderResult PassRenderer::Finish() {
+  RenderResult result = Summarize(state_->job, state_->workers, state_->nonFinite);
+  result.isComplete &= !state_->wasStopped;
+  return result;
+}
+
+RenderResult Render(const RenderJob& job, const RenderOptions& options) {
+  PassRenderer renderer(job, options);
+  renderer.Run({options.seed, options.seed, 0, job.sampler.SamplesPerPixel()}, job.sampler,
+               &job.film);
+  return renderer.Finish();
+}
+
+}  // namespace exphoton

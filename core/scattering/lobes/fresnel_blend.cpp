@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Ashikhmin and Shirley's coated diffuse surface. Half vectors are sampled in proportion to
+// cos^e(phi), with the azimuth by one stretched circle instead of four quadrants.
+#include "core/scattering/lobes/fresnel_blend.h"
+
+#include "core/math/sampling/sampling.h"
+#include "core/scattering/lobes/albedo_tables.h"
+#include "core/scattering/lobes/local_frame.h"
+
+namespace exphoton {
+namespace {
+
+Real Power5(Real x) { return Square(Square(x)) * x; }
+
+}  // namespace
+
+// f = 28 / (23 pi) Kd (1 - Ks) (1 - (1 - cos wi / 2)^5) (1 - (1 - cos wo / 2)^5), of which the
+// hemispherical reflectance is 23 / 28 Kd (1 - Ks).
+BlendedDiffuse::BlendedDiffuse(const Spectrum& diffuse, const Spectrum& gloss)
+    : Bxdf(LobeSet::DiffuseReflection),
+      rho_(diffuse * (Spectrum(1) - Clamp(gloss, 0, 1)) * (Real(23) / 28)) {}
+
+Spectrum BlendedDiffuse::f(const Vector3& wo, const Vector3& wi) const {
+  if (!SameHemisphere(wo, wi)) return {};
+  return rho_ * (kInvPi * CoatTransmission(std::abs(wo.z)) * CoatTransmission(std::abs(wi.z)));
+}
+
+Real BlendedDiffuse::Pdf(const Vector3& wo, const Vector3& wi) const {
+  return SameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0;
+}
+
+std::optional<BxdfSample> BlendedDiffuse::Sample(const Vector3& wo, Point2 u) const {
+  if (wo.z == 0) return std::nullopt;
+  const Vector3 wi = OnSideOf(SampleCosineHemisphere(u), wo);
+  const Real pdf = std::abs(wi.z) * kInvPi;
+  return BxdfSample{wi, f(wo, wi) * kPi, pdf};
+}
+
+Spectrum BlendedDiffuse::Rho() const { return Clamp(rho_, 0, 1); }
+
+BlendedGloss::BlendedGloss(const Spectrum& gloss, Real exponentX, Real exponentY)
+    : Bxdf(LobeSet::GlossyReflection),
+      gloss_(gloss),
+      ex_(exponentX),
+      ey_(exponentY),
+      normD_(std::sqrt((ex_ + 2) * (ey_ + 2)) * kInv2Pi),
+      normPdf_(std::sqrt((ex_ + 1) * (ey_ + 1)) * kInv2Pi) {}
+
+// From x^2 + y^2, not 1 - z^2: at the peak the exponent is 0/0 but the power is 1.
+Real BlendedGloss::PowH(const Vector3& h) const {
+  const Real sin2 = h.x * h.x + h.y * h.y;
+  if (!(sin2 > 0)) return 1;
+  return std::pow(std::min(std::abs(h.z), Real(1)), (ex_ * h.x * h.x + ey_ * h.y * h.y) / sin2);
+}
+
+Spectrum BlendedGloss::f(const Vector3& wo, const Vector3& wi) const {
+  const auto half = SameHemisphere(wo, wi) ? HalfVector::Of(wo, wi) : std::nullopt;
+  if (!half) return {};
+  const Spectrum schlick = gloss_ + (Spectrum(1) - gloss_) * Power5(1 - half->cosine);
+  const Real larger = std::max(std::abs(wi.z), std::abs(wo.z));
+  const Spectrum value = schlick * (normD_ * PowH(half->h) / (4 * half->cosine * larger));
+  return value.IsFinite() ? value : Spectrum();
+}
+
+Real BlendedGloss::Pdf(const Vector3& wo, const Vector3& wi) const {
+  const auto half = SameHemisphere(wo, wi) ? HalfVector::Of(wo, wi) : std::nullopt;
+  if (!half) return 0;
+  const Real pdf = normPdf_ * PowH(half->h) / (4 * half->cosine);
+  return std::isfinite(pdf) ? pdf : 0;
+}
+
+std::optional<BxdfSample> BlendedGloss::Sample(const Vector3& wo, Point2 u) const {
+  const Real angle = 2 * kPi * u.y;
+  const Real x = std::sqrt(ey_ + 1) * std::cos(angle), y = std::sqrt(ex_ + 1) * std::sin(angle);
+  const Real length2 = x * x + y * y;
+  const Real exponent = (ex_ * x * x + ey_ * y * y) / length2;
+  const Real cosH = std::pow(1 - u.x, 1 / (exponent + 1));
+  const Real scale = SafeSqrt((1 - cosH) * (1 + cosH) / length2);
+  const Vector3 h = OnSideOf({x * scale, y * scale, cosH}, wo);
+  const Real oh = Dot(wo, h);
+  if (!(oh > 0)) return std::nullopt;
+  const Vector3 wi = h * (2 * oh) - wo;
+  if (!SameHemisphere(wo, wi)) return std::nullopt;
+  const Real pdf = Pdf(wo, wi);
+  if (!(pdf > 0)) return std::nullopt;
+  const Spectrum weight = f(wo, wi) * (std::abs(wi.z) / pdf);
+  if (!weight.IsFinite()) return std::nullopt;
+  return BxdfSample{wi, weight, pdf};
+}
+
+// From a table at the exponent whose width is the mean of the two.
+Spectrum BlendedGloss::Rho() const {
+  const Real width = (1 / std::sqrt(ex_ + 1) + 1 / std::sqrt(ey_ + 1)) / 2;
+  const AlbedoRow row = AlbedoRow::Of(1 / (width * width) - 1);
+  const auto& low = kFresnelBlendAlbedo[row.index];
+  const auto& high = kFresnelBlendAlbedo[row.index + 1];
+  const Real all = Lerp(row.fraction, Real(low[0]), Real(high[0]));
+  const Real grazing = Lerp(row.fraction, Real(low[1]), Real(high[1]));
+  return Clamp(gloss_ * (all - grazing) + Spectrum(grazing), 0, 1);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Ideal diffuse reflection, sampled by the cosine.
+#include "core/scattering/lobes/lambert.h"
+
+#include "core/math/sampling/sampling.h"
+#include "core/scattering/lobes/local_frame.h"
+
+namespace exphoton {
+
+Spectrum Lambert::f(const Vector3& wo, const Vector3& wi) const {
+  return SameHemisphere(wo, wi) ? f_ : Spectrum();
+}
+
+Real Lambert::Pdf(const Vector3& wo, const Vector3& wi) const {
+  return SameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0;
+}
+
+std::optional<BxdfSample> Lambert::Sample(const Vector3& wo, Point2 u) const {
+  if (wo.z == 0) return std::nullopt;
+  const Vector3 wi = OnSideOf(SampleCosineHemisphere(u), wo);
+  return BxdfSample{wi, reflectance_, std::abs(wi.z) * kInvPi};
+}
+
+Spectrum Lambert::Rho() const { return Clamp(reflectance_, 0, 1); }
+
+}  // namespace exphoton

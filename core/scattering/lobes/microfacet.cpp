@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Torrance and Sparrow's reflection, sampled by the half vector.
+#include "core/scattering/lobes/microfacet.h"
+
+#include "core/scattering/lobes/albedo_tables.h"
+#include "core/scattering/lobes/local_frame.h"
+
+namespace exphoton {
+Spectrum Microfacet::f(const Vector3& wo, const Vector3& wi) const {
+  const auto half = HalfVector::Of(wo, wi);
+  if (!half) return {};
+  const Real cosO = std::abs(wo.z), cosI = std::abs(wi.z), cosH = std::abs(half->h.z);
+  if (!(cosO * cosI > 0)) return {};
+  const Real g = std::min(Real(1), 2 * cosH * std::min(cosO, cosI) / half->cosine);
+  const Spectrum value =
+      reflectance_ * fresnel_(half->cosine) * (distribution_.D(cosH) * g / (4 * cosO * cosI));
+  return value.IsFinite() ? value : Spectrum();
+}
+
+Real Microfacet::Pdf(const Vector3& wo, const Vector3& wi) const {
+  const auto half = HalfVector::Of(wo, wi);
+  if (!half) return 0;
+  const Real pdf = distribution_.Pdf(std::abs(half->h.z)) / (4 * half->cosine);
+  return std::isfinite(pdf) ? pdf : 0;
+}
+
+std::optional<BxdfSample> Microfacet::Sample(const Vector3& wo, Point2 u) const {
+  const Vector3 h = OnSideOf(distribution_.Sample(u), wo);
+  const Real oh = Dot(wo, h);
+  if (!(oh > 0)) return std::nullopt;  // the facet's back
+  const Vector3 wi = h * (2 * oh) - wo;
+  if (!SameHemisphere(wo, wi)) return std::nullopt;
+  const Real cosO = std::abs(wo.z), cosI = std::abs(wi.z), cosH = std::abs(h.z);
+  const Real pdf = distribution_.Pdf(cosH) / (4 * oh);
+  // f cos_i / pdf: D cancels, and what is left is at most 2.
+  const Real g = std::min(Real(1), 2 * cosH * std::min(cosO, cosI) / oh);
+  const Spectrum weight = reflectance_ * fresnel_(oh) * (g * oh / (cosO * cosH));
+  if (!(pdf > 0) || !std::isfinite(pdf) || !weight.IsFinite()) return std::nullopt;
+  return BxdfSample{wi, weight, pdf};
+}
+
+Spectrum Microfacet::Rho() const {
+  return Clamp(reflectance_ * MicrofacetAlbedo(distribution_.Exponent(), fresnel_), 0, 1);
+}
+
+Spectrum MicrofacetAlbedo(Real exponent, const Fresnel& fresnel) {
+  const AlbedoRow row = AlbedoRow::Of(exponent);
+  const auto& low = kMicrofacetAlbedo[row.index];
+  const auto& high = kMicrofacetAlbedo[row.index + 1];
+  Spectrum sum;
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const Real share = Lerp(row.fraction, Real(low[i]), Real(high[i]));
+    sum += share * fresnel((Real(i) + Real(.5)) / Real(low.size()));
+  }
+  return sum;
+}
+
+}  // namespace exphoton

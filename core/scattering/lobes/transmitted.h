@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Diffuse or glossy transmission through a thin sheet: a reflection lobe, mirrored to the other
+// side. f, Pdf and Sample mirror the same vector in the same way (z alone).
+#pragma once
+
+#include "core/scattering/bxdf.h"
+#include "core/scattering/lobes/local_frame.h"
+
+namespace exphoton {
+
+// Reflection: a concrete reflection lobe, held by value.
+template <class Reflection>
+class Transmitted final : public Bxdf {
+ public:
+  explicit Transmitted(const Reflection& reflection)
+      : Bxdf(LobeSet(unsigned(reflection.Lobe()) << 3)), reflection_(reflection) {}
+
+  Spectrum f(const Vector3& wo, const Vector3& wi) const override {
+    return reflection_.f(wo, MirrorZ(wi));
+  }
+  Real Pdf(const Vector3& wo, const Vector3& wi) const override {
+    return reflection_.Pdf(wo, MirrorZ(wi));
+  }
+  std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override {
+    auto sample = reflection_.Sample(wo, u);
+    if (sample) sample->wi = MirrorZ(sample->wi);
+    return sample;
+  }
+  Spectrum Rho() const override { return reflection_.Rho(); }
+
+ private:
+  Reflection reflection_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ConeMixture: directions round those of nearby photons: pick one of m axes uniformly, then a
+// direction uniform in the cone about it (docs/exphotonmap.md, eq. 15). Sampling and density share
+// one idea of what a cone holds.
+#pragma once
+
+#include "integrators/photon/gather/cone.h"
+#include "integrators/photon/gather/cone_axes.h"
+
+namespace exphoton {
+
+class ConeMixture {
+ public:
+  // The axes' arena must outlive this.
+  ConeMixture(const ConeAxes& axes, const Cone& cone) : axes_(axes), cone_(cone) {}
+
+  bool IsEmpty() const { return axes_.size() == 0; }
+
+  struct Sample {
+    Vector3 w;  // unit
+    Real pdf;   // per solid angle, > 0
+  };
+  // uAxis picks the axis, u the direction. Must not be empty.
+  Sample Draw(Real uAxis, Point2 u) const {
+    const auto own = std::min(std::size_t(uAxis * Real(axes_.size())), axes_.size() - 1);
+    const Vector3 w = cone_.Sample(axes_[own], u);
+    // The chosen cone holds w by construction, whatever rounding says; the others by the test.
+    const Real chord2 = cone_.Chord2();
+    return {w, Density(axes_.CountWithin(w, chord2) + !axes_.IsWithin(own, w, chord2))};
+  }
+  // Density of Draw per solid angle.
+  Real Pdf(const Vector3& w) const {
+    const int holding = axes_.CountWithin(w, cone_.Chord2());
+    return holding == 0 ? Real(0) : Density(holding);
+  }
+
+ private:
+  Real Density(int holding) const { return Real(holding) / Real(axes_.size()) * cone_.Pdf(); }
+
+  ConeAxes axes_;
+  Cone cone_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// FinalGather: indirect light at a point by rays over its hemisphere, some drawn by the BSDF, some
+// round the directions of nearby photons, combined with the power heuristic (Veach 1997,
+// section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is another's affair.
+#pragma once
+
+#include <vector>
+
+#include "core/math/sampling/mis.h"
+#include "core/transport/integrator.h"
+#include "core/transport/shading_point.h"
+#include "integrators/photon/gather/cone_mixture.h"
+#include "integrators/photon/gather/gather_guide.h"
+#include "integrators/photon/maps/photon_map.h"
+#include "integrators/photon/photon_settings.h"
+
+namespace exphoton {
+
+class FinalGather {
+ public:
+  FinalGather() = default;
+  explicit FinalGather(const PhotonSettings& settings);
+
+  // Where nothing will be gathered the requests are empty, and leave those of others as they are.
+  void RequestSamples(bool gathers, SampleLayout* layout);
+
+  // To be called when the photons are there, which must outlive the pass.
+  void Prepare(const PhotonMap& photons) { guide_.Prepare(photons); }
+
+  // Integral over the non-specular lobes of f * incident * |cos|, by rays with 0 < t < infinity.
+  // All are traced before the first is read, so that caches hold the one or the other:
+  // incident.Trace(ray) gives an Incident::Segment, incident.Look(segments) then looks at all of
+  // them together, incident.Read(segment) gives the radiance.
+  template <class Incident>
+  Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
+                  const Incident& incident) const;
+
+ private:
+  // Fixed once a gather, and the same for f, Pdf and Sample.
+  static constexpr LobeSet kLobes = LobeSet::NonSpecular;
+  static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
+
+  // Roulette (eq. 18): the factor to trace a ray of weight c with, or 0. Photons tell how many
+  // times brighter than on average its direction is, pi lightPdf / |cos|; where they found nothing
+  // they may have missed something.
+  Real SurvivalFactor(Real c, Real lightPdf, Real absCos, RandomStream* random) const {
+    const Real expected = c * std::max(absCos, kPi * lightPdf);
+    const Real threshold = rrThreshold_ * absCos;
+    if (!(expected < threshold)) return 1;
+    const Real survival = expected / threshold;
+    return random->Uniform() < survival ? 1 / survival : Real(0);
+  }
+
+  // How the rays are divided between the techniques, and the numbers that they read.
+  struct Split {
+    int bsdfRays = 0, photonRays = 0;
+    int directions = -1, lobes = -1;  // of the BSDF's: 2D, 1D
+    int cones = -1, radii = -1;       // of the photons': 2D, 1D
+  };
+
+  // As many rays follow the photons as there is light where they lead: of the halvings of one half
+  // the least that is no less than this share of the rays.
+  const Split& SplitFor(const GuideDirections& guide) const {
+    if (guide.axes.size() == 0) return splits_.back();
+    const Split* split = splits_.data();
+    const Real wanted = guide.share * Real(split->bsdfRays + split->photonRays);
+    while (split[1].photonRays > 0 && Real(split[1].photonRays) >= wanted) ++split;
+    return *split;
+  }
+
+  std::vector<Split> splits_;  // by descending photonRays; the last has none
+  GatherGuide guide_;
+  Cone cone_;
+  Real rrThreshold_ = 0;
+};
+
+template <class Incident>
+Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons,
+                             LiContext& context, const Incident& incident) const {
+  const Bsdf& bsdf = point.bsdf;
+  if (!bsdf.Has(kLobes)) return {};
+  const Arena::Mark mark = context.arena.GetMark();
+  const GuideDirections guide = guide_.Directions(point, photons, context);
+  const ConeMixture cones(guide.axes, cone_);
+  const Split& split = SplitFor(guide);
+  const Vector3& wo = point.Wo();
+  const RayFan fan(point.surface);
+  RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
+
+  const auto rays = std::size_t(split.bsdfRays + split.photonRays);
+  using Segment = typename Incident::Segment;
+  Segment* const segments = context.arena.template Room<Segment>(rays);
+  Vector3* const directions = context.arena.template Room<Vector3>(rays);
+  Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
+  std::size_t count = 0;
+  const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
+    const Real factor =
+        SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
+    if (!(factor > 0)) return;
+    directions[count] = w;
+    weights[count++] = contribution * (factor / Real(drawn));
+  };
+  const auto squares = context.samples.Array2D(split.directions);
+  const bool picksLobe = bsdf.Count(kLobes) > 1;
+  const auto lobes = picksLobe ? context.samples.Array1D(split.lobes) : std::span<const Real>();
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    const auto sample = bsdf.Sample(wo, squares[i], picksLobe ? lobes[i] : 0, kLobes);
+    if (!sample) continue;
+    const Real photonPdf = cones.IsEmpty() ? Real(0) : cones.Pdf(sample->wi);
+    const Real weight = PowerHeuristic(split.bsdfRays, sample->pdf, split.photonRays, photonPdf);
+    add(sample->wi, sample->throughput * weight, photonPdf, split.bsdfRays);
+  }
+  const auto along = context.samples.Array2D(split.cones);
+  const auto radii = context.samples.Array1D(split.radii);
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    // The axes follow a curve: where along it and which way from there are stratified together.
+    const auto sample = cones.Draw(along[i].x, {radii[i], along[i].y});
+    const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
+    if (scattered.f.IsBlack()) continue;
+    const Real weight = PowerHeuristic(split.photonRays, sample.pdf, split.bsdfRays, scattered.pdf);
+    add(sample.w, scattered.f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf,
+        split.photonRays);
+  }
+
+  for (std::size_t i = 0; i < count; ++i)
+    new (segments + i) Segment(incident.Trace(fan.Towards(directions[i])));
+  incident.Look(std::span<Segment>(segments, count));
+  Spectrum gathered;
+  for (std::size_t i = 0; i < count; ++i) gathered += weights[i] * incident.Read(segments[i]);
+  context.arena.Rewind(mark);
+  return gathered;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Photon maps: searching with the side and height tests inside the search.
+#include "integrators/photon/maps/photon_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/scattering/bxdf.h"
+#include "core/spatial/point_spacing.h"
+
+namespace exphoton {
+namespace {
+
+NearBuffer BufferFor(std::size_t k, Arena* arena) {
+  const std::size_t size = NearBuffer::SizeFor(k);
+  return {{arena->Room<Real>(size), size}, {arena->Room<std::uint32_t>(size), size}};
+}
+
+}  // namespace
+
+PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, const PhotonHaul& haul, ThreadPool& threads)
+    : tree_(std::move(tree)),
+      spacing2_(MeasureSpacing2(tree_.View(), threads)),
+      paths_(haul.paths),
+      farthest_(haul.farthest) {
+  if (IsEmpty()) return;
+  const Bounds3 bounds = tree_.Bounds();
+  minRadius_ = 4 * kMachineEpsilon * MaxComponent(Max(Abs(bounds.min), Abs(bounds.max)));
+}
+
+std::size_t PhotonMap::MemoryBytes() const {
+  return tree_.MemoryBytes() + spacing2_.capacity() * sizeof(Real);
+}
+
+PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) const {
+  const Real maxRadius2 = Square(query.maxDistance);
+  if (IsEmpty()) return {{}, {}, maxRadius2};
+  NearestQuery nearest;
+  nearest.p = query.p;
+  nearest.n = query.n;
+  nearest.k = std::uint32_t(std::min<std::size_t>(std::size_t(query.k), Size() + 1));
+  nearest.maxRadius2 = maxRadius2;
+  nearest.isFlattened = true;  // docs/exphotonmap.md, eq. 11
+  nearest.steepness = 1 / kFlatness;
+  nearest.isOneSided = query.isOneSided;
+  const NearBuffer buffer = BufferFor(nearest.k, arena);
+  const NearPoints found = FastestNearestSearch().nearest(View(), nearest, buffer);
+  if (found.size() < std::size_t(query.k)) return {found.index, found.distance2, maxRadius2};
+  const Real floor2 = std::max(Square(minRadius_), std::numeric_limits<Real>::min());
+  const Real farthest2 = found.distance2[found.farthest];
+  // Coincident photons: a disk no smaller.
+  if (farthest2 < floor2) return {found.index, found.distance2, floor2};
+  // The last takes the place of the farthest.
+  const std::size_t last = found.size() - 1;
+  buffer.distance2[found.farthest] = buffer.distance2[last];
+  buffer.index[found.farthest] = buffer.index[last];
+  return {found.index.first(last), found.distance2.first(last), farthest2};
+}
+
+PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena) const {
+  const Arena::Mark mark = arena->GetMark();
+  const PhotonNeighbourhood around = Find(query, arena);
+  Spectrum sum;
+  if (query.isCoated) {
+    for (const std::uint32_t i : around.photons)
+      sum += Alpha(i) * CoatTransmission(AbsDot(Direction(i), query.n));
+  } else {
+    for (const std::uint32_t i : around.photons) sum += Alpha(i);
+  }
+  arena->Rewind(mark);
+  if (around.photons.empty()) return {{}, query.maxDistance};
+  return {sum * (kInvPi / (Real(paths_) * around.radius2)), std::sqrt(around.radius2)};
+}
+
+NearPoints PhotonMap::Nearest(const Point3& p, int k, Arena* arena) const {
+  if (IsEmpty()) return {};
+  NearestQuery query;
+  query.p = p;
+  query.k = std::uint32_t(std::min<std::size_t>(std::size_t(k), Size()));
+  return FastestNearestSearch().nearest(View(), query, BufferFor(query.k, arena));
+}
+
+Real PhotonMap::TypicalRadius(int k, Arena* arena) const {
+  constexpr std::size_t kSamples = 256;
+  constexpr double kQuantile = .9;
+  if (IsEmpty()) return 0;
+  std::vector<Real> radii;
+  const std::size_t step = std::max<std::size_t>(1, Size() / kSamples);
+  for (std::size_t i = 0; i < Size(); i += step) {
+    const Arena::Mark mark = arena->GetMark();
+    // One more than k: the photon itself is among them, at distance 0.
+    const NearPoints near = Nearest(Position(std::uint32_t(i)), k + 1, arena);
+    radii.push_back(near.size() == 0 ? 0 : std::sqrt(near.distance2[near.farthest]));
+    arena->Rewind(mark);
+  }
+  const auto at = std::ptrdiff_t(kQuantile * double(radii.size() - 1));
+  std::nth_element(radii.begin(), radii.begin() + at, radii.end());
+  return std::max(radii[std::size_t(at)], minRadius_);
+}
+
+}  // namespace exphoton

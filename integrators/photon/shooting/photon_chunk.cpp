@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Merging: counting first, so that all chunks can be copied at the same time.
+#include "integrators/photon/shooting/photon_chunk.h"
+
+#include <algorithm>
+
+namespace exphoton {
+namespace {
+
+// A store that holds this part of what it is wanted to gets memory for the whole.
+constexpr double kShareBeforeReserving = 1. / 16;
+
+// Where in a store the part of each chunk goes, behind what there is, and room for it.
+template <class Part, class Record>
+std::vector<std::size_t> MakeRoom(std::span<const PhotonChunk> chunks, const Part& part,
+                                  double wanted, RecordStore<Record>* store) {
+  std::vector<std::size_t> first(chunks.size());
+  std::size_t count = store->Size();
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    first[c] = count;
+    count += part(chunks[c]).size();
+  }
+  if (count == store->Size()) return first;
+  // From here on it will hardly stay empty: memory for all, once, and for the last batch.
+  if (double(count) >= wanted * kShareBeforeReserving)
+    store->Reserve(std::size_t(wanted * (1 + 1. / 64)));
+  store->Resize(count);
+  return first;
+}
+
+template <class Record>
+void Copy(const std::vector<Record>& records, std::size_t first, RecordStore<Record>* store) {
+  std::copy(records.begin(), records.end(), store->Records().begin() + std::ptrdiff_t(first));
+}
+
+}  // namespace
+
+void PhotonChunk::Clear() {
+  for (auto& ofMap : photons) ofMap.clear();
+  seeds.clear();
+  emittedPower = cutPower = 0;
+  dropped = overgrown = passedBy = 0;
+  firstDropped = -1;
+}
+
+void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, ThreadPool& threads,
+           PhotonHarvest* harvest) {
+  std::array<std::vector<std::size_t>, kPhotonKindCount> first;
+  double wanted = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    wanted += double(targets.counts[m]);
+    first[m] = MakeRoom(
+        chunks, [m](const PhotonChunk& chunk) -> auto& { return chunk.photons[m]; },
+        double(targets.counts[m]), &harvest->hauls[m].photons);
+  }
+  const double wantedSeeds = wanted * double(targets.radianceFraction);
+  const std::vector<std::size_t> firstSeed = MakeRoom(
+      chunks, [](const PhotonChunk& chunk) -> auto& { return chunk.seeds; }, wantedSeeds,
+      &harvest->seeds);
+  threads.For(std::int64_t(chunks.size()), [&](std::int64_t index, int) {
+    const auto c = std::size_t(index);
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m)
+      Copy<PhotonRecord>(chunks[c].photons[m], first[m][c], &harvest->hauls[m].photons);
+    Copy(chunks[c].seeds, firstSeed[c], &harvest->seeds);
+  });
+  for (const PhotonChunk& chunk : chunks) {
+    harvest->emittedPower += chunk.emittedPower;
+    harvest->cutPower += chunk.cutPower;
+    if (harvest->droppedPhotons == 0) harvest->firstDroppedPath = chunk.firstDropped;
+    harvest->droppedPhotons += chunk.dropped;
+    harvest->overgrownPaths += chunk.overgrown;
+    harvest->passedBy += chunk.passedBy;
+  }
+  harvest->paths += std::int64_t(chunks.size()) * PhotonTracer::kChunkPaths;
+}
+
+}  // namespace exphoton

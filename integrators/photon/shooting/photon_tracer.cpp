@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Shooting photons: one path from its light to its end, and the batches that paths come in.
+#include "integrators/photon/shooting/photon_tracer.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/transport/shading_normal.h"
+#include "core/transport/shading_point.h"
+#include "integrators/photon/maps/rest_pose.h"
+#include "integrators/photon/shooting/path_samples.h"
+#include "integrators/photon/shooting/photon_chunk.h"
+
+namespace exphoton {
+
+// A photon that has grown by so much since its light has met surfaces that reflect more than they
+// receive, over and over; sums over maps with such photons would overflow. No roulette comes near.
+constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
+
+// One photon path: follows it to its end and stores into the chunk what `open` maps want.
+class PhotonTracer::Path {
+ public:
+  Path(const PhotonTracer& tracer, const PathSequences& sequences, std::uint64_t index,
+       const std::array<bool, kPhotonKindCount>& open, Real radianceFraction, PhotonChunk* chunk)
+      : tracer_(tracer),
+        index_(index),
+        samples_(sequences, index),
+        open_(open),
+        radianceFraction_(radianceFraction),
+        chunk_(chunk) {}
+
+  void Trace(Arena* arena, RayCounters* rays) {
+    RayDifferential ray;
+    if (!Emit(&ray)) return;
+    if (IsOnlyOpen(PhotonKind::Caustic) && tracer_.specularBoxes_.PassesBy(ray)) {
+      ++chunk_->passedBy;
+      hasPassedBy_ = true;
+      return;
+    }
+    for (int hits = 1;; ++hits) {
+      rays->Count(RayKind::Photon);
+      const auto surface = tracer_.scene_.Intersect(ray);
+      if (hits == 1 && !isOfMedia_ && tracer_.media_.Scatter()) {
+        if (ScatterInMedia(surface ? &surface->p : nullptr, &ray)) {
+          hits = 0;  // a first ray again, which begins in a medium
+          continue;
+        }
+        if (!surface) return;
+      } else {
+        if (!surface) return;
+        Absorb(ray, surface->p);
+      }
+      hasHit_ = true;
+      distance_ += Distance(ray.o, surface->p);
+      if (!(alpha_.MaxComponent() > 0)) return;
+      const ShadingPoint point =
+          MakeShadingPoint(*surface, ray, hits, TransportMode::Importance, arena);
+      // Gather rays see the light of media on their way; surfaces keep what arrives from media with
+      // the light that arrives from surfaces.
+      const PhotonKind kind = isOfMedia_        ? PhotonKind::Indirect
+                              : hits == 1       ? PhotonKind::Direct
+                              : isSpecularPath_ ? PhotonKind::Caustic
+                                                : PhotonKind::Indirect;
+      if (open_[std::size_t(kind)] && point.bsdf.Has(LobeSet::NonSpecular)) Store(kind, point);
+      if (!Scatter(point, hits, &ray)) return;
+      arena->Reset();
+    }
+  }
+
+  void AddTo(std::span<LightTally> lights) const {
+    if (light_ < 0) return;  // it began in a medium
+    LightTally& light = lights[std::size_t(light_)];
+    ++light.shot;
+    light.hit += hasHit_;
+    light.passedBy += hasPassedBy_;
+    light.stored += stored_;
+  }
+
+ private:
+  // What media take from the photon on its way to p.
+  void Absorb(const Ray& ray, const Point3& p) {
+    if (!tracer_.scene_.HasMedia()) return;
+    Ray stretch = ray;
+    stretch.tMax = Distance(ray.o, p) / Length(ray.d);
+    alpha_ *= tracer_.scene_.Transmittance(stretch);
+  }
+
+  // Takes off what media absorb and, where they scatter, decides whether they scatter the photon.
+  // True: the photon goes on along a new ray from a point of the media.
+  bool ScatterInMedia(const Point3* end, RayDifferential* ray) {
+    const Point2 uDistanceChoice = samples_.Next2D(), uDirection = samples_.Next2D();
+    Ray stretch = *ray;
+    stretch.d = NormalizeOr(ray->d, ray->d);
+    const auto passage = tracer_.media_.Pass(stretch, end ? Distance(ray->o, *end) : kInfinity,
+                                             alpha_, uDistanceChoice, uDirection);
+    alpha_ = passage.alpha;
+    if (!passage.scattered) return false;
+    *ray = RayDifferential(*passage.scattered);
+    isOfMedia_ = true;
+    return true;
+  }
+
+  // Of all of the path.
+  Real Time() const {
+    const auto [open, close] = tracer_.scene_.Exposure();
+    if (open == close) return open;
+    return std::clamp(Lerp(samples_.Time(), open, close), open, close);
+  }
+
+  bool Emit(RayDifferential* ray) {
+    const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
+    const Point2 uDirection = samples_.Next2D();
+    Real uChoice = uLight.x;
+    if (tracer_.mediaShare_ > 0) {
+      if (uChoice < tracer_.mediaShare_) {
+        const Point3 uPoint(uLight.y, uPosition.x, uPosition.y);
+        return EmitFromMedia(uChoice / tracer_.mediaShare_, uPoint, uDirection, ray);
+      }
+      uChoice = (uChoice - tracer_.mediaShare_) / (1 - tracer_.mediaShare_);
+    }
+    const auto choice = tracer_.lights_.Sample(std::min(uChoice, kOneMinusEpsilon));
+    light_ = choice.index;
+    auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
+    if (!emission) return false;
+    if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
+      tracer_.aim_.Redirect(&*emission, uPosition);
+    *ray = RayDifferential(emission->ray);
+    // docs/exphotonmap.md, eq. 3
+    return Begin(emission->power / (choice.probability * (1 - tracer_.mediaShare_)));
+  }
+  bool EmitFromMedia(Real uBox, const Point3& uPoint, Point2 uDirection, RayDifferential* ray) {
+    const auto emission =
+        tracer_.media_.SampleEmission(std::min(uBox, kOneMinusEpsilon), uPoint, uDirection, Time());
+    light_ = -1;
+    isOfMedia_ = true;
+    *ray = RayDifferential(emission.ray);
+    return Begin(emission.power / tracer_.mediaShare_);
+  }
+  // Whether a photon of this power sets out.
+  bool Begin(const Spectrum& power) {
+    alpha_ = power;
+    if (!alpha_.IsFinite()) {
+      Drop();
+      return false;
+    }
+    emittedMost_ = alpha_.MaxComponent();
+    chunk_->emittedPower += double(alpha_.Y());
+    return alpha_.MaxComponent() > 0;
+  }
+
+  void Store(PhotonKind kind, const ShadingPoint& point) {
+    const SurfaceInteraction& surface = point.surface;
+    const RestPose rest(surface);
+    const Point3 p = rest.Point(surface.p);
+    const Spectrum power = surface.motion ? alpha_ * rest.PowerScale(surface.ng) : alpha_;
+    chunk_->photons[std::size_t(kind)].emplace_back(
+        Photon{p, rest.Direction(point.Wo()), power, distance_ / tracer_.farthest_});
+    ++stored_;
+    if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
+    const Spectrum reflectance = point.bsdf.Rho(LobeSet::DiffuseReflection);
+    const Spectrum transmittance = point.bsdf.Rho(LobeSet::DiffuseTransmission);
+    const bool isGlossy = point.bsdf.Has(LobeSet::Glossy);
+    const Real glossy = isGlossy ? point.bsdf.Rho(LobeSet::Glossy).Y() : Real(0);
+    const Real diffuse = (reflectance + transmittance).Y();
+    chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())), reflectance,
+                             transmittance, SafeDivide(glossy, glossy + diffuse, Real(0)),
+                             point.bsdf.IsCoated()});
+  }
+
+  void Drop() {
+    if (chunk_->dropped++ == 0) chunk_->firstDropped = std::int64_t(index_);
+  }
+
+  bool IsOnlyOpen(PhotonKind kind) const {
+    return open_[std::size_t(kind)] && std::count(open_.begin(), open_.end(), true) == 1;
+  }
+  // Whether a map still wants photons of what comes after a bounce of this kind.
+  bool IsWantedAfter(bool isSpecular) const {
+    if (open_[std::size_t(PhotonKind::Indirect)]) return true;
+    return isSpecular && open_[std::size_t(PhotonKind::Caustic)];
+  }
+
+  // Bsdf sampling (eq. 5 and 6) and Russian roulette (eq. 7); false where the path ends.
+  bool Scatter(const ShadingPoint& point, int hits, RayDifferential* ray) {
+    const Point2 u = samples_.Next2D(), uChoice = samples_.Next2D();
+    const auto sample =
+        point.bsdf.Sample(point.Wo(), u, uChoice.x, tracer_.lobes_, TransportMode::Importance);
+    if (!sample) return false;
+    isSpecularPath_ = sample->IsSpecular() && (hits == 1 || isSpecularPath_) && !isOfMedia_;
+    if (!sample->IsSpecular()) distance_ = 0;
+    if (!IsWantedAfter(isSpecularPath_)) return false;
+    const Spectrum scattered =
+        alpha_ * sample->throughput *
+        ShadingNormalFactor(point.Wo(), sample->wi, point.bsdf.Ng(), point.bsdf.Ns());
+    const Real survival = SurvivalProbability(scattered, hits);
+    if (!(uChoice.y < survival)) return false;
+    alpha_ = scattered / survival;
+    if (!alpha_.IsFinite()) {
+      Drop();
+      return false;
+    }
+    if (alpha_.MaxComponent() / kMostGrowth > emittedMost_) {  // cannot overflow
+      ++chunk_->overgrown;
+      return false;
+    }
+    if (hits >= tracer_.settings_.maxPhotonDepth) {
+      chunk_->cutPower += double(alpha_.Y());
+      return false;
+    }
+    *ray = SpawnRay(point.surface, sample->wi);
+    return true;
+  }
+
+  // exphotonmap: the survivor keeps what the photon had, so weights stay nearly constant.
+  Real SurvivalProbability(const Spectrum& scattered, int hits) const {
+    constexpr int kPlainBounces = 3;
+    switch (tracer_.settings_.photonRoulette) {
+      case PhotonRoulette::Half:
+        return hits > kPlainBounces ? Real(.5) : Real(1);
+      case PhotonRoulette::MaxComponent:
+        return std::min(Real(1),
+                        SafeDivide(scattered.MaxComponent(), alpha_.MaxComponent(), Real(0)));
+      case PhotonRoulette::Luminance:
+        break;
+    }
+    return std::min(Real(1), SafeDivide(scattered.Y(), alpha_.Y(), Real(0)));
+  }
+
+  const PhotonTracer& tracer_;
+  std::uint64_t index_;
+  PathSamples samples_;
+  const std::array<bool, kPhotonKindCount>& open_;
+  Real radianceFraction_;
+  PhotonChunk* chunk_;
+  int light_ = 0;
+  bool hasHit_ = false;
+  bool hasPassedBy_ = false;
+  bool isOfMedia_ =
+      false;  // a medium emitted the photon, or scattered it on its way from the light
+  std::int64_t stored_ = 0;  // photons
+  Spectrum alpha_;
+  Real emittedMost_ = 0;
+  Real distance_ = 0;            // since the light, or the last scattering that was not specular
+  bool isSpecularPath_ = false;  // every bounce so far was specular
+};
+
+namespace {
+
+// That photons are likely to have come over mirrors, too; > 0.
+Real FarthestDistance(const Scene& scene) {
+  constexpr Real kRadii = 8;
+  return std::max(kRadii * BoundingSphere(scene.WorldBounds()).radius,
+                  std::numeric_limits<Real>::min());
+}
+
+// An aimed light needs fewer photons by as much as they lie denser.
+std::vector<double> ShareFactors(const Scene& scene, const PhotonAim& aim) {
+  std::vector<double> factors(scene.Lights().size(), 1.0);
+  if (aim.IsEmpty()) return factors;
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (scene.Lights()[i]->IsFar()) factors[i] = 1 / std::max(aim.Gain(), 1.0);
+  return factors;
+}
+
+// The part of the paths that begin in media: by power, but neither source starves the other.
+Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightDistribution& lights) {
+  constexpr double kLeast = .05;
+  if (!media.Emit()) return 0;
+  if (lights.IsEmpty()) return 1;
+  double power = 0;
+  for (const auto& light : scene.Lights()) power += UsablePower(*light);
+  const double sum = power + media.EmittedPower();
+  return Real(std::clamp(sum > 0 ? media.EmittedPower() / sum : .5, kLeast, 1 - kLeast));
+}
+
+}  // namespace
+
+PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
+                           PhotonAim aim, MediaPhotons media)
+    : scene_(scene),
+      settings_(settings),
+      seed_(seed),
+      aim_(std::move(aim)),
+      media_(std::move(media)),
+      lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
+              ShareFactors(scene, aim_)),
+      mediaShare_(MediaShare(scene, media_, lights_)),
+      specularBoxes_(scene.Effects().Needs(Effect::Specular) ? SpecularBoxes(scene)
+                                                             : SpecularBoxes()),
+      lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular),
+      farthest_(FarthestDistance(scene)) {}
+
+void PhotonTracer::TraceChunk(std::int64_t firstPath,
+                              const std::array<bool, kPhotonKindCount>& open, Real radianceFraction,
+                              Worker* worker, PhotonChunk* chunk) const {
+  const PathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
+  chunk->Clear();
+  worker->lights.resize(scene_.Lights().size());  // here, so that the memory is this thread's own
+  for (int i = 0; i < kChunkPaths; ++i) {
+    Path path(*this, sequences, std::uint64_t(firstPath + i), open, radianceFraction, chunk);
+    worker->arena.Reset();
+    path.Trace(&worker->arena, &worker->rays);
+    path.AddTo(worker->lights);
+  }
+}
+
+namespace {
+
+// How much of its target a map has, or of the paths that it may have.
+double Filled(const PhotonTargets& targets, const PhotonHarvest& harvest, std::size_t map,
+              std::int64_t maxPaths) {
+  const double stored = double(harvest.hauls[map].photons.Size()) / double(targets.counts[map]);
+  return std::max(stored, double(harvest.paths) / double(maxPaths));
+}
+
+}  // namespace
+
+PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContext& context) const {
+  PhotonHarvest harvest;
+  std::array<bool, kPhotonKindCount> open{};
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
+  harvest.lights.resize(scene_.Lights().size());
+  for (PhotonHaul& haul : harvest.hauls) haul.farthest = farthest_;
+  if (lights_.IsEmpty() && !media_.Emit()) return harvest;
+
+  std::vector<Worker> workers(std::size_t(context.threads.Count()));
+  std::vector<PhotonChunk> chunks;
+  context.progress.Begin("Shooting photons", 1000);
+  for (std::int64_t batch = kChunkPaths; open[0] || open[1] || open[2];) {
+    context.CheckStop();
+    chunks.resize(std::size_t(batch / kChunkPaths));
+    context.threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int worker) {
+      TraceChunk(harvest.paths + c * kChunkPaths, open, targets.radianceFraction,
+                 &workers[std::size_t(worker)], &chunks[std::size_t(c)]);
+    });
+    Merge(chunks, targets, context.threads, &harvest);
+    double least = 1, most = 0;  // filled, of the maps that are wanted and of those still open
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+      if (targets.counts[m] == 0) continue;
+      PhotonHaul& haul = harvest.hauls[m];
+      if (open[m]) haul.paths = harvest.paths;
+      const auto stored = std::int64_t(haul.photons.Size());
+      const bool isFruitless = stored == 0 && haul.paths >= kFruitlessPaths;
+      open[m] = open[m] && stored < targets.counts[m] && haul.paths < settings_.maxPhotonPaths &&
+                !isFruitless;
+      const double filled = Filled(targets, harvest, m, settings_.maxPhotonPaths);
+      least = std::min(least, filled);
+      if (open[m]) most = std::max(most, filled);
+    }
+    batch = NextBatch(batch, harvest.paths, most);
+    context.progress.SetDone(std::int64_t(1000 * least));
+  }
+  context.progress.End();
+  for (const Worker& worker : workers) {
+    context.statistics.AddRays(worker.rays);
+    for (std::size_t i = 0; i < worker.lights.size(); ++i) harvest.lights[i].Add(worker.lights[i]);
+  }
+  return harvest;
+}
+
+std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, double filled) {
+  // Half of what the fullest map is likely to need yet: it must not be overfilled.
+  const double needed = filled > 0 ? double(paths) * (1 - filled) / filled : 0;
+  std::int64_t most = kMaxBatchPaths;
+  while (most < kLargestBatchPaths && double(4 * most) <= needed) most *= 2;
+  return std::min(2 * last, most);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What a study's words mean, and its data written and read again.
+#include "core/app/analysis/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "core/app/analysis/results.h"
+
+namespace exphoton::study {
+namespace {
+
+class Oracle final : public ParameterOracle {
+ public:
+  bool Has(const std::string& integrator, const std::string& parameter) const override {
+    return (integrator == "photonmap" && parameter == "indirectphotons") || parameter == "maxdepth";
+  }
+};
+
+std::vector<std::string> Texts(const std::vector<Setting>& settings) {
+  std::vector<std::string> texts;
+  for (const Setting& s : settings) texts.push_back(s.label + ": " + s.Text());
+  return texts;
+}
+
+TEST(StudyPlan, ReadsSettingsWithAndWithoutLabels) {
+  const Setting plain = ParseSetting("path maxdepth=100 spp=16");
+  EXPECT_EQ(plain.label, "path");
+  EXPECT_EQ(plain.Text(), "maxdepth=100 spp=16");
+  const Setting labelled = ParseSetting("+ Simpson kernel: photonmap kernel=simpson");
+  EXPECT_EQ(labelled.label, "+ Simpson kernel");
+  EXPECT_EQ(labelled.integrator, "photonmap");
+  for (const char* wrong : {"", "kernel=simpson", "path maxdepth", "path =3", "label: "})
+    EXPECT_THROW(ParseSetting(wrong), std::invalid_argument) << wrong;
+}
+
+TEST(StudyPlan, GivesEveryHalfOfEveryRoundOfAReferenceASeedOfItsOwn) {
+  std::set<std::uint64_t> seeds;
+  for (int round = 0; round < 100; ++round)
+    for (int half = 0; half < 2; ++half) seeds.insert(ReferenceSeed(round, half));
+  EXPECT_EQ(seeds.size(), 200u);
+  EXPECT_GT(*seeds.begin(), 1000000u);  // runs have 1, 2, ...
+}
+
+TEST(StudyPlan, ReadsKnobsAndBudgets) {
+  const Knob knob = ParseKnob("path:spp=1,4, 16");
+  EXPECT_EQ(knob.integrator, "path");
+  EXPECT_EQ(knob.parameter, "spp");
+  EXPECT_EQ(knob.values, (std::vector<std::string>{"1", "4", "16"}));
+  EXPECT_THROW(ParseKnob("spp"), std::invalid_argument);
+  EXPECT_THROW(ParseKnob("spp=,"), std::invalid_argument);
+  EXPECT_EQ(ParseBudgets("1,4,16s"), (std::vector<double>{1, 4, 16}));
+  EXPECT_EQ(ParseBudgets("1,2m"), (std::vector<double>{60, 120}));
+  EXPECT_EQ(ParseSeconds("1.5h"), 5400);
+  for (const char* wrong : {"", "0", "-1", "4x", "s"})
+    EXPECT_THROW(ParseSeconds(wrong), std::invalid_argument) << wrong;
+}
+
+TEST(StudyPlan, MultipliesKnobsWhereTheyApply) {
+  StudyPlan plan;
+  plan.bases = {ParseSetting("photonmap"), ParseSetting("path")};
+  plan.knobs = {ParseKnob("spp=1,4"), ParseKnob("indirectphotons=10,20"), ParseKnob("path:spp=64")};
+  EXPECT_EQ(Texts(ExpandPlan(plan, Oracle())),
+            (std::vector<std::string>{"photonmap: spp=1 indirectphotons=10",
+                                      "photonmap: spp=1 indirectphotons=20",
+                                      "photonmap: spp=4 indirectphotons=10",
+                                      "photonmap: spp=4 indirectphotons=20", "path: spp=64"}));
+}
+
+TEST(StudyPlan, AWordOfASettingWinsOverKnobs) {
+  StudyPlan plan;
+  plan.bases = {ParseSetting("path spp=2")};
+  plan.knobs = {ParseKnob("spp=1,4"), ParseKnob("maxdepth=5,100")};
+  plan.bases.push_back(ParseSetting("path"));
+  const std::vector<std::string> texts = Texts(ExpandPlan(plan, Oracle()));
+  EXPECT_EQ(texts.size(), 6u);
+  EXPECT_EQ(texts[1], "path: spp=2 maxdepth=100");
+}
+
+TEST(StudyPlan, BudgetsAreTimesAndAKnobThatAppliesToNothingIsAnError) {
+  StudyPlan plan;
+  plan.bases = {ParseSetting("path")};
+  plan.budgets = {1, 4};
+  EXPECT_EQ(Texts(ExpandPlan(plan, Oracle())),
+            (std::vector<std::string>{"path: time=1", "path: time=4"}));
+  plan.knobs = {ParseKnob("indirectphotons=10")};
+  EXPECT_THROW(ExpandPlan(plan, Oracle()), std::invalid_argument);
+}
+
+Results Sample() {
+  Results results;
+  results.program = "exphoton test";
+  results.title = "a, \"quoted\" room";
+  results.targets = {.1, .01};
+  results.crops = {{0, .5, .25, .75}};
+  results.settings = {ParseSetting("path maxdepth=100 spp=4")};
+  results.reference.a = "reference/a.exr";
+  results.maps = {{"images/x.exr", "time.ms", "Cost", "ms"}};
+  RunRow row;
+  row.key = "abc";
+  row.seed = 3;
+  row.cpuSeconds = 1.25;
+  row.phases = {{"render", 1.0}};
+  row.counters = {{"photons/direct stored", 100},
+                  {"photons/direct paths", 50},
+                  {"photons/indirect stored", 10},
+                  {"photons/indirect paths", 40}};
+  row.image = "images/x.exr";
+  results.runs = {row};
+  return results;
+}
+
+TEST(StudyResults, AreTheSameAfterWritingAndReading) {
+  const Results results = Sample();
+  const Results again = FromJson(ToJson(results));
+  EXPECT_EQ(ToJson(again), ToJson(results));
+  EXPECT_EQ(again.settings, results.settings);
+  EXPECT_EQ(again.runs[0].PhotonsStored(), 110);
+  EXPECT_EQ(again.runs[0].PhotonPaths(), 50);
+  EXPECT_EQ(RowFromJson(RowToJson(results.runs[0])).cpuSeconds, 1.25);
+}
+
+TEST(StudyResults, HaveOneCsvRowARunAndQuoteWhatNeedsIt) {
+  const std::string csv = ToCsv(Sample());
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
+  EXPECT_NE(csv.find("\"a, \"\"quoted\"\" room\",path,path,maxdepth=100 spp=4,3,"),
+            std::string::npos)
+      << csv;
+}
+
+TEST(StudyResults, RefuseWhatIsNoData) {
+  for (const char* wrong : {"", "{", "[]", "{\"format\":99}", "{\"format\":1}"})
+    EXPECT_THROW(FromJson(wrong), std::runtime_error) << wrong;
+}
+
+TEST(StudyResults, TakeWhatARenderSaysAndIgnoreTheRest) {
+  RunRow row;
+  AddRunStatistics(R"({"threads":2,"samplesPerPixel":4,"complete":true,"news":[1,{}],
+    "phases":[{"name":"render","seconds":1.5,"cpuSeconds":3}],"rays":{"camera":12},
+    "counters":{"photons/memory":1000,"odd":null}})",
+                   &row);
+  EXPECT_EQ(row.threads, 2);
+  EXPECT_EQ(row.phases, (NamedValues{{"render", 3}}));
+  EXPECT_EQ(row.phaseWall, (NamedValues{{"render", 1.5}}));
+  EXPECT_EQ(row.rays, (NamedValues{{"camera", 12}}));
+  EXPECT_EQ(row.Counter("photons/memory"), 1000);
+  EXPECT_THROW(AddRunStatistics("", &row), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace exphoton::study

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Noise and bias of synthetic pictures whose variance and bias are known.
+#include "core/app/analysis/separation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/sampling/random.h"
+
+namespace exphoton::study {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+
+// A normal variate from two uniform ones (Box and Muller).
+double Normal(RandomStream* random) {
+  const double u = 1 - double(random->Uniform()), v = double(random->Uniform());
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * 3.14159265358979 * v);
+}
+
+// The truth 1 everywhere, plus bias, plus independent noise in each value.
+Image Noisy(double bias, double deviation, std::uint64_t seed) {
+  Image image(kWidth, kHeight, {"R", "G", "B"});
+  RandomStream random(HashKey({seed, 77}));
+  for (float& value : image.pixels) value = float(1 + bias + deviation * Normal(&random));
+  return image;
+}
+
+std::vector<Image> Pictures(int count, double bias, double deviation) {
+  std::vector<Image> pictures;
+  for (int k = 0; k < count; ++k) pictures.push_back(Noisy(bias, deviation, std::uint64_t(k)));
+  return pictures;
+}
+
+constexpr double kWeight = 1 / 1.01;  // of relMSE at r = 1
+
+TEST(StudySeparation, FindsTheKnownVarianceAndBias) {
+  const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
+  const Separation s = Separate(Pictures(4, .1, .2), reference);
+  EXPECT_EQ(s.seeds, 4);
+  EXPECT_NEAR(s.variance.value, .04 * kWeight, .001);
+  EXPECT_NEAR(s.bias2.value, .01 * kWeight, .001);
+  EXPECT_NEAR(s.relMse.value, .05 * kWeight, .001);
+  EXPECT_LT(std::abs(s.variance.value - .04 * kWeight), 4 * s.variance.error + 1e-4);
+  EXPECT_LT(std::abs(s.bias2.value - .01 * kWeight), 4 * s.bias2.error + 1e-4);
+}
+
+TEST(StudySeparation, TakesTheReferencesNoiseOff) {
+  const Reference reference = MakeReference(Noisy(0, .3, 101), Noisy(0, .3, 102));
+  EXPECT_NEAR(reference.variance.value, .045, .01);  // .3^2 / 2, with weights that scatter
+  const Separation s = Separate(Pictures(4, .1, .2), reference);
+  EXPECT_NEAR(s.relMse.value, s.error.value + reference.variance.value, 1e-12);
+  EXPECT_NEAR(s.error.value, s.variance.value + s.bias2.value, 1e-12);
+}
+
+TEST(StudySeparation, OfSmallReferenceNoiseLeavesTheBias) {
+  const Reference reference = MakeReference(Noisy(0, .05, 101), Noisy(0, .05, 102));
+  EXPECT_NEAR(reference.variance.value, .00125 * kWeight, 2e-5);
+  const Separation s = Separate(Pictures(6, .1, .2), reference);
+  // The weights come from the noisy reference too: 2 x bias x its variance / r.
+  const double fromWeights = 2 * .1 * 2 * reference.variance.value;
+  EXPECT_NEAR(s.bias2.value, .01 * kWeight + fromWeights, 4 * s.bias2.error);
+  EXPECT_LT(s.bias2.error, .001);
+}
+
+TEST(StudySeparation, WithoutBiasFindsNone) {
+  const Reference reference = MakeReference(Noisy(0, .05, 101), Noisy(0, .05, 102));
+  const Separation s = Separate(Pictures(6, 0, .2), reference);
+  EXPECT_LT(std::abs(s.bias2.value), 4 * s.bias2.error);
+}
+
+// Noise that all pixels of a picture share, as photons are shared: errors between pixels do not
+// average out, and the standard errors must show it.
+TEST(StudySeparation, StandardErrorsSeeNoiseThatPixelsShare) {
+  std::vector<Image> pictures;
+  RandomStream random(HashKey({5, 5}));
+  for (int k = 0; k < 8; ++k) pictures.push_back(Noisy(.2 * Normal(&random), 0, 0));
+  const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
+  const Separation s = Separate(pictures, reference);
+  EXPECT_GT(s.variance.error, .1 * s.variance.value);
+  EXPECT_LT(std::abs(s.variance.value - .04 * kWeight), 4 * s.variance.error);
+}
+
+TEST(StudySeparation, OfFewSeedsSaysWhatItCannotKnow) {
+  const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
+  const Separation one = Separate(Pictures(1, .1, .2), reference);
+  EXPECT_TRUE(one.relMse.IsKnown());
+  EXPECT_FALSE(one.variance.IsKnown());
+  const Separation two = Separate(Pictures(2, .1, .2), reference);
+  EXPECT_NEAR(two.variance.value, .04 * kWeight, .002);
+  EXPECT_FALSE(std::isfinite(two.variance.error));
+}
+
+TEST(StudySeparation, LeavesNonFinitePixelsOut) {
+  std::vector<Image> pictures = Pictures(3, .1, .2);
+  pictures[1].At(5, 5, 1) = std::numeric_limits<float>::quiet_NaN();
+  pictures[2].At(9, 9, 0) = std::numeric_limits<float>::infinity();
+  const Separation s = Separate(pictures, MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2)));
+  EXPECT_NEAR(s.variance.value, .04 * kWeight, .001);
+}
+
+TEST(StudySeparation, AReferenceThatIsTooNoisyIsToldByItsShareOfTheError) {
+  const Reference reference = MakeReference(Noisy(0, .1, 101), Noisy(0, .1, 102));  // noise .005
+  EXPECT_LT(ReferenceShortfall(reference, .1), 1);
+  EXPECT_NEAR(ReferenceShortfall(reference, .005), 10, .5);  // ten times as long would do
+  const Reference unknown = MakeReference(Noisy(0, 0, 1));
+  EXPECT_FALSE(unknown.variance.IsKnown());
+  EXPECT_EQ(ReferenceShortfall(unknown, 1e-9), 0);
+}
+
+TEST(StudySeparation, RefusesPicturesOfOtherSizes) {
+  const Reference reference = MakeReference(Noisy(0, 0, 1));
+  EXPECT_THROW(Separate({Image(2, 2, {"R", "G", "B"})}, reference), ImageError);
+  EXPECT_THROW(MakeReference(Noisy(0, 0, 1), Image(kWidth, kHeight, {"Y"})), ImageError);
+}
+
+}  // namespace
+}  // namespace exphoton::study

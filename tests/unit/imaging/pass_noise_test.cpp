@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The noise between passes against synthetic passes of known variance.
+#include "core/imaging/film/pass_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/sampling/random.h"
+
+namespace exphoton {
+namespace {
+
+constexpr PixelBounds kBounds{0, 0, 64, 48};
+constexpr double kMean = .5, kOffset = .01;
+
+// A pass of `samples` a pixel: uniform noise of standard deviation `noise` a sample, and a common
+// error of the pass of deviation `common` in blotches of 4 x 4 pixels.
+Film MakePass(std::uint64_t seed, int samples, double noise, double common) {
+  Film film(kBounds, kBounds);
+  const auto uniform = [](RandomStream& random) {
+    return (double(random.Uniform()) - .5) * std::sqrt(12.);
+  };
+  for (int y = 0; y < kBounds.y1; ++y) {
+    for (int x = 0; x < kBounds.x1; ++x) {
+      RandomStream blotch(HashKey({seed, 7, std::uint64_t(x / 4), std::uint64_t(y / 4)}));
+      RandomStream own(HashKey({seed, 8, std::uint64_t(x), std::uint64_t(y)}));
+      const double shared = common * uniform(blotch);
+      for (int i = 0; i < samples; ++i)
+        film.AddSample({x, y}, Spectrum(Real(kMean + shared + noise * uniform(own))), 1, 1);
+    }
+  }
+  return film;
+}
+
+TEST(PassNoise, IsUnknownWithOnePass) {
+  PassNoise noise(kBounds, 4);
+  EXPECT_TRUE(std::isinf(noise.RelativeVariance()));
+  noise.Add(0, MakePass(1, 1, .1, 0), 1);
+  noise.Add(0, MakePass(2, 1, .1, 0), 1);
+  EXPECT_TRUE(std::isinf(noise.RelativeVariance()));
+}
+
+TEST(PassNoise, OfEqualPassesIsNothing) {
+  PassNoise noise(kBounds, 4);
+  for (int i = 0; i < 3; ++i) noise.Add(i, MakePass(1, 2, .1, 0), 2);
+  EXPECT_NEAR(noise.RelativeVariance(), 0, 1e-12);
+}
+
+TEST(PassNoise, IsTheVarianceOfTheMeanOfAllPasses) {
+  for (const int passes : {2, 4, 11}) {
+    PassNoise noise(kBounds, 8);
+    for (int i = 0; i < passes; ++i) {
+      EXPECT_EQ(noise.SmallestGroup(), i % 8);
+      noise.Add(i % 8, MakePass(std::uint64_t(i), 1, .1, .05), 1);
+    }
+    const double variance = (.1 * .1 + .05 * .05) / passes;
+    // 192 blotches: known to 8 % or better even of two passes.
+    EXPECT_NEAR(noise.RelativeVariance() * (kMean * kMean + kOffset) / variance, 1, .15) << passes;
+  }
+}
+
+TEST(PassNoise, CountsGroupsOfUnequalSizeRightly) {
+  PassNoise noise(kBounds, 3);
+  int total = 0;
+  for (const int samples : {1, 2, 5}) {
+    noise.Add(total == 0   ? 0
+              : total == 1 ? 1
+                           : 2,
+              MakePass(std::uint64_t(samples), samples, .2, 0), samples);
+    total += samples;
+  }
+  EXPECT_NEAR(noise.RelativeVariance() * (kMean * kMean + kOffset) * total / (.2 * .2), 1, .05);
+  EXPECT_NEAR(double(noise.Variances()[0] + noise.Variances()[3]) / 2 * total / (.2 * .2), 1, .95);
+}
+
+// A light's edge: one pass of two meets it. A pixel divided by its own square, or by that of the
+// other pass, would count as 1 or as a million.
+TEST(PassNoise, DoesNotDivergeWhereOnePassMeetsALight) {
+  PassNoise noise(kBounds, 2);
+  for (int pass = 0; pass < 2; ++pass) {
+    Film film = MakePass(std::uint64_t(pass), 1, 0, 0);
+    if (pass == 1) film.AddSample({5, 5}, Spectrum(1000), 1, 1);
+    noise.Add(pass, film, 1);
+  }
+  const double estimate = noise.RelativeVariance() * kBounds.x1 * kBounds.y1;
+  EXPECT_GT(estimate, 1);
+  EXPECT_LT(estimate, 2000);
+}
+
+}  // namespace
+}  // namespace exphoton

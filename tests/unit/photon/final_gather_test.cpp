@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The final gather of a constant environment: f integrates to the reflectance of the non-specular
+// lobes, whatever specular lobes stand beside them and wherever the guide points.
+#include "integrators/photon/gather/final_gather.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/math/sampling/sampling.h"
+#include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/specular.h"
+#include "tests/support/test_plugin.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+// Radiance by direction.
+class Sky {
+ public:
+  explicit Sky(std::function<Real(const Vector3&)> radiance) : radiance_(std::move(radiance)) {}
+
+  struct Segment {
+    Vector3 d;
+  };
+  Segment Trace(const Ray& ray) const { return {ray.d}; }
+  void Look(std::span<Segment>) const {}
+  Spectrum Read(const Segment& segment) const { return Spectrum(radiance_(segment.d)); }
+
+ private:
+  std::function<Real(const Vector3&)> radiance_;
+};
+const Sky kUniform([](const Vector3&) { return Real(1); });
+
+struct Gathered {
+  double mean, variance;
+  double error;  // 4 standard errors of the mean
+};
+
+// Gathers what comes from the sky, guided by photons from the given directions, over `count`
+// independent sets of gather samples.
+template <class AddLobes>
+Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, Real angleDegrees,
+                   Real rrThreshold, int count, const AddLobes& addLobes) {
+  static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
+  PhotonHaul haul;
+  for (const Vector3& w : guideDirections) haul.Add({{0, 0, 0}, w, Spectrum(1)});
+  haul.paths = 1;
+  ThreadPool threads(1);
+  const PhotonMap guide(std::move(haul), threads);
+
+  PhotonSettings settings;
+  settings.gatherSampling = GatherSampling::Photons;
+  settings.gatherAngle = angleDegrees;
+  settings.rrThreshold = rrThreshold;
+  settings.finalGatherSamples = 32;
+  FinalGather gather(settings);
+  SampleLayout layout;
+  gather.RequestSamples(true, &layout);
+  CameraSamples samples(layout);
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("random")");
+
+  Arena arena;
+  RayCounters rays;
+  double sum = 0, sum2 = 0;
+  for (int i = 0; i < count; ++i) {
+    arena.Reset();
+    sampler->Generate({0, {0, 0}, i}, &samples);
+    SurfaceInteraction surface;
+    surface.ng = surface.shading.n = {0, 0, 1};
+    surface.dpdu = surface.shading.dpdu = {1, 0, 0};
+    surface.dpdv = surface.shading.dpdv = {0, 1, 0};
+    surface.wo = Normalize(Vector3(Real(.3), Real(.2), 1));
+    ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
+    addLobes(&point.bsdf, &arena);
+    LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
+    const double x = double(gather.Gather(point, guide, context, sky).g);
+    sum += x;
+    sum2 += x * x;
+  }
+  const double mean = sum / count;
+  const double variance = std::max(0.0, sum2 / count - mean * mean);
+  return {mean, variance, 4 * std::sqrt(variance / count)};
+}
+
+// Radiance 1 from everywhere.
+template <class AddLobes>
+Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleDegrees, int count,
+                        const AddLobes& addLobes) {
+  return GatherSky(kUniform, guideDirections, angleDegrees, PhotonSettings().rrThreshold, count,
+                   addLobes);
+}
+
+std::vector<Vector3> UpperDirections(int count) {
+  std::vector<Vector3> directions;
+  RandomStream random(21);
+  for (int i = 0; i < count; ++i)
+    directions.push_back(SampleCosineHemisphere({random.Uniform(), random.Uniform()}));
+  return directions;
+}
+
+// Fifty photons by fives from the same direction, so that cones of every angle are followed: as
+// light from over there is dense, or because widest cones hold more than the BSDF sends to the
+// horizon.
+std::vector<Vector3> Clusters() {
+  std::vector<Vector3> directions;
+  const std::vector<Vector3> upper = UpperDirections(10);
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    const Real height = i % 2 ? 1 : Real(.05);
+    const Vector3 w = Normalize(Vector3(upper[i].x, upper[i].y, height * upper[i].z));
+    directions.insert(directions.end(), 5, w);
+  }
+  return directions;
+}
+
+constexpr double kTolerance = .005;
+
+TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
+  for (Real angle : {Real(.001), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {
+    const Gathered g = GatherConstant(Clusters(), angle, 30000, [](Bsdf* bsdf, Arena* arena) {
+      bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+    });
+    EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * kTolerance) << angle << " degrees";
+    const double least = angle < 1 ? 0 : 1e-5;  // narrow cones are too small a part of the sky
+    EXPECT_GT(g.variance, least) << "rays follow the BSDF alone at " << angle << " degrees";
+  }
+}
+
+TEST(FinalGather, BesideASpecularLobeBringsTheDiffusePartAlone) {
+  const Gathered g = GatherConstant(Clusters(), 10, 30000, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.5))));
+    bsdf->Add(arena->Make<SpecularReflection>(Spectrum(Real(.3)), Fresnel::None()));
+  });
+  EXPECT_LE(std::abs(g.mean - .5) + g.error, .5 * kTolerance);
+}
+
+TEST(FinalGather, GuidedByOneDirectionOnlyIsStillUnbiased) {
+  const std::vector<Vector3> same(50, Normalize(Vector3(1, 0, 1)));
+  const Gathered g = GatherConstant(same, 10, 20000, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+  });
+  EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * 2 * kTolerance);
+}
+
+TEST(FinalGather, WithEveryPhotonBelowTheHorizonFollowsTheBsdfAlone) {
+  const std::vector<Vector3> below(50, Vector3(0, 0, -1));
+  const Gathered g = GatherConstant(below, 10, 200, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+  });
+  EXPECT_NEAR(g.mean, .8, 1e-4);  // every cosine-sampled ray brings exactly rho
+}
+
+// Fifty photons, so many of them from one direction, the others far apart; how many of 32 rays go
+// there on average.
+double RaysTowards(const Vector3& patch, int photonsFromThere) {
+  std::vector<Vector3> guide(std::size_t(photonsFromThere), patch);
+  for (int i = 0; int(guide.size()) < 50; ++i)
+    guide.push_back(SampleCosineHemisphere({(Real(i % 7) + Real(.5)) / 7, (Real(i / 7) + 1) / 9}));
+  int towards = 0;
+  const Sky sky([&](const Vector3& d) {
+    towards += Dot(d, patch) > std::cos(Radians(Real(2.1)));
+    return Real(1);
+  });
+  constexpr int kGathers = 500;
+  GatherSky(sky, guide, 2, 0, kGathers,
+            [](Bsdf* bsdf, Arena* arena) { bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8)))); });
+  return double(towards) / kGathers;
+}
+
+TEST(FinalGather, AsManyRaysFollowPhotonsAsThereIsLightWhereTheyLead) {
+  const Vector3 patch = Normalize(Vector3(1, Real(.1), 1));
+  const double byBsdf = .1;  // at most
+  for (const auto& [photons, rays] :
+       {std::pair{1, 0}, {2, 2}, {3, 2}, {4, 4}, {10, 8}, {13, 16}, {25, 16}, {50, 16}}) {
+    const double towards = RaysTowards(patch, photons);
+    EXPECT_GE(towards, rays) << photons << " of 50 photons";
+    EXPECT_LE(towards, rays + byBsdf) << photons << " of 50 photons";
+  }
+}
+
+// A small bright patch, which nearly all photons come from: a ray that the BSDF sends there has
+// hardly any weight, but brings much.
+TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
+  const Vector3 patch = Normalize(Vector3(1, 0, 1));
+  const Sky sky([&](const Vector3& d) { return Dot(d, patch) > Real(.99) ? Real(100) : Real(.1); });
+  const std::vector<Vector3> guide(50, patch);
+  const auto gather = [&](Real threshold) {
+    return GatherSky(sky, guide, 10, threshold, 20000, [](Bsdf* bsdf, Arena* arena) {
+      bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+    });
+  };
+  const Gathered all = gather(0), some = gather(Real(.05));
+  EXPECT_NEAR(some.mean, all.mean, all.error + some.error);
+  EXPECT_LT(some.variance, 1.1 * all.variance);
+}
+
+TEST(FinalGather, RouletteKeepsTheMeanWhereItEndsMostRays) {
+  const Gathered g = GatherSky(kUniform, Clusters(), 10, 2, 120000, [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
+  });
+  EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * 2 * kTolerance);
+}
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Boxes about specular surfaces: no ray that hits one passes them by, and photons of the caustic
+// map are the same where paths that pass by are left out.
+#include "integrators/photon/shooting/specular_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include "core/math/sampling/random.h"
+#include "core/math/sampling/sampling.h"
+#include "tests/support/photon_shots.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+// Matte walls; a mirror, a glass sphere, a mesh, and an instance that moves.
+const char* const kRoom = R"(
+WorldBegin
+LightSource "point" "point from" [0 3 0]
+Shape "sphere" "float radius" 9
+AttributeBegin
+  Material "mirror" Translate 2 0 0 Shape "sphere" "float radius" .5
+  Material "glass" Translate -4 1 0 Shape "disk" "float radius" .7
+  Material "uber" "color Kr" [.1 .1 .1]
+  Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+    "point P" [-1 -2 1  1 -2 1  1 -2 2  -1 -2 2]
+AttributeEnd
+Material "mirror"
+ObjectBegin "ball"
+  Shape "sphere" "float radius" .3
+ObjectEnd
+AttributeBegin
+  ActiveTransform EndTime
+  Translate 0 0 3
+  ActiveTransform All
+  Translate 0 1 -4
+  ObjectInstance "ball"
+AttributeEnd
+WorldEnd
+)";
+
+const char* const kShutter =
+    "TransformTimes 0 1\nCamera \"perspective\" \"float shutterclose\" 1\n";
+
+TEST(SpecularBoxes, HoldAllThatRaysMeetOfSpecularSurfaces) {
+  const LoadedScene loaded = LoadSceneText(std::string(kShutter) + kRoom);
+  const Scene& scene = *loaded.setup->scene;
+  const SpecularBoxes boxes(scene);
+  RandomStream random(7);
+  int hits = 0, passed = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const auto u = [&random] { return random.Uniform(); };
+    const Point3 from(8 * u() - 4, 8 * u() - 4, 8 * u() - 4);
+    RayDifferential ray(Ray(from, SampleUniformSphere({u(), u()})));
+    ray.time = u();
+    const bool passesBy = boxes.PassesBy(ray);
+    passed += passesBy;
+    const auto hit = scene.Intersect(ray);
+    if (!hit || !Intersects(hit->material->PossibleLobes(), LobeSet::Specular)) continue;
+    ++hits;
+    ASSERT_FALSE(passesBy) << hit->p.x << " " << hit->p.y << " " << hit->p.z;
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(passed, 100000);
+}
+
+TEST(SpecularBoxes, OfASceneWithoutSpecularSurfacesLetEveryRayPass) {
+  const LoadedScene loaded = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
+  const SpecularBoxes boxes(*loaded.setup->scene);
+  EXPECT_TRUE(boxes.Boxes().empty());
+  EXPECT_TRUE(boxes.PassesBy(Ray(Point3(0, 0, -3), Vector3(0, 0, 1))));
+}
+
+// A map that is still open for direct light keeps all paths from being left out.
+TEST(SpecularBoxes, DoNotChangeThePhotonsOfTheCausticMap) {
+  const LoadedScene loaded = LoadSceneText(kRoom);
+  PhotonSettings settings;
+  settings.maxPhotonPaths = 1 << 16;
+  const auto shoot = [&](std::int64_t direct) {
+    PhotonTargets targets;
+    targets[PhotonKind::Caustic] = 1 << 20;
+    targets[PhotonKind::Direct] = direct;
+    return ShootPhotons(*loaded.setup->scene, 1, targets, settings);
+  };
+  PhotonHarvest all = shoot(1 << 20), causticsAlone = shoot(0);
+  EXPECT_EQ(all.passedBy, 0);
+  EXPECT_GT(causticsAlone.passedBy, 3 * causticsAlone.paths / 4);
+  EXPECT_EQ(all.paths, causticsAlone.paths);
+  const auto expected = all[PhotonKind::Caustic].photons.Records();
+  const auto found = causticsAlone[PhotonKind::Caustic].photons.Records();
+  ASSERT_GT(expected.size(), 500u);
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    ASSERT_EQ(expected[i].p, found[i].p);
+    ASSERT_EQ(expected[i].alpha, found[i].alpha);
+  }
+}
+
+}  // namespace
+}  // namespace exphoton

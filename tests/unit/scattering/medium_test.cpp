@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Media alone: densities at points, and optical depths along rays of any length of direction.
+#include "core/scattering/medium.h"
+
+#include <gtest/gtest.h>
+
+#include "core/math/sampling/random.h"
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+const char* const kMedia[] = {
+    "\"homogeneous\"", "\"exponential\" \"float a\" 2 \"float b\" .7 \"vector updir\" [.3 .5 .8]",
+    "\"volumegrid\" \"integer nx\" 2 \"integer ny\" 3 \"integer nz\" 4 \"float density\" [1 2 3 4 "
+    "5 6 "
+    "2 4 6 1 3 5  9 7 5 3 1 8  6 4 2 9 8 7]"};
+
+LoadedScene SceneOf(const std::string& medium) {
+  return LoadSceneText("WorldBegin\nTranslate 1 2 3 Rotate 30 1 1 0 Scale 2 1 .5\nVolume " +
+                       medium +
+                       " \"point p0\" [-1 -2 -1] \"point p1\" [1 1 2] \"color sigma_a\" [1 1 1]\n"
+                       "LightSource \"point\"\nWorldEnd\n");
+}
+
+// The integral of the coefficient over the length, by the midpoint rule.
+TEST(Medium, OpticalDepthIsTheIntegralOfItsDensityOverLength) {
+  for (const char* text : kMedia) {
+    const LoadedScene loaded = SceneOf(text);
+    const Medium& medium = *loaded.setup->scene->Media().front();
+    RandomStream random(2);
+    int inside = 0;
+    for (int i = 0; i < 60; ++i) {
+      Ray ray;
+      ray.o = medium.Bounds().Center() + RandomVector(random) * 3;
+      ray.d = medium.Bounds().Center() + RandomVector(random) * Real(.5) - ray.o;
+      ray.d = ray.d * std::exp2(Between(random, -3, 3));
+      const auto part = medium.Overlap(ray);
+      if (!part) continue;
+      ++inside;
+      const double length = double(Length(ray.d)) * (double(part->max) - double(part->min));
+      constexpr int kSteps = 4000;
+      double sum = 0;
+      for (int k = 0; k < kSteps; ++k) {
+        const Real t = part->min + (part->max - part->min) * (Real(k) + Real(.5)) / kSteps;
+        sum += double(medium.At(ray(t)).absorption.g) * length / kSteps;
+      }
+      EXPECT_NEAR(double(medium.OpticalDepth(ray, {0, kInfinity}).g) / sum, 1, 2e-3) << text;
+    }
+    EXPECT_GT(inside, 30) << text;
+  }
+}
+
+// The cells of a grid are given x first; each has its density at its middle.
+TEST(VolumeGrid, HasTheDensityOfEachCellAtItsMiddle) {
+  std::string densities;
+  for (int i = 0; i < 24; ++i) densities += std::to_string(i + 1) + " ";
+  const LoadedScene loaded = LoadSceneText(
+      "WorldBegin\nVolume \"volumegrid\" \"integer nx\" 2 \"integer ny\" 3 \"integer nz\" 4 "
+      "\"point p0\" [0 0 0] \"point p1\" [2 3 4] \"color sigma_a\" [1 1 1] \"float density\" [" +
+      densities + "]\nLightSource \"point\"\nWorldEnd\n");
+  const Medium& medium = *loaded.setup->scene->Media().front();
+  for (int i = 0; i < 24; ++i) {
+    const Point3 middle(Real(i % 2) + Real(.5), Real(i / 2 % 3) + Real(.5), Real(i / 6) + Real(.5));
+    EXPECT_NEAR(double(medium.At(middle).absorption.g), i + 1, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The hierarchy of a large set: made in pieces by threads, the same whatever their number, and with
+// the hits of brute force.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "accelerators/bvh/build/bvh_build.h"
+#include "accelerators/bvh/build/bvh_plan.h"
+#include "core/scene/aggregate.h"
+#include "tests/support/geometry_scenes.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+TEST(BvhBuild, GivesTheSameBytesWithAnyNumberOfThreads) {
+  TestPlugins plugins;
+  const auto set = CrowdOfTriangles(plugins);
+  ThreadPool one(1), three(3);
+  const BvhArrays expected = BuildBvh(*set, 8, one), found = BuildBvh(*set, 8, three);
+  ASSERT_EQ(expected.lines.size(), found.lines.size());
+  EXPECT_EQ(0, std::memcmp(expected.lines.data(), found.lines.data(),
+                           expected.lines.size() * sizeof(BvhLine)));
+  EXPECT_EQ(expected.others, found.others);
+  EXPECT_EQ(expected.depth, found.depth);
+}
+
+TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
+  TestPlugins plugins;
+  const auto set = CrowdOfTriangles(plugins);
+  ExpectHitsOfBruteForce(*plugins.MakeAccelerator(R"("bvh")", *set, 2), *set, plugins);
+}
+
+// Nodes on the longest way down the binary tree: nodes of eight are some of them.
+int DepthOf(std::span<const BvhPlanNode> plan, std::size_t node) {
+  const BvhPlanNode& at = plan[node];
+  if (at.lower == 0) return 0;
+  return 1 + std::max(DepthOf(plan, node + at.lower), DepthOf(plan, node + at.upper));
+}
+
+// Each triangle is three quarters as large as the one before, about the same corner: splits by
+// surface take off a few of the largest, again and again.
+TEST(BvhBuild, HalvesRunsBelowADepth) {
+  TriangleList triangles;
+  Real size = Real(1e36);
+  for (int i = 0; i < 500; ++i, size *= Real(.75))
+    triangles.push_back({Point3(size, 0, size), Point3(0, size, size), Point3(size, size, 0)});
+  const auto set = TriangleSet(triangles);
+  std::vector<BvhItem> items;
+  for (std::uint32_t id = 0; id < set->Count(); ++id) items.emplace_back(set->Bounds(id), id);
+  ThreadPool threads(1);
+  EXPECT_GT(DepthOf(PlanBvh(*set, 1, items, threads), 0), 60);
+  EXPECT_LE(DepthOf(PlanBvh(*set, 1, items, threads, 10), 0), 10 + 9);  // of 512 and fewer
+}
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Rendering in passes with an integrator whose noise is known: one part of each camera sample, one
+// of each pass, as photons have it.
+#include "core/render/render_passes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+constexpr PixelBounds kBounds{0, 0, 48, 36};
+
+class NoisyIntegrator final : public SurfaceIntegrator {
+ public:
+  void Preprocess(const Scene&, PreprocessContext& context) override {
+    passSeed_ = context.seed;
+    seeds.insert(context.seed);
+    if (sleep > 0) std::this_thread::sleep_for(std::chrono::milliseconds(sleep));
+  }
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
+    RandomStream random = context.Stream(1);
+    if (keepsRays) rays.push_back({ray.d.x, ray.d.y});
+    RandomStream blotch(HashKey({passSeed_, std::uint64_t(100 + int(100 * ray.d.x)),
+                                 std::uint64_t(100 + int(100 * ray.d.y))}));
+    return Spectrum(1 + sampleNoise * (random.Uniform() - Real(.5)) +
+                    passNoise * (blotch.Uniform() - Real(.5)));
+  }
+
+  Real sampleNoise = 1, passNoise = Real(.5);
+  int sleep = 0;  // milliseconds of each preprocessing
+  bool keepsRays = false;
+  mutable std::vector<std::pair<Real, Real>> rays;  // of one thread
+  std::set<std::uint64_t> seeds;
+
+ private:
+  std::uint64_t passSeed_ = 0;
+};
+
+class RenderPassesTest : public testing::Test {
+ protected:
+  RenderPassesTest() : scene_(Empty()) {
+    filter_ = plugins_.MakeFilter(R"("box")");
+    camera_ = plugins_.MakeCamera(R"("perspective")", {}, 48, 36);
+    sampler_ = plugins_.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 16)");
+  }
+  static SceneParts Empty() {
+    SceneParts parts;
+    parts.primitives = std::make_unique<PrimitiveSet>();
+    return parts;
+  }
+  template <class Work>  // PassesResult(const RenderJob&, const RenderOptions&)
+  PassesResult With(int threads, std::uint64_t seed, const Work& work) {
+    Film film(kBounds, kBounds);
+    ThreadPool pool(threads);
+    ProgressReporter progress(ProgressReporter::Mode::Quiet);
+    Statistics statistics;
+    RenderOptions options;
+    options.seed = seed;
+    const PassesResult result = work(RenderJob{scene_, integrator_, *sampler_, *filter_, *camera_,
+                                               film, pool, log_, progress, statistics},
+                                     options);
+    image_ = film.ToImage(true);
+    return result;
+  }
+  PassesResult Run(const StoppingRule& rule, int threads = 1, std::uint64_t seed = 1) {
+    return With(threads, seed, [&](const RenderJob& job, const RenderOptions& options) {
+      return RenderInPasses(job, options, rule);
+    });
+  }
+
+  TestPlugins plugins_;
+  Log log_{Log::Level::Normal, Log::Sink::Memory};
+  Scene scene_;
+  NoisyIntegrator integrator_;
+  std::unique_ptr<Filter> filter_;
+  std::unique_ptr<Camera> camera_;
+  std::unique_ptr<Sampler> sampler_;
+  Image image_;
+};
+
+TEST_F(RenderPassesTest, ReachesTheTargetWithoutGoingMuchBeyond) {
+  for (const double target : {.02, .003, .0005}) {
+    std::vector<Image> images;
+    StoppingRule rule;
+    rule.targetError = target;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const PassesResult result = Run(rule, 2, seed);
+      EXPECT_EQ(result.reason, StopReason::TargetError);
+      EXPECT_LE(*result.noise, target);
+      EXPECT_GT(*result.noise, target / 1.5);
+      images.push_back(image_);
+    }
+    // The noise between seeds, as somebody would measure it afterwards.
+    double sum = 0;
+    for (std::size_t i = 0; i < image_.pixels.size(); i += 4) {
+      double mean = 0, square = 0;
+      for (const Image& image : images) mean += double(image.pixels[i]) / 5;
+      for (const Image& image : images)
+        square += (double(image.pixels[i]) - mean) * (double(image.pixels[i]) - mean) / 4;
+      sum += square / (1 + .01);
+    }
+    const double measured = 4 * sum / double(image_.pixels.size());
+    EXPECT_LT(measured, 1.5 * target);
+    EXPECT_GT(measured, target / 1.5);
+  }
+}
+
+TEST_F(RenderPassesTest, ATargetAloneGivesTheSameBitsForAnyNumberOfThreads) {
+  for (const char* sampler :
+       {R"("lowdiscrepancy" "integer pixelsamples" 16)", R"("stratified")", R"("random")"}) {
+    sampler_ = plugins_.MakeSampler(sampler);
+    StoppingRule rule;
+    rule.targetError = .002;
+    const PassesResult one = Run(rule, 1);
+    const std::vector<float> expected = image_.pixels;
+    const PassesResult three = Run(rule, 3);
+    EXPECT_EQ(image_.pixels, expected) << sampler;
+    EXPECT_EQ(one.passes, three.passes);
+    EXPECT_EQ(*one.noise, *three.noise);
+    EXPECT_GT(one.passes, 8);
+  }
+}
+
+TEST_F(RenderPassesTest, EveryPassHasItsOwnSeed) {
+  StoppingRule rule;
+  rule.targetError = .002;
+  const PassesResult result = Run(rule);
+  EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
+}
+
+TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
+  StoppingRule rule;
+  rule.targetError = 1e-9;
+  rule.maxSamples = 20;
+  const PassesResult result = Run(rule);
+  EXPECT_EQ(result.reason, StopReason::Samples);
+  EXPECT_EQ(result.samplesPerPixel, 20);
+  EXPECT_TRUE(result.render.isComplete);
+}
+
+// Each pass goes on in the sampler's sequence where the last one of its group ended.
+TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
+  StoppingRule rule;
+  rule.targetError = 1e-9;
+  rule.maxSamples = 64;
+  integrator_.keepsRays = true;
+  const PassesResult result = Run(rule);
+  EXPECT_GT(result.passes, 16);
+  auto& rays = integrator_.rays;
+  ASSERT_EQ(rays.size(), 48u * 36 * 64);
+  std::sort(rays.begin(), rays.end());
+  const auto repeated = rays.end() - std::unique(rays.begin(), rays.end());
+  EXPECT_LT(repeated, 100);  // by rounding
+}
+
+TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
+  integrator_.sleep = 20;
+  StoppingRule rule;
+  rule.timeLimit = .5;
+  rule.start = std::chrono::steady_clock::now();
+  const PassesResult result = Run(rule);
+  EXPECT_EQ(result.reason, StopReason::TimeLimit);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - rule.start;
+  EXPECT_LE(result.passes, 25);  // of 20 ms of preprocessing each
+  EXPECT_GE(result.passes, 1);
+  EXPECT_LT(taken.count(), 2);  // machines are busy
+}
+
+// At .9 s or later there is no time for a fourth preprocessing of .3 s.
+TEST_F(RenderPassesTest, BeginsNoPassWhosePreprocessingIsTooLong) {
+  integrator_.sleep = 300;
+  StoppingRule rule;
+  rule.timeLimit = 1;
+  rule.start = std::chrono::steady_clock::now();
+  EXPECT_LE(Run(rule).passes, 3);
+}
+
+TEST_F(RenderPassesTest, RendersOnePassWhereThereIsNoTimeAtAll) {
+  StoppingRule rule;
+  rule.timeLimit = 1e-6;
+  rule.start = std::chrono::steady_clock::now();
+  const PassesResult result = Run(rule);
+  EXPECT_EQ(result.passes, 1);
+  EXPECT_EQ(result.samplesPerPixel, 1);
+  EXPECT_FALSE(result.noise);
+  EXPECT_GT(image_.At(47, 35, 0), 0);
+}
+
+TEST_F(RenderPassesTest, TwoHalvesAreIndependentAndMeetInThePicture) {
+  integrator_.passNoise = 0;
+  Film first(kBounds, kBounds), second(kBounds, kBounds);
+  const PassesResult result = With(2, 1, [&](const RenderJob& job, const RenderOptions& options) {
+    return RenderTwoHalves(job, options, &first, &second);
+  });
+  EXPECT_EQ(result.passes, 2);
+  EXPECT_EQ(result.samplesPerPixel, 16);
+  EXPECT_EQ(integrator_.seeds.size(), 2u);
+  const Image a = first.ToImage(true), b = second.ToImage(true);
+  EXPECT_NE(a.pixels, b.pixels);
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    ASSERT_NEAR(image_.pixels[i], (a.pixels[i] + b.pixels[i]) / 2, 1e-5);
+  // 1/12 a sample; 1728 pixels know it to 6 % or better.
+  EXPECT_NEAR(*result.noise * 1.01 * 12 * 16, 1, .2);
+}
+
+}  // namespace
+}  // namespace exphoton
