@@ -24,7 +24,7 @@ class BruteForce final : public Aggregate {
     const TraceRay trace(ray);
     for (std::uint32_t id = 0; id < primitives_.Count(); ++id)
       primitives_.Intersect(id, trace, &hit);
-    return primitives_.Told(trace, hit);
+    return primitives_.Reported(trace, hit);
   }
 
   bool Occluded(const Ray& ray) const override {

@@ -160,7 +160,7 @@ class EmbreeAccelerator final : public Aggregate {
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &query.context, &rayHit);
-    return query.hit.IsHit() ? primitives_.Told(query.trace, query.hit) : Hit();
+    return query.hit.IsHit() ? primitives_.Reported(query.trace, query.hit) : Hit();
   }
   bool Occluded(const Ray& ray) const override {
     if (!IsTraceable(ray)) return false;

@@ -52,7 +52,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
     }
   }
 
-  LayerSet Layers() const override { return kLightLayers; }
+  AovSet Aovs() const override { return kLightAovs; }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
@@ -75,7 +75,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
     if (distribution_.IsEmpty()) return {};
     const CameraSamples& samples = context.samples;
     const auto choice = distribution_.Sample(samples.Array1D(arrays_.choice1D)[0]);
-    const DirectLightSample sample{
+    const DirectLightingVariates sample{
         samples.Array2D(arrays_.light2D)[0], samples.Array1D(arrays_.part1D)[0],
         samples.Array2D(arrays_.bsdf2D)[0], samples.Array1D(arrays_.lobe1D)[0]};
     return EstimateDirect(point, *choice.light, sample, context) / choice.probability;

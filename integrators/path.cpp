@@ -31,7 +31,7 @@ const ParamTable<Settings>& Parameters() {
 }
 
 // The random numbers of one vertex.
-struct VertexSample {
+struct PathVertexVariates {
   Real lightChoice;
   Point2 light;
   Real lightPart;
@@ -56,10 +56,10 @@ struct PathState {
 // by non-specular lobes, a caustic has gone from the last of them to the light over specular ones.
 class PathHistory {
  public:
-  PathHistory(const EffectPlan& effects, LayerSample* layers)
-      : hasIndirect_(effects.Needs(Effect::Indirect)),
-        hasCaustics_(effects.Needs(Effect::Caustics)),
-        layers_(layers) {}
+  PathHistory(const RequiredFeatures& effects, AovSample* aovs)
+      : hasIndirect_(effects.Needs(Feature::Indirect)),
+        hasCaustics_(effects.Needs(Feature::Caustics)),
+        aovs_(aovs) {}
 
   void Bounce(bool isSpecular) {
     isLastSpecular_ = isSpecular;
@@ -76,40 +76,40 @@ class PathHistory {
   }
 
   void AddEmission(const Spectrum& radiance) const {
-    if (!layers_) return;
+    if (!aovs_) return;
     if (bounces_ == 0) {
-      layers_->emission += radiance;
+      aovs_->emission += radiance;
     } else if (isFirstSpecular_) {
-      layers_->specular += radiance;
+      aovs_->specular += radiance;
     } else if (bounces_ == 1) {
-      layers_->direct += radiance;
+      aovs_->direct += radiance;
     } else if (scatterings_ == 1) {
-      layers_->caustic += radiance;
+      aovs_->caustic += radiance;
     } else {
-      layers_->indirect += radiance;
+      aovs_->indirect += radiance;
     }
   }
   // What media add to the stretch of the path that begins at the last bounce.
   void AddMedia(const Spectrum& radiance) const {
-    if (!layers_) return;
+    if (!aovs_) return;
     if (bounces_ == 0) {
-      layers_->emission += radiance;
+      aovs_->emission += radiance;
     } else {
-      (isFirstSpecular_ ? layers_->specular : layers_->indirect) += radiance;
+      (isFirstSpecular_ ? aovs_->specular : aovs_->indirect) += radiance;
     }
   }
   void AddDirect(const Spectrum& radiance) const {
-    if (!layers_) return;
+    if (!aovs_) return;
     if (bounces_ == 0) {
-      layers_->direct += radiance;
+      aovs_->direct += radiance;
     } else {
-      (isFirstSpecular_ ? layers_->specular : layers_->indirect) += radiance;
+      (isFirstSpecular_ ? aovs_->specular : aovs_->indirect) += radiance;
     }
   }
 
  private:
   bool hasIndirect_, hasCaustics_;
-  LayerSample* layers_;                // null: no layer was asked for
+  AovSample* aovs_;                    // null: no aov was asked for
   int bounces_ = 0, scatterings_ = 0;  // the latter by non-specular lobes
   bool isFirstSpecular_ = false, isLastSpecular_ = false;
 };
@@ -129,13 +129,13 @@ class PathIntegrator final : public SurfaceIntegrator {
     }
   }
 
-  LayerSet Layers() const override { return kLightLayers; }
+  AovSet Aovs() const override { return kLightAovs; }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     PathState path;
     path.ray = ray;
     Spectrum sum;
-    PathHistory history(context.scene.Effects(), context.layers);
+    PathHistory history(context.scene.Features(), context.aovs);
     const LobeSet lobes = Lobes(context.scene);
     RandomStream random = context.Stream(kPathStream);
     for (int depth = 0;; ++depth) {
@@ -159,7 +159,7 @@ class PathIntegrator final : public SurfaceIntegrator {
       const Arena::Mark mark = context.arena.GetMark();
       const ShadingPoint point =
           MakeShadingPoint(*hit, path.ray, depth, TransportMode::Radiance, &context.arena);
-      const VertexSample sample = MakeVertexSample(depth, context, &random);
+      const PathVertexVariates sample = MakePathVertexVariates(depth, context, &random);
       if (history.TakesDirect()) {
         const Spectrum direct = path.beta * DirectLight(point, sample, context);
         sum += direct;
@@ -188,9 +188,10 @@ class PathIntegrator final : public SurfaceIntegrator {
     return path.isSpecular ? RayKind::Specular : RayKind::Bsdf;
   }
 
-  VertexSample MakeVertexSample(int depth, const LiContext& context, RandomStream* random) const {
+  PathVertexVariates MakePathVertexVariates(int depth, const LiContext& context,
+                                            RandomStream* random) const {
     RandomStream& r = *random;
-    VertexSample s;
+    PathVertexVariates s;
     if (depth < kSampledVertices) {
       const VertexArrays& a = arrays_[std::size_t(depth)];
       const CameraSamples& samples = context.samples;
@@ -234,11 +235,11 @@ class PathIntegrator final : public SurfaceIntegrator {
 
   // The lobes of f, Pdf and Sample alike.
   static LobeSet Lobes(const Scene& scene) {
-    return scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular;
+    return scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular;
   }
 
   // Next-event estimation with one light.
-  Spectrum DirectLight(const ShadingPoint& point, const VertexSample& sample,
+  Spectrum DirectLight(const ShadingPoint& point, const PathVertexVariates& sample,
                        LiContext& context) const {
     if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
     const auto choice = lights_.Sample(point.surface.p, sample.lightChoice);
@@ -248,7 +249,7 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
 
   // Extends the path by one BSDF sample; false where it ends.
-  bool Continue(const ShadingPoint& point, const VertexSample& sample, LobeSet lobes,
+  bool Continue(const ShadingPoint& point, const PathVertexVariates& sample, LobeSet lobes,
                 PathState* path) const {
     const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, lobes);
     if (!scattered) return false;

@@ -41,7 +41,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
     return photons_.Explain(scene);
   }
 
-  LayerSet Layers() const override { return photons_.Layers(); }
+  AovSet Aovs() const override { return photons_.Aovs(); }
 
   std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
                                         int count) const override {

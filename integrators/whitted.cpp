@@ -33,7 +33,7 @@ class WhittedIntegrator final : public SurfaceIntegrator {
     }
   }
 
-  LayerSet Layers() const override { return kLightLayers; }
+  AovSet Aovs() const override { return kLightAovs; }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(maxDepth_, context).Radiance(ray, [&](const ShadingPoint& point) {
@@ -53,19 +53,19 @@ class WhittedIntegrator final : public SurfaceIntegrator {
       const Light& light = *context.scene.Lights()[i];
       if (light.IsProvablyBlack()) continue;
       Point2 u;
-      Real uPart = 0;
+      Real uSubLight = 0;
       if (arrays_[i].light2D >= 0) {
         u = context.samples.Array2D(arrays_[i].light2D)[0];
-        uPart = context.samples.Array1D(arrays_[i].part1D)[0];
+        uSubLight = context.samples.Array1D(arrays_[i].part1D)[0];
       }
-      sum += OneLight(point, light, u, uPart, context);
+      sum += OneLight(point, light, u, uSubLight, context);
     }
     return sum;
   }
 
-  static Spectrum OneLight(const ShadingPoint& point, const Light& light, Point2 u, Real uPart,
+  static Spectrum OneLight(const ShadingPoint& point, const Light& light, Point2 u, Real uSubLight,
                            LiContext& context) {
-    const auto direct = light.SampleDirect(point.surface, u, uPart);
+    const auto direct = light.SampleDirect(point.surface, u, uSubLight);
     if (!direct || direct->Li.IsBlack()) return {};
     const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, LobeSet::NonSpecular);
     if (f.IsBlack()) return {};

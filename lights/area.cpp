@@ -44,13 +44,13 @@ class DiffuseAreaLight final : public AreaLight {
     return Dot(on.ng, w) > 0 ? radiance_ : Spectrum{};
   }
 
-  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2 u,
-                                           Real uPart) const override {
-    const auto sample = surface_->SampleToward(ref, u, uPart);
+  std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2 u,
+                                            Real uSubLight) const override {
+    const auto sample = surface_->SampleToward(ref, u, uSubLight);
     if (!sample || !(sample->pdf > 0)) return std::nullopt;
     const Vector3 wi = NormalizeOr(sample->point.p - ref.p, {});
     if (!(Dot(sample->point.ng, -wi) > 0)) return std::nullopt;
-    return DirectSample{wi, radiance_, sample->pdf, SpawnRayTo(ref, sample->point)};
+    return LightLiSample{wi, radiance_, sample->pdf, SpawnRayTo(ref, sample->point)};
   }
   Real PdfDirect(const SurfacePoint& ref, const Vector3& wi,
                  const SurfacePoint* on) const override {
@@ -58,16 +58,16 @@ class DiffuseAreaLight final : public AreaLight {
   }
 
   // By area, cosine about the normal: every ray carries the same power (at one time).
-  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real uPart,
-                                               Real time) const override {
-    EmitterSample sample = surface_->SamplePoint(uPosition, uPart, time);
+  std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real uSubLight,
+                                              Real time) const override {
+    EmitterSample sample = surface_->SamplePoint(uPosition, uSubLight, time);
     sample.point.time = time;
     const Vector3 local = SampleCosineHemisphere(uDirection);
     const Vector3 w = Frame::FromZ(sample.point.ng).ToWorld(local);
     // 1 but for surfaces that are stretched unevenly, or as they move.
     const Real stretched = 1 / area_ / sample.pdf;
-    return EmissionSample{SpawnRay(sample.point, w), Power() * stretched, sample.pdf,
-                          CosineHemispherePdf(local.z)};
+    return LightLeSample{SpawnRay(sample.point, w), Power() * stretched, sample.pdf,
+                         CosineHemispherePdf(local.z)};
   }
   EmissionPdf PdfEmission(const SurfacePoint& from, const Vector3& w) const override {
     return {1 / area_, CosineHemispherePdf(Dot(from.ng, w))};

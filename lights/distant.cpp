@@ -39,23 +39,23 @@ class DistantLight final : public Light {
   bool IsProvablyBlack() const override { return radiance_.IsBlack(); }
   Spectrum Power() const override { return radiance_ * (kPi * world_.radius * world_.radius); }
 
-  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
-    return DirectSample{toLight_, radiance_, 1, SpawnRay(ref, toLight_)};
+  std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
+    return LightLiSample{toLight_, radiance_, 1, SpawnRay(ref, toLight_)};
   }
   Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
     return 0;
   }
 
   // Density per area 1 / (pi r^2).
-  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2, Real,
-                                               Real time) const override {
+  std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2, Real,
+                                              Real time) const override {
     if (!(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);
     const Frame frame = Frame::FromZ(toLight_);
     // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
     const Vector3 offset = frame.x * d.x + frame.y * d.y + toLight_ * Real(1.001);
     const Ray ray{world_.center + offset * world_.radius, -toLight_, kInfinity, time};
-    return EmissionSample{ray, Power(), DiskPdf(), 1};
+    return LightLeSample{ray, Power(), DiskPdf(), 1};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {
     return {world_.radius > 0 ? DiskPdf() : 0, 0};

@@ -35,9 +35,9 @@ const ParamTable<Settings>& Parameters() {
 
 // Radiance over the sphere in the light's own space, bilinear between texels, and a density made of
 // the mean of that over each texel's cell: positive wherever the radiance is.
-class RadianceMap {
+class RadiancePhotonMap {
  public:
-  RadianceMap(std::vector<Spectrum> texels, int width, int height)
+  RadiancePhotonMap(std::vector<Spectrum> texels, int width, int height)
       : texels_(std::move(texels)), width_(width), height_(height) {
     std::vector<double> weights;
     weights.reserve(texels_.size());
@@ -138,7 +138,7 @@ class InfiniteLight final : public Light {
  public:
   // map null: uniform.
   InfiniteLight(const Transform& lightToWorld, const Spectrum& radiance,
-                std::unique_ptr<RadianceMap> map, int sampleCount)
+                std::unique_ptr<RadiancePhotonMap> map, int sampleCount)
       : toWorld_(lightToWorld),
         toLight_(lightToWorld.Inverted()),
         radiance_(radiance),
@@ -164,18 +164,19 @@ class InfiniteLight final : public Light {
     return map_ ? radiance_ * map_->Evaluate(ToLight(w)) : radiance_;
   }
 
-  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2 u, Real) const override {
+  std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2 u,
+                                            Real) const override {
     const auto wi = SampleDirection(u);
     if (!wi) return std::nullopt;
-    return DirectSample{*wi, Le(*wi), DirectionPdf(*wi), SpawnRay(ref, *wi)};
+    return LightLiSample{*wi, Le(*wi), DirectionPdf(*wi), SpawnRay(ref, *wi)};
   }
   Real PdfDirect(const SurfacePoint&, const Vector3& wi, const SurfacePoint* on) const override {
     return on ? 0 : DirectionPdf(wi);
   }
 
   // Density DirectionPdf per solid angle times 1 / (pi r^2) per area of the disk.
-  std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real,
-                                               Real time) const override {
+  std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real,
+                                              Real time) const override {
     const auto w = SampleDirection(uDirection);
     if (!w || !(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);
@@ -184,7 +185,7 @@ class InfiniteLight final : public Light {
     const Vector3 offset = frame.x * d.x + frame.y * d.y + *w * Real(1.001);
     const Ray ray{world_.center + offset * world_.radius, -*w, kInfinity, time};
     const Real pdf = DirectionPdf(*w);
-    return EmissionSample{ray, Le(*w) * (DiskArea() / pdf), 1 / DiskArea(), pdf};
+    return LightLeSample{ray, Le(*w) * (DiskArea() / pdf), 1 / DiskArea(), pdf};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {world_.radius > 0 ? 1 / DiskArea() : 0, DirectionPdf(-w)};
@@ -214,7 +215,7 @@ class InfiniteLight final : public Light {
 
   Transform toWorld_, toLight_;
   Spectrum radiance_;
-  std::unique_ptr<RadianceMap> map_;
+  std::unique_ptr<RadiancePhotonMap> map_;
   int sampleCount_;
   Real determinant_;
   Sphere3 world_;
@@ -246,7 +247,7 @@ std::vector<Spectrum> ReadTexels(const Image& image, const std::string& name,
 
 std::unique_ptr<Light> Create(const Settings& settings, const LightContext& context) {
   Spectrum radiance = settings.radiance * settings.scale;
-  std::unique_ptr<RadianceMap> map;
+  std::unique_ptr<RadiancePhotonMap> map;
   if (!settings.mapName.empty()) {
     Image image;
     try {
@@ -263,7 +264,7 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
         context.log.Warning("\"" + settings.mapName + "\" is black: the light is off",
                             context.where);
     } else {
-      map = std::make_unique<RadianceMap>(std::move(texels), image.Width(), image.Height());
+      map = std::make_unique<RadiancePhotonMap>(std::move(texels), image.Width(), image.Height());
     }
     if (!context.lightToWorld.SimilarityScale())
       context.log.Warning(

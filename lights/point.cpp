@@ -34,22 +34,22 @@ class PointLight final : public Light {
   bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
   Spectrum Power() const override { return intensity_ * (4 * kPi); }
 
-  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
+  std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
     const Vector3 toLight = position_ - ref.p;
     const Vector3 wi = NormalizeOr(toLight, {});
     const Real distance2 =
         std::max(LengthSquared(toLight), leastDistance_.Squared(ref.p, position_));
     if (wi == Vector3{} || !(distance2 > 0)) return std::nullopt;
-    return DirectSample{wi, intensity_ / distance2, 1, SpawnRayTo(ref, {position_, {}, {}})};
+    return LightLiSample{wi, intensity_ / distance2, 1, SpawnRayTo(ref, {position_, {}, {}})};
   }
   Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
     return 0;
   }
 
-  std::optional<EmissionSample> SampleEmission(Point2, Point2 uDirection, Real,
-                                               Real time) const override {
+  std::optional<LightLeSample> SampleEmission(Point2, Point2 uDirection, Real,
+                                              Real time) const override {
     const Ray ray{position_, SampleUniformSphere(uDirection), kInfinity, time};
-    return EmissionSample{ray, Power(), 1, kUniformSpherePdf};
+    return LightLeSample{ray, Power(), 1, kUniformSpherePdf};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {
     return {0, kUniformSpherePdf};

@@ -59,7 +59,7 @@ class SpotLight final : public Light {
   // 2 pi I [(1 - cos inner) + (cos inner - cos total) / 5]: the integral of the falloff.
   Spectrum Power() const override { return intensity_ * EffectiveSolidAngle(); }
 
-  std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
+  std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
     const Vector3 toLight = position_ - ref.p;
     const Vector3 wi = NormalizeOr(toLight, {});
     const Real distance2 =
@@ -67,15 +67,15 @@ class SpotLight final : public Light {
     if (wi == Vector3{} || !(distance2 > 0)) return std::nullopt;
     const Real falloff = Falloff(-wi);
     if (falloff == 0) return std::nullopt;
-    return DirectSample{wi, intensity_ * (falloff / distance2), 1,
-                        SpawnRayTo(ref, {position_, {}, {}})};
+    return LightLiSample{wi, intensity_ * (falloff / distance2), 1,
+                         SpawnRayTo(ref, {position_, {}, {}})};
   }
   Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
     return 0;
   }
 
   // Density per solid angle: falloff / integral of the falloff.
-  std::optional<EmissionSample> SampleEmission(Point2, Point2 u, Real, Real time) const override {
+  std::optional<LightLeSample> SampleEmission(Point2, Point2 u, Real, Real time) const override {
     const Real area = inner_ + rim_ / 5;  // over 2 pi
     const Real inInner = u.x * area;
     Real oneMinusCos = inInner, falloff = 1;
@@ -89,7 +89,7 @@ class SpotLight final : public Light {
     const Real sinTheta = SafeSqrt(oneMinusCos * (2 - oneMinusCos));
     const Vector3 local = SphericalDirection(sinTheta, 1 - oneMinusCos, 2 * kPi * u.y);
     const Ray ray{position_, Frame::FromZ(axis_).ToWorld(local), kInfinity, time};
-    return EmissionSample{ray, Power(), 1, falloff / EffectiveSolidAngle()};
+    return LightLeSample{ray, Power(), 1, falloff / EffectiveSolidAngle()};
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {0, Falloff(w) / EffectiveSolidAngle()};

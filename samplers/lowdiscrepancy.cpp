@@ -7,8 +7,8 @@
 #include <bit>
 #include <utility>
 
+#include "core/math/sampling/batched_owen_scrambling.h"
 #include "core/math/sampling/low_discrepancy.h"
-#include "core/math/sampling/scramble_run.h"
 #include "core/plugin.h"
 
 namespace exphoton {
@@ -71,7 +71,7 @@ class Block {
       first[i] = index_;
       index_ ^= 1u << std::countr_one(number + std::uint32_t(i));
     }
-    ScrambleRun(first, values.size(), FirstKey(), values.data());
+    BatchedOwenScrambling(first, values.size(), FirstKey(), values.data());
   }
   void Next(std::span<Point2> values, std::uint32_t number) {
     std::uint32_t second[kRun];
@@ -81,7 +81,7 @@ class Block {
       second_ ^= kDirections[std::size_t(std::countr_one(number + std::uint32_t(i)))];
     }
     Next({x, values.size()}, number);
-    ScrambleRun(second, values.size(), SecondKey(), y);
+    BatchedOwenScrambling(second, values.size(), SecondKey(), y);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = {x[i], y[i]};
   }
 

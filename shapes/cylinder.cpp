@@ -52,15 +52,15 @@ class Cylinder final : public QuadricShape {
     return objectToWorld_.ApplyBounds({{-r, -r, Real(zMin_)}, {r, r, Real(zMax_)}});
   }
 
-  EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const override {
-    if (uneven_) return uneven_->SamplePoint(u, uPart, time);
+  EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
+    if (uneven_) return uneven_->SamplePoint(u, uSubLight, time);
     const double phi = double(u.y) * phiMax_, z = zMin_ + double(u.x) * (zMax_ - zMin_);
     return MakeSample(Describe({radius_ * std::cos(phi), radius_ * std::sin(phi), z}), 1 / area_);
   }
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
-                                            Real uPart) const override {
-    if (uneven_) return uneven_->SampleToward(ref, u, uPart);
-    return EmitterSurface::SampleToward(ref, u, uPart);
+                                            Real uSubLight) const override {
+    if (uneven_) return uneven_->SampleToward(ref, u, uSubLight);
+    return EmitterSurface::SampleToward(ref, u, uSubLight);
   }
   Real PdfToward(const SurfacePoint& ref, const Vector3& wi,
                  const SurfacePoint& on) const override {

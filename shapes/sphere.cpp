@@ -79,18 +79,18 @@ class Sphere final : public QuadricShape {
     return bounds;
   }
 
-  EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const override {
-    if (uneven_) return uneven_->SamplePoint(u, uPart, time);
+  EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
+    if (uneven_) return uneven_->SamplePoint(u, uSubLight, time);
     const double z = zMin_ + double(u.x) * (zMax_ - zMin_), phi = double(u.y) * phiMax_;
     const double r = std::sqrt(std::max((radius_ - z) * (radius_ + z), 0.0));
     return MakeSample(Describe({r * std::cos(phi), r * std::sin(phi), z}), 1 / area_);
   }
 
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
-                                            Real uPart) const override {
-    if (uneven_) return uneven_->SampleToward(ref, u, uPart);
+                                            Real uSubLight) const override {
+    if (uneven_) return uneven_->SampleToward(ref, u, uSubLight);
     const View view = ViewFrom(ref);
-    if (view.where == View::Near) return EmitterSurface::SampleToward(ref, u, uPart);
+    if (view.where == View::Near) return EmitterSurface::SampleToward(ref, u, uSubLight);
     const Frame frame = Frame::FromZ(view.axis.ToReal());
     Vec3d w;
     double alongRay;

@@ -27,8 +27,8 @@ class MeshEmitter final : public EmitterSurface {
   Real Area() const override { return area_; }
   Bounds3 Bounds() const override { return bounds_; }
 
-  EmitterSample SamplePoint(Point2 u, Real uPart, Real) const override {
-    const auto triangle = std::uint32_t(byArea_.Sample(uPart).index);
+  EmitterSample SamplePoint(Point2 u, Real uSubLight, Real) const override {
+    const auto triangle = std::uint32_t(byArea_.Sample(uSubLight).index);
     const Point2 b = SampleTriangle(u);
     const SurfaceInteraction surface = TriangleSurface(mesh_, triangle, b.x, b.y);
     return {surface, surface.uv, 1 / area_};

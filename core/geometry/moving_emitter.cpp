@@ -17,13 +17,13 @@ MovingEmitter::MovingEmitter(std::shared_ptr<const EmitterSurface> local, const 
   area_ = Real(mean * double(local_->Area()));
 }
 
-EmitterSample MovingEmitter::SamplePoint(Point2 u, Real uPart, Real time) const {
-  return SamplePlacedPoint(*local_, motion_.At(time), u, uPart, time);
+EmitterSample MovingEmitter::SamplePoint(Point2 u, Real uSubLight, Real time) const {
+  return SamplePlacedPoint(*local_, motion_.At(time), u, uSubLight, time);
 }
 
 std::optional<EmitterSample> MovingEmitter::SampleToward(const SurfacePoint& ref, Point2 u,
-                                                         Real uPart) const {
-  return SamplePlacedToward(*local_, motion_.At(ref.time), ref, u, uPart);
+                                                         Real uSubLight) const {
+  return SamplePlacedToward(*local_, motion_.At(ref.time), ref, u, uSubLight);
 }
 
 Real MovingEmitter::PdfToward(const SurfacePoint& ref, const Vector3& wi,

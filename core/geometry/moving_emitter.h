@@ -17,9 +17,9 @@ class MovingEmitter final : public EmitterSurface {
   Bounds3 Bounds() const override { return bounds_; }
   const char* EmitterProblem() const override { return local_->EmitterProblem(); }
 
-  EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const override;
+  EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override;
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
-                                            Real uPart) const override;
+                                            Real uSubLight) const override;
   Real PdfToward(const SurfacePoint& ref, const Vector3& wi, const SurfacePoint& on) const override;
 
  private:

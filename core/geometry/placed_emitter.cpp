@@ -7,16 +7,16 @@
 namespace exphoton {
 
 EmitterSample SamplePlacedPoint(const EmitterSurface& local, const Transform& toWorld, Point2 u,
-                                Real uPart, Real time) {
-  const EmitterSample sample = local.SamplePoint(u, uPart, time);
+                                Real uSubLight, Real time) {
+  const EmitterSample sample = local.SamplePoint(u, uSubLight, time);
   return {PointToWorld(toWorld, sample.point), sample.uv,
           sample.pdf / AreaScale(toWorld, sample.point.ng)};
 }
 
 std::optional<EmitterSample> SamplePlacedToward(const EmitterSurface& local,
                                                 const Transform& toWorld, const SurfacePoint& ref,
-                                                Point2 u, Real uPart) {
-  const auto inside = local.SampleToward(PointToLocal(toWorld.Inverted(), ref), u, uPart);
+                                                Point2 u, Real uSubLight) {
+  const auto inside = local.SampleToward(PointToLocal(toWorld.Inverted(), ref), u, uSubLight);
   if (!inside) return std::nullopt;
   EmitterSample sample{PointToWorld(toWorld, inside->point), inside->uv, 0};
   sample.point.time = ref.time;

@@ -14,10 +14,10 @@ namespace exphoton {
 // EmitterSurface's methods for `local` under the map; arguments and results are in world space.
 // Densities per area are 1 / the area of `local`, divided by the local change of area.
 EmitterSample SamplePlacedPoint(const EmitterSurface& local, const Transform& toWorld, Point2 u,
-                                Real uPart, Real time);
+                                Real uSubLight, Real time);
 std::optional<EmitterSample> SamplePlacedToward(const EmitterSurface& local,
                                                 const Transform& toWorld, const SurfacePoint& ref,
-                                                Point2 u, Real uPart);
+                                                Point2 u, Real uSubLight);
 Real PdfPlacedToward(const EmitterSurface& local, const Transform& toWorld, const SurfacePoint& ref,
                      const Vector3& wi, const SurfacePoint& on);
 
@@ -30,12 +30,12 @@ class PlacedEmitter final : public EmitterSurface {
   // By quadrature (4096 points of the surface; relative error below 1e-3), at each call.
   Real Area() const override;
   Bounds3 Bounds() const override { return toWorld_.ApplyBounds(local_->Bounds()); }
-  EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const override {
-    return SamplePlacedPoint(*local_, toWorld_, u, uPart, time);
+  EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
+    return SamplePlacedPoint(*local_, toWorld_, u, uSubLight, time);
   }
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
-                                            Real uPart) const override {
-    return SamplePlacedToward(*local_, toWorld_, ref, u, uPart);
+                                            Real uSubLight) const override {
+    return SamplePlacedToward(*local_, toWorld_, ref, u, uSubLight);
   }
   Real PdfToward(const SurfacePoint& ref, const Vector3& wi,
                  const SurfacePoint& on) const override {

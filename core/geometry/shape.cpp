@@ -22,8 +22,8 @@ Real SolidAnglePdf(const SurfacePoint& ref, const SurfacePoint& on, Real areaPdf
 }  // namespace
 
 std::optional<EmitterSample> EmitterSurface::SampleToward(const SurfacePoint& ref, Point2 u,
-                                                          Real uPart) const {
-  EmitterSample sample = SamplePoint(u, uPart, ref.time);
+                                                          Real uSubLight) const {
+  EmitterSample sample = SamplePoint(u, uSubLight, ref.time);
   sample.point.time = ref.time;
   sample.pdf = SolidAnglePdf(ref, sample.point, sample.pdf);
   if (!(sample.pdf > 0)) return std::nullopt;

@@ -37,14 +37,14 @@ class EmitterSurface {
   virtual const char* EmitterProblem() const { return nullptr; }
 
   // Uniform by area, pdf = 1 / Area(), unless a map stretches the surface unevenly: then uniform
-  // before that map, with the density that this has behind it. u chooses the point, uPart the part
-  // where there are several. The caller sets the point's time.
-  virtual EmitterSample SamplePoint(Point2 u, Real uPart, Real time) const = 0;
+  // before that map, with the density that this has behind it. u chooses the point, uSubLight the
+  // part where there are several. The caller sets the point's time.
+  virtual EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const = 0;
 
   // A point seen from ref; density per solid angle at ref. nullopt: no sample (edge-on,
   // degenerate). Base class: by area, converted.
   virtual std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
-                                                    Real uPart) const;
+                                                    Real uSubLight) const;
   // Density with which SampleToward makes the direction from ref to `on`, a point on this surface
   // that a ray from ref in direction wi hit.
   virtual Real PdfToward(const SurfacePoint& ref, const Vector3& wi, const SurfacePoint& on) const;

@@ -12,7 +12,7 @@
 namespace exphoton {
 
 // One way to light a point, at the time of the point.
-struct DirectSample {
+struct LightLiSample {
   Vector3 wi;     // from the point towards the light
   Spectrum Li;    // radiance arriving along wi if nothing blocks it; delta lights: the irradiance
                   // on a plane perpendicular to wi
@@ -21,7 +21,7 @@ struct DirectSample {
 };
 
 // A ray that leaves the light, carrying power.
-struct EmissionSample {
+struct LightLeSample {
   Ray ray;         // direction unit; origin offset from the light's own surface
   Spectrum power;  // Le |cos| / (pdfPosition pdfDirection): its mean is Power() (where a light
                    // changes its size as it moves, that is about the mean over time)
@@ -50,8 +50,8 @@ class Light {
   virtual Spectrum Power() const = 0;
 
   // nullopt: nothing arrives (behind an area light, outside a spot's cone).
-  virtual std::optional<DirectSample> SampleDirect(const SurfacePoint& ref, Point2 u,
-                                                   Real uPart) const = 0;
+  virtual std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2 u,
+                                                    Real uSubLight) const = 0;
   // Density per solid angle at ref of SampleDirect making wi. `on` is the point of this light that
   // the ray from ref along wi hit, null for a ray that escaped. 0 for delta lights.
   virtual Real PdfDirect(const SurfacePoint& ref, const Vector3& wi,
@@ -68,10 +68,10 @@ class Light {
   }
 
   // A ray that leaves at a time. nullopt: a sample without light (counts as a path all the same).
-  virtual std::optional<EmissionSample> SampleEmission(Point2 uPosition, Point2 uDirection,
-                                                       Real uPart, Real time) const = 0;
+  virtual std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2 uDirection,
+                                                      Real uSubLight, Real time) const = 0;
   // The densities with which SampleEmission makes a ray that leaves `from` in direction w; for
-  // tests. pdfPosition and pdfDirection as in EmissionSample; 0 where they are deltas.
+  // tests. pdfPosition and pdfDirection as in LightLeSample; 0 where they are deltas.
   struct EmissionPdf {
     Real position = 0, direction = 0;
   };

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::string> EffectNames() {
   std::vector<std::string> names;
-  for (int i = 0; i < kEffectCount; ++i) names.emplace_back(EffectName(Effect(i)));
+  for (int i = 0; i < kFeatureCount; ++i) names.emplace_back(FeatureName(Feature(i)));
   return names;
 }
 
@@ -28,20 +28,20 @@ std::vector<std::string> EffectNames() {
 }
 
 // What the picture loses where an effect that the scene needs is off.
-std::string Loss(Effect effect) {
+std::string Loss(Feature effect) {
   switch (effect) {
-    case Effect::Filtering:
+    case Feature::Filtering:
       return "leaves textures unfiltered";
-    case Effect::Lens:
+    case Feature::Lens:
       return "shows the scene through a pinhole";
-    case Effect::Motion:
+    case Feature::Motion:
       return "shows the moment at which the shutter opens";
     default:
       return "leaves out light that the scene needs";
   }
 }
 
-void ApplyOne(const std::string& item, EffectPlan* plan, Log& log) {
+void ApplyOne(const std::string& item, RequiredFeatures* plan, Log& log) {
   const std::size_t equals = item.find('=');
   const std::string name = item.substr(0, equals);
   const std::string value = equals == std::string::npos ? "" : item.substr(equals + 1);
@@ -49,17 +49,17 @@ void ApplyOne(const std::string& item, EffectPlan* plan, Log& log) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) FailChoice("unknown effect \"" + name + "\"", DidYouMean(name, names));
   if (value != "on" && value != "off") FailChoice("\"" + item + "\" says neither on nor off");
-  const auto effect = Effect(found - names.begin());
+  const auto effect = Feature(found - names.begin());
   if (value == "off" && plan->Needs(effect)) log.Warning("--effects " + item + " " + Loss(effect));
   plan->Set(effect, value == "on", "by --effects");
 }
 
 }  // namespace
 
-EffectPlan ChooseEffects(EffectPlan plan, const std::string& choice, Log& log) {
+RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice, Log& log) {
   if (choice == "auto") return plan;
   if (choice == "all") {
-    EffectPlan all;
+    RequiredFeatures all;
     all.notes = std::move(plan.notes);
     return all;
   }

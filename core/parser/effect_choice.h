@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/scene/effects.h"
+#include "core/scene/required_features.h"
 
 namespace exphoton {
 
@@ -12,6 +12,6 @@ class Log;
 
 // "auto": the plan; "all": everything on; or a list "caustics=off,lens=on" over the plan. Switching
 // off what the scene needs warns. Throws Error(CommandLine).
-EffectPlan ChooseEffects(EffectPlan plan, const std::string& choice, Log& log);
+RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice, Log& log);
 
 }  // namespace exphoton

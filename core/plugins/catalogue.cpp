@@ -21,7 +21,7 @@ struct Entry {
 std::vector<Entry> EntriesOf(PluginRegistry& registry, PluginKind kind) {
   std::vector<Entry> entries;
   for (const std::string& name : registry.Available(kind)) {
-    const PluginForm& form = registry.Find(kind, name, {});
+    const PluginFactory& form = registry.Find(kind, name, {});
     entries.push_back({name, registry.Load(kind, name, {}).summary, kind, form.parameters});
   }
   return entries;

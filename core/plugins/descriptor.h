@@ -24,7 +24,7 @@ const char* CoreBuildTag();
 #define EXPHOTON_REAL_NAME "float"
 #endif
 
-struct PluginForm {
+struct PluginFactory {
   PluginKind kind;
   const ParamTableBase* parameters;
   // Binds the parameters and makes a new PluginTraits<kind>::Product; `context` points to a
@@ -37,13 +37,13 @@ struct PluginDescriptor {
   const char* buildTag;
   const char* name;     // as scene files write it; equals the file's name
   const char* summary;  // one line
-  std::vector<PluginForm> forms;
+  std::vector<PluginFactory> forms;
 };
 
 // A form from a settings table and a factory
 //   std::unique_ptr<Product>(const S&, const Context&)
 template <PluginKind kind, class S, class Factory>
-PluginForm MakeForm(const ParamTable<S>& table, Factory factory) {
+PluginFactory MakeForm(const ParamTable<S>& table, Factory factory) {
   using Context = typename PluginTraits<kind>::Context;
   using Product = typename PluginTraits<kind>::Product;
   return {kind, &table,

@@ -27,8 +27,8 @@ std::string Join(const std::vector<std::string>& words) {
   return text;
 }
 
-const PluginForm* FormOf(const PluginDescriptor& plugin, PluginKind kind) {
-  for (const PluginForm& form : plugin.forms) {
+const PluginFactory* FactoryOf(const PluginDescriptor& plugin, PluginKind kind) {
+  for (const PluginFactory& form : plugin.forms) {
     if (form.kind == kind) return &form;
   }
   return nullptr;
@@ -37,7 +37,7 @@ const PluginForm* FormOf(const PluginDescriptor& plugin, PluginKind kind) {
 const PluginDescriptor* FindStatic(PluginKind kind, const std::string& name) {
   for (const PluginEntry entry : StaticPlugins()) {
     const PluginDescriptor& plugin = *entry();
-    if (plugin.name == name && FormOf(plugin, kind)) return &plugin;
+    if (plugin.name == name && FactoryOf(plugin, kind)) return &plugin;
   }
   return nullptr;
 }
@@ -110,10 +110,10 @@ const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string&
   }
 }
 
-const PluginForm& PluginRegistry::Find(PluginKind kind, const std::string& name,
-                                       const SourceLocation& where) {
+const PluginFactory& PluginRegistry::Find(PluginKind kind, const std::string& name,
+                                          const SourceLocation& where) {
   const PluginDescriptor& plugin = Load(kind, name, where);
-  if (const PluginForm* form = FormOf(plugin, kind)) return *form;
+  if (const PluginFactory* form = FactoryOf(plugin, kind)) return *form;
   const std::string is = plugin.forms.empty() ? "nothing" : PluginKindName(plugin.forms[0].kind);
   const std::vector<std::string> available = Available(kind);
   throw Error(ExitStatus::Scene,
@@ -125,12 +125,12 @@ const PluginForm& PluginRegistry::Find(PluginKind kind, const std::string& name,
 std::vector<std::string> PluginRegistry::Available(PluginKind kind) const {
   std::vector<std::string> names;
   for (const PluginEntry entry : StaticPlugins()) {
-    if (FormOf(*entry(), kind)) names.push_back(entry()->name);
+    if (FactoryOf(*entry(), kind)) names.push_back(entry()->name);
   }
   for (const std::string& name : PluginNamesIn(folders_, kind)) {
     try {
       const PluginDescriptor* plugin = TryLoad(kind, name);
-      if (plugin && FormOf(*plugin, kind)) names.push_back(name);
+      if (plugin && FactoryOf(*plugin, kind)) names.push_back(name);
     } catch (const PluginFileError&) {
       // What cannot be loaded is reported when a scene names it.
     }
@@ -151,7 +151,8 @@ const std::vector<std::string>& PluginRegistry::ParameterNames(PluginKind kind) 
   std::vector<std::string>& names = entry->second;
   if (!isNew) return names;
   for (const std::string& name : Available(kind)) {
-    for (const ParamDecl& decl : FormOf(*TryLoad(kind, name), kind)->parameters->Declarations()) {
+    for (const ParamDecl& decl :
+         FactoryOf(*TryLoad(kind, name), kind)->parameters->Declarations()) {
       names.push_back(decl.name);
     }
   }
@@ -160,7 +161,7 @@ const std::vector<std::string>& PluginRegistry::ParameterNames(PluginKind kind) 
 
 void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
                                    BindContext bind, const void* context) {
-  const PluginForm& form = Find(kind, name, params.where);
+  const PluginFactory& form = Find(kind, name, params.where);
   if (bind.what.empty()) bind.what = Named(kind, name);
   if (!bind.siblingNames) bind.siblingNames = [this, kind] { return ParameterNames(kind); };
   const std::string failed = bind.what + " cannot be made: ";

@@ -27,7 +27,7 @@ class PluginRegistry {
   // The form of that kind of the plugin of that name (aliases resolved: "diffuse" is "area").
   // Throws Error(Scene) at `where`: missing (listing what exists and where it looked), not a
   // library, wrong ABI or build, wrong kind, another name, threw.
-  const PluginForm& Find(PluginKind kind, const std::string& name, const SourceLocation& where);
+  const PluginFactory& Find(PluginKind kind, const std::string& name, const SourceLocation& where);
 
   template <PluginKind kind>
   std::unique_ptr<typename PluginTraits<kind>::Product> Create(

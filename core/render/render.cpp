@@ -21,8 +21,8 @@ struct Worker {
 
   CameraSamples samples;
   Arena arena;
-  PixelNotes notes;
-  PassNotes passNotes;
+  PixelState notes;
+  ThreadState threadState;
   RayCounters rays;
   std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
   bool wasStopped = false;
@@ -52,7 +52,7 @@ std::string Describe(const Spectrum& L, const SampleKey& key, std::uint64_t seed
 
 // What the layers say of the first surface; the integrator is not asked.
 void DescribeSurface(const Scene& scene, const RayDifferential& ray, Arena* arena,
-                     LayerSample* sample) {
+                     AovSample* sample) {
   const auto surface = scene.Intersect(ray);
   if (!surface) return;
   const Arena::Mark mark = arena->GetMark();
@@ -63,12 +63,12 @@ void DescribeSurface(const Scene& scene, const RayDifferential& ray, Arena* aren
   arena->Rewind(mark);
 }
 
-void Blacken(LayerSample* sample) {
+void Blacken(AovSample* sample) {
   sample->emission = sample->direct = sample->caustic = sample->indirect = sample->specular = {};
 }
 
 // Where the sample is negative it counts as 0, and so do its parts.
-void ClampNegative(Spectrum* L, LayerSample* sample) {
+void ClampNegative(Spectrum* L, AovSample* sample) {
   for (Real Spectrum::*channel : {&Spectrum::r, &Spectrum::g, &Spectrum::b}) {
     if (!(L->*channel < 0)) continue;
     for (Spectrum* part : {L, &sample->emission, &sample->direct, &sample->caustic,
@@ -92,7 +92,7 @@ class TileRenderer {
         options_(options),
         target_(target),
         log_(log),
-        layers_(options.layers),
+        aovs_(options.aovs),
         differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))) {}
 
   void RenderTile(const PixelBounds& tile, Worker* worker) const {
@@ -106,15 +106,15 @@ class TileRenderer {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool Needs(Effect effect) const { return job_.scene.Effects().Needs(effect); }
+  bool Needs(Feature effect) const { return job_.scene.Features().Needs(effect); }
   bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
   // False where stopped.
   bool RenderPixel(Point2i pixel, Worker* worker) const {
-    if (!layers_ || !layers_->NeedsTime()) return RenderSamples(pixel, worker);
+    if (!aovs_ || !aovs_->NeedsTime()) return RenderSamples(pixel, worker);
     const Clock::time_point start = Clock::now();
     const bool isDone = RenderSamples(pixel, worker);
-    layers_->AddTime(pixel, std::chrono::duration<double>(Clock::now() - start).count());
+    aovs_->AddTime(pixel, std::chrono::duration<double>(Clock::now() - start).count());
     return isDone;
   }
 
@@ -138,9 +138,9 @@ class TileRenderer {
     CameraSample sample;
     sample.film =
         Point2(Real(key.pixel.x) + Real(.5), Real(key.pixel.y) + Real(.5)) + filter.offset;
-    sample.lens = Needs(Effect::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
-    sample.time = Needs(Effect::Motion) ? samples.time : 0;
-    RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Effect::Filtering));
+    sample.lens = Needs(Feature::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
+    sample.time = Needs(Feature::Motion) ? samples.time : 0;
+    RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
     if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
 
     worker->arena.Reset();
@@ -148,13 +148,13 @@ class TileRenderer {
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
     context.notes = &worker->notes;
-    context.passNotes = &worker->passNotes;
+    context.threadState = &worker->threadState;
     context.volume = job_.volume;
-    LayerSample layers;
-    if (layers_) {
-      layers.wanted = layers_->Wanted();
-      context.layers = &layers;
-      if (layers_->NeedsSurface()) DescribeSurface(job_.scene, ray, &worker->arena, &layers);
+    AovSample aovs;
+    if (aovs_) {
+      aovs.wanted = aovs_->Wanted();
+      context.aovs = &aovs;
+      if (aovs_->NeedsSurface()) DescribeSurface(job_.scene, ray, &worker->arena, &aovs);
     }
     Spectrum L = job_.integrator.Li(ray, context);
     ++worker->cameraSamples;
@@ -162,13 +162,13 @@ class TileRenderer {
     if (!L.IsFinite()) {
       Drop(L, key, worker);
       L = Spectrum();
-      Blacken(&layers);
+      Blacken(&aovs);
     } else if (L.MinComponent() < 0) {
       ++worker->negative;
-      ClampNegative(&L, &layers);
+      ClampNegative(&L, &aovs);
     }
     target_.film.AddSample(key.pixel, L, alpha, filter.weight);
-    if (layers_) layers_->AddSample(key.pixel, layers, L, filter.weight);
+    if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
   }
 
   void Drop(const Spectrum& L, const SampleKey& key, Worker* worker) const {
@@ -182,7 +182,7 @@ class TileRenderer {
   const RenderOptions& options_;
   Target target_;
   NonFiniteLog* log_;
-  LayerFilm* layers_;
+  AovFilm* aovs_;
   Real differentialScale_;
 };
 
@@ -272,8 +272,8 @@ struct PassRenderer::State {
 PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
     : state_(std::make_unique<State>(job, options)) {
   SampleLayout layout;
-  layout.needsLens = job.scene.Effects().Needs(Effect::Lens);
-  layout.needsTime = job.scene.Effects().Needs(Effect::Motion);
+  layout.needsLens = job.scene.Features().Needs(Feature::Lens);
+  layout.needsTime = job.scene.Features().Needs(Feature::Motion);
   job.integrator.RequestSamples(job.scene, job.sampler, &layout);
   for (int i = 0; i < job.threads.Count(); ++i) state_->workers.emplace_back(layout);
 }
@@ -291,7 +291,7 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   State& state = *state_;
   const RenderJob& job = state.job;
   const Clock::time_point start = Clock::now();
-  for (Worker& worker : state.workers) worker.passNotes.Reset();
+  for (Worker& worker : state.workers) worker.threadState.Reset();
   try {
     state.Preprocess(pass.preprocessSeed, job.progress);
   } catch (const PreprocessStopped&) {

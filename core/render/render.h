@@ -13,9 +13,9 @@
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/base/statistics.h"
+#include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/camera.h"
 #include "core/imaging/film/film.h"
-#include "core/imaging/film/layer_film.h"
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/transport/integrator.h"
@@ -32,7 +32,7 @@ struct RenderOptions {
   bool isStrict = false;  // a non-finite sample ends the render: throws Error(Internal)
   const std::atomic<bool>* stop = nullptr;   // set from outside (a signal): stop at the next pixel
   std::atomic<bool>* pixelsBegun = nullptr;  // set here once there may be something to keep
-  LayerFilm* layers = nullptr;               // filled beside the film; null: no layer was asked for
+  AovFilm* aovs = nullptr;                   // filled beside the film; null: no aov was asked for
   // Textures are filtered, and bumps differenced, over the footprint that a sample has when a pixel
   // takes this number of samples; 0: the number that the sampler takes. Renders that are compared
   // need the same footprint.

@@ -120,7 +120,7 @@ class Passes {
     result_.render = renderer_.Finish();
     if (result_.passes > 1) {
       result_.noise = noise_.RelativeVariance();
-      if (options_.layers && options_.layers->Wanted().Has(Layer::Variance))
+      if (options_.aovs && options_.aovs->Wanted().Has(Aov::Variance))
         result_.variances = noise_.Variances();
     }
     if (result_.reason == StopReason::Signal) result_.render.isComplete = false;
@@ -183,7 +183,7 @@ PassesResult RenderTwoHalves(const RenderJob& job, const RenderOptions& options,
   result.render = renderer.Finish();
   if (!isWhole) result.reason = StopReason::Signal;
   if (result.passes == 2) result.noise = noise.RelativeVariance();
-  if (result.passes == 2 && options.layers && options.layers->Wanted().Has(Layer::Variance))
+  if (result.passes == 2 && options.aovs && options.aovs->Wanted().Has(Aov::Variance))
     result.variances = noise.Variances();
   return result;
 }

@@ -120,7 +120,7 @@ void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) co
   if (found && Wins(found->t, kNoId, id, *hit)) *hit = {found->t, found->uv, id, kNoId};
 }
 
-Hit PrimitiveSet::Told(const TraceRay& ray, const Hit& nearest) const {
+Hit PrimitiveSet::Reported(const TraceRay& ray, const Hit& nearest) const {
   if (!nearest.IsHit() || nearest.instance != kNoId || nearest.primitive >= triangles_.size())
     return nearest;
   const auto& v = vertices_[nearest.primitive];

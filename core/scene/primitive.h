@@ -80,7 +80,7 @@ class PrimitiveSet {
   // lower id. `hit->t` starts at ray.tMax.
   void Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const;
   // The nearest of all hits as accelerators tell it: of triangles with HitInSingle where that can.
-  Hit Told(const TraceRay& ray, const Hit& nearest) const;
+  Hit Reported(const TraceRay& ray, const Hit& nearest) const;
   // Whether primitive `id` blocks the ray in 0 < t < ray.tMax.
   bool Occludes(std::uint32_t id, const TraceRay& ray) const;
 

@@ -25,11 +25,11 @@ int Scene::ShiningLights() const {
                            [](const auto& light) { return !light->IsProvablyBlack(); }));
 }
 
-void Scene::SetEffects(EffectPlan plan, Interval shutter) {
+void Scene::SetFeatures(RequiredFeatures plan, Interval shutter) {
   effects_ = std::move(plan);
-  exposure_ = {shutter.min, effects_.Needs(Effect::Motion) ? shutter.max : shutter.min};
-  if (!effects_.Needs(Effect::Media)) parts_.media.clear();
-  if (effects_.Needs(Effect::Environment)) return;
+  exposure_ = {shutter.min, effects_.Needs(Feature::Motion) ? shutter.max : shutter.min};
+  if (!effects_.Needs(Feature::Media)) parts_.media.clear();
+  if (effects_.Needs(Feature::Environment)) return;
   for (std::size_t i = parts_.lights.size(); i-- > 0;) {
     if (!parts_.lights[i]->IsInfinite()) continue;
     parts_.lights.erase(parts_.lights.begin() + std::ptrdiff_t(i));
@@ -68,7 +68,7 @@ Spectrum Scene::TransmittanceOfMedia(const Ray& ray) const {
 
 Spectrum Scene::EscapedRadiance(const Vector3& w) const {
   Spectrum sum;
-  if (!EffectPlan::IsCompiled(Effect::Environment)) return sum;
+  if (!RequiredFeatures::IsCompiled(Feature::Environment)) return sum;
   for (const Light* light : infiniteLights_) sum += light->Le(w);
   return sum;
 }

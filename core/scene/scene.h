@@ -12,8 +12,8 @@
 #include "core/scattering/material.h"
 #include "core/scattering/medium.h"
 #include "core/scene/aggregate.h"
-#include "core/scene/effects.h"
 #include "core/scene/primitive.h"
+#include "core/scene/required_features.h"
 
 namespace exphoton {
 
@@ -68,16 +68,18 @@ class Scene {
   const PrimitiveSet& Primitives() const { return *parts_.primitives; }
   const Aggregate& Accelerator() const { return *aggregate_; }
 
-  const EffectPlan& Effects() const { return effects_; }
-  // Before anything refers to lights: without Effect::Environment infinite lights are taken out.
-  // shutter: when it opens and closes; without Effect::Motion all happens as it opens.
-  void SetEffects(EffectPlan plan, Interval shutter = {0, 0});
+  const RequiredFeatures& Features() const { return effects_; }
+  // Before anything refers to lights: without Feature::Environment infinite lights are taken out.
+  // shutter: when it opens and closes; without Feature::Motion all happens as it opens.
+  void SetFeatures(RequiredFeatures plan, Interval shutter = {0, 0});
   // The times of all rays: photons spread over them, as camera rays do.
   Interval Exposure() const { return exposure_; }
 
   // Empty where the plan of effects leaves media out.
   const std::vector<std::unique_ptr<Medium>>& Media() const { return parts_.media; }
-  bool HasMedia() const { return EffectPlan::IsCompiled(Effect::Media) && !parts_.media.empty(); }
+  bool HasMedia() const {
+    return RequiredFeatures::IsCompiled(Feature::Media) && !parts_.media.empty();
+  }
   // What part of the light gets through all media, over 0 < t < ray.tMax.
   Spectrum Transmittance(const Ray& ray) const {
     return HasMedia() ? TransmittanceOfMedia(ray) : Spectrum(1);
@@ -90,13 +92,13 @@ class Scene {
   const Aggregate* aggregate_;
   Bounds3 bounds_;
   std::vector<const Light*> infiniteLights_;
-  EffectPlan effects_;
+  RequiredFeatures effects_;
   Interval exposure_{0, 0};
 };
 
 // The plan for this scene and camera (effects.md's table): decides from materials, lights, camera.
-EffectPlan PlanEffects(const Scene& scene, const Camera& camera);
+RequiredFeatures PlanFeatures(const Scene& scene, const Camera& camera);
 // Adds to a plan at which times camera rays and photons are shot, if anything ever moves.
-void NoteTimes(const Scene& scene, const Camera& camera, EffectPlan* plan);
+void NoteTimes(const Scene& scene, const Camera& camera, RequiredFeatures* plan);
 
 }  // namespace exphoton

@@ -22,7 +22,7 @@ class PointTree {
 
   PointTree() = default;  // no points: nothing is near
   // Takes the records, whose positions must be finite, and sorts them. Throws std::length_error
-  // above BoxTree::kMaxPoints.
+  // above PointBvh::kMaxPoints.
   PointTree(BlockStore<Block> records, ThreadPool& threads)
       : PointTree(std::move(MakeAll({&records, 1}, threads).front())) {}
   // As many trees, at once: threads that one of them leaves idle work at another.
@@ -31,7 +31,7 @@ class PointTree {
     std::vector<std::span<Record>> sets;
     std::vector<std::vector<Bounds3>> bounds;  // of the blocks
     for (std::size_t i = 0; i < stores.size(); ++i) {
-      if (stores[i].Size() > BoxTree::kMaxPoints)
+      if (stores[i].Size() > PointBvh::kMaxPoints)
         throw std::length_error("too many points for one tree");
       trees[i].store_ = std::move(stores[i]);
       sets.push_back(trees[i].store_.Records());
@@ -48,7 +48,7 @@ class PointTree {
       trees[set].store_.BecomeBlocks(begin, begin + records.size());
     };
     BlockOrder<Record>::Sort(sets, threads, finish);
-    for (std::size_t i = 0; i < trees.size(); ++i) trees[i].tree_ = BoxTree(bounds[i]);
+    for (std::size_t i = 0; i < trees.size(); ++i) trees[i].tree_ = PointBvh(bounds[i]);
     return trees;
   }
 
@@ -67,7 +67,7 @@ class PointTree {
 
  private:
   BlockStore<Block> store_;
-  BoxTree tree_;
+  PointBvh tree_;
 };
 
 }  // namespace exphoton

@@ -15,7 +15,7 @@ constexpr LobeSet kLobes = LobeSet::NonSpecular;
 
 // A direction sampled from the BSDF that happens to meet the light.
 Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
-                        const DirectLightSample& sample, LiContext& context) {
+                        const DirectLightingVariates& sample, LiContext& context) {
   const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, kLobes);
   if (!scattered || scattered->throughput.IsBlack()) return {};
   const Ray ray = SpawnRay(point.surface, scattered->wi);
@@ -39,7 +39,7 @@ Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
 }  // namespace
 
 Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
-                        const DirectLightSample& sample, LiContext& context) {
+                        const DirectLightingVariates& sample, LiContext& context) {
   if (light.IsProvablyBlack() || !point.bsdf.Has(kLobes)) return {};
   Spectrum sum =
       FromLightSample(point, {&light, 1, sample.light, sample.lightPart}, {}, kLobes, context);

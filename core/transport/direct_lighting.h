@@ -14,7 +14,7 @@
 namespace exphoton {
 
 // The random numbers of one estimate.
-struct DirectLightSample {
+struct DirectLightingVariates {
   Point2 light;        // point on the light
   Real lightPart = 0;  // part of the light
   Point2 bsdf;         // direction
@@ -24,7 +24,7 @@ struct DirectLightSample {
 // One light's contribution to the non-specular lobes, one light sample and one BSDF sample.
 // Delta lights take no BSDF sample. Black lights give 0 without a ray.
 Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
-                        const DirectLightSample& sample, LiContext& context);
+                        const DirectLightingVariates& sample, LiContext& context);
 
 // Sums over all lights, each with its own number of samples, from arrays of the sampler. Where more
 // than mostLights are not black, so many samples of lights chosen by a tree stand for the sum.

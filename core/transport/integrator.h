@@ -11,12 +11,12 @@
 
 #include "core/base/arena.h"
 #include "core/base/statistics.h"
-#include "core/imaging/film/layers.h"
+#include "core/imaging/film/aovs.h"
 #include "core/math/sampling/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
-#include "core/transport/pass_notes.h"
-#include "core/transport/pixel_notes.h"
+#include "core/transport/pixel_state.h"
+#include "core/transport/thread_state.h"
 
 namespace exphoton {
 
@@ -57,9 +57,9 @@ struct LiContext {
   std::uint64_t key;  // of (seed, pixel, sample index)
   Real alpha = 1;     // set to 0 by Li where the camera ray escapes and sees nothing
   // Where Li leaves what it says of layers besides the radiance; null where no layer was asked for.
-  LayerSample* layers = nullptr;
-  PixelNotes* notes = nullptr;               // of the pixel; null: nothing is kept
-  PassNotes* passNotes = nullptr;            // of this thread; null: nothing is kept
+  AovSample* aovs = nullptr;
+  PixelState* notes = nullptr;               // of the pixel; null: nothing is kept
+  ThreadState* threadState = nullptr;        // of this thread; null: nothing is kept
   const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
   std::uint64_t mediaSegments = 0;           // stretches of rays through media so far
 
@@ -115,7 +115,7 @@ class SurfaceIntegrator {
   }
   // The layers that Li fills where LiContext::layers is there. Those of kRendererLayers need no
   // integrator. Light layers must sum to what Li returns, to rounding.
-  virtual LayerSet Layers() const { return {}; }
+  virtual AovSet Aovs() const { return {}; }
   // Radiance arriving along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightSample: a shadow ray only where something would come of it.
+// SampledLight: a shadow ray only where something would come of it.
 #include "core/transport/light_sample.h"
 
 #include "core/math/sampling/mis.h"
 
 namespace exphoton {
 
-Spectrum FromLightSample(const ShadingPoint& point, const LightSample& sample,
+Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
                          TechniqueCounts counts, LobeSet lobes, LiContext& context) {
   const auto direct = sample.light->SampleDirect(point.surface, sample.place, sample.part);
   if (!direct || direct->Li.IsBlack()) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightSample: light that reaches a point from one sampled place on one light, weighted against
+// SampledLight: light that reaches a point from one sampled place on one light, weighted against
 // samples of the BSDF by the power heuristic (Veach 1997, section 9.2). What every estimate of
 // direct light has in common.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace exphoton {
 
-struct LightSample {
+struct SampledLight {
   const Light* light;
   Real probability = 1;  // with which this light was chosen among others
   Point2 place;          // uniform variates: where on the light
@@ -23,7 +23,7 @@ struct TechniqueCounts {
 
 // f L |cos| weight / (probability pdf): of `lobes` alone, which those of the BSDF samples must be.
 // To be divided by counts.light.
-Spectrum FromLightSample(const ShadingPoint& point, const LightSample& sample,
+Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
                          TechniqueCounts counts, LobeSet lobes, LiContext& context);
 
 }  // namespace exphoton

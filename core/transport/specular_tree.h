@@ -17,11 +17,11 @@ struct SurfaceLight {
 
   // Their sum; the camera's own surface leaves them in the layers too.
   Spectrum Collect(const ShadingPoint& point, LiContext& context) const {
-    if (context.layers && point.depth == 0) {
-      context.layers->emission = emission;
-      context.layers->direct = direct;
-      context.layers->caustic = caustic;
-      context.layers->indirect = indirect;
+    if (context.aovs && point.depth == 0) {
+      context.aovs->emission = emission;
+      context.aovs->direct = direct;
+      context.aovs->caustic = caustic;
+      context.aovs->indirect = indirect;
     }
     return emission + direct + caustic + indirect;
   }
@@ -66,20 +66,20 @@ class SpecularTree {
       const Spectrum sky =
           media.transmittance * context_.scene.EscapedRadiance(ray.d) + media.radiance;
       if (depth == 0) context_.alpha = sky.IsBlack() ? 0 : 1;
-      if (depth == 0 && context_.layers) context_.layers->emission = sky;
+      if (depth == 0 && context_.aovs) context_.aovs->emission = sky;
       return sky;
     }
     const Spectrum light = Leaving(*hit, ray, throughput * media.transmittance, depth, shade);
-    if (depth == 0 && context_.layers) Cover(media, context_.layers);
+    if (depth == 0 && context_.aovs) Cover(media, context_.aovs);
     return media.transmittance * light + media.radiance;
   }
 
   // What media between the camera and its surface do to the layers; their own light is emission.
-  static void Cover(const MediaSegment& media, LayerSample* layers) {
-    for (Spectrum* layer : {&layers->emission, &layers->direct, &layers->caustic, &layers->indirect,
-                            &layers->specular})
-      *layer *= media.transmittance;
-    layers->emission += media.radiance;
+  static void Cover(const MediaSegment& media, AovSample* aovs) {
+    for (Spectrum* aov :
+         {&aovs->emission, &aovs->direct, &aovs->caustic, &aovs->indirect, &aovs->specular})
+      *aov *= media.transmittance;
+    aovs->emission += media.radiance;
   }
 
   // Radiance leaving the hit towards the ray's origin.
@@ -89,7 +89,7 @@ class SpecularTree {
     const ShadingPoint point =
         MakeShadingPoint(hit, ray, depth, TransportMode::Radiance, &context_.arena);
     Spectrum radiance = shade(point);
-    if (!context_.scene.Effects().Needs(Effect::Specular)) return radiance;
+    if (!context_.scene.Features().Needs(Feature::Specular)) return radiance;
     if (depth == maxDepth_) {
       if (point.bsdf.Has(LobeSet::Specular))
         context_.rays.cutThroughput += double((throughput * point.bsdf.Rho(LobeSet::Specular)).Y());
@@ -105,7 +105,7 @@ class SpecularTree {
     };
     const Spectrum bounces =
         SpecularBounces(point, context_.Stream(kStream + std::uint64_t(depth)), incident);
-    if (depth == 0 && context_.layers) context_.layers->specular = bounces;
+    if (depth == 0 && context_.aovs) context_.aovs->specular = bounces;
     return radiance += bounces;
   }
 

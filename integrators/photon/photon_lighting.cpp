@@ -8,10 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "integrators/photon/gather/gather_radiance.h"
+#include "integrators/photon/gather/gather_ray.h"
 #include "integrators/photon/maps/rest_pose.h"
-#include "integrators/photon/photon_report.h"
-#include "integrators/photon/shooting/seen_points.h"
+#include "integrators/photon/photon_stats.h"
+#include "integrators/photon/shooting/visible_points.h"
 
 namespace exphoton {
 
@@ -39,7 +39,7 @@ double BytesOf(const PhotonTargets& targets) {
   double photons = 0;
   for (const auto count : targets.counts) photons += double(count);
   return photons * (double(PhotonMap::kBytesPerPhoton) +
-                    double(targets.radianceFraction) * double(RadianceMap::kBytesPerEntry));
+                    double(targets.radianceFraction) * double(RadiancePhotonMap::kBytesPerEntry));
 }
 
 [[noreturn]] void FailByMemory(const PhotonTargets& targets) {
@@ -52,7 +52,7 @@ double BytesOf(const PhotonTargets& targets) {
 
 bool PhotonLighting::Gathers(const Scene& scene) const {
   return settings_.finalGather && settings_.show == ShowMap::Nothing &&
-         scene.Effects().Needs(Effect::Indirect);
+         scene.Features().Needs(Feature::Indirect);
 }
 
 // A map is requested if something will read it and this scene can fill it.
@@ -60,11 +60,11 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   const ShowMap show = settings_.show;
   const bool showsAll = show == ShowMap::Nothing || show == ShowMap::Radiance;
   const bool gathers = Gathers(scene), showsRadiance = show == ShowMap::Radiance;
-  const bool hasIndirect = scene.Effects().Needs(Effect::Indirect);
+  const bool hasIndirect = scene.Features().Needs(Feature::Indirect);
   const bool hasLight = scene.ShiningLights() > 0;  // media fill the indirect map alone
   PhotonTargets targets;
-  const bool hasCaustics = hasLight && scene.Effects().Needs(Effect::Caustics) &&
-                           scene.Effects().Needs(Effect::Specular);
+  const bool hasCaustics = hasLight && scene.Features().Needs(Feature::Caustics) &&
+                           scene.Features().Needs(Feature::Specular);
   if (hasCaustics && (showsAll || show == ShowMap::Caustic))
     targets[PhotonKind::Caustic] = settings_.CausticPhotons();
   if (hasIndirect && (showsAll || show == ShowMap::Indirect))
@@ -78,8 +78,8 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   return targets;
 }
 
-PhotonAim PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
-                              PreprocessContext& context) const {
+DistantLightTargeting PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
+                                          PreprocessContext& context) const {
   // Photons that are only a few times denser do not pay for weights that differ.
   constexpr double kWorthwhileGain = 4;
   // That start towards the smallest part of what is seen: many estimates' worth, so that no
@@ -90,8 +90,9 @@ PhotonAim PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
     return light->IsFar() && !light->IsProvablyBlack();
   });
   if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
-  PhotonAim aim(SeenPoints(scene, *context.camera, context.resolution, context.seed),
-                BoundingSphere(scene.WorldBounds()), kLeastPhotons / double(targets.Least()));
+  DistantLightTargeting aim(VisiblePoints(scene, *context.camera, context.resolution, context.seed),
+                            BoundingSphere(scene.WorldBounds()),
+                            kLeastPhotons / double(targets.Least()));
   const bool isWorthwhile = aim.Gain() >= kWorthwhileGain;
   if (settings_.photonAim == PhotonAiming::Off) {
     if (isWorthwhile) NoticeUnaimed(aim, context.log);
@@ -120,30 +121,31 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
 
 void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
                            PreprocessContext& context) {
-  PhotonHarvest harvest;
+  PhotonPassResult result;
   {
     const PhaseTimer timer(context.statistics, "shoot");
     MediaPhotons media(scene, context.volume);
     // Aimed photons would miss media beside what is seen, which scatter light towards it.
-    PhotonAim aim = media.Scatter() ? PhotonAim() : Aim(scene, targets, context);
-    harvest = PhotonTracer(scene, settings_, context.seed, std::move(aim), std::move(media))
-                  .Shoot(targets, context);
+    DistantLightTargeting aim =
+        media.Scatter() ? DistantLightTargeting() : Aim(scene, targets, context);
+    result = PhotonTracer(scene, settings_, context.seed, std::move(aim), std::move(media))
+                 .Shoot(targets, context);
   }
   context.CheckStop();
   NoticeVainCaustics(targets, settings_, scene, context.log);
-  ReportHarvest(harvest, targets, settings_, context);
-  ReportLights(harvest, targets, scene, context);
+  ReportPhotonPass(result, targets, settings_, context);
+  ReportLights(result, targets, scene, context);
   {
     const PhaseTimer timer(context.statistics, "kd-trees");
-    maps_ = PhotonMaps(&harvest, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
+    maps_ = PhotonMapSet(&result, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
     if (gathers_) gather_.Prepare(maps_.Map(PhotonKind::Indirect));
   }
   context.CheckStop();
   if (targets.radianceFraction > 0) {
     const PhaseTimer timer(context.statistics, "radiance");
     radianceMap_ =
-        std::make_unique<RadianceMap>(harvest.seeds.Records(), maps_, settings_,
-                                      scene.Effects().Needs(Effect::Transmission), context);
+        std::make_unique<RadiancePhotonMap>(result.sites.Records(), maps_, settings_,
+                                            scene.Features().Needs(Feature::Transmission), context);
   }
   ReportMaps(maps_, radianceMap_.get(), settings_, context);
 }
@@ -176,16 +178,15 @@ Spectrum PhotonLighting::Direct(const ShadingPoint& point, LiContext& context) c
 }
 
 Spectrum PhotonLighting::Caustic(const ShadingPoint& point, LiContext& context) const {
-  if (!EffectPlan::IsCompiled(Effect::Caustics)) return {};
+  if (!RequiredFeatures::IsCompiled(Feature::Caustics)) return {};
   return maps_.Radiance(PhotonKind::Caustic, point, &context.arena);
 }
 
 Spectrum PhotonLighting::Indirect(const ShadingPoint& point, LiContext& context) const {
   if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
   RandomStream random = context.Stream(kGatherStream + std::uint64_t(point.depth));
-  return gather_.Gather(
-      point, maps_.Map(PhotonKind::Indirect), context,
-      GatherRadiance(maps_, radianceMap_.get(), settings_, lights_, context, &random));
+  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context,
+                        GatherRay(maps_, radianceMap_.get(), settings_, lights_, context, &random));
 }
 
 SurfaceLight PhotonLighting::Shown(const ShadingPoint& point, LiContext& context) const {
@@ -220,17 +221,17 @@ Spectrum PhotonLighting::ShownRadiance(const ShadingPoint& point) const {
   return point.bsdf.Rho(LobeSet::DiffuseReflection) * value * kInvPi;
 }
 
-LayerSet PhotonLighting::Layers() const {
-  LayerSet layers = kLightLayers | LayerSet{Layer::PhotonDensity};
+AovSet PhotonLighting::Aovs() const {
+  AovSet aovs = kLightAovs | AovSet{Aov::PhotonDensity};
   if (settings_.radiancePhotons && settings_.finalGather && settings_.show == ShowMap::Nothing)
-    layers.Add(Layer::RadianceDistance);
-  return layers;
+    aovs.Add(Aov::RadianceDistance);
+  return aovs;
 }
 
 void PhotonLighting::Describe(const ShadingPoint& point, LiContext& context) const {
-  if (!context.layers || point.depth != 0) return;
-  if (context.layers->wanted.Has(Layer::PhotonDensity))
-    context.layers->photonDensity = maps_.PhotonDensity(point, &context.arena);
+  if (!context.aovs || point.depth != 0) return;
+  if (context.aovs->wanted.Has(Aov::PhotonDensity))
+    context.aovs->photonDensity = maps_.PhotonDensity(point, &context.arena);
 }
 
 std::vector<StoredPhoton> PhotonLighting::PhotonsNear(const Point3& p, const std::string& map,

@@ -10,9 +10,9 @@
 #include "core/transport/light_sampler.h"
 #include "core/transport/specular_tree.h"
 #include "integrators/photon/gather/final_gather.h"
-#include "integrators/photon/maps/photon_maps.h"
-#include "integrators/photon/maps/radiance_map.h"
-#include "integrators/photon/shooting/photon_aim.h"
+#include "integrators/photon/maps/photon_map_set.h"
+#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/shooting/distant_light_targeting.h"
 
 namespace exphoton {
 
@@ -36,7 +36,7 @@ class PhotonLighting {
   SurfaceLight Shown(const ShadingPoint& point, LiContext& context) const;
 
   // The layers that Li and its terms fill.
-  LayerSet Layers() const;
+  AovSet Aovs() const;
   // Fills the density of photons at the camera's own surface, where that layer is wanted.
   void Describe(const ShadingPoint& point, LiContext& context) const;
   // As SurfaceIntegrator::PhotonsNear.
@@ -50,14 +50,15 @@ class PhotonLighting {
   std::string GatherText(const Scene& scene, const PhotonTargets& targets) const;
   PhotonTargets Targets(const Scene& scene) const;
   // Where far lights should shoot; empty: everywhere.
-  PhotonAim Aim(const Scene& scene, const PhotonTargets& targets, PreprocessContext& context) const;
+  DistantLightTargeting Aim(const Scene& scene, const PhotonTargets& targets,
+                            PreprocessContext& context) const;
   void Build(const Scene& scene, const PhotonTargets& targets, PreprocessContext& context);
 
   PhotonSettings settings_;
   bool needsDirectMap_;
   LightSampler lights_;  // for what gather rays meet
-  PhotonMaps maps_;
-  std::unique_ptr<RadianceMap> radianceMap_;
+  PhotonMapSet maps_;
+  std::unique_ptr<RadiancePhotonMap> radianceMap_;
   FinalGather gather_;
   bool gathers_ = false;
 };

@@ -34,12 +34,12 @@ class SingleScattering final : public VolumeIntegrator {
   Spectrum Scattered(const Point3& p, const Ray& ray, LiContext& context,
                      RandomStream* random) const {
     // The same numbers whether they are needed or not: what follows does not move.
-    const Real uLight = random->Uniform(), uPart = random->Uniform(), u = random->Uniform();
+    const Real uLight = random->Uniform(), uSubLight = random->Uniform(), u = random->Uniform();
     const Point2 uPoint{u, random->Uniform()};
     if (lights_.IsEmpty()) return {};
     const auto choice = lights_.Sample(uLight);
     const SurfacePoint at{p, Abs(p) * Gamma(3), Normal3(), ray.time};
-    const auto direct = choice.light->SampleDirect(at, uPoint, uPart);
+    const auto direct = choice.light->SampleDirect(at, uPoint, uSubLight);
     if (!direct || direct->Li.IsBlack()) return {};
     Spectrum scattering;
     for (const auto& medium : context.scene.Media())

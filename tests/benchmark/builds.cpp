@@ -3,11 +3,11 @@
 // two.
 #include "core/spatial/point_tree.h"
 #include "tests/benchmark/contest.h"
-#include "tests/benchmark/embree_room.h"
-#include "tests/benchmark/nanoflann_map.h"
 #include "tests/benchmark/parts.h"
-#include "tests/benchmark/room.h"
-#include "tests/benchmark/room_photons.h"
+#include "tests/benchmark/rooms/embree_room.h"
+#include "tests/benchmark/rooms/nanoflann_map.h"
+#include "tests/benchmark/rooms/room.h"
+#include "tests/benchmark/rooms/room_photons.h"
 #include "tests/support/test_plugin.h"
 
 namespace exphoton {

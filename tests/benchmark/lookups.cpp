@@ -10,10 +10,10 @@
 #include "core/base/progress.h"
 #include "core/base/statistics.h"
 #include "tests/benchmark/contest.h"
-#include "tests/benchmark/nanoflann_map.h"
 #include "tests/benchmark/parts.h"
-#include "tests/benchmark/room.h"
-#include "tests/benchmark/room_photons.h"
+#include "tests/benchmark/rooms/nanoflann_map.h"
+#include "tests/benchmark/rooms/room.h"
+#include "tests/benchmark/rooms/room_photons.h"
 
 namespace exphoton {
 namespace {
@@ -24,7 +24,7 @@ constexpr std::size_t kPlaces = 40000;
 struct PhotonArrangement {
   explicit PhotonArrangement(const std::string& size)
       : made(ShootRoomPhotons(TriangleCountOf(size), kPlaces)),
-        map(PhotonHaul(made.photons, 1), threads),
+        map(PhotonBuffer(made.photons, 1), threads),
         directions(Directions()),
         opponent(Positions()),
         seedOpponent(SeedPositions()) {
@@ -52,7 +52,7 @@ struct PhotonArrangement {
 
   std::vector<Point3> SeedPositions() const {
     std::vector<Point3> points;
-    for (const RadianceSeed& seed : made.seeds) points.push_back(seed.p);
+    for (const RadiancePhotonSite& seed : made.seeds) points.push_back(seed.p);
     return points;
   }
 
@@ -140,14 +140,14 @@ struct RadianceArrangement {
     settings.radianceNormal = 0;
     settings.nUsed = 2;  // what an entry says is not looked at
     settings.maxDist = Real(10);
-    PhotonHarvest harvest;
-    harvest[PhotonKind::Direct] = PhotonHaul(std::span(made.photons).first(1000), 1);
-    const PhotonMaps maps(&harvest, settings, 10, context);
-    std::vector<RadianceSeed> seeds = made.seeds;
-    map = RadianceMap(seeds, maps, settings, false, context);
+    PhotonPassResult result;
+    result[PhotonKind::Direct] = PhotonBuffer(std::span(made.photons).first(1000), 1);
+    const PhotonMapSet maps(&result, settings, 10, context);
+    std::vector<RadiancePhotonSite> seeds = made.seeds;
+    map = RadiancePhotonMap(seeds, maps, settings, false, context);
   }
   const RoomPhotons& made;
-  RadianceMap map;
+  RadiancePhotonMap map;
 };
 
 const RadianceArrangement& RadianceOf(const std::string& size) {

@@ -10,7 +10,7 @@
 #include "core/parser/syntax/parser.h"
 #include "tests/benchmark/contest.h"
 #include "tests/benchmark/parts.h"
-#include "tests/benchmark/room.h"
+#include "tests/benchmark/rooms/room.h"
 
 namespace exphoton {
 namespace {

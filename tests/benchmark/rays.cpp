@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "tests/benchmark/contest.h"
-#include "tests/benchmark/embree_room.h"
 #include "tests/benchmark/parts.h"
-#include "tests/benchmark/room.h"
+#include "tests/benchmark/rooms/embree_room.h"
+#include "tests/benchmark/rooms/room.h"
 #include "tests/support/test_plugin.h"
 
 namespace exphoton {

@@ -3,9 +3,9 @@
 // with EXPHOTON_DOUBLE, in every build, is the test.
 #include "accelerators/bvh/traverse/traverse.h"
 #include "accelerators/kd/kd_build.h"
-#include "integrators/photon/gather/cone_axes.h"
-#include "integrators/photon/maps/photon_maps.h"
-#include "integrators/photon/maps/radiance_map.h"
+#include "integrators/photon/gather/cone_directions.h"
+#include "integrators/photon/maps/photon_map_set.h"
+#include "integrators/photon/maps/radiance_photon_map.h"
 
 namespace exphoton {
 

@@ -27,7 +27,7 @@ void TryCones(fuzz::Input* input) {
   const Point2 u{Real(input->Byte()) / 256, Real(input->Byte()) / 256};
   constexpr std::size_t kMost = 64;
   Arena arena;
-  ConeAxes axes(kMost, &arena);
+  ConeDirections axes(kMost, &arena);
   while (!input->IsEmpty() && axes.size() < kMost) {
     const Point3 p = input->AnyPoint();
     const Vector3 axis = NormalizeOr(Vector3{p.x, p.y, p.z}, {0, 0, 1});

@@ -76,9 +76,9 @@ const std::string kGlassBall = "\"glass\"", kMirrorBall = "\"color Kr\" [ .92 .9
 
 TEST(CausticBox, WithoutBallsAndRingShootsNoCausticPhotonAndSaysWhy) {
   LoadedScene scene = LoadSceneText(CausticBoxWithout({kGlassBall, kMirrorBall, kGoldRing}));
-  const EffectPlan& plan = scene.setup->scene->Effects();
-  EXPECT_FALSE(plan.Needs(Effect::Caustics));
-  EXPECT_EQ(plan.Get(Effect::Caustics).reason, "no specular surface");
+  const RequiredFeatures& plan = scene.setup->scene->Features();
+  EXPECT_FALSE(plan.Needs(Feature::Caustics));
+  EXPECT_EQ(plan.Get(Feature::Caustics).reason, "no specular surface");
   const TestRender render = RenderLoaded(scene);
   EXPECT_TRUE(std::isnan(render.Counter("photons/caustic paths")));
   EXPECT_TRUE(std::isnan(render.Counter("photons/caustic stored")));
@@ -91,13 +91,13 @@ TEST(CausticBox, WithoutBallsAndRingShootsNoCausticPhotonAndSaysWhy) {
 
 TEST(CausticBox, WithoutTheBallsStillHasTheCausticOfTheRing) {
   LoadedScene scene = LoadSceneText(CausticBoxWithout({kGlassBall, kMirrorBall}));
-  EXPECT_TRUE(scene.setup->scene->Effects().Needs(Effect::Caustics));
+  EXPECT_TRUE(scene.setup->scene->Features().Needs(Feature::Caustics));
   EXPECT_GE(RenderLoaded(scene).Counter("photons/caustic stored"), 3000);
 }
 
 TEST(CausticBox, AsItIsHasCaustics) {
   LoadedScene scene = LoadSceneText(CausticBoxWithout({}));
-  EXPECT_TRUE(scene.setup->scene->Effects().Needs(Effect::Caustics));
+  EXPECT_TRUE(scene.setup->scene->Features().Needs(Feature::Caustics));
   EXPECT_GE(RenderLoaded(scene).Counter("photons/caustic stored"), 3000);
 }
 

@@ -31,7 +31,7 @@ const std::string kEqualBlend =
 // A world, and a row of its plan.
 struct Condition {
   std::string name, world;
-  Effect effect;
+  Feature effect;
   bool on;
   std::string header = "";  // before the camera
   std::string camera = "";  // parameters
@@ -54,7 +54,7 @@ class PlanCondition : public testing::TestWithParam<Condition> {};
 
 TEST_P(PlanCondition, IsTrueOfThisScene) {
   const LoadedScene scene = LoadSceneText(TextOf(GetParam(), "\"exphotonmap\""));
-  const EffectPlan::Row row = scene.setup->scene->Effects().Get(GetParam().effect);
+  const RequiredFeatures::Row row = scene.setup->scene->Features().Get(GetParam().effect);
   EXPECT_EQ(row.on, GetParam().on) << row.reason;
   TestRenderOptions all;
   all.load.effects = "all";
@@ -69,41 +69,41 @@ TEST_P(PlanCondition, IsTrueOfThisScene) {
 INSTANTIATE_TEST_SUITE_P(
     Light, PlanCondition,
     testing::Values(
-        Condition{"GlowOnMatte", kGlow + kMatteBox, Effect::Indirect, true},
-        Condition{"GlowOnGloss", kGlow + "Material \"plastic\"\n" + kIndirectBox, Effect::Glossy,
+        Condition{"GlowOnMatte", kGlow + kMatteBox, Feature::Indirect, true},
+        Condition{"GlowOnGloss", kGlow + "Material \"plastic\"\n" + kIndirectBox, Feature::Glossy,
                   true},
         Condition{"GlowThroughTranslucent",
-                  kGlow + kMatteBox + "Material \"translucent\"\n" + kBall, Effect::Transmission,
+                  kGlow + kMatteBox + "Material \"translucent\"\n" + kBall, Feature::Transmission,
                   true},
         Condition{"GlowOnMirrorMakesNoCaustic", kGlow + kMatteBox + "Material \"mirror\"\n" + kBall,
-                  Effect::Caustics, false},
+                  Feature::Caustics, false},
         Condition{"GlowOnMirror", kGlow + kMatteBox + "Material \"mirror\"\n" + kBall,
-                  Effect::Specular, true},
+                  Feature::Specular, true},
         Condition{"FogWithoutLight",
                   "Volume \"homogeneous\" \"color sigma_s\" [1 1 1] \"point p0\" [-1 -1 -1]\n" +
                       kMatteBox,
-                  Effect::Indirect, false, "VolumeIntegrator \"single\"\n"},
+                  Feature::Indirect, false, "VolumeIntegrator \"single\"\n"},
         Condition{"FogWithLight",
                   kLamp +
                       "Volume \"homogeneous\" \"color sigma_s\" [1 1 1] \"point p0\" [-1 -1 "
                       "-1]\n" +
                       kMatteBox,
-                  Effect::Indirect, true, "VolumeIntegrator \"single\"\n"},
+                  Feature::Indirect, true, "VolumeIntegrator \"single\"\n"},
         Condition{"BlackBodyLamp", "LightSource \"point\" \"blackbody I\" [4000 1]\n" + kMatteBox,
-                  Effect::Indirect, true},
+                  Feature::Indirect, true},
         Condition{"BlackBodyLampTimesZero",
-                  "LightSource \"point\" \"blackbody I\" [4000 0]\n" + kMatteBox, Effect::Indirect,
+                  "LightSource \"point\" \"blackbody I\" [4000 0]\n" + kMatteBox, Feature::Indirect,
                   false},
         Condition{"LampBehindGlass",
                   kLamp + kMatteBox +
                       "Material \"glass\" Translate .5 .8 -.3 Shape \"sphere\" "
                       "\"float radius\" .1\n",
-                  Effect::Caustics, true},
+                  Feature::Caustics, true},
         Condition{"LampWithinAClosedBody",
                   kLamp + kMatteBox + "Translate .5 .8 -.3 Shape \"sphere\" \"float radius\" .1\n",
-                  Effect::Indirect, true},
+                  Feature::Indirect, true},
         Condition{"SkyAround", "LightSource \"infinite\"\nMaterial \"matte\"\n" + kBall,
-                  Effect::Environment, true}),
+                  Feature::Environment, true}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -111,75 +111,75 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Condition{"ZeroInTwoChannels",
                   kLamp + kMatteBox + "Material \"mirror\" \"color Kr\" [0 .5 0]\n" + kBall,
-                  Effect::Caustics, true},
+                  Feature::Caustics, true},
         Condition{"BlackBodyReflectance",
                   kLamp + kMatteBox + "Material \"mirror\" \"blackbody Kr\" [3000 .2]\n" + kBall,
-                  Effect::Specular, true},
+                  Feature::Specular, true},
         Condition{"ProductOfTextureAndZero",
                   kLamp + kMatteBox +
                       "Texture \"board\" \"color\" \"checkerboard\"\n"
                       "Texture \"none\" \"color\" \"scale\" \"texture tex1\" \"board\" "
                       "\"color tex2\" [0 0 0]\nMaterial \"mirror\" \"texture Kr\" \"none\"\n" +
                       kBall,
-                  Effect::Specular, false},
+                  Feature::Specular, false},
         Condition{"OpacityBlendedFromOneAndOne",
                   kLamp + kMatteBox + kEqualBlend +
                       "Texture \"one\" \"color\" \"mix\" \"color tex1\" [1 1 1] \"color tex2\" [1 "
                       "1 1] \"texture amount\" \"by place\"\n"
                       "Material \"uber\" \"texture opacity\" \"one\"\n" +
                       kBall,
-                  Effect::Specular, false},
+                  Feature::Specular, false},
         Condition{"OpacityBetweenFourOnes",
                   kLamp + kMatteBox +
                       "Texture \"one\" \"color\" \"bilerp\" \"color v00\" [1 1 1] \"color v01\" [1 "
                       "1 1] \"color v10\" [1 1 1] \"color v11\" [1 1 1]\n"
                       "Material \"uber\" \"texture opacity\" \"one\"\n" +
                       kBall,
-                  Effect::Specular, false},
+                  Feature::Specular, false},
         Condition{"OpacityOfEqualChecks",
                   kLamp + kMatteBox +
                       "Texture \"one\" \"color\" \"checkerboard\" \"float uscale\" 9 "
                       "\"color tex1\" [1 1 1] \"color tex2\" [1 1 1]\n"
                       "Material \"uber\" \"texture opacity\" \"one\"\n" +
                       kBall,
-                  Effect::Specular, false},
+                  Feature::Specular, false},
         Condition{"IndexBlendedFromOneAndOne",
                   kLamp + kMatteBox + kEqualBlend +
                       "Texture \"one\" \"float\" \"mix\" \"float tex1\" 1 \"float tex2\" 1 "
                       "\"texture amount\" \"by place\"\n"
                       "Material \"glass\" \"texture index\" \"one\" \"color Kt\" [0 0 0]\n" +
                       kBall,
-                  Effect::Specular, false},
+                  Feature::Specular, false},
         Condition{"MirrorOfOneShapeAlone",
                   kLamp + kMatteBox +
                       "Material \"mirror\" \"color Kr\" [0 0 0]\nTranslate .3 0 .4 "
                       "Shape \"sphere\" \"float radius\" .4 \"color Kr\" [1 1 1]\n",
-                  Effect::Specular, true},
+                  Feature::Specular, true},
         Condition{"MirrorInAnObject",
                   kLamp + kMatteBox +
                       "ObjectBegin \"o\" Material \"mirror\" Shape \"sphere\" "
                       "\"float radius\" .4 ObjectEnd ObjectInstance \"o\"\n",
-                  Effect::Caustics, true},
+                  Feature::Caustics, true},
         Condition{"BumpsAlone",
                   kLamp +
                       "Texture \"bumps\" \"float\" \"bilerp\" \"float v01\" .4\nMaterial "
                       "\"matte\" \"texture bumpmap\" \"bumps\"\n" +
                       kIndirectBox + kBall,
-                  Effect::Filtering, true},
+                  Feature::Filtering, true},
         Condition{"FilteredRoughnessAlone",
                   kLamp +
                       "Texture \"rough\" \"float\" \"checkerboard\" \"float tex1\" .1 \"float "
                       "tex2\" .5 \"float uscale\" 9\nMaterial \"metal\" \"texture "
                       "roughness\" \"rough\"\n" +
                       kIndirectBox + kBall,
-                  Effect::Filtering, true},
+                  Feature::Filtering, true},
         Condition{"FilteredAmountAlone",
                   kLamp +
                       "Texture \"amount\" \"float\" \"checkerboard\" \"float uscale\" 9\n"
                       "Texture \"blend\" \"color\" \"mix\" \"texture amount\" \"amount\"\n"
                       "Material \"matte\" \"texture Kd\" \"blend\"\n" +
                       kIndirectBox + kBall,
-                  Effect::Filtering, true}),
+                  Feature::Filtering, true}),
     [](const auto& info) { return info.param.name; });
 
 const std::string kMovingBall =
@@ -188,17 +188,17 @@ const std::string kMovingBall =
 INSTANTIATE_TEST_SUITE_P(
     Time, PlanCondition,
     testing::Values(
-        Condition{"MovesBeforeTheShutterOpens", kMovingBall, Effect::Motion, false,
+        Condition{"MovesBeforeTheShutterOpens", kMovingBall, Feature::Motion, false,
                   "TransformTimes 0 .2\n", " \"float shutteropen\" .25 \"float shutterclose\" .5"},
-        Condition{"MovesAfterTheShutterCloses", kMovingBall, Effect::Motion, false,
+        Condition{"MovesAfterTheShutterCloses", kMovingBall, Feature::Motion, false,
                   "TransformTimes .6 .8\n", " \"float shutteropen\" .25 \"float shutterclose\" .5"},
-        Condition{"MovesWithinTheExposure", kMovingBall, Effect::Motion, true,
+        Condition{"MovesWithinTheExposure", kMovingBall, Feature::Motion, true,
                   "TransformTimes .3 .4\n", " \"float shutteropen\" .25 \"float shutterclose\" .5"},
-        Condition{"CameraAloneMoves", kLamp + kMatteBox, Effect::Motion, true,
+        Condition{"CameraAloneMoves", kLamp + kMatteBox, Feature::Motion, true,
                   "ActiveTransform EndTime Rotate 20 0 1 0 ActiveTransform All\n"},
-        Condition{"ShutterIsClosed", kMovingBall, Effect::Motion, false, "",
+        Condition{"ShutterIsClosed", kMovingBall, Feature::Motion, false, "",
                   " \"float shutteropen\" .5 \"float shutterclose\" .5"},
-        Condition{"LensOfASmallRadius", kLamp + kMatteBox, Effect::Lens, true, "",
+        Condition{"LensOfASmallRadius", kLamp + kMatteBox, Feature::Lens, true, "",
                   " \"float lensradius\" 1e-6 \"float focaldistance\" 1"}),
     [](const auto& info) { return info.param.name; });
 
@@ -215,7 +215,7 @@ TEST(PlanOfEffects, KeepsASkyWithOneFaintTexel) {
       "Sky",
       "LightSource \"infinite\" \"color L\" [2e-9 2e-9 2e-9] \"string mapname\" \"" + map +
           "\"\nMaterial \"matte\"\n" + kBall,
-      Effect::Environment, true};
+      Feature::Environment, true};
   const LoadedScene scene = LoadSceneText(TextOf(sky, "\"path\""));
   EXPECT_EQ(scene.setup->scene->ShiningLights(), 1);
   std::filesystem::remove_all(folder);

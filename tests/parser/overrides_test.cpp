@@ -122,21 +122,21 @@ TEST(Overrides, CropByPixelsWithinThePicture) {
 }
 
 TEST(EffectChoice, AllSwitchesEverythingOn) {
-  EffectPlan plan;
-  plan.Set(Effect::Caustics, false, "no specular surface");
+  RequiredFeatures plan;
+  plan.Set(Feature::Caustics, false, "no specular surface");
   Log log(Log::Level::Normal, Log::Sink::Memory);
-  EXPECT_TRUE(ChooseEffects(plan, "all", log).Needs(Effect::Caustics));
-  EXPECT_FALSE(ChooseEffects(plan, "auto", log).Needs(Effect::Caustics));
+  EXPECT_TRUE(ChooseEffects(plan, "all", log).Needs(Feature::Caustics));
+  EXPECT_FALSE(ChooseEffects(plan, "auto", log).Needs(Feature::Caustics));
   EXPECT_EQ(log.WarningCount(), 0);
 }
 
 TEST(EffectChoice, WarnsWhereSomethingNeededIsSwitchedOff) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
-  EffectPlan plan;
-  plan.Set(Effect::Lens, false, "pinhole camera");
-  const EffectPlan chosen = ChooseEffects(plan, "caustics=off,lens=off,media=on", log);
-  EXPECT_FALSE(chosen.Needs(Effect::Caustics));
-  EXPECT_TRUE(chosen.Needs(Effect::Media));
+  RequiredFeatures plan;
+  plan.Set(Feature::Lens, false, "pinhole camera");
+  const RequiredFeatures chosen = ChooseEffects(plan, "caustics=off,lens=off,media=on", log);
+  EXPECT_FALSE(chosen.Needs(Feature::Caustics));
+  EXPECT_TRUE(chosen.Needs(Feature::Media));
   EXPECT_EQ(log.WarningCount(), 1);
   EXPECT_EQ(log.Messages()[0],
             "exphoton: warning: --effects caustics=off leaves out light that the scene needs\n");
@@ -144,7 +144,7 @@ TEST(EffectChoice, WarnsWhereSomethingNeededIsSwitchedOff) {
 
 TEST(EffectChoice, SaysWhatThePictureLoses) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
-  ChooseEffects(EffectPlan(), "motion=off,lens=off", log);
+  ChooseEffects(RequiredFeatures(), "motion=off,lens=off", log);
   ASSERT_EQ(log.WarningCount(), 2);
   EXPECT_EQ(
       log.Messages()[0],
@@ -157,7 +157,7 @@ TEST(EffectChoice, RefusesWhatItDoesNotKnow) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
   for (const char* text : {"", "none", "caustic=off", "caustics", "caustics=no", "caustics=off,"}) {
     try {
-      ChooseEffects(EffectPlan(), text, log);
+      ChooseEffects(RequiredFeatures(), text, log);
       ADD_FAILURE() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.Status(), ExitStatus::CommandLine);

@@ -254,7 +254,7 @@ TEST(SceneBuilder, KnowsTheNamedMaterialsOfVersion2) {
   const BuiltScene built = BuildText(InWorld(
       "MakeNamedMaterial \"m\" \"string type\" \"mirror\" NamedMaterial \"m\" Shape \"sphere\""));
   ASSERT_EQ(built.error, "");
-  EXPECT_TRUE(built.setups[0]->scene->Effects().Needs(Effect::Specular));
+  EXPECT_TRUE(built.setups[0]->scene->Features().Needs(Feature::Specular));
 }
 
 TEST(SceneBuilder, PlacesInstancesByTheMatrixAtTheInstance) {

@@ -79,7 +79,7 @@ TEST_F(EveryPlugin, CanBeLoaded) {
 #endif
 
 TEST_F(EveryPlugin, SaysWhatItIsInOneLine) {
-  ForEachForm([](const PluginDescriptor& plugin, const PluginForm&) {
+  ForEachForm([](const PluginDescriptor& plugin, const PluginFactory&) {
     const std::string summary = plugin.summary;
     EXPECT_FALSE(summary.empty());
     EXPECT_LT(summary.size(), 90u);
@@ -89,7 +89,7 @@ TEST_F(EveryPlugin, SaysWhatItIsInOneLine) {
 }
 
 TEST_F(EveryPlugin, DeclaresParametersThatMakeSense) {
-  ForEachForm([](const PluginDescriptor&, const PluginForm& form) {
+  ForEachForm([](const PluginDescriptor&, const PluginFactory& form) {
     std::set<std::string> names;
     for (const ParamDecl& decl : form.parameters->Declarations()) {
       SCOPED_TRACE(decl.name);
@@ -128,7 +128,7 @@ TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
 
 TEST_F(EveryPlugin, IsListedAndDescribed) {
   const std::string list = ListPlugins(registry_);
-  ForEachForm([&](const PluginDescriptor& plugin, const PluginForm& form) {
+  ForEachForm([&](const PluginDescriptor& plugin, const PluginFactory& form) {
     EXPECT_NE(list.find("  " + std::string(plugin.name) + " "), std::string::npos);
     const std::string text = DescribePlugin(registry_, plugin.name);
     for (const ParamDecl& decl : form.parameters->Declarations()) {

@@ -66,7 +66,7 @@ class PlainLight : public testing::TestWithParam<Case> {
   PlainLight() : light_(plugins_.MakeLight(GetParam().text, GetParam().toWorld)) {
     light_->Prepare(kWorld);
   }
-  std::optional<EmissionSample> Emit(RandomStream& random) const {
+  std::optional<LightLeSample> Emit(RandomStream& random) const {
     const Point2 position{random.Uniform(), random.Uniform()};
     const Point2 direction{random.Uniform(), random.Uniform()};
     return light_->SampleEmission(position, direction, random.Uniform(), 0);

@@ -224,7 +224,7 @@ TEST(Media, LeftOutOfThePlanLeaveTheSceneAsItIsWithoutThem) {
 
 TEST(Media, LeaveLightLayersThatSumToThePicture) {
   TestRenderOptions options;
-  options.layers = kLightLayers;
+  options.aovs = kLightAovs;
   for (const char* integrator : kIntegrators) {
     const TestRender render = RenderSceneText(
         Header(integrator, "\"single\"") +
@@ -235,8 +235,8 @@ TEST(Media, LeaveLightLayersThatSumToThePicture) {
         options);
     for (const std::string channel : {"R", "G", "B"}) {
       double sum = 0;
-      for (const char* layer : {"emission.", "direct.", "caustic.", "indirect.", "specular."})
-        sum += MeanChannel(render.image, layer + channel);
+      for (const char* aov : {"emission.", "direct.", "caustic.", "indirect.", "specular."})
+        sum += MeanChannel(render.image, aov + channel);
       const double picture = MeanChannel(render.image, channel);
       EXPECT_GT(picture, 0);
       EXPECT_NEAR(sum, picture, 1e-5 * picture) << integrator;

@@ -105,10 +105,10 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Transport,
                          testing::Values("whitted", "directlighting", "path"),
                          [](const auto& info) { return info.param; });
 
-class Effects : public testing::TestWithParam<std::string> {};
+class Features : public testing::TestWithParam<std::string> {};
 
 // The rule of the plan: an effect is off only where it adds nothing.
-TEST_P(Effects, ComputedOrSkippedGiveTheSamePictureBitForBit) {
+TEST_P(Features, ComputedOrSkippedGiveTheSamePictureBitForBit) {
   for (const World& world :
        {World{}, World{.hasGlass = false}, World{.hasTexture = false}, World{.hasSky = false},
         World{.hasGlass = false, .hasTexture = false, .hasSky = false}}) {
@@ -120,7 +120,7 @@ TEST_P(Effects, ComputedOrSkippedGiveTheSamePictureBitForBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Effects,
+INSTANTIATE_TEST_SUITE_P(Integrators, Features,
                          testing::Values("whitted", "directlighting", "path", "photonmap",
                                          "exphotonmap"),
                          [](const auto& info) { return info.param; });

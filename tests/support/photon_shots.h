@@ -9,9 +9,9 @@
 
 namespace exphoton {
 
-inline PhotonHarvest ShootPhotons(const Scene& scene, std::uint64_t seed,
-                                  const PhotonTargets& targets,
-                                  const PhotonSettings& settings = {}) {
+inline PhotonPassResult ShootPhotons(const Scene& scene, std::uint64_t seed,
+                                     const PhotonTargets& targets,
+                                     const PhotonSettings& settings = {}) {
   ThreadPool threads(1);
   Log log(Log::Level::Normal, Log::Sink::Memory);
   ProgressReporter progress(ProgressReporter::Mode::Quiet);

@@ -17,13 +17,13 @@ class PlacedLight final : public Light {
     return place_ ? std::optional<Bounds3>(Bounds3(*place_)) : std::nullopt;
   }
   Spectrum Power() const override { return Spectrum(power_); }
-  std::optional<DirectSample> SampleDirect(const SurfacePoint&, Point2, Real) const override {
+  std::optional<LightLiSample> SampleDirect(const SurfacePoint&, Point2, Real) const override {
     return std::nullopt;
   }
   Real PdfDirect(const SurfacePoint&, const Vector3&, const SurfacePoint*) const override {
     return 0;
   }
-  std::optional<EmissionSample> SampleEmission(Point2, Point2, Real, Real) const override {
+  std::optional<LightLeSample> SampleEmission(Point2, Point2, Real, Real) const override {
     return std::nullopt;
   }
 

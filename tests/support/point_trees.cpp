@@ -11,7 +11,7 @@ TestPointTree::TestPointTree(const std::vector<TestDisk>& disks, int threads) {
   store.Append(disks);
   tree_ = PointTree<TestDiskBlock>(std::move(store), pool);
   spacing2_ = MeasureSpacing2(tree_.View(), pool);
-  grid_ = NearGrid(tree_.View(), 2 * tree_.Size(), pool);
+  grid_ = EntryGrid(tree_.View(), 2 * tree_.Size(), pool);
 }
 
 TestPointTree::TestPointTree(const std::vector<Point3>& points, int threads)

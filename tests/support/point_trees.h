@@ -43,7 +43,7 @@ class TestPointTree {
  private:
   PointTree<TestDiskBlock> tree_;
   std::vector<Real> spacing2_;
-  NearGrid grid_;
+  EntryGrid grid_;
 };
 
 }  // namespace exphoton

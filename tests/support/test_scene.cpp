@@ -46,8 +46,8 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
   renderOptions.isStrict = options.isStrict;
   renderOptions.footprintSamples = options.footprintSamples;
   renderOptions.stop = options.stop;
-  std::optional<LayerFilm> layers;
-  if (!options.layers.IsEmpty()) renderOptions.layers = &layers.emplace(setup.crop, options.layers);
+  std::optional<AovFilm> aovs;
+  if (!options.aovs.IsEmpty()) renderOptions.aovs = &aovs.emplace(setup.crop, options.aovs);
 
   TestRender render;
   render.result =
@@ -55,7 +55,7 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
               threads, *scene.log, progress, statistics, setup.volumeIntegrator.get()},
              renderOptions);
   render.image = film.ToImage(setup.film.premultiplyAlpha);
-  if (layers) layers->AppendTo(film, setup.film.premultiplyAlpha, &render.image);
+  if (aovs) aovs->AppendTo(film, setup.film.premultiplyAlpha, &render.image);
   render.messages = scene.log->Messages();
   render.counters = statistics.Counters();
   render.rays = statistics.Rays();

@@ -25,7 +25,7 @@ struct TestRenderOptions {
   TileOrder tileOrder = TileOrder::Scanline;
   std::int64_t footprintSamples = 0;  // RenderOptions
   bool isStrict = true;               // a non-finite sample throws
-  LayerSet layers;                    // appended to the image's channels
+  AovSet aovs;                        // appended to the image's channels
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -131,7 +131,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
 
 void FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
-  log_.Notice("effects:\n" + setup.scene->Effects().Describe());
+  log_.Notice("effects:\n" + setup.scene->Features().Describe());
   PictureFilms films(command_, setup);
   ThreadPool threads(command_.threadCount);
   if (threads.Count() < command_.threadCount)
@@ -147,7 +147,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   options.footprintSamples = command_.footprintSamples;
   options.stop = &StopFlag();
   options.pixelsBegun = &watch_.MustFinish();
-  options.layers = films.layers.get();
+  options.aovs = films.aovs.get();
 
   const Clock::time_point start = Clock::now();
   const PassesResult result =
@@ -197,7 +197,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->noise = result.noise;
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
-  run->layers = LayerNames(command_);
+  run->aovs = LayerNames(command_);
   if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
 }
 

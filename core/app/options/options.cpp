@@ -20,7 +20,7 @@ constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "v1";
   std::vector<std::string> sets, pluginFolders;
-  std::string integrator, layers, timeLimit, limits;
+  std::string integrator, aovs, timeLimit, limits;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -80,7 +80,7 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
       .TypeName("X");
   app.AddFlag("--two-halves", command.asTwoHalves,
               "render two independent halves, say how far apart they are, write both as layers");
-  app.Add("--aov", raw.layers, "also write these layers: " + AllLayerNames()).TypeName("LIST");
+  app.Add("--aov", raw.aovs, "also write these layers: " + AllLayerNames()).TypeName("LIST");
   app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
   app.AddFlag("--reproducible", command.isReproducible,
               "leave times, dates, threads and command line out of the picture's file");
@@ -121,7 +121,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
           "--two-halves and --time-limit or --target-error exclude each other");
   command->limits = ParseLimits(raw.limits);
   load.limits = command->limits.scene;
-  if (!raw.layers.empty()) command->layers = ParseLayerList(raw.layers);
+  if (!raw.aovs.empty()) command->aovs = ParseLayerList(raw.aovs);
   command->asHalf = !raw.asFloat;
   command->showsProgress = !raw.hidesProgress && !raw.isQuiet;
   if (raw.isQuiet) command->logLevel = Log::Level::Quiet;
@@ -134,7 +134,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!command->outfile.empty() && command->scenes.size() > 1)
     FailUsage("--outfile names one picture, but there are several scenes");
   Log quiet(Log::Level::Quiet, Log::Sink::Memory);
-  ChooseEffects(EffectPlan(), load.effects, quiet);  // throws where it cannot be read
+  ChooseEffects(RequiredFeatures(), load.effects, quiet);  // throws where it cannot be read
 }
 
 }  // namespace

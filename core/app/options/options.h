@@ -10,7 +10,7 @@
 
 #include "core/app/options/limits.h"
 #include "core/base/log.h"
-#include "core/imaging/film/layers.h"
+#include "core/imaging/film/aovs.h"
 #include "core/parser/render_setup.h"
 
 namespace exphoton::cli {
@@ -24,7 +24,7 @@ struct RenderCommand {
   std::string outfile;                           // "": what the scene says
   std::string previewFile;                       // "": none
   std::string statsFile;                         // "": none; "-": standard output
-  LayerSet layers;                               // --aov
+  AovSet aovs;                                   // --aov
   std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
   bool asTwoHalves = false;
   Limits limits;

@@ -94,16 +94,16 @@ double ParseDuration(const std::string& option, const std::string& text) {
 }
 
 std::string AllLayerNames() {
-  LayerSet all;
-  for (int i = 0; i < kLayerCount; ++i) all.Add(Layer(i));
+  AovSet all;
+  for (int i = 0; i < kAovCount; ++i) all.Add(Aov(i));
   return all.Names() + ", light (all light layers)";
 }
 
-LayerSet ParseLayerList(const std::string& text) {
+AovSet ParseLayerList(const std::string& text) {
   std::string unknown;
-  if (const auto layers = ParseLayers(text, &unknown)) return *layers;
+  if (const auto aovs = ParseLayers(text, &unknown)) return *aovs;
   std::vector<std::string> names{"light"};
-  for (int i = 0; i < kLayerCount; ++i) names.emplace_back(GetLayerInfo(Layer(i)).name);
+  for (int i = 0; i < kAovCount; ++i) names.emplace_back(GetAovInfo(Aov(i)).name);
   FailUsage("--aov: unknown layer \"" + unknown + "\"; layers are " + AllLayerNames(),
             DidYouMean(unknown, names));
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/imaging/film/layers.h"
+#include "core/imaging/film/aovs.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
 
@@ -24,7 +24,7 @@ ParameterOverride ParseOverride(const std::string& text);
 // "90", "90s", "1.5m", "1h": seconds, more than 0.
 double ParseDuration(const std::string& option, const std::string& text);
 // "Albedo,N,direct".
-LayerSet ParseLayerList(const std::string& text);
+AovSet ParseLayerList(const std::string& text);
 std::string AllLayerNames();
 
 [[noreturn]] void FailUsage(const std::string& text, const std::string& hint = {});

@@ -52,7 +52,7 @@ void AppendHalf(const char* name, const Film& half, bool premultiplyAlpha, Image
 
 PictureFilms::PictureFilms(const RenderCommand& command, const RenderSetup& setup)
     : film(setup.film.Full(), setup.crop) {
-  if (!command.layers.IsEmpty()) layers = std::make_unique<LayerFilm>(setup.crop, command.layers);
+  if (!command.aovs.IsEmpty()) aovs = std::make_unique<AovFilm>(setup.crop, command.aovs);
   if (!command.asTwoHalves) return;
   for (auto& half : halves) half = std::make_unique<Film>(setup.film.Full(), setup.crop);
 }
@@ -73,7 +73,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha) {
   Image image = films.film.ToImage(premultiplyAlpha);
-  if (films.layers) films.layers->AppendTo(films.film, premultiplyAlpha, &image);
+  if (films.aovs) films.aovs->AppendTo(films.film, premultiplyAlpha, &image);
   ReplaceVariance(result.variances, films.film, premultiplyAlpha, &image);
   for (int i = 0; i < 2; ++i)
     if (films.halves[i]) AppendHalf(kHalfNames[i], *films.halves[i], premultiplyAlpha, &image);
@@ -81,8 +81,8 @@ Image MakeImage(const PictureFilms& films, const PassesResult& result, bool prem
 }
 
 void CheckLayers(const RenderCommand& command, const RenderSetup& setup) {
-  const LayerSet known = kRendererLayers | setup.integrator->Layers();
-  const LayerSet lacking = command.layers.Without(known);
+  const AovSet known = kRendererLayers | setup.integrator->Aovs();
+  const AovSet lacking = command.aovs.Without(known);
   if (lacking.IsEmpty()) return;
   throw Error(ExitStatus::CommandLine, "--aov: integrator \"" + setup.integratorName +
                                            "\" with these parameters has no layer " +
@@ -90,7 +90,7 @@ void CheckLayers(const RenderCommand& command, const RenderSetup& setup) {
 }
 
 std::string LayerNames(const RenderCommand& command) {
-  std::string names = command.layers.Names();
+  std::string names = command.aovs.Names();
   if (command.asTwoHalves) names += (names.empty() ? "" : ", ") + std::string("half1, half2");
   return names;
 }

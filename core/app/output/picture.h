@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/app/options/options.h"
-#include "core/imaging/film/layer_film.h"
+#include "core/imaging/film/aov_film.h"
 #include "core/render/render_passes.h"
 
 namespace exphoton::cli {
@@ -16,7 +16,7 @@ struct PictureFilms {
   PictureFilms(const RenderCommand& command, const RenderSetup& setup);
 
   Film film;
-  std::unique_ptr<LayerFilm> layers;
+  std::unique_ptr<AovFilm> aovs;
   std::unique_ptr<Film> halves[2];
 };
 

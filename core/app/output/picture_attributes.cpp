@@ -54,7 +54,7 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   attributes["scene"] = setup.sceneName;
   attributes["sceneHash"] = HashText(setup.sceneHash);
   attributes["integrator"] = setup.integratorName;
-  attributes["effects"] = setup.scene->Effects().Describe();
+  attributes["effects"] = setup.scene->Features().Describe();
   attributes["seed"] = std::to_string(run.seed);
   attributes["samplesPerPixel"] = int(run.samplesPerPixel);
   if (run.footprintSamples > 0) attributes["footprintSamplesPerPixel"] = int(run.footprintSamples);

@@ -89,9 +89,9 @@ void AddScene(const RunRecord& run, JsonWriter* json) {
   if (run.footprintSamples > 0)
     json->Key("footprintSamplesPerPixel"), json->Integer(run.footprintSamples);
   json->Key("effects"), json->Open('{');
-  for (int i = 0; i < kEffectCount; ++i) {
-    const EffectPlan::Row& row = setup.scene->Effects().Get(Effect(i));
-    json->Key(EffectName(Effect(i))), json->Open('{');
+  for (int i = 0; i < kFeatureCount; ++i) {
+    const RequiredFeatures::Row& row = setup.scene->Features().Get(Feature(i));
+    json->Key(FeatureName(Feature(i))), json->Open('{');
     json->Key("on"), json->Bool(row.on);
     json->Key("reason"), json->Text(row.reason);
     json->Close('}');
@@ -110,7 +110,7 @@ void AddStopping(const RunRecord& run, JsonWriter* json) {
   AddOptional("noise", run.noise, json);
   AddOptional("targetError", run.targetError, json);
   AddOptional("timeLimit", run.timeLimit, json);
-  json->Key("layers"), json->Text(run.layers);
+  json->Key("layers"), json->Text(run.aovs);
 }
 
 void AddStatistics(const Statistics& statistics, JsonWriter* json) {

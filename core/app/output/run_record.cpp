@@ -152,7 +152,7 @@ std::string ExplainText(const RenderSetup& setup) {
          Row("filter", setup.filterName) + Row("camera", setup.cameraName) +
          Row("accelerator", setup.acceleratorName) + Row("picture", Resolution(setup)) +
          Row("primitives", std::to_string(setup.scene->Primitives().Count())) +
-         setup.scene->Effects().Describe() + computed + Row("plugins", plugins);
+         setup.scene->Features().Describe() + computed + Row("plugins", plugins);
 }
 
 }  // namespace exphoton::cli

@@ -34,7 +34,7 @@ struct RunRecord {
   std::string stoppedBy;        // StopReasonName
   std::optional<double> noise;  // estimated noise part of relMSE
   std::optional<double> timeLimit, targetError;
-  std::string layers;  // "Albedo, N"
+  std::string aovs;  // "Albedo, N"
   std::string commandLine;
 };
 

@@ -67,9 +67,9 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
   std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
   // Photons have maps only in some integrators, and with some of their switches.
   study::RunRow row;
-  for (const char* layers : {"time,photondensity,radiancedistance", "time,photondensity", "time"}) {
+  for (const char* aovs : {"time,photondensity,radiancedistance", "time,photondensity", "time"}) {
     try {
-      row = runner.RunOne(setting, 1, {"--aov", layers});
+      row = runner.RunOne(setting, 1, {"--aov", aovs});
       break;
     } catch (const Error& error) {
       if (error.Status() != ExitStatus::CommandLine) throw;

@@ -77,7 +77,8 @@ class PluginOracle final : public study::ParameterOracle {
     registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
   }
   bool Has(const std::string& integrator, const std::string& parameter) const override {
-    const PluginForm& form = registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
+    const PluginFactory& form =
+        registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
     const auto& declared = form.parameters->Declarations();
     return std::any_of(declared.begin(), declared.end(),
                        [&](const ParamDecl& decl) { return decl.name == parameter; });

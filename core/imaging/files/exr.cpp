@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Writing OpenEXR by the library's C++ interface. Layers are channel names with a dot, as usual.
+// Writing OpenEXR by the library's C++ interface. Aovs are channel names with a dot, as usual.
 // Reading is in exr_read.cpp.
 #include "core/imaging/files/exr.h"
 

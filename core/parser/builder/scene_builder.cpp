@@ -13,7 +13,7 @@
 #include "core/parser/overrides.h"
 #include "core/parser/scene_files.h"
 #include "core/parser/scene_hash.h"
-#include "core/scene/effects.h"
+#include "core/scene/required_features.h"
 
 namespace exphoton {
 

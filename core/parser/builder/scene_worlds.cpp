@@ -44,10 +44,10 @@ void SceneBuilder::EndWorld(const Directive& directive) {
                                  [](const auto& medium) { return medium->Emits(); });
   if (parts.lights.empty() && !glows) log_.Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
-  EffectPlan plan =
-      ChooseEffects(PlanEffects(*setup->scene, *setup->camera), options_.effects, log_);
+  RequiredFeatures plan =
+      ChooseEffects(PlanFeatures(*setup->scene, *setup->camera), options_.effects, log_);
   NoteTimes(*setup->scene, *setup->camera, &plan);
-  setup->scene->SetEffects(std::move(plan), setup->camera->Shutter());
+  setup->scene->SetFeatures(std::move(plan), setup->camera->Shutter());
   setup->plugins = registry_->Loaded();
   setups_.push_back(std::move(setup));
   Reset();

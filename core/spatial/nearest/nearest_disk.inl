@@ -116,9 +116,9 @@ class ClosestWalk {
   Place16 p_;
   int top_;
   ClosestPoint best_;
-  std::uint32_t node_[BoxTree::kMaxLevels];
-  unsigned pending_[BoxTree::kMaxLevels];
-  Real16 boxes_[BoxTree::kMaxLevels];
+  std::uint32_t node_[PointBvh::kMaxLevels];
+  unsigned pending_[PointBvh::kMaxLevels];
+  Real16 boxes_[PointBvh::kMaxLevels];
 };
 
 inline ClosestPoint ClosestToOne(const Disks& disks, const ClosestQuery& query) {

@@ -48,7 +48,7 @@ class ClosestTogether {
  private:
   // An item of a list: a node or block, below the number of the query that is to look at it.
   static constexpr int kNodeBits = 28;
-  static_assert(BoxTree::kMaxPoints / kBlockPoints <= std::size_t(1) << kNodeBits);
+  static_assert(PointBvh::kMaxPoints / kBlockPoints <= std::size_t(1) << kNodeBits);
   static std::uint32_t QueryOf(std::uint32_t item) { return item >> kNodeBits; }
   static std::uint32_t NodeOf(std::uint32_t item) { return item & ((1u << kNodeBits) - 1); }
 

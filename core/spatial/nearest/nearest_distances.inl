@@ -62,7 +62,7 @@ inline Real16 PointDistance2(const PointBlock& block, const Place16& p, Real16* 
 }
 
 // Those of a node's sixteen children that there are, as a mask; at level -1 the points of a block.
-// The others repeat the last one (BoxTree, BlockStore), so that there is always something finite to
+// The others repeat the last one (PointBvh, BlockStore), so that there is always something finite to
 // compute with.
 inline unsigned Present(const PointTreeView& view, int level, std::uint32_t node) {
   const std::uint32_t last = (view.count - 1) >> (4 * (level + 1));

@@ -7,8 +7,8 @@ template <class MeasureBoxes, class Measure>
 inline void Collect(const PointTreeView& view, Candidates* candidates, MeasureBoxes&& measureBoxes,
                     Measure&& measure) {
   const int top = view.tree->Levels() - 1;
-  std::uint32_t node[BoxTree::kMaxLevels];
-  unsigned pending[BoxTree::kMaxLevels];
+  std::uint32_t node[PointBvh::kMaxLevels];
+  unsigned pending[PointBvh::kMaxLevels];
   int level = top;
   const auto enter = [&](std::uint32_t entered) {
     node[level] = entered;

@@ -8,21 +8,21 @@
 #include <span>
 
 #include "core/math/simd/real16.h"
-#include "core/spatial/box_tree.h"
-#include "core/spatial/near_grid.h"
+#include "core/spatial/entry_grid.h"
+#include "core/spatial/point_bvh.h"
 
 namespace exphoton {
 
 // Where the searches look. Blocks derive from PointBlock and follow one another.
 struct PointTreeView {
-  const BoxTree* tree = nullptr;
+  const PointBvh* tree = nullptr;
   const std::byte* blocks = nullptr;
   std::size_t blockBytes = sizeof(PointBlock);
   std::uint32_t count = 0;  // of points
   // Area round each run of kSpacingPoints points, by the squared radius, in which one point is to
   // be expected: only how long a search takes depends on it. May be null.
   const Real* spacing2 = nullptr;
-  const NearGrid* grid = nullptr;  // for the closest; may be null
+  const EntryGrid* grid = nullptr;  // for the closest; may be null
 
   static constexpr std::uint32_t kSpacingPoints = 64;
 };

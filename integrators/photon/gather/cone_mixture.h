@@ -5,14 +5,14 @@
 #pragma once
 
 #include "integrators/photon/gather/cone.h"
-#include "integrators/photon/gather/cone_axes.h"
+#include "integrators/photon/gather/cone_directions.h"
 
 namespace exphoton {
 
 class ConeMixture {
  public:
   // The axes' arena must outlive this.
-  ConeMixture(const ConeAxes& axes, const Cone& cone) : axes_(axes), cone_(cone) {}
+  ConeMixture(const ConeDirections& axes, const Cone& cone) : axes_(axes), cone_(cone) {}
 
   bool IsEmpty() const { return axes_.size() == 0; }
 
@@ -37,7 +37,7 @@ class ConeMixture {
  private:
   Real Density(int holding) const { return Real(holding) / Real(axes_.size()) * cone_.Pdf(); }
 
-  ConeAxes axes_;
+  ConeDirections axes_;
   Cone cone_;
 };
 

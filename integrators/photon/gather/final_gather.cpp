@@ -11,7 +11,7 @@ FinalGather::FinalGather(const PhotonSettings& settings)
   for (int guided = isGuided ? rays / 2 : 0; guided > 0; guided /= 2)
     splits_.push_back({rays - guided, guided});
   splits_.push_back({rays, 0});
-  guide_ = GatherGuide(isGuided ? settings.gatherPhotons : 0, cone_);
+  guide_ = PhotonGuide(isGuided ? settings.gatherPhotons : 0, cone_);
 }
 
 void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {

@@ -10,7 +10,7 @@
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/gather/cone_mixture.h"
-#include "integrators/photon/gather/gather_guide.h"
+#include "integrators/photon/gather/photon_guide.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/photon_settings.h"
 
@@ -60,7 +60,7 @@ class FinalGather {
 
   // As many rays follow the photons as there is light where they lead: of the halvings of one half
   // the least that is no less than this share of the rays.
-  const Split& SplitFor(const GuideDirections& guide) const {
+  const Split& SplitFor(const GuidedDirections& guide) const {
     if (guide.axes.size() == 0) return splits_.back();
     const Split* split = splits_.data();
     const Real wanted = guide.share * Real(split->bsdfRays + split->photonRays);
@@ -69,7 +69,7 @@ class FinalGather {
   }
 
   std::vector<Split> splits_;  // by descending photonRays; the last has none
-  GatherGuide guide_;
+  PhotonGuide guide_;
   Cone cone_;
   Real rrThreshold_ = 0;
 };
@@ -80,7 +80,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   const Bsdf& bsdf = point.bsdf;
   if (!bsdf.Has(kLobes)) return {};
   const Arena::Mark mark = context.arena.GetMark();
-  const GuideDirections guide = guide_.Directions(point, photons, context);
+  const GuidedDirections guide = guide_.Directions(point, photons, context);
   const ConeMixture cones(guide.axes, cone_);
   const Split& split = SplitFor(guide);
   const Vector3& wo = point.Wo();

@@ -16,12 +16,12 @@ struct Photon {
   Vector3 wi;      // unit, back along its path: where the light came from
   Spectrum alpha;  // power; a map's estimate divides by the number of paths traced for that map
   // Along the path, to where it was emitted or last scattered by other than mirrors and glass, as a
-  // part of PhotonHaul::farthest.
+  // part of PhotonBuffer::farthest.
   Real distance = 1;
 };
 
 // A place at which exitant radiance is to be computed: a sample of the stored photons.
-struct RadianceSeed {
+struct RadiancePhotonSite {
   Point3 p;
   Normal3 n;             // unit geometric normal, on the side the photon arrived on
   Spectrum reflectance;  // hemispherical-hemispherical, diffuse lobes only
@@ -68,13 +68,13 @@ struct PhotonBlock : PointBlock {
 };
 
 // The photons of one map, and the number of paths traced from the lights until it was full.
-struct PhotonHaul {
+struct PhotonBuffer {
   BlockStore<PhotonBlock> photons;
   std::int64_t paths = 0;
   Real farthest = Real(1e9);  // what distances are parts of
 
-  PhotonHaul() = default;
-  PhotonHaul(std::span<const Photon> given, std::int64_t pathCount) : paths(pathCount) {
+  PhotonBuffer() = default;
+  PhotonBuffer(std::span<const Photon> given, std::int64_t pathCount) : paths(pathCount) {
     for (const Photon& photon : given) Add(photon);
   }
   void Add(const Photon& photon) {

@@ -19,11 +19,11 @@ NearBuffer BufferFor(std::size_t k, Arena* arena) {
 
 }  // namespace
 
-PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, const PhotonHaul& haul, ThreadPool& threads)
+PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, const PhotonBuffer& buffer, ThreadPool& threads)
     : tree_(std::move(tree)),
       spacing2_(MeasureSpacing2(tree_.View(), threads)),
-      paths_(haul.paths),
-      farthest_(haul.farthest) {
+      paths_(buffer.paths),
+      farthest_(buffer.farthest) {
   if (IsEmpty()) return;
   const Bounds3 bounds = tree_.Bounds();
   minRadius_ = 4 * kMachineEpsilon * MaxComponent(Max(Abs(bounds.min), Abs(bounds.max)));

@@ -43,10 +43,10 @@ class PhotonMap {
       PointTree<PhotonBlock>::kBytesPerPoint + double(sizeof(Real)) / PointTreeView::kSpacingPoints;
 
   PhotonMap() = default;
-  PhotonMap(PhotonHaul haul, ThreadPool& threads)
-      : PhotonMap(PointTree<PhotonBlock>(std::move(haul.photons), threads), haul, threads) {}
-  // The tree: made from the haul's photons.
-  PhotonMap(PointTree<PhotonBlock> tree, const PhotonHaul& haul, ThreadPool& threads);
+  PhotonMap(PhotonBuffer buffer, ThreadPool& threads)
+      : PhotonMap(PointTree<PhotonBlock>(std::move(buffer.photons), threads), buffer, threads) {}
+  // The tree: made from the buffer's photons.
+  PhotonMap(PointTree<PhotonBlock> tree, const PhotonBuffer& buffer, ThreadPool& threads);
 
   bool IsEmpty() const { return tree_.Size() == 0; }
   std::size_t Size() const { return tree_.Size(); }

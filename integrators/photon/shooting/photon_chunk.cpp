@@ -37,41 +37,41 @@ void Copy(const std::vector<Record>& records, std::size_t first, RecordStore<Rec
 
 void PhotonChunk::Clear() {
   for (auto& ofMap : photons) ofMap.clear();
-  seeds.clear();
+  sites.clear();
   emittedPower = cutPower = 0;
   dropped = overgrown = passedBy = 0;
   firstDropped = -1;
 }
 
 void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, ThreadPool& threads,
-           PhotonHarvest* harvest) {
+           PhotonPassResult* result) {
   std::array<std::vector<std::size_t>, kPhotonKindCount> first;
   double wanted = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     wanted += double(targets.counts[m]);
     first[m] = MakeRoom(
         chunks, [m](const PhotonChunk& chunk) -> auto& { return chunk.photons[m]; },
-        double(targets.counts[m]), &harvest->hauls[m].photons);
+        double(targets.counts[m]), &result->buffers[m].photons);
   }
-  const double wantedSeeds = wanted * double(targets.radianceFraction);
-  const std::vector<std::size_t> firstSeed = MakeRoom(
-      chunks, [](const PhotonChunk& chunk) -> auto& { return chunk.seeds; }, wantedSeeds,
-      &harvest->seeds);
+  const double wantedSites = wanted * double(targets.radianceFraction);
+  const std::vector<std::size_t> firstSite = MakeRoom(
+      chunks, [](const PhotonChunk& chunk) -> auto& { return chunk.sites; }, wantedSites,
+      &result->sites);
   threads.For(std::int64_t(chunks.size()), [&](std::int64_t index, int) {
     const auto c = std::size_t(index);
     for (std::size_t m = 0; m < kPhotonKindCount; ++m)
-      Copy<PhotonRecord>(chunks[c].photons[m], first[m][c], &harvest->hauls[m].photons);
-    Copy(chunks[c].seeds, firstSeed[c], &harvest->seeds);
+      Copy<PhotonRecord>(chunks[c].photons[m], first[m][c], &result->buffers[m].photons);
+    Copy(chunks[c].sites, firstSite[c], &result->sites);
   });
   for (const PhotonChunk& chunk : chunks) {
-    harvest->emittedPower += chunk.emittedPower;
-    harvest->cutPower += chunk.cutPower;
-    if (harvest->droppedPhotons == 0) harvest->firstDroppedPath = chunk.firstDropped;
-    harvest->droppedPhotons += chunk.dropped;
-    harvest->overgrownPaths += chunk.overgrown;
-    harvest->passedBy += chunk.passedBy;
+    result->emittedPower += chunk.emittedPower;
+    result->cutPower += chunk.cutPower;
+    if (result->droppedPhotons == 0) result->firstDroppedPath = chunk.firstDropped;
+    result->droppedPhotons += chunk.dropped;
+    result->overgrownPaths += chunk.overgrown;
+    result->passedBy += chunk.passedBy;
   }
-  harvest->paths += std::int64_t(chunks.size()) * PhotonTracer::kChunkPaths;
+  result->paths += std::int64_t(chunks.size()) * PhotonTracer::kChunkPaths;
 }
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PhotonChunk: what the paths of one piece of work leave behind, and how the pieces of a batch
-// become part of a harvest: in their order, whoever traced them.
+// become part of a result: in their order, whoever traced them.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace exphoton {
 // Aligned, so that threads that fill neighbours do not wait for each other's lines of the cache.
 struct alignas(128) PhotonChunk {
   std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
-  std::vector<RadianceSeed> seeds;
+  std::vector<RadiancePhotonSite> sites;
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
   std::int64_t overgrown = 0, passedBy = 0;
@@ -25,6 +25,6 @@ struct alignas(128) PhotonChunk {
 
 // Adds the chunks of a batch, one after the other.
 void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, ThreadPool& threads,
-           PhotonHarvest* harvest);
+           PhotonPassResult* result);
 
 }  // namespace exphoton

@@ -12,8 +12,8 @@
 #include "core/transport/shading_normal.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/maps/rest_pose.h"
-#include "integrators/photon/shooting/path_samples.h"
 #include "integrators/photon/shooting/photon_chunk.h"
+#include "integrators/photon/shooting/photon_path_sampler.h"
 
 namespace exphoton {
 
@@ -24,7 +24,7 @@ constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
 // One photon path: follows it to its end and stores into the chunk what `open` maps want.
 class PhotonTracer::Path {
  public:
-  Path(const PhotonTracer& tracer, const PathSequences& sequences, std::uint64_t index,
+  Path(const PhotonTracer& tracer, const PhotonPathSequences& sequences, std::uint64_t index,
        const std::array<bool, kPhotonKindCount>& open, Real radianceFraction, PhotonChunk* chunk)
       : tracer_(tracer),
         index_(index),
@@ -166,7 +166,7 @@ class PhotonTracer::Path {
     const bool isGlossy = point.bsdf.Has(LobeSet::Glossy);
     const Real glossy = isGlossy ? point.bsdf.Rho(LobeSet::Glossy).Y() : Real(0);
     const Real diffuse = (reflectance + transmittance).Y();
-    chunk_->seeds.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())), reflectance,
+    chunk_->sites.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())), reflectance,
                              transmittance, SafeDivide(glossy, glossy + diffuse, Real(0)),
                              point.bsdf.IsCoated()});
   }
@@ -232,7 +232,7 @@ class PhotonTracer::Path {
 
   const PhotonTracer& tracer_;
   std::uint64_t index_;
-  PathSamples samples_;
+  PhotonPathSampler samples_;
   const std::array<bool, kPhotonKindCount>& open_;
   Real radianceFraction_;
   PhotonChunk* chunk_;
@@ -258,7 +258,7 @@ Real FarthestDistance(const Scene& scene) {
 }
 
 // An aimed light needs fewer photons by as much as they lie denser.
-std::vector<double> ShareFactors(const Scene& scene, const PhotonAim& aim) {
+std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting& aim) {
   std::vector<double> factors(scene.Lights().size(), 1.0);
   if (aim.IsEmpty()) return factors;
   for (std::size_t i = 0; i < factors.size(); ++i)
@@ -280,7 +280,7 @@ Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightDistri
 }  // namespace
 
 PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
-                           PhotonAim aim, MediaPhotons media)
+                           DistantLightTargeting aim, MediaPhotons media)
     : scene_(scene),
       settings_(settings),
       seed_(seed),
@@ -289,15 +289,15 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
               ShareFactors(scene, aim_)),
       mediaShare_(MediaShare(scene, media_, lights_)),
-      specularBoxes_(scene.Effects().Needs(Effect::Specular) ? SpecularBoxes(scene)
-                                                             : SpecularBoxes()),
-      lobes_(scene.Effects().Needs(Effect::Specular) ? LobeSet::All : LobeSet::NonSpecular),
+      specularBoxes_(scene.Features().Needs(Feature::Specular) ? SpecularBoxes(scene)
+                                                               : SpecularBoxes()),
+      lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       farthest_(FarthestDistance(scene)) {}
 
 void PhotonTracer::TraceChunk(std::int64_t firstPath,
                               const std::array<bool, kPhotonKindCount>& open, Real radianceFraction,
                               Worker* worker, PhotonChunk* chunk) const {
-  const PathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
+  const PhotonPathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
   chunk->Clear();
   worker->lights.resize(scene_.Lights().size());  // here, so that the memory is this thread's own
   for (int i = 0; i < kChunkPaths; ++i) {
@@ -311,21 +311,22 @@ void PhotonTracer::TraceChunk(std::int64_t firstPath,
 namespace {
 
 // How much of its target a map has, or of the paths that it may have.
-double Filled(const PhotonTargets& targets, const PhotonHarvest& harvest, std::size_t map,
+double Filled(const PhotonTargets& targets, const PhotonPassResult& result, std::size_t map,
               std::int64_t maxPaths) {
-  const double stored = double(harvest.hauls[map].photons.Size()) / double(targets.counts[map]);
-  return std::max(stored, double(harvest.paths) / double(maxPaths));
+  const double stored = double(result.buffers[map].photons.Size()) / double(targets.counts[map]);
+  return std::max(stored, double(result.paths) / double(maxPaths));
 }
 
 }  // namespace
 
-PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContext& context) const {
-  PhotonHarvest harvest;
+PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets,
+                                     PreprocessContext& context) const {
+  PhotonPassResult result;
   std::array<bool, kPhotonKindCount> open{};
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
-  harvest.lights.resize(scene_.Lights().size());
-  for (PhotonHaul& haul : harvest.hauls) haul.farthest = farthest_;
-  if (lights_.IsEmpty() && !media_.Emit()) return harvest;
+  result.lights.resize(scene_.Lights().size());
+  for (PhotonBuffer& buffer : result.buffers) buffer.farthest = farthest_;
+  if (lights_.IsEmpty() && !media_.Emit()) return result;
 
   std::vector<Worker> workers(std::size_t(context.threads.Count()));
   std::vector<PhotonChunk> chunks;
@@ -334,32 +335,32 @@ PhotonHarvest PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContex
     context.CheckStop();
     chunks.resize(std::size_t(batch / kChunkPaths));
     context.threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int worker) {
-      TraceChunk(harvest.paths + c * kChunkPaths, open, targets.radianceFraction,
+      TraceChunk(result.paths + c * kChunkPaths, open, targets.radianceFraction,
                  &workers[std::size_t(worker)], &chunks[std::size_t(c)]);
     });
-    Merge(chunks, targets, context.threads, &harvest);
+    Merge(chunks, targets, context.threads, &result);
     double least = 1, most = 0;  // filled, of the maps that are wanted and of those still open
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
       if (targets.counts[m] == 0) continue;
-      PhotonHaul& haul = harvest.hauls[m];
-      if (open[m]) haul.paths = harvest.paths;
-      const auto stored = std::int64_t(haul.photons.Size());
-      const bool isFruitless = stored == 0 && haul.paths >= kFruitlessPaths;
-      open[m] = open[m] && stored < targets.counts[m] && haul.paths < settings_.maxPhotonPaths &&
+      PhotonBuffer& buffer = result.buffers[m];
+      if (open[m]) buffer.paths = result.paths;
+      const auto stored = std::int64_t(buffer.photons.Size());
+      const bool isFruitless = stored == 0 && buffer.paths >= kFruitlessPaths;
+      open[m] = open[m] && stored < targets.counts[m] && buffer.paths < settings_.maxPhotonPaths &&
                 !isFruitless;
-      const double filled = Filled(targets, harvest, m, settings_.maxPhotonPaths);
+      const double filled = Filled(targets, result, m, settings_.maxPhotonPaths);
       least = std::min(least, filled);
       if (open[m]) most = std::max(most, filled);
     }
-    batch = NextBatch(batch, harvest.paths, most);
+    batch = NextBatch(batch, result.paths, most);
     context.progress.SetDone(std::int64_t(1000 * least));
   }
   context.progress.End();
   for (const Worker& worker : workers) {
     context.statistics.AddRays(worker.rays);
-    for (std::size_t i = 0; i < worker.lights.size(); ++i) harvest.lights[i].Add(worker.lights[i]);
+    for (std::size_t i = 0; i < worker.lights.size(); ++i) result.lights[i].Add(worker.lights[i]);
   }
-  return harvest;
+  return result;
 }
 
 std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, double filled) {

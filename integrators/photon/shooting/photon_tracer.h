@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PhotonTracer: shoots photons from the lights in numbered batches and sorts what they leave behind
-// into hauls. Path i is a function of (seed, i) alone; batches grow from 64 to 4096 paths, and to
-// 65536 where maps want far more; they are traced in parallel and merged in order; a haul counts
+// into buffers. Path i is a function of (seed, i) alone; batches grow from 64 to 4096 paths, and to
+// 65536 where maps want far more; they are traced in parallel and merged in order; a buffer counts
 // the paths of whole batches only, because stopping at the n-th photon would bias every estimate.
 // Jensen 2001, chapter 5.
 #pragma once
@@ -14,8 +14,8 @@
 #include "core/transport/integrator.h"
 #include "integrators/photon/maps/photon.h"
 #include "integrators/photon/photon_settings.h"
+#include "integrators/photon/shooting/distant_light_targeting.h"
 #include "integrators/photon/shooting/media_photons.h"
-#include "integrators/photon/shooting/photon_aim.h"
 #include "integrators/photon/shooting/specular_boxes.h"
 
 namespace exphoton {
@@ -23,7 +23,7 @@ namespace exphoton {
 // How many photons each map wants; 0: the map is not requested.
 struct PhotonTargets {
   std::array<std::int64_t, kPhotonKindCount> counts{};
-  Real radianceFraction = 0;  // of the stored photons; 0: no seeds
+  Real radianceFraction = 0;  // of the stored photons; 0: no radiance photons
 
   std::int64_t& operator[](PhotonKind kind) { return counts[std::size_t(kind)]; }
   std::int64_t operator[](PhotonKind kind) const { return counts[std::size_t(kind)]; }
@@ -39,7 +39,7 @@ struct PhotonTargets {
 struct LightTally {
   std::int64_t shot = 0;      // paths
   std::int64_t hit = 0;       // of them, those that met a surface
-  std::int64_t passedBy = 0;  // of them, those that were not traced: PhotonHarvest::passedBy
+  std::int64_t passedBy = 0;  // of them, those that were not traced: PhotonPassResult::passedBy
   std::int64_t stored = 0;    // photons, in all maps together
 
   void Add(const LightTally& other) {
@@ -50,9 +50,9 @@ struct LightTally {
   }
 };
 
-struct PhotonHarvest {
-  std::array<PhotonHaul, kPhotonKindCount> hauls;
-  RecordStore<RadianceSeed> seeds;
+struct PhotonPassResult {
+  std::array<PhotonBuffer, kPhotonKindCount> buffers;
+  RecordStore<RadiancePhotonSite> sites;
   std::vector<LightTally> lights;  // in the scene's order
   std::int64_t paths = 0;          // in all
   // Of them, those that were not traced: only the caustic map was open, and they pass all specular
@@ -64,8 +64,8 @@ struct PhotonHarvest {
   std::int64_t firstDroppedPath = -1;
   std::int64_t overgrownPaths = 0;  // ended because surfaces kept multiplying their power
 
-  PhotonHaul& operator[](PhotonKind kind) { return hauls[std::size_t(kind)]; }
-  const PhotonHaul& operator[](PhotonKind kind) const { return hauls[std::size_t(kind)]; }
+  PhotonBuffer& operator[](PhotonKind kind) { return buffers[std::size_t(kind)]; }
+  const PhotonBuffer& operator[](PhotonKind kind) const { return buffers[std::size_t(kind)]; }
 };
 
 struct PhotonChunk;
@@ -73,11 +73,11 @@ struct PhotonChunk;
 class PhotonTracer {
  public:
   PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
-               PhotonAim aim = {}, MediaPhotons media = {});
+               DistantLightTargeting aim = {}, MediaPhotons media = {});
 
   // Shoots until every requested map is full, has had maxphotonpaths, or has stored nothing in its
   // first kFruitlessPaths. Says so once where a map fell short.
-  PhotonHarvest Shoot(const PhotonTargets& targets, PreprocessContext& context) const;
+  PhotonPassResult Shoot(const PhotonTargets& targets, PreprocessContext& context) const;
 
   static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
   // Paths that one piece of parallel work traces: the smallest batch.
@@ -103,13 +103,13 @@ class PhotonTracer {
   const Scene& scene_;
   PhotonSettings settings_;
   std::uint64_t seed_;
-  PhotonAim aim_;
+  DistantLightTargeting aim_;
   MediaPhotons media_;
   LightDistribution lights_;
   Real mediaShare_;  // of the paths, those that begin in a medium
   SpecularBoxes specularBoxes_;
   LobeSet lobes_;  // that photons scatter by
-  Real farthest_;  // PhotonHaul::farthest
+  Real farthest_;  // PhotonBuffer::farthest
 };
 
 }  // namespace exphoton

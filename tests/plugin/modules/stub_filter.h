@@ -27,7 +27,7 @@ class StubFilter final : public Filter {
 };
 
 template <class Factory>
-PluginForm StubForm(Factory factory) {
+PluginFactory StubForm(Factory factory) {
   return MakeForm<PluginKind::Filter>(StubParameters(), factory);
 }
 

@@ -95,7 +95,7 @@ Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesL
   for (int k = 0; k < kSeeds; ++k) {
     TestRenderOptions options;
     options.seed = firstSeed + std::uint64_t(k) * 1000;
-    if (hidesLamps) options.layers.Add(Layer::Emission);
+    if (hidesLamps) options.aovs.Add(Aov::Emission);
     Image image = RenderSceneText(text, options).image;
     if (hidesLamps) SubtractEmission(&image);
     means[0].push_back(MeanRadiance(image));

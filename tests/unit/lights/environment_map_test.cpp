@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-std::optional<DirectSample> Direct(const Light& light, const Point3& p) {
+std::optional<LightLiSample> Direct(const Light& light, const Point3& p) {
   return light.SampleDirect({p, {}, {0, 1, 0}}, {Real(.3), Real(.6)}, Real(.5));
 }
 

@@ -19,7 +19,7 @@ void ExpectNear(Real actual, Real expected) {
 
 SurfacePoint Floor(const Point3& p) { return {p, {}, {0, 1, 0}}; }
 
-std::optional<DirectSample> Direct(const Light& light, const Point3& p) {
+std::optional<LightLiSample> Direct(const Light& light, const Point3& p) {
   return light.SampleDirect(Floor(p), {Real(.3), Real(.6)}, Real(.5));
 }
 

@@ -10,8 +10,8 @@
 namespace exphoton {
 namespace {
 
-ConeAxes RandomAxes(std::size_t count, RandomStream* random, Arena* arena) {
-  ConeAxes axes(count, arena);
+ConeDirections RandomAxes(std::size_t count, RandomStream* random, Arena* arena) {
+  ConeDirections axes(count, arena);
   for (std::size_t i = 0; i < count; ++i)
     axes.Add(SampleUniformSphere({random->Uniform(), random->Uniform()}));
   axes.Finish();
@@ -60,7 +60,7 @@ TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
 TEST(ConeMixture, DrawsEvenlyFromACone) {
   RandomStream random(6);
   Arena arena;
-  ConeAxes axis(1, &arena);
+  ConeDirections axis(1, &arena);
   axis.Add({0, 0, 1});
   axis.Finish();
   for (const Real degrees : {Real(10), Real(60), Real(90)}) {
@@ -84,7 +84,7 @@ TEST(ConeMixture, DrawsEvenlyFromACone) {
 
 TEST(ConeMixture, OfASingleConeHasTheConesDensityDownToTinyAngles) {
   Arena arena;
-  ConeAxes axis(1, &arena);
+  ConeDirections axis(1, &arena);
   axis.Add({0, 0, 1});
   axis.Finish();
   for (double degrees : {1e-3, 1e-2, 1.0, 60.0, 90.0}) {

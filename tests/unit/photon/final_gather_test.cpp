@@ -45,11 +45,11 @@ template <class AddLobes>
 Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, Real angleDegrees,
                    Real rrThreshold, int count, const AddLobes& addLobes) {
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
-  PhotonHaul haul;
-  for (const Vector3& w : guideDirections) haul.Add({{0, 0, 0}, w, Spectrum(1)});
-  haul.paths = 1;
+  PhotonBuffer buffer;
+  for (const Vector3& w : guideDirections) buffer.Add({{0, 0, 0}, w, Spectrum(1)});
+  buffer.paths = 1;
   ThreadPool threads(1);
-  const PhotonMap guide(std::move(haul), threads);
+  const PhotonMap guide(std::move(buffer), threads);
 
   PhotonSettings settings;
   settings.gatherSampling = GatherSampling::Photons;

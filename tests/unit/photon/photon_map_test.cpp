@@ -13,7 +13,7 @@ namespace {
 
 PhotonMap MapOf(const std::vector<Photon>& photons, std::int64_t paths) {
   ThreadPool threads(1);
-  return PhotonMap(PhotonHaul(photons, paths), threads);
+  return PhotonMap(PhotonBuffer(photons, paths), threads);
 }
 
 TEST(PhotonMap, WithoutPhotonsAnswersZero) {

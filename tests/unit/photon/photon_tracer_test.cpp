@@ -21,10 +21,10 @@ TEST(PhotonTracer, GivesRadiancePhotonsTheNormalOnTheSideOfTheLight) {
     PhotonTargets targets;
     targets[PhotonKind::Direct] = targets[PhotonKind::Indirect] = 2000;
     targets.radianceFraction = Real(.5);
-    PhotonHarvest harvest = ShootPhotons(*loaded.setup->scene, 1, targets);
-    const auto seeds = harvest.seeds.Records();
+    PhotonPassResult result = ShootPhotons(*loaded.setup->scene, 1, targets);
+    const auto seeds = result.sites.Records();
     ASSERT_GT(seeds.size(), 500u);
-    for (const RadianceSeed& seed : seeds)
+    for (const RadiancePhotonSite& seed : seeds)
       ASSERT_NEAR(Dot(seed.n, seed.p - Point3()), -2, 1e-3) << orientation;
   }
 }
@@ -42,10 +42,10 @@ TEST(PhotonTracer, StoresNoCausticPhotonAfterADiffuseBounce) {
     return ShootPhotons(*loaded.setup->scene, 1, targets);
   };
   const std::string at = R"( "point from" [0 0 2] "point to" [0 0 )";
-  PhotonHarvest down = shoot(R"(LightSource "spot")" + at + "0]");
+  PhotonPassResult down = shoot(R"(LightSource "spot")" + at + "0]");
   EXPECT_EQ(down[PhotonKind::Caustic].photons.Size(), 0u);
   EXPECT_GE(down[PhotonKind::Indirect].photons.Size(), 500u);
-  PhotonHarvest up = shoot(R"(LightSource "spot")" + at + "4]");
+  PhotonPassResult up = shoot(R"(LightSource "spot")" + at + "4]");
   EXPECT_GE(up[PhotonKind::Caustic].photons.Size(), 500u);
 }
 

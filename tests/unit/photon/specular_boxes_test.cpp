@@ -82,7 +82,7 @@ TEST(SpecularBoxes, DoNotChangeThePhotonsOfTheCausticMap) {
     targets[PhotonKind::Direct] = direct;
     return ShootPhotons(*loaded.setup->scene, 1, targets, settings);
   };
-  PhotonHarvest all = shoot(1 << 20), causticsAlone = shoot(0);
+  PhotonPassResult all = shoot(1 << 20), causticsAlone = shoot(0);
   EXPECT_EQ(all.passedBy, 0);
   EXPECT_GT(causticsAlone.passedBy, 3 * causticsAlone.paths / 4);
   EXPECT_EQ(all.paths, causticsAlone.paths);

@@ -34,11 +34,10 @@ const std::string kPhotons =
     "\"integer finalgathersamples\" 8 \"integer maxphotonpaths\" 100000";
 
 TestRender Render(const std::string& integrator, const std::string& world,
-                  const std::string& effects, LayerSet layers = {},
-                  const std::string& camera = "") {
+                  const std::string& effects, AovSet aovs = {}, const std::string& camera = "") {
   TestRenderOptions options;
   options.load.effects = effects;
-  options.layers = layers;
+  options.aovs = aovs;
   return RenderSceneText(
       TestHeader(integrator, 16, 12, 4) + camera + "WorldBegin\n" + world + "WorldEnd\n", options);
 }
@@ -46,8 +45,8 @@ TestRender Render(const std::string& integrator, const std::string& world,
 TEST(EffectsOff, CausticsTakeTheLightOfSpecularSurfacesOffReceivers) {
   for (const std::string& integrator : {kPath, kPhotons}) {
     const std::string world = kLamp + kFloor + kWall + kGlass;
-    const Image on = Render(integrator, world, "auto", kLightLayers).image;
-    const TestRender off = Render(integrator, world, "caustics=off", kLightLayers);
+    const Image on = Render(integrator, world, "auto", kLightAovs).image;
+    const TestRender off = Render(integrator, world, "caustics=off", kLightAovs);
     EXPECT_GT(MeanChannel(on, "caustic.G"), 0);
     EXPECT_EQ(MeanChannel(off.image, "caustic.G"), 0);
     EXPECT_LT(MeanRadiance(off.image), MeanRadiance(on)) << integrator;
@@ -60,12 +59,12 @@ TEST(EffectsOff, CausticsTakeTheLightOfSpecularSurfacesOffReceivers) {
 TEST(EffectsOff, IndirectLeavesEmissionDirectLightAndCaustics) {
   for (const std::string& integrator : {kPath, kPhotons}) {
     const std::string world = kLamp + kFloor + kWall + kGlass;
-    const Image on = Render(integrator, world, "auto", kLightLayers).image;
-    const TestRender off = Render(integrator, world, "indirect=off", kLightLayers);
+    const Image on = Render(integrator, world, "auto", kLightAovs).image;
+    const TestRender off = Render(integrator, world, "indirect=off", kLightAovs);
     EXPECT_GT(MeanChannel(on, "indirect.G"), .001);
     EXPECT_EQ(MeanChannel(off.image, "indirect.G"), 0);
-    for (const char* layer : {"direct.G", "emission.G"})
-      EXPECT_EQ(MeanChannel(off.image, layer), MeanChannel(on, layer)) << layer;
+    for (const char* aov : {"direct.G", "emission.G"})
+      EXPECT_EQ(MeanChannel(off.image, aov), MeanChannel(on, aov)) << aov;
     EXPECT_GT(MeanChannel(off.image, "caustic.G"), 0) << integrator;
     EXPECT_GT(MeanChannel(off.image, "specular.G"), 0);
   }
@@ -96,8 +95,8 @@ TEST(EffectsOff, SpecularMakesMirrorsBlackForEveryKindOfRay) {
   const std::string world = kLamp + kFloor + kMirror + kGlass;
   for (const std::string& integrator :
        {kPath, kPhotons, std::string("\"whitted\""), std::string("\"directlighting\"")}) {
-    const Image on = Render(integrator, world, "auto", kLightLayers).image;
-    const TestRender off = Render(integrator, world, "specular=off", kLightLayers);
+    const Image on = Render(integrator, world, "auto", kLightAovs).image;
+    const TestRender off = Render(integrator, world, "specular=off", kLightAovs);
     EXPECT_GT(MeanChannel(on, "specular.G"), .001) << integrator;
     EXPECT_EQ(MeanChannel(off.image, "specular.G"), 0) << integrator;
     EXPECT_EQ(off.rays.counts[std::size_t(RayKind::Specular)], 0u) << integrator;

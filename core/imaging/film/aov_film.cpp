@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// AovFilm: summing layers, and their channels in the order of the layers.
+#include "core/imaging/film/aov_film.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace exphoton {
+namespace {
+
+// Aovs that are weighted means over the samples.
+constexpr AovSet kAveraged = kSurfaceLayers | kLightAovs | AovSet{Aov::PhotonDensity};
+
+// The values of an averaged layer at one sample; returns how many.
+std::size_t ValuesOf(Aov aov, const AovSample& sample, double* out) {
+  const auto color = [out](const Spectrum& s) {
+    out[0] = double(s.r), out[1] = double(s.g), out[2] = double(s.b);
+    return std::size_t(3);
+  };
+  const auto vector = [out](const auto& v) {
+    out[0] = double(v.x), out[1] = double(v.y), out[2] = double(v.z);
+    return std::size_t(3);
+  };
+  switch (aov) {
+    case Aov::Albedo:
+      return color(sample.albedo);
+    case Aov::Normal:
+      return vector(sample.n);
+    case Aov::Position:
+      return vector(sample.p);
+    case Aov::Emission:
+      return color(sample.emission);
+    case Aov::Direct:
+      return color(sample.direct);
+    case Aov::Caustic:
+      return color(sample.caustic);
+    case Aov::Indirect:
+      return color(sample.indirect);
+    case Aov::Specular:
+      return color(sample.specular);
+    case Aov::PhotonDensity:
+      out[0] = sample.photonDensity;
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+AovFilm::AovFilm(const PixelBounds& crop, AovSet wanted)
+    : crop_(crop), wanted_(wanted), aovs_(wanted.List()), averaged_((wanted & kAveraged).List()) {
+  const std::size_t pixels = std::size_t(crop.Width()) * std::size_t(crop.Height());
+  for (const Aov aov : averaged_) valueCount_ += GetAovInfo(aov).channels.size();
+  weights_.resize(pixels);
+  values_.resize(pixels * valueCount_);
+  if (wanted.Has(Aov::Variance)) moments_.resize(pixels * 3);
+  if (wanted.Has(Aov::Time)) seconds_.resize(pixels);
+  if (wanted.Has(Aov::RadianceDistance)) {
+    distances_.resize(pixels);
+    reads_.resize(pixels);
+  }
+}
+
+std::size_t AovFilm::IndexOf(Point2i pixel) const {
+  return std::size_t(pixel.y - crop_.y0) * std::size_t(crop_.Width()) +
+         std::size_t(pixel.x - crop_.x0);
+}
+
+void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& L, Real weight) {
+  const std::size_t at = IndexOf(pixel);
+  const double w = weight;
+  Weights& weights = weights_[at];
+  weights.sum += w;
+  weights.sumOfSquares += w * w;
+  weights.absSum += float(std::abs(w));
+  ++weights.samples;
+  Value* value = values_.data() + at * valueCount_;
+  for (const Aov aov : averaged_) {
+    double x[3];
+    const std::size_t count = ValuesOf(aov, sample, x);
+    for (std::size_t c = 0; c < count; ++c, ++value) {
+      value->sum += w * x[c];
+      value->absSum += float(std::abs(w) * x[c]);
+    }
+  }
+  if (!moments_.empty()) {
+    const double l[3] = {double(L.r), double(L.g), double(L.b)};
+    for (std::size_t c = 0; c < 3; ++c) {
+      Moments& m = moments_[at * 3 + c];
+      m.wL += w * l[c];
+      m.wwL += w * w * l[c];
+      m.wwLL += w * w * l[c] * l[c];
+    }
+  }
+  if (!reads_.empty()) {
+    distances_[at] += sample.radianceDistance;
+    reads_[at] += sample.radiancePhotonsRead;
+  }
+}
+
+void AovFilm::AddTime(Point2i pixel, double seconds) { seconds_[IndexOf(pixel)] += seconds; }
+
+double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
+  const Weights& weights = weights_[pixel];
+  const Value& v = values_[pixel * valueCount_ + value];
+  if (weights.samples == 0) return 0;
+  if (std::abs(weights.sum) >= .5 * double(weights.samples)) return v.sum / weights.sum;
+  return weights.absSum > 0 ? double(v.absSum) / double(weights.absSum) : 0;
+}
+
+// Of the quotient R = sum(w L) / sum(w), to first order: the sum of the squares of w (L - R), over
+// sum(w)^2, as if samples were independent.
+double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
+  const Weights& weights = weights_[pixel];
+  const double n = double(weights.samples), sum = std::max(std::abs(weights.sum), .5 * n);
+  if (weights.samples < 2) return 0;
+  const Moments& m = moments_[pixel * 3 + channel];
+  const double mean = m.wL / sum;
+  const double squares = m.wwLL - 2 * mean * m.wwL + mean * mean * weights.sumOfSquares;
+  return std::max(squares, 0.) * n / ((n - 1) * sum * sum);
+}
+
+void AovFilm::Collect(std::size_t pixel, const std::array<double, 4>& beauty, double lightScale,
+                      float* out) const {
+  std::size_t value = 0;
+  for (const Aov aov : aovs_) {
+    const std::size_t channels = GetAovInfo(aov).channels.size();
+    for (std::size_t c = 0; c < channels; ++c) {
+      double x = 0;
+      if (kAveraged.Has(aov)) {
+        x = MeanOf(pixel, value++);
+        if (kLightAovs.Has(aov)) x *= beauty[c] < 0 ? 0 : lightScale;
+      } else if (aov == Aov::Variance) {
+        x = VarianceOf(pixel, c) * lightScale * lightScale;
+      } else if (aov == Aov::Time) {
+        x = 1e3 * seconds_[pixel];
+      } else if (aov == Aov::Samples) {
+        x = double(weights_[pixel].samples);
+      } else if (reads_[pixel] > 0) {
+        x = distances_[pixel] / double(reads_[pixel]);
+      }
+      *out++ = float(x);
+    }
+  }
+}
+
+void AovFilm::AppendTo(const Film& film, bool premultiplyAlpha, Image* image) const {
+  std::vector<std::string> names;
+  for (const Aov aov : aovs_) {
+    const auto& channels = GetAovInfo(aov).channels;
+    names.insert(names.end(), channels.begin(), channels.end());
+  }
+  std::vector<float> values(names.size() * weights_.size());
+  std::size_t at = 0;
+  for (int y = crop_.y0; y < crop_.y1; ++y) {
+    for (int x = crop_.x0; x < crop_.x1; ++x, ++at) {
+      const std::array<double, 4> beauty = film.MeanOf({x, y});
+      const double scale = premultiplyAlpha ? std::clamp(beauty[3], 0., 1.) : 1;
+      Collect(at, beauty, scale, values.data() + at * names.size());
+    }
+  }
+  AppendChannels(names, values, image);
+}
+
+void AppendChannels(const std::vector<std::string>& names, const std::vector<float>& values,
+                    Image* image) {
+  const std::size_t before = image->channels.size(), added = names.size();
+  const std::size_t pixels = added == 0 ? 0 : values.size() / added;
+  std::vector<float> all;
+  all.reserve(image->pixels.size() + values.size());
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const auto old = image->pixels.begin() + std::ptrdiff_t(i * before);
+    const auto own = values.begin() + std::ptrdiff_t(i * added);
+    all.insert(all.end(), old, old + std::ptrdiff_t(before));
+    all.insert(all.end(), own, own + std::ptrdiff_t(added));
+  }
+  if (added == 0) return;
+  image->pixels = std::move(all);
+  image->channels.insert(image->channels.end(), names.begin(), names.end());
+}
+
+}  // namespace exphoton

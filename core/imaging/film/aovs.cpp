@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Names and meanings of the layers.
+#include "core/imaging/film/aovs.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace exphoton {
+namespace {
+
+std::vector<std::string> Colors(const std::string& name) {
+  return {name + ".R", name + ".G", name + ".B"};
+}
+std::vector<std::string> Axes(const std::string& name) {
+  return {name + ".X", name + ".Y", name + ".Z"};
+}
+
+std::string Lower(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+// "albedo.rgb" is "albedo" if those are its channels.
+bool Matches(const std::string& item, const AovInfo& info) {
+  const std::string name = Lower(info.name);
+  if (item == name) return true;
+  std::string suffix;
+  for (const std::string& channel : info.channels)
+    suffix += Lower(std::string_view(channel).substr(name.size() + 1));
+  return item == name + "." + suffix;
+}
+
+}  // namespace
+
+const AovInfo& GetAovInfo(Aov aov) {
+  static const std::array<AovInfo, kAovCount> infos{{
+      {"Albedo", Colors("Albedo"), "reflectance and transmittance of the first surface"},
+      {"N", Axes("N"), "its shading normal, turned to the camera, in world space"},
+      {"P", Axes("P"), "where it was hit, in world space"},
+      {"Variance", Colors("Variance"), "estimated variance of the pixel"},
+      {"emission", Colors("emission"), "light that the first surface emits, and the background"},
+      {"direct", Colors("direct"), "light that it scatters straight from lights"},
+      {"caustic", Colors("caustic"), "light that it scatters, from lights over specular surfaces"},
+      {"indirect", Colors("indirect"), "all other light that it scatters"},
+      {"specular", Colors("specular"), "light over its own specular lobes"},
+      {"time", {"time.ms"}, "milliseconds that the pixel took, of one thread"},
+      {"samples", {"samples.count"}, "camera samples"},
+      {"photondensity", {"photondensity.Y"}, "photons of all maps per unit of area"},
+      {"radiancedistance",
+       {"radiancedistance.Y"},
+       "mean distance from gather hits to the radiance photons they read"},
+  }};
+  return infos[std::size_t(aov)];
+}
+
+std::vector<Aov> AovSet::List() const {
+  std::vector<Aov> list;
+  for (int i = 0; i < kAovCount; ++i)
+    if (Has(Aov(i))) list.push_back(Aov(i));
+  return list;
+}
+
+std::string AovSet::Names() const {
+  std::string names;
+  for (const Aov aov : List())
+    names += (names.empty() ? "" : ", ") + std::string(GetAovInfo(aov).name);
+  return names;
+}
+
+std::optional<AovSet> ParseLayers(std::string_view list, std::string* unknown) {
+  AovSet set;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    const std::string item = Lower(list.substr(at, end - at));
+    at = end + 1;
+    bool isKnown = item == "light";
+    if (isKnown) set = set | kLightAovs;
+    for (int i = 0; i < kAovCount && !isKnown; ++i) {
+      isKnown = Matches(item, GetAovInfo(Aov(i)));
+      if (isKnown) set.Add(Aov(i));
+    }
+    if (!isKnown) {
+      *unknown = item;
+      return std::nullopt;
+    }
+  }
+  return set;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// RequiredFeatures and the rules that fill it: an effect is off only where its contribution to this
+// scene is provably zero.
+#include "core/scene/required_features.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/imaging/film/camera.h"
+#include "core/scene/scene.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::array<const char*, kFeatureCount> kFeatureNames{
+    "caustics", "indirect",  "transmission", "specular", "glossy",
+    "media",    "filtering", "lens",         "motion",   "environment",
+};
+
+constexpr Interval kAlways{-kInfinity, kInfinity};
+
+// What the rules ask of a scene.
+struct SceneTraits {
+  LobeSet lobes = LobeSet::None;  // of any surface
+  bool needsDifferentials = false;
+  int lights, shiningLights;
+  bool mediaEmit = false;  // or may
+
+  explicit SceneTraits(const Scene& scene)
+      : lights(int(scene.Lights().size())), shiningLights(scene.ShiningLights()) {
+    for (const auto& material : scene.Materials()) {
+      lobes = lobes | material->PossibleLobes();
+      needsDifferentials = needsDifferentials || material->NeedsDifferentials();
+    }
+    for (const auto& medium : scene.Media()) mediaEmit = mediaEmit || medium->Emits();
+  }
+  bool Has(LobeSet mask) const { return Intersects(lobes, mask); }
+};
+
+std::string LightsNote(const SceneTraits& traits) {
+  std::string note = "lights        " + std::to_string(traits.lights);
+  const int black = traits.lights - traits.shiningLights;
+  if (black > 0) note += " (" + std::to_string(black) + " black, skipped)";
+  return note;
+}
+
+void PlanPhotons(const SceneTraits& traits, RequiredFeatures* plan) {
+  const bool hasLights = traits.shiningLights > 0;
+  const bool isLit = hasLights || traits.mediaEmit;
+  const bool hasSpecular = traits.Has(LobeSet::Specular);
+  const bool hasReceiver = traits.Has(LobeSet::NonSpecular);
+  const std::string noReceiver =
+      Any(traits.lobes) ? "every surface is specular" : "no surface scatters light";
+  // Light of media over specular surfaces belongs to the gathered light.
+  plan->Set(Feature::Caustics, hasLights && hasSpecular && hasReceiver,
+            !hasLights     ? "no light"
+            : !hasSpecular ? "no specular surface"
+            : !hasReceiver ? noReceiver
+                           : "a specular surface and a receiver");
+  plan->Set(Feature::Indirect, isLit && hasReceiver,
+            !isLit         ? "no light"
+            : !hasReceiver ? noReceiver
+                           : "a surface that scatters light");
+  const bool transmits = isLit && traits.Has(LobeSet::NonSpecularTransmission);
+  plan->Set(Feature::Transmission, transmits,
+            transmits ? "a translucent surface"
+            : isLit   ? "no translucent surface"
+                      : "no light");
+  plan->Set(Feature::Specular, hasSpecular,
+            hasSpecular ? "a specular surface" : "no specular surface");
+  const bool hasGlossy = traits.Has(LobeSet::Glossy);
+  plan->Set(Feature::Glossy, isLit && hasGlossy,
+            !isLit       ? "no light"
+            : !hasGlossy ? "no glossy surface"
+                         : "a glossy surface that gather rays may meet");
+}
+
+// Needed where something is elsewhere when the shutter closes than when it opens.
+void PlanMotion(const Scene& scene, const Camera& camera, RequiredFeatures* plan) {
+  const Interval shutter = camera.Shutter();
+  const bool isCamera = camera.MovesWithin(shutter);
+  const bool isShape = scene.Primitives().MovesWithin(shutter);
+  const bool movesEver = camera.MovesWithin(kAlways) || scene.Primitives().MovesWithin(kAlways);
+  const bool isOpen = shutter.min < shutter.max;
+  plan->Set(Feature::Motion, isCamera || isShape,
+            isCamera && isShape ? "the camera and a shape move"
+            : isCamera          ? "the camera moves"
+            : isShape           ? "a shape moves"
+            : !isOpen           ? "shutter closed"
+            : movesEver         ? "nothing moves while the shutter is open"
+                                : "nothing moves");
+}
+
+}  // namespace
+
+void NoteTimes(const Scene& scene, const Camera& camera, RequiredFeatures* plan) {
+  if (!camera.MovesWithin(kAlways) && !scene.Primitives().MovesWithin(kAlways)) return;
+  const Interval shutter = camera.Shutter();
+  std::ostringstream note;
+  note << "time          " << shutter.min;
+  if (plan->Needs(Feature::Motion)) note << " to " << shutter.max;
+  note << " (of camera rays and photons)";
+  plan->notes.push_back(note.str());
+}
+
+const char* FeatureName(Feature effect) { return kFeatureNames[std::size_t(effect)]; }
+
+RequiredFeatures::RequiredFeatures() {
+  for (Row& row : rows_) row = {true, "asked for"};
+}
+
+void RequiredFeatures::Set(Feature effect, bool on, std::string reason) {
+  rows_[std::size_t(effect)] = {on, std::move(reason)};
+}
+
+std::string RequiredFeatures::Describe() const {
+  std::string text;
+  for (int i = 0; i < kFeatureCount; ++i) {
+    std::string line = kFeatureNames[std::size_t(i)];
+    line.resize(std::max<std::size_t>(line.size() + 1, 14), ' ');
+    const Row& row = rows_[std::size_t(i)];
+    text += line + (row.on ? "on   " : "off  ") + row.reason + "\n";
+  }
+  for (const std::string& note : notes) text += note + "\n";
+  return text;
+}
+
+RequiredFeatures PlanFeatures(const Scene& scene, const Camera& camera) {
+  const SceneTraits traits(scene);
+  RequiredFeatures plan;
+  PlanPhotons(traits, &plan);
+  const bool hasMedia = !scene.Media().empty();
+  plan.Set(Feature::Media, hasMedia,
+           hasMedia ? "a participating medium" : "no participating medium");
+  plan.Set(Feature::Filtering, traits.needsDifferentials,
+           traits.needsDifferentials ? "a filtered texture or bump map"
+                                     : "no filtered texture and no bump map");
+  plan.Set(Feature::Lens, camera.HasLens(),
+           camera.HasLens() ? "lens radius > 0" : "pinhole camera");
+  PlanMotion(scene, camera, &plan);
+  const bool hasSky = !scene.InfiniteLights().empty();
+  plan.Set(Feature::Environment, hasSky, hasSky ? "an infinite light" : "no infinite light");
+  plan.notes.push_back(LightsNote(traits));
+  return plan;
+}
+
+}  // namespace exphoton

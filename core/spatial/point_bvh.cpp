@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PointBvh: building, from the blocks upwards.
+#include "core/spatial/point_bvh.h"
+
+#include <algorithm>
+
+namespace exphoton {
+
+Bounds3 BoxNode::Bounds() const {
+  Bounds3 bounds;
+  for (std::uint32_t i = 0; i < kBoxChildren; ++i) {
+    bounds.min = Min(bounds.min, {low[0][i], low[1][i], low[2][i]});
+    bounds.max = Max(bounds.max, {high[0][i], high[1][i], high[2][i]});
+  }
+  return bounds;
+}
+
+void BoxNode::Set(std::uint32_t child, const Bounds3& bounds) {
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis][child] = bounds.min[axis];
+    high[axis][child] = bounds.max[axis];
+  }
+}
+
+PointBvh::PointBvh(const std::vector<Bounds3>& bounds) {
+  for (const std::vector<Bounds3>* below = &bounds; !below->empty();) {
+    std::vector<BoxNode> nodes((below->size() + kBoxChildren - 1) / kBoxChildren);
+    for (std::size_t i = 0; i < nodes.size() * kBoxChildren; ++i)
+      nodes[i / kBoxChildren].Set(i % kBoxChildren, (*below)[std::min(i, below->size() - 1)]);
+    levels_.push_back(std::move(nodes));
+    break;
+  }
+  while (!levels_.empty() && levels_.back().size() > 1) {
+    const std::vector<BoxNode>& below = levels_.back();
+    std::vector<BoxNode> nodes((below.size() + kBoxChildren - 1) / kBoxChildren);
+    for (std::size_t i = 0; i < nodes.size() * kBoxChildren; ++i)
+      nodes[i / kBoxChildren].Set(i % kBoxChildren, below[std::min(i, below.size() - 1)].Bounds());
+    levels_.push_back(std::move(nodes));
+  }
+}
+
+std::size_t PointBvh::MemoryBytes() const {
+  std::size_t bytes = 0;
+  for (const auto& level : levels_) bytes += level.capacity() * sizeof(BoxNode);
+  return bytes;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ConeDirections, the loops for any machine, and the choice between those for wider vectors.
+#include "integrators/photon/gather/cone_directions.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "integrators/photon/gather/cone_directions_wide.h"
+
+namespace exphoton {
+namespace {
+
+#include "core/math/simd/real16_portable.inl"
+#include "integrators/photon/gather/cone_directions.inl"
+
+}  // namespace
+
+std::span<const ConeLoops> ConeDirections::Loops() {
+#if defined(EXPHOTON_WIDE_VECTORS)
+  static const ConeLoops all[] = {kLoops, kConeLoopsAvx2, kConeLoopsAvx512};
+  if (__builtin_cpu_supports("avx512f")) return all;
+  return {all, __builtin_cpu_supports("avx2") ? std::size_t(2) : std::size_t(1)};
+#else
+  static const ConeLoops all[] = {kLoops};
+  return all;
+#endif
+}
+
+ConeDirections::ConeDirections(std::size_t capacity, Arena* arena) {
+  const std::size_t room = WholeRuns(capacity) + kRun;  // more than is chosen may be written
+  x_ = arena->Room<Real>(3 * room);
+  y_ = x_ + room;
+  z_ = y_ + room;
+}
+
+void ConeDirections::AddChosen(const DirectionRows& from, Real scale) {
+  count_ += Fastest().choose(from, scale, x_ + count_, y_ + count_, z_ + count_);
+}
+
+void ConeDirections::Finish() {
+  for (std::size_t i = count_; i < WholeRuns(count_); ++i) x_[i] = y_[i] = z_[i] = kFar;
+}
+
+}  // namespace exphoton

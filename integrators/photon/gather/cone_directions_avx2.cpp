@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The loops over cone axes for x86-64 machines with AVX2.
+#include "integrators/photon/gather/cone_directions_wide.h"
+
+#if defined(EXPHOTON_WIDE_VECTORS)
+#include "core/math/simd/real16_begin_avx2.inl"
+
+namespace exphoton {
+namespace {
+
+#include "core/math/simd/real16_avx2.inl"
+#include "integrators/photon/gather/cone_directions.inl"
+
+}  // namespace
+
+const ConeLoops kConeLoopsAvx2 = kLoops;
+
+}  // namespace exphoton
+
+#include "core/math/simd/vectors_end.inl"
+#endif

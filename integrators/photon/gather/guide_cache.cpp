@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// One search for a cell, and one place in a table for each cell: the last that asked for it has it.
+#include "integrators/photon/gather/guide_cache.h"
+
+#include <bit>
+#include <cmath>
+
+#include "core/math/sampling/random.h"
+#include "integrators/photon/gather/cone_directions.h"
+#include "integrators/photon/gather/hilbert_order.h"
+
+namespace exphoton {
+namespace {
+
+// As far as squares of distances are finite.
+Vector3 Within(const Vector3& v) {
+  constexpr Real kFarthest = Real(1e18);
+  const Real length = MaxComponent(Abs(v));
+  return length > kFarthest ? v * (kFarthest / length) : v;
+}
+
+// The largest expectation e for which n is clearly more: n > 2 e + sqrt(e), twice as many and not
+// by chance.
+Real ClearlyExceeded(Real n) { return Square((std::sqrt(1 + 8 * n) - 1) / 4); }
+
+// From the number of others within the cone about each. Where there are very many, estimated by
+// every n-th of them: they are in the order of their directions.
+void CompareWithOthers(const ConeDirections& axes, const Cone& cone, Arena* arena,
+                       Real* denserThan) {
+  constexpr std::size_t kMost = 1024;
+  const std::size_t step = (axes.size() + kMost - 1) / kMost;
+  ConeDirections some(axes.size() / step + 1, arena);
+  for (std::size_t i = 0; i < axes.size(); i += step) some.Add(axes[i]);
+  some.Finish();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const int within = some.CountWithin(axes[i], cone.Chord2()) - (i % step == 0);
+    denserThan[i] = ClearlyExceeded(Real(within) * Real(step));
+  }
+}
+
+std::uint64_t Bits(Real x) { return std::bit_cast<std::uint64_t>(double(x)); }
+
+}  // namespace
+
+GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& middle, int count,
+                               const Cone& cone, Arena* scratch)
+    : middle_(middle) {
+  const Arena::Mark mark = scratch->GetMark();
+  const NearPoints near = map.Nearest(middle, count, scratch);
+  if (near.size() == 0) {
+    scratch->Rewind(mark);
+    return;
+  }
+  radius2_ = near.distance2[near.farthest];
+  count_ = near.size();
+  const std::size_t room = ConeDirections::WholeRuns(count_);
+  rows_.resize(kRows * room);
+  Real *const x = rows_.data(), *const y = x + room, *const z = y + room;
+  Real* const denserThan = z + room;
+  ConeDirections axes(near.size(), scratch);
+  std::size_t i = 0;
+  for (const std::uint32_t photon : HilbertOrder(map, near.index, scratch)) {
+    const Vector3 origin = Within(map.Origin(photon) - middle);
+    x[i] = origin.x, y[i] = origin.y, z[i] = origin.z;
+    axes.Add(NormalizeOr(origin, map.Direction(photon)));
+    ++i;
+  }
+  axes.Finish();
+  CompareWithOthers(axes, cone, scratch, denserThan);
+  scratch->Rewind(mark);
+}
+
+const GuideCacheCell& GuideCache::At(const Point3& p) {
+  const Key key{std::floor(p.x / width_), std::floor(p.y / width_), std::floor(p.z / width_)};
+  Slot& slot = slots_[HashKey({Bits(key.x), Bits(key.y), Bits(key.z)}) % kSlots];
+  if (!slot.isUsed || !(slot.key == key)) {
+    const Vector3 half(Real(.5), Real(.5), Real(.5));
+    const Point3 middle = Point3() + (Vector3(key.x, key.y, key.z) + half) * width_;
+    slot.cell = GuideCacheCell(map_, middle, count_, cone_, &scratch_);
+    slot.key = key;
+    slot.isUsed = true;
+  }
+  return slot.cell;
+}
+
+}  // namespace exphoton

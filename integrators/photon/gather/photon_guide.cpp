@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Which photons of a cell are followed from a point, and whom else they serve.
+#include "integrators/photon/gather/photon_guide.h"
+
+#include "integrators/photon/gather/guide_cache.h"
+#include "integrators/photon/gather/reprojected_cell.h"
+#include "integrators/photon/maps/rest_pose.h"
+
+namespace exphoton {
+namespace {
+
+// Directions from which clearly more light comes than a diffuse surface sends rays. What else
+// lights it the rays by the BSDF find as well, and rays spent on it would be missing where
+// light is dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
+// Importance Sampling). A direction's own photon does not count.
+GuidedDirections WorthFollowing(const GuideCacheCell& cell, const RestPose& rest, const Point3& p,
+                                const LitSide& side, const Cone& cone, Arena* arena) {
+  const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);
+  const ReprojectedCell view(cell, rest.Point(p), atRest, arena);
+  // Photons to be expected in a cone round the normal, if all came as a diffuse surface sends rays.
+  const Real diffusePdf = side.isTwoSided ? kInvPi / 2 : kInvPi;
+  const Real expected = Real(std::max(view.lit - 1, 1)) * diffusePdf / cone.Pdf();
+  ConeDirections axes(cell.size(), arena);
+  axes.AddChosen({view.x, view.y, view.z, view.cosine, cell.DenserThan(), cell.size()}, expected);
+  if (rest.IsMoved())
+    for (std::size_t i = 0; i < axes.size(); ++i) axes.Set(i, rest.DirectionBack(axes[i]));
+  axes.Finish();
+  return {axes, Real(axes.size()) / Real(std::max(view.lit, 1))};
+}
+
+// The guide of the camera sample that looked last, and where it was.
+struct LastGuide {
+  GuidedDirections directions;
+  Real reach2 = 0;  // of the photons, squared
+  Point3 p;
+  LitSide side;
+
+  // Well within the photons that were found, and on as good as the same plane.
+  bool Serves(const Point3& at, const LitSide& seen) const {
+    constexpr Real kRadii2 = Square(Real(.25)), kMinCosine = Real(.95);
+    return DistanceSquared(at, p) < kRadii2 * reach2 && Dot(seen.ng, side.ng) > kMinCosine &&
+           Dot(seen.ns, side.ns) > kMinCosine && seen.isTwoSided == side.isTwoSided;
+  }
+};
+
+}  // namespace
+
+void PhotonGuide::Prepare(const PhotonMap& map) {
+  constexpr Real kRadii = Real(.75);  // twice that is noisier, a third is not better
+  Arena arena;
+  if (count_ > 0) cellWidth_ = kRadii * map.TypicalRadius(count_, &arena);
+  if (!(cellWidth_ > 0)) cellWidth_ = 1;  // no photon, or all on one spot
+}
+
+GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const PhotonMap& map,
+                                         LiContext& context) const {
+  if (count_ == 0 || map.IsEmpty()) return {};
+  const Point3& p = point.surface.p;
+  const LitSide side(point);
+  LastGuide* const last = context.notes ? &context.notes->Note<LastGuide>() : nullptr;
+  if (last && last->Serves(p, side)) return last->directions;
+
+  const RestPose rest(point.surface);
+  Arena& arena = context.notes ? context.notes->FreshArena() : context.arena;
+  const auto follow = [&](const GuideCacheCell& cell) {
+    const GuidedDirections directions = WorthFollowing(cell, rest, p, side, cone_, &arena);
+    if (last) *last = {directions, cell.Radius2(), p, side};
+    return directions;
+  };
+  if (!context.threadState)
+    return follow(GuideCacheCell(map, rest.Point(p), count_, cone_, &context.arena));
+  GuideCache& cells = context.threadState->Note<GuideCache>(map, count_, cone_, cellWidth_);
+  return follow(cells.At(rest.Point(p)));
+}
+
+}  // namespace exphoton

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// One loop, compiled for each width of vectors: no branch, no choice between numbers.
+#include "integrators/photon/gather/reprojected_cell.h"
+
+#include <cmath>
+
+#include "core/base/simd_targets.h"
+
+namespace exphoton {
+namespace {
+
+[[gnu::always_inline]] inline void Look(const GuideCacheCell& cell, const Vector3& from,
+                                        const LitSide& side, ReprojectedCell* view) {
+  constexpr Real kNowhere = Real(2e-19);  // makes what lies at p a direction, and no other one
+  const Real *const x = cell.X(), *const y = cell.Y(), *const z = cell.Z();
+  Real *const wx = view->x, *const wy = view->y, *const wz = view->z, *const cosine = view->cosine;
+  const Vector3 p = from;
+  const Normal3 ng = side.ng, ns = side.ns;
+  const Real horizon = side.isTwoSided ? -2 : 0;  // light from below does not count
+  const std::size_t count = cell.size();
+  int lit = 0;
+  EXPHOTON_INDEPENDENT_ITERATIONS
+  for (std::size_t i = 0; i < count; ++i) {
+    const Real dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z + kNowhere;
+    const Real inverse = 1 / std::sqrt(dx * dx + dy * dy + dz * dz);
+    wx[i] = dx * inverse, wy[i] = dy * inverse, wz[i] = dz * inverse;
+    const Real geometric = wx[i] * ng.x + wy[i] * ng.y + wz[i] * ng.z;
+    const Real shading = wx[i] * ns.x + wy[i] * ns.y + wz[i] * ns.z;
+    const int isLit = (geometric > horizon) & (shading > horizon);
+    cosine[i] = std::abs(shading) + Real(1 - isLit) * (2 * ReprojectedCell::kUnlit);
+    lit += isLit;
+  }
+  view->lit = lit;
+}
+
+void LookPortable(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
+                  ReprojectedCell* view) {
+  Look(cell, p, side, view);
+}
+
+EXPHOTON_FOR_AVX2 void LookAvx2(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
+                                ReprojectedCell* view) {
+  Look(cell, p, side, view);
+}
+
+EXPHOTON_FOR_AVX512 void LookAvx512(const GuideCacheCell& cell, const Vector3& p,
+                                    const LitSide& side, ReprojectedCell* view) {
+  Look(cell, p, side, view);
+}
+
+}  // namespace
+
+std::span<const ReprojectedCell::Looker> ReprojectedCell::Lookers() {
+  static constexpr Looker kAll[] = {LookPortable, LookAvx2, LookAvx512};
+  return {kAll, SimdTargets()};
+}
+
+ReprojectedCell::ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side,
+                                 Arena* arena)
+    : x(arena->Room<Real>(4 * cell.Room())),
+      y(x + cell.Room()),
+      z(y + cell.Room()),
+      cosine(z + cell.Room()) {
+  static const Looker look = Lookers().back();
+  look(cell, p - cell.Middle(), side, this);
+  for (std::size_t i = cell.size(); i < cell.Room(); ++i) x[i] = y[i] = z[i] = cosine[i] = 0;
+}
+
+}  // namespace exphoton

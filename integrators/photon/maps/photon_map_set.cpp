@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Building the three maps, and density estimates with a kernel.
+#include "integrators/photon/maps/photon_map_set.h"
+
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/transport/shading_normal.h"
+#include "integrators/photon/maps/density_kernel.h"
+#include "integrators/photon/maps/rest_pose.h"
+
+namespace exphoton {
+namespace {
+
+// |wi.ns| / |wi.ng|, capped: a photon's power is per geometric area, f |cos| is per shading area.
+Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns) {
+  if (ng == ns) return 1;
+  const Real geometric = AbsDot(wi, ng);
+  if (!(geometric > 0)) return 0;
+  return std::min(AbsDot(wi, ns) / geometric, kMaxShadingNormalFactor);
+}
+
+// Photons that lie on one spot, or are too few to tell, say nothing of a radius: then it follows
+// from the size of the scene.
+Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
+  return sceneRadius * (photons < std::size_t(nUsed) ? Real(.01) : Real(1e-6));
+}
+
+}  // namespace
+
+PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings,
+                           Real sceneRadius, PreprocessContext& context)
+    : nUsed_(settings.nUsed), kernel_(settings.kernel) {
+  context.progress.Begin("Building photon maps", kPhotonKindCount);
+  std::vector<BlockStore<PhotonBlock>> photons;
+  for (PhotonBuffer& buffer : result->buffers) photons.push_back(std::move(buffer.photons));
+  auto trees = PointTree<PhotonBlock>::MakeAll(photons, context.threads);
+  Arena arena;
+  for (std::size_t at = 0; at < kPhotonKindCount; ++at) {
+    maps_[at] = PhotonMap(std::move(trees[at]), result->buffers[at], context.threads);
+    radii_[at] = settings.maxDist.value_or(
+        std::max(maps_[at].TypicalRadius(settings.nUsed, &arena),
+                 SmallestRadius(maps_[at].Size(), settings.nUsed, sceneRadius)));
+    context.progress.Advance();
+  }
+  context.progress.End();
+}
+
+Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
+                                LobeSet lobes) const {
+  const PhotonMap& map = Map(kind);
+  const Bsdf& bsdf = point.bsdf;
+  if (map.IsEmpty() || !bsdf.Has(lobes)) return {};
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const bool isOneSided = !bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
+  const RestPose rest(point.surface);
+  const Arena::Mark mark = arena->GetMark();
+  const PhotonNeighbourhood around = map.Find(
+      {rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind), isOneSided}, arena);
+
+  // Where every lobe is diffuse, powers are summed side by side and reflected once.
+  constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
+  const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && !bsdf.IsCoated();
+  const KernelDisk disk(kernel_, around.radius2);
+  Spectrum front, back, glossy;
+  // And where that is all, directions do not matter: the search has seen to the side.
+  const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.surface.ng;
+  for (std::size_t i = 0; i < around.photons.size(); ++i) {
+    const std::uint32_t photon = around.photons[i];
+    const Spectrum weighted = map.Alpha(photon) * disk.Weight(around.distance2[i]);
+    if (isPlain) {
+      front += weighted;
+      continue;
+    }
+    const Vector3 wi = rest.DirectionBack(map.Direction(photon));
+    const Spectrum flux = weighted * GeometricToShading(wi, point.surface.ng, bsdf.Ns());
+    // As in the BSDF, light that is on different sides of the two normals scatters nothing.
+    if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
+    if (!isDiffuse) {
+      glossy += bsdf.f(point.Wo(), wi, lobes) * flux;
+    } else if (Dot(wi, n) > 0) {
+      front += flux;
+    } else {
+      back += flux;
+    }
+  }
+  arena->Rewind(mark);
+  if (isDiffuse) {
+    glossy = front * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
+    if (!isOneSided) glossy += back * bsdf.Rho(lobes & LobeSet::NonSpecularTransmission) * kInvPi;
+  }
+  return glossy / Real(map.Paths());
+}
+
+Spectrum PhotonMapSet::Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes) const {
+  return Radiance(PhotonKind::Direct, point, arena, lobes) +
+         Radiance(PhotonKind::Caustic, point, arena, lobes) +
+         Radiance(PhotonKind::Indirect, point, arena, lobes);
+}
+
+double PhotonMapSet::PhotonDensity(const ShadingPoint& point, Arena* arena) const {
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const bool isOneSided = !point.bsdf.Has(LobeSet::NonSpecularTransmission);
+  const RestPose rest(point.surface);
+  double density = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (maps_[m].IsEmpty()) continue;
+    const Arena::Mark mark = arena->GetMark();
+    const PhotonNeighbourhood around = maps_[m].Find(
+        {rest.Point(point.surface.p), rest.Normal(n), nUsed_, radii_[m], isOneSided}, arena);
+    density += double(around.photons.size()) / (double(kPi) * double(around.radius2));
+    arena->Rewind(mark);
+  }
+  return density;
+}
+
+PhotonMap::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const Normal3& n,
+                                                       Arena* arena, bool isCoated) const {
+  PhotonMap::Irradiance total;
+  Real weight = 0, weightedRadius = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (maps_[m].IsEmpty()) continue;
+    const auto part = maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated}, arena);
+    total.e += part.e;
+    weight += part.e.Y();
+    weightedRadius += part.e.Y() * part.radius;
+    total.radius = std::max(total.radius, part.radius);
+  }
+  if (weight > 0) total.radius = weightedRadius / weight;
+  return total;
+}
+
+}  // namespace exphoton

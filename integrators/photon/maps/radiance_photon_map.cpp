@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Computing radiance photons and finding the one that serves a hit.
+#include "integrators/photon/maps/radiance_photon_map.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+
+namespace exphoton {
+namespace {
+
+// One entry, or two where the surface transmits; none where it is black.
+int CountEntries(const RadiancePhotonSite& site, bool needsTransmission) {
+  if (needsTransmission && !site.transmittance.IsBlack()) return 2;
+  return site.reflectance.IsBlack() ? 0 : 1;
+}
+
+// Writes as many as `entries` has place for. reach2 is the squared radius of the estimate yet.
+void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, RadianceMode mode,
+                    Arena* arena, std::span<RadianceRecord> entries) {
+  if (entries.empty()) return;
+  const auto entry = [&](const Normal3& n, Real radius, const Spectrum& value) {
+    return RadianceRecord{site.p, EncodeOctahedral(n), Square(radius),
+                          PackedRadiance(value, site.glossyShare, site.isCoated)};
+  };
+  const bool isExitant = mode == RadianceMode::Exitant;
+  const Spectrum rho = site.reflectance * kInvPi, tau = site.transmittance * kInvPi;
+  const auto front = maps.EstimateIrradiance(site.p, site.n, arena, site.isCoated);
+  if (entries.size() == 1) {
+    entries[0] = entry(site.n, front.radius, isExitant ? rho * front.e : front.e);
+    return;
+  }
+  const auto back = maps.EstimateIrradiance(site.p, -site.n, arena, site.isCoated);
+  if (isExitant) {
+    const Real radius = std::max(front.radius, back.radius);
+    entries[0] = entry(site.n, radius, rho * front.e + tau * back.e);
+    entries[1] = entry(-site.n, radius, rho * back.e + tau * front.e);
+  } else {
+    entries[0] = entry(site.n, front.radius, front.e);
+    entries[1] = entry(-site.n, back.radius, back.e);
+  }
+}
+
+}  // namespace
+
+RadiancePhotonMap::RadiancePhotonMap(std::span<RadiancePhotonSite> sites, const PhotonMapSet& maps,
+                                     const PhotonSettings& settings, bool needsTransmission,
+                                     PreprocessContext& context)
+    : minCosine_(settings.radianceNormal), reach_(settings.radianceReach) {
+  constexpr std::size_t kChunk = 256;
+  // Neighbours one after the other: they read the same photons.
+  BlockOrder<RadiancePhotonSite>::Sort(sites, context.threads);
+  const std::size_t chunks = (sites.size() + kChunk - 1) / kChunk;
+  const auto sitesOf = [&](std::size_t chunk) {
+    return sites.subspan(chunk * kChunk, std::min(kChunk, sites.size() - chunk * kChunk));
+  };
+  std::vector<std::size_t> first{0};  // entry of each chunk, and of what follows the last
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    first.push_back(first.back());
+    for (const RadiancePhotonSite& site : sitesOf(chunk))
+      first.back() += std::size_t(CountEntries(site, needsTransmission));
+  }
+  BlockStore<RadianceBlock> entries;
+  entries.Resize(first.back());
+  std::vector<Arena> arenas(std::size_t(context.threads.Count()));
+  context.progress.Begin("Computing photon radiances", std::int64_t(chunks));
+  context.threads.For(std::int64_t(chunks), [&](std::int64_t chunk, int worker) {
+    std::size_t at = first[std::size_t(chunk)];
+    for (const RadiancePhotonSite& site : sitesOf(std::size_t(chunk))) {
+      const auto count = std::size_t(CountEntries(site, needsTransmission));
+      const auto computed = entries.Records().subspan(at, count);
+      ComputeEntries(site, maps, settings.radianceMode, &arenas[std::size_t(worker)], computed);
+      for (RadianceRecord& entry : computed) entry.reach2 *= Square(reach_);
+      at += count;
+    }
+    context.progress.Advance();
+  });
+  for (const RadianceRecord& entry : entries.Records())
+    maxReach2_ = std::max(maxReach2_, entry.reach2);
+  context.progress.End();
+  tree_ = PointTree<RadianceBlock>(std::move(entries), context.threads);
+  grid_ = EntryGrid(tree_.View(), kGridCellsPerEntry * tree_.Size(), context.threads);
+}
+
+void RadiancePhotonMap::Find(std::span<const Place> places, std::optional<Entry>* found) const {
+  constexpr std::size_t kAtOnce = 16;
+  ClosestPoint closest[kAtOnce];
+  for (; !places.empty(); places = places.subspan(std::min(kAtOnce, places.size()))) {
+    const auto some = places.first(std::min(kAtOnce, places.size()));
+    FastestNearestSearch().closest(View(), {minCosine_, maxReach2_}, some, closest);
+    for (std::size_t i = 0; i < some.size(); ++i, ++found) {
+      found->reset();
+      if (closest[i].index == ClosestPoint::kNone) continue;
+      const RadianceBlock& block = tree_.BlockOf(closest[i].index);
+      const std::uint32_t lane = tree_.Lane(closest[i].index);
+      *found = {block.value[lane], SafeDivide(block.reach2[lane], Square(reach_), 0),
+                closest[i].distance2};
+    }
+  }
+}
+
+}  // namespace exphoton

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Notices, warnings and counters of the photon pass.
+#include "integrators/photon/photon_stats.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "core/base/log.h"
+
+namespace exphoton {
+namespace {
+
+// Lights that get rows of their own in the table of counters, and notices.
+constexpr std::size_t kMostListedLights = 64;
+constexpr int kMostVainNotices = 5;
+// Fewer photons than this may miss a small scene by chance.
+constexpr std::int64_t kTellingShots = 1000;
+
+// Power that the depth limit may cut without a word.
+constexpr double kSilentCut = 1e-3;
+
+template <class... Parts>
+std::string Text(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  return out.str();
+}
+
+// "2 spot": counted from 1, in the order of the file.
+std::string LightName(const Scene& scene, std::size_t i) {
+  const std::string& plugin = scene.OriginOfLight(i).plugin;
+  return Text(i + 1, plugin.empty() ? "" : " ", plugin);
+}
+
+bool HasShotInVain(const LightTally& light, const PhotonTargets& targets) {
+  if (light.shot < kTellingShots || light.stored > 0) return false;
+  // A light without caustics is no news.
+  return light.hit + light.passedBy == 0 || targets[PhotonKind::Direct] > 0 ||
+         targets[PhotonKind::Indirect] > 0;
+}
+
+void NoticeVainLights(const PhotonPassResult& result, const PhotonTargets& targets,
+                      const Scene& scene, Log& log) {
+  int found = 0;
+  for (std::size_t i = 0; i < result.lights.size(); ++i) {
+    const LightTally& light = result.lights[i];
+    if (!HasShotInVain(light, targets) || ++found > kMostVainNotices) continue;
+    const LightOrigin& origin = scene.OriginOfLight(i);
+    log.Notice(Text("light ", i + 1, origin.plugin.empty() ? "" : " (" + origin.plugin + ")",
+                    " has shot ", light.shot, " photons and none was stored"),
+               origin.where,
+               light.hit + light.passedBy == 0
+                   ? "they hit nothing: does the light shine at the scene?"
+                   : "they met surfaces, but left nothing that the photon maps still wanted");
+  }
+  if (found > kMostVainNotices)
+    log.Notice(Text(found - kMostVainNotices, " more lights shot photons and none was stored"));
+}
+
+}  // namespace
+
+void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
+                        const Scene& scene, Log& log) {
+  const RequiredFeatures& plan = scene.Features();
+  if (plan.Needs(Feature::Caustics) || targets[PhotonKind::Caustic] > 0) return;
+  if (settings.causticPhotons.value_or(0) == 0) return;
+  log.Notice(Text("causticphotons ", *settings.causticPhotons, ": none is shot (",
+                  plan.Get(Feature::Caustics).reason, ")"));
+}
+
+void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context) {
+  context.statistics.SetCounter("photons/aim gain", aim.Gain(),
+                                "how much denser photons of far lights start towards what is seen");
+  context.log.Notice(Text("photons of far lights start towards what the camera sees, ",
+                          std::llround(aim.Gain()), " times denser than everywhere"),
+                     {}, "\"string photonaim\" \"off\" spreads them over the whole scene");
+}
+
+void NoticeUnaimed(const DistantLightTargeting& aim, Log& log) {
+  log.Notice(Text("photons of far lights are spread over the whole scene: where the camera looks "
+                  "they are sparse, and light is missing behind glass and in corners"),
+             {},
+             Text("\"string photonaim\" \"auto\" makes them about ", std::llround(aim.Gain()),
+                  " times as dense there"));
+}
+
+void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
+                      const PhotonSettings& settings, PreprocessContext& context) {
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (targets[kind] == 0) continue;
+    const PhotonBuffer& buffer = result[kind];
+    const std::string name = PhotonKindName(kind);
+    context.statistics.AddToCounter("photons/" + name + " stored", double(buffer.photons.Size()),
+                                    "photons in the " + name + " map, of all passes together");
+    context.statistics.AddToCounter("photons/" + name + " paths", double(buffer.paths),
+                                    "paths from the lights that the " + name + " map counts");
+    if (std::int64_t(buffer.photons.Size()) < targets[kind])
+      context.log.Notice(Text(name, " map: ", buffer.photons.Size(), " of ", targets[kind],
+                              " photons after ", buffer.paths, " paths"));
+  }
+  context.statistics.AddToCounter("photons/shot", double(result.paths),
+                                  "paths that left the lights");
+  if (result.passedBy > 0)
+    context.statistics.AddToCounter(
+        "photons/passed by", double(result.passedBy),
+        "of them, paths for caustics alone that were not traced because "
+        "they pass all specular surfaces by");
+  if (result.paths > 0)
+    context.statistics.SetCounter("photons/emitted power",
+                                  result.emittedPower / double(result.paths),
+                                  "luminance of the power that the lights emit, as shot");
+  if (result.cutPower > kSilentCut * result.emittedPower)
+    context.log.Warning(
+        Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",
+             100 * result.cutPower / result.emittedPower, " % of the emitted power"),
+        {}, "raise \"maxphotondepth\", or lower reflectances that are (nearly) 1");
+  if (result.overgrownPaths > 0)
+    context.log.Warning(
+        Text(result.overgrownPaths, " photon paths were ended: their power grew without bound"), {},
+        "a surface reflects more light than it receives");
+  if (result.droppedPhotons == 0) return;
+  context.statistics.AddToCounter("photons/non-finite", double(result.droppedPhotons),
+                                  "photons lost because their power was not finite");
+  if (context.isStrict)
+    throw Error(ExitStatus::Internal, Text("photon path ", result.firstDroppedPath, " of seed ",
+                                           context.seed, " has a power that is not finite"));
+  context.log.Warning(Text(result.droppedPhotons, " photons had no finite power and were lost"));
+}
+
+void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, const Scene& scene,
+                  PreprocessContext& context) {
+  if (result.paths == 0) return;
+  LightTally rest;
+  for (std::size_t i = 0; i < result.lights.size(); ++i) {
+    const LightTally& light = result.lights[i];
+    if (scene.Lights()[i]->IsProvablyBlack()) continue;
+    if (i >= kMostListedLights) {
+      rest.shot += light.shot;
+      rest.stored += light.stored;
+      continue;
+    }
+    const std::string name = "lights/" + LightName(scene, i);
+    context.statistics.AddToCounter(name + " shot", double(light.shot), "paths from this light");
+    context.statistics.AddToCounter(name + " stored", double(light.stored),
+                                    "photons that they left, in all maps");
+  }
+  if (rest.shot > 0) {
+    context.statistics.AddToCounter("lights/further shot", double(rest.shot),
+                                    "paths from lights that are not listed");
+    context.statistics.AddToCounter("lights/further stored", double(rest.stored),
+                                    "photons that they left, in all maps");
+  }
+  NoticeVainLights(result, targets, scene, context.log);
+}
+
+void ReportMaps(const PhotonMapSet& maps, const RadiancePhotonMap* radianceMap,
+                const PhotonSettings& settings, PreprocessContext& context) {
+  double bytes = 0;
+  std::string chosen;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (maps.Map(kind).IsEmpty()) continue;
+    const std::string name = PhotonKindName(kind);
+    bytes += double(maps.Map(kind).MemoryBytes());
+    context.statistics.SetCounter("photons/" + name + " maxdist", double(maps.MaxDistance(kind)),
+                                  "largest radius of an estimate in the " + name + " map");
+    chosen += Text(chosen.empty() ? "" : ", ", name, " ", maps.MaxDistance(kind));
+  }
+  if (!settings.maxDist && !chosen.empty())
+    context.log.Notice(
+        "maxdist chosen from the photons: " + chosen, {},
+        "it is the distance within which nine of ten photons have nused neighbours; \"float "
+        "maxdist\" sets it for all maps");
+  if (radianceMap) {
+    bytes += double(radianceMap->MemoryBytes());
+    context.statistics.SetCounter("photons/radiance photons", double(radianceMap->Size()),
+                                  "places with precomputed radiance");
+  }
+  context.statistics.SetCounter("photons/memory", bytes, "bytes held by all photon maps");
+}
+
+}  // namespace exphoton

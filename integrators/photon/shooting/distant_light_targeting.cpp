@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The hierarchy of balls, and photons that start on their shadows.
+#include "integrators/photon/shooting/distant_light_targeting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/sampling/sampling.h"
+
+namespace exphoton {
+namespace {
+
+// Fewer would not tell where photons are wanted.
+constexpr std::size_t kLeastPoints = 16;
+// Balls reach beyond their points, because the points are a sample of what is wanted.
+constexpr Real kMargin = Real(1.5);
+// From level to level radii shrink no more than so, or the density would jump.
+constexpr Real kLeastShrink = Real(.25);
+constexpr int kMostLevels = 64;
+
+Bounds3 BoundsOf(std::span<const Point3> points) {
+  Bounds3 bounds;
+  for (const Point3& p : points) bounds.Extend(p);
+  return bounds;
+}
+
+// The first half of the points lies below the second along the axis.
+void Halve(std::span<Point3> points, int axis) {
+  std::nth_element(points.begin(), points.begin() + std::ptrdiff_t(points.size() / 2), points.end(),
+                   [axis](const Point3& a, const Point3& b) { return a[axis] < b[axis]; });
+}
+
+double DiskArea(Real radius) { return double(kPi) * double(radius) * double(radius); }
+
+}  // namespace
+
+DistantLightTargeting::DistantLightTargeting(std::vector<Point3> wanted, const Sphere3& world,
+                                             double leastShare)
+    : world_(world) {
+  if (wanted.size() < kLeastPoints || !(world.radius > 0)) return;
+  AddLevels(wanted, std::max(leastShare, double(kLeastPoints) / double(wanted.size())));
+  std::vector<double> shares{1};  // the world's
+  for (const Ball& ball : balls_) shares.push_back(ball.share);
+  shares_ = DiscreteDistribution(shares);
+  for (Ball& ball : balls_) ball.share /= shares_.Sum();
+  gain_ = Gain(wanted);
+}
+
+// A part whose points fit into a much smaller ball gets balls round all of them until they do not;
+// then it is halved, unless its halves would hold less than leastShare of the points.
+void DistantLightTargeting::AddLevels(std::span<Point3> wanted, double leastShare) {
+  struct Part {
+    std::span<Point3> points;
+    Real parentRadius;
+  };
+  std::vector<Part> parts{{wanted, world_.radius}};
+  for (int level = 1; level <= kMostLevels && !parts.empty(); ++level) {
+    std::vector<Part> next;
+    for (const auto& [points, parentRadius] : parts) {
+      const Bounds3 bounds = BoundsOf(points);
+      const Sphere3 sphere = BoundingSphere(bounds);
+      const Real fitting = sphere.radius * kMargin, smallest = parentRadius * kLeastShrink;
+      const Real radius = std::clamp(fitting, smallest, parentRadius);
+      const double share = double(points.size()) / double(wanted.size());
+      balls_.push_back({sphere.center - world_.center, radius, share});
+      if (fitting < smallest) {
+        next.push_back({points, radius});
+      } else if (share / 2 >= leastShare) {
+        Halve(points, bounds.LongestAxis());
+        next.push_back({points.first(points.size() / 2), radius});
+        next.push_back({points.subspan(points.size() / 2), radius});
+      }
+    }
+    parts = std::move(next);
+  }
+}
+
+double DistantLightTargeting::Ball::Density(Real distance2) const {
+  if (!(distance2 < radius * radius)) return 0;
+  return 2 * double(1 - distance2 / (radius * radius)) * share / DiskArea(radius);
+}
+
+double DistantLightTargeting::WorldDensity() const {
+  return double(shares_.Probability(0)) / DiskArea(world_.radius);
+}
+
+double DistantLightTargeting::Density(const Vector3& offset, const Frame& frame) const {
+  const Real x = Dot(offset, frame.x), y = Dot(offset, frame.y);
+  double density = WorldDensity();
+  for (const Ball& ball : balls_) {
+    const Real dx = x - Dot(ball.center, frame.x), dy = y - Dot(ball.center, frame.y);
+    density += ball.Density(dx * dx + dy * dy);
+  }
+  return density;
+}
+
+void DistantLightTargeting::Redirect(LightLeSample* emission, Point2 u) const {
+  const Vector3 toLight = -emission->ray.d;
+  const Frame frame = Frame::FromZ(toLight);
+  const auto choice = shares_.Sample(u.x);
+  Vector3 onPlane;
+  if (choice.index == 0) {
+    const Point2 d = SampleDisk({choice.remapped, u.y});
+    onPlane = (frame.x * d.x + frame.y * d.y) * world_.radius;
+  } else {
+    // Within s of the squared radius lies 2 s - s^2 of a shadow's photons.
+    const Ball& ball = balls_[std::size_t(choice.index - 1)];
+    const Real d = ball.radius * SafeSqrt(1 - std::sqrt(1 - choice.remapped));
+    const Real phi = 2 * kPi * u.y;
+    onPlane = frame.x * (Dot(ball.center, frame.x) + d * std::cos(phi)) +
+              frame.y * (Dot(ball.center, frame.y) + d * std::sin(phi));
+  }
+  const double density = Density(onPlane, frame);
+  // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
+  emission->ray.o = world_.center + onPlane + toLight * (world_.radius * Real(1.001));
+  emission->power *= Real(double(emission->pdfPosition) / density);
+  emission->pdfPosition = Real(density);
+}
+
+// The median over the wanted points, as if every shadow had its ball's own distances.
+double DistantLightTargeting::Gain(std::span<const Point3> wanted) const {
+  std::vector<double> gains;
+  for (const Point3& p : wanted) {
+    double density = WorldDensity();
+    for (const Ball& ball : balls_)
+      density += ball.Density(LengthSquared(p - world_.center - ball.center));
+    gains.push_back(density * DiskArea(world_.radius));
+  }
+  const auto middle = gains.begin() + std::ptrdiff_t(gains.size() / 2);
+  std::nth_element(gains.begin(), middle, gains.end());
+  return *middle;
+}
+
+}  // namespace exphoton

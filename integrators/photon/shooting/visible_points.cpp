@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Following camera rays and one bounce on, to places that photons can be stored at.
+#include "integrators/photon/shooting/visible_points.h"
+
+#include <optional>
+
+#include "core/math/sampling/low_discrepancy.h"
+#include "core/transport/shading_point.h"
+
+namespace exphoton {
+namespace {
+
+constexpr std::uint32_t kCameraRays = 1024;
+constexpr int kMostSpecularBounces = 16;
+constexpr std::uint64_t kFilmKey = 0x7365656e31ull, kLensKey = 0x7365656e32ull,
+                        kStreamKey = 0x7365656e33ull, kTimeKey = 0x7365656e34ull;
+
+class VisiblePointTracer {
+ public:
+  VisiblePointTracer(const Scene& scene, Arena* arena, std::uint64_t key)
+      : scene_(scene), arena_(arena), random_(key) {}
+
+  // The first place along the ray, or beyond specular surfaces, with another lobe.
+  std::optional<ShadingPoint> Follow(RayDifferential ray) {
+    for (int bounces = 0; bounces <= kMostSpecularBounces; ++bounces) {
+      const auto surface = scene_.Intersect(ray);
+      if (!surface) return std::nullopt;
+      const ShadingPoint point =
+          MakeShadingPoint(*surface, ray, bounces, TransportMode::Radiance, arena_);
+      if (point.bsdf.Has(LobeSet::NonSpecular)) return point;
+      const auto next = Scattered(point, LobeSet::Specular);
+      if (!next) return std::nullopt;
+      ray = *next;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Ray> Scattered(const ShadingPoint& point, LobeSet lobes) {
+    const Real x = random_.Uniform(), y = random_.Uniform();
+    const auto sample = point.bsdf.Sample(point.Wo(), {x, y}, random_.Uniform(), lobes);
+    if (!sample) return std::nullopt;
+    return SpawnRay(point.surface, sample->wi);
+  }
+
+ private:
+  const Scene& scene_;
+  Arena* arena_;
+  RandomStream random_;
+};
+
+CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed, bool isMoving) {
+  const Point2 film = ScrambledSobol2(i, HashKey({seed, kFilmKey}));
+  CameraSample sample;
+  sample.film = {film.x * Real(size.x), film.y * Real(size.y)};
+  sample.lens = ScrambledSobol2(i, HashKey({seed, kLensKey}));
+  if (isMoving) sample.time = ScrambledVanDerCorput(i, std::uint32_t(HashKey({seed, kTimeKey})));
+  return sample;
+}
+
+}  // namespace
+
+std::vector<Point3> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
+                                  std::uint64_t seed) {
+  const bool isMoving = scene.Features().Needs(Feature::Motion);
+  std::vector<Point3> points;
+  Arena arena;
+  for (std::uint32_t i = 0; i < kCameraRays; ++i) {
+    arena.Reset();
+    VisiblePointTracer seer(scene, &arena, HashKey({seed, kStreamKey, i}));
+    const auto seen = seer.Follow(camera.GenerateRay(SampleOf(i, size, seed, isMoving), false));
+    if (!seen) continue;
+    points.push_back(seen->surface.p);
+    const auto onward = seer.Scattered(*seen, LobeSet::NonSpecular);
+    if (!onward) continue;
+    if (const auto gathered = seer.Follow(*onward)) points.push_back(gathered->surface.p);
+  }
+  return points;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What gather rays read off a surface that reflects and transmits unlike parts, and from which
+// length on: photons of known density arrive on both sides of a pane.
+#include "integrators/photon/gather/gather_ray.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/log.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+constexpr double kPi64 = 3.14159265358979;
+constexpr double kReflected = .3, kTransmitted = .6;
+// Powers of photons above the pane and below. The irradiance on each side is the power times the
+// density of the lattice: around a lattice point, 49 points lie nearer than the 50th, which has a
+// squared distance of .17.
+constexpr double kAbove = 1, kBelow = 3;
+constexpr double kLattice = 49 / (.17 * kPi64) / 100;
+
+const char* const kPane =
+    "Material \"translucent\" \"color Kd\" [1 1 1] \"color Ks\" [0 0 0] \"color reflect\" [.3 .3 "
+    ".3] "
+    "\"color transmit\" [.6 .6 .6]\nShape \"disk\" \"float radius\" 5\n";
+
+class PaneTest : public testing::Test {
+ protected:
+  explicit PaneTest(const std::string& world = kPane)
+      : scene_(LoadSceneText("WorldBegin\nLightSource \"point\"\n" + world + "WorldEnd\n")),
+        samples_(SampleLayout()),
+        random_(1) {
+    settings_.maxDist = 1;
+    settings_.nUsed = 50;
+  }
+
+  // A lattice of 100 photons per unit of area; 100 paths.
+  void Fill(RadianceMode mode) {
+    settings_.radianceMode = mode;
+    PhotonPassResult result;
+    std::vector<RadiancePhotonSite> seeds;
+    for (int y = -30; y <= 30; ++y) {
+      for (int x = -30; x <= 30; ++x) {
+        const Point3 p{Real(x) / 10, Real(y) / 10, 0};
+        result[PhotonKind::Direct].Add({p, {0, 0, 1}, Spectrum(Real(kAbove))});
+        result[PhotonKind::Direct].Add({p, {0, 0, -1}, Spectrum(Real(kBelow))});
+        seeds.push_back({p, {0, 0, 1}, Spectrum(Real(kReflected)), Spectrum(Real(kTransmitted))});
+      }
+    }
+    for (PhotonBuffer& buffer : result.buffers) buffer.paths = 100;
+    PreprocessContext context{threads_, 1, log_, progress_, statistics_, false, nullptr, {}};
+    maps_ = PhotonMapSet(&result, settings_, 5, context);
+    radianceMap_ = std::make_unique<RadiancePhotonMap>(seeds, maps_, settings_, true, context);
+  }
+
+  struct Read {
+    double radiance;
+    double radius;  // of the radiance photon's estimate
+    std::int64_t radiancePhotonsRead;
+  };
+  Read ReadFrom(const Point3& o, const Vector3& d, const RadiancePhotonMap* radianceMap) {
+    AovSample aovs;
+    LiContext context{*scene_.setup->scene, samples_, arena_, rays_, 1, 1, &aovs};
+    const LightSampler lights(*scene_.setup->scene);
+    const GatherRay gather(maps_, radianceMap, settings_, lights, context, &random_);
+    Ray ray;
+    ray.o = o;
+    ray.d = d;
+    auto segment = gather.Trace(ray);
+    gather.Look({&segment, 1});
+    const double radiance = double(gather.Read(segment).g);
+    const double radius2 = segment.entry ? double(segment.entry->radius2) : 0;
+    return {radiance, std::sqrt(radius2), aovs.radiancePhotonsRead};
+  }
+
+  LoadedScene scene_;
+  CameraSamples samples_;
+  RandomStream random_;
+  ThreadPool threads_{1};
+  Log log_{Log::Level::Normal, Log::Sink::Memory};
+  ProgressReporter progress_{ProgressReporter::Mode::Quiet};
+  Statistics statistics_;
+  Arena arena_;
+  RayCounters rays_;
+  PhotonSettings settings_;
+  PhotonMapSet maps_;
+  std::unique_ptr<RadiancePhotonMap> radianceMap_;
+};
+
+TEST_F(PaneTest, SendsGatherRaysWhatItReflectsAndTransmitsOnEitherSide) {
+  const double towardsAbove = (kReflected * kAbove + kTransmitted * kBelow) / kPi64;
+  const double towardsBelow = (kReflected * kBelow + kTransmitted * kAbove) / kPi64;
+  for (const RadianceMode mode : {RadianceMode::Exitant, RadianceMode::Irradiance}) {
+    Fill(mode);
+    const Read above = ReadFrom({Real(.03), Real(.02), 2}, {0, 0, -1}, radianceMap_.get());
+    const Read below = ReadFrom({Real(.03), Real(.02), -2}, {0, 0, 1}, radianceMap_.get());
+    EXPECT_EQ(above.radiancePhotonsRead, 1);
+    EXPECT_EQ(below.radiancePhotonsRead, 1);
+    EXPECT_NEAR(above.radiance / (kLattice * towardsAbove), 1, 1e-4) << int(mode);
+    EXPECT_NEAR(below.radiance / (kLattice * towardsBelow), 1, 1e-4) << int(mode);
+  }
+}
+
+TEST_F(PaneTest, SendsGatherRaysTheSameByDensityEstimates) {
+  Fill(RadianceMode::Exitant);
+  const Read above = ReadFrom({Real(.03), Real(.02), 2}, {0, 0, -1}, nullptr);
+  const Read below = ReadFrom({Real(.03), Real(.02), -2}, {0, 0, 1}, nullptr);
+  EXPECT_EQ(above.radiancePhotonsRead, 0);
+  // Both sides share the 50 photons.
+  EXPECT_NEAR(above.radiance * kPi64, kReflected * kAbove + kTransmitted * kBelow, .2);
+  EXPECT_NEAR(below.radiance * kPi64, kReflected * kBelow + kTransmitted * kAbove, .2);
+}
+
+TEST_F(PaneTest, IsReadFromRadiancePhotonsOnlyBeyondShortRays) {
+  Fill(RadianceMode::Exitant);
+  const Real radius = Real(ReadFrom({0, 0, 2}, {0, 0, -1}, radianceMap_.get()).radius);
+  ASSERT_GT(radius, Real(.3));
+  for (const Real shortRays : {Real(.3), Real(.5), Real(2)}) {
+    settings_.shortRays = shortRays;
+    const Real limit = shortRays * radius;
+    const auto read = [&](Real length) {
+      return ReadFrom({0, 0, length}, {0, 0, -1}, radianceMap_.get()).radiancePhotonsRead;
+    };
+    EXPECT_EQ(read(Real(.95) * limit), 0) << shortRays;
+    EXPECT_EQ(read(Real(1.05) * limit), 1) << shortRays;
+  }
+}
+
+// A sheet of glass over a matte surface.
+class SheetTest : public PaneTest {
+ protected:
+  SheetTest()
+      : PaneTest(
+            "Shape \"disk\" \"float radius\" 5\nMaterial \"glass\" \"float index\" 1.5\n"
+            "Translate 0 0 1 ReverseOrientation Shape \"disk\" \"float radius\" 5\n"
+            "Translate 0 0 .5 ReverseOrientation Shape \"disk\" \"float radius\" 5\n") {}
+};
+
+// A gather ray follows one of reflection and refraction at each side of the sheet. Each side
+// reflects the part F = .04, so the sheet transmits (1 - F) / (1 + F), and the sheet with the
+// surface behind it is as bright as that.
+TEST_F(SheetTest, DimsGatherRaysByWhatItReflects) {
+  Fill(RadianceMode::Exitant);
+  const double bare = ReadFrom({0, 0, Real(.5)}, {0, 0, -1}, nullptr).radiance;
+  ASSERT_GT(bare, .1);
+  constexpr int kRays = 20000;
+  double sum = 0;
+  for (int i = 0; i < kRays; ++i) sum += ReadFrom({0, 0, 3}, {0, 0, -1}, nullptr).radiance;
+  EXPECT_NEAR(sum / kRays / bare, .96 / 1.04, .01);
+}
+
+}  // namespace
+}  // namespace exphoton
