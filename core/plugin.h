@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The header that a plugin's author includes: every interface, the parameter table and the
-// descriptor. docs/writing-a-plugin.md shows a whole plugin.
+// descriptor. docs/development/writing-a-plugin.md shows a whole plugin.
 #pragma once
 
 #include "core/base/error.h"

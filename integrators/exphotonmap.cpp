@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. Photons of
 // nearly constant weight, radiance precomputed at a sample of them, and a final gather that is
-// guided by their directions. docs/exphotonmap.md derives it; integrators/photon/ holds the
+// guided by their directions. docs/theory/exphotonmap.md derives it; integrators/photon/ holds the
 // machinery.
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"

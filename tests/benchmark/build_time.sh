@@ -2,7 +2,7 @@
 # Measures what the build costs, in a scratch folder without ccache: CPU seconds of a clean build of
 # the program (with "tests": of everything that ./dev test builds), the ten slowest files, and the
 # seconds until a change of one plugin, or of a core header that every plugin sees, is built.
-# Fails where a limit of docs/CONTRIBUTING.md is exceeded. Usage: build_time.sh SOURCES [tests]
+# Fails where a limit of docs/development/CONTRIBUTING.md is exceeded. Usage: build_time.sh SOURCES [tests]
 set -euo pipefail
 top=$1
 what=${2:-program}

@@ -5,7 +5,7 @@
 # Everything is measured in one run, in turn, and given as medians of ratios.
 # "aimed": photons of far lights that start towards what is seen, against photons everywhere.
 # "carried" counts instructions under callgrind instead: PROGRAM against MASKED, the program of a
-# build with -DEXPHOTON_EFFECTS=2 (indirect light is its only effect), see docs/effects.md.
+# build with -DEXPHOTON_EFFECTS=2 (indirect light is its only effect), see docs/guide/effects.md.
 set -euo pipefail
 program=$1
 what=${2:-all}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The catalogue of hard cases as data: what the files in cases/ say. Their language is described in
-// docs/robustness.md; this reads it and knows nothing of how a case is judged.
+// docs/development/robustness.md; this reads it and knows nothing of how a case is judged.
 #pragma once
 
 #include <map>

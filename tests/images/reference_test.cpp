@@ -42,7 +42,7 @@ std::vector<ParameterOverride> Photons(const char* indirect, const char* gather,
 const std::vector<ParameterOverride> kDeep = {{"SurfaceIntegrator", "maxdepth", "200"}};
 
 // Path tracing has no bias; what its tolerances exceed 1 % by is noise, of caustics above all.
-// Photon maps have (docs/exphotonmap.md, section 6): it is largest in blocks full of contact
+// Photon maps have (docs/theory/exphotonmap.md, section 6): it is largest in blocks full of contact
 // shadows, +4 % under the skylight room's chair, and falls slowly with the photons.
 const PictureCase kCases[] = {
     {"skylight-room", "emitters", 16, kDeep, {.01, .05, 4}},

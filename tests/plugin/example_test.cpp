@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The example of docs/writing-a-plugin.md: built outside of the program's own folder of plugins,
+// The example of docs/development/writing-a-plugin.md: built outside of the program's own folder of plugins,
 // found through PBRT_SEARCHPATH, and quoted as it is.
 #include <gtest/gtest.h>
 
@@ -18,11 +18,11 @@ std::string ReadText(const std::string& path) {
 }
 
 TEST(ExamplePlugin, IsQuotedInTheDocumentationAsItIs) {
-  const std::string page = ReadText(EXPHOTON_SOURCE_DIR "/docs/writing-a-plugin.md");
+  const std::string page = ReadText(EXPHOTON_SOURCE_DIR "/docs/development/writing-a-plugin.md");
   const std::string code = ReadText(EXPHOTON_SOURCE_DIR "/tests/plugin/example/openness.cpp");
   ASSERT_FALSE(code.empty());
   EXPECT_NE(page.find("```cpp\n" + code + "```\n"), std::string::npos)
-      << "docs/writing-a-plugin.md does not quote tests/plugin/example/openness.cpp";
+      << "docs/development/writing-a-plugin.md does not quote tests/plugin/example/openness.cpp";
 }
 
 #ifndef EXPHOTON_STATIC_PLUGINS

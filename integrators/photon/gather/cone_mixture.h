@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ConeMixture: directions round those of nearby photons: pick one of m axes uniformly, then a
-// direction uniform in the cone about it (docs/exphotonmap.md, eq. 15). Sampling and density share
+// direction uniform in the cone about it (docs/theory/exphotonmap.md, eq. 15). Sampling and density share
 // one idea of what a cone holds.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // FinalGather: indirect light at a point by rays over its hemisphere, some drawn by the BSDF, some
 // round the directions of nearby photons, combined with the power heuristic (Veach 1997,
-// section 9.2; docs/exphotonmap.md, eq. 16 and 17). What a ray brings is another's affair.
+// section 9.2; docs/theory/exphotonmap.md, eq. 16 and 17). What a ray brings is another's affair.
 #pragma once
 
 #include <vector>

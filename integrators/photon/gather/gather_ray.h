@@ -3,7 +3,7 @@
 // radiance photon, or take the density estimates of the three maps where none is valid. Glossy
 // lobes are sampled: light samples, and one ray that reads the radiance at its end. Specular lobes
 // are followed. Emission at a hit counts only after a glossy bounce; everywhere else direct
-// lighting or the caustic map holds that light (docs/exphotonmap.md, section 4).
+// lighting or the caustic map holds that light (docs/theory/exphotonmap.md, section 4).
 #pragma once
 
 #include "core/transport/light_sampler.h"

@@ -2,7 +2,7 @@
 // PhotonGuide: the directions that some of a gather's rays keep close to: of the photons nearest to
 // a point, those that come from where more light comes from than rays by the BSDF would look for.
 // Camera samples of a pixel mostly see points so close together that one search serves them all; a
-// gather is unbiased whatever guides it (docs/exphotonmap.md, section 5).
+// gather is unbiased whatever guides it (docs/theory/exphotonmap.md, section 5).
 #pragma once
 
 #include "core/transport/integrator.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // KernelDisk: the weight per area of a photon at squared distance d2 from the centre of a disk of
-// squared radius r2. Each kernel integrates to 1 over the disk (docs/exphotonmap.md, eq. 10).
+// squared radius r2. Each kernel integrates to 1 over the disk (docs/theory/exphotonmap.md, eq. 10).
 // Simpson's is 3 / (pi r^2) (1 - (d/r)^2)^2 (Silverman 1986, "biweight").
 #pragma once
 

@@ -41,7 +41,7 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   nearest.n = query.n;
   nearest.k = std::uint32_t(std::min<std::size_t>(std::size_t(query.k), Size() + 1));
   nearest.maxRadius2 = maxRadius2;
-  nearest.isFlattened = true;  // docs/exphotonmap.md, eq. 11
+  nearest.isFlattened = true;  // docs/theory/exphotonmap.md, eq. 11
   nearest.steepness = 1 / kFlatness;
   nearest.isOneSided = query.isOneSided;
   const NearBuffer buffer = BufferFor(nearest.k, arena);

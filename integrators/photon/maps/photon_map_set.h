@@ -25,7 +25,7 @@ class PhotonMapSet {
   Real MaxDistance(PhotonKind kind) const { return radii_[std::size_t(kind)]; }
 
   // Radiance leaving the point towards wo by `lobes`, all non-specular, of one map's photons:
-  // 1/N sum K f alpha (docs/exphotonmap.md, eq. 12), with the shading normal's correction, since
+  // 1/N sum K f alpha (docs/theory/exphotonmap.md, eq. 12), with the shading normal's correction, since
   // photons measure power per geometric area.
   Spectrum Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
                     LobeSet lobes = LobeSet::NonSpecular) const;

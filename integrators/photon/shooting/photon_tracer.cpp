@@ -129,7 +129,7 @@ class PhotonTracer::Path {
     if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
       tracer_.aim_.Redirect(&*emission, uPosition);
     *ray = RayDifferential(emission->ray);
-    // docs/exphotonmap.md, eq. 3
+    // docs/theory/exphotonmap.md, eq. 3
     return Begin(emission->power / (choice.probability * (1 - tracer_.mediaShare_)));
   }
   bool EmitFromMedia(Real uBox, const Point3& uPoint, Point2 uDirection, RayDifferential* ray) {

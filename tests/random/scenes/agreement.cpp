@@ -10,7 +10,7 @@
 // - rough matte surfaces: radiance photons take Lambert's law;
 // - lamps that shine into their own body, and pictures that are far darker than the lamps: next to
 //   no light should come out of a closed body, but photons leak through its edges.
-// These are the biases of docs/exphotonmap.md, section 6, that have no bound. What is left, the
+// These are the biases of docs/theory/exphotonmap.md, section 6, that have no bound. What is left, the
 // blur of photon maps, is allowed for by the margins below, and where it exceeds them because it
 // falls when there are more photons (run.h).
 //
