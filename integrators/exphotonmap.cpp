@@ -1,66 +1,35 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. Photons of
-// nearly constant weight, radiance precomputed at a sample of them, and a final gather that is
-// guided by their directions. docs/theory/exphotonmap.md derives it; integrators/photon/ holds the
-// machinery.
+// exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. It is photonmap
+// with five improvements switched on: photons of nearly constant weight, precomputed radiance, a
+// final gather that is guided by photons, a smooth kernel, and lights chosen by power.
+// docs/theory/exphotonmap.md derives it; integrators/photon/photon_integrator.h is the algorithm.
 #include "core/plugin.h"
-#include "core/transport/direct_lighting.h"
-#include "core/transport/specular_tree.h"
-#include "integrators/photon/photon_lighting.h"
+#include "integrators/photon/photon_integrator.h"
 
 namespace exphoton {
 namespace {
 
-const ParamTable<ExtendedPhotonSettings>& Parameters() {
-  static const ParamTable<ExtendedPhotonSettings> table{PhotonParameters()};
+struct Settings : PhotonSettings {
+  Settings() {
+    // The five improvements; each is a parameter of photonmap too.
+    photonRoulette = PhotonRoulette::Luminance;
+    radiancePhotons = true;
+    gatherSampling = GatherSampling::Photons;
+    kernel = DensityKernel::Simpson;
+    lightSelection = LightSelection::Power;
+    // Other defaults
+    rrThreshold = Real(.05);
+    photonAim = PhotonAiming::Auto;
+  }
+};
+
+const ParamTable<Settings>& Parameters() {
+  static const ParamTable<Settings> table{PhotonParameters()};
   return table;
 }
 
-class ExPhotonIntegrator final : public SurfaceIntegrator {
- public:
-  explicit ExPhotonIntegrator(const ExtendedPhotonSettings& settings)
-      : settings_(settings), direct_(settings.directLights), photons_(settings, false) {}
-
-  void Preprocess(const Scene& scene, PreprocessContext& context) override {
-    photons_.Preprocess(scene, context);
-  }
-
-  void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
-    direct_.RequestSamples(scene, sampler, layout);
-    photons_.RequestSamples(scene, layout);
-  }
-
-  std::vector<std::string> Explain(const Scene& scene) const override {
-    return photons_.Explain(scene);
-  }
-
-  AovSet Aovs() const override { return photons_.Aovs(); }
-
-  std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
-                                        int count) const override {
-    return photons_.PhotonsNear(p, map, count);
-  }
-
-  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
-    return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-      if (settings_.show != ShowMap::Nothing)
-        return photons_.Shown(point, context).Collect(point, context);
-      photons_.Describe(point, context);
-      return SurfaceLight{point.Le(), direct_.AllLights(point, context),
-                          photons_.Caustic(point, context), photons_.Indirect(point, context)}
-          .Collect(point, context);
-    });
-  }
-
- private:
-  ExtendedPhotonSettings settings_;
-  DirectLighting direct_;
-  PhotonLighting photons_;
-};
-
-std::unique_ptr<SurfaceIntegrator> Create(const ExtendedPhotonSettings& settings,
-                                          const IntegratorContext&) {
-  return std::make_unique<ExPhotonIntegrator>(settings);
+std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {
+  return std::make_unique<PhotonIntegrator>(settings);
 }
 
 }  // namespace

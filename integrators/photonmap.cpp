@@ -1,76 +1,22 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// photonmap: photon mapping with final gathering as Jensen 2001 describes it: the plain algorithm
-// that exphotonmap is measured against, on the same machinery. Each of exphotonmap's improvements
-// can be switched on here too.
+// photonmap: photon mapping with final gathering (Jensen 2001), the plain algorithm that
+// exphotonmap is compared with. Both share integrators/photon/photon_integrator.h; each of
+// exphotonmap's improvements is a parameter here.
 #include "core/plugin.h"
-#include "core/transport/direct_lighting.h"
-#include "core/transport/specular_tree.h"
-#include "integrators/photon/photon_lighting.h"
+#include "integrators/photon/photon_integrator.h"
 
 namespace exphoton {
 namespace {
 
-struct Settings : PhotonSettings {
-  bool directWithPhotons = false;
-};
-
-const ParamTable<Settings>& Parameters() {
-  static const ParamTable<Settings> table{
-      PhotonParameters(), Param("directwithphotons", &Settings::directWithPhotons,
+const ParamTable<PhotonSettings>& Parameters() {
+  static const ParamTable<PhotonSettings> table{
+      PhotonParameters(), Param("directwithphotons", &PhotonSettings::directWithPhotons,
                                 "direct light from the direct photon map instead of shadow rays")};
   return table;
 }
 
-class PhotonIntegrator final : public SurfaceIntegrator {
- public:
-  explicit PhotonIntegrator(const Settings& settings)
-      : settings_(settings),
-        direct_(settings.directLights),
-        photons_(settings, settings.directWithPhotons) {}
-
-  void Preprocess(const Scene& scene, PreprocessContext& context) override {
-    photons_.Preprocess(scene, context);
-  }
-
-  void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
-    if (!settings_.directWithPhotons) direct_.RequestSamples(scene, sampler, layout);
-    photons_.RequestSamples(scene, layout);
-  }
-
-  std::vector<std::string> Explain(const Scene& scene) const override {
-    return photons_.Explain(scene);
-  }
-
-  AovSet Aovs() const override { return photons_.Aovs(); }
-
-  std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
-                                        int count) const override {
-    return photons_.PhotonsNear(p, map, count);
-  }
-
-  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
-    return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-      if (settings_.show != ShowMap::Nothing)
-        return photons_.Shown(point, context).Collect(point, context);
-      photons_.Describe(point, context);
-      return SurfaceLight{point.Le(), Direct(point, context), photons_.Caustic(point, context),
-                          photons_.Indirect(point, context)}
-          .Collect(point, context);
-    });
-  }
-
- private:
-  Spectrum Direct(const ShadingPoint& point, LiContext& context) const {
-    return settings_.directWithPhotons ? photons_.Direct(point, context)
-                                       : direct_.AllLights(point, context);
-  }
-
-  Settings settings_;
-  DirectLighting direct_;
-  PhotonLighting photons_;
-};
-
-std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {
+std::unique_ptr<SurfaceIntegrator> Create(const PhotonSettings& settings,
+                                          const IntegratorContext&) {
   return std::make_unique<PhotonIntegrator>(settings);
 }
 

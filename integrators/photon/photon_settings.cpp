@@ -4,16 +4,6 @@
 
 namespace exphoton {
 
-ExtendedPhotonSettings::ExtendedPhotonSettings() {
-  lightSelection = LightSelection::Power;
-  photonRoulette = PhotonRoulette::Luminance;
-  radiancePhotons = true;
-  gatherSampling = GatherSampling::Photons;
-  kernel = DensityKernel::Simpson;
-  rrThreshold = Real(.05);
-  photonAim = PhotonAiming::Auto;
-}
-
 const ParamTable<PhotonSettings>& PhotonParameters() {
   using S = PhotonSettings;
   static const ParamTable<S> table{
@@ -28,8 +18,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("nused", &S::nUsed, "photons used in a density estimate").Range(2, 100000),
       Param(
           "directlights", &S::directLights,
-          "lights of which each is sampled; where there are more, so many samples of lights chosen "
-          "by power and distance")
+          "lights of a scene that are all sampled at each point; where there are more, this number "
+          "of lights is chosen by power and distance")
           .Range(1, 1 << 20),
       Param("maxdepth", &S::maxDepth, "specular bounces followed from the camera").Range(0, 1000),
       Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),
@@ -68,10 +58,6 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("radiancefraction", &S::radianceFraction,
             "share of the stored photons at which radiance is computed")
           .Range(0, 1),
-      Param("radiancemode", &S::radianceMode,
-            "what a radiance photon stores: exitant radiance, or irradiance that is multiplied by "
-            "the reflectance at the hit")
-          .OneOf({{"exitant", RadianceMode::Exitant}, {"irradiance", RadianceMode::Irradiance}}),
       Param("radiancereach", &S::radianceReach,
             "a radiance photon serves hits within this many radii of its own estimate")
           .Range(0, 1000),
@@ -81,9 +67,6 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("shortrays", &S::shortRays,
             "gather rays shorter than this many radii do not read a radiance photon; 0: all do")
           .Range(0, 1000),
-      Param("shortgather", &S::shortGather,
-            "what short gather rays read: the density estimate at the hit, or one more bounce")
-          .OneOf({{"estimate", ShortGather::Estimate}, {"gather", ShortGather::Gather}}),
       Param("maxphotondepth", &S::maxPhotonDepth, "bounces after which a photon path is cut")
           .Range(1, 1 << 20),
       Param("maxphotonpaths", &S::maxPhotonPaths, "paths after which a map stays as it is")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PhotonSettings: the parameters that photonmap and exphotonmap share, declared once. The defaults
-// here are the plain algorithm's; ExtendedPhotonSettings turns the five improvements on.
+// are those of photonmap; exphotonmap.cpp switches its improvements on.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,6 @@ enum class PhotonRoulette {
 };
 enum class GatherSampling { Photons, Bsdf };
 enum class DensityKernel { Constant, Simpson };
-enum class RadianceMode { Exitant, Irradiance };
-enum class ShortGather { Estimate, Gather };  // what a short gather ray reads
 enum class PhotonAiming {
   Auto,  // where it makes photons many times denser on what is seen
   On,
@@ -48,23 +46,17 @@ struct PhotonSettings {
   DensityKernel kernel = DensityKernel::Constant;
 
   Real radianceFraction = Real(.125);
-  RadianceMode radianceMode = RadianceMode::Exitant;
   Real radianceReach = 1;
   Real radianceNormal = Real(.7);
   Real shortRays = Real(.3);
-  ShortGather shortGather = ShortGather::Estimate;
   int maxPhotonDepth = 1024;
   std::int64_t maxPhotonPaths = std::int64_t(1) << 24;
   PhotonAiming photonAim = PhotonAiming::Off;
   ShowMap show = ShowMap::Nothing;
+  bool directWithPhotons = false;  // direct light from the direct map; a parameter of photonmap
 
   std::int64_t CausticPhotons() const { return causticPhotons.value_or(20000); }
   std::int64_t DirectPhotons() const { return directPhotons.value_or(indirectPhotons); }
-};
-
-// The same with the five improvements on: exphotonmap's defaults.
-struct ExtendedPhotonSettings : PhotonSettings {
-  ExtendedPhotonSettings();
 };
 
 const ParamTable<PhotonSettings>& PhotonParameters();

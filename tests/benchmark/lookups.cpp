@@ -135,7 +135,8 @@ struct RadianceArrangement {
     ProgressReporter progress(ProgressReporter::Mode::Quiet);
     Statistics statistics;
     PreprocessContext context{threads, 0, log, progress, statistics, false, nullptr, Point2i()};
-    ExtendedPhotonSettings settings;
+    PhotonSettings settings;
+    settings.kernel = DensityKernel::Simpson;
     settings.radianceReach = 1000;
     settings.radianceNormal = 0;
     settings.nUsed = 2;  // what an entry says is not looked at

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/math/sampling/mis.h"
-#include "core/transport/direct_lighting.h"
 #include "core/transport/light_sample.h"
 #include "core/transport/volume_integrator.h"
 #include "integrators/photon/maps/rest_pose.h"
@@ -78,8 +77,8 @@ void GatherRay::Look(std::span<Segment> segments) const {
   look();
 }
 
-Spectrum GatherRay::Along(const Segment& segment, int shortBounces) const {
-  Walk walk(segment, shortBounces);
+Spectrum GatherRay::Along(const Segment& segment) const {
+  Walk walk(segment);
   // Most segments end the walk, in a scene where nothing lies on the way.
   if (!context_.scene.HasMedia() && !Any(LobesToFollow(segment)))
     return segment.hit && segment.hit->material ? FromMaps(&walk) : Spectrum();
@@ -98,7 +97,7 @@ Spectrum GatherRay::Along(const Segment& segment, int shortBounces) const {
 
 bool GatherRay::GoOn(Walk* walk) const {
   const LobeSet lobes = LobesToFollow(walk->segment);
-  if (!Any(lobes) || walk->isComplete) return false;
+  if (!Any(lobes)) return false;
   if (!Intersects(lobes, LobeSet::Glossy)) return Bounce(LobeSet::Specular, walk);
   // Russian roulette before the BSDF is made, which takes as long as tracing a ray: at first by the
   // glossy share of the surface, later also by the throughput.
@@ -207,59 +206,14 @@ Spectrum GatherRay::FromMaps(Walk* walk) const {
         context_.aovs->radianceDistance += double(std::sqrt(entry->distance2));
         ++context_.aovs->radiancePhotonsRead;
       }
-      const Spectrum value = entry->Value(AbsDot(hit.point.ng, segment.ray.d));
-      if (settings_.radianceMode == RadianceMode::Exitant) return value;
-      return Reflected(segment, value);
+      return entry->Value(AbsDot(hit.point.ng, segment.ray.d));
     }
   }
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = Shade(segment);
-  walk->isComplete = isShort && settings_.shortGather == ShortGather::Gather &&
-                     walk->shortBounces < kMaxShortBounces;
-  const Spectrum radiance = walk->isComplete ? OneMoreBounce(point, walk->shortBounces)
-                                             : maps_.Radiance(point, &context_.arena, mappedLobes_);
+  const Spectrum radiance = maps_.Radiance(point, &context_.arena, mappedLobes_);
   context_.arena.Rewind(mark);
   return radiance;
-}
-
-Spectrum GatherRay::Reflected(const Segment& segment, const Spectrum& front) const {
-  const Arena::Mark mark = context_.arena.GetMark();
-  const ShadingPoint point = Shade(segment);
-  Spectrum radiance = point.bsdf.Rho(LobeSet::DiffuseReflection) * front * kInvPi;
-  const Spectrum transmittance = context_.scene.Features().Needs(Feature::Transmission)
-                                     ? point.bsdf.Rho(LobeSet::DiffuseTransmission)
-                                     : Spectrum();
-  if (!transmittance.IsBlack()) {
-    const SurfacePoint& hit = segment.hit->point;
-    const RestPose rest = PoseOf(*segment.hit);
-    const Point3 p = rest.Point(hit.p);
-    const Normal3 back = rest.Normal(-FaceForward(hit.ng, -segment.ray.d));
-    const auto entry = radianceMap_->Find({p, back});
-    const Spectrum e =
-        entry ? entry->packed.Radiance() : maps_.EstimateIrradiance(p, back, &context_.arena).e;
-    radiance += transmittance * e * kInvPi;
-  }
-  context_.arena.Rewind(mark);
-  return radiance;
-}
-
-Spectrum GatherRay::OneMoreBounce(const ShadingPoint& point, int shortBounces) const {
-  Spectrum sum = maps_.Radiance(PhotonKind::Caustic, point, &context_.arena);
-  if (!lights_.IsEmpty()) {
-    const auto choice = lights_.Sample(point.surface.p, random_->Uniform());
-    DirectLightingVariates sample;
-    sample.light = {random_->Uniform(), random_->Uniform()};
-    sample.lightPart = random_->Uniform();
-    sample.bsdf = {random_->Uniform(), random_->Uniform()};
-    sample.bsdfLobe = random_->Uniform();
-    sum += EstimateDirect(point, *choice.light, sample, context_) / choice.probability;
-  }
-  const Point2 u{random_->Uniform(), random_->Uniform()};
-  if (const auto bounce =
-          point.bsdf.Sample(point.Wo(), u, random_->Uniform(), LobeSet::NonSpecular))
-    sum += bounce->throughput *
-           Along(TraceAndLook(SpawnRay(point.surface, bounce->wi)), shortBounces + 1);
-  return sum;
 }
 
 }  // namespace exphoton

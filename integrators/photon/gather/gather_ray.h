@@ -33,13 +33,12 @@ class GatherRay {
   // Finds the radiance photons that are valid for the hits.
   void Look(std::span<Segment> segments) const;
   // Radiance arriving along the ray, by the light that maps hold; after Look.
-  Spectrum Read(const Segment& segment) const { return Along(segment, 0); }
+  Spectrum Read(const Segment& segment) const { return Along(segment); }
 
  private:
   // A gather ray on its way from lobe to lobe.
   struct Walk {
     Segment segment;
-    int shortBounces = 0;
     Spectrum throughput{1};
     Spectrum radiance;  // found so far
     int specularBounces = 0, glossyBounces = 0;
@@ -47,15 +46,10 @@ class GatherRay {
     // 0: the segment begins otherwise.
     SurfacePoint from;
     Real glossyPdf = 0;
-    bool isComplete = false;  // every lobe of the segment's end has been accounted for
 
-    Walk(const Segment& first, int shortBouncesBefore)
-        : segment(first), shortBounces(shortBouncesBefore) {}
+    explicit Walk(const Segment& first) : segment(first) {}
     void Add(const Spectrum& found) { radiance += throughput * found; }
   };
-
-  // How often short rays may be followed by one more bounce.
-  static constexpr int kMaxShortBounces = 3;
 
   Segment TraceAndLook(const Ray& ray) const {
     Segment segment = Trace(ray);
@@ -67,7 +61,7 @@ class GatherRay {
     if (!segment.hit || !segment.hit->material) return LobeSet::None;
     return segment.hit->material->PossibleLobes() & followedLobes_;
   }
-  Spectrum Along(const Segment& segment, int shortBounces) const;
+  Spectrum Along(const Segment& segment) const;
   // Replaces the segment by the next one; false where the walk ends.
   bool GoOn(Walk* walk) const;
   // By one of these lobes at the end of the walk's segment.
@@ -83,10 +77,6 @@ class GatherRay {
   Spectrum Emission(const Walk& walk) const;
   // The whole record of a hit, with its BSDF in the context's arena.
   ShadingPoint Shade(const Segment& segment) const;
-  // Irradiance mode: what the hit makes of the irradiance on its two sides.
-  Spectrum Reflected(const Segment& segment, const Spectrum& front) const;
-  // One more bounce instead of a blurred estimate: direct light, caustics, one gather ray.
-  Spectrum OneMoreBounce(const ShadingPoint& point, int shortBounces) const;
 
   const PhotonMapSet& maps_;
   const RadiancePhotonMap* radianceMap_;

@@ -17,29 +17,23 @@ int CountEntries(const RadiancePhotonSite& site, bool needsTransmission) {
 }
 
 // Writes as many as `entries` has place for. reach2 is the squared radius of the estimate yet.
-void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, RadianceMode mode,
-                    Arena* arena, std::span<RadianceRecord> entries) {
+void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Arena* arena,
+                    std::span<RadianceRecord> entries) {
   if (entries.empty()) return;
   const auto entry = [&](const Normal3& n, Real radius, const Spectrum& value) {
     return RadianceRecord{site.p, EncodeOctahedral(n), Square(radius),
                           PackedRadiance(value, site.glossyShare, site.isCoated)};
   };
-  const bool isExitant = mode == RadianceMode::Exitant;
   const Spectrum rho = site.reflectance * kInvPi, tau = site.transmittance * kInvPi;
   const auto front = maps.EstimateIrradiance(site.p, site.n, arena, site.isCoated);
   if (entries.size() == 1) {
-    entries[0] = entry(site.n, front.radius, isExitant ? rho * front.e : front.e);
+    entries[0] = entry(site.n, front.radius, rho * front.e);
     return;
   }
   const auto back = maps.EstimateIrradiance(site.p, -site.n, arena, site.isCoated);
-  if (isExitant) {
-    const Real radius = std::max(front.radius, back.radius);
-    entries[0] = entry(site.n, radius, rho * front.e + tau * back.e);
-    entries[1] = entry(-site.n, radius, rho * back.e + tau * front.e);
-  } else {
-    entries[0] = entry(site.n, front.radius, front.e);
-    entries[1] = entry(-site.n, back.radius, back.e);
-  }
+  const Real radius = std::max(front.radius, back.radius);
+  entries[0] = entry(site.n, radius, rho * front.e + tau * back.e);
+  entries[1] = entry(-site.n, radius, rho * back.e + tau * front.e);
 }
 
 }  // namespace
@@ -70,7 +64,7 @@ RadiancePhotonMap::RadiancePhotonMap(std::span<RadiancePhotonSite> sites, const 
     for (const RadiancePhotonSite& site : sitesOf(std::size_t(chunk))) {
       const auto count = std::size_t(CountEntries(site, needsTransmission));
       const auto computed = entries.Records().subspan(at, count);
-      ComputeEntries(site, maps, settings.radianceMode, &arenas[std::size_t(worker)], computed);
+      ComputeEntries(site, maps, &arenas[std::size_t(worker)], computed);
       for (RadianceRecord& entry : computed) entry.reach2 *= Square(reach_);
       at += count;
     }

@@ -54,10 +54,10 @@ class RadiancePhotonMap {
       PointTree<RadianceBlock>::kBytesPerPoint + double(kGridCellsPerEntry * sizeof(std::uint32_t));
 
   RadiancePhotonMap() = default;  // empty: finds nothing
-  // Computes all entries in parallel (docs/theory/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n) + rho_t
-  // / pi E(p, -n), of the diffuse lobes, and for the other side too where something is transmitted.
-  // Without needsTransmission (Feature::Transmission) rho_t counts as 0. Sites are put into another
-  // order.
+  // Computes all entries in parallel (docs/theory/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n)
+  // + rho_t / pi E(p, -n), of the diffuse lobes, and for the other side too where something is
+  // transmitted. Without needsTransmission (Feature::Transmission) rho_t counts as 0. Sites are put
+  // into another order.
   RadiancePhotonMap(std::span<RadiancePhotonSite> sites, const PhotonMapSet& maps,
                     const PhotonSettings& settings, bool needsTransmission,
                     PreprocessContext& context);

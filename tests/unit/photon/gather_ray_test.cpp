@@ -37,22 +37,21 @@ class PaneTest : public testing::Test {
   }
 
   // A lattice of 100 photons per unit of area; 100 paths.
-  void Fill(RadianceMode mode) {
-    settings_.radianceMode = mode;
+  void Fill() {
     PhotonPassResult result;
-    std::vector<RadiancePhotonSite> seeds;
+    std::vector<RadiancePhotonSite> sites;
     for (int y = -30; y <= 30; ++y) {
       for (int x = -30; x <= 30; ++x) {
         const Point3 p{Real(x) / 10, Real(y) / 10, 0};
         result[PhotonKind::Direct].Add({p, {0, 0, 1}, Spectrum(Real(kAbove))});
         result[PhotonKind::Direct].Add({p, {0, 0, -1}, Spectrum(Real(kBelow))});
-        seeds.push_back({p, {0, 0, 1}, Spectrum(Real(kReflected)), Spectrum(Real(kTransmitted))});
+        sites.push_back({p, {0, 0, 1}, Spectrum(Real(kReflected)), Spectrum(Real(kTransmitted))});
       }
     }
     for (PhotonBuffer& buffer : result.buffers) buffer.paths = 100;
     PreprocessContext context{threads_, 1, log_, progress_, statistics_, false, nullptr, {}};
     maps_ = PhotonMapSet(&result, settings_, 5, context);
-    radianceMap_ = std::make_unique<RadiancePhotonMap>(seeds, maps_, settings_, true, context);
+    radianceMap_ = std::make_unique<RadiancePhotonMap>(sites, maps_, settings_, true, context);
   }
 
   struct Read {
@@ -92,19 +91,17 @@ class PaneTest : public testing::Test {
 TEST_F(PaneTest, SendsGatherRaysWhatItReflectsAndTransmitsOnEitherSide) {
   const double towardsAbove = (kReflected * kAbove + kTransmitted * kBelow) / kPi64;
   const double towardsBelow = (kReflected * kBelow + kTransmitted * kAbove) / kPi64;
-  for (const RadianceMode mode : {RadianceMode::Exitant, RadianceMode::Irradiance}) {
-    Fill(mode);
-    const Read above = ReadFrom({Real(.03), Real(.02), 2}, {0, 0, -1}, radianceMap_.get());
-    const Read below = ReadFrom({Real(.03), Real(.02), -2}, {0, 0, 1}, radianceMap_.get());
-    EXPECT_EQ(above.radiancePhotonsRead, 1);
-    EXPECT_EQ(below.radiancePhotonsRead, 1);
-    EXPECT_NEAR(above.radiance / (kLattice * towardsAbove), 1, 1e-4) << int(mode);
-    EXPECT_NEAR(below.radiance / (kLattice * towardsBelow), 1, 1e-4) << int(mode);
-  }
+  Fill();
+  const Read above = ReadFrom({Real(.03), Real(.02), 2}, {0, 0, -1}, radianceMap_.get());
+  const Read below = ReadFrom({Real(.03), Real(.02), -2}, {0, 0, 1}, radianceMap_.get());
+  EXPECT_EQ(above.radiancePhotonsRead, 1);
+  EXPECT_EQ(below.radiancePhotonsRead, 1);
+  EXPECT_NEAR(above.radiance / (kLattice * towardsAbove), 1, 1e-4);
+  EXPECT_NEAR(below.radiance / (kLattice * towardsBelow), 1, 1e-4);
 }
 
 TEST_F(PaneTest, SendsGatherRaysTheSameByDensityEstimates) {
-  Fill(RadianceMode::Exitant);
+  Fill();
   const Read above = ReadFrom({Real(.03), Real(.02), 2}, {0, 0, -1}, nullptr);
   const Read below = ReadFrom({Real(.03), Real(.02), -2}, {0, 0, 1}, nullptr);
   EXPECT_EQ(above.radiancePhotonsRead, 0);
@@ -114,7 +111,7 @@ TEST_F(PaneTest, SendsGatherRaysTheSameByDensityEstimates) {
 }
 
 TEST_F(PaneTest, IsReadFromRadiancePhotonsOnlyBeyondShortRays) {
-  Fill(RadianceMode::Exitant);
+  Fill();
   const Real radius = Real(ReadFrom({0, 0, 2}, {0, 0, -1}, radianceMap_.get()).radius);
   ASSERT_GT(radius, Real(.3));
   for (const Real shortRays : {Real(.3), Real(.5), Real(2)}) {
@@ -142,7 +139,7 @@ class SheetTest : public PaneTest {
 // reflects the part F = .04, so the sheet transmits (1 - F) / (1 + F), and the sheet with the
 // surface behind it is as bright as that.
 TEST_F(SheetTest, DimsGatherRaysByWhatItReflects) {
-  Fill(RadianceMode::Exitant);
+  Fill();
   const double bare = ReadFrom({0, 0, Real(.5)}, {0, 0, -1}, nullptr).radiance;
   ASSERT_GT(bare, .1);
   constexpr int kRays = 20000;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Deciding how many photons each map wants.
+#include "integrators/photon/photon_budget.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "integrators/photon/maps/photon_map.h"
+#include "integrators/photon/maps/radiance_photon_map.h"
+
+namespace exphoton {
+namespace {
+
+bool HasReceiver(const Scene& scene) {
+  const auto& materials = scene.Materials();
+  return std::any_of(materials.begin(), materials.end(), [](const auto& material) {
+    return Intersects(material->PossibleLobes(), LobeSet::NonSpecular);
+  });
+}
+
+std::string GatherText(const PhotonSettings& settings, const Scene& scene,
+                       const PhotonTargets& targets) {
+  if (!GathersIndirectLight(settings, scene)) return "off";
+  const std::string rays = std::to_string(settings.finalGatherSamples) + " rays, ";
+  if (settings.gatherSampling == GatherSampling::Bsdf) return rays + "BSDF only";
+  if (targets[PhotonKind::Indirect] == 0) return rays + "BSDF only (0 indirect photons)";
+  return rays + "up to half of them round photons' directions";
+}
+
+}  // namespace
+
+bool GathersIndirectLight(const PhotonSettings& settings, const Scene& scene) {
+  return settings.finalGather && settings.show == ShowMap::Nothing &&
+         scene.Features().Needs(Feature::Indirect);
+}
+
+PhotonTargets ChooseTargets(const PhotonSettings& settings, const Scene& scene) {
+  const ShowMap show = settings.show;
+  const bool showsAll = show == ShowMap::Nothing || show == ShowMap::Radiance;
+  const bool gathers = GathersIndirectLight(settings, scene),
+             showsRadiance = show == ShowMap::Radiance;
+  const bool hasIndirect = scene.Features().Needs(Feature::Indirect);
+  const bool hasLight = scene.ShiningLights() > 0;  // media fill the indirect map alone
+  PhotonTargets targets;
+  const bool hasCaustics = hasLight && scene.Features().Needs(Feature::Caustics) &&
+                           scene.Features().Needs(Feature::Specular);
+  if (hasCaustics && (showsAll || show == ShowMap::Caustic))
+    targets[PhotonKind::Caustic] = settings.CausticPhotons();
+  if (hasIndirect && (showsAll || show == ShowMap::Indirect))
+    targets[PhotonKind::Indirect] = settings.indirectPhotons;
+  if (hasLight && ((hasIndirect && (gathers || showsRadiance)) ||
+                   (HasReceiver(scene) &&
+                    ((settings.directWithPhotons && showsAll) || show == ShowMap::Direct))))
+    targets[PhotonKind::Direct] = settings.DirectPhotons();
+  if (showsRadiance || (gathers && settings.radiancePhotons))
+    targets.radianceFraction = settings.radianceFraction;
+  return targets;
+}
+
+std::string TextOf(const PhotonTargets& targets) {
+  std::string text;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    if (targets[kind] == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(targets[kind]) + " " + PhotonKindName(kind);
+  }
+  return text;
+}
+
+double BytesOf(const PhotonTargets& targets) {
+  double photons = 0;
+  for (const auto count : targets.counts) photons += double(count);
+  return photons * (double(PhotonMap::kBytesPerPhoton) +
+                    double(targets.radianceFraction) * double(RadiancePhotonMap::kBytesPerEntry));
+}
+
+[[noreturn]] void FailByMemory(const PhotonTargets& targets) {
+  throw Error(ExitStatus::Resource, "photon maps of " + TextOf(targets) + " photons take " +
+                                        Megabytes(BytesOf(targets)) +
+                                        ", and more while they are built; " + MemoryLimit());
+}
+
+std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Scene& scene) {
+  const PhotonTargets targets = ChooseTargets(settings, scene);
+  const std::string photons = TextOf(targets);
+  const auto mebibytes = std::to_string(std::int64_t(BytesOf(targets) / (1 << 20)) + 1);
+  return {"photons       " + (photons.empty() ? "none" : photons),
+          "gather        " + GatherText(settings, scene, targets),
+          "memory        about " + mebibytes + " MiB for the photon maps"};
+}
+
+}  // namespace exphoton

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The two passes of photon mapping.
+#include "integrators/photon/photon_integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "core/base/memory.h"
+#include "integrators/photon/gather/gather_ray.h"
+#include "integrators/photon/maps/rest_pose.h"
+#include "integrators/photon/photon_stats.h"
+#include "integrators/photon/shooting/visible_points.h"
+
+namespace exphoton {
+namespace {
+
+// Empty where photons of distant lights start towards the whole scene.
+DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scene& scene,
+                                      const PhotonTargets& targets, PreprocessContext& context) {
+  // Photons that are only a few times denser do not pay for weights that differ.
+  constexpr double kWorthwhileGain = 4;
+  // That start towards the smallest part of what is seen: many estimates' worth, so that no
+  // estimate sees their density change.
+  constexpr double kLeastPhotons = 2000;
+  const auto& lights = scene.Lights();
+  const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
+    return light->IsFar() && !light->IsProvablyBlack();
+  });
+  if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
+  DistantLightTargeting targeting(
+      VisiblePoints(scene, *context.camera, context.resolution, context.seed),
+      BoundingSphere(scene.WorldBounds()), kLeastPhotons / double(targets.Least()));
+  const bool isWorthwhile = targeting.Gain() >= kWorthwhileGain;
+  if (settings.photonAim == PhotonAiming::Off) {
+    if (isWorthwhile) NoticeUnaimed(targeting, context.log);
+    return {};
+  }
+  if (settings.photonAim == PhotonAiming::Auto && !isWorthwhile) return {};
+  ReportAim(targeting, context);
+  return targeting;
+}
+
+}  // namespace
+
+PhotonIntegrator::PhotonIntegrator(const PhotonSettings& settings)
+    : settings_(settings), direct_(settings.directLights), gather_(settings) {}
+
+void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context) {
+  // Release the memory of an earlier pass
+  radianceMap_.reset();
+  maps_ = {};
+
+  gathers_ = GathersIndirectLight(settings_, scene);
+  lights_ = LightSampler(scene);
+  const PhotonTargets targets = ChooseTargets(settings_, scene);
+  if (BytesOf(targets) > PhysicalMemory()) FailByMemory(targets);
+  try {
+    PhotonPassResult photons = ShootPhotons(scene, targets, context);
+    BuildMaps(scene, &photons, context);
+    if (targets.radianceFraction > 0) ComputeRadiancePhotons(scene, &photons, context);
+  } catch (const std::bad_alloc&) {
+    if (BytesOf(targets) == 0) throw;
+    maps_ = {};
+    FailByMemory(targets);
+  }
+  ReportMaps(maps_, radianceMap_.get(), settings_, context);
+}
+
+PhotonPassResult PhotonIntegrator::ShootPhotons(const Scene& scene, const PhotonTargets& targets,
+                                                PreprocessContext& context) const {
+  PhotonPassResult photons;
+  {
+    const PhaseTimer timer(context.statistics, "shoot");
+    MediaPhotons media(scene, context.volume);
+    // Photons that start towards visible points would miss media beside them, which scatter light
+    // towards the camera.
+    DistantLightTargeting targeting = media.Scatter()
+                                          ? DistantLightTargeting()
+                                          : ChooseTargeting(settings_, scene, targets, context);
+    photons = PhotonTracer(scene, settings_, context.seed, std::move(targeting), std::move(media))
+                  .Shoot(targets, context);
+  }
+  context.CheckStop();
+  NoticeVainCaustics(targets, settings_, scene, context.log);
+  ReportPhotonPass(photons, targets, settings_, context);
+  ReportLights(photons, targets, scene, context);
+  return photons;
+}
+
+void PhotonIntegrator::BuildMaps(const Scene& scene, PhotonPassResult* photons,
+                                 PreprocessContext& context) {
+  const PhaseTimer timer(context.statistics, "kd-trees");
+  maps_ = PhotonMapSet(photons, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
+  if (gathers_) gather_.Prepare(maps_.Map(PhotonKind::Indirect));
+  context.CheckStop();
+}
+
+void PhotonIntegrator::ComputeRadiancePhotons(const Scene& scene, PhotonPassResult* photons,
+                                              PreprocessContext& context) {
+  const PhaseTimer timer(context.statistics, "radiance");
+  radianceMap_ =
+      std::make_unique<RadiancePhotonMap>(photons->sites.Records(), maps_, settings_,
+                                          scene.Features().Needs(Feature::Transmission), context);
+}
+
+void PhotonIntegrator::RequestSamples(const Scene& scene, const Sampler& sampler,
+                                      SampleLayout* layout) {
+  if (!settings_.directWithPhotons) direct_.RequestSamples(scene, sampler, layout);
+  if (settings_.finalGather && settings_.show == ShowMap::Nothing)
+    gather_.RequestSamples(GathersIndirectLight(settings_, scene), layout);
+}
+
+Spectrum PhotonIntegrator::Li(const RayDifferential& ray, LiContext& context) const {
+  return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
+    if (settings_.show != ShowMap::Nothing) return Shown(point, context).Collect(point, context);
+    FillDensity(point, context);
+    return SurfaceLight{point.Le(), Direct(point, context), Caustic(point, context),
+                        Indirect(point, context)}
+        .Collect(point, context);
+  });
+}
+
+Spectrum PhotonIntegrator::Direct(const ShadingPoint& point, LiContext& context) const {
+  if (settings_.directWithPhotons) return maps_.Radiance(PhotonKind::Direct, point, &context.arena);
+  return direct_.AllLights(point, context);
+}
+
+Spectrum PhotonIntegrator::Caustic(const ShadingPoint& point, LiContext& context) const {
+  if (!RequiredFeatures::IsCompiled(Feature::Caustics)) return {};
+  return maps_.Radiance(PhotonKind::Caustic, point, &context.arena);
+}
+
+Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& context) const {
+  if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
+  RandomStream random = context.Stream(kGatherStream + std::uint64_t(point.depth));
+  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context,
+                        GatherRay(maps_, radianceMap_.get(), settings_, lights_, context, &random));
+}
+
+SurfaceLight PhotonIntegrator::Shown(const ShadingPoint& point, LiContext& context) const {
+  SurfaceLight light;
+  switch (settings_.show) {
+    case ShowMap::Nothing:
+      break;
+    case ShowMap::Direct:
+      light.direct = maps_.Radiance(PhotonKind::Direct, point, &context.arena);
+      break;
+    case ShowMap::Caustic:
+      light.caustic = Caustic(point, context);
+      break;
+    case ShowMap::Indirect:
+      light.indirect = maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
+      break;
+    case ShowMap::Radiance:
+      light.indirect = ShownRadiance(point);
+      break;
+  }
+  return light;
+}
+
+Spectrum PhotonIntegrator::ShownRadiance(const ShadingPoint& point) const {
+  if (!radianceMap_) return {};
+  const RestPose rest(point.surface);
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const auto entry = radianceMap_->Find({rest.Point(point.surface.p), rest.Normal(n)});
+  if (!entry) return {};
+  return entry->Value(AbsDot(n, point.Wo()));
+}
+
+std::vector<std::string> PhotonIntegrator::Explain(const Scene& scene) const {
+  return ExplainBudget(settings_, scene);
+}
+
+AovSet PhotonIntegrator::Aovs() const {
+  AovSet aovs = kLightAovs | AovSet{Aov::PhotonDensity};
+  if (settings_.radiancePhotons && settings_.finalGather && settings_.show == ShowMap::Nothing)
+    aovs.Add(Aov::RadianceDistance);
+  return aovs;
+}
+
+void PhotonIntegrator::FillDensity(const ShadingPoint& point, LiContext& context) const {
+  if (!context.aovs || point.depth != 0) return;
+  if (context.aovs->wanted.Has(Aov::PhotonDensity))
+    context.aovs->photonDensity = maps_.PhotonDensity(point, &context.arena);
+}
+
+std::vector<StoredPhoton> PhotonIntegrator::PhotonsNear(const Point3& p, const std::string& map,
+                                                        int count) const {
+  std::vector<StoredPhoton> photons;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    const PhotonMap& stored = maps_.Map(kind);
+    if (map != PhotonKindName(kind) || stored.IsEmpty()) continue;
+    Arena arena;
+    const NearPoints nearest = stored.Nearest(p, count, &arena);
+    std::vector<std::pair<Real, std::uint32_t>> sorted;
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+      sorted.emplace_back(nearest.distance2[i], nearest.index[i]);
+    std::sort(sorted.begin(), sorted.end());
+    for (const auto& [distance2, photon] : sorted)
+      photons.push_back({map, stored.Position(photon), stored.Direction(photon),
+                         stored.Alpha(photon), std::sqrt(distance2)});
+  }
+  return photons;
+}
+
+}  // namespace exphoton

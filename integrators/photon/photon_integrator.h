@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PhotonIntegrator: photon mapping in two passes, the surface integrator behind the plugins
+// photonmap and exphotonmap, which differ in their settings only. Preprocess shoots photons, builds
+// the maps and computes the radiance photons; Li adds up the light that leaves the visible surface
+// (docs/theory/exphotonmap.md, eq. 1).
+#pragma once
+
+#include <memory>
+
+#include "core/transport/direct_lighting.h"
+#include "core/transport/integrator.h"
+#include "core/transport/light_sampler.h"
+#include "core/transport/specular_tree.h"
+#include "integrators/photon/gather/final_gather.h"
+#include "integrators/photon/maps/photon_map_set.h"
+#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/photon_budget.h"
+#include "integrators/photon/photon_settings.h"
+
+namespace exphoton {
+
+class PhotonIntegrator final : public SurfaceIntegrator {
+ public:
+  explicit PhotonIntegrator(const PhotonSettings& settings);
+
+  void Preprocess(const Scene& scene, PreprocessContext& context) override;
+  void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override;
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override;
+
+  std::vector<std::string> Explain(const Scene& scene) const override;
+  AovSet Aovs() const override;
+  std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
+                                        int count) const override;
+
+ private:
+  static constexpr std::uint64_t kGatherStream = 0x726164ull;
+
+  // The steps of Preprocess.
+  PhotonPassResult ShootPhotons(const Scene& scene, const PhotonTargets& targets,
+                                PreprocessContext& context) const;
+  void BuildMaps(const Scene& scene, PhotonPassResult* photons, PreprocessContext& context);
+  void ComputeRadiancePhotons(const Scene& scene, PhotonPassResult* photons,
+                              PreprocessContext& context);
+
+  // The terms of Li: radiance towards wo by the non-specular lobes.
+  Spectrum Direct(const ShadingPoint& point, LiContext& context) const;
+  Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;
+  Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
+  // The one map that the parameter "show" names.
+  SurfaceLight Shown(const ShadingPoint& point, LiContext& context) const;
+  Spectrum ShownRadiance(const ShadingPoint& point) const;
+  // Fills the AOV of photon density at the surface that the camera sees.
+  void FillDensity(const ShadingPoint& point, LiContext& context) const;
+
+  PhotonSettings settings_;
+  DirectLighting direct_;
+  FinalGather gather_;
+  bool gathers_ = false;  // whether indirect light is gathered; false: read from its map
+  LightSampler lights_;   // for the glossy lobes at the hits of gather rays
+  PhotonMapSet maps_;
+  std::unique_ptr<RadiancePhotonMap> radianceMap_;  // null: no radiance photons
+};
+
+}  // namespace exphoton
