@@ -46,6 +46,4 @@ std::unique_ptr<Aggregate> Create(const Settings&, const AcceleratorContext& con
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("bruteforce", "tests every primitive; the yardstick of the other accelerators",
-                exphoton::MakeForm<exphoton::PluginKind::Accelerator>(exphoton::Parameters(),
-                                                                      exphoton::Create))
+EXPHOTON_ACCELERATOR("bruteforce", "tests every primitive; the yardstick of the other accelerators")

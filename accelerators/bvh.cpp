@@ -58,6 +58,4 @@ std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("bvh", "a bounding volume hierarchy, eight wide; used where none is named",
-                exphoton::MakeForm<exphoton::PluginKind::Accelerator>(exphoton::Parameters(),
-                                                                      exphoton::Create))
+EXPHOTON_ACCELERATOR("bvh", "a bounding volume hierarchy, eight wide; used where none is named")

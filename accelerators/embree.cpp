@@ -243,6 +243,4 @@ std::unique_ptr<Aggregate> Create(const Settings&, const AcceleratorContext&) {
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("embree", "Intel's Embree, where the program was built with it",
-                exphoton::MakeForm<exphoton::PluginKind::Accelerator>(exphoton::Parameters(),
-                                                                      exphoton::Create))
+EXPHOTON_ACCELERATOR("embree", "Intel's Embree, where the program was built with it")

@@ -234,6 +234,4 @@ std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("kdtree", "a kd-tree built by the surface area heuristic",
-                exphoton::MakeForm<exphoton::PluginKind::Accelerator>(exphoton::Parameters(),
-                                                                      exphoton::Create))
+EXPHOTON_ACCELERATOR("kdtree", "a kd-tree built by the surface area heuristic")

@@ -35,6 +35,5 @@ std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const Integr
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("exphotonmap", "extended photon mapping: precomputed radiance, guided final gather",
-                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
-                                                                     exphoton::Create))
+EXPHOTON_INTEGRATOR("exphotonmap",
+                    "extended photon mapping: precomputed radiance, guided final gather")

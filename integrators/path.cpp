@@ -292,6 +292,4 @@ std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const Integr
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("path", "path tracing: all light transport, without bias",
-                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
-                                                                     exphoton::Create))
+EXPHOTON_INTEGRATOR("path", "path tracing: all light transport, without bias")

@@ -23,6 +23,4 @@ std::unique_ptr<SurfaceIntegrator> Create(const PhotonSettings& settings,
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("photonmap", "photon mapping with final gathering, the plain algorithm",
-                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
-                                                                     exphoton::Create))
+EXPHOTON_INTEGRATOR("photonmap", "photon mapping with final gathering, the plain algorithm")

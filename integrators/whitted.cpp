@@ -84,6 +84,4 @@ std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const Integr
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("whitted", "direct light from one point of each light, and specular recursion",
-                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
-                                                                     exphoton::Create))
+EXPHOTON_INTEGRATOR("whitted", "direct light from one point of each light, and specular recursion")

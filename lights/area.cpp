@@ -96,6 +96,4 @@ std::unique_ptr<AreaLight> Create(const Settings& settings, const AreaLightConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("area", "a surface that emits light on the side of its normal",
-                exphoton::MakeForm<exphoton::PluginKind::AreaLight>(exphoton::Parameters(),
-                                                                    exphoton::Create))
+EXPHOTON_AREA_LIGHT("area", "a surface that emits light on the side of its normal")

@@ -79,6 +79,4 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("distant", "parallel light from far away, as the sun's",
-                exphoton::MakeForm<exphoton::PluginKind::Light>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_LIGHT("distant", "parallel light from far away, as the sun's")

@@ -279,6 +279,4 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("infinite", "light from all round the scene, uniform or from a map",
-                exphoton::MakeForm<exphoton::PluginKind::Light>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_LIGHT("infinite", "light from all round the scene, uniform or from a map")

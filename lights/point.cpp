@@ -69,6 +69,4 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("point", "light from one point, equal in all directions",
-                exphoton::MakeForm<exphoton::PluginKind::Light>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_LIGHT("point", "light from one point, equal in all directions")

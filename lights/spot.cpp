@@ -135,6 +135,4 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("spot", "light from one point into a cone",
-                exphoton::MakeForm<exphoton::PluginKind::Light>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_LIGHT("spot", "light from one point into a cone")

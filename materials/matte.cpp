@@ -55,6 +55,4 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("matte", "diffuse reflection, smooth or rough",
-                exphoton::MakeForm<exphoton::PluginKind::Material>(exphoton::Parameters(),
-                                                                   exphoton::Create))
+EXPHOTON_MATERIAL("matte", "diffuse reflection, smooth or rough")

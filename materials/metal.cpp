@@ -55,6 +55,4 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("metal", "glossy conductor with index and absorption",
-                exphoton::MakeForm<exphoton::PluginKind::Material>(exphoton::Parameters(),
-                                                                   exphoton::Create))
+EXPHOTON_MATERIAL("metal", "glossy conductor with index and absorption")

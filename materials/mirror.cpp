@@ -41,6 +41,4 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("mirror", "ideal mirror",
-                exphoton::MakeForm<exphoton::PluginKind::Material>(exphoton::Parameters(),
-                                                                   exphoton::Create))
+EXPHOTON_MATERIAL("mirror", "ideal mirror")

@@ -57,6 +57,4 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("plastic", "diffuse reflection with glossy highlights",
-                exphoton::MakeForm<exphoton::PluginKind::Material>(exphoton::Parameters(),
-                                                                   exphoton::Create))
+EXPHOTON_MATERIAL("plastic", "diffuse reflection with glossy highlights")

@@ -69,6 +69,4 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("shinymetal", "mirror reflection and gloss with metallic Fresnel terms",
-                exphoton::MakeForm<exphoton::PluginKind::Material>(exphoton::Parameters(),
-                                                                   exphoton::Create))
+EXPHOTON_MATERIAL("shinymetal", "mirror reflection and gloss with metallic Fresnel terms")

@@ -77,6 +77,4 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("translucent", "diffuse and glossy reflection and transmission",
-                exphoton::MakeForm<exphoton::PluginKind::Material>(exphoton::Parameters(),
-                                                                   exphoton::Create))
+EXPHOTON_MATERIAL("translucent", "diffuse and glossy reflection and transmission")

@@ -172,6 +172,4 @@ std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext& 
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("lowdiscrepancy", "scrambled (0,2)-sequences",
-                exphoton::MakeForm<exphoton::PluginKind::Sampler>(exphoton::Parameters(),
-                                                                  exphoton::Create))
+EXPHOTON_SAMPLER("lowdiscrepancy", "scrambled (0,2)-sequences")

@@ -70,6 +70,4 @@ std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext&)
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("random", "independent uniform points",
-                exphoton::MakeForm<exphoton::PluginKind::Sampler>(exphoton::Parameters(),
-                                                                  exphoton::Create))
+EXPHOTON_SAMPLER("random", "independent uniform points")

@@ -178,6 +178,4 @@ std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext&)
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("stratified", "jittered cells of a grid",
-                exphoton::MakeForm<exphoton::PluginKind::Sampler>(exphoton::Parameters(),
-                                                                  exphoton::Create))
+EXPHOTON_SAMPLER("stratified", "jittered cells of a grid")

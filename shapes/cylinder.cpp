@@ -103,6 +103,4 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("cylinder", "an open tube or a part of one",
-                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_SHAPE("cylinder", "an open tube or a part of one")

@@ -96,6 +96,4 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("disk", "a flat disk, ring or sector of one",
-                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_SHAPE("disk", "a flat disk, ring or sector of one")

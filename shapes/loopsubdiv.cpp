@@ -75,6 +75,4 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("loopsubdiv", "the limit surface of Loop subdivision",
-                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_SHAPE("loopsubdiv", "the limit surface of Loop subdivision")

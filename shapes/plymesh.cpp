@@ -31,6 +31,4 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("plymesh", "triangles and quads from a PLY file",
-                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_SHAPE("plymesh", "triangles and quads from a PLY file")

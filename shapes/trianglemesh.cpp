@@ -55,6 +55,4 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("trianglemesh", "triangles by indices into lists of vertices",
-                exphoton::MakeForm<exphoton::PluginKind::Shape>(exphoton::Parameters(),
-                                                                exphoton::Create))
+EXPHOTON_SHAPE("trianglemesh", "triangles by indices into lists of vertices")

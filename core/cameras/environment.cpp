@@ -28,5 +28,5 @@ std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraConte
 }  // namespace exphoton
 
 EXPHOTON_PLUGIN("environment", "every direction, as a map of latitude and longitude",
-                exphoton::MakeForm<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
-                                                                 exphoton::Create))
+                exphoton::MakeFactory<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
+                                                                    exphoton::Create))

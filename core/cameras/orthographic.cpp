@@ -30,5 +30,5 @@ std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraConte
 }  // namespace exphoton
 
 EXPHOTON_PLUGIN("orthographic", "parallel rays",
-                exphoton::MakeForm<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
-                                                                 exphoton::Create))
+                exphoton::MakeFactory<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
+                                                                    exphoton::Create))

@@ -44,6 +44,4 @@ std::unique_ptr<Camera> Create(const Settings& settings, const CameraContext& co
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("perspective", "pinhole or thin lens",
-                exphoton::MakeForm<exphoton::PluginKind::Camera>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_CAMERA("perspective", "pinhole or thin lens")

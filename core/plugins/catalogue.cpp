@@ -21,8 +21,8 @@ struct Entry {
 std::vector<Entry> EntriesOf(PluginRegistry& registry, PluginKind kind) {
   std::vector<Entry> entries;
   for (const std::string& name : registry.Available(kind)) {
-    const PluginFactory& form = registry.Find(kind, name, {});
-    entries.push_back({name, registry.Load(kind, name, {}).summary, kind, form.parameters});
+    const PluginFactory& factory = registry.Find(kind, name, {});
+    entries.push_back({name, registry.Load(kind, name, {}).summary, kind, factory.parameters});
   }
   return entries;
 }

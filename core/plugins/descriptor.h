@@ -14,7 +14,7 @@
 namespace exphoton {
 
 // Raised with every change of a core interface that plugins see.
-inline constexpr std::uint32_t kPluginAbi = 13;
+inline constexpr std::uint32_t kPluginAbi = 14;
 // Compiler, Real and core version: a plugin built with other ones is refused.
 const char* CoreBuildTag();
 #define EXPHOTON_BUILD_TAG ("exphoton 1, " __VERSION__ ", " EXPHOTON_REAL_NAME)
@@ -37,20 +37,20 @@ struct PluginDescriptor {
   const char* buildTag;
   const char* name;     // as scene files write it; equals the file's name
   const char* summary;  // one line
-  std::vector<PluginFactory> forms;
+  std::vector<PluginFactory> factories;
 };
 
-// A form from a settings table and a factory
+// A PluginFactory from a parameter table and a function
 //   std::unique_ptr<Product>(const S&, const Context&)
-template <PluginKind kind, class S, class Factory>
-PluginFactory MakeForm(const ParamTable<S>& table, Factory factory) {
+template <PluginKind kind, class S, class Create>
+PluginFactory MakeFactory(const ParamTable<S>& table, Create create) {
   using Context = typename PluginTraits<kind>::Context;
   using Product = typename PluginTraits<kind>::Product;
   return {kind, &table,
-          [&table, factory](const ParamSet& params, const BindContext& bind, const void* context) {
+          [&table, create](const ParamSet& params, const BindContext& bind, const void* context) {
             const S settings = table.Bind(params, bind);
             std::unique_ptr<Product> product = table.Guard(params, bind, [&] {
-              return factory(settings, *static_cast<const Context*>(context));
+              return create(settings, *static_cast<const Context*>(context));
             });
             return static_cast<void*>(product.release());
           }};
@@ -64,9 +64,34 @@ bool RegisterStaticPlugin(PluginEntry entry);
 
 }  // namespace exphoton
 
+// EXPHOTON_MATERIAL("matte", "diffuse reflection") registers a plugin of one kind. The file
+// defines, in namespace exphoton (usually unnamed within it), the table of its parameters and the
+// function that makes the object:
+//   const ParamTable<Settings>& Parameters();
+//   std::unique_ptr<Material> Create(const Settings&, const MaterialContext&);
+#define EXPHOTON_MATERIAL(name, summary) EXPHOTON_REGISTER(Material, name, summary)
+#define EXPHOTON_COLOR_TEXTURE(name, summary) EXPHOTON_REGISTER(ColorTexture, name, summary)
+#define EXPHOTON_FLOAT_TEXTURE(name, summary) EXPHOTON_REGISTER(FloatTexture, name, summary)
+#define EXPHOTON_SHAPE(name, summary) EXPHOTON_REGISTER(Shape, name, summary)
+#define EXPHOTON_LIGHT(name, summary) EXPHOTON_REGISTER(Light, name, summary)
+#define EXPHOTON_AREA_LIGHT(name, summary) EXPHOTON_REGISTER(AreaLight, name, summary)
+#define EXPHOTON_VOLUME(name, summary) EXPHOTON_REGISTER(Volume, name, summary)
+#define EXPHOTON_INTEGRATOR(name, summary) EXPHOTON_REGISTER(Integrator, name, summary)
+#define EXPHOTON_VOLUME_INTEGRATOR(name, summary) EXPHOTON_REGISTER(VolumeIntegrator, name, summary)
+#define EXPHOTON_ACCELERATOR(name, summary) EXPHOTON_REGISTER(Accelerator, name, summary)
+#define EXPHOTON_SAMPLER(name, summary) EXPHOTON_REGISTER(Sampler, name, summary)
+#define EXPHOTON_FILTER(name, summary) EXPHOTON_REGISTER(Filter, name, summary)
+#define EXPHOTON_CAMERA(name, summary) EXPHOTON_REGISTER(Camera, name, summary)
+
+#define EXPHOTON_REGISTER(kind, name, summary)                                                    \
+  EXPHOTON_PLUGIN(name, summary,                                                                  \
+                  ::exphoton::MakeFactory<::exphoton::PluginKind::kind>(::exphoton::Parameters(), \
+                                                                        ::exphoton::Create))
+
+// Registers a plugin of several kinds, or with other names for the table and the function.
 // The one exported function of a plugin, or its registration in a static build.
 //   EXPHOTON_PLUGIN("matte", "diffuse reflection",
-//                   exphoton::MakeForm<exphoton::PluginKind::Material>(Parameters(), Create))
+//                   exphoton::MakeFactory<exphoton::PluginKind::Material>(Parameters(), Create))
 #ifdef EXPHOTON_STATIC_PLUGINS
 #define EXPHOTON_PLUGIN(pluginName, pluginSummary, ...)                                        \
   namespace {                                                                                  \

@@ -28,8 +28,8 @@ std::string Join(const std::vector<std::string>& words) {
 }
 
 const PluginFactory* FactoryOf(const PluginDescriptor& plugin, PluginKind kind) {
-  for (const PluginFactory& form : plugin.forms) {
-    if (form.kind == kind) return &form;
+  for (const PluginFactory& factory : plugin.factories) {
+    if (factory.kind == kind) return &factory;
   }
   return nullptr;
 }
@@ -113,8 +113,9 @@ const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string&
 const PluginFactory& PluginRegistry::Find(PluginKind kind, const std::string& name,
                                           const SourceLocation& where) {
   const PluginDescriptor& plugin = Load(kind, name, where);
-  if (const PluginFactory* form = FactoryOf(plugin, kind)) return *form;
-  const std::string is = plugin.forms.empty() ? "nothing" : PluginKindName(plugin.forms[0].kind);
+  if (const PluginFactory* factory = FactoryOf(plugin, kind)) return *factory;
+  const std::string is =
+      plugin.factories.empty() ? "nothing" : PluginKindName(plugin.factories[0].kind);
   const std::vector<std::string> available = Available(kind);
   throw Error(ExitStatus::Scene,
               '"' + name + "\" is no " + PluginKindName(kind) + " but of the kind " + is +
@@ -161,12 +162,12 @@ const std::vector<std::string>& PluginRegistry::ParameterNames(PluginKind kind) 
 
 void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
                                    BindContext bind, const void* context) {
-  const PluginFactory& form = Find(kind, name, params.where);
+  const PluginFactory& factory = Find(kind, name, params.where);
   if (bind.what.empty()) bind.what = Named(kind, name);
   if (!bind.siblingNames) bind.siblingNames = [this, kind] { return ParameterNames(kind); };
   const std::string failed = bind.what + " cannot be made: ";
   try {
-    if (void* product = form.create(params, bind, context)) return product;
+    if (void* product = factory.create(params, bind, context)) return product;
   } catch (const Error& error) {
     if (error.Where() || error.Status() != ExitStatus::Scene) throw;
     throw Error(error.Status(), error.what(), params.where, error.Hint());

@@ -30,5 +30,5 @@ std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const No
 }  // namespace exphoton
 
 EXPHOTON_PLUGIN("emission", "media emit and absorb",
-                exphoton::MakeForm<exphoton::PluginKind::VolumeIntegrator>(
+                exphoton::MakeFactory<exphoton::PluginKind::VolumeIntegrator>(
                     exphoton::MarchParameters(), exphoton::Create))

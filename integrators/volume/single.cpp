@@ -61,5 +61,5 @@ std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const No
 }  // namespace exphoton
 
 EXPHOTON_PLUGIN("single", "media emit, absorb and scatter light once",
-                exphoton::MakeForm<exphoton::PluginKind::VolumeIntegrator>(
+                exphoton::MakeFactory<exphoton::PluginKind::VolumeIntegrator>(
                     exphoton::MarchParameters(), exphoton::Create))

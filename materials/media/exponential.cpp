@@ -60,6 +60,4 @@ std::unique_ptr<Medium> Create(const Settings& settings, const MediumContext& co
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("exponential", "a medium whose density falls with height",
-                exphoton::MakeForm<exphoton::PluginKind::Volume>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_VOLUME("exponential", "a medium whose density falls with height")

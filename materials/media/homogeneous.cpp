@@ -20,5 +20,5 @@ std::unique_ptr<Medium> Create(const MediumSettings& settings, const MediumConte
 }  // namespace exphoton
 
 EXPHOTON_PLUGIN("homogeneous", "a medium of constant density",
-                exphoton::MakeForm<exphoton::PluginKind::Volume>(exphoton::MediumParameters(),
-                                                                 exphoton::Create))
+                exphoton::MakeFactory<exphoton::PluginKind::Volume>(exphoton::MediumParameters(),
+                                                                    exphoton::Create))

@@ -137,6 +137,4 @@ std::unique_ptr<Medium> Create(const Settings& settings, const MediumContext& co
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("volumegrid", "a medium with densities on a grid",
-                exphoton::MakeForm<exphoton::PluginKind::Volume>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_VOLUME("volumegrid", "a medium with densities on a grid")

@@ -32,6 +32,4 @@ std::unique_ptr<ColorTexture> Create(const Settings& settings, const TextureCont
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("uv", "texture coordinates as red and green",
-                exphoton::MakeForm<exphoton::PluginKind::ColorTexture>(exphoton::Parameters(),
-                                                                       exphoton::Create))
+EXPHOTON_COLOR_TEXTURE("uv", "texture coordinates as red and green")

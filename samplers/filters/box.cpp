@@ -42,6 +42,4 @@ std::unique_ptr<Filter> Create(const Settings& settings, const NoContext&) {
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("box", "constant over a rectangle",
-                exphoton::MakeForm<exphoton::PluginKind::Filter>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_FILTER("box", "constant over a rectangle")

@@ -64,6 +64,4 @@ std::unique_ptr<Filter> Create(const Settings& settings, const NoContext&) {
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("gaussian", "Gaussian falloff",
-                exphoton::MakeForm<exphoton::PluginKind::Filter>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_FILTER("gaussian", "Gaussian falloff")

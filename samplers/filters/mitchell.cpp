@@ -66,6 +66,4 @@ std::unique_ptr<Filter> Create(const Settings& settings, const NoContext&) {
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("mitchell", "Mitchell and Netravali's cubics",
-                exphoton::MakeForm<exphoton::PluginKind::Filter>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_FILTER("mitchell", "Mitchell and Netravali's cubics")

@@ -64,6 +64,4 @@ std::unique_ptr<Filter> Create(const Settings& settings, const NoContext&) {
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("sinc", "windowed sinc (Lanczos)",
-                exphoton::MakeForm<exphoton::PluginKind::Filter>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_FILTER("sinc", "windowed sinc (Lanczos)")

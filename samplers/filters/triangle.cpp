@@ -48,6 +48,4 @@ std::unique_ptr<Filter> Create(const Settings& settings, const NoContext&) {
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("triangle", "linear falloff",
-                exphoton::MakeForm<exphoton::PluginKind::Filter>(exphoton::Parameters(),
-                                                                 exphoton::Create))
+EXPHOTON_FILTER("triangle", "linear falloff")

@@ -23,7 +23,7 @@ const std::string kPlugins = EXPHOTON_BINARY_DIR "/plugins";
 class EveryPlugin : public ::testing::Test {
  protected:
   template <class F>
-  void ForEachForm(F&& visit) {
+  void ForEachFactory(F&& visit) {
     for (int i = 0; i < kPluginKindCount; ++i) {
       const auto kind = static_cast<PluginKind>(i);
       for (const std::string& name : registry_.Available(kind)) {
@@ -79,7 +79,7 @@ TEST_F(EveryPlugin, CanBeLoaded) {
 #endif
 
 TEST_F(EveryPlugin, SaysWhatItIsInOneLine) {
-  ForEachForm([](const PluginDescriptor& plugin, const PluginFactory&) {
+  ForEachFactory([](const PluginDescriptor& plugin, const PluginFactory&) {
     const std::string summary = plugin.summary;
     EXPECT_FALSE(summary.empty());
     EXPECT_LT(summary.size(), 90u);
@@ -89,9 +89,9 @@ TEST_F(EveryPlugin, SaysWhatItIsInOneLine) {
 }
 
 TEST_F(EveryPlugin, DeclaresParametersThatMakeSense) {
-  ForEachForm([](const PluginDescriptor&, const PluginFactory& form) {
+  ForEachFactory([](const PluginDescriptor&, const PluginFactory& factory) {
     std::set<std::string> names;
-    for (const ParamDecl& decl : form.parameters->Declarations()) {
+    for (const ParamDecl& decl : factory.parameters->Declarations()) {
       SCOPED_TRACE(decl.name);
       EXPECT_TRUE(names.insert(decl.name).second) << "declared twice";
       EXPECT_FALSE(decl.name.empty());
@@ -128,10 +128,10 @@ TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
 
 TEST_F(EveryPlugin, IsListedAndDescribed) {
   const std::string list = ListPlugins(registry_);
-  ForEachForm([&](const PluginDescriptor& plugin, const PluginFactory& form) {
+  ForEachFactory([&](const PluginDescriptor& plugin, const PluginFactory& factory) {
     EXPECT_NE(list.find("  " + std::string(plugin.name) + " "), std::string::npos);
     const std::string text = DescribePlugin(registry_, plugin.name);
-    for (const ParamDecl& decl : form.parameters->Declarations()) {
+    for (const ParamDecl& decl : factory.parameters->Declarations()) {
       EXPECT_NE(text.find(' ' + decl.name + "  "), std::string::npos) << decl.name;
     }
   });

@@ -77,9 +77,9 @@ class PluginOracle final : public study::ParameterOracle {
     registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
   }
   bool Has(const std::string& integrator, const std::string& parameter) const override {
-    const PluginFactory& form =
+    const PluginFactory& factory =
         registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
-    const auto& declared = form.parameters->Declarations();
+    const auto& declared = factory.parameters->Declarations();
     return std::any_of(declared.begin(), declared.end(),
                        [&](const ParamDecl& decl) { return decl.name == parameter; });
   }

@@ -43,7 +43,7 @@ inline const ParamTable<MappingSettings>& MappingParameters() {
 #define EXPHOTON_TEXTURE_PLUGIN(pluginName, pluginSummary)                           \
   EXPHOTON_PLUGIN(                                                                   \
       pluginName, pluginSummary,                                                     \
-      exphoton::MakeForm<exphoton::PluginKind::FloatTexture>(                        \
+      exphoton::MakeFactory<exphoton::PluginKind::FloatTexture>(                     \
           exphoton::Parameters<exphoton::Real>(), exphoton::Create<exphoton::Real>), \
-      exphoton::MakeForm<exphoton::PluginKind::ColorTexture>(                        \
+      exphoton::MakeFactory<exphoton::PluginKind::ColorTexture>(                     \
           exphoton::Parameters<exphoton::Spectrum>(), exphoton::Create<exphoton::Spectrum>))

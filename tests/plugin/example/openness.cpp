@@ -60,6 +60,4 @@ std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const Integr
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("openness", "the open share of the hemisphere over each point",
-                exphoton::MakeForm<exphoton::PluginKind::Integrator>(exphoton::Parameters(),
-                                                                     exphoton::Create))
+EXPHOTON_INTEGRATOR("openness", "the open share of the hemisphere over each point")

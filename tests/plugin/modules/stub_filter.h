@@ -28,7 +28,7 @@ class StubFilter final : public Filter {
 
 template <class Factory>
 PluginFactory StubForm(Factory factory) {
-  return MakeForm<PluginKind::Filter>(StubParameters(), factory);
+  return MakeFactory<PluginKind::Filter>(StubParameters(), factory);
 }
 
 }  // namespace
