@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. Photons of
-// nearly constant weight, radiance precomputed at a sample of them, and a final gather that is
-// guided by their directions. docs/theory/exphotonmap.md derives it; integrators/photon/ holds the
-// machinery.
+// The integrator "exphotonmap" implements extended photon mapping, for scenes with mostly indirect
+// light. It traces photons of nearly constant weight, precomputes radiance at a sample of the
+// stored photons, and guides the final gather by photon directions. integrators/photon/ contains
+// the implementation, docs/theory/exphotonmap.md the derivation.
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/specular_tree.h"

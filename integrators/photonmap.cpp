@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// photonmap: photon mapping with final gathering as Jensen 2001 describes it: the plain algorithm
-// that exphotonmap is measured against, on the same machinery. Each of exphotonmap's improvements
-// can be switched on here too.
+// The integrator "photonmap" implements photon mapping with final gathering as Jensen (2001)
+// describes it. It is the baseline for exphotonmap and shares its implementation in
+// integrators/photon/. Each improvement of exphotonmap can be switched on here too.
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/specular_tree.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Deciding what to shoot, shooting it, and the terms that maps contribute.
+// PhotonLighting decides which photons to trace, builds the maps, and evaluates the terms of the
+// radiance equation that read them.
 #include "integrators/photon/photon_lighting.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ bool HasReceiver(const Scene& scene) {
   });
 }
 
-// "100 direct, 200 indirect"; empty if none.
+// Formats targets as "100 direct, 200 indirect"; returns an empty string if there are none.
 std::string TextOf(const PhotonTargets& targets) {
   std::string text;
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
@@ -34,7 +35,7 @@ std::string TextOf(const PhotonTargets& targets) {
   return text;
 }
 
-// What the maps take once they hold what was asked for.
+// Returns the memory of the maps when all targets are reached.
 double BytesOf(const PhotonTargets& targets) {
   double photons = 0;
   for (const auto count : targets.counts) photons += double(count);
@@ -61,7 +62,7 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
   const bool showsAll = show == ShowMap::Nothing || show == ShowMap::Radiance;
   const bool gathers = Gathers(scene), showsRadiance = show == ShowMap::Radiance;
   const bool hasIndirect = scene.Features().Needs(Feature::Indirect);
-  const bool hasLight = scene.ShiningLights() > 0;  // media fill the indirect map alone
+  const bool hasLight = scene.ShiningLights() > 0;  // media fill only the indirect map
   PhotonTargets targets;
   const bool hasCaustics = hasLight && scene.Features().Needs(Feature::Caustics) &&
                            scene.Features().Needs(Feature::Specular);
@@ -80,10 +81,11 @@ PhotonTargets PhotonLighting::Targets(const Scene& scene) const {
 
 DistantLightTargeting PhotonLighting::Aim(const Scene& scene, const PhotonTargets& targets,
                                           PreprocessContext& context) const {
-  // Photons that are only a few times denser do not pay for weights that differ.
+  // A smaller gain in density does not make up for the less uniform photon weights.
   constexpr double kWorthwhileGain = 4;
-  // That start towards the smallest part of what is seen: many estimates' worth, so that no
-  // estimate sees their density change.
+  // On average at least this many photons of the smallest map start towards each bounding sphere.
+  // They are enough for many density estimates, so that the emission density hardly varies within
+  // one estimate.
   constexpr double kLeastPhotons = 2000;
   const auto& lights = scene.Lights();
   const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
@@ -107,7 +109,7 @@ void PhotonLighting::Preprocess(const Scene& scene, PreprocessContext& context) 
   gathers_ = Gathers(scene);
   lights_ = LightSampler(scene);
   radianceMap_.reset();
-  maps_ = {};  // of an earlier pass: its memory is wanted
+  maps_ = {};  // frees the memory of the previous pass
   const PhotonTargets targets = Targets(scene);
   if (BytesOf(targets) > PhysicalMemory()) FailByMemory(targets);
   try {
@@ -125,7 +127,7 @@ void PhotonLighting::Build(const Scene& scene, const PhotonTargets& targets,
   {
     const PhaseTimer timer(context.statistics, "shoot");
     MediaPhotons media(scene, context.volume);
-    // Aimed photons would miss media beside what is seen, which scatter light towards it.
+    // Targeting would miss media outside the view, which scatter light towards visible points.
     DistantLightTargeting aim =
         media.Scatter() ? DistantLightTargeting() : Aim(scene, targets, context);
     result = PhotonTracer(scene, settings_, context.seed, std::move(aim), std::move(media))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonLighting: the two passes of photon mapping as an integrator sees them: Preprocess shoots
-// and builds what the scene calls for, then each term of the radiance equation is one call. Holds
-// what one render needs, and nothing from an earlier one.
+// PhotonLighting implements the two passes of photon mapping for the surface integrators.
+// Preprocess traces the photons and builds the maps that the scene needs. Afterwards each
+// photon-based term of the radiance equation (docs/theory/exphotonmap.md, eq. 1) is one call. The
+// object holds the state of one render only.
 #pragma once
 
 #include <memory>
@@ -18,45 +19,45 @@ namespace exphoton {
 
 class PhotonLighting {
  public:
-  // needsDirectMap: the integrator itself reads the direct map.
+  // needsDirectMap: the integrator reads the direct map at camera hits.
   PhotonLighting(const PhotonSettings& settings, bool needsDirectMap)
       : settings_(settings), needsDirectMap_(needsDirectMap) {}
 
   void Preprocess(const Scene& scene, PreprocessContext& context);
   void RequestSamples(const Scene& scene, SampleLayout* layout);
-  // The maps that this scene calls for and the memory that they will take.
+  // Describes the maps that this scene needs, and their memory.
   std::vector<std::string> Explain(const Scene& scene) const;
 
-  // Radiance by the non-specular lobes towards wo:
-  Spectrum Direct(const ShadingPoint& point, LiContext& context) const;   // of the direct map
-  Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;  // of the caustic map
-  // Gathered over the hemisphere, or of the indirect map where final gathering is off.
+  // These return the radiance that the non-specular lobes scatter towards wo.
+  Spectrum Direct(const ShadingPoint& point, LiContext& context) const;   // from the direct map
+  Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;  // from the caustic map
+  // By final gathering, or from the indirect map if final gathering is off.
   Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
-  // The map that `show` names and nothing else.
+  // Returns only the light of the map that the parameter `show` names.
   SurfaceLight Shown(const ShadingPoint& point, LiContext& context) const;
 
-  // The layers that Li and its terms fill.
+  // The AOVs that Li and its terms fill.
   AovSet Aovs() const;
-  // Fills the density of photons at the camera's own surface, where that layer is wanted.
+  // Fills the photon density AOV at the camera ray's hit, if that AOV is requested.
   void Describe(const ShadingPoint& point, LiContext& context) const;
-  // As SurfaceIntegrator::PhotonsNear.
+  // Implements SurfaceIntegrator::PhotonsNear.
   std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map, int count) const;
 
  private:
   static constexpr std::uint64_t kGatherStream = 0x726164ull;
 
-  Spectrum ShownRadiance(const ShadingPoint& point) const;  // of the radiance photons
+  Spectrum ShownRadiance(const ShadingPoint& point) const;  // from the radiance photons
   bool Gathers(const Scene& scene) const;
   std::string GatherText(const Scene& scene, const PhotonTargets& targets) const;
   PhotonTargets Targets(const Scene& scene) const;
-  // Where far lights should shoot; empty: everywhere.
+  // Returns the emission sampling of distant lights; empty: photons start everywhere.
   DistantLightTargeting Aim(const Scene& scene, const PhotonTargets& targets,
                             PreprocessContext& context) const;
   void Build(const Scene& scene, const PhotonTargets& targets, PreprocessContext& context);
 
   PhotonSettings settings_;
   bool needsDirectMap_;
-  LightSampler lights_;  // for what gather rays meet
+  LightSampler lights_;  // next event estimation at hits of gather rays
   PhotonMapSet maps_;
   std::unique_ptr<RadiancePhotonMap> radianceMap_;
   FinalGather gather_;

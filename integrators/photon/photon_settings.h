@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonSettings: the parameters that photonmap and exphotonmap share, declared once. The defaults
-// here are the plain algorithm's; ExtendedPhotonSettings turns the five improvements on.
+// PhotonSettings holds the parameters that photonmap and exphotonmap share. Its defaults select the
+// plain algorithm; ExtendedPhotonSettings turns the five improvements on.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 namespace exphoton {
 
 enum class PhotonRoulette {
-  Luminance,     // survivors keep their luminance
-  MaxComponent,  // survivors keep their largest channel
-  Half,          // probability 1/2 after three bounces: weights vary
+  Luminance,     // survivors have the luminance from before the bounce
+  MaxComponent,  // survivors have the largest channel from before the bounce
+  Half,          // survival probability 1/2 after three bounces; weights vary
 };
 enum class GatherSampling { Photons, Bsdf };
 enum class DensityKernel { Constant, Simpson };
 enum class RadianceMode { Exitant, Irradiance };
-enum class ShortGather { Estimate, Gather };  // what a short gather ray reads
+enum class ShortGather { Estimate, Gather };  // source of radiance for short gather rays
 enum class PhotonAiming {
-  Auto,  // where it makes photons many times denser on what is seen
+  Auto,  // on if photons become at least four times denser at visible points
   On,
   Off,
 };
@@ -29,14 +29,14 @@ enum class ShowMap { Nothing, Radiance, Direct, Caustic, Indirect };
 
 struct PhotonSettings {
   std::optional<std::int64_t> causticPhotons;  // absent: 20000
-  std::optional<std::int64_t> directPhotons;   // absent: as indirectPhotons
+  std::optional<std::int64_t> directPhotons;   // absent: same as indirectPhotons
   std::int64_t indirectPhotons = 100000;
   int nUsed = 50;
   int directLights = 64;
   int maxDepth = 5;
   bool finalGather = true;
   int finalGatherSamples = 32;
-  std::optional<Real> maxDist;  // absent: chosen from the photons
+  std::optional<Real> maxDist;  // absent: chosen from the photon density
   Real rrThreshold = 0;
   Real gatherAngle = 10;  // degrees
   int gatherPhotons = 50;
@@ -62,7 +62,8 @@ struct PhotonSettings {
   std::int64_t DirectPhotons() const { return directPhotons.value_or(indirectPhotons); }
 };
 
-// The same with the five improvements on: exphotonmap's defaults.
+// ExtendedPhotonSettings holds exphotonmap's defaults: the five improvements are on, and also
+// Russian roulette on gather rays and emission importance sampling for distant lights.
 struct ExtendedPhotonSettings : PhotonSettings {
   ExtendedPhotonSettings();
 };
