@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// bruteforce: tests every primitive with every ray. What the other accelerators are compared with;
-// for pictures only where a scene has a handful of primitives.
+// bruteforce tests every primitive with every ray. It is the reference that the other accelerators
+// are compared with. For rendering it suits only scenes with a handful of primitives.
 #include "core/plugin.h"
 
 namespace exphoton {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// bvh: a bounding volume hierarchy with eight children a node, whose boxes and triangles are tested
-// eight at a time; what is used where a scene names no accelerator. Its hits are those of testing
-// every primitive, bit for bit, whatever vectors the machine has.
+// bvh is a bounding volume hierarchy with eight children per node. It tests boxes and triangles
+// eight at a time. It is the default accelerator. Its hits equal those of bruteforce bit for bit on
+// every SIMD target.
 #include "accelerators/bvh/build/bvh_build.h"
 #include "accelerators/bvh/traverse/traverse.h"
 #include "core/plugin.h"

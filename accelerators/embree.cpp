@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// embree: Intel's ray tracing kernels (version 3) as an accelerator. Embree proposes triangles, in
-// its own rounding; each is decided by the core's test, as for the other accelerators, so that a
-// ray never meets the surface that it leaves. Shapes and instances are Embree's user geometry. Hits
-// may differ from those of the other accelerators where a ray touches an edge of a box, or two
-// surfaces lie at the same distance. Needs the library when the program is built.
+// embree uses Intel's ray tracing kernels (version 3) as an accelerator. Embree proposes triangles
+// with its own rounding. The core's triangle test decides each proposal, as in the other
+// accelerators, so a ray never hits the surface that it leaves. Shapes and instances are user
+// geometry. Hits may differ from those of the other accelerators where a ray touches an edge of a
+// box or where two surfaces lie at the same distance. The build needs the Embree library.
 //
-// Embree ignores boxes beyond 1.8e18, and its products over- and underflow much earlier. It
-// therefore sees the world scaled by a power of two to the size 1, and directions likewise, so that
-// it has the same range as the other accelerators. Powers of two change no rounding.
+// Embree ignores boxes beyond 1.8e18, and its products overflow and underflow much earlier.
+// Coordinates and directions are therefore scaled by powers of two to size 1, which gives Embree
+// the range of the other accelerators. Scaling by a power of two changes no rounding.
 #include "core/plugin.h"
 
 #if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)
@@ -31,7 +31,7 @@ const ParamTable<Settings>& Parameters() {
 
 #if defined(EXPHOTON_EMBREE) && !defined(EXPHOTON_DOUBLE)
 
-// The power of two that takes numbers of up to this size to [.5, 1]; 1 for 0 and infinity.
+// Returns the power of two that scales numbers up to `largest` to [.5, 1], or 1 for 0 and infinity.
 double ScaleToOne(Real largest) {
   if (!(largest > 0) || !std::isfinite(largest)) return 1;
   int exponent;
@@ -39,7 +39,7 @@ double ScaleToOne(Real largest) {
   return std::ldexp(1.0, -exponent);
 }
 
-// The primitives, and the scale at which Embree sees them.
+// ScaledSet holds the primitives and the scale at which Embree sees them.
 struct ScaledSet {
   const PrimitiveSet& primitives;
   double scale;
@@ -52,7 +52,8 @@ struct ScaledSet {
   float Scaled(Real x) const { return float(double(x) * scale); }
 };
 
-// What the callbacks need of the ray that is traced; Embree hands its first member to them.
+// Query holds the data of the current ray for the callbacks. Embree passes a pointer to the first
+// member to each callback.
 struct Query {
   RTCIntersectContext context;
   const PrimitiveSet& primitives;
@@ -70,7 +71,7 @@ struct Query {
   }
   static Query& Of(RTCIntersectContext* context) { return *reinterpret_cast<Query*>(context); }
 
-  // Whether primitive `id` is the nearest so far; the hit is kept if so.
+  // Intersects primitive `id` and returns whether it became the nearest hit.
   bool Improves(std::uint32_t id) {
     const Hit before = hit;
     primitives.Intersect(id, trace, &hit);
@@ -79,7 +80,7 @@ struct Query {
   }
 };
 
-// Embree asks whether a triangle that it has hit counts.
+// Embree calls a filter to ask whether a triangle that it has hit counts.
 void FilterClosest(const RTCFilterFunctionNArguments* arguments) {
   const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
   if (!Query::Of(arguments->context).Improves(hit->primID)) arguments->valid[0] = 0;
@@ -90,14 +91,16 @@ void FilterAny(const RTCFilterFunctionNArguments* arguments) {
   if (!query.primitives.Occludes(hit->primID, query.trace)) arguments->valid[0] = 0;
 }
 
-// User geometry: what follows the triangles in the set's numbering.
+// The user geometry holds the shapes and instances, which follow the triangles in the set's
+// numbering.
 void OtherBounds(const RTCBoundsFunctionArguments* arguments) {
   const auto& set = *static_cast<const ScaledSet*>(arguments->geometryUserPtr);
   const Bounds3 bounds = set.primitives.Bounds(set.primitives.TriangleCount() + arguments->primID);
   RTCBounds& out = *arguments->bounds_o;
-  out = {1, 1, 1, 0, -1, -1, -1, 0};  // an instance of nothing: empty, and left out
+  out = {1, 1, 1, 0, -1, -1, -1, 0};  // for an empty instance: Embree skips an empty box
   if (bounds.IsEmpty()) return;
-  // Rounding in a test shifts a hit by less than this part of the primitive's size.
+  // Rounding in an intersection test shifts a hit by less than this fraction of the primitive's
+  // size.
   const Real margin = Gamma(16) * MaxComponent(bounds.Diagonal());
   const auto below = [&](Real x) { return NextDown(set.Scaled(NextDown(x - margin))); };
   const auto above = [&](Real x) { return NextUp(set.Scaled(NextUp(x + margin))); };
@@ -137,7 +140,7 @@ class EmbreeAccelerator final : public Aggregate {
   EmbreeAccelerator(const PrimitiveSet& primitives, const Settings& settings)
       : primitives_(primitives),
         scaled_(primitives),
-        device_(rtcNewDevice("threads=1")) {  // the same tree every time
+        device_(rtcNewDevice("threads=1")) {  // one thread builds the same tree every time
     if (!device_) throw Error(ExitStatus::Resource, "Embree cannot start");
     rtcSetDeviceMemoryMonitorFunction(device_, CountBytes, &bytes_);
     scene_ = rtcNewScene(device_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// kdtree: rays walk a kd-tree from front to back. Cells are entered wherever rounding might have
-// put a hit: planes are crossed within a margin that grows with the distance, primitives have one
-// that follows from their size, so that the answer is exactly that of testing every primitive.
-// Traversal runs in double and divides by no component that may be 0.
+// kdtree traverses a kd-tree from front to back. A ray enters a cell wherever rounding might have
+// put a hit. The margin at split planes grows with the distance; the margin of primitives follows
+// from their size. Hits therefore equal those of testing every primitive. Traversal runs in double
+// precision and divides by no component that may be 0.
 #include <array>
 
 #include "accelerators/kd/kd_build.h"
@@ -33,13 +33,13 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// The ray as the traversal needs it. A hit at t may be computed up to slope * t off the ray on each
-// axis, so that a plane is crossed somewhere between two values of t.
+// KdRay holds a ray in the form that traversal needs. The computed hit at t may lie up to slope * t
+// off the ray on each axis, so the ray crosses a plane somewhere in an interval of t.
 struct KdRay {
   struct Axis {
     double o;
-    double first, last;  // 1 / (d +- slope), signed as d: earliest and latest crossing per distance
-    bool isParallel;     // may stay on either side of a plane for good
+    double first, last;  // 1 / (d +- slope), signed as d: earliest and latest t per distance
+    bool isParallel;     // the ray may stay on one side of a plane
     bool isBackward;
   };
   Axis axes[3];
@@ -52,7 +52,7 @@ struct KdRay {
       axis.o = double(ray.o[i]);
       axis.isBackward = d < 0;
       axis.isParallel = size <= 2 * slope;
-      // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
+      // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x for x up to 1/2.
       const double inverse = 1 / (axis.isParallel ? slope : size), x = slope * inverse;
       constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
       axis.first =
@@ -66,7 +66,7 @@ struct Span {
   double min, max;
 };
 
-// Where the ray may be within the bounds.
+// Returns the interval of t in which the ray may be within the bounds.
 std::optional<Span> RootSpan(const KdRay& ray, const Bounds3& bounds, Real tMax) {
   Span span{0, double(tMax)};
   for (int i = 0; i < 3; ++i) {
@@ -114,7 +114,8 @@ class KdTree final : public Aggregate {
     BlockRayRoom blockRay;
     test_.makeBlockRay(trace.triangle, &blockRay);
     bool isOccluded = false;
-    // Whatever blocks it will do; where rays leave a room or end at a lamp, most are blocked.
+    // Any hit blocks a shadow ray. The far end comes first, because most blockers lie where rays
+    // leave a room or end at a light.
     Walk<Order::FarFirst>(ray, [&](const KdNode& leaf) {
       isOccluded = test_.occludedByBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(),
                                           blockRay, trace);
@@ -140,8 +141,8 @@ class KdTree final : public Aggregate {
   enum class Order { NearFirst, FarFirst };
 
   // Visits the leaves along the ray, roughly from front to back or from back to front. visit(leaf)
-  // returns the t beyond which nothing matters any more (ties at it do); a negative one ends the
-  // walk.
+  // returns the t beyond which no hit matters any more; a hit at exactly this t still matters. A
+  // negative t ends the traversal.
   template <Order order, class Visit>
   void Walk(const Ray& worldRay, Visit&& visit) const {
     if (arrays_.nodes.empty()) return;
@@ -172,7 +173,7 @@ class KdTree final : public Aggregate {
         } else if (axis.isBackward) {
           std::swap(near, far);
         }
-        // Where the ray meets one child only, it crosses the plane outside of the span, if at all.
+        // If the ray meets only one child, it crosses the plane outside the span or never.
         if (farBegin > span.max) {
           index = near;
         } else if (nearEnd < span.min) {
@@ -180,7 +181,7 @@ class KdTree final : public Aggregate {
         } else {
           const Span nearSpan{span.min, std::min(span.max, nearEnd)};
           const Span farSpan{std::max(span.min, farBegin), span.max};
-          // An empty cell costs a look instead of a visit.
+          // Checking a child for emptiness is cheaper than visiting it.
           if (nodes[near].IsEmpty()) {
             index = far;
             span = farSpan;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The header that a plugin's author includes: every interface, the parameter table and the
-// descriptor. docs/development/writing-a-plugin.md shows a whole plugin.
+// The header that plugin authors include. It declares every interface, the parameter table and the
+// plugin descriptor. docs/development/writing-a-plugin.md shows a complete plugin.
 #pragma once
 
 #include "core/base/error.h"

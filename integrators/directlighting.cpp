@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Integrator "directlighting": emission, light straight from the lights (light and BSDF samples
-// with the power heuristic), and recursion at specular lobes. No interreflection. Strategies: "all"
-// samples every light; "one" picks one light for each camera sample, uniformly; "weighted" picks it
-// in proportion to power; "near" picks one for each point, by power and distance. All have the same
-// mean.
+// The integrator "directlighting" computes emission, direct light (light and BSDF samples combined
+// by the power heuristic) and specular recursion, but no interreflection. The strategies have the
+// same mean: "all" samples every light; "one" picks one light per camera sample, uniformly;
+// "weighted" picks it in proportion to power; "near" picks one per point, by power and distance.
 #include "core/lights/light_distribution.h"
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
@@ -65,7 +64,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
     int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
 
-  // One light for all points of a camera sample.
+  // Returns whether one light is chosen per camera sample, for all points of its specular tree.
   bool ChoosesForSample() const {
     return settings_.strategy == Strategy::One || settings_.strategy == Strategy::Weighted;
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Integrator "path": unidirectional path tracing with next-event estimation, the ground truth that
-// the photon integrators are tested against. Every estimate is unbiased up to maxdepth.
-// At each vertex one light is chosen (half by power, half uniformly) and combined with the BSDF
-// sample that continues the path by the power heuristic (Veach 1997, chapters 9 and 10).
-// maxdepth d: light is collected at the first d + 1 surfaces of a path; 0 is emission and direct
-// light only (as in pbrt-v1, whose default 5 is this one's).
+// The integrator "path" implements unidirectional path tracing with next event estimation. Tests
+// use it as the reference for the photon integrators. At each vertex the power heuristic combines
+// one light sample with the BSDF sample that continues the path (Veach 1997, chapters 9 and 10).
+// With maxdepth d, light is collected at the first d + 1 surfaces of a path (0: emission and direct
+// light only), as in pbrt-v1, which has the same default. Up to maxdepth the estimate is unbiased.
 #include <algorithm>
 
 #include "core/math/sampling/mis.h"
@@ -30,7 +29,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// The random numbers of one vertex.
+// The uniform random numbers of one path vertex.
 struct PathVertexVariates {
   Real lightChoice;
   Point2 light;
@@ -40,20 +39,20 @@ struct PathVertexVariates {
   Real roulette;
 };
 
-// A path between two vertices.
+// The state of a path between two vertices.
 struct PathState {
   RayDifferential ray;
   Spectrum beta{1};   // product of f |cos| / pdf so far
-  Real etaScale = 1;  // product of 1/eta^2 at refractions, which radiance scales by
+  Real etaScale = 1;  // product of 1/eta^2 at refractions; cancels the radiance scaling in beta
   SurfacePoint from;  // the last vertex
-  Real bsdfPdf = 0;   // per solid angle at `from`, of the ray's direction
-  bool isSpecular =
-      true;  // whether only this ray can find emission: the camera's or a delta lobe's
+  Real bsdfPdf = 0;   // of the ray's direction, per solid angle at `from`
+  bool isSpecular = true;  // camera ray or delta lobe: no light sample could find the emission
 };
 
-// What kind of light a path carries, by its bounces so far: which light layer its contributions
-// belong to, and which of them the plan of effects leaves out. Indirect light has scattered twice
-// by non-specular lobes, a caustic has gone from the last of them to the light over specular ones.
+// PathHistory classifies the light that a path carries by the bounces so far, in order from the
+// camera. It decides which light AOV a contribution is added to, and whether feature culling leaves
+// it out. Indirect light has scattered at least twice at non-specular lobes. A caustic goes from
+// the last non-specular scattering to the light over specular lobes only.
 class PathHistory {
  public:
   PathHistory(const RequiredFeatures& effects, AovSample* aovs)
@@ -66,11 +65,11 @@ class PathHistory {
     if (bounces_++ == 0) isFirstSpecular_ = isSpecular;
     if (!isSpecular) ++scatterings_;
   }
-  // Whether emission at the end of the path counts.
+  // Returns whether emission at the end of the path counts.
   bool TakesEmission() const { return scatterings_ == 0 || !isLastSpecular_ || hasCaustics_; }
-  // Whether light that is sampled at the path's end, by non-specular lobes, counts.
+  // Returns whether next event estimation at the path's end counts.
   bool TakesDirect() const { return scatterings_ == 0 || hasIndirect_; }
-  // By which lobes the path may go on.
+  // Returns the lobes that may continue the path.
   LobeSet Lobes(LobeSet all) const {
     return scatterings_ == 0 || hasIndirect_ ? all : all & LobeSet::Specular;
   }
@@ -89,7 +88,7 @@ class PathHistory {
       aovs_->indirect += radiance;
     }
   }
-  // What media add to the stretch of the path that begins at the last bounce.
+  // Adds the radiance of media along the path segment that begins at the last bounce.
   void AddMedia(const Spectrum& radiance) const {
     if (!aovs_) return;
     if (bounces_ == 0) {
@@ -109,8 +108,8 @@ class PathHistory {
 
  private:
   bool hasIndirect_, hasCaustics_;
-  AovSample* aovs_;                    // null: no aov was asked for
-  int bounces_ = 0, scatterings_ = 0;  // the latter by non-specular lobes
+  AovSample* aovs_;                    // null: no AOV is requested
+  int bounces_ = 0, scatterings_ = 0;  // scatterings_: non-specular bounces only
   bool isFirstSpecular_ = false, isLastSpecular_ = false;
 };
 
@@ -154,7 +153,7 @@ class PathIntegrator final : public SurfaceIntegrator {
         if (depth == 0) context.alpha = sum.IsBlack() ? 0 : 1;
         break;
       }
-      // One ray beyond the last vertex was for the emission it may meet.
+      // The ray beyond the last vertex is traced only for the emission that it may hit.
       if (depth > maxDepth_) break;
       const Arena::Mark mark = context.arena.GetMark();
       const ShadingPoint point =
@@ -174,8 +173,8 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
 
  private:
-  static constexpr int kSampledVertices = 3;  // with points of the sampler; then random ones
-  static constexpr int kRouletteDepth = 4;    // vertices before roulette begins
+  static constexpr int kSampledVertices = 3;  // vertices that use the sampler, not a stream
+  static constexpr int kRouletteDepth = 4;    // vertices before Russian roulette begins
   static constexpr Real kMaxSurvival = Real(.98);
   static constexpr std::uint64_t kPathStream = 0x9a7;
 
@@ -211,7 +210,8 @@ class PathIntegrator final : public SurfaceIntegrator {
     return s;
   }
 
-  // What the ray's end emits, weighted against the light sample of the vertex that it left.
+  // Returns the emission at the ray's end, with the MIS weight against the light sample at the
+  // vertex that the ray left.
   Spectrum Emission(const PathState& path, const SurfaceInteraction* hit,
                     const Scene& scene) const {
     const Vector3& w = path.ray.d;
@@ -233,12 +233,13 @@ class PathIntegrator final : public SurfaceIntegrator {
     return PowerHeuristic(1, path.bsdfPdf, 1, lightPdf);
   }
 
-  // The lobes of f, Pdf and Sample alike.
+  // f, Pdf and Sample must all use these lobes.
   static LobeSet Lobes(const Scene& scene) {
     return scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular;
   }
 
-  // Next-event estimation with one light.
+  // Next event estimation with one light. LightSampler chooses it by power (half of the choices are
+  // uniform), or by the light tree if there are many lights.
   Spectrum DirectLight(const ShadingPoint& point, const PathVertexVariates& sample,
                        LiContext& context) const {
     if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
@@ -248,12 +249,12 @@ class PathIntegrator final : public SurfaceIntegrator {
                            Lobes(context.scene), context);
   }
 
-  // Extends the path by one BSDF sample; false where it ends.
+  // Extends the path by one BSDF sample. Returns false if the path ends.
   bool Continue(const ShadingPoint& point, const PathVertexVariates& sample, LobeSet lobes,
                 PathState* path) const {
     const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, lobes);
     if (!scattered) return false;
-    // Beyond the last vertex only emission that direct lighting shares in is collected.
+    // Beyond the last vertex, only emission that next event estimation also samples is collected.
     if (point.depth >= maxDepth_ && scattered->IsSpecular()) return false;
     path->beta *= scattered->throughput;
     if (scattered->IsSpecular() && scattered->IsTransmission()) {
@@ -261,7 +262,8 @@ class PathIntegrator final : public SurfaceIntegrator {
     }
     if (!(path->beta.MaxComponent() > 0) || !path->beta.IsFinite()) return false;
     if (point.depth >= kRouletteDepth) {
-      // Radiance scaled by entering a denser medium says nothing about what the path will bring.
+      // etaScale removes the scaling of radiance by refraction, which does not affect how much
+      // light the path will contribute.
       const Real survival = std::min(path->beta.MaxComponent() * path->etaScale, kMaxSurvival);
       if (!(sample.roulette < survival)) return false;
       path->beta /= survival;
@@ -273,7 +275,7 @@ class PathIntegrator final : public SurfaceIntegrator {
     return true;
   }
 
-  // Specular rays keep the footprint of the pixel; others have none.
+  // Specular bounces keep the ray differentials of the pixel; other bounces have none.
   static RayDifferential NextRay(const ShadingPoint& point, const BsdfSample& scattered) {
     RayDifferential ray = SpawnRay(point.surface, scattered.wi);
     if (scattered.IsSpecular()) AddSpecularDifferentials(point, scattered, &ray);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Integrator "whitted": emission, one shadow ray to each light, and recursion at specular lobes.
-// Area lights and skies are sampled at one random point without BSDF samples, so it is unbiased but
-// noisier than "directlighting" where a light is large or a surface glossy.
-// Source: Whitted 1980, "An Improved Illumination Model for Shaded Display".
+// The integrator "whitted" computes emission, direct light by one shadow ray per light, and
+// specular recursion. Area lights and infinite lights are sampled at one random point, without BSDF
+// samples. The estimate is unbiased, but noisier than "directlighting" for large lights and glossy
+// surfaces. Source: Whitted 1980, "An Improved Illumination Model for Shaded Display".
 #include "core/plugin.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular_tree.h"
@@ -74,7 +74,7 @@ class WhittedIntegrator final : public SurfaceIntegrator {
   }
 
   int maxDepth_;
-  std::vector<LightArrays> arrays_;  // one a light; -1 for black and delta lights
+  std::vector<LightArrays> arrays_;  // one per light; handles are -1 for black and delta lights
 };
 
 std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {

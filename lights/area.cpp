@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Area light "area" (version 2 of the scene language: "diffuse"): a surface that emits the same
-// radiance from every point into the hemisphere round its normal, and nothing behind.
+// The area light "area" ("diffuse" in version 2 of the scene language) emits the same radiance from
+// every point into the hemisphere about the normal, and nothing on the back.
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
@@ -57,14 +57,15 @@ class DiffuseAreaLight final : public AreaLight {
     return on ? surface_->PdfToward(ref, wi, *on) : 0;
   }
 
-  // By area, cosine about the normal: every ray carries the same power (at one time).
+  // Samples the position by area and the direction by cosine, so that at one time every ray carries
+  // the same power.
   std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real uSubLight,
                                               Real time) const override {
     EmitterSample sample = surface_->SamplePoint(uPosition, uSubLight, time);
     sample.point.time = time;
     const Vector3 local = SampleCosineHemisphere(uDirection);
     const Vector3 w = Frame::FromZ(sample.point.ng).ToWorld(local);
-    // 1 but for surfaces that are stretched unevenly, or as they move.
+    // 1 unless the surface is scaled non-uniformly, or stretched by its motion.
     const Real stretched = 1 / area_ / sample.pdf;
     return LightLeSample{SpawnRay(sample.point, w), Power() * stretched, sample.pdf,
                          CosineHemispherePdf(local.z)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light "distant": parallel light, as from the sun. Its irradiance on a plane perpendicular to it
-// is L everywhere. Photons start on a disk that covers the sphere round the scene.
+// The light "distant" emits parallel light, like the sun. L is its irradiance on a plane
+// perpendicular to the light. Photons start on a disk that covers the bounding sphere of the scene.
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
@@ -46,13 +46,14 @@ class DistantLight final : public Light {
     return 0;
   }
 
-  // Density per area 1 / (pi r^2).
+  // The density per area is 1 / (pi r^2).
   std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2, Real,
                                               Real time) const override {
     if (!(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);
     const Frame frame = Frame::FromZ(toLight_);
-    // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
+    // Start slightly outside the sphere, so that rounding never starts a photon inside a wall that
+    // touches the sphere.
     const Vector3 offset = frame.x * d.x + frame.y * d.y + toLight_ * Real(1.001);
     const Ray ray{world_.center + offset * world_.radius, -toLight_, kInfinity, time};
     return LightLeSample{ray, Power(), DiskPdf(), 1};

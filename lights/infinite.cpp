@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light "infinite": radiance from all round the scene, uniform or from a latitude-longitude map
-// (azimuth about z along x, angle from +z downwards). Directions are drawn in proportion to the
-// map's cells, uniform in solid angle within a cell; photons start on a disk that covers the scene.
+// The light "infinite" emits radiance from all directions, uniform or from a latitude-longitude map
+// (azimuth about z from x, polar angle from +z). Directions are sampled in proportion to the cells
+// of the map, uniformly in solid angle within a cell. Photons start on a disk covering the scene.
 #include <vector>
 
 #include "core/imaging/image.h"
@@ -33,8 +33,9 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// Radiance over the sphere in the light's own space, bilinear between texels, and a density made of
-// the mean of that over each texel's cell: positive wherever the radiance is.
+// This class stores the radiance over the sphere in light space, bilinear between texels. It
+// samples directions by the mean radiance in each cell, so the density is positive wherever the
+// radiance is.
 class RadiancePhotonMap {
  public:
   RadiancePhotonMap(std::vector<Spectrum> texels, int width, int height)
@@ -55,9 +56,9 @@ class RadiancePhotonMap {
     cells_ = PiecewiseConstant2D(weights, width_, height_);
   }
 
-  // Of each channel. The integral may underflow to 0, this does not.
+  // Largest value of each channel. Unlike the integral, it cannot underflow to 0.
   const Spectrum& Largest() const { return largest_; }
-  // Of the radiance over the sphere.
+  // Integral of the radiance over the sphere.
   Spectrum Integral() const { return {Real(integral_[0]), Real(integral_[1]), Real(integral_[2])}; }
 
   Spectrum Evaluate(const Vector3& w) const {
@@ -69,7 +70,7 @@ class RadiancePhotonMap {
                 Lerp(fx, Texel(x0, y0 + 1), Texel(x0 + 1, y0 + 1)));
   }
 
-  // Density per solid angle.
+  // Returns the density of Sample per solid angle.
   Real Pdf(const Vector3& w) const {
     const Coordinates c = ToMap(w);
     const int column = std::min(int(c.x), width_ - 1), row = std::min(int(c.y), height_ - 1);
@@ -81,7 +82,7 @@ class RadiancePhotonMap {
     const Point2 p = cells_.Sample(u);
     const double y = double(p.y) * height_;
     const int row = std::min(int(y), height_ - 1);
-    // 1 - cos is linear in the place within the cell; it loses nothing at the pole z = 1.
+    // 1 - cos is linear in the position within the cell, and has no cancellation at the pole z = 1.
     const double a = OneMinusCosOfRow(row), b = OneMinusCosOfRow(row + 1);
     const double t = a + (y - row) * (b - a);
     const double sinTheta = std::sqrt(std::max(t * (2 - t), 0.0));
@@ -92,7 +93,7 @@ class RadiancePhotonMap {
  private:
   static constexpr double kPiDouble = 3.14159265358979323846;
 
-  // In texels: x in [0, width], y in [0, height].
+  // Position in texels: x in [0, width], y in [0, height].
   struct Coordinates {
     double x, y;
   };
@@ -109,7 +110,7 @@ class RadiancePhotonMap {
   double CellSolidAngle(int row) const {
     return 2 * kPiDouble / width_ * (OneMinusCosOfRow(row + 1) - OneMinusCosOfRow(row));
   }
-  // Columns repeat; beyond a pole lies the row itself, half a turn on.
+  // Columns wrap around. Beyond a pole the same row continues, rotated by half a turn.
   Spectrum Texel(int x, int y) const {
     if (y < 0 || y >= height_) {
       y = std::clamp(y, 0, height_ - 1);
@@ -118,7 +119,7 @@ class RadiancePhotonMap {
     x = (x % width_ + width_) % width_;
     return texels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
   }
-  // Mean of the bilinear interpolant over a cell: weights 1/8, 6/8, 1/8 each way.
+  // Returns the mean of the bilinear interpolant over a cell: weights 1/8, 6/8, 1/8 per axis.
   Spectrum CellMean(int x, int y) const {
     constexpr Real kWeights[3] = {Real(.125), Real(.75), Real(.125)};
     Spectrum sum;
@@ -136,7 +137,7 @@ class RadiancePhotonMap {
 
 class InfiniteLight final : public Light {
  public:
-  // map null: uniform.
+  // If map is null, the radiance is uniform.
   InfiniteLight(const Transform& lightToWorld, const Spectrum& radiance,
                 std::unique_ptr<RadiancePhotonMap> map, int sampleCount)
       : toWorld_(lightToWorld),
@@ -174,14 +175,15 @@ class InfiniteLight final : public Light {
     return on ? 0 : DirectionPdf(wi);
   }
 
-  // Density DirectionPdf per solid angle times 1 / (pi r^2) per area of the disk.
+  // The density is DirectionPdf per solid angle times 1 / (pi r^2) per area of the disk.
   std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2 uDirection, Real,
                                               Real time) const override {
     const auto w = SampleDirection(uDirection);
     if (!w || !(world_.radius > 0)) return std::nullopt;
     const Point2 d = SampleDisk(uPosition);
     const Frame frame = Frame::FromZ(*w);
-    // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
+    // Start slightly outside the sphere, so that rounding never starts a photon inside a wall that
+    // touches the sphere.
     const Vector3 offset = frame.x * d.x + frame.y * d.y + *w * Real(1.001);
     const Ray ray{world_.center + offset * world_.radius, -*w, kInfinity, time};
     const Real pdf = DirectionPdf(*w);
@@ -197,15 +199,15 @@ class InfiniteLight final : public Light {
     return NormalizeOr(toLight_.ApplyVector(w), {0, 0, 1});
   }
 
-  // World direction towards the sky; nullopt where the density rounds to 0.
+  // Samples a world direction towards the light; nullopt if its density rounds to 0.
   std::optional<Vector3> SampleDirection(Point2 u) const {
     const Vector3 w = map_ ? NormalizeOr(toWorld_.ApplyVector(map_->Sample(u)), {0, 0, 1})
                            : SampleUniformSphere(u);
     if (!(DirectionPdf(w) > 0)) return std::nullopt;
     return w;
   }
-  // Per solid angle in world space. A transformation M that is not a similarity stretches solid
-  // angles by |det M| / |M w|^3.
+  // Returns the density per solid angle in world space. A transformation M that is not a similarity
+  // stretches solid angles by |det M| / |M w|^3.
   Real DirectionPdf(const Vector3& w) const {
     if (!map_) return kUniformSpherePdf;
     const Vector3 local = ToLight(w);
@@ -221,7 +223,7 @@ class InfiniteLight final : public Light {
   Sphere3 world_;
 };
 
-// The map's colours; values that are no radiance become 0, with a warning.
+// Reads the colours of the map. Negative and non-finite values become 0, with a warning.
 std::vector<Spectrum> ReadTexels(const Image& image, const std::string& name,
                                  const LightContext& context) {
   const int channels[3] = {image.FindChannel("R"), image.FindChannel("G"), image.FindChannel("B")};
@@ -259,7 +261,7 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
     if (texels.empty()) throw ParamError{"mapname", "names an image without pixels", ""};
     const auto differs = [&](const Spectrum& s) { return !(s == texels.front()); };
     if (std::none_of(texels.begin(), texels.end(), differs)) {
-      radiance *= texels.front();  // a map of one colour is a uniform sky
+      radiance *= texels.front();  // a map of one colour is a uniform light
       if (texels.front().IsBlack())
         context.log.Warning("\"" + settings.mapName + "\" is black: the light is off",
                             context.where);

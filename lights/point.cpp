@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light "point": the same intensity in every direction from one point. Very near to a surface it
-// acts as from a least distance (core/lights/least_distance.h), so that one on a surface stays
-// finite.
+// The light "point" has the same intensity in every direction from one point. Smaller distances
+// than a minimum (core/lights/least_distance.h) count as the minimum, so that a light on a surface
+// stays finite.
 #include "core/lights/least_distance.h"
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"

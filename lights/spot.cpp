@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light "spot": a point light confined to a cone. Full intensity within coneangle - conedeltaangle
-// of the axis, then a quartic fall to 0 at coneangle. All angles are compared by 1 - cos, which
-// keeps narrow cones exact; photons leave in proportion to the falloff, so all weigh the same.
+// The light "spot" is a point light confined to a cone. It has full intensity within
+// coneangle - conedeltaangle of the axis, and falls by a quartic to 0 at coneangle. Angles are
+// compared by one minus cosine, which keeps narrow cones exact. Photons are sampled in proportion
+// to the falloff, so all have the same weight.
 #include "core/lights/least_distance.h"
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
@@ -42,7 +43,7 @@ const ParamTable<Settings>& Parameters() {
 
 class SpotLight final : public Light {
  public:
-  // Angles in radians: of the whole cone and of the part with full intensity.
+  // totalAngle: half-angle of the cone; innerAngle: half-angle of full intensity. Both in radians.
   SpotLight(const Point3& position, const Vector3& axis, const Spectrum& intensity,
             double totalAngle, double innerAngle)
       : position_(position),
@@ -56,7 +57,7 @@ class SpotLight final : public Light {
   bool IsDelta() const override { return true; }
   std::optional<Bounds3> Bounds() const override { return Bounds3(position_); }
   bool IsProvablyBlack() const override { return intensity_.IsBlack(); }
-  // 2 pi I [(1 - cos inner) + (cos inner - cos total) / 5]: the integral of the falloff.
+  // Integral of the intensity: 2 pi I [(1 - cos inner) + (cos inner - cos total) / 5].
   Spectrum Power() const override { return intensity_ * EffectiveSolidAngle(); }
 
   std::optional<LightLiSample> SampleDirect(const SurfacePoint& ref, Point2, Real) const override {
@@ -74,13 +75,13 @@ class SpotLight final : public Light {
     return 0;
   }
 
-  // Density per solid angle: falloff / integral of the falloff.
+  // The density per solid angle is the falloff over its integral.
   std::optional<LightLeSample> SampleEmission(Point2, Point2 u, Real, Real time) const override {
-    const Real area = inner_ + rim_ / 5;  // over 2 pi
+    const Real area = inner_ + rim_ / 5;  // effective solid angle / (2 pi)
     const Real inInner = u.x * area;
     Real oneMinusCos = inInner, falloff = 1;
     if (inInner >= inner_ && rim_ > 0) {
-      // In the rim delta = (cos - cos total) / (cos inner - cos total) has density 5 delta^4.
+      // In the rim, delta = (cos - cos total) / (cos inner - cos total) has the density 5 delta^4.
       const Real fifth = std::clamp(1 - (inInner - inner_) * 5 / rim_, kMachineEpsilon, Real(1));
       const Real delta = std::pow(fifth, Real(.2));
       oneMinusCos = inner_ + rim_ * (1 - delta);
@@ -100,12 +101,12 @@ class SpotLight final : public Light {
 
   Real EffectiveSolidAngle() const { return 2 * kPi * (inner_ + rim_ / 5); }
 
-  // Share of the full intensity in direction w (unit, leaving the light).
+  // Returns the share of the full intensity in direction w (unit, leaving the light).
   Real Falloff(const Vector3& w) const {
     const Real oneMinusCos = LengthSquared(w - axis_) / 2;
     if (oneMinusCos <= inner_) return 1;
     const Real left = inner_ + rim_ - oneMinusCos;
-    return left > 0 ? Square(Square(left / rim_)) : 0;  // also where the rim has no width
+    return left > 0 ? Square(Square(left / rim_)) : 0;  // 0 also if the rim has no width
   }
 
   Point3 position_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// glass: a smooth dielectric boundary from index 1 (outside, the normal's side) to `index`, that
-// reflects and refracts by Fresnel's equations.
+// The material "glass" is a smooth dielectric boundary that reflects and refracts by Fresnel's
+// equations. The index of refraction is 1 outside (on the normal's side) and `index` inside.
 #include "core/scattering/lobes/specular.h"
 #include "materials/common/surface_material.h"
 
@@ -38,7 +38,7 @@ class Glass final : public SurfaceMaterial {
     Bsdf bsdf = MakeBsdf(si);
     const Spectrum kr = ReadNonNegative(kr_, *si), kt = ReadNonNegative(kt_, *si);
     Real index = std::clamp(ReadNonNegative(index_, *si), Real(0), Real(1e6));
-    if (index == 0) index = 1;  // a texture's value that is no index
+    if (index == 0) index = 1;  // the texture gave no valid index
     if (!kr.IsBlack() && index != 1)
       bsdf.Add(arena->Make<SpecularReflection>(kr, Fresnel::Dielectric(1, index)));
     if (!kt.IsBlack()) bsdf.Add(arena->Make<SpecularTransmission>(kt, Real(1), index, mode));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// matte: diffuse reflection, Lambert's or with sigma > 0 that of Oren and Nayar 1994.
+// The material "matte" is diffuse: Lambertian, or after Oren and Nayar (1994) if sigma > 0.
 #include "core/scattering/lobes/lambert.h"
 #include "core/scattering/lobes/oren_nayar.h"
 #include "materials/common/surface_material.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// metal: glossy reflection with the Fresnel term of a measured conductor; copper unless told
-// otherwise.
+// The material "metal" has glossy reflection with the Fresnel term of a measured conductor. The
+// default is copper.
 #include "core/scattering/lobes/microfacet.h"
 #include "materials/common/surface_material.h"
 
@@ -8,7 +8,7 @@ namespace exphoton {
 namespace {
 
 struct Settings : SurfaceSettings {
-  // Copper, measured spectra reduced to linear RGB.
+  // Copper: measured spectra, converted to linear RGB.
   TexturePtr<Spectrum> eta = Uniform(Spectrum(Real(.200438), Real(.924033), Real(1.102212)));
   TexturePtr<Spectrum> k = Uniform(Spectrum(Real(3.912949), Real(2.452848), Real(2.142188)));
   TexturePtr<Real> roughness = Uniform(Real(.01));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// mirror: ideal specular reflection, the same at every angle.
+// The material "mirror" is an ideal specular reflector with the same reflectance at every angle.
 #include "core/scattering/lobes/specular.h"
 #include "materials/common/surface_material.h"
 

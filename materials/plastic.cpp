@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// plastic: diffuse reflection under a coat with glossy highlights.
+// The material "plastic" has diffuse reflection under a glossy coat.
 #include "core/scattering/lobes/lambert.h"
 #include "materials/common/gloss.h"
 

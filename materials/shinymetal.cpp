@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// shinymetal: a metal's mirror reflection and gloss, each with the Fresnel term of a conductor
-// whose reflectance at normal incidence is the given colour.
+// The material "shinymetal" has mirror reflection and glossy reflection. Each has the Fresnel term
+// of a conductor whose reflectance at normal incidence is the given colour.
 #include "core/scattering/lobes/microfacet.h"
 #include "core/scattering/lobes/specular.h"
 #include "materials/common/surface_material.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// substrate: a diffuse base under an anisotropic glossy coat (Ashikhmin and Shirley 2000):
-// varnished wood, painted surfaces.
+// The material "substrate" is a diffuse base under an anisotropic glossy coat (Ashikhmin and
+// Shirley 2000), for varnished wood and painted surfaces.
 #include "core/scattering/lobes/blinn.h"
 #include "core/scattering/lobes/fresnel_blend.h"
 #include "materials/common/surface_material.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// translucent: diffuse and glossy reflection, and the same mirrored through the surface to its
-// other side: leaves, lamp shades, paper.
+// The material "translucent" has diffuse and glossy reflection, and transmission by the same lobes
+// mirrored to the other side. It suits leaves, lamp shades and paper.
 #include "core/scattering/lobes/lambert.h"
 #include "core/scattering/lobes/transmitted.h"
 #include "materials/common/gloss.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// uber: diffuse, glossy and mirror reflection together, and an opacity that lets the rest through
-// in a straight line.
+// The material "uber" has diffuse, glossy and mirror reflection, and an opacity. The rest of the
+// light passes straight through.
 #include "core/scattering/lobes/lambert.h"
 #include "core/scattering/lobes/specular.h"
 #include "materials/common/gloss.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sampler "lowdiscrepancy": for each pixel and request an Owen-scrambled (0,2)-sequence, shuffled
-// so that requests do not correlate. Any array of 2^k points, the first 2^k samples (k >= 4) and
-// all samples of a pixel are (0,k,2)-nets. Sources: Kollig and Keller 2002; Burley 2020, "Practical
-// Hash-based Owen Scrambling".
+// The sampler "lowdiscrepancy" uses an Owen-scrambled (0,2)-sequence for each pixel and request,
+// shuffled so that requests do not correlate. Any array of 2^k points, the first 2^k samples
+// (k >= 4) and all samples of a pixel are (0,k,2)-nets. Sources: Kollig and Keller 2002; Burley
+// 2020, "Practical Hash-based Owen Scrambling".
 #include <array>
 #include <bit>
 #include <utility>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ull;
 constexpr int kMaxCount = 1 << 30;
-// So many consecutive samples are shuffled freely: a shuffle that keeps every pair of samples
-// together would leave the interaction of two requests with twice the variance.
+// This many consecutive samples are shuffled freely. A shuffle that kept every pair of samples
+// together would double the variance of the interaction of two requests.
 constexpr std::uint32_t kShuffled = 16;
 
 struct Settings {
@@ -31,7 +31,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// Everything here has its bits reversed until the last step: reversed, the first dimension is the
+// Below, all values are bit-reversed until the last step. Bit-reversed, the first dimension is the
 // index itself.
 constexpr std::array<std::uint32_t, 32> ReversedDirections() {
   std::array<std::uint32_t, 32> directions{};
@@ -40,11 +40,11 @@ constexpr std::array<std::uint32_t, 32> ReversedDirections() {
 }
 constexpr std::array<std::uint32_t, 32> kDirections = ReversedDirections();
 
-// The points of one request at one sample: a block of 2^k of the sequence, aligned, in Gray code
-// order, which needs one exclusive-or a point.
+// Block generates the points of one request at one sample: an aligned block of 2^k points of the
+// sequence. Gray code order needs one exclusive-or per point.
 class Block {
  public:
-  // `requestKey` is of (seed, pixel, request); `shuffled` a power of two.
+  // `requestKey` is a hash of (seed, pixel, request). `shuffled` is a power of two.
   Block(std::uint64_t requestKey, std::int64_t sample, std::uint32_t shuffled, std::size_t count)
       : key_(MixBits(requestKey)) {
     const int shift = int(std::bit_width(count == 0 ? 0 : count - 1));
@@ -52,7 +52,7 @@ class Block {
     const auto low = std::uint32_t(sample) & (shuffled - 1);
     const std::uint64_t s =
         std::uint64_t(sample) - low + PermuteIndex(low, shuffled, std::uint32_t(shuffleKey >> 32));
-    // Beyond 2^32 points the sequence begins again with other keys.
+    // Beyond 2^32 points the sequence restarts with other keys.
     const std::uint64_t round = s >> (32 - shift);
     if (round != 0) key_ = MixBits(key_ + kGolden * round);
     const auto first = static_cast<std::uint32_t>(s << shift);
@@ -60,11 +60,12 @@ class Block {
     second_ = SobolSecondReversed(index_);
   }
 
-  // The first point, which may be all there is.
+  // Returns the first point of a 1D request, which may be the only one.
   Real First() const { return ScrambledVanDerCorput(index_, FirstKey()); }
   Point2 Both() const { return {First(), ScrambledVanDerCorput(second_, SecondKey())}; }
 
-  // The next points of a run, by their number; to be called for all runs one after the other.
+  // Generates the next run of points. `number` is the index of its first point. Runs must be
+  // generated in order.
   void Next(std::span<Real> values, std::uint32_t number) {
     std::uint32_t first[kRun] = {};
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -85,7 +86,7 @@ class Block {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = {x[i], y[i]};
   }
 
-  static constexpr std::size_t kRun = 64;  // points at most
+  static constexpr std::size_t kRun = 64;  // most points per run
 
  private:
   std::uint32_t FirstKey() const { return std::uint32_t(key_); }
@@ -95,7 +96,7 @@ class Block {
   std::uint32_t index_, second_;
 };
 
-// Makes every order equally likely, so that the i-th points of two arrays are independent.
+// Makes all orders equally likely, so that the i-th points of two arrays are independent.
 template <class T>
 void Shuffle(std::span<T> values, std::uint64_t key) {
   RandomStream random(key);

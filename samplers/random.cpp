@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sampler "random": independent uniform points. The slowest to converge, and the yardstick for the
-// others.
+// The sampler "random" generates independent uniform points. It converges slowest, and is the
+// baseline for the other samplers.
 #include "core/math/sampling/random.h"
 #include "core/plugin.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sampler "stratified": one point in each cell of an xsamples by ysamples grid, cells in an order
-// that differs from request to request. Arrays are correlated multi-jittered (Kensler 2013), and
-// each of their strata is divided once more among the samples of the pixel.
+// The sampler "stratified" takes one point in each cell of an xsamples by ysamples grid, in an
+// order of cells that differs between requests. Arrays are correlated multi-jittered (Kensler
+// 2013). Each stratum of an array is divided once more among the samples of the pixel.
 #include <cmath>
 #include <utility>
 
@@ -27,7 +27,8 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// The most nearly square grid of `count` cells; a few cells more where count has no such divisors.
+// Grid is a grid of x by y cells. For returns the most nearly square grid of `count` cells, or of a
+// few more cells if `count` has no suitable divisors.
 struct Grid {
   std::uint32_t x, y;
 
@@ -42,7 +43,7 @@ struct Grid {
   std::uint32_t Count() const { return x * y; }
 };
 
-// (cell + offset) / count, not rounded out of its cell.
+// Returns (cell + offset) / count, corrected where rounding would leave the cell.
 Real InCell(double cell, double offset, double count) {
   const Real v = Real((cell + offset) / count);
   if (double(v) * count >= cell + 1) return NextDown(v);
@@ -50,14 +51,15 @@ Real InCell(double cell, double offset, double count) {
   return v;
 }
 
-// Where sample `index` stands among the samples of its pixel, for one request.
+// Turn is the place of one sample among the samples of its pixel, for one request.
 struct Turn {
-  std::uint64_t pixelKey;   // of (seed, pixel, round, request): the same for all samples
-  std::uint64_t sampleKey;  // also of the sample
-  std::uint32_t cell;       // its number in this request's order
+  std::uint64_t pixelKey;   // hash of (seed, pixel, round, request): the same for all samples
+  std::uint64_t sampleKey;  // hash of pixelKey and the sample
+  std::uint32_t cell;       // the sample's cell in this request's order
   std::uint32_t cells;
 
-  // The part, 0 to cells - 1, that this sample takes of stratum `number`; every part is taken once.
+  // Returns the part of stratum `number`, 0 to cells - 1, that this sample takes. The samples of a
+  // pixel take each part once.
   std::uint32_t PartOf(std::uint32_t number, std::uint64_t axis) const {
     const std::uint64_t bits = MixBits(pixelKey + axis + kGolden * (number + 1));
     const auto turn = std::uint32_t((bits >> 32) * cells >> 32);
@@ -81,7 +83,7 @@ void FillArray(const Turn& turn, std::span<Real> values) {
   Shuffle(values, &random);
 }
 
-// Columns times rows cells with one point each; within a column (row) the points have different
+// Fills columns x rows cells with one point each. Within a column (row) the points lie in different
 // finer columns (rows), so that each axis alone is stratified too.
 void FillArray(const Turn& turn, std::span<Point2> values) {
   RandomStream random(turn.sampleKey);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// cylinder: an open tube about z between zmin and zmax, swept by phimax degrees. u runs with the
-// azimuth, v from zmin to zmax. Sampled by area.
+// The shape "cylinder" is an open tube about z between zmin and zmax, swept by phimax degrees. u
+// follows the azimuth, v runs from zmin to zmax. As a light it is sampled by area.
 #include "core/geometry/placed_emitter.h"
 #include "core/plugin.h"
 #include "shapes/quadric/quadric.h"
@@ -93,7 +93,7 @@ class Cylinder final : public QuadricShape {
   double radius_, zMin_, zMax_, phiMax_;
   bool isRound_;
   Real area_;
-  std::unique_ptr<const PlacedEmitter> uneven_;  // where axes are scaled differently
+  std::unique_ptr<const PlacedEmitter> uneven_;  // set if the axes are scaled differently
 };
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {

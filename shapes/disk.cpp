@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// disk: a flat ring or disk perpendicular to z, swept by phimax degrees. u runs with the azimuth, v
-// from the rim (0) to the inner edge (1). Its normal is one and the same everywhere, the centre
-// included; flatness keeps area sampling right under any transformation.
+// The shape "disk" is a flat disk or ring perpendicular to z, swept by phimax degrees. u follows
+// the azimuth, v runs from the rim (0) to the inner edge (1). The normal is the same everywhere,
+// also at the centre. Because the shape is flat, area sampling is uniform under any transformation.
 #include "core/plugin.h"
 #include "shapes/quadric/quadric.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// loopsubdiv: the limit surface of Loop subdivision of a triangle mesh, as a finer mesh whose
-// vertices lie on it and whose normals are its own. (pbrt-v1 takes normals from the ring of limit
-// positions, which is exact only in the limit: at low levels its highlights lie elsewhere.)
+// The shape "loopsubdiv" is the limit surface of Loop subdivision of a triangle mesh, as a finer
+// mesh with limit positions and limit normals. (pbrt-v1 computes normals from the ring of limit
+// positions, which is exact only in the limit. At low levels its highlights lie elsewhere.)
 #include "core/base/memory.h"
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
@@ -33,12 +33,12 @@ const ParamTable<Settings>& Parameters() {
 
 constexpr double kMostTriangles = 1 << 27;
 
-// Peak of LoopSubdivide for each triangle of the finest mesh: its sides while they are sorted, its
-// edges, the sums round its vertices, two meshes. Measured, with the program: 155 bytes at 9
+// Peak memory of LoopSubdivide per triangle of the finest mesh: its sides during sorting, its
+// edges, the sums around its vertices, two meshes. Measured for the whole program: 155 bytes at 9
 // levels, 126 at 10.
 constexpr double kBytesPerTriangle = 160;
 
-// Refused before it begins: a machine that runs out of memory may end other programs, too.
+// Fails before the work begins, because a system that runs out of memory may end other programs.
 void CheckMemory(double triangles, int levels, const SourceLocation& where) {
   const double bytes = triangles * kBytesPerTriangle;
   if (bytes <= UsableMemory()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// plymesh: the triangles and quads of a PLY file, which may be compressed by gzip. Not part of
-// version 1 of the scene language; meaning as in version 3.
+// The shape "plymesh" reads triangles and quads from a PLY file, which may be compressed by gzip.
+// It has the meaning of version 3 of the scene language; version 1 does not have it.
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
 #include "shapes/mesh/ply_reader.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// sphere: the part of a sphere round the origin between the planes z = zmin and z = zmax, swept by
-// phimax degrees about z. u runs with the azimuth, v from zmin to zmax. A whole sphere is sampled
-// towards a point by the cone that it fills; parts of one by area. An ellipsoid (a sphere under
-// uneven scale) is sampled as the sphere that it is in its own space.
+// The shape "sphere" is the part of a sphere about the origin between the planes z = zmin and
+// z = zmax, swept by phimax degrees about z. u follows the azimuth, v runs from zmin to zmax. As a
+// light, a whole sphere is sampled by the cone that it subtends, a partial one by area. An
+// ellipsoid (non-uniform scale) is sampled in object space, where it is a sphere.
 #include "core/geometry/placed_emitter.h"
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
@@ -67,7 +67,7 @@ class Sphere final : public QuadricShape {
       const Real r = Real(radius_);
       return objectToWorld_.ApplyBounds({{-r, -r, Real(zMin_)}, {r, r, Real(zMax_)}});
     }
-    // The ellipsoid's extent along an axis is the radius times the length of the matrix's row.
+    // The ellipsoid's extent along an axis is the radius times the length of the matrix row.
     Bounds3 bounds;
     const auto& m = objectToWorld_.Matrix().m;
     for (int i = 0; i < 3; ++i) {
@@ -96,7 +96,7 @@ class Sphere final : public QuadricShape {
     double alongRay;
     Real pdf;
     if (view.where == View::Inside) {
-      // Every direction meets the sphere once.
+      // Every direction hits the sphere once.
       w = NormalizeOrZero(Vec3d(SampleUniformSphere(u)));
       const double b = Dot(w, view.axis) * view.distance;
       alongRay = b + std::sqrt(std::max(b * b - view.power, 0.0));
@@ -158,13 +158,14 @@ class Sphere final : public QuadricShape {
   }
 
  private:
-  // How the sphere looks from a point. `Near`: on it, or as good as, or only a part of one.
+  // View describes the sphere as seen from a point. Near: the point is on the surface or very
+  // close, or the shape is only part of a sphere.
   struct View {
     enum Where { Inside, Near, Outside } where = Near;
     Vec3d axis;              // unit, towards the centre
     double distance = 0;     // to the centre
     double power = 0;        // distance^2 - radius^2
-    double oneMinusCos = 0;  // of the half-angle of the cone, from outside
+    double oneMinusCos = 0;  // Outside: of the half-angle of the cone that it subtends
   };
   View ViewFrom(const SurfacePoint& ref) const {
     View view;
@@ -191,7 +192,7 @@ class Sphere final : public QuadricShape {
   Real area_;
   double worldRadius_;
   Vec3d worldCenter_;
-  std::unique_ptr<const PlacedEmitter> uneven_;  // where axes are scaled differently
+  std::unique_ptr<const PlacedEmitter> uneven_;  // set if the axes are scaled differently
 };
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {

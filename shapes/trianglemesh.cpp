@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// trianglemesh: triangles by indices into lists of positions and, where wanted, of normals,
-// tangents and texture coordinates. The outside is where the corners run counter-clockwise as
-// Cross(p1 - p0, p2 - p0) says; given normals shade, they do not turn the surface.
+// The shape "trianglemesh" has triangles given by indices into lists of positions and, optionally,
+// normals, tangents and texture coordinates. Cross(p1 - p0, p2 - p0) points to the outside, from
+// where the corners are counter-clockwise. Given normals only affect shading, not the side.
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The arrays of a bounding volume hierarchy with eight children a node and eight triangles a leaf,
-// as vectors of eight read them: one row of eight for each coordinate. Nodes and leaves lie in one
-// array of cache lines, in the order of a walk.
+// BvhArrays stores a bounding volume hierarchy with eight children per node and eight triangles per
+// leaf. Each coordinate of the eight is one row, which SIMD code loads as a vector. Nodes and
+// leaves share one array of cache lines in depth-first order.
 // Source: Wald, Benthin and Boulos 2008, "Getting rid of packets"; Dammertz, Hanika and Keller
 // 2008, "Shallow bounding volume hierarchies for fast SIMD ray tracing of incoherent rays";
 // Fuetterling, Lojewski, Pfreundt, Hamann and Ebert 2017, "Accelerated single ray tracing for wide
@@ -18,7 +18,7 @@
 namespace exphoton {
 
 inline constexpr int kBvhWidth = 8;
-inline constexpr std::size_t kBvhLine = 64;  // bytes of a line of the cache
+inline constexpr std::size_t kBvhLine = 64;  // bytes of a cache line
 
 struct alignas(kBvhLine) BvhLine {
   std::byte bytes[kBvhLine];
@@ -26,21 +26,21 @@ struct alignas(kBvhLine) BvhLine {
 struct BvhNode;
 struct BvhBlock;
 
-// What a child is, and where: inner node or block of triangles (the number of their first line), or
-// list of other primitives.
+// BvhChild refers to a child of a node. An inner node or a block of triangles is given by the index
+// of its first cache line; a list of other primitives, by its index in BvhArrays::others.
 class BvhChild {
  public:
   enum class Kind : std::uint32_t { Node = 0, Triangles = 1, Others = 2 };
   static constexpr std::uint32_t kMaxIndex = (std::uint32_t(1) << 29) - 1;
 
-  BvhChild() = default;  // no value: stacks of them cost nothing
+  BvhChild() = default;  // leaves stacks of children uninitialised
   BvhChild(Kind kind, std::uint32_t index) : bits_(index << kShift | std::uint32_t(kind)) {}
   bool IsNode() const { return (bits_ & kMask) == std::uint32_t(Kind::Node); }
   bool IsTriangles() const { return (bits_ & kMask) == std::uint32_t(Kind::Triangles); }
   Kind GetKind() const { return Kind(bits_ & kMask); }
   std::uint32_t Index() const { return bits_ >> kShift; }
 
-  // What it stands for, among the lines of its hierarchy.
+  // Node and Block return the child in the hierarchy's array of cache lines.
   const BvhNode& Node(const BvhLine* lines) const {
     return *reinterpret_cast<const BvhNode*>(At(lines, bits_));
   }
@@ -53,7 +53,8 @@ class BvhChild {
   }
 
  private:
-  // Three bits, so that the address of a node is the bits times 8: no work for a processor.
+  // With three bits for the kind, the byte offset of a node is bits_ * 8. An addressing mode of the
+  // processor computes this product at no cost.
   static constexpr std::uint32_t kShift = 3, kMask = (1 << kShift) - 1;
   static const char* At(const BvhLine* lines, std::uint32_t bits) {
     return reinterpret_cast<const char*>(lines) + std::size_t(bits) * (kBvhLine >> kShift);
@@ -62,26 +63,28 @@ class BvhChild {
   std::uint32_t bits_;
 };
 
-// What stands for a missing child: a list of no primitives. Where rays are so long or so far away
-// that their arithmetic overflows, a missing child may be taken for met; then nothing is found.
+// A missing child is an empty list of primitives. Rays that are so long or so far away that their
+// arithmetic overflows may enter a missing child; they then find nothing.
 inline const BvhChild kMissingChild{BvhChild::Kind::Others, 0};
 
-// An order of the eight lanes: four bits each, the first lowest.
+// BvhOrder is a permutation of the eight lanes. Each takes four bits; the first is lowest.
 using BvhOrder = std::uint32_t;
 inline constexpr std::size_t kBvhBlockingOrder = 4;
 
-// Bounds of the children: rows min x, max x, min y, max y, min z, max z. A missing child has empty
-// bounds, which hardly any ray meets.
+// Rows hold the bounds of the children: min x, max x, min y, max y, min z, max z. A missing child
+// has empty bounds, which hardly any ray enters.
 struct alignas(kBvhLine) BvhNode {
   Real rows[6][kBvhWidth];
   BvhChild children[kBvhWidth];
-  // [0..3]: from near to far for directions with positive z, by whether x (1) and y (2) are
-  // negative; for the opposite direction it is the same backwards. [4]: those that are likely to
-  // block a ray, for their cost, first.
+  // Orders 0 to 3 are front to back for directions with positive z; bit 0 of the index is set for
+  // negative x, bit 1 for negative y. The opposite direction reads the same order backwards.
+  // Order 4 sorts the children by their probability of blocking a ray per unit of work, highest
+  // first.
   std::array<BvhOrder, 5> orders;
 };
 
-// Up to eight triangles: rows of vertex 0 x, y, z, vertex 1 x, ... Missing ones have the id kNoId.
+// BvhBlock holds up to eight triangles. Its rows are x, y and z of vertex 0, of vertex 1 and of
+// vertex 2. Missing triangles have the id kNoId.
 struct alignas(kBvhLine) BvhBlock {
   Real vertices[3][3][kBvhWidth];
   std::uint32_t ids[kBvhWidth];
@@ -92,19 +95,20 @@ inline constexpr std::uint32_t kBvhBlockLines = sizeof(BvhBlock) / kBvhLine;
 
 struct BvhArrays {
   LargeVector<BvhLine> lines;  // the root first; empty for an empty set
-  // Leaves of shapes and instances: a count, then as many primitive ids. The first is
-  // kMissingChild.
+  // Lists of the shapes and instances in each leaf: a count, then that number of primitive ids. The
+  // first list is empty and belongs to kMissingChild.
   std::vector<std::uint32_t> others;
-  Bounds3 bounds;  // of everything, with margins
-  int depth = 0;   // nodes on the longest way down
+  Bounds3 bounds;  // of all primitives, with margins
+  int depth = 0;   // number of nodes on the longest path from the root
 };
 
-// Rounding in the intersection tests shifts what is hit, across the ray, by less than this part of
-// the distance from the ray's origin to the farthest vertex. That is at most the distance to the
-// hit (allowed for by the traversal) and the extent of the primitive (added to its bounds).
+// Rounding in the intersection tests shifts a hit across the ray by less than this fraction of the
+// distance from the ray's origin to the farthest vertex. That distance is at most the distance to
+// the hit plus the extent of the primitive. Traversal allows for the first term; the primitive's
+// bounds are padded for the second.
 inline constexpr Real kBvhMargin = Gamma(16);
 
-// No way down has more nodes, so that the traversal's stack has a fixed size.
+// No path from the root has more nodes, so the traversal stack has a fixed size.
 inline constexpr int kBvhMaxDepth = 160;
 
 }  // namespace exphoton

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Clipping by the six planes of the box in turn (Sutherland and Hodgman 1974), in double.
+// ClipTriangle clips by the box's six planes in turn (Sutherland and Hodgman 1974), in double
+// precision.
 #include "accelerators/kd/clip_triangle.h"
 
 #include <utility>
@@ -7,15 +8,16 @@
 namespace exphoton {
 namespace {
 
-// A plane adds one corner to the three; where rounding has bent the outline, at most half as many
-// as there are.
+// Polygon is a triangle after some clipping. Each plane adds at most one corner to a convex
+// polygon. If rounding has made the polygon concave, a plane adds at most half of its corners, so
+// six planes give at most 28.
 struct Polygon {
-  double corners[32][3];  // not initialised: most planes touch few
+  double corners[32][3];  // not initialised: most planes cut few triangles
   int count = 0;
 };
 
-// Copies the part of `from` where sign * (p[axis] - plane) >= 0. False, with nothing done, where
-// that is all of it.
+// Copies the part of `from` where sign * (p[axis] - plane) >= 0. If the plane cuts nothing off,
+// does nothing and returns false.
 bool ClipByPlane(const Polygon& from, int axis, double plane, double sign, Polygon* to) {
   bool isCut = false;
   for (int i = 0; i < from.count; ++i) isCut |= sign * (from.corners[i][axis] - plane) < 0;

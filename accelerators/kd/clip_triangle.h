@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The bounds of the part of a triangle within a box: tighter than the triangle's own, so that large
-// triangles do not fill every cell they might cross.
+// ClipTriangle returns the bounds of the part of a triangle within a box. These bounds are tighter
+// than the intersection of the triangle's bounds with the box, so a large triangle does not fall
+// into every cell that its bounds overlap.
 #pragma once
 
 #include <array>
@@ -9,7 +10,8 @@
 
 namespace exphoton {
 
-// Empty where the triangle misses the box. Exact to double rounding; the caller adds its margin.
+// Returns empty bounds if the triangle misses the box. The result is exact to double rounding; the
+// caller adds a margin.
 Bounds3 ClipTriangle(const std::array<Point3, 3>& triangle, const Bounds3& box);
 
 }  // namespace exphoton

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// In three steps, each of pieces that threads take: large cells are split level by level, a chunk
-// of their items at a time; the small trees below them are made, each in arrays of its own; these
-// are copied to their places, in the order of a walk.
+// Builder builds the kd-tree in three parallel steps. First, large cells are split level by level,
+// and each chunk of their items is one task. Second, one task builds each small tree below them in
+// separate arrays. Third, the small trees are copied to their final positions, in depth-first
+// order.
 #include "accelerators/kd/kd_build.h"
 
 #include <memory>
@@ -12,29 +13,30 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kTreeItems = 4096;   // of a cell that is one piece of work
-constexpr std::size_t kChunkItems = 8192;  // of a larger cell, that are one piece of work
+constexpr std::size_t kTreeItems = 4096;   // most items in a cell that one task builds
+constexpr std::size_t kChunkItems = 8192;  // items per task in a larger cell
 
-// Entries of all leaves together, for the primitives that lie in many cells: a soup of large
-// triangles would fill any memory otherwise.
+// The number of item references in all leaves together is limited to
+// kEntriesPerItem * items + kFreeEntries. Without this limit, a soup of large triangles, each in
+// many cells, could fill any memory.
 constexpr double kEntriesPerItem = 12, kFreeEntries = 1000;
 
-// A cell, and what becomes of it.
+// Piece is a cell and its result: a split with two further pieces, or a tree.
 struct Piece {
   using Chunk = std::vector<KdItem>;
 
   KdCell cell;
-  std::vector<Chunk> chunks;         // of its items, in their order
-  KdSplit split;                     // of an upper cell: and
-  std::size_t below = 0, above = 0;  // the pieces of its parts
-  std::unique_ptr<KdSubtree> tree;   // of any other
+  std::vector<Chunk> chunks;         // the items in order
+  KdSplit split;                     // upper cells only
+  std::size_t below = 0, above = 0;  // upper cells only: indices of the two children
+  std::unique_ptr<KdSubtree> tree;   // all other cells
 
   std::size_t Items() const {
     std::size_t count = 0;
     for (const Chunk& chunk : chunks) count += chunk.size();
     return count;
   }
-  // All items, as one chunk: the others are given back.
+  // Moves all items into one chunk and frees the others.
   Chunk Joined() {
     if (chunks.size() == 1) return std::move(chunks[0]);
     Chunk items;
@@ -84,7 +86,7 @@ class Builder {
       items.reserve(end - begin);
       for (std::size_t id = begin; id < end; ++id) {
         const Bounds3 own = primitives_.Bounds(std::uint32_t(id));
-        if (own.IsEmpty()) continue;  // an instance of nothing
+        if (own.IsEmpty()) continue;  // an empty instance
         items.push_back({std::uint32_t(id), KdItemBounds(own)});
         bounds[std::size_t(i)].Extend(items.back().bounds);
       }
@@ -94,16 +96,16 @@ class Builder {
     return root;
   }
 
-  // A chunk of a cell that is to be split, and what is made of it.
+  // Task is one chunk of a cell to be split, with its bins and its parts.
   struct Task {
     std::size_t piece, chunk;
     KdBins bins;
     Piece::Chunk below, above;
   };
-  // The tasks of one cell follow one another.
+  // The tasks of one cell are adjacent.
   using Tasks = std::span<Task>;
 
-  // Splits the cells from `begin` on that are large; returns where those of the next level begin.
+  // Splits the large cells from index `begin` on. Returns the index of the next level's first cell.
   std::size_t SplitLevel(std::size_t begin) {
     const std::size_t end = pieces_.size();
     threads_.For(std::int64_t(end - begin), [&](std::int64_t i, int) {
@@ -158,7 +160,7 @@ class Builder {
     });
   }
 
-  // Makes pieces of the parts, where the cell is to have any.
+  // Adds the two parts of a cell as new pieces, unless the cell is to stay whole.
   void AddParts(Tasks tasks) {
     const std::size_t index = tasks[0].piece;
     if (pieces_[index].split.axis < 0) return;
@@ -182,7 +184,7 @@ class Builder {
       piece.tree = std::make_unique<KdSubtree>(primitives_, costs_);
       Piece::Chunk items = piece.Joined();
       if (items.size() > kTreeItems) {
-        piece.tree->Leaf(items);  // it was not to be split
+        piece.tree->Leaf(items);  // a large cell that is not to be split
       } else {
         piece.tree->Cell(std::move(items), piece.cell);
       }
@@ -196,7 +198,7 @@ class Builder {
     arrays_.blocks.reserve(blocks);
   }
 
-  // Gives a piece and all below it their places, and makes the upper nodes.
+  // Assigns positions to a piece and to everything below it, and creates the upper nodes.
   void Place(std::size_t index) {
     const Piece& piece = pieces_[index];
     if (piece.tree) return piece.tree->Place(&arrays_);
@@ -212,7 +214,7 @@ class Builder {
   const KdCosts costs_;
   ThreadPool& threads_;
   std::vector<Piece> pieces_;       // level by level
-  std::vector<std::size_t> trees_;  // those that are no upper cells
+  std::vector<std::size_t> trees_;  // indices of the pieces that are not upper cells
   KdArrays arrays_;
 };
 

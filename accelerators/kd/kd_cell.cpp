@@ -6,7 +6,7 @@
 namespace exphoton {
 namespace {
 
-// Larger by at least the margin on every side, and by one step of Real where that is more.
+// Pads the bounds on every side by at least the margin and at least one floating-point step.
 Bounds3 Grown(const Bounds3& bounds, Real margin) {
   Bounds3 grown = bounds;
   for (int axis = 0; axis < 3; ++axis) {
@@ -24,7 +24,8 @@ Bounds3 Intersection(const Bounds3& a, const Bounds3& b) {
 
 Real MarginOf(const Bounds3& bounds) { return kKdMargin * MaxComponent(bounds.Diagonal()); }
 
-// The item as it is within a smaller cell; dropped where only its bounds reach into it.
+// Adds the item with its bounds clipped to a smaller cell. A triangle is dropped if only its
+// bounds, but no part of it, reach into the cell.
 void AddClipped(const PrimitiveSet& primitives, const KdItem& item, const Bounds3& cell,
                 std::vector<KdItem>* items) {
   Bounds3 bounds = Intersection(item.bounds, cell);
@@ -45,7 +46,8 @@ bool KdCell::Accepts(const KdSplit& split, std::size_t items, const KdCosts& cos
   if (split.axis < 0) return false;
   const double leafCost = costs.intersect * KdBlocks(items);
   if (split.cost < leafCost) return true;
-  // Worse at first may be better later, but only in small cells and within reason.
+  // A split that costs more than a leaf may still pay off further down. It is accepted only in
+  // small cells, at most 1.5 times as expensive, and twice on any path from the root.
   return ++limits.badSplits <= 2 && items <= 32 && split.cost <= 1.5 * leafCost;
 }
 
@@ -69,7 +71,7 @@ Bounds3 KdItemBounds(const Bounds3& bounds) { return Grown(bounds, MarginOf(boun
 
 void PartKdItems(const PrimitiveSet& primitives, std::span<const KdItem> items, const KdCut& cut,
                  std::vector<KdItem>* below, std::vector<KdItem>* above) {
-  std::size_t countBelow = 0, countAbove = 0;  // at most
+  std::size_t countBelow = 0, countAbove = 0;  // upper bounds
   for (const KdItem& item : items) {
     countBelow += IsBelow(item, cut.axis, cut.position);
     countAbove += IsAbove(item, cut.axis, cut.position);

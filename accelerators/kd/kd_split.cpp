@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The surface area heuristic: a plane costs what a random ray through the cell is expected to meet
-// on each side.
+// The cost of a plane by the surface area heuristic is the expected number of tests for a random
+// ray through the cell, on both sides.
 #include "accelerators/kd/kd_split.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kExactLimit = 64;  // items up to which every plane is tried
+constexpr std::size_t kExactLimit = 64;  // largest number of items for which every plane is tried
 
-// What splitting a cell along one axis costs.
+// SplitCost computes the cost of splitting a cell along one axis.
 class SplitCost {
  public:
   SplitCost(const Bounds3& cell, int axis, const KdCosts& costs) : costs_(costs), axis_(axis) {
@@ -37,7 +37,7 @@ class SplitCost {
   double low_, length_, ends_, perLength_, inverseArea_;
 };
 
-// Planes at the ends of all bounds, from a sweep over them in order.
+// Tries the planes at both ends of all bounds, in one sorted sweep.
 void TryEnds(std::span<const KdItem> items, const Bounds3& cell, int axis, const KdCosts& costs,
              KdSplit* best) {
   std::array<Real, kExactLimit> begins, ends;
@@ -49,7 +49,7 @@ void TryEnds(std::span<const KdItem> items, const Bounds3& cell, int axis, const
   std::sort(begins.begin(), begins.begin() + std::ptrdiff_t(count));
   std::sort(ends.begin(), ends.begin() + std::ptrdiff_t(count));
   const SplitCost cost(cell, axis, costs);
-  std::size_t begun = 0, ended = 0;  // before the plane; up to and with the plane
+  std::size_t begun = 0, ended = 0;  // before the plane; up to and including it
   while (ended < count) {
     const Real plane = begun < count ? std::min(begins[begun], ends[ended]) : ends[ended];
     std::size_t flat = 0;
@@ -57,15 +57,16 @@ void TryEnds(std::span<const KdItem> items, const Bounds3& cell, int axis, const
     while (begun < count && begins[begun] == plane) ++begun;
     const std::size_t endedBefore = ended;
     while (ended < count && ends[ended] == plane) ++ended;
-    // Items that begin and end here lie in the plane: counted as below. Those that only begin here
-    // are not; which of them are flat need not be known exactly for a cost.
+    // Items that begin and end at this plane lie in it and count as below. Items that only begin
+    // here count as above. For a cost, an upper bound on the number of items in the plane is
+    // enough.
     flat = std::min(begun - begunBefore, ended - endedBefore);
     if (plane > cell.min[axis] && plane < cell.max[axis])
       cost.Try(double(plane), begunBefore + flat, count - ended, best);
   }
 }
 
-// In a build with doubles the plane is rounded and may have left the cell.
+// In a double-precision build, rounding the plane to float may have moved it out of the cell.
 KdSplit Checked(KdSplit split, const Bounds3& cell) {
   if (split.axis < 0) return split;
   const Real position = Real(split.position);
@@ -88,7 +89,7 @@ void KdBins::Add(std::span<const KdItem> items) {
   for (const KdItem& item : items)
     for (int i = 0; i < 3; ++i) {
       Axis& axis = axes_[i];
-      if (!(axis.scale > 0)) continue;  // it may be infinite
+      if (!(axis.scale > 0)) continue;  // no extent, or an infinite one
       const auto bin = [&](Real x) {
         const int number = int((double(x) - axis.low) * axis.scale);
         return std::size_t(std::clamp(number, 0, int(kCount) - 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The choice of a splitting plane: all planes at the ends of bounds where there are few, planes
-// between bins where there are many.
+// FindKdSplit chooses a splitting plane. For few items it tries the planes at both ends of all
+// bounds; for many items it tries the planes between bins.
 #pragma once
 
 #include <array>
@@ -18,33 +18,33 @@ struct KdItem {
 struct KdSplit {
   int axis = -1;  // -1: there is no plane inside the cell
   float position = 0;
-  double cost = 0;  // expected, with the cell's own area as unit
+  double cost = 0;  // expected cost of a ray that enters the cell
 };
 
-// Where items of a cell begin and end, in bins along each axis.
+// KdBins counts, along each axis, where the items of a cell begin and end.
 class KdBins {
  public:
   static constexpr std::size_t kCount = 64;
 
   explicit KdBins(const Bounds3& cell);
   void Add(std::span<const KdItem> items);
-  void Add(const KdBins& others);  // of the same cell
+  void Add(const KdBins& others);  // bins of the same cell
 
  private:
   friend KdSplit FindKdSplit(const KdBins& bins, const Bounds3& cell, const KdCosts& costs);
 
   struct Axis {
-    double low, scale;  // bins for each unit of length; 0: it has none
+    double low, scale;  // scale: bins per unit of length; 0: none
     std::array<std::uint32_t, kCount> begins{}, ends{};
   };
   std::array<Axis, 3> axes_;
   std::size_t items_ = 0;
 };
 
-// The cheapest plane strictly inside the cell. An item belongs below where it begins before the
-// plane or lies in it, above where it ends behind the plane.
+// Returns the cheapest plane strictly inside the cell. An item belongs below if it begins before
+// the plane or lies in it, and above if it ends behind the plane.
 KdSplit FindKdSplit(std::span<const KdItem> items, const Bounds3& cell, const KdCosts& costs);
-// The same for many items.
+// Does the same for many items, whose bins are given.
 KdSplit FindKdSplit(const KdBins& bins, const Bounds3& cell, const KdCosts& costs);
 
 inline bool IsBelow(const KdItem& item, int axis, Real position) {

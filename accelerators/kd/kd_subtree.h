@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One thread's work at a kd-tree: the tree of one cell, in arrays of its own, and copying it to its
-// place in the whole.
+// KdSubtree is one thread's task in building a kd-tree. It builds the tree of one cell in private
+// arrays and copies them to their place in the whole tree.
 #pragma once
 
 #include "accelerators/kd/kd_cell.h"
@@ -12,16 +12,16 @@ class KdSubtree {
   KdSubtree(const PrimitiveSet& primitives, const KdCosts& costs)
       : primitives_(primitives), costs_(costs) {}
 
-  // One cell after the other, below before above, so that a child below its plane follows its
-  // parent.
+  // Builds a cell and everything below it in depth-first order. The child below a plane comes
+  // first, so that it follows its parent directly.
   void Cell(std::vector<KdItem> items, KdCell cell);
   void Leaf(std::span<const KdItem> items);
 
   std::size_t Nodes() const { return nodes_.size(); }
   std::size_t Blocks() const { return ids_.size() / kBvhWidth; }
-  // Takes room behind what the arrays have.
+  // Reserves space for this tree at the end of the arrays.
   void Place(KdArrays* arrays);
-  // Once all have their places and the arrays their size.
+  // Copies nodes and blocks to the reserved space. Call this after all trees have called Place.
   void CopyTo(KdArrays* arrays) const;
 
  private:
@@ -29,11 +29,11 @@ class KdSubtree {
 
   const PrimitiveSet& primitives_;
   const KdCosts& costs_;
-  std::vector<KdNode> nodes_;       // leaves count their blocks from 0
-  std::vector<std::uint32_t> ids_;  // of the triangles of blocks, kBvhWidth each; kNoId behind
+  std::vector<KdNode> nodes_;       // indices of blocks start at 0
+  std::vector<std::uint32_t> ids_;  // triangles, kBvhWidth per block, padded with kNoId
   std::vector<std::uint32_t> entries_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> others_;  // node, entry
-  std::size_t firstNode_ = 0, firstBlock_ = 0;                   // places
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> others_;  // node index, index into entries_
+  std::size_t firstNode_ = 0, firstBlock_ = 0;                   // positions in the whole tree
 };
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The program's entry; everything else is in app.cpp, so that tests can call it.
+// main calls RunProgram. Everything else is in app.cpp, so that tests can call it.
 #include "core/app/options/app.h"
 #include "core/app/options/errors.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Arena: memory that lives until the end of one camera sample or photon path. One a thread; Reset
-// keeps the blocks, so that after the first samples nothing is allocated.
+// Arena allocates memory that lives until the end of one camera sample or photon path. Each thread
+// owns one arena. Reset keeps the memory blocks, so only the first samples allocate from the heap.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@
 
 namespace exphoton {
 
-// Aligned to two lines of the cache, which machines fetch together: threads that have their arenas
-// in one array would else wait for each other's lines.
+// The alignment is two cache lines, because machines fetch cache lines in pairs. It prevents false
+// sharing between arenas that lie in one array.
 class alignas(128) Arena {
  public:
   Arena() = default;
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  // Destructors of what is made here never run: T must hold nothing that needs one.
+  // Constructs a T. Its destructor never runs, so T must not own anything that needs one.
   template <class T, class... Args>
   T* Make(Args&&... args) {
     return new (Allocate(sizeof(T), alignof(T))) T(std::forward<Args>(args)...);
@@ -32,8 +32,8 @@ class alignas(128) Arena {
     if (count == 0) return {};
     return {new (Allocate(sizeof(T) * count, alignof(T))) T[count](), count};
   }
-  // Room for an array, not yet made: each element is made in its place (new (room + i) T) before it
-  // is read.
+  // Returns uninitialised room for `count` elements. The caller constructs each element in place
+  // (new (room + i) T) before reading it.
   template <class T>
   T* Room(std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T>);
@@ -42,7 +42,8 @@ class alignas(128) Arena {
 
   void Reset() { block_ = 0, used_ = 0; }
 
-  // Everything made after the mark is given back at Rewind: for buffers within a recursion.
+  // Rewind releases everything allocated after the mark. Recursive functions use marks for their
+  // temporary buffers.
   struct Mark {
     std::size_t block, used;
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// How a diagnostic is laid out. Not who prints it (Log, or the program for an error that ends it).
+// FormatDiagnostic lays out a diagnostic. It does not print: Log prints warnings and notices, and
+// the program prints the error that ends it.
 #include "core/base/error.h"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kLineShown = 120;  // bytes of a long line that are shown round the column
-constexpr std::size_t kLeadShown = 60;   // of these, at most before the column
+constexpr std::size_t kLineShown = 120;  // largest excerpt of a long line, in bytes
+constexpr std::size_t kLeadShown = 60;   // largest part of the excerpt before the column
 
 std::string PlaceText(const SourceLocation& where) {
   std::string text = where.file;
@@ -19,9 +20,9 @@ std::string PlaceText(const SourceLocation& where) {
 
 bool IsContinuationByte(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
-// The line and below it a caret under the column. Tabs stay tabs in both, so that they line up; a
-// byte that would disturb a terminal is shown as '?'; a long line is cut to what surrounds the
-// column.
+// Returns the line, and below it a caret under the column. Tabs are kept in both lines, so that
+// they align. A control byte could disturb the terminal and is shown as '?'. A long line is cut to
+// an excerpt around the column.
 std::string LineWithCaret(const SourceLocation& where) {
   const std::string& line = where.lineText;
   const std::size_t column =
@@ -42,7 +43,7 @@ std::string LineWithCaret(const SourceLocation& where) {
     if (i < column && !IsContinuationByte(c)) caret += c == '\t' ? '\t' : ' ';
   }
   while (!isCutAfter && !shown.empty() && (shown.back() == ' ' || shown.back() == '?')) {
-    shown.pop_back();  // of "\r\n"
+    shown.pop_back();  // the '\r' of "\r\n"
   }
   return shown + (isCutAfter ? "...\n" : "\n") + caret + "^\n";
 }

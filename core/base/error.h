@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Error: what is thrown while a scene loads, with the exit status it leads to, a place in a scene
-// file and a hint. Nothing throws while rendering, except out of resources or under --strict.
+// Error is the exception that loading a scene throws. It holds the exit status, an optional place
+// in a scene file and a hint. Rendering throws only when resources run out or under --strict.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@ namespace exphoton {
 
 enum class ExitStatus { Ok = 0, CommandLine = 1, Scene = 2, File = 3, Resource = 4, Internal = 5 };
 
-// A place in a scene file. line and column count from 1; column in bytes.
+// SourceLocation is a place in a scene file. Lines and columns count from 1; columns count bytes.
 struct SourceLocation {
   std::string file;
   int line = 0, column = 0;
-  std::string lineText;  // the offending line, for the caret; may be empty
+  std::string lineText;  // the offending line, printed above the caret; may be empty
   std::shared_ptr<const SourceLocation> includedFrom;
 };
 
@@ -39,8 +39,9 @@ class Error : public std::runtime_error {
   std::string hint_;
 };
 
-// "file:line:col: error: text" with the line, a caret, the include chain and the hint; or
-// "exphoton: error: text" where there is no place. Ends in a newline.
+// Returns "file:line:col: error: text", followed by the source line, a caret, the include chain and
+// the hint. Without a place it returns "exphoton: error: text" and the hint. The result ends in a
+// newline.
 std::string FormatDiagnostic(const std::string& severity, const std::string& text,
                              const std::optional<SourceLocation>& where, const std::string& hint);
 

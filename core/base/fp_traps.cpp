@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// By glibc's feenableexcept. The handler only writes where it was and ends the process.
+// The traps use glibc's feenableexcept. The signal handler only writes the exception and a
+// backtrace, then ends the process.
 #include "core/base/fp_traps.h"
 
 #ifdef EXPHOTON_TRAPS
@@ -33,10 +34,10 @@ void OnTrap(int, siginfo_t* info, void*) {
   _exit(5);
 }
 
-// As soon as the core is loaded, before any thread.
+// Arms the traps when the core library is loaded, before any thread starts.
 [[maybe_unused]] const bool isArmed = [] {
   void* frame[1];
-  backtrace(frame, 1);  // loads what it needs now, not in the handler
+  backtrace(frame, 1);  // the first call loads a library, which a handler must not do
   struct sigaction action {};
   action.sa_sigaction = OnTrap;
   action.sa_flags = SA_SIGINFO;

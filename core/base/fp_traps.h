@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Floating-point traps, in builds with EXPHOTON_TRAPS: an invalid operation, a division by zero or
-// an overflow ends the program where it happens, with status 5. Other builds pay nothing.
+// Floating-point traps end the program at an invalid operation, a division by zero or an overflow,
+// with exit status 5. Only builds with EXPHOTON_TRAPS have them; other builds have no cost.
 #pragma once
 
 namespace exphoton {
 
 #ifdef EXPHOTON_TRAPS
 
-// For the calling thread; those that it starts inherit it.
+// Arms the traps in the calling thread. Threads that it starts afterwards inherit them.
 void ArmFloatingPointTraps();
 
-// Off while this lives: libraries raise these flags on purpose.
+// Disables the traps during its lifetime. It guards calls of libraries that raise these exceptions
+// on purpose.
 class UntrappedLibraryCall {
  public:
   UntrappedLibraryCall();
@@ -28,7 +29,7 @@ inline void ArmFloatingPointTraps() {}
 
 class UntrappedLibraryCall {
  public:
-  UntrappedLibraryCall() {}  // not trivial, so that an unused one is no warning
+  UntrappedLibraryCall() {}  // non-trivial, so that an unused variable causes no warning
 };
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LargeVector: a vector whose memory lies on large pages where the system has them, for arrays that
-// are read all over: with small pages every read would first miss the table of pages.
+// LargeVector is a vector whose memory uses huge pages where the system has them. It is for arrays
+// with random access: with small pages almost every read would miss the TLB.
 #pragma once
 
 #include <sys/mman.h>
@@ -23,7 +23,7 @@ struct LargePageAllocator {
     const std::size_t bytes = count * sizeof(T);
     if (bytes < kPage) return static_cast<T*>(::operator new(bytes, kSmall));
     void* memory = ::operator new(bytes, kLarge);
-    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is refused nothing changes
+    madvise(memory, bytes, MADV_HUGEPAGE);  // only a hint: a refusal does no harm
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {
@@ -34,11 +34,11 @@ struct LargePageAllocator {
  private:
   static constexpr std::size_t kPage = std::size_t(1) << 21;
   static constexpr auto kLarge = std::align_val_t(kPage);
-  // At least a line of the cache.
+  // The alignment is at least one cache line.
   static constexpr auto kSmall = std::align_val_t(alignof(T) < 64 ? 64 : alignof(T));
 };
 
-// Whose resize leaves numbers unwritten, for arrays that threads fill.
+// RawLargePageAllocator leaves numbers uninitialised on resize. It is for arrays that threads fill.
 template <class T>
 struct RawLargePageAllocator : LargePageAllocator<T> {
   RawLargePageAllocator() = default;

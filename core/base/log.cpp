@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Printing and counting of warnings and notices.
+// Log formats, prints and counts warnings and notices.
 #include "core/base/log.h"
 
 #include <cstdio>
@@ -9,8 +9,9 @@
 namespace exphoton {
 namespace {
 
-// One call a message, so that messages of several processes do not mix. On a terminal a progress
-// bar may stand on the line: it is wiped and drawn again below.
+// Writes each message in one call, so that messages of several processes do not interleave. On a
+// terminal it first erases a progress bar on the current line; the bar is redrawn below the
+// message.
 void Print(const std::string& message, const std::string& severity) {
   const std::string text = (IsRedrawable() ? "\r\x1b[K" : "") + Colored(message, severity);
   std::fwrite(text.data(), 1, text.size(), stderr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Log: warnings and notices for people, on standard error. The same text twice is printed once and
-// counted. Thread-safe. A render owns one.
+// Log prints warnings and notices for people to standard error. It prints a repeated message once
+// and counts the repetitions. It is thread-safe. Each render owns one.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ namespace exphoton {
 class Log {
  public:
   enum class Level { Quiet, Normal, Verbose };  // Quiet: warnings only
-  enum class Sink { StandardError, Memory };    // Memory: kept for tests (Messages)
+  enum class Sink { StandardError, Memory };    // Memory: for tests, see Messages
 
   explicit Log(Level level = Level::Normal, Sink sink = Sink::StandardError)
       : level_(level), sink_(sink) {}
@@ -27,11 +27,11 @@ class Log {
               const std::string& hint = {});
   void Verbose(const std::string& text);  // printed only at Level::Verbose
 
-  // Says how often repeated messages came; call once at the end.
+  // Prints how often each repeated message occurred. Call this once, at the end.
   void Summarize();
 
   int WarningCount() const;
-  std::vector<std::string> Messages() const;  // everything said, formatted (Sink::Memory)
+  std::vector<std::string> Messages() const;  // all formatted messages (Sink::Memory)
 
  private:
   void Say(const char* severity, const std::string& text,

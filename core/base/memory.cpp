@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// By sysconf and getrlimit.
+// The memory functions use sysconf and getrlimit.
 #include "core/base/memory.h"
 
 #include <sys/resource.h>
@@ -12,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-// The least limit on memory that the process has; infinite without one.
+// Returns the smallest memory limit of the process, or infinity if there is none.
 double ProcessLimit() {
   double least = HUGE_VAL;
   for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
@@ -50,7 +50,7 @@ std::string MemoryLimit() {
 }
 
 const char* OutOfMemoryText() {
-  static char text[120];  // no allocation is left to make another
+  static char text[120];  // static, because nothing can be allocated here
   PrintLimit(text, sizeof text, "out of memory: ");
   return text;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Workers that sleep between calls of For and take the next number from one atomic counter.
+// The workers of ThreadPool sleep between calls of For. During a call they take the next index from
+// one atomic counter.
 #include "core/base/parallel.h"
 
 #include <algorithm>
@@ -23,21 +24,22 @@ struct ThreadPool::State {
   std::vector<std::thread> threads;  // the calling thread is worker 0 and not among them
   std::mutex mutex;
   std::condition_variable start, finished;
-  std::uint64_t generation = 0;  // of the call of For; guarded by mutex, as what follows
+  // `mutex` guards the members up to failedIndex.
+  std::uint64_t generation = 0;  // counts the calls of For
   int busy = 0;
   bool isEnding = false, isRunning = false;
   std::exception_ptr failure;
   std::int64_t failedIndex = std::numeric_limits<std::int64_t>::max();
 
-  // Written before a generation begins, read during it.
+  // For sets these members before it wakes the workers.
   const Work* work = nullptr;
   std::int64_t count = 0;
   std::atomic<std::int64_t> next{0};
   std::atomic<bool> isStopped{false};
 
-  // Numbers are taken in order and every number taken is run. So when several pieces would throw,
-  // the one with the lowest number always runs, and its exception is the one kept: which error is
-  // reported does not depend on threads.
+  // Indices are taken in increasing order, and every index taken is run. If several items would
+  // throw, the one with the lowest index therefore always runs, and its exception is kept. The
+  // reported error does not depend on thread scheduling.
   void RunPieces(int worker) {
     while (!isStopped.load(std::memory_order_relaxed)) {
       const std::int64_t index = next.fetch_add(1, std::memory_order_relaxed);
@@ -76,7 +78,7 @@ ThreadPool::ThreadPool(int count) : state_(std::make_unique<State>()) {
       state->threads.emplace_back([state, worker] { state->Sleep(worker); });
     }
   } catch (const std::system_error&) {
-    // The system gives no more threads: those that there are do the work.
+    // The system refuses more threads. The pool works with the threads started so far.
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Drawing of the progress bar. The remaining time assumes that the rest goes as fast as what is
-// done.
+// ProgressReporter draws the progress bar. The remaining time assumes that the rest runs at the
+// average speed so far.
 #include "core/base/progress.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// "7.3 s", "2 min 05 s", "3 h 20 min"
+// Formats a duration as "7.3 s", "2 min 05 s" or "3 h 20 min".
 std::string DurationText(double seconds) {
   char text[64];
   const auto whole = static_cast<long long>(std::min(seconds, 1e12));
@@ -56,7 +56,7 @@ void ProgressReporter::Begin(std::string phase, std::int64_t total) {
 void ProgressReporter::Advance(std::int64_t count) {
   done_.fetch_add(count, std::memory_order_relaxed);
   if (mode_ == Mode::Quiet) return;
-  // Whoever finds another thread drawing goes on with its work.
+  // If another thread is drawing, this thread continues its work instead of waiting.
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock) Draw(false);
 }
@@ -73,7 +73,7 @@ void ProgressReporter::End() {
   phase_.clear();
 }
 
-// Called with the mutex held. `final`: the phase has ended, at whatever count.
+// The caller holds the mutex. `final` means that the phase has ended, at any count.
 void ProgressReporter::Draw(bool final) {
   if (mode_ == Mode::Quiet || phase_.empty()) return;
   const std::int64_t done = std::clamp<std::int64_t>(done_, 0, total_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ProgressReporter: one bar a phase on standard error, redrawn on a terminal only; elsewhere a line
-// for every 10 % or 30 s. Honours NO_COLOR, CLICOLOR_FORCE and TERM=dumb.
+// ProgressReporter shows one progress bar per phase on standard error. On a terminal it redraws the
+// bar in place. Elsewhere, and with TERM=dumb, it prints a line for every 10 % or 30 s.
 #pragma once
 
 #include <atomic>
@@ -16,10 +16,11 @@ class ProgressReporter {
   enum class Mode { Auto, Quiet };
   explicit ProgressReporter(Mode mode = Mode::Auto);
 
-  // "Shooting photons", "Building photon maps", "Computing photon radiances", "Rendering".
+  // Starts a phase, such as "Shooting photons", "Building photon maps", "Computing photon
+  // radiances" or "Rendering". `total` is the count at which it is complete.
   void Begin(std::string phase, std::int64_t total);
-  void Advance(std::int64_t count = 1);  // any thread
-  void SetDone(std::int64_t done);       // for phases that learn their progress from outside
+  void Advance(std::int64_t count = 1);  // callable from any thread
+  void SetDone(std::int64_t done);       // sets the absolute count
   void End();
 
  private:

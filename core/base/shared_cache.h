@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SharedCache: what several parts of a scene need and is expensive to make, such as an image that
-// many textures show: made once, and kept as long as any of them uses it. For one thread.
+// SharedCache holds objects that are expensive to make and that several parts of a scene use, such
+// as an image shown by many textures. Each object is made once and lives as long as any part uses
+// it. The cache is not thread-safe.
 #pragma once
 
 #include <map>
@@ -13,8 +14,8 @@ namespace exphoton {
 
 class SharedCache {
  public:
-  // The T of this name; where nobody has one, what make() returns by value. What make throws is
-  // passed on, and leaves nothing behind.
+  // Returns the T of this name. If none is alive, it calls make(), which returns a T by value. An
+  // exception from make is passed on, and nothing is cached.
   template <class T, class Make>
   std::shared_ptr<const T> GetOrMake(const std::string& name, Make&& make) {
     std::weak_ptr<const void>& kept = made_[{typeid(T), name}];

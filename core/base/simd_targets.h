@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// For loops that compilers turn into vectors by themselves: one body, inlined into a function for
-// any machine, one for AVX2 and one for AVX-512, of which the program chooses when it runs. Where
-// operations are what vectors keep (no sums of Reals across lanes), all give the same bits.
+// SIMD targets are function attributes for loops that compilers vectorise by themselves. One loop
+// body is inlined into a portable, an AVX2 and an AVX-512 function, and the program chooses one at
+// run time. All give the same bits if the loop has no sum of Reals across iterations.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@
 #define EXPHOTON_FOR_AVX512
 #endif
 
-// Before a loop that reads nothing which it has written: compilers need not look whether it does.
+// Precedes a loop that reads nothing that it has written. The compiler then skips its dependence
+// checks.
 #if defined(__clang__)
 #define EXPHOTON_INDEPENDENT_ITERATIONS _Pragma("clang loop vectorize(assume_safety)")
 #else
@@ -24,7 +25,7 @@
 
 namespace exphoton {
 
-// How many of {for any machine, for AVX2, for AVX-512} this machine can run.
+// Returns the number of usable targets on this machine, in the order {portable, AVX2, AVX-512}.
 inline std::size_t SimdTargets() {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2")) return 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Collecting of counts and times. How they are shown is the program's matter.
+// Statistics collects counts and times. The program formats them.
 #include "core/base/statistics.h"
 
 #include <sys/resource.h>
@@ -78,7 +78,7 @@ std::vector<Statistics::Phase> Statistics::Phases() const {
   return phases_;
 }
 
-// The phase is entered here, so that the destructor finds it and need not allocate.
+// The constructor registers the phase, so that the destructor does not need to allocate.
 PhaseTimer::PhaseTimer(Statistics& statistics, std::string phase)
     : statistics_(statistics), phase_(std::move(phase)) {
   statistics_.AddPhase(phase_, 0, 0);
@@ -100,7 +100,7 @@ double ProcessCpuSeconds() {
 double PeakMemoryBytes() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return double(usage.ru_maxrss) * 1024;  // Linux counts kibibytes
+  return double(usage.ru_maxrss) * 1024;  // Linux reports KiB
 }
 
 }  // namespace exphoton

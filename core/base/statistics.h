@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Statistics: rays by kind, seconds by phase, named counters. Threads count into their own
-// RayCounters, merged when they end; counting never changes what is computed.
+// Statistics collects ray counts by kind, seconds by phase and named counters. Each thread counts
+// into its own RayCounters, which are merged at the end. Counting never changes the computed
+// result.
 #pragma once
 
 #include <array>
@@ -18,10 +19,10 @@ const char* RayKindName(RayKind kind);  // "camera"
 
 struct RayCounters {
   std::array<std::uint64_t, kRayKindCount> counts{};
-  // Throughput (luminance) of camera paths that a depth limit cut; to be compared with the number
-  // of camera rays.
+  // Sums the throughput (luminance) of camera paths that a depth limit cut. Compare it with the
+  // number of camera rays.
   double cutThroughput = 0;
-  double cutGatherThroughput = 0;  // the same of gather rays
+  double cutGatherThroughput = 0;  // the same for gather rays
 
   void Count(RayKind kind) { ++counts[std::size_t(kind)]; }
   void Add(const RayCounters& other) {
@@ -36,25 +37,25 @@ class Statistics {
   struct Counter {
     std::string name;  // "photons/caustic stored"
     double value;
-    std::string meaning;  // one line for people
+    std::string meaning;  // one line of explanation
   };
   struct Phase {
     std::string name;  // "shoot"
     double wallSeconds, cpuSeconds;
   };
 
-  void AddRays(const RayCounters& rays);  // any thread
+  void AddRays(const RayCounters& rays);  // callable from any thread
   void SetCounter(std::string name, double value, std::string meaning);
-  // Adds to what the counter has, for work that a render may do several times.
+  // Adds to the counter's value, for work that a render may do several times.
   void AddToCounter(std::string name, double value, std::string meaning);
   void AddPhase(const std::string& name, double wallSeconds, double cpuSeconds);
 
   RayCounters Rays() const;
   std::vector<Counter> Counters() const;
-  std::vector<Phase> Phases() const;  // in the order in which they first ran
+  std::vector<Phase> Phases() const;  // in order of their first run
 
  private:
-  Counter& FindCounter(std::string name);  // with the mutex held
+  Counter& FindCounter(std::string name);  // the caller holds the mutex
 
   mutable std::mutex mutex_;
   RayCounters rays_;
@@ -62,7 +63,7 @@ class Statistics {
   std::vector<Phase> phases_;
 };
 
-// Adds the time from construction to destruction to a phase.
+// PhaseTimer adds the time from its construction to its destruction to a phase.
 class PhaseTimer {
  public:
   PhaseTimer(Statistics& statistics, std::string phase);

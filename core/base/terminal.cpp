@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Asks the system and the environment about standard error, anew each time: a test may change both.
+// The terminal functions query the system and the environment at each call, because a test may
+// change both.
 #include "core/base/terminal.h"
 
 #include <sys/ioctl.h>

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What standard error is: whether lines on it can be redrawn and coloured. https://no-color.org and
-// https://bixense.com/clicolors say what the environment variables mean.
+// These functions query standard error: whether its lines can be redrawn and coloured. The
+// environment variables have the meaning defined by https://no-color.org and
+// https://bixense.com/clicolors.
 #pragma once
 
 #include <string>
 
 namespace exphoton {
 
-// A terminal on which a line can be drawn again.
+// Returns whether standard error is a terminal that can redraw a line.
 bool IsRedrawable();
-// Colours: a redrawable terminal, or CLICOLOR_FORCE; never with NO_COLOR.
+// Returns whether to use colour: on a redrawable terminal or with CLICOLOR_FORCE, but never with
+// NO_COLOR.
 bool UsesColor();
-int TerminalColumns();  // 80 where unknown
+int TerminalColumns();  // 80 if unknown
 
-// `diagnostic` (of FormatDiagnostic) with its severity coloured, if colours are used.
+// Returns `diagnostic` (from FormatDiagnostic) with its severity coloured, if colours are used.
 std::string Colored(const std::string& diagnostic, const std::string& severity);
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Camera "environment": all directions at once. The film's y is the angle from +y (up), its x the
-// azimuth from +x to +z. hither and yon are distances; there is no lens.
+// The "environment" camera sees all directions at once. The film's y is the angle from +y (up), and
+// the film's x is the azimuth from +x to +z. hither and yon are distances. There is no lens.
 #include "core/cameras/common/camera_base.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Camera "orthographic": parallel rays from a window in the plane z = 0; with a lens radius, rays
-// that meet in the plane that is sharp.
+// The "orthographic" camera has parallel rays from a window in the plane z = 0. With a lens radius,
+// the rays of a film point meet in the plane of focus.
 #include "core/cameras/common/camera_base.h"
 
 namespace exphoton {

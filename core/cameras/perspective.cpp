@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Camera "perspective": a pinhole or a thin lens.
+// The "perspective" camera is a pinhole or a thin lens.
 #include "core/cameras/common/camera_base.h"
 
 namespace exphoton {
@@ -34,7 +34,7 @@ class PerspectiveCamera final : public CameraBase {
     return ThinLensRay({}, x * tan_, y * tan_, lens);
   }
 
-  double tan_;  // of half the field of view
+  double tan_;  // tangent of half the field of view
 };
 
 std::unique_ptr<Camera> Create(const Settings& settings, const CameraContext& context) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AtomicFile by POSIX: write beside the target, fsync, rename, fsync of the folder. Everything goes
-// through one descriptor of the folder, so that a folder that is moved meanwhile does no harm.
+// AtomicFile uses POSIX calls: it writes beside the target, calls fsync, renames the file and calls
+// fsync on the folder. These steps go through one descriptor of the folder, so moving the folder
+// meanwhile does no harm.
 #include "core/files/atomic_file.h"
 
 #include <fcntl.h>
@@ -32,7 +33,7 @@ constexpr const char* kAccessList = "system.posix_acl_access";
   throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + why);
 }
 
-// The mode of the file there; 0 where there is none.
+// Returns the mode of the existing target, or 0 if there is none.
 mode_t ModeOfTarget(int folder, const std::string& name, const std::string& path) {
   struct stat status;
   if (fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) {
@@ -44,7 +45,9 @@ mode_t ModeOfTarget(int folder, const std::string& name, const std::string& path
   return status.st_mode;
 }
 
-// An owner that may not be given away loses nothing: others get no more than others had.
+// Gives the new file the owner and group of the older one and returns its mode. If the system
+// refuses the owner, the set-user-ID bit is dropped. If it refuses the group, the set-group-ID bit
+// is dropped and the group gets the permissions of others, so that the new group gains no access.
 mode_t KeepOwner(int file, const struct stat& older, mode_t mode) {
   struct stat own;
   if (fstat(file, &own) != 0) return mode;
@@ -78,13 +81,14 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   name_ = NameOf(target);
   if (name_.empty() || name_ == "." || name_ == "..") FailBecause(path, "it is a directory");
   int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0 && errno == EACCES)  // one may be allowed to write but not to list
+  if (opened < 0 && errno == EACCES)  // write permission suffices, without list permission
     opened = open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
   if (opened < 0) Fail("cannot create");
   folder_ = std::make_unique<Descriptor>(opened);
   mode_ = ModeOfTarget(opened, name_, path);
   try {
-    // A file that others may not read must not become readable for a moment.
+    // If there is an older file, its access may be restricted. Start with owner-only access, so
+    // that the new file is never readable by others meanwhile.
     file_ = std::make_unique<TemporaryFile>(opened, name_, mode_ ? 0600 : 0666);
   } catch (const std::system_error& error) {
     errno = error.code().value();
@@ -129,7 +133,7 @@ void AtomicFile::KeepAttributes() {
     const mode_t mode = KeepOwner(file, older, older.st_mode & kPermissions);
     fchmod(file, mode);
     KeepAccessList(folder_->Get(), name_, file);
-  } else if (mode_) {  // removed while this one was written
+  } else if (mode_) {  // the older file was removed meanwhile
     fchmod(file, mode_ & kPermissions);
   }
 }
@@ -146,7 +150,8 @@ void AtomicFile::Commit() {
     errno = reason;
     Fail("cannot write");
   }
-  // Some file systems cannot do this, and a folder that was opened without the right to list.
+  // Some file systems do not support fsync of a folder, nor does a folder that was opened without
+  // list permission. Only EIO is an error.
   if (fsync(folder_->Get()) != 0 && errno == EIO) Fail("cannot write");
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AtomicFile: a file that appears under its name only when it is complete. Until then it has a
-// random name in the same folder; without Commit that file is removed and an older one stays.
-// Mode, owner and access control list of an older file are kept where the system permits it.
+// AtomicFile writes a file that appears under its name only when it is complete. Until then it has
+// a random name in the same folder. Without Commit this file is removed, and an older file stays.
+// The mode, owner and access control list of an older file are kept where the system permits it.
 #pragma once
 
 #include <sys/types.h>
@@ -17,10 +17,11 @@
 
 namespace exphoton {
 
-// Every member throws Error(File) that names the target and the system's reason.
+// Errors throw Error(ExitStatus::File) with the target and the system's reason. Lack of memory
+// throws std::bad_alloc.
 class AtomicFile {
  public:
-  // Links are followed to their end, which need not exist.
+  // Follows symbolic links. The file at their end need not exist.
   explicit AtomicFile(const std::string& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -31,19 +32,19 @@ class AtomicFile {
   std::uint64_t Tell();
   void Seek(std::uint64_t position);
 
-  // Brings everything to the disk, then gives the file its name, then brings the name to the disk.
+  // Syncs the data to the disk, gives the file its name, then syncs the folder.
   void Commit();
 
  private:
   [[noreturn]] void Fail(const std::string& what);
   void KeepAttributes();
 
-  std::string path_, name_;  // as given; within the folder
+  std::string path_, name_;  // path as given; name within the folder
   std::unique_ptr<Descriptor> folder_;
   std::unique_ptr<TemporaryFile> file_;
   std::FILE* stream_ = nullptr;
-  mode_t mode_ = 0;  // of an older file; 0: there was none
-  int failure_ = 0;  // errno of the first failure: a caller that swallowed it cannot Commit
+  mode_t mode_ = 0;  // of the older file; 0 if there was none
+  int failure_ = 0;  // errno of the first failure, after which Commit fails too
 };
 
 }  // namespace exphoton

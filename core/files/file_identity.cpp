@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// By stat. Links are followed by hand, because realpath gives up where the last one dangles.
+// File identities come from stat. Symbolic links are followed by hand, because realpath fails if
+// the last link is dangling.
 #include "core/files/file_identity.h"
 
 #include <sys/stat.h>
@@ -13,7 +14,7 @@ namespace exphoton {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kMostLinks = 40;  // as the kernel has it
+constexpr int kMostLinks = 40;  // the kernel's limit
 
 std::string ReadLink(const std::string& path) {
   std::vector<char> text(256);

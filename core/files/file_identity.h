@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which file a path names, however it is spelt: through links, hard links, "..", relative or
-// absolute. Nothing is opened.
+// FileIdentity identifies the file that a path names, however the path is spelt: through symbolic
+// links, hard links, "..", relative or absolute. No file is opened.
 #pragma once
 
 #include <sys/types.h>
@@ -11,8 +11,8 @@
 
 namespace exphoton {
 
-// Of a file that exists: its device and inode. Of one that does not: those of its folder, and its
-// name there.
+// FileIdentity is the device and inode of an existing file. For a missing file it is the device and
+// inode of the folder, and the name there.
 struct FileIdentity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -20,19 +20,21 @@ struct FileIdentity {
   auto operator<=>(const FileIdentity&) const = default;
 };
 
-// Nothing where not even the folder exists.
+// Identifies the file at `path`. Returns nullopt if not even its folder exists.
 std::optional<FileIdentity> IdentifyFile(const std::string& path);
-// Of a regular file that a descriptor has open; nothing for pipes, terminals and the like.
+// Identifies the regular file behind an open descriptor. Returns nullopt for anything else, such
+// as pipes and terminals.
 std::optional<FileIdentity> IdentifyOpenFile(int descriptor);
 
-// The path at the end of a chain of links, which need not exist. Of a loop, one of its links.
+// Returns the path at the end of a chain of symbolic links. The end need not exist. For a loop,
+// returns one of its links.
 std::string FollowLinks(const std::string& path);
 
 std::string FolderOf(const std::string& path);  // "." for a bare name
 std::string NameOf(const std::string& path);    // "" for a path that ends in a slash
 
-// Whether the file or folder lies in the folder or below it, or is it. Both are followed through
-// links; false where the folder does not exist.
+// Returns whether `path` is `folder` or lies below it. Symbolic links in both are followed. Returns
+// false if `folder`, or the folder that contains `path`, does not exist.
 bool LiesIn(const std::string& path, const std::string& folder);
 
 }  // namespace exphoton

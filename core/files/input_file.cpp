@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Looks before it opens, and once more at what it has opened.
+// OpenRegularFile checks the file type before it opens the file, and once more on the open
+// descriptor.
 #include "core/files/input_file.h"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Files that are read because another file names them: regular ones only. A device can do anything
-// when it is opened, and a pipe makes the program wait for ever.
+// These functions open files that another file names. They accept only regular files: opening a
+// device can have any effect, and opening a pipe can block for ever.
 #pragma once
 
 #include <stdexcept>
@@ -8,16 +8,17 @@
 
 namespace exphoton {
 
-// Why a file cannot be read, without its name: "no such file", "is a directory".
+// InputFileError states why a file cannot be read, without its name: "no such file", "is a
+// directory".
 class InputFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Throws InputFileError where `path` is no regular file that can be opened.
+// Throws InputFileError if `path` is not a regular file that can be opened.
 void RequireRegularFile(const std::string& path);
 
-// An open descriptor of a regular file, for the caller to close. Throws InputFileError.
+// Returns an open descriptor of a regular file; the caller closes it. Throws InputFileError.
 int OpenRegularFile(const std::string& path);
 
 }  // namespace exphoton

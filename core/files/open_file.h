@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Descriptor: an open file or folder, closed at the end.
+// Descriptor owns the descriptor of an open file or folder and closes it on destruction.
 #pragma once
 
 #include <unistd.h>
@@ -16,7 +16,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   int Get() const { return value_; }
   bool IsOpen() const { return value_ >= 0; }
-  // For the caller to close.
+  // Gives up ownership. The caller must close the returned descriptor.
   int Release() {
     const int value = value_;
     value_ = -1;

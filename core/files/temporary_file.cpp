@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The table of temporaries is static because signals belong to the process. A handler can run in
-// any thread at any moment, so an entry is public before its file exists, and signals are kept from
-// the thread that makes the file until the entry is complete.
+// TemporaryFile registers its file in a static table, because signals belong to the process. A
+// handler can run in any thread at any moment. An entry is therefore published before its file
+// exists, and signals are blocked in the thread that makes the file until the entry is complete.
 #include "core/files/temporary_file.h"
 
 #include <fcntl.h>
@@ -23,14 +23,14 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kLongestName = 255;  // bytes, of every usual file system
+constexpr std::size_t kLongestName = 255;  // bytes, on every common file system
 
 enum class SlotState { Free, Taken, Opening, File, Folder };
 
 struct Slot {
   std::atomic<SlotState> state{SlotState::Free};
   int folder = -1;
-  pid_t owner = 0;  // a forked child must leave the parent's files alone
+  pid_t owner = 0;  // a forked child must not remove the parent's files
   dev_t device = 0;
   ino_t inode = 0;
   char name[kLongestName + 1] = {};
@@ -45,7 +45,7 @@ int TakeSlot() {
     SlotState expected = SlotState::Free;
     if (slots[i].state.compare_exchange_strong(expected, SlotState::Taken)) return i;
   }
-  return -1;  // its file is merely not removed by a signal
+  return -1;  // table full: a signal will not remove this file
 }
 
 void FreeSlot(int* slot) {
@@ -59,7 +59,7 @@ void FreeSlot(int* slot) {
 
 void SleepMilliseconds(long milliseconds) {
   const timespec time{0, milliseconds * 1000000};
-  syscall(SYS_nanosleep, &time, nullptr);  // the library's may be a cancellation point
+  syscall(SYS_nanosleep, &time, nullptr);  // glibc's nanosleep is a cancellation point
 }
 
 bool IsOurs(const Slot& slot) {
@@ -68,7 +68,7 @@ bool IsOurs(const Slot& slot) {
          status.st_dev == slot.device && status.st_ino == slot.inode;
 }
 
-// The kernel's format of a folder's entries.
+// The kernel's layout of a directory entry.
 struct FolderEntry {
   std::uint64_t inode;
   std::int64_t next;
@@ -77,7 +77,8 @@ struct FolderEntry {
   char name[];
 };
 
-// readdir allocates memory, so a handler may not call it.
+// Removes the files of a folder. It avoids readdir, which allocates memory and must not run in a
+// handler.
 void EmptyFolder(int folder) {
   alignas(FolderEntry) char buffer[4096];
   lseek(folder, 0, SEEK_SET);
@@ -183,7 +184,7 @@ ScratchFolderGuard::ScratchFolderGuard(int folder) : slot_(TakeSlot()) {
 ScratchFolderGuard::~ScratchFolderGuard() { FreeSlot(&slot_); }
 
 void RemoveTemporaryFiles() {
-  constexpr int kPatience = 100;  // for another thread between opening and entering its file
+  constexpr int kPatience = 100;  // waits for another thread to complete its entry
   isEnding = true;
   for (Slot& slot : slots) {
     for (int i = 0; i < kPatience && slot.state == SlotState::Opening; ++i) SleepMilliseconds(10);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// TemporaryFile: a new file under a random name, which vanishes with the object, or with the
-// process when a signal ends it, unless it is renamed. Temporaries of other processes are never
-// touched.
+// TemporaryFile is a new file under a random name. Unless it is renamed, it is removed with the
+// object, or when a signal ends the process. Temporary files of other processes are never touched.
 #pragma once
 
 #include <signal.h>
@@ -11,7 +10,7 @@
 
 namespace exphoton {
 
-// Keeps every signal from the calling thread while it lives.
+// SignalBlock blocks all signals in the calling thread during its lifetime.
 class SignalBlock {
  public:
   SignalBlock();
@@ -25,27 +24,27 @@ class SignalBlock {
 
 class TemporaryFile {
  public:
-  // Opens "NAME.<random>.partial" (NAME is shortened where that is too long) for writing in an open
-  // folder, which must outlive this. Throws std::system_error.
+  // Opens "NAME.<random>.partial" for writing in an open folder, which must outlive this object. A
+  // NAME that is too long is shortened. Throws std::system_error.
   TemporaryFile(int folder, const std::string& name, mode_t mode);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  int Descriptor() const { return descriptor_; }  // for the caller to close
+  int Descriptor() const { return descriptor_; }  // the caller closes it
 
-  // Gives the file its name, in the same folder, in one step. False: see errno.
+  // Renames the file within its folder, atomically. On failure it returns false and sets errno.
   bool Rename(const std::string& name);
   void Remove();
 
  private:
   int folder_, descriptor_ = -1;
   std::string name_;
-  int slot_ = -1;  // where RemoveTemporaryFiles finds it
+  int slot_ = -1;  // index in the table that RemoveTemporaryFiles reads
 };
 
-// Empties a folder that belongs to this process alone when a signal ends the process. The folder
-// itself stays. Subfolders stay, too.
+// ScratchFolderGuard empties a folder when a signal ends the process. The folder must belong to
+// this process alone. The folder itself and its subfolders stay.
 class ScratchFolderGuard {
  public:
   explicit ScratchFolderGuard(int folder);
@@ -57,11 +56,11 @@ class ScratchFolderGuard {
   int slot_;
 };
 
-// Removes the temporaries of this process. Async-signal-safe: for a handler of a signal that ends
-// the process. No further temporary is made afterwards.
+// Removes the temporary files of this process. It is async-signal-safe, for a handler of a signal
+// that ends the process. No further temporary file is made afterwards.
 void RemoveTemporaryFiles();
 
-// 13 random characters of a-z and 2-7.
+// Returns 13 random characters from a-z and 2-7.
 std::string RandomName();
 
 }  // namespace exphoton

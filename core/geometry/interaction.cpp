@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The footprint of a pixel on the surface: where the neighbouring rays meet the tangent plane, and
-// what steps in u and v that is. Source: Igehy 1999, "Tracing Ray Differentials".
+// ComputeDifferentials finds the pixel footprint on the surface. It intersects the neighbouring
+// rays with the tangent plane and converts the steps to u and v. Source: Igehy 1999, "Tracing Ray
+// Differentials".
 #include "core/geometry/interaction.h"
 
 #include "core/geometry/vec3d.h"
@@ -8,8 +9,8 @@
 namespace exphoton {
 namespace {
 
-// From `p` to the point where a neighbouring ray meets the plane through p; not finite where the
-// ray runs within the plane.
+// Returns the step from `p` to the point where a neighbouring ray meets the plane through p. The
+// result is not finite if the ray is parallel to the plane.
 Vec3d StepOnPlane(const Vec3d& p, const Vec3d& normal, const Point3& origin,
                   const Vector3& direction) {
   const Vec3d toPlane = p - Vec3d(origin);
@@ -22,8 +23,9 @@ Vec3d StepOnPlane(const Vec3d& p, const Vec3d& normal, const Point3& origin,
   return d * (Dot(normal, toPlane) / denominator) - toPlane;
 }
 
-// Coordinates of a vector of the tangent plane in the basis (dpdu, dpdv), from the two axes on
-// which the plane is seen most openly. The basis is judged by relative size only.
+// TangentBasis computes the coordinates of a tangent-plane vector in the basis (dpdu, dpdv). It
+// uses the two axes on which the projection of the plane is largest. The test for a degenerate
+// basis is relative to its size.
 struct TangentBasis {
   int a, b;
   double ua, ub, va, vb, determinant;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SurfaceInteraction: all that shading needs to know of a hit, in world space. Built once per ray,
-// after traversal. Holds no light transport of its own.
+// SurfaceInteraction holds everything that shading needs from a hit, in world space. It is built
+// once per ray, after traversal. It computes no light transport.
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -14,26 +14,30 @@ class Motion;
 struct SurfaceInteraction : SurfacePoint {  // p, pError, ng, time
   Vector3 wo;                               // unit, back along the ray
   Point2 uv;
-  Vector3 dpdu, dpdv;  // of the true surface; never 0 nor parallel (a frame round ng replaces such)
+  // Derivatives of the true surface. They are never 0 or parallel: a frame about ng replaces
+  // degenerate derivatives.
+  Vector3 dpdu, dpdv;
   Normal3 dndu, dndv;
 
-  // Shading geometry: interpolated normals, then bump mapping. n is unit and on ng's side.
+  // The shading geometry has interpolated normals, changed by bump mapping. n has unit length and
+  // lies on ng's side.
   struct Shading {
     Normal3 n;
     Vector3 dpdu, dpdv;
     Normal3 dndu, dndv;
   } shading;
 
-  // Footprint of a pixel: changes per step of one pixel in x and y. All 0 where unknown.
+  // The pixel footprint is the change per step of one pixel in x and y. All members are 0 if it is
+  // unknown.
   bool hasDifferentials = false;
   Vector3 dpdx, dpdy;
   Real dudx = 0, dvdx = 0, dudy = 0, dvdy = 0;
 
-  const Material* material = nullptr;    // null: the surface is invisible to transport
-  const AreaLight* areaLight = nullptr;  // null: emits nothing
-  const Motion* motion = nullptr;        // of the surface; null: it rests
+  const Material* material = nullptr;    // null: the surface does not scatter
+  const AreaLight* areaLight = nullptr;  // null: the surface emits nothing
+  const Motion* motion = nullptr;        // of the surface; null if it does not move
 
-  // Fills the footprint from the ray's neighbours; clears it where anything is not finite.
+  // Computes the footprint from the ray's differentials. Clears it if anything is not finite.
   void ComputeDifferentials(const RayDifferential& ray);
 };
 

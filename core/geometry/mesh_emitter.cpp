@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A mesh as an emitter: a triangle in proportion to its area, then a point uniform on it, so that
-// the density is 1 / area everywhere. Areas and their sums in double.
+// MeshEmitter samples a mesh. It chooses a triangle in proportion to its area, then a point uniform
+// on it, so that the density is 1 / area everywhere. Areas and their sums are in double.
 #include <utility>
 
 #include "core/geometry/triangle_mesh.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Asking a surface at rest on behalf of one that moves.
+// MovingEmitter passes each query to the surface at rest, with the map at the query's time.
 #include "core/geometry/moving_emitter.h"
 
 #include "core/geometry/placed_emitter.h"
 
 namespace exphoton {
 
-// A map that scales all axes by s scales areas by s^2, s running straight from end to end:
-// Simpson's rule has its mean exactly. Where axes are scaled differently it is an estimate.
+// A map that scales all axes by s scales areas by s^2. s is linear in time, so Simpson's rule gives
+// the mean exactly. If axes are scaled differently, the mean is an estimate.
 MovingEmitter::MovingEmitter(std::shared_ptr<const EmitterSurface> local, const Motion& motion)
     : local_(std::move(local)), motion_(motion), bounds_(motion.ApplyBounds(local_->Bounds())) {
   const auto scale = [&](Real time) { return std::pow(motion.At(time).VolumeScale(), 2. / 3); };

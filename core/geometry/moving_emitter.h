@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// MovingEmitter: a surface that emits light while it moves. What is asked at a time is answered by
-// the surface at rest in its own space, its densities changed as the map to the world then changes
-// areas and solid angles; so that any affine motion is sampled exactly.
+// MovingEmitter is a surface that emits light while it moves. The surface at rest in its own space
+// answers each query. Densities are scaled by the change of area and solid angle under the map to
+// world space at the query's time, so any affine motion is sampled exactly.
 #pragma once
 
 #include "core/geometry/shape.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Densities of a local surface, changed by the factors of placement.h.
+// The densities of a local surface are scaled by the factors of placement.h.
 #include "core/geometry/placed_emitter.h"
 
 #include "core/geometry/placement.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sampling a surface through an affine map: a surface in its own space is sampled there, and the
-// densities change as the map changes areas and solid angles. Exact for any invertible affine map.
-// Points and directions outside are called "world" here.
+// PlacedEmitter samples a surface through an affine map. It samples the surface in local space and
+// scales the densities by the change of area and solid angle. This is exact for any invertible
+// affine map. The space after the map is called "world" here.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,9 @@
 
 namespace exphoton {
 
-// EmitterSurface's methods for `local` under the map; arguments and results are in world space.
-// Densities per area are 1 / the area of `local`, divided by the local change of area.
+// These are EmitterSurface's methods for `local` under the map. Arguments and results are in world
+// space. Densities in area measure are 1 / the area of `local`, divided by the local change of
+// area.
 EmitterSample SamplePlacedPoint(const EmitterSurface& local, const Transform& toWorld, Point2 u,
                                 Real uSubLight, Real time);
 std::optional<EmitterSample> SamplePlacedToward(const EmitterSurface& local,
@@ -21,13 +22,14 @@ std::optional<EmitterSample> SamplePlacedToward(const EmitterSurface& local,
 Real PdfPlacedToward(const EmitterSurface& local, const Transform& toWorld, const SurfacePoint& ref,
                      const Vector3& wi, const SurfacePoint& on);
 
-// A surface of one part (no mesh) that is placed once and stays there.
+// PlacedEmitter is a surface of one part (not a mesh) that is placed once and does not move.
 class PlacedEmitter final : public EmitterSurface {
  public:
   PlacedEmitter(std::unique_ptr<const EmitterSurface> local, const Transform& toWorld)
       : local_(std::move(local)), toWorld_(toWorld) {}
 
-  // By quadrature (4096 points of the surface; relative error below 1e-3), at each call.
+  // Integrates numerically at each call, with 4096 points of the surface. The relative error is
+  // below 1e-3.
   Real Area() const override;
   Bounds3 Bounds() const override { return toWorld_.ApplyBounds(local_->Bounds()); }
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Placing surfaces. With the linear map M: areas by |det M| |M^-T n|, and for K = M^-1 solid angles
-// by |det K| / |K w|^3.
+// Placement scales areas and solid angles by a linear map M. AreaScale is |det M| |M^-T n|. With K
+// = M^-1, SolidAngleScale is |det K| / |K w|^3.
 #include "core/geometry/placement.h"
 
 #include "core/geometry/vec3d.h"
@@ -8,7 +8,8 @@
 namespace exphoton {
 namespace {
 
-// A derivative of the unit normal that `n` becomes under the transformation.
+// Returns the derivative of the transformed unit normal, given the normal `n` and its derivative
+// `dn`.
 Normal3 ApplyNormalDerivative(const Transform& transform, const Normal3& n, const Normal3& dn) {
   const Vec3d image(transform.ApplyNormal(n)), derivative(transform.ApplyNormal(dn));
   const double length = Length(image);
@@ -17,7 +18,7 @@ Normal3 ApplyNormalDerivative(const Transform& transform, const Normal3& n, cons
   return ((derivative - unit * Dot(unit, derivative)) * (1 / length)).ToReal();
 }
 
-// The product of a row or column triple of a matrix with a vector, in double.
+// Returns the length of the product of a 3x3 matrix with a vector, in double.
 template <class Entry>
 double LengthOf(const Vec3& v, const Entry& entry) {
   double sum = 0;

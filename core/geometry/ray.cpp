@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Leaving a surface without hitting it again: the origin moves along the normal until the plane
-// through it clears the error box of the point, then one representable step further on every axis.
-// Every step scales exactly with powers of two.
+// OffsetRayOrigin lets a ray leave a surface without hitting it again. It moves the origin along
+// the normal until the plane through it clears the error box of the point. Then it moves each axis
+// one representable step further. Every step scales exactly with powers of two.
 #include "core/geometry/ray.h"
 
 namespace exphoton {
 
 Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w) {
-  // Half the width of the error box along the normal.
+  // `reach` is half the width of the error box along the normal.
   const Real reach = std::abs(point.ng.x) * point.pError.x + std::abs(point.ng.y) * point.pError.y +
                      std::abs(point.ng.z) * point.pError.z;
   Vector3 offset = point.ng * (reach * (1 + Gamma(8)));
@@ -16,7 +16,7 @@ Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w) {
   for (int axis = 0; axis < 3; ++axis) {
     if (offset[axis] == 0) continue;
     if (origin[axis] == 0) {
-      // A denormal would be the next value, but it does not scale with the scene.
+      // The next value would be a denormal, which does not scale with the scene.
       origin[axis] = offset[axis] * kMachineEpsilon;
     } else {
       origin[axis] = offset[axis] > 0 ? NextUp(origin[axis]) : NextDown(origin[axis]);
@@ -37,7 +37,7 @@ Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to) {
   const Vector3 between = to.p - from.p;
   Ray ray;
   ray.o = OffsetRayOrigin(from, between);
-  // The direction is rounded too, so that the far end is uncertain by its share of the distance.
+  // The direction is rounded too. Enlarge the error of the far end by Gamma(4) of the distance.
   SurfacePoint end = to;
   end.pError += Abs(between) * Gamma(4);
   ray.d = OffsetRayOrigin(end, -between) - ray.o;

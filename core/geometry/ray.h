@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Rays, surface points and the robust way from one to the other: a ray that leaves a surface starts
-// outside the error bound of the point it leaves, so no comparison with a global epsilon is needed.
-// Source: Pharr, Jakob and Humphreys 2016, section 3.9; docs/decisions/0003-geometry.md.
+// This file defines rays, surface points and robust ray origins. A ray that leaves a surface starts
+// outside the error bound of its point, so no comparison with a global epsilon is needed. Source:
+// Pharr, Jakob and Humphreys 2016, section 3.9; docs/decisions/0003-geometry.md.
 #pragma once
 
 #include "core/math/vec.h"
@@ -17,7 +17,8 @@ struct Ray {
   Point3 operator()(Real t) const { return o + d * t; }
 };
 
-// A camera ray with its neighbours one pixel to the right (x) and below (y), for texture filtering.
+// RayDifferential is a camera ray with its neighbours one pixel to the right (x) and one pixel
+// below (y), for texture filtering.
 struct RayDifferential : Ray {
   bool hasDifferentials = false;
   Point3 xOrigin, yOrigin;
@@ -27,22 +28,24 @@ struct RayDifferential : Ray {
   RayDifferential(const Ray& ray) : Ray(ray) {}
 };
 
-// A point on a surface as computed, with the bound of its rounding error.
+// SurfacePoint is a computed point on a surface with the bound of its rounding error.
 struct SurfacePoint {
   Point3 p;
   Vector3 pError;  // absolute, per axis: the true point lies in p +- pError
   Normal3 ng;      // unit geometric normal, on the outside as the scene file orients it;
-                   // 0 for a point that is on no surface (pError 0 then)
-  Real time = 0;   // at which it is there: surfaces may move
+                   // 0 for a point that is on no surface (pError is then 0)
+  Real time = 0;   // time of the point: surfaces may move
 };
 
-// The point just outside the error box of `point`, on the side of the surface that w leaves to.
+// Returns the point just outside the error box of `point`, on the side of the surface to which w
+// points.
 Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w);
 
-// The ray from `point` in direction w (any length), at the point's time; tMax infinite.
+// Returns the ray from `point` in direction w (any length), at the point's time and with infinite
+// tMax.
 Ray SpawnRay(const SurfacePoint& point, const Vector3& w);
 
-// Many rays from one point, each as SpawnRay makes it.
+// RayFan makes many rays from one point. Each ray equals the result of SpawnRay.
 class RayFan {
  public:
   explicit RayFan(const SurfacePoint& point)
@@ -65,8 +68,9 @@ class RayFan {
   Real time_;
 };
 
-// The segment between two surface points, both ends offset towards each other; occluders have
-// 0 < t < tMax (1, less a few roundings). At the time of `from`.
+// Returns the segment between two surface points, with both ends offset towards each other.
+// Occluders have 0 < t < tMax, where tMax is 1 less a few roundings. The ray has the time of
+// `from`.
 Ray SpawnRayTo(const SurfacePoint& from, const SurfacePoint& to);
 
 }  // namespace exphoton

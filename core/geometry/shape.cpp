@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// EmitterSurface without a strategy of its own: points uniform by area, their density converted to
-// solid angle, dA = d^2 / |cos| dw. In double: squares of distances leave the range of float.
+// EmitterSurface's default strategy samples points uniformly by area and converts the density to
+// solid angle, dA = d^2 / |cos| dw. It computes in double, because squared distances leave the
+// range of float.
 #include "core/geometry/shape.h"
 
 #include "core/geometry/vec3d.h"
@@ -8,8 +9,8 @@
 namespace exphoton {
 namespace {
 
-// Density per solid angle at ref of a point with density areaPdf; 0 for an edge-on surface or a
-// point at ref itself.
+// Returns the density per solid angle at ref of a point with density areaPdf. Returns 0 for an
+// edge-on surface or a point at ref itself.
 Real SolidAnglePdf(const SurfacePoint& ref, const SurfacePoint& on, Real areaPdf) {
   const Vec3d between = Vec3d(on.p) - Vec3d(ref.p);
   const double distance2 = Dot(between, between);

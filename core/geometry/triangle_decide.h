@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The deciding part of the watertight ray-triangle test, inline for the loops of accelerators:
-// what MissesTriangle (the cheap filter by edges) has let pass is decided here, in double; and
-// ordered, by the distance found here (what is told of the nearest: triangle_single.h).
-// Source: Woop, Benthin and Wald 2013 (JCGT 2:1). Vertices are sheared so that the ray runs along
-// z; the signs of the three edge functions then decide. They are exact for the sheared vertices: in
-// single precision a sign is right or the value 0 (rounding is monotone), and where it is 0
-// products in double decide, so that neighbours never both refuse a ray.
+// DecideTriangle is the double-precision part of the watertight ray-triangle test, inline for the
+// loops of accelerators. It tests the triangles that MissesTriangle (the cheap edge test) did not
+// reject. Hits are ordered by the distance found here; triangle_single.h computes the reported
+// values of the nearest hit.
 #pragma once
 
 #include "core/geometry/triangle_mesh.h"
@@ -13,17 +10,18 @@
 
 namespace exphoton {
 
-// The corners of a triangle: coordinate `axis` of vertex v lies at first[v * vertex + axis * step].
-// A type of its own, as a lambda of code for other instructions could not be inlined here.
+// TriangleCorners reads the corners of a triangle. Coordinate `axis` of vertex v lies at
+// first[v * kVertex + axis * kStep]. It is a class because a lambda of code for another SIMD target
+// could not be inlined here.
 template <int kVertex, int kStep>
 struct TriangleCorners {
   const Real* first;
   Real operator()(int v, int axis) const { return first[v * kVertex + axis * kStep]; }
 };
 
-// Six times the volume between a point and a triangle, with the sign of the dot product of its
-// normal and the way to its plane; and what bounds its rounding error. In double, from the true
-// vertices.
+// PlaneVolume computes six times the volume between a point and a triangle, in double from the true
+// vertices. Value has the sign of the dot product of the normal and the vector to the plane. A
+// small multiple of the double epsilon times Magnitude bounds the rounding error of Value.
 struct PlaneVolume {
   Vec3d e1, e2, toPlane;
 
@@ -43,9 +41,10 @@ struct PlaneVolume {
   }
 };
 
-// Whether the plane of the triangle lies ahead of the ray's origin, beyond the rounding error of
-// that decision: a ray that starts outside the error box of a point on this plane and leaves it is
-// never sent back. `orientation` has the sign of the dot product of normal and ray.
+// Returns whether the plane of the triangle lies ahead of the ray's origin by more than the
+// rounding error of this test. A ray that starts outside the error box of a point on the plane and
+// leaves the plane never hits it again. `orientation` has the sign of the dot product of normal and
+// ray.
 template <class Corner>
 [[gnu::always_inline]] inline bool PlaneIsAhead(const Point3& o, const Corner& corner,
                                                 double orientation) {
@@ -54,7 +53,8 @@ template <class Corner>
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
   return ahead > 8 * kUnit * volume.Magnitude();
 }
-// Whether it does not, and without the error: what refuses the triangle that a ray starts on.
+// Returns whether the plane does not lie ahead of the origin, without a margin for rounding. If it
+// is true, PlaneIsAhead is false. It rejects the triangle on which a ray starts.
 template <class Corner>
 [[gnu::always_inline]] inline bool PlaneIsBehind(const Point3& o, const Corner& corner,
                                                  double orientation) {
@@ -62,13 +62,17 @@ template <class Corner>
   return orientation < 0 ? value >= 0 : value <= 0;
 }
 
-// IntersectTriangle for a ray that MissesTriangle has not excluded.
+// Returns the result of IntersectTriangle for a ray that MissesTriangle has not rejected. Vertices
+// are sheared so that the ray runs along z; the signs of the three edge functions then decide. The
+// signs are exact for the sheared vertices. In single precision (MissesTriangle) a sign is right or
+// the value is 0, because rounding is monotone. The products in double used here are exact. Two
+// neighbours therefore never both reject a ray. Source: Woop, Benthin and Wald 2013 (JCGT 2:1).
 template <class Corner>
 [[gnu::always_inline]] inline std::optional<TriangleHit> DecideTriangle(const TriangleRay& ray,
                                                                         Real tMax,
                                                                         const Corner& corner) {
   struct Sheared {
-    double x, y, z;  // z: only moved
+    double x, y, z;  // z: translated, not scaled
   };
   const int kx = ray.kx, ky = ray.ky, kz = ray.kz;
   const auto shear = [&](int v) -> Sheared {

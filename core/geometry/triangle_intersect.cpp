@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The watertight ray-triangle test as a function: filter, then decision (triangle_decide.h).
+// IntersectTriangle is the watertight ray-triangle test as a function: first the edge test, then
+// the exact test (triangle_decide.h).
 #include "core/geometry/triangle_decide.h"
 
 namespace exphoton {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The surface of a triangle at a hit: position with its error bound, derivatives by u and v, and
-// interpolated shading normals. Where the data are degenerate (uv, normals, tangents) the plain
-// geometry takes over; every threshold is relative to the data's own size.
-//
-// The outside is where the winding says (Cross(p1 - p0, p2 - p0), turned by flipNormal), also where
-// vertex normals are given: they only bend the shading normal, which is put on the outside.
+// TriangleSurface computes the surface at a triangle hit: position with error bound, derivatives by
+// u and v, and interpolated shading normals. If uv, normals or tangents are degenerate, the plain
+// geometry replaces them; every threshold is relative to the data's own size. The winding defines
+// the outside (Cross(p1 - p0, p2 - p0), negated by flipNormal). Vertex normals only bend the
+// shading normal, which is put on the outside.
 #include "core/geometry/triangle_mesh.h"
 
 #include "core/geometry/triangle_point.h"
@@ -30,8 +29,8 @@ Corners CornersOf(const TriangleMesh& mesh, std::uint32_t index) {
   return corners;
 }
 
-// Solves f(u,v) = f0 + fu u + fv v from its differences along two edges; the determinant of the uv
-// edges is 0 where they span nothing.
+// UvGradient solves f(u,v) = f0 + fu u + fv v from the differences of f along two edges. The
+// determinant is set to 0 if the uv edges are parallel or zero.
 struct UvGradient {
   double du1, dv1, du2, dv2, determinant;
 
@@ -50,8 +49,8 @@ struct UvGradient {
   }
 };
 
-// Derivatives of the position; a frame round the normal, as long as the triangle is wide, where uv
-// gives none.
+// Sets the derivatives of the position. If uv is degenerate, they are a frame about the normal,
+// scaled to the triangle's width.
 void SetDerivatives(const Corners& c, const UvGradient& gradient, SurfaceInteraction* surface) {
   const Vec3d e1 = c[1].p - c[0].p, e2 = c[2].p - c[0].p;
   if (gradient.determinant != 0) {
@@ -69,8 +68,8 @@ void SetDerivatives(const Corners& c, const UvGradient& gradient, SurfaceInterac
   surface->dpdv = frame.y * width;
 }
 
-// The interpolated normal and its derivatives; leaves the true geometry where the vertex normals
-// cancel or are 0.
+// Sets the interpolated normal and its derivatives. The true geometry stays if the vertex normals
+// cancel or one of them is 0.
 void SetShadingNormal(const TriangleMesh& mesh, std::uint32_t index,
                       const std::array<double, 3>& weight, const UvGradient& gradient,
                       SurfaceInteraction* surface) {
@@ -86,7 +85,8 @@ void SetShadingNormal(const TriangleMesh& mesh, std::uint32_t index,
   const Vec3d unit = sum * (side / length);
   surface->shading.n = unit.ToReal();
   if (gradient.determinant == 0) return;
-  // Derivative of the normalised sum: the part across the normal, over the length.
+  // The derivative of the normalised sum is the part perpendicular to the normal, divided by the
+  // length.
   const auto across = [&](const Vec3d& d) {
     return ((d - unit * Dot(unit, d)) * (side / length)).ToReal();
   };
@@ -97,12 +97,12 @@ void SetShadingNormal(const TriangleMesh& mesh, std::uint32_t index,
   surface->shading.dndv = dndv;
 }
 
-// Tangents in the shading plane, as long as dpdu and dpdv are; the first along the mesh's own
-// tangents where it has them.
+// Sets the tangents in the shading plane, with the lengths of dpdu and dpdv. The first tangent
+// follows the mesh's own tangents if there are any.
 void SetShadingTangents(const TriangleMesh& mesh, std::uint32_t index,
                         const std::array<double, 3>& weight, SurfaceInteraction* surface) {
   const Vec3d n(surface->shading.n), u(surface->dpdu), v(surface->dpdv);
-  // The unit direction of a within the shading plane; 0 where a is along the normal.
+  // Returns the unit direction of a within the shading plane, or 0 if a is along the normal.
   const auto inPlane = [&](const Vec3d& a) {
     const Vec3d flat = a - n * Dot(n, a);
     return Length(flat) > 1e-6 * Length(a) ? NormalizeOrZero(flat) : Vec3d();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// TriangleMesh: flat arrays in world space, as shape plugins hand them over. Degenerate triangles
-// are dropped by the plugin (Clean), so that everything after it meets only real ones.
+// TriangleMesh holds triangles as flat arrays in world space. Shape plugins make it and drop
+// degenerate triangles (DropDegenerate), so that later code meets only proper triangles.
 #pragma once
 
 #include <array>
@@ -14,27 +14,28 @@ namespace exphoton {
 struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> indices;
   std::vector<Point3> p;
-  std::vector<Normal3> n;  // empty or one a vertex; unit or 0 (0: use the geometric normal)
-  std::vector<Vector3> s;  // empty or one a vertex: shading tangents
-  std::vector<Point2> uv;  // empty or one a vertex; empty means (0,0) (1,0) (1,1)
-  // The geometric normal is Cross(p1 - p0, p2 - p0), negated if this is set
+  std::vector<Normal3> n;  // empty or one per vertex; unit or 0 (0: use the geometric normal)
+  std::vector<Vector3> s;  // empty or one per vertex: shading tangents
+  std::vector<Point2> uv;  // empty or one per vertex; empty means (0,0) (1,0) (1,1)
+  // The geometric normal is Cross(p1 - p0, p2 - p0), negated if flipNormal is set
   // (ReverseOrientation xor a transformation that swaps handedness).
   bool flipNormal = false;
 
   std::size_t TriangleCount() const { return indices.size(); }
-  // Drops triangles of zero area (computed in double); returns how many.
+  // Removes triangles of zero area (computed in double) and returns their number.
   std::size_t DropDegenerate();
 };
 
-// Watertight ray-triangle test: Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
-// Intersection" (JCGT 2:1). The ray's share is computed once and serves all triangles.
+// TriangleRay holds the part of the watertight ray-triangle test that depends on the ray only. It
+// is computed once per ray. Source: Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
+// Intersection" (JCGT 2:1).
 struct TriangleRay {
   Point3 o;
-  int kx, ky, kz;   // kz: the axis along which the ray runs fastest
-  Real ox, oy, oz;  // origin along these
+  int kx, ky, kz;   // kz: the axis of the largest direction component
+  Real ox, oy, oz;  // origin along kx, ky, kz
   Real sx, sy, sz;
 
-  // Axes are looked up, not branched for: those of incoherent rays cannot be predicted.
+  // A table gives the axes, because branches on the axes of incoherent rays are unpredictable.
   explicit TriangleRay(const Ray& ray) : o(ray.o) {
     static constexpr int kNext[3] = {1, 2, 0};
     const Real origin[3] = {o.x, o.y, o.z}, d[3] = {ray.d.x, ray.d.y, ray.d.z};
@@ -53,8 +54,8 @@ struct TriangleHit {
   Real t, b1, b2;  // p = (1 - b1 - b2) p0 + b1 p1 + b2 p2
 };
 
-// Whether the ray passes the triangle, by its edges alone; never true for one that
-// IntersectTriangle would find. For inner loops: most triangles end here.
+// Returns whether the ray misses the triangle, by its edges alone. It is never true for a triangle
+// that IntersectTriangle would hit. Inner loops use it, because it rejects most triangles.
 inline bool MissesTriangle(const TriangleRay& ray, const Point3& p0, const Point3& p1,
                            const Point3& p2) {
   const auto misses = [&]<int kz>() {
@@ -65,23 +66,24 @@ inline bool MissesTriangle(const TriangleRay& ray, const Point3& p0, const Point
     const Real bx = (p1[kx] - ox) - ray.sx * bz, by = (p1[ky] - oy) - ray.sy * bz;
     const Real cx = (p2[kx] - ox) - ray.sx * cz, cy = (p2[ky] - oy) - ray.sy * cz;
     const Real u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-    // Neither holds for a NaN, which the full test decides.
+    // Both comparisons are false for a NaN, so the full test decides.
     return (u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0);
   };
   if (ray.kz == 0) return misses.template operator()<0>();
   return ray.kz == 1 ? misses.template operator()<1>() : misses.template operator()<2>();
 }
 
-// Hit with 0 < t <= tMax (a tie at tMax counts, so that ties can be decided by index), and t above
-// its own error bound.
+// Returns the hit with 0 < t <= tMax and t above its own error bound. A t equal to tMax is a hit,
+// so that the caller can decide ties by index.
 std::optional<TriangleHit> IntersectTriangle(const TriangleRay& ray, Real tMax, const Point3& p0,
                                              const Point3& p1, const Point3& p2);
 
-// The surface record of triangle `index` of the mesh at barycentrics (b1, b2).
+// Returns the surface record of triangle `index` of the mesh at barycentrics (b1, b2).
 SurfaceInteraction TriangleSurface(const TriangleMesh& mesh, std::uint32_t index, Real b1, Real b2);
 
-// A mesh as a surface to sample: a triangle in proportion to its area, then a point on it.
+// MakeMeshEmitter returns a surface that samples the mesh: a triangle in proportion to its area,
+// then a point on it. The surface keeps a reference to `mesh`.
 class MeshEmitter;
-std::unique_ptr<EmitterSurface> MakeMeshEmitter(const TriangleMesh& mesh);  // keeps a reference
+std::unique_ptr<EmitterSurface> MakeMeshEmitter(const TriangleMesh& mesh);
 
 }  // namespace exphoton

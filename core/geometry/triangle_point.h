@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Where a triangle was hit: the first part of its surface record, inline for those who want no
-// more.
+// TrianglePoint computes the point where a triangle was hit. It is the first part of the surface
+// record, inline for callers that need no more.
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -8,12 +8,12 @@
 
 namespace exphoton {
 
-// At barycentrics (b1, b2); the normal is where the winding p0, p1, p2 says.
+// Returns the point at barycentrics (b1, b2). The normal follows the winding p0, p1, p2.
 inline SurfacePoint TrianglePoint(const Vec3d& p0, const Vec3d& p1, const Vec3d& p2, Real b1,
                                   Real b2) {
   SurfacePoint point;
-  // Weights that sum to 1 keep the point in the plane whatever their own error; what is left is one
-  // rounding to Real and those of the sum itself.
+  // Weights that sum to 1 keep the point in the plane, whatever their own error. The remaining
+  // error is one rounding to Real and the roundings of the sum.
   const double w1 = double(b1), w2 = double(b2), w0 = 1 - w1 - w2;
   const Vec3d p = p0 * w0 + p1 * w1 + p2 * w2;
   point.p = p.ToReal();

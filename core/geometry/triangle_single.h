@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The hit of a triangle in single precision, where that is accurate: most hits, at a fraction of
-// what DecideTriangle costs (triangle_decide.h). Hits are ordered as by DecideTriangle; what is
-// found of the first of them is told by this, wherever it can: the same bits from every accelerator
-// and every width of vectors, which do the same operations in the same order.
-//
-// With x, y, z of the vertices as TriangleRay shears them, and X, Y, Z the largest |x|, |y|, |z|:
-//   edge e = x y' - y x'; determinant = sum of e; volume = sum of e z; t = volume / determinant sz.
-// All three edges must have one sign, which then is right. In units of u, half a Real's epsilon:
-//   an edge is off by 2 * 2 X Y, the determinant by two roundings more: 4 * 6 X Y;
-//   the volume by the edges' two, one in z, one of the product and two in the sum: 6 * 6 X Y Z.
-// With volume > X Y Z / 16, and so determinant > X Y / 16, t is off by 60 * 16 u and the three
-// roundings of quotient, product and what it is compared with: by less than Gamma(1024).
-//
-// Nor is the triangle's plane behind the ray, by PlaneIsAhead. That is about the volume of the true
-// vertices, which a shear leaves as it is, but not its rounding: x and y are off by 4 u (X + Z) and
-// 4 u (Y + Z), so the volume by less than 48 u (2 X Y + Z (X + Y)) Z. And its margin in double is,
-// by the same norms, less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. The terms of LargeVolume below are
-// more than both.
-// Source: Woop, Benthin and Wald 2013 (JCGT 2:1); Higham 2002, "Accuracy and Stability of Numerical
-// Algorithms", chapter 3.
+// HitInSingle computes a triangle hit in single precision where an error bound proves it safe. This
+// covers most hits, at a fraction of the cost of DecideTriangle (triangle_decide.h). The order of
+// hits is the order of DecideTriangle; HitInSingle gives the reported values of the first hit if it
+// can. All accelerators and SIMD targets report the same bits: they do the same operations in the
+// same order.
 #pragma once
 
 #include "core/geometry/triangle_decide.h"
 
 namespace exphoton {
 
+// Error bound. x, y, z are the vertices as sheared by TriangleRay; X, Y, Z are the largest |x|,
+// |y|, |z|.
+//   edge e = x y' - y x'; determinant = sum of e; volume = sum of e z; t = volume / determinant sz.
+// All three edges must have one sign, which is then right. Errors in units of u, half a Real's
+// epsilon:
+//   an edge: 2 * 2 X Y; the determinant, with two more roundings: 4 * 6 X Y;
+//   the volume, with the edges' two roundings, one in z, one of the product and two in the sum:
+//   6 * 6 X Y Z.
+// If volume > X Y Z / 16, then determinant > X Y / 16. The error of t is then 60 * 16 u plus the
+// roundings of the quotient, of the product and of the t it is compared with. The sum is less than
+// Gamma(1024).
+//
+// The triangle must also pass PlaneIsAhead, which tests the volume of the true vertices. An exact
+// shear keeps this volume, but rounding changes it: x and y are off by 4 u (X + Z) and 4 u (Y + Z),
+// so the volume is off by less than 48 u (2 X Y + Z (X + Y)) Z. The margin of PlaneIsAhead in
+// double is, by the same norms, less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. The terms of LargeVolume
+// exceed both errors.
+// Source: Woop, Benthin and Wald 2013 (JCGT 2:1); Higham 2002, "Accuracy and Stability of Numerical
+// Algorithms", chapter 3.
+//
 // A volume is large if it exceeds Z (of[0] X Y + Z (of[1] (X + Y) + of[2] Z)) + least.
 struct LargeVolume {
   static constexpr Real kInDouble = Real(1) / (std::uint64_t(1) << 43);  // where Real is double
@@ -32,22 +37,23 @@ struct LargeVolume {
                                  std::max(Gamma(128) / (1 << 20), kInDouble)};
   static constexpr Real least = Real(1) / (std::uint64_t(1) << 50) / (std::uint64_t(1) << 50);
 };
-// Distances further from 1, and rays with sz so far from it, may lose bits by underflow.
+// Distances outside [kLeastSingle, kLargestSingle], and rays whose |sz| is outside [2^-30, 2^30],
+// may lose bits by underflow.
 inline constexpr Real kLargestSingle = Real(1 << 30) * (1 << 30), kLeastSingle = 1 / kLargestSingle;
 inline bool MayHitInSingle(const TriangleRay& ray) {
   constexpr Real kLargest = 1 << 30;
   return std::abs(ray.sz) < kLargest && std::abs(ray.sz) > 1 / kLargest;
 }
-// The relative difference from DecideTriangle's t is less than this.
+// The relative difference from DecideTriangle's t is less than kSingleError.
 inline constexpr Real kSingleError = Gamma(1024);
 
 #if defined(EXPHOTON_TRAPS)
-inline constexpr bool kTellsInSingle = false;  // what overflows is left alone, but only afterwards
+inline constexpr bool kTellsInSingle = false;  // rejects an overflow only after it would trap
 #else
 inline constexpr bool kTellsInSingle = true;
 #endif
 
-// None where double is needed to tell whether and where the triangle is hit.
+// Returns nullopt if double precision is needed to decide whether and where the triangle is hit.
 template <class Corner>
 [[gnu::always_inline]] inline std::optional<TriangleHit> HitInSingle(const TriangleRay& ray,
                                                                      const Corner& corner) {

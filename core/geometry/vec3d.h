@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Vec3d: a triple of doubles for the few computations of geometry in which single precision
-// cancels: differences of nearby points, plane equations, quadratics. Storage stays in Real.
+// Vec3d is a triple of doubles for the few geometric computations in which single precision
+// cancels: differences of nearby points, plane equations, quadratics. Stored data stay in Real.
 #pragma once
 
 #include "core/math/vec.h"
@@ -32,8 +32,8 @@ constexpr Vec3d Cross(const Vec3d& a, const Vec3d& b) {
 }
 inline double Length(const Vec3d& a) { return std::sqrt(Dot(a, a)); }
 
-// a / |a|; 0 where |a| is 0 or not finite. Products of two differences of float coordinates neither
-// overflow nor underflow in double, so no scaling is needed.
+// Returns a / |a|, or 0 if |a| is 0 or not finite. Products of two differences of float coordinates
+// neither overflow nor underflow in double, so no scaling is needed.
 inline Vec3d NormalizeOrZero(const Vec3d& a) {
   const double length = Length(a);
   if (!(length > 0) || !std::isfinite(length)) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Image: construction and access, and the choice of a reader by the first bytes of a file.
+// Image: construction and access. ReadImage chooses the reader by the first bytes of the file.
 #include "core/imaging/image.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Building the pyramid and filtering it.
+// MipMap: construction of the pyramid, and filtering.
 #include "core/imaging/mipmap.h"
 
 #include <array>
@@ -7,8 +7,8 @@
 namespace exphoton {
 namespace {
 
-// Where output texel `to` of `toCount` gets its value from: input texels and their weights, by the
-// area they share; at most three plus rounding where the size is halved.
+// The input texels that contribute to output texel `to` of `toCount`, and their weights by shared
+// area. Halving the size needs at most three texels, and a fourth by rounding.
 struct Share {
   int first = 0;
   int count = 0;
@@ -31,7 +31,7 @@ int WrapIndex(int i, int count) {
   return rest < 0 ? rest + count : rest;
 }
 
-// exp(-2 r^2), shifted to end at 0, for r^2 in [0, 1): Heckbert's choice of width.
+// exp(-2 r^2), shifted to end at 0, for r^2 in [0, 1). The width is Heckbert's choice.
 constexpr int kWeights = 128;
 std::array<Real, kWeights> MakeGaussian() {
   std::array<Real, kWeights> table{};
@@ -94,7 +94,7 @@ T MipMap<T>::Texel(int level, int x, int y) const {
   return l.texels[std::size_t(y) * std::size_t(l.width) + std::size_t(x)];
 }
 
-// st so near the image that texel numbers fit an int; nothing that is seen changes.
+// Moves st so near to the image that texel indices fit an int, without visible change.
 template <class T>
 Point2 MipMap<T>::Reduce(Point2 st) const {
   for (int i = 0; i < 2; ++i) {
@@ -132,7 +132,7 @@ T MipMap<T>::Trilinear(Point2 st, Point2 dstdx, Point2 dstdy) const {
   const Real along = std::max(std::abs(dstdx.y), std::abs(dstdy.y)) * Real(Height());
   const Real width = 2 * std::max(across, along);
   const Point2 near = Reduce(st);
-  if (!(width > 1)) return Bilinear(0, near);  // NaN too
+  if (!(width > 1)) return Bilinear(0, near);  // also for NaN
   return Blend(std::log2(width), [&](int level) { return Bilinear(level, near); });
 }
 
@@ -150,7 +150,7 @@ T MipMap<T>::Ewa(Point2 st, Point2 dstdx, Point2 dstdy, Real maxAnisotropy) cons
   const Real minor2 = std::max(mean - spread, Real(0));
   const Real widened2 = std::max(minor2, major2 / Square(maxAnisotropy));
   if (widened2 > minor2 && spread > 0) {
-    // Adds to the minor axis's direction only: I - v v' with v the major one.
+    // Widens the minor axis only: adds a multiple of I - v v', where v is the major axis.
     const Real cos2 = half / spread, sin2 = m.xy / spread;  // of twice v's angle
     const Real add = widened2 - minor2;
     m.xx += add * (1 - cos2) / 2;
@@ -160,8 +160,8 @@ T MipMap<T>::Ewa(Point2 st, Point2 dstdx, Point2 dstdy, Real maxAnisotropy) cons
   return Blend(std::log2(widened2) / 2, [&](int level) { return EwaLevel(level, near, m); });
 }
 
-// Each level's footprint is the pixel's, widened by one texel for reconstruction (so that some
-// texel's centre is always inside), and no wider than the level itself.
+// The footprint at each level is the pixel's footprint, widened by one texel for reconstruction.
+// Some texel's centre is then always inside. The footprint is limited to the width of the level.
 template <class T>
 T MipMap<T>::EwaLevel(int level, Point2 st, const Footprint& footprint) const {
   const Real w = Real(Width(level)), h = Real(Height(level));

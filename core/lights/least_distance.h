@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// How near a point-like light may seem: a light that lies on a surface must stay finite, yet one
-// lamp in a small room of a huge world must not lose its light. No absolute length: all scales with
-// the scene.
+// LeastDistance is the smallest distance at which a point-like light is evaluated. A light that
+// lies on a surface must stay finite, but a lamp in a small room of a huge world must not lose its
+// light. There is no absolute length: everything scales with the scene.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,9 @@ class LeastDistance {
   LeastDistance() = default;
   explicit LeastDistance(const Sphere3& world) : radius_(world.radius) {}
 
-  // Squared: 2^-20 of what is smaller, the world's radius or the coordinates of the two points (a
-  // few times what rounding leaves uncertain there), and at least 2^-50 of the world's radius.
+  // Returns the squared least distance. The distance is 2^-20 of the largest coordinate of the two
+  // points, which is a few times their rounding error. It is at most 2^-20 and at least 2^-50 of
+  // the world's radius.
   Real Squared(const Point3& a, const Point3& b) const {
     const Real size = std::max(MaxAbs(a), MaxAbs(b));
     const Real least =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightDistribution: the weights of the lights: luminance of power, mixed with a uniform share.
+// LightDistribution weights each light by the luminance of its power, mixed with a uniform share.
 #include "core/lights/light_distribution.h"
 
 namespace exphoton {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Building the tree by halving the lights along the longest side of their box, and going down.
+// LightTree is built by splitting the lights into halves along the longest side of the box of their
+// centres. It is sampled from the root down.
 #include "core/lights/light_tree.h"
 
 #include <algorithm>
@@ -10,11 +11,11 @@
 namespace exphoton {
 namespace {
 
-// Part of the mean power that every light has besides its own: powers are estimates, even 0.
+// The share of the mean power in every light's weight: powers are estimates and can be 0.
 constexpr double kUniformShare = .05;
-// Of the choice between near and far lights.
+// The least probability of the tree and of the group of distant lights.
 constexpr double kLeastGroupShare = .1;
-// Of the choice between two children.
+// The least probability of each of two children.
 constexpr double kLeastChildShare = 1e-3;
 
 }  // namespace
@@ -55,7 +56,7 @@ LightTree::LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sp
   if (!leaves.empty()) Build(leaves, {0, 0, -1});
 }
 
-// Returns the number of the subtree's root.
+// Returns the index of the subtree's root node.
 int LightTree::Build(std::span<Leaf> leaves, Place place) {
   const int number = int(nodes_.size());
   nodes_.emplace_back();
@@ -95,7 +96,8 @@ double LightTree::Distance2(const Node& node, const Point3& p) {
 double LightTree::LeftProbability(int node, const Point3& p) const {
   const Node& left = nodes_[std::size_t(node + 1)];
   const Node& right = nodes_[std::size_t(nodes_[std::size_t(node)].right)];
-  // Of power / distance^2, multiplied by both distances: p may lie on a light.
+  // Compares power / distance^2 of both children, multiplied by both squared distances, because p
+  // may lie on a light.
   const double a = left.power * Distance2(right, p), b = right.power * Distance2(left, p);
   return a + b > 0 ? std::clamp(a / (a + b), kLeastChildShare, 1 - kLeastChildShare) : .5;
 }
@@ -103,7 +105,7 @@ double LightTree::LeftProbability(int node, const Point3& p) const {
 double LightTree::FarProbability(const Point3& p) const {
   if (farLights_.empty()) return 0;
   if (nodes_.empty()) return 1;
-  const double distance2 = Distance2(nodes_[0], p);  // 0 on lights that are all on one spot
+  const double distance2 = Distance2(nodes_[0], p);  // 0 if p and all lights are at one point
   const double near = distance2 > 0 ? nodes_[0].power / (4 * double(kPi) * distance2)
                                     : std::numeric_limits<double>::infinity();
   return std::clamp(far_.Sum() / (far_.Sum() + near), kLeastGroupShare, 1 - kLeastGroupShare);

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightTree: chooses one of many lights for a point, near and bright ones more often, in time
-// proportional to the logarithm of their number. A balanced tree over the lights that are
-// somewhere; going down, a child is taken in proportion to what could arrive from it,
-//   power / (4 pi max(d^2, r^2)),
-// d the distance to the middle of its box, r half its diagonal: Conty Estevez and Kulla 2018,
+// LightTree chooses one of many lights for a point, in time proportional to the logarithm of their
+// number. It chooses near and bright lights more often. Source: Conty Estevez and Kulla 2018,
 // "Importance Sampling of Many Lights with Adaptive Tree Splitting", without orientations and
-// without splitting. Far lights (sun, sky) form a group of their own, chosen by irradiance. A share
-// of every decision between the groups, and of every light's power, is uniform, so that no light
-// is ever starved.
+// without splitting.
 #pragma once
 
 #include <memory>
@@ -19,30 +14,35 @@
 
 namespace exphoton {
 
+// The lights that have a position form a balanced tree. On the way down, a child is chosen in
+// proportion to an estimate of its irradiance, power / (4 pi max(d^2, r^2)). d is the distance to
+// the centre of its box, and r is half the diagonal of the box. Distant lights (sun, sky) form a
+// separate group and are chosen by irradiance. No light is starved: each choice between groups or
+// children has a least probability, and each light's power is mixed with the mean power.
 class LightTree {
  public:
   LightTree() = default;
-  // Black lights are never chosen. World: the ball that the lights were prepared with.
+  // Black lights are never chosen. `world` is the sphere that the lights were prepared with.
   LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sphere3& world);
 
-  bool IsEmpty() const { return lights_.empty(); }  // every light is black
+  bool IsEmpty() const { return lights_.empty(); }  // true if every light is black
 
   struct Choice {
     const Light* light;
-    int index;         // into the vector given
+    int index;         // index into the constructor's vector
     Real probability;  // > 0
   };
   Choice Sample(const Point3& p, Real u) const;
-  // With which Sample chooses that light at p; 0 for a black one.
+  // Returns the probability with which Sample chooses light `index` at p; 0 for a black light.
   Real Probability(const Point3& p, int index) const;
 
  private:
   struct Node {
     Point3 center;
-    Real radius2 = 0;  // of the ball round the box
+    Real radius2 = 0;  // squared radius of the sphere around the box
     double power = 0;  // luminance
-    int right = -1;    // the other child; the left one follows its parent. -1: a leaf
-    int light = -1;    // of a leaf
+    int right = -1;    // right child, -1 for a leaf; the left child follows its parent
+    int light = -1;    // the light of a leaf
   };
   struct Leaf {
     Point3 center;
@@ -50,11 +50,12 @@ class LightTree {
     double power;
     int light;
   };
-  // Where a light is to be found: the turns on the way down, least significant first.
+  // Place is the position of a light in the tree: the turns from the root down, in bits from the
+  // least significant. A set bit is a turn to the right.
   struct Place {
     std::uint64_t turns = 0;
     int depth = -1;  // -1: not in the tree
-    int far = -1;    // in the distribution of far lights; -1: not among them
+    int far = -1;    // index in the distribution of distant lights; -1: not distant
   };
 
   int Build(std::span<Leaf> leaves, Place place);
@@ -62,8 +63,8 @@ class LightTree {
   double LeftProbability(int node, const Point3& p) const;
   double FarProbability(const Point3& p) const;
 
-  std::vector<const Light*> lights_;  // those given
-  std::vector<Place> places_;         // of each
+  std::vector<const Light*> lights_;  // all lights of the constructor
+  std::vector<Place> places_;         // one per light
   std::vector<Node> nodes_;           // the root first
   std::vector<int> farLights_;
   DiscreteDistribution far_;  // by irradiance

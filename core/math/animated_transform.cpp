@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Taking transformations apart, interpolating them, and boxes round what they sweep.
+// AnimatedTransform decomposes transformations, interpolates them and bounds the volume that they
+// sweep.
 #include "core/math/animated_transform.h"
 
 #include <cmath>
@@ -106,9 +107,9 @@ Transform AnimatedTransform::Compose(const Matrix3& linear, const Matrix3& inver
   return {forward, backward};
 }
 
-// A corner moves on f(u) = T(u) + Q(u) y(u), with T and y = S(u) x linear in u and Q turning by
-// angle a: |f''| <= a^2 max |y| + 2 a |y'|. Between two of n + 1 places f stays within |f''| / (8
-// n^2) of the straight line that joins them.
+// A corner x moves along f(u) = T(u) + Q(u) y(u). T and y = S(u) x are linear in u, and Q turns by
+// angle a, so |f''| <= a^2 max |y| + 2 a |y'|. Between two neighbours of n + 1 equally spaced
+// places, f stays within |f''| / (8 n^2) of the chord.
 Bounds3 AnimatedTransform::ApplyBounds(const Bounds3& box) const {
   Bounds3 bounds = start_.ApplyBounds(box);
   if (!moves_ || bounds.IsEmpty()) return bounds;
@@ -116,7 +117,7 @@ Bounds3 AnimatedTransform::ApplyBounds(const Bounds3& box) const {
   constexpr double kPiecesPerRadian = 16;
   const double angle = turn_.angle;
   const int pieces = std::max(1, int(std::ceil(angle * kPiecesPerRadian)));
-  if (!isTranslation_)  // the ends once more, as they come out when put together again
+  if (!isTranslation_)  // includes both ends as recomposed, which rounding changes
     for (int i = 0; i <= pieces; ++i) bounds.Extend(Within(double(i) / pieces).ApplyBounds(box));
   double bulge = 0;
   for (int corner = 0; angle > 0 && corner < 8; ++corner) {
@@ -128,7 +129,7 @@ Bounds3 AnimatedTransform::ApplyBounds(const Bounds3& box) const {
   }
   const Vector3 margin(NextUp(Real(bulge / (8. * pieces * pieces))));
   if (bulge > 0) bounds = {bounds.min - margin, bounds.max + margin};
-  // What composing and applying a transformation rounds.
+  // This margin covers the rounding of composing and applying a transformation.
   const Vector3 size = Max(Abs(bounds.min), Abs(bounds.max));
   const Vector3 rounding(MaxComponent(size) * Gamma(16));
   return {bounds.min - rounding, bounds.max + rounding};

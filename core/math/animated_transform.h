@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AnimatedTransform: a transformation that changes between two times, and stays as it is before and
-// after. Both ends are taken apart into translation, rotation and stretch; translations and
-// stretches run straight, the rotation turns evenly by the shortest way. Derivation of the bounds:
-// docs/decisions/0010-motion.md.
+// AnimatedTransform interpolates between two transformations over a time interval and is constant
+// before and after it. Both ends are decomposed into translation, rotation and stretch. Translation
+// and stretch change linearly; the rotation turns at constant speed by the shortest way.
+// docs/decisions/0010-motion.md derives the bounds.
 #pragma once
 
 #include "core/math/polar_decomposition.h"
@@ -15,19 +15,20 @@ class AnimatedTransform {
   AnimatedTransform() = default;                                    // identity, at rest
   AnimatedTransform(const Transform& at) : start_(at), end_(at) {}  // at rest
 
-  // From `start` at times.min to `end` at times.max. Where there is no way from one to the other
-  // that keeps clear of singular matrices: nullopt, and *problem says why, as a sentence's end.
+  // Makes the animation from `start` at times.min to `end` at times.max. Returns nullopt if no
+  // interpolation avoids singular matrices; *problem then holds the reason, as the end of a
+  // sentence.
   static std::optional<AnimatedTransform> Between(const Transform& start, const Transform& end,
                                                   Interval times, const char** problem);
 
   bool Moves() const { return moves_; }
-  // Whether it is not the same at all times of the interval.
+  // Returns whether the transformation changes during the interval.
   bool MovesWithin(Interval interval) const {
     return moves_ && interval.min < interval.max && interval.min < times_.max &&
            times_.min < interval.max;
   }
-  // Whether it turns by half a turn, so that either way round is as short: which is taken, rounding
-  // decides.
+  // Returns whether the rotation is half a turn. Both directions are then equally short, and
+  // rounding decides between them.
   bool IsHalfTurn() const;
 
   Transform At(Real time) const;
@@ -35,7 +36,7 @@ class AnimatedTransform {
   const Transform& End() const { return end_; }
   Interval Times() const { return times_; }
 
-  // Holds the images of the box at all times.
+  // Returns a box that contains the images of `box` at all times.
   Bounds3 ApplyBounds(const Bounds3& box) const;
 
  private:
@@ -47,7 +48,7 @@ class AnimatedTransform {
   bool moves_ = false;
   bool isTranslation_ = false;  // both ends have the same linear part
   Matrix3 rotation_{};          // at the start
-  Turn turn_;                   // from there to the rotation at the end
+  Turn turn_;                   // from rotation_ to the rotation at the end
   Matrix3 stretches_[2]{};      // at start and end
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Axis-aligned bounding box of points, and the ray-box test that accelerators share.
-// The far distances are enlarged by Ize 2013, "Robust BVH Ray Traversal" (JCGT 2:2), so that
-// rounding never misses a box; zero direction components are decided by comparison.
+// Bounds3 is an axis-aligned bounding box, and IntersectBox is the slab test that accelerators
+// share. Far distances are enlarged after Ize 2013, "Robust BVH Ray Traversal" (JCGT 2:2), so that
+// rounding never misses a box. Zero direction components are decided by comparison.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct Bounds3 {
     max = Max(max, b.max);
   }
   Vector3 Diagonal() const { return max - min; }
-  int LongestAxis() const {  // the first of equals
+  int LongestAxis() const {  // the first of equal axes
     const Vector3 d = Diagonal();
     return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
   }
@@ -52,7 +52,7 @@ struct Sphere3 {
   Real radius = 0;  // 0 for an empty world
 };
 
-// The sphere round the box (not the smallest round its contents).
+// Returns the sphere around the box, not the smallest sphere around its contents.
 inline Sphere3 BoundingSphere(const Bounds3& b) {
   if (b.IsEmpty()) return {};
   return {b.Center(), Distance(b.Center(), b.max)};
@@ -62,8 +62,8 @@ struct Interval {
   Real min, max;
 };
 
-// The part of [0, tMax] where the ray o + t d is inside the box, conservatively enlarged.
-// A NaN in the ray gives no overlap.
+// Returns the part of [0, tMax] where the ray o + t d is inside the box, conservatively enlarged. A
+// NaN in the ray gives nullopt.
 inline std::optional<Interval> IntersectBox(const Bounds3& box, const Point3& o, const Vector3& d,
                                             Real tMax) {
   Real t0 = 0, t1 = tMax;
@@ -78,7 +78,7 @@ inline std::optional<Interval> IntersectBox(const Bounds3& box, const Point3& o,
     if (inverse < 0) std::swap(tNear, tFar);
     tFar *= 1 + 2 * Gamma(3);
     if (tNear > t0) t0 = tNear;
-    if (!(tFar >= t1)) t1 = tFar;  // NaN loses the box
+    if (!(tFar >= t1)) t1 = tFar;  // a NaN rejects the box
     if (!(t0 <= t1)) return std::nullopt;
   }
   if (!(t0 <= t1)) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The CIE 1931 observer by the analytic fit of Wyman, Sloan and Shirley 2013, "Simple Analytic
-// Approximations to the CIE XYZ Color Matching Functions" (JCGT 2:2), table 1.
+// The conversions use the CIE 1931 observer in the analytic fit of Wyman, Sloan and Shirley 2013,
+// "Simple Analytic Approximations to the CIE XYZ Color Matching Functions" (JCGT 2:2), table 1.
 #include "core/math/cie.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Xyz {
   double x = 0, y = 0, z = 0;
 };
 
-// A Gaussian with another width on each side of its peak.
+// Evaluates a Gaussian whose width differs below and above its peak.
 double Lobe(double nm, double peak, double below, double above) {
   const double t = (nm - peak) / (nm < peak ? below : above);
   return std::exp(-.5 * t * t);
@@ -28,7 +28,7 @@ Xyz Observer(double nm) {
           1.217 * Lobe(nm, 437.0, 11.8, 36.0) + .681 * Lobe(nm, 459.0, 26.0, 13.8)};
 }
 
-// Integrates over the visible range in steps of 1 nm.
+// Integrates a spectrum over the visible range in steps of 1 nm.
 template <class F>
 Spectrum RgbOf(F&& valueAt) {
   Xyz sum;
@@ -67,8 +67,8 @@ Spectrum RgbFromSamples(const std::vector<SpectralSample>& samples) {
 }
 
 Spectrum RgbOfBlackbody(double kelvin) {
-  // hc/k in nm K, and x = hc/(lambda k T) at the peak of Planck's law (the root of
-  // x = 5 (1 - exp(-x))).
+  // kSecondRadiation is hc/k in nm K. kPeak is x = hc/(lambda k T) at the peak of Planck's law, the
+  // root of x = 5 (1 - exp(-x)).
   constexpr double kSecondRadiation = 1.438776877e7, kPeak = 4.965114231744276;
   const double peakNm = kSecondRadiation / (kPeak * kelvin);
   return RgbOf([&](double nm) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Linear RGB from CIE XYZ, from spectral samples and from black bodies.
+// These functions convert CIE XYZ, spectral samples and black-body temperatures to linear RGB.
 #pragma once
 
 #include <utility>
@@ -14,15 +14,15 @@ struct SpectralSample {
   double value;
 };
 
-// Components outside the gamut of Rec. 709 come out negative; the caller decides.
+// Colours outside the gamut of Rec. 709 have negative components, which the caller must handle.
 Spectrum RgbFromXyz(double x, double y, double z);
 
-// The colour of a spectrum given by samples in rising order of wavelength: linear between them,
-// constant beyond them. Normalised so that a spectrum that is 1 everywhere has luminance 1.
+// Returns the colour of a spectrum. Its samples are in rising order of wavelength; values are
+// linear between samples and constant beyond them. A spectrum that is 1 everywhere has luminance 1.
 Spectrum RgbFromSamples(const std::vector<SpectralSample>& samples);
 
-// The colour of Planck's law at `kelvin` in (0, 1e9], scaled so that the largest value of the
-// spectrum over all wavelengths is 1.
+// Returns the colour of Planck's law at `kelvin` in (0, 1e9]. The spectrum is scaled so that its
+// largest value over all wavelengths is 1.
 Spectrum RgbOfBlackbody(double kelvin);
 
 }  // namespace exphoton

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Motion: where a thing that moves is at each time: its own motion, and the motion of what it is a
-// part of (an instance whose object has moving shapes).
+// Motion gives the transformation of a moving thing at each time. It combines the thing's own
+// motion with the motion of the whole that contains it, such as an instance whose object has moving
+// shapes.
 #pragma once
 
 #include "core/math/animated_transform.h"
@@ -12,10 +13,10 @@ class Motion {
   explicit Motion(const AnimatedTransform& own, const AnimatedTransform& whole = {})
       : own_(own), whole_(whole), isPart_(whole.Moves() || !whole.Start().IsIdentity()) {}
 
-  // The same thing as a part of something that stands, or moves, elsewhere.
+  // Returns the motion of the same thing as a part of a whole that is placed, or moves, elsewhere.
   Motion PlacedBy(const AnimatedTransform& whole) const { return Motion(own_, whole); }
 
-  // From the thing's own space to the world.
+  // Returns the transformation from the thing's own space to world space.
   Transform At(Real time) const {
     return isPart_ ? whole_.At(time) * own_.At(time) : own_.At(time);
   }
@@ -25,14 +26,14 @@ class Motion {
   bool MovesWithin(Interval interval) const {
     return own_.MovesWithin(interval) || whole_.MovesWithin(interval);
   }
-  // Holds the images of the box at all times.
+  // Returns a box that contains the images of `box` at all times.
   Bounds3 ApplyBounds(const Bounds3& box) const {
     const Bounds3 bounds = own_.ApplyBounds(box);
     return isPart_ ? whole_.ApplyBounds(bounds) : bounds;
   }
 
-  // From the world at `time` to the world at the motion's start: where what a ray meets now was
-  // when everything began to move.
+  // Returns the transformation from world space at `time` to world space at the motion's start. It
+  // maps a hit at `time` to the place of the same surface point when the motion began.
   Transform ToStart(Real time) const { return Start() * At(time).Inverted(); }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Unit vectors in 32 bits: the sphere is projected onto an octahedron, which is unfolded into a
-// square of 2 x 16 bits. Within 7e-5 radians; the axes are exact. Or within 1.2e-3, and eight of
-// the bits say something else. Cigolle et al. 2014, "A Survey of Efficient Representations for
-// Independent Unit Vectors".
+// Octahedral codes store unit vectors in 32 bits. The sphere is projected onto an octahedron, which
+// is unfolded into a square of 2 x 16 bits. The error is below 7e-5 radians, and the axes are
+// exact. A code with an 8-bit note has an error below 1.2e-3 radians. Source: Cigolle et al. 2014,
+// "A Survey of Efficient Representations for Independent Unit Vectors".
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace exphoton {
 
 inline constexpr Real kOctahedralOne = 32767;
 
-// The place of v, unit or nearly, in the square from (-1, -1) to (1, 1).
+// Returns the place of v, unit or nearly unit, in the square from (-1, -1) to (1, 1).
 inline Point2 OctahedralPlace(const Vector3& v) {
   const Real scale = 1 / (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
   Real a = v.x * scale, b = v.y * scale;
@@ -34,8 +34,8 @@ inline std::uint32_t EncodeOctahedral(const Vector3& v) {
   return half(place.x) | half(place.y) << 16;
 }
 
-// The code of the direction closest to v whose halves end in the given bits, four in each: it is
-// decoded as any other.
+// Encodes v with an 8-bit note. Each half of the code ends in four bits of the note. The code is
+// the closest to v with this ending and is decoded like any other.
 inline std::uint32_t EncodeOctahedral(const Vector3& v, std::uint8_t note) {
   constexpr int kStep = 16, kMost = int(kOctahedralOne);
   const auto half = [](Real x, int end) {
@@ -51,8 +51,8 @@ inline std::uint8_t OctahedralNote(std::uint32_t bits) {
   return std::uint8_t((bits & 15) | (bits >> 12 & 0xf0));
 }
 
-// In the direction that was encoded, and as long as it happens to be: where only a sign is wanted.
-// Components are whole numbers, so every step is exact.
+// Decodes to a vector that is not normalised, for uses that need only a sign. Components are whole
+// numbers, so every step is exact.
 inline Vector3 DecodeOctahedralLong(std::uint32_t bits) {
   const Real a = Real(std::int16_t(bits & 0xffff)), b = Real(std::int16_t(bits >> 16));
   const Real z = kOctahedralOne - std::abs(a) - std::abs(b);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Polar decomposition by Newton's iteration, and rotations as turns about an axis.
+// This file has the polar decomposition by Newton's iteration, and the conversion between rotation
+// matrices and turns about an axis.
 #include "core/math/polar_decomposition.h"
 
 #include <algorithm>
@@ -29,10 +30,11 @@ Matrix3 Scaled(const Matrix3& a, double factor) {
   return b;
 }
 
-// The unit quaternion (w, x, y, z) of a rotation, w >= 0. Divides by its largest component.
+// Returns the unit quaternion (w, x, y, z) of a rotation, with w >= 0. It divides by the largest
+// component, which avoids cancellation.
 std::array<double, 4> QuaternionOf(const Matrix3& r) {
   const double trace = r[0][0] + r[1][1] + r[2][2];
-  // Four times the squares of the components, less 1.
+  // `squares` holds 4 q_i^2 - 1 for each component q_i.
   const std::array<double, 4> squares{trace, 2 * r[0][0] - trace, 2 * r[1][1] - trace,
                                       2 * r[2][2] - trace};
   const auto largest =
@@ -89,7 +91,8 @@ Matrix3 Inverse(const Matrix3& a) {
 }
 
 std::optional<PolarParts> PolarDecomposition(const Matrix3& a) {
-  // Squares singular values' distance from 1 once they are near; the scaling brings them near.
+  // Near convergence each step squares the distance of the singular values from 1. The scaling by
+  // `balance` brings them near 1.
   constexpr int kMaxSteps = 60;
   constexpr double kConverged = 1e-15;
   const double size = LargestEntry(a);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Real: the floating-point type of geometry and transport, and the checked scalar helpers.
-// A build with EXPHOTON_DOUBLE makes it double, to tell an error of the algorithm from rounding.
-// Error bounds: Higham 2002, "Accuracy and Stability of Numerical Algorithms", section 3.1.
+// Real is the floating-point type of geometry and transport. This file also has checked scalar
+// helpers. A build with EXPHOTON_DOUBLE makes Real double, to separate errors of the algorithm from
+// rounding. Error bounds: Higham 2002, "Accuracy and Stability of Numerical Algorithms", section
+// 3.1.
 #pragma once
 
 #include <algorithm>
@@ -28,10 +29,10 @@ inline constexpr Real kInvPi = Real(0.31830988618379067154);
 inline constexpr Real kInv2Pi = Real(0.15915494309189533577);
 inline constexpr Real kInv4Pi = Real(0.07957747154594766788);
 
-// Largest Real below 1. Every uniform variate lies in [0, kOneMinusEpsilon].
+// The largest Real below 1. Every uniform variate lies in [0, kOneMinusEpsilon].
 inline constexpr Real kOneMinusEpsilon = 1 - kMachineEpsilon;
 
-// Bound on the relative error of n roundings in a row: n eps / (1 - n eps).
+// Bounds the relative error of n successive roundings: n eps / (1 - n eps).
 constexpr Real Gamma(int n) {
   return (Real(n) * kMachineEpsilon) / (1 - Real(n) * kMachineEpsilon);
 }
@@ -41,19 +42,19 @@ constexpr Real Lerp(Real t, Real a, Real b) { return (1 - t) * a + t * b; }
 constexpr Real Radians(Real degrees) { return degrees * (kPi / 180); }
 constexpr Real Degrees(Real radians) { return radians * (180 / kPi); }
 
-// Square root of max(x, 0): for values that rounding alone can have made negative.
+// Returns the square root of max(x, 0), for values that only rounding can make negative.
 inline Real SafeSqrt(Real x) { return std::sqrt(std::max(x, Real(0))); }
 inline Real SafeAcos(Real x) { return std::acos(std::clamp(x, Real(-1), Real(1))); }
 inline Real SafeAsin(Real x) { return std::asin(std::clamp(x, Real(-1), Real(1))); }
 
-// a / b, or `fallback` where b is 0 or the quotient is not finite.
+// Returns a / b, or `fallback` if b is 0 or the quotient is not finite.
 inline Real SafeDivide(Real a, Real b, Real fallback) {
   if (b == 0) return fallback;
   const Real q = a / b;
   return std::isfinite(q) ? q : fallback;
 }
 
-// The neighbouring representable value above x. +infinity stays; both zeros go to the smallest
+// Returns the next representable value above x. +infinity stays; both zeros go to the smallest
 // denormal.
 inline Real NextUp(Real x) {
   if (std::isinf(x) && x > 0) return x;

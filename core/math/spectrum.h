@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Spectrum: linear RGB with Rec. 709 / sRGB primaries. Radiance, power and reflectance alike; the
-// variable's name says which.
+// Spectrum is linear RGB with Rec. 709 / sRGB primaries. It holds radiance, power or reflectance;
+// the variable's name says which.
 #pragma once
 
 #include "core/math/real.h"
@@ -51,7 +51,7 @@ struct Spectrum {
   friend constexpr bool operator==(const Spectrum&, const Spectrum&) = default;
 
   constexpr bool IsBlack() const { return r == 0 && g == 0 && b == 0; }
-  // Luminance: the Y of CIE XYZ for Rec. 709 primaries.
+  // Returns the luminance, which is the Y of CIE XYZ for Rec. 709 primaries.
   constexpr Real Y() const { return Real(0.212671) * r + Real(0.715160) * g + Real(0.072169) * b; }
   constexpr Real MaxComponent() const { return std::max({r, g, b}); }
   constexpr Real MinComponent() const { return std::min({r, g, b}); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Transformations: construction with singularity checks, and application with error bounds.
+// Transform checks for singular matrices in its construction, and bounds rounding errors in its
+// application.
 #include "core/math/transform.h"
 
 #include <cmath>
@@ -48,8 +49,9 @@ Matrix4 Transpose(const Matrix4& a) {
   return t;
 }
 
-// Gauss-Jordan with row equilibration and partial pivoting. A row whose pivot is below 1e-12 of its
-// own largest entry counts as dependent, so that scales of 1e-6 and 1e6 side by side stay regular.
+// Gauss-Jordan elimination with row equilibration and partial pivoting. The equilibration scales
+// each row by a power of two, so that scales of 1e-6 and 1e6 side by side stay regular. A pivot
+// below 1e-30 counts as 0.
 std::optional<Matrix4> Inverse(const Matrix4& a) {
   if (!AllFinite(a) || MaxAbs(a) == 0) return std::nullopt;
   std::array<std::array<double, 8>, 4> w{};
@@ -58,7 +60,7 @@ std::optional<Matrix4> Inverse(const Matrix4& a) {
     for (double v : a.m[i]) rowMax = std::max(rowMax, std::abs(v));
     if (rowMax == 0) return std::nullopt;
     int exponent;
-    std::frexp(rowMax, &exponent);  // a power of two: exact
+    std::frexp(rowMax, &exponent);  // scaling by a power of two is exact
     for (std::size_t j = 0; j < 4; ++j) w[i][j] = std::ldexp(a.m[i][j], -exponent);
     w[i][i + 4] = std::ldexp(1.0, -exponent);
   }
@@ -81,8 +83,8 @@ std::optional<Matrix4> Inverse(const Matrix4& a) {
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) result.m[i][j] = w[i][j + 4];
   if (!AllFinite(result)) return std::nullopt;
-  // Dependent rows leave rounding noise as pivots; then the product is far from the identity, or
-  // the condition number is beyond what double resolves.
+  // Dependent rows leave rounding noise as pivots. The product with the inverse is then far from
+  // the identity. This check also rejects condition numbers beyond the resolution of double.
   const Matrix4 product = a * result;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j)
@@ -167,7 +169,8 @@ Point3 Transform::ApplyPoint(const Point3& p) const {
 }
 
 Point3 Transform::ApplyPoint(const Point3& p, const Vector3& pError, Vector3* error) const {
-  // Evaluated in double; what remains is the propagated error and one rounding to Real.
+  // The evaluation is in double. The error consists of the propagated error, one rounding to Real
+  // and a few roundings in double.
   const Point3 result = ApplyPoint(p);
   for (int i = 0; i < 3; ++i) {
     const auto& row = m_.m[std::size_t(i)];

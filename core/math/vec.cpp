@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Vectors of extreme length: normalising without underflow or overflow.
+// NormalizeExtremeOr normalises vectors of extreme length without underflow or overflow.
 #include "core/math/vec.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Vec3 and Point2: triples and pairs of Real. Point3, Vector3 and Normal3 are one type under three
-// names that say what a value means; Transform has one method for each meaning.
+// Vec3 and Point2 are triples and pairs of Real. Point3, Vector3 and Normal3 are aliases of Vec3
+// that state the meaning of a value. Transform has one method for each meaning.
 #pragma once
 
 #include "core/math/real.h"
@@ -52,7 +52,7 @@ constexpr Vec3 operator/(const Vec3& a, Real s) { return {a.x / s, a.y / s, a.z 
 constexpr Real Dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Real AbsDot(const Vec3& a, const Vec3& b) { return std::abs(Dot(a, b)); }
 
-// In double, so that nearly parallel arguments do not cancel.
+// Computes in double, so that nearly parallel arguments do not cancel.
 constexpr Vec3 Cross(const Vec3& a, const Vec3& b) {
   const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
   return {Real(ay * bz - az * by), Real(az * bx - ax * bz), Real(ax * by - ay * bx)};
@@ -67,8 +67,9 @@ inline bool IsFinite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-// a / |a|, or `fallback` where |a| is 0 or not finite. Where the square would underflow or overflow
-// the vector is scaled first, by a power of two: both ways round alike, bit for bit.
+// Returns a / |a|, or `fallback` if |a| is 0 or not finite. If the square would underflow or
+// overflow, NormalizeExtremeOr first scales the vector by a power of two. Both computations give
+// the same bits.
 Vec3 NormalizeExtremeOr(const Vec3& a, const Vec3& fallback);
 inline Vec3 NormalizeOr(const Vec3& a, const Vec3& fallback) {
   constexpr Real kSmall = Real(1e-20), kLarge = Real(1e30);
@@ -76,7 +77,7 @@ inline Vec3 NormalizeOr(const Vec3& a, const Vec3& fallback) {
   if (length2 > kSmall && length2 < kLarge) return a / std::sqrt(length2);
   return NormalizeExtremeOr(a, fallback);
 }
-// For vectors known to be of ordinary length (not 0, square neither underflows nor overflows).
+// Requires a vector of ordinary length: not 0, and its square neither underflows nor overflows.
 inline Vec3 Normalize(const Vec3& a) { return a / Length(a); }
 
 inline Vec3 Abs(const Vec3& a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
@@ -89,9 +90,9 @@ inline Vec3 Max(const Vec3& a, const Vec3& b) {
 constexpr Real MaxComponent(const Vec3& a) { return std::max({a.x, a.y, a.z}); }
 constexpr int MaxDimension(const Vec3& a) {
   const bool isX = a.x > a.y;
-  return (isX ? a.x : a.y) > a.z ? int(!isX) : 2;  // without a branch
+  return (isX ? a.x : a.y) > a.z ? int(!isX) : 2;  // branch-free
 }
-// n or -n, whichever is on v's side.
+// Returns n or -n, whichever is on v's side.
 constexpr Vec3 FaceForward(const Vec3& n, const Vec3& v) { return Dot(n, v) < 0 ? -n : n; }
 
 struct Point2 {
@@ -112,8 +113,9 @@ struct Point2i {
   friend constexpr bool operator==(const Point2i&, const Point2i&) = default;
 };
 
-// An orthonormal right-handed frame; z is the axis. Duff et al. 2017, "Building an Orthonormal
-// Basis, Revisited" (JCGT 6:1): no branch, no loss near -z.
+// Frame is an orthonormal right-handed basis; z is the axis. FromZ needs no branch and loses no
+// precision near -z. Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited" (JCGT
+// 6:1).
 struct Frame {
   Vector3 x, y, z;
 

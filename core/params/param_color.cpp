@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Colours in all their spellings, and textures: the rest of ParamReader.
+// ParamReader for colours in all notations, and for textures.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -42,8 +42,8 @@ std::string ReadSmallFile(const std::string& path) {
   return text.str();
 }
 
-// Numbers between blanks; '#' begins a comment. Lines end with LF, CR LF or CR. Numbers are
-// read in the C locale.
+// Parses numbers between blanks; '#' begins a comment. Lines end with LF, CR LF or CR. Numbers use
+// the C locale.
 std::vector<double> ParseNumbers(std::string text) {
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';
@@ -62,7 +62,7 @@ std::vector<double> ParseNumbers(std::string text) {
   return numbers;
 }
 
-// Empty where all is well.
+// Returns the error text, or "" if the numbers are valid.
 std::string FaultOf(const std::vector<double>& numbers) {
   if (numbers.empty() || numbers.size() % 2 != 0) {
     return "needs pairs of a wavelength and a value, not " + std::to_string(numbers.size()) +
@@ -115,8 +115,8 @@ Spectrum ParamReader::ColorFromPairs() const {
   return KeepInGamut(ColorOfPairs(param_.numbers), param_.numbers);
 }
 
-// A colour that RGB cannot show, as of a glow below some 1900 K, has a negative component though
-// all that it comes `from` is positive.
+// Sets negative components to 0 if all input numbers in `from` are non-negative. Such a colour is
+// outside the RGB gamut, for example a blackbody below about 1900 K.
 Spectrum ParamReader::KeepInGamut(Spectrum color, const std::vector<double>& from) const {
   const bool isPhysical =
       std::all_of(from.begin(), from.end(), [](double number) { return number >= 0; });
@@ -190,7 +190,7 @@ std::any ParamReader::ReadTexture() const {
     texture = textures.Float(name);
   }
   if (texture) return texture;
-  // The other kind is looked up for the message only: a lookup counts as a use.
+  // Looks up the other kind for the error message only, because a lookup counts as a use.
   if (isColor ? textures.Float(name) != nullptr : textures.Color(name) != nullptr) {
     Fail(std::string("needs a ") + (isColor ? "color" : "float") + " texture, and \"" + name +
              "\" is a " + (isColor ? "float" : "color") + " texture",

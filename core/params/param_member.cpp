@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The conversions of every member type that a settings struct may have.
+// ParamMember: the conversions of every member type that a settings struct may have.
 #include "core/params/param_member.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ std::string TextOf(const std::vector<Real>& v) {
   for (const Real number : v) text += ' ' + NumberText(double(number));
   return '[' + text.substr(1) + ']';
 }
-// The value of a constant texture; "" for a null texture.
+// Returns the value of a constant texture; "" for a null or non-constant texture.
 template <class V>
 std::string TextOf(const TexturePtr<V>& v) {
   const std::optional<V> value = v ? v->ConstantValue() : std::nullopt;
@@ -103,7 +103,7 @@ std::string Text(const void* member) {
     return "";
 }
 
-// An integer member accepts what it can hold and a double represents exactly.
+// Limits the range of an integer member to the integers that a double represents exactly.
 template <class V>
 constexpr double Limit(V limit) {
   constexpr double kExact = 9007199254740992.0;  // 2^53

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ParamMember: how a settings member of one C++ type is filled from a scene file and printed as a
-// default. There is one for each type, compiled once, so that the tables of plugins instantiate no
-// conversions of their own.
+// ParamMember describes how to set a settings member of one C++ type from a scene file and how to
+// print it as a default. There is one object per type, compiled once, so that the parameter tables
+// of plugins instantiate no conversions.
 #pragma once
 
 #include <any>
@@ -37,25 +37,26 @@ enum class ParamType {
   NormalList,
   Point2List,
 };
-// "integer", "float texture" ...; "string" where a scene file writes one, whatever it means.
+// Returns "integer", "float texture" ...; returns "string" for all types that scene files write as
+// a string.
 const char* ParamTypeName(ParamType type);
 
-// A member is passed by address, because tables know its type only while they are constructed.
+// Members are passed by address, because tables know the type only during their construction.
 struct ParamMember {
   ParamType type;
-  // The integers that the member can hold, within +-2^53. Unused for other types.
+  // The range of integers that the member can hold, within +-2^53. Unused for other types.
   double lowest = 0, highest = 0;
   // Stores a value. The any holds: long long (Integer, Choice), Real, bool, std::string, Spectrum,
   // Vec3, TexturePtr<T> or std::vector<int | Real | Vec3 | Point2>.
   void (*assign)(void* member, const std::any& value) = nullptr;
-  // The value as a scene file would write it; "" for an std::optional and for lists of points.
+  // Returns the value in scene file syntax; "" for an std::optional and for lists of points.
   std::string (*text)(const void* member) = nullptr;
-  // The enumerator's number (Choice only).
+  // Returns the number of the enumerator (Choice only).
   long long (*choice)(const void* member) = nullptr;
 };
 
-// The conversions of member type T. T may be an std::optional of most of these types: then the
-// plugin can see that the file does not give the parameter.
+// Returns the conversions of member type T. T may be an std::optional of most of these types. The
+// plugin can then see that the file does not set the parameter.
 template <class T>
 const ParamMember& MemberOf() = delete;  // no parameter type for this member
 template <>
@@ -101,7 +102,7 @@ const ParamMember& MemberOf<std::optional<Vec3>>();
 template <>
 const ParamMember& MemberOf<std::optional<std::vector<Real>>>();
 
-// An enumeration: the any holds the number of the enumerator.
+// An enumeration. The any holds the number of the enumerator.
 template <class T>
 requires std::is_enum_v<T>
 const ParamMember& MemberOf() {

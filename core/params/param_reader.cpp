@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Numbers, strings, choices and lists. Colours and textures are in param_color.cpp.
+// ParamReader for numbers, strings, choices and lists. param_color.cpp reads colours and textures.
 #include "core/params/param_reader.h"
 
 #include <algorithm>
@@ -175,7 +175,8 @@ void ParamReader::NeedCount(std::size_t count) const {
 }
 
 void ParamReader::NeedRange(double number, std::size_t index) const {
-  // An excluded bound is compared as the renderer will see it, after rounding.
+  // An excluded bound is compared after rounding to Real, because the renderer uses the rounded
+  // value.
   const double rounded = double(Real(number));
   const bool isBelow = decl_.min && (decl_.minExcluded ? !(rounded > double(Real(*decl_.min)))
                                                        : number < *decl_.min);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ParamReader: turns what a scene file wrote for one parameter into the value that its declaration
-// asks for, or says at the place of the value why it cannot. Knows nothing of other parameters.
+// ParamReader converts one parameter of a scene file to the type of its declaration. Errors state
+// the location of the wrong value. It does not consider other parameters.
 #pragma once
 
 #include <any>
@@ -17,7 +17,8 @@ class ParamReader {
   ParamReader(const ParamDecl& decl, const ParsedParam& param, const BindContext& context)
       : decl_(decl), param_(param), context_(context) {}
 
-  // A value as ParamTableBase::BindValues passes it on. Throws Error(Scene).
+  // Returns the value in the form that ParamMember::assign expects, but a Choice as the int index
+  // of the choice. Throws Error(Scene).
   std::any Read() const;
 
  private:
@@ -32,13 +33,13 @@ class ParamReader {
   std::vector<Real> ReadFloats() const;
   std::vector<int> ReadIntegers() const;
 
-  // Colours before the check of their range.
+  // Colours before the range check.
   Spectrum ColorFromFile() const;
   Spectrum ColorFromPairs() const;
   Spectrum ColorOfBlackbody() const;
   Spectrum KeepInGamut(Spectrum color, const std::vector<double>& from) const;
 
-  // Checks; `index` is of the value that is at fault.
+  // Checks. `index` is the index of the value to check.
   void NeedType() const;
   void NeedCount(std::size_t count) const;
   void NeedRange(double number, std::size_t index) const;
@@ -48,7 +49,7 @@ class ParamReader {
   const SourceLocation& Place(std::size_t index) const {
     return index < param_.valueWhere.size() ? param_.valueWhere[index] : param_.where;
   }
-  // `parameter "fov" of camera "perspective" ` + rest
+  // Throws the error `parameter "fov" of camera "perspective" ` + rest.
   [[noreturn]] void Fail(const std::string& rest, const SourceLocation& where,
                          const std::string& hint = {}) const;
   std::string Subject() const;
@@ -58,7 +59,8 @@ class ParamReader {
   const BindContext& context_;
 };
 
-// The types in a scene file that a declared type accepts, the usual one first: "color", "rgb" ...
+// Returns the scene file types that a declared type accepts, the usual type first: "color", "rgb"
+// ...
 std::vector<std::string_view> AcceptedTypes(ParamType type);
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The list of parameters as written.
+// ParamSet: the list of parameters of a directive.
 #include "core/params/param_set.h"
 
 #include <algorithm>

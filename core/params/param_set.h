@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ParamSet: the parameters of one directive as the scene file wrote them, with their places. What
-// they mean is decided by a plugin's ParamTable.
+// ParamSet holds the parameters of one directive, as written in the scene file, with their
+// locations. A plugin's ParamTable interprets them.
 #pragma once
 
 #include <memory>
@@ -15,27 +15,27 @@ namespace exphoton {
 struct ParsedParam {
   std::string type;  // as written: "float", "rgb", "texture" ...
   std::string name;
-  std::vector<double> numbers;             // of a numeric type
-  std::vector<std::string> strings;        // of string, bool, texture or spectrum files
-  SourceLocation where;                    // of the declaration
-  std::vector<SourceLocation> valueWhere;  // sparse: empty, or one a value (short lists only)
+  std::vector<double> numbers;             // for numeric types
+  std::vector<std::string> strings;        // for string, bool, texture, or spectrum files
+  SourceLocation where;                    // location of the declaration
+  std::vector<SourceLocation> valueWhere;  // empty, or one location per value (short lists only)
 };
 
 class ParamSet {
  public:
-  // A repeated name: the later one wins; the caller warns.
+  // Adds a parameter. A later parameter replaces an earlier one of the same name; the caller warns.
   void Add(ParsedParam param);
   const ParsedParam* Find(const std::string& name) const;
   const std::vector<ParsedParam>& All() const { return params_; }
   bool IsEmpty() const { return params_.empty(); }
 
-  SourceLocation where;  // of the directive
+  SourceLocation where;  // location of the directive
 
  private:
   std::vector<ParsedParam> params_;
 };
 
-// Named textures that "texture" parameters refer to; null where there is no such name.
+// Finds the named textures that "texture" parameters refer to. Returns null for an unknown name.
 class TextureLookup {
  public:
   virtual ~TextureLookup() = default;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Binding: which parameter of a scene file goes to which declaration, and what is left over.
+// ParamTableBase: matches the parameters of a scene file with their declarations and reports
+// unknown parameters.
 #include "core/params/param_table.h"
 
 #include <algorithm>
@@ -27,7 +28,8 @@ std::optional<SourceLocation> Place(const SourceLocation& where) {
   return where.file.empty() ? std::optional<SourceLocation>() : where;
 }
 
-// More of one directive are counted, not listed: exporters and damaged files have many.
+// Further unknown parameters of a directive are counted, not listed, because exporters and damaged
+// files can have very many.
 constexpr int kMostUnknownListed = 10;
 
 void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& known,

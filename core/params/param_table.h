@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ParamTable: the parameters a plugin declares, once, as data: name, member of a settings struct
-// (whose initialiser is the default), range, unit and meaning. From it come validation, error
-// messages, the listing of `exphoton plugins`, the generated reference and the extreme-value tests.
+// ParamTable declares the parameters of a plugin as data: name, member of a settings struct (whose
+// initialiser is the default), range, unit and meaning. Validation, error messages, the listing of
+// `exphoton plugins`, the generated reference and the extreme-value tests all use this table.
 //
 //   struct Settings { int maxDepth = 5; std::optional<Real> maxDist; };
 //   const ParamTable<Settings>& Parameters() {
@@ -30,43 +30,45 @@ namespace exphoton {
 
 class Log;
 
-// Thrown by Settings::Validate() or a factory: a rule that one parameter breaks. The binder adds
-// the place of that parameter (of the directive where the file does not give it).
+// An error in one parameter, thrown by Settings::Validate() or a factory. The binder adds the
+// location of the parameter, or the location of the directive if the file does not set the
+// parameter.
 struct ParamError {
   std::string param;
-  std::string text;  // "must be at most 'zmax'"
+  std::string text;  // for example "must be at most 'zmax'"
   std::string hint;
 };
 
-// One declared parameter.
+// A declared parameter.
 struct ParamDecl {
   std::string name, doc, unit;
   ParamType type = ParamType::Float;
-  std::optional<double> min, max;  // of each number
+  std::optional<double> min, max;  // limits of each number
   bool minExcluded = false, maxExcluded = false;
   bool isRequired = false;
-  // What an Integer's member can hold, within +-2^53.
+  // The range that an Integer's member can hold, within +-2^53.
   double lowest = std::numeric_limits<int>::lowest(), highest = std::numeric_limits<int>::max();
-  std::vector<std::string> choices;  // of a Choice, and of nothing else
-  std::string defaultText;           // as a scene file would write it; "" where automatic
+  std::vector<std::string> choices;  // Choice only
+  std::string defaultText;           // in scene file syntax; "" if automatic
 };
-// "between 0 and 90", "above 0 and at most 1"; "" without limits.
+// Returns "between 0 and 90", "above 0 and at most 1" ...; "" without limits.
 std::string RangeText(const ParamDecl& decl);
 
-// Everything binding needs besides the values.
+// The data that binding needs besides the parameter values.
 struct BindContext {
-  const TextureLookup* textures = nullptr;  // null: no texture parameters here
+  const TextureLookup* textures = nullptr;  // null: texture parameters are not allowed
   Log* log = nullptr;
   bool isStrict = false;
-  std::string what;  // "integrator \"exphotonmap\"": for messages
-  // Parameter names of other plugins of the same kind: naming one is only a notice. Asked when an
-  // unknown name is met. May be empty.
+  std::string what;  // for messages, such as "integrator \"exphotonmap\""
+  // Returns the parameter names of other plugins of the same kind. Such a name causes a notice
+  // instead of a warning. Called when an unknown name is found. May be empty.
   std::function<std::vector<std::string>()> siblingNames;
-  // A second set that overrides and need not be consumed (a shape's, over its material's).
+  // A second set whose parameters override the first (a shape's parameters override those of its
+  // material). Unknown names in this set are not reported.
   const ParamSet* overrides = nullptr;
 };
 
-// One parameter while it is declared, without the types of the settings struct and its member.
+// A parameter during its declaration, without the types of the settings struct and the member.
 struct ParamDraft {
   ParamDraft(const char* name, const ParamMember& member, const char* doc);
 
@@ -75,23 +77,23 @@ struct ParamDraft {
   std::vector<long long> choiceValues;  // the enumerators' numbers, in the order of decl.choices
 };
 
-// The untyped half of a table: declarations, and assignment of checked values to members that are
-// found by their offset.
+// The untyped half of a table: the declarations, and the assignment of checked values to members by
+// their offset.
 class ParamTableBase {
  public:
   virtual ~ParamTableBase() = default;
   const std::vector<ParamDecl>& Declarations() const { return declarations_; }
 
  protected:
-  // Declares a parameter whose member has this offset in the settings; `defaults` are settings as
-  // their initialisers make them.
+  // Declares a parameter whose member has this offset in the settings. `defaults` is a
+  // default-initialised settings struct.
   void Add(const ParamDraft& draft, const void* defaults, std::ptrdiff_t offset);
-  // Declares the parameters of a base struct, which lies at this offset in the settings.
+  // Declares the parameters of a base struct that has this offset in the settings.
   void AddBase(const ParamTableBase& base, const void* defaults, std::ptrdiff_t offset);
-  // Checks types, counts, ranges and names; stores each declared parameter that the file gives in
+  // Checks types, counts, ranges and names. Stores each declared parameter that the file sets in
   // `settings`. Throws Error(Scene) with file, line, column and hint.
   void BindValues(const ParamSet& params, const BindContext& context, void* settings) const;
-  // Turns a ParamError into an Error at the parameter's place.
+  // Throws the ParamError as an Error with the location of the parameter.
   [[noreturn]] static void Locate(const ParamError& error, const ParamSet& params,
                                   const BindContext& context);
 
@@ -104,11 +106,12 @@ class ParamTableBase {
   void AddSlot(ParamDecl decl, Slot slot, const void* defaults);
 
   std::vector<ParamDecl> declarations_;
-  std::vector<Slot> slots_;  // as declarations_
+  std::vector<Slot> slots_;  // in the order of declarations_
 };
 
-// One parameter of settings struct S, stored in a member of type T. T may be std::optional<U>: then
-// absence stays visible. Integers are 32-bit in files; a 64-bit member accepts up to 2^53.
+// A parameter of settings struct S that is stored in a member of type T. T may be std::optional<U>,
+// so that the plugin can see whether the file sets the parameter. Integers have 32 bits in files; a
+// 64-bit member accepts up to 2^53.
 template <class S, class T>
 class Param : public ParamDraft {
  public:
@@ -150,7 +153,7 @@ class Param : public ParamDraft {
     decl.isRequired = true;
     return *this;
   }
-  // A Vec3 member that is a vector or normal; a string member that names a file.
+  // For a Vec3 member that is a vector or normal, or a string member that names a file.
   Param& As(ParamType type) {
     decl.type = type;
     return *this;
@@ -179,8 +182,8 @@ class ParamTable final : public ParamTableBase {
     [[maybe_unused]] const S defaults{};
     (AddOne(params, defaults, params.MemberIn(defaults)), ...);
   }
-  // A table that begins with the entries of a base struct's table: shared declarations, whose
-  // defaults are those of S.
+  // A table that begins with the entries of a base struct's table. The declarations are shared; the
+  // defaults come from S.
   template <class Base, class... T>
   ParamTable(const ParamTable<Base>& base, const Param<S, T>&... params) {
     static_assert(std::is_base_of_v<Base, S>);
@@ -189,7 +192,7 @@ class ParamTable final : public ParamTableBase {
     (AddOne(params, defaults, params.MemberIn(defaults)), ...);
   }
 
-  // The settings that this set of parameters means. Calls S::Validate() const if there is one,
+  // Returns the settings that the parameters describe. Calls S::Validate() const if it exists,
   // which may throw ParamError.
   S Bind(const ParamSet& params, const BindContext& context) const {
     S settings{};
@@ -203,7 +206,7 @@ class ParamTable final : public ParamTableBase {
     }
     return settings;
   }
-  // Runs a factory whose ParamErrors get their place.
+  // Runs a factory and adds the location to its ParamErrors.
   template <class F>
   auto Guard(const ParamSet& params, const BindContext& context, F&& factory) const {
     try {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What a declaration looks like in words: types, ranges and defaults. For messages, listings and
-// the reference.
+// Formats the types, ranges and numbers of declarations for messages, listings and the reference.
 #include "core/params/param_text.h"
 
 #include <charconv>
@@ -59,7 +58,7 @@ std::string NumberText(double v) {
   char text[40];
   const float narrow = static_cast<float>(v);
   const bool isNarrow = static_cast<double>(narrow) == v;
-  // The shortest digits that mean this value, of a float where it is one: "0.1".
+  // The shortest digits that parse to this value, as a float if it is one: "0.1".
   const std::to_chars_result result = isNarrow ? std::to_chars(text, text + sizeof text, narrow)
                                                : std::to_chars(text, text + sizeof text, v);
   return std::string(text, result.ptr);

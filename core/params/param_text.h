@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Numbers in messages and listings.
+// NumberText formats numbers for messages and listings.
 #pragma once
 
 #include <string>
 
 namespace exphoton {
 
-// The shortest text that means this number: "0.1" for the float nearest to it; "infinity", "nan".
+// Returns the shortest text that parses to this number: "0.1" for the float nearest to 0.1. Returns
+// "infinity" or "nan" for such values.
 std::string NumberText(double v);
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Names of files in scene files.
+// ResolveScenePath resolves the file names in scene files.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace exphoton {
 
-// The path that `name`, written at `where`, stands for: relative to the folder of the scene file
-// that it stands in; an absolute one stays.
+// Returns the path of the file `name`, written at `where`. A relative name is relative to the
+// folder of its scene file. An absolute name is returned unchanged.
 std::string ResolveScenePath(const std::string& name, const SourceLocation& where);
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Edit distance by dynamic programming over three rows.
+// EditDistance by dynamic programming over three rows, and the suggestions based on it.
 #include "core/params/suggestions.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kLongestName = 64;  // longer ones are no typing mistake
+constexpr std::size_t kLongestName = 64;  // longer names are not typing mistakes
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 

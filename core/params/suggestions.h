@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// "Did you mean": the known name nearest to one that is not known.
+// "Did you mean": finds the known name nearest to an unknown name.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,15 @@
 
 namespace exphoton {
 
-// Number of insertions, deletions, replacements and swaps of neighbours between two words (optimal
-// string alignment), letters compared without regard to case.
+// Returns the number of insertions, deletions, replacements and swaps of neighbours between two
+// words (optimal string alignment). Case is ignored.
 int EditDistance(std::string_view a, std::string_view b);
 
-// The nearest of `known`; nullopt where none is near enough to be what was meant: more than a third
-// of the letters differ. Ties go to the first.
+// Returns the nearest of `known`; ties go to the first. Returns nullopt if more than a third of the
+// letters of the nearest name differ; a single difference is always accepted.
 std::optional<std::string> Nearest(std::string_view name, const std::vector<std::string>& known);
 
-// "did you mean \"perspective\"?", or "" where nothing is near.
+// Returns "did you mean \"perspective\"?", or "" if no name is near.
 std::string DidYouMean(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace exphoton

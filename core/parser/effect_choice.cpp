@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The parser of --effects.
+// This file parses the --effects option.
 #include "core/parser/effect_choice.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<std::string> EffectNames() {
                   known + (hint.empty() ? "" : "; " + hint));
 }
 
-// What the picture loses where an effect that the scene needs is off.
+// Describes how the picture changes if an effect that the scene needs is switched off.
 std::string Loss(Feature effect) {
   switch (effect) {
     case Feature::Filtering:

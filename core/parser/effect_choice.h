@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// --effects: what the user changes in the plan that the scene gave.
+// ChooseEffects applies the --effects option to the features that the scene requires.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@ namespace exphoton {
 
 class Log;
 
-// "auto": the plan; "all": everything on; or a list "caustics=off,lens=on" over the plan. Switching
-// off what the scene needs warns. Throws Error(CommandLine).
+// `choice` is "auto" (keeps `plan`), "all" (switches every effect on) or a list of changes to
+// `plan` such as "caustics=off,lens=on". Logs a warning for each effect that the scene needs and
+// the list switches off. Throws Error(CommandLine).
 RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice, Log& log);
 
 }  // namespace exphoton

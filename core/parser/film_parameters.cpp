@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Film "image": names and defaults of version 1.
+// FilmParameterTable has the names and defaults of Film "image" in pbrt version 1.
 #include "core/parser/film_parameters.h"
 
 namespace exphoton {
@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMaxResolution = 1 << 24;
 
-// Of a member that FilmParameters inherits.
+// Declares a parameter for a member that FilmParameters inherits from FilmSettings.
 template <class T>
 Param<FilmParameters, T> FilmParam(const char* name, T FilmSettings::*member, const char* doc) {
   return {name, member, doc};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The parameters of Film "image". The film is part of the core and no plugin, so its table stands
-// here.
+// FilmParameters holds the parameters of Film "image". The core makes the film itself, without a
+// plugin, so this file declares the parameter table.
 #pragma once
 
 #include "core/imaging/film/film.h"
@@ -14,7 +14,7 @@ struct FilmParameters : FilmSettings {
 
 const ParamTable<FilmParameters>& FilmParameterTable();
 
-// What is wrong with a crop window x0 x1 y0 y1; "" for a good one.
+// Returns the problem with a crop window x0 x1 y0 y1, or "" if the window is valid.
 std::string CheckCropWindow(const std::vector<Real>& window);
 
 }  // namespace exphoton

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From "name=value" on the command line to a parameter as if the file had said it.
+// This file converts "name=value" from the command line to a ParsedParam, as if a scene file had
+// given it.
 #include "core/parser/overrides.h"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ std::string FileType(ParamType type, bool isNumeric) {
   return "string";
 }
 
-// Numbers separated by blanks or commas; nullopt where anything is not a number.
+// Parses numbers separated by blanks or commas. Returns nullopt if any word is not a number.
 std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
   constexpr std::string_view kSeparators = " ,\t[]";
   std::vector<double> numbers;
@@ -153,11 +154,11 @@ void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params) {
     if (!declaration) continue;
     ParsedParam param;
     if (const ParsedParam* given = params->Find(declaration->name)) {
-      if (given->numbers.size() != 1) continue;  // wrong: left to the binder
+      if (given->numbers.size() != 1) continue;  // malformed: the binder reports the error
       param = *given;
     } else {
       const std::optional<std::vector<double>> value = ParseNumbers(declaration->defaultText);
-      if (!value) continue;  // chosen by the plugin from the others
+      if (!value) continue;  // no numeric default: the plugin derives the value
       param.name = declaration->name;
       param.type = "integer";
       param.where = params->where;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the command line changes in a scene's parameters: --set and --quick. Values are given the
-// type that the plugin declares, so nobody has to write types on a command line.
+// These functions change a scene's parameters as the options --set and --quick request. Each --set
+// value gets the type that the plugin declares, so the user does not write types.
 #pragma once
 
 #include "core/params/param_table.h"
@@ -8,16 +8,17 @@
 
 namespace exphoton {
 
-// Throws Error(CommandLine) for a --set of a directive that cannot be set.
+// Throws Error(CommandLine) if a --set names a directive that --set cannot change.
 void CheckOverrides(const std::vector<ParameterOverride>& overrides);
 
-// Adds what --set says of that directive; a parameter that is not declared throws
-// Error(CommandLine). `what` names the plugin in messages.
+// Adds the --set parameters for this directive to `params`. Throws Error(CommandLine) for a
+// parameter that the plugin does not declare. `what` names the plugin in messages.
 void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::string& directive,
                     const std::string& what, const std::vector<ParamDecl>& declared,
                     ParamSet* params);
 
-// --quick: divides counts of photons by 10 and of gather samples by 4, given or default.
+// --quick: divides photon counts by 10 and gather sample counts by 4, both given and default
+// values.
 void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params);
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LoadScenes: a scene file to all that is needed to render it. A file may hold several scenes, one
-// after the other. No globals: any number of scenes can live in one process.
+// LoadScenes reads a scene file and makes every object needed to render it. A file can hold several
+// scenes in sequence. There are no globals, so one process can hold any number of scenes.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,8 @@ namespace exphoton {
 
 class Log;
 
-// How LookAt is meant: version 2 mirrors it, and its scenes begin with Scale -1 1 1.
+// Dialect selects the meaning of LookAt. Version 2 mirrors the view, so its scenes begin with Scale
+// -1 1 1.
 enum class Dialect { V1, V2 };
 
 // One --set Directive.parameter=value.
@@ -33,19 +34,19 @@ struct ParameterOverride {
 };
 
 struct LoadOptions {
-  std::vector<std::string> pluginFolders;  // as PluginRegistry::DefaultFolders gives them
-  bool allowsScenePlugins = false;         // folders that a scene file names are searched, too
+  std::vector<std::string> pluginFolders;  // as PluginRegistry::DefaultFolders returns them
+  bool allowsScenePlugins = false;         // also search plugin folders that a scene file names
   bool isStrict = false;                   // unknown parameters are errors
   Dialect dialect = Dialect::V1;
   SceneLimits limits;
-  int threads = 1;  // that may build accelerators; 0: as many as there are cores
+  int threads = 1;                          // for building accelerators; 0: one per core
   const std::atomic<bool>* stop = nullptr;  // set from outside: loading throws LoadingStopped
 
-  // What replaces the file's own words.
+  // These options replace values from the file.
   std::optional<std::string> integrator;
   std::vector<ParameterOverride> parameters;
   std::optional<std::vector<Real>> cropWindow;  // x0 x1 y0 y1
-  std::optional<PixelBounds> pixelBounds;       // wins over a crop window
+  std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window
   std::optional<std::int64_t> samplesPerPixel;
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
   bool isQuick = false;          // a quarter of the resolution, 1 sample, a tenth of the photons
@@ -54,27 +55,27 @@ struct LoadOptions {
 struct LoadingStopped {};
 
 struct RenderSetup {
-  std::string sceneName;  // the file
+  std::string sceneName;  // path of the scene file
   std::unique_ptr<Scene> scene;
   std::unique_ptr<SurfaceIntegrator> integrator;
-  std::unique_ptr<VolumeIntegrator> volumeIntegrator;  // null where there is no medium
+  std::unique_ptr<VolumeIntegrator> volumeIntegrator;  // null if the scene has no medium
   std::unique_ptr<Sampler> sampler;
   std::unique_ptr<Filter> filter;
   std::unique_ptr<Camera> camera;
   FilmSettings film;
   PixelBounds crop;  // the pixels to render
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
-  // The scene's own file, those that it includes and those that its parameters name; sorted.
+  // The scene file, its included files and the files that parameters name; sorted.
   std::vector<std::string> inputFiles;
   std::vector<std::string> plugins;                          // "integrators/exphotonmap", sorted
-  double acceleratorSeconds = 0, acceleratorCpuSeconds = 0;  // of building it, while loading
-  std::uint64_t sceneHash = 0;  // of what the file says, whatever its layout
+  double acceleratorSeconds = 0, acceleratorCpuSeconds = 0;  // spent on building while loading
+  std::uint64_t sceneHash = 0;  // of the directives; independent of layout and comments
 };
 
-// The place of errors in what the command line says: SourceLocation::file of them.
+// SourceLocation::file of errors in command-line values.
 inline constexpr const char* kCommandLinePlace = "<command line>";
 
-// Throws Error; renders nothing. The objects refer to `log`, which must outlive them.
+// Throws Error. Does not render. The returned objects refer to `log`, which must outlive them.
 std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
                                                      const LoadOptions& options, Log& log);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A handler of directives that looks at names of files and forgets everything else.
+// FileCollector handles directives by recording file names only.
 #include "core/parser/scene_files.h"
 
 #include <filesystem>
@@ -56,7 +56,7 @@ SceneFiles ScanScene(SceneSource& source, const std::string& path, const LoadOpt
     FileCollector collector(options, &files);
     ParseScene(source, path, collector, silent, options.limits);
   } catch (const Error&) {
-    // What is wrong is said when the scene is loaded.
+    // LoadScenes reports the error later, when it loads the scene.
   }
   files.inputs.merge(source.FilesRead());
   return files;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The files that a scene file reads and writes, from its directives alone: no plugin is loaded and
-// no object is made.
+// ScanScene lists the files that a scene file reads and writes. It parses the directives only: it
+// loads no plugin and makes no scene objects.
 #pragma once
 
 #include <set>
@@ -14,15 +14,15 @@
 namespace exphoton {
 
 struct SceneFiles {
-  std::set<std::string> inputs;       // the file itself, includes, files that parameters name
-  std::vector<std::string> pictures;  // names that its Films give, one for each world
-  bool isWhole = false;               // false where an error ended the reading
+  std::set<std::string> inputs;       // the scene file, its includes, files that parameters name
+  std::vector<std::string> pictures;  // picture names from Film, one for each world
+  bool isWhole = false;               // false if an error stopped the scan
 };
 
-// Adds the files that a directive's strings name, as far as they exist.
+// Adds every existing file that a string parameter of the directive names.
 void NoteInputFiles(const Directive& directive, std::set<std::string>* files);
 
-// Does not throw for what is wrong in the file. Throws Error(CommandLine) for wrong options.
+// Does not throw for errors in the file. Throws LoadingStopped if options.stop is set.
 SceneFiles ScanScene(SceneSource& source, const std::string& path, const LoadOptions& options);
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A multiplicative hash of words of 64 bits; the finalizer of each step is that of SplitMix64
-// (Steele, Lea and Flood 2014).
+// The hash mixes one 64-bit word at a time with the finalizer of SplitMix64 (Steele, Lea and Flood
+// 2014).
 #include "core/parser/scene_hash.h"
 
 #include <bit>

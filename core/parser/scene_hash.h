@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A number that stands for what a scene says, whatever its comments, layout, compression or file
-// names. For telling scenes apart, not against malice.
+// HashDirective computes a hash of a scene's directives, independent of comments, layout,
+// compression and the names of included files. The hash distinguishes scenes; it is not
+// cryptographic.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace exphoton {
 
-// The hash of the directives so far and this one.
+// Combines the hash of the preceding directives with this directive.
 std::uint64_t HashDirective(std::uint64_t hash, const Directive& directive);
 
 }  // namespace exphoton

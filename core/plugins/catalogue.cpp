@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Collects the plugins and lays them out, as text for a terminal and as Markdown.
+// The plugin catalogue as text for a terminal and as Markdown.
 #include "core/plugins/catalogue.h"
 
 #include <algorithm>
@@ -36,7 +36,8 @@ std::string Capitalized(std::string text) {
   return text;
 }
 
-// What stands for the default: "required", "automatic" where the plugin chooses.
+// Returns the text of the default column: the default, "required", or "automatic" if the plugin
+// chooses.
 std::string DefaultColumn(const ParamDecl& decl) {
   if (decl.isRequired) return "required";
   return decl.defaultText.empty() ? "automatic" : decl.defaultText;
@@ -51,7 +52,7 @@ std::string RangeColumn(const ParamDecl& decl) {
   return text;
 }
 
-// `text` in lines that begin with `indent` blanks, broken between words.
+// Breaks `text` between words into lines that begin with `indent` blanks.
 std::string Wrapped(const std::string& text, std::size_t indent) {
   std::string result, line;
   for (std::size_t at = 0; at < text.size();) {
@@ -67,7 +68,8 @@ std::string Wrapped(const std::string& text, std::size_t indent) {
   return line.empty() ? result : result + std::string(indent, ' ') + line + '\n';
 }
 
-// A cell of a Markdown table: '|' would end it, '<' begin a tag.
+// Returns a cell of a Markdown table. It escapes '|', which would end the cell, and '<', which
+// would begin a tag.
 std::string Cell(const std::string& text) {
   std::string result;
   for (const char c : text) {

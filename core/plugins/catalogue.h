@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What plugins there are and what parameters they take, from their own declarations: for
-// `exphoton plugins` and for the pages in docs/reference/.
+// The catalogue lists the plugins and their parameters from their declarations. `exphoton plugins`
+// prints it, and the pages in docs/reference/ are generated from it.
 #pragma once
 
 #include <map>
@@ -10,15 +10,15 @@
 
 namespace exphoton {
 
-// Every kind with its plugins and their summaries.
+// Returns every kind with its plugins and their summaries.
 std::string ListPlugins(PluginRegistry& registry);
 
-// Summary and parameters of every plugin of that name, whatever its kind. Throws
-// Error(CommandLine) where there is none.
+// Returns the summary and the parameters of every plugin of that name, for all kinds. Throws
+// Error(CommandLine) if there is none.
 std::string DescribePlugin(PluginRegistry& registry, const std::string& name);
 
-// The reference in Markdown: pages by file name ("integrators.md"), one for each folder of plugins,
-// and "README.md". The same plugins give the same bytes.
+// Returns the reference in Markdown by file name: one page for each folder of plugins
+// ("integrators.md"), and "README.md". The same plugins always give the same bytes.
 std::map<std::string, std::string> ReferencePages(PluginRegistry& registry);
 
 }  // namespace exphoton

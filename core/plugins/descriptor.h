@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PluginDescriptor: what a plugin's one exported function returns: who it is and what it can make,
-// readable without making anything. A plugin has one form, or two where one name serves two kinds
-// (a texture of floats and of colours).
+// PluginDescriptor is the result of a plugin's exported function. It describes the plugin and its
+// factories, and reading it creates no object. A plugin has one factory, or two if one name has two
+// kinds (float and colour textures).
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace exphoton {
 
-// Raised with every change of a core interface that plugins see.
+// Must be raised with every change of a core interface that plugins see.
 inline constexpr std::uint32_t kPluginAbi = 14;
-// Compiler, Real and core version: a plugin built with other ones is refused.
+// Compiler, Real and core version. A plugin with another build tag is refused.
 const char* CoreBuildTag();
 #define EXPHOTON_BUILD_TAG ("exphoton 1, " __VERSION__ ", " EXPHOTON_REAL_NAME)
 #ifdef EXPHOTON_DOUBLE
@@ -27,7 +27,7 @@ const char* CoreBuildTag();
 struct PluginFactory {
   PluginKind kind;
   const ParamTableBase* parameters;
-  // Binds the parameters and makes a new PluginTraits<kind>::Product; `context` points to a
+  // Binds the parameters and creates a new PluginTraits<kind>::Product. `context` points to a
   // PluginTraits<kind>::Context. Throws Error.
   std::function<void*(const ParamSet&, const BindContext&, const void* context)> create;
 };
@@ -35,12 +35,12 @@ struct PluginFactory {
 struct PluginDescriptor {
   std::uint32_t abi;
   const char* buildTag;
-  const char* name;     // as scene files write it; equals the file's name
+  const char* name;     // the name in scene files and of the plugin file
   const char* summary;  // one line
   std::vector<PluginFactory> factories;
 };
 
-// A PluginFactory from a parameter table and a function
+// Makes a plugin factory from a parameter table and a function
 //   std::unique_ptr<Product>(const S&, const Context&)
 template <PluginKind kind, class S, class Create>
 PluginFactory MakeFactory(const ParamTable<S>& table, Create create) {
@@ -59,7 +59,7 @@ PluginFactory MakeFactory(const ParamTable<S>& table, Create create) {
 using PluginEntry = const PluginDescriptor* (*)();
 inline constexpr const char* kPluginSymbol = "ExphotonPlugin";
 
-// For a build with every plugin linked in: called before main by EXPHOTON_PLUGIN.
+// For builds with all plugins linked in. EXPHOTON_PLUGIN calls this before main.
 bool RegisterStaticPlugin(PluginEntry entry);
 
 }  // namespace exphoton
@@ -89,7 +89,6 @@ bool RegisterStaticPlugin(PluginEntry entry);
                                                                         ::exphoton::Create))
 
 // Registers a plugin of several kinds, or with other names for the table and the function.
-// The one exported function of a plugin, or its registration in a static build.
 //   EXPHOTON_PLUGIN("matte", "diffuse reflection",
 //                   exphoton::MakeFactory<exphoton::PluginKind::Material>(Parameters(), Create))
 #ifdef EXPHOTON_STATIC_PLUGINS

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Follows the program headers to the dynamic section, and its hash table to one symbol. Every
-// offset comes from the file and may be anything: each read is checked by the system against its
-// end.
+// Finds one symbol of a library: the program headers locate the dynamic section, which locates the
+// hash table. Offsets come from the file and may have any value, so every read is checked against
+// the end of the file.
 #include "core/plugins/elf_file.h"
 
 #include <elf.h>
@@ -73,7 +73,8 @@ class Library {
       throw Fault("is no shared library");
   }
 
-  // The system's loader maps what a header says, and the process dies where the file is shorter.
+  // The system's loader maps the segments that the headers describe. The process would die if the
+  // file were shorter.
   void ReadParts() {
     for (std::uint64_t i = 0; i < header_.e_phnum; ++i) {
       const auto part = Read<Elf64_Phdr>(header_.e_phoff + i * sizeof(Elf64_Phdr));
@@ -82,7 +83,7 @@ class Library {
     }
   }
 
-  // The place in the file of an address in memory; 0 where it is none of the file's.
+  // Returns the file offset of a memory address; 0 if the file does not contain it.
   std::uint64_t OffsetOf(std::uint64_t address) const {
     for (const Elf64_Phdr& part : parts_)
       if (part.p_type == PT_LOAD && address >= part.p_vaddr &&
@@ -148,7 +149,7 @@ class Library {
   std::uint64_t size_ = 0;
   Elf64_Ehdr header_{};
   std::vector<Elf64_Phdr> parts_;
-  std::uint64_t symbols_ = 0, names_ = 0, hash_ = 0, gnuHash_ = 0;  // offsets; 0: none
+  std::uint64_t symbols_ = 0, names_ = 0, hash_ = 0, gnuHash_ = 0;  // file offsets; 0: none
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A look into a shared library without loading it: loading runs the code of its constructors.
-// Source: the System V ABI, chapters "Object Files" and "Dynamic Linking"; GNU's hash table.
+// Inspects a shared library without loading it, because loading runs its constructors. Source: the
+// System V ABI, chapters "Object Files" and "Dynamic Linking"; the GNU hash table.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,9 @@
 
 namespace exphoton {
 
-// Why the open file cannot be a library of this machine that exports `symbol`, as the rest of a
-// sentence that begins with the file's path; nothing where it can.
+// Returns the reason why the open file cannot be a library of this machine that exports `symbol`.
+// The text continues a sentence that begins with the file's path. Returns nullopt if the file is
+// such a library.
 std::optional<std::string> FaultOfLibrary(int file, const std::string& symbol);
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Names and folders of the kinds.
+// Names and folders of the plugin kinds.
 #include "core/plugins/kinds.h"
 
 namespace exphoton {

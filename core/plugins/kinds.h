@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The kinds of plugin: what each makes, what it is given besides its parameters, and the folder it
-// is found in.
+// PluginKind lists the kinds of plugin. PluginTraits defines the product of each kind and the
+// context that its factory receives besides the parameters.
 #pragma once
 
 #include <memory>
@@ -42,8 +42,8 @@ enum class PluginKind {
   VolumeIntegrator,
 };
 inline constexpr int kPluginKindCount = 13;
-const char* PluginKindName(PluginKind kind);    // "area light": in messages
-const char* PluginKindFolder(PluginKind kind);  // "lights"
+const char* PluginKindName(PluginKind kind);    // for messages, such as "area light"
+const char* PluginKindFolder(PluginKind kind);  // for example "lights"
 
 struct NoContext {};
 
@@ -58,15 +58,15 @@ struct IntegratorContext {
 struct AcceleratorContext {
   const PrimitiveSet& primitives;  // outlives the accelerator
   Log& log;
-  int threads = 1;  // that may build it; 0: as many as there are cores
+  int threads = 1;  // that may build it; 0: one per core
 };
 struct ShapeContext {
   Transform objectToWorld;
   bool reverseOrientation = false;
   Log& log;
-  SourceLocation where;  // of the Shape directive, for warnings
+  SourceLocation where;  // location of the Shape directive, for warnings
 
-  // Whether Cross(dpdu, dpdv) must be negated to point outside.
+  // Returns whether Cross(dpdu, dpdv) must be negated to point outside.
   bool FlipsNormal() const { return reverseOrientation != objectToWorld.SwapsHandedness(); }
 };
 struct LightContext {
@@ -92,7 +92,7 @@ struct TextureContext {
   Transform textureToWorld;
   Log& log;
   SourceLocation where;
-  SharedCache& shared;  // of the scene
+  SharedCache& shared;  // shared by all textures of the scene
 };
 
 template <PluginKind>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// dlopen, with a sentence for every way in which it can fail. The file is checked before, because
-// dlopen runs the constructors of any library, and maps a truncated one, which ends the process.
+// Loads plugins by dlopen, with a message for every possible failure. The file is checked first.
+// dlopen would run the constructors of any library, and a truncated library would end the process.
 #include "core/plugins/library.h"
 
 #include <dlfcn.h>
@@ -59,10 +59,10 @@ void CheckWriters(int file, const char* what) {
                           "can be changed by other users (chmod go-w), and a scene names it");
 }
 
-// The name that the system's loader is given. That of an open descriptor is the file that was
-// checked, whatever happens to the folder meanwhile.
+// Returns the name to pass to dlopen. The name of an open descriptor always means the file that was
+// checked, even if the folder changes meanwhile.
 std::string NameForLoader(const PluginFile& file, int descriptor) {
-  // A path without a slash would be looked for where the system keeps its libraries.
+  // dlopen would search the system's library folders for a path without a slash.
   if (file.trust == PluginTrust::Chosen) return fs::absolute(file.path).string();
   const Descriptor folder(OpenFile(FolderOf(file.path), O_DIRECTORY));
   CheckWriters(folder.Get(), "lies in a folder that ");
@@ -70,8 +70,8 @@ std::string NameForLoader(const PluginFile& file, int descriptor) {
   return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-// The loader knows libraries by their names, so the descriptor of a library that it has loaded by
-// the descriptor's name must not be used again: it stays open.
+// dlopen identifies loaded libraries by name. The number of a descriptor under which a library was
+// loaded must therefore not be reused, so the descriptor stays open.
 void* OpenLibrary(const PluginFile& file) {
   Descriptor descriptor(OpenFile(file.path, 0));
   if (const auto fault = FaultOfLibrary(descriptor.Get(), kPluginSymbol))
@@ -81,7 +81,7 @@ void* OpenLibrary(const PluginFile& file) {
   void* const library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library && file.trust != PluginTrust::Chosen) descriptor.Release();
   if (library) return library;
-  if (errno == ENOMEM) throw std::bad_alloc();  // its words seldom say so
+  if (errno == ENOMEM) throw std::bad_alloc();  // dlerror rarely mentions it
   const char* reason = dlerror();
   throw PluginFileError(std::string("cannot be loaded: ") + (reason ? reason : "no reason given"));
 }
@@ -109,7 +109,7 @@ const PluginDescriptor& CheckedDescriptor(PluginEntry entry, const std::string& 
     throw PluginFileError("fails when asked what it is");
   }
   if (!descriptor) throw PluginFileError("does not say what it is");
-  // The ABI number comes first, and nothing else may be read before it is known to be right.
+  // The ABI number is the first member. No other member may be read before it is checked.
   if (descriptor->abi != kPluginAbi) {
     throw PluginFileError("is built for plugin interface " + std::to_string(descriptor->abi) +
                           ", and this program has " + std::to_string(kPluginAbi) +

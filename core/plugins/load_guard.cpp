@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A terminate handler that knows which library its thread is loading.
+// LoadGuard: a terminate handler that reports the library that the thread is loading.
 #include "core/plugins/load_guard.h"
 
 #include <cstdio>
@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-thread_local const char* loading = nullptr;  // null: this thread loads nothing
+thread_local const char* loading = nullptr;  // null: this thread loads no library
 std::terminate_handler beforeAll = nullptr;
 
 [[noreturn]] void EndTheProgram() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LoadGuard: while one lives, an exception that leaves a constructor of the library that is being
-// loaded ends the program with a message and status 2. The system's loader cannot be unwound, so
-// such an exception cannot be caught; without a guard it aborts the program.
+// LoadGuard handles exceptions in constructors of a library that is being loaded. The exception
+// cannot be caught, because the system's loader cannot be unwound. While a guard exists, such an
+// exception ends the program with a message and status 2; without a guard it aborts the program.
 #pragma once
 
 #include <exception>
@@ -11,7 +11,7 @@ namespace exphoton {
 
 class LoadGuard {
  public:
-  explicit LoadGuard(std::string path);  // of the library, for the message
+  explicit LoadGuard(std::string path);  // path of the library, for the message
   ~LoadGuard();
   LoadGuard(const LoadGuard&) = delete;
   LoadGuard& operator=(const LoadGuard&) = delete;

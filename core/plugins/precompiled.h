@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the build compiles once for all files of a target. No file includes this header: each names
-// what it uses, and a build with -DEXPHOTON_FAST_BUILD=OFF shows where one does not.
+// The headers that the build precompiles once for all files of a target. No file includes this
+// header, because each file includes the headers that it uses. A build with
+// -DEXPHOTON_FAST_BUILD=OFF reveals missing includes.
 #pragma once
 
 #include <algorithm>

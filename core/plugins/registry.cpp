@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From a kind and a name in a scene file to a loaded plugin and an object.
+// PluginRegistry: from a kind and a name in a scene file to a loaded plugin and an object.
 #include "core/plugins/registry.h"
 
 #include <algorithm>
@@ -133,7 +133,7 @@ std::vector<std::string> PluginRegistry::Available(PluginKind kind) const {
       const PluginDescriptor* plugin = TryLoad(kind, name);
       if (plugin && FactoryOf(*plugin, kind)) names.push_back(name);
     } catch (const PluginFileError&) {
-      // What cannot be loaded is reported when a scene names it.
+      // Errors of plugins that cannot be loaded are reported when a scene names them.
     }
   }
   std::sort(names.begin(), names.end());

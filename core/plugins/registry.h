@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PluginRegistry: finds plugins by kind and name, loads each when it is first named, and makes
-// objects from them. One a render; libraries stay loaded until the process ends (never dlclose).
+// PluginRegistry finds plugins by kind and name, loads each on first use, and creates objects from
+// them. There is one registry per render. Libraries stay loaded until the process ends (no
+// dlclose).
 #pragma once
 
 #include <map>
@@ -15,18 +16,19 @@ namespace exphoton {
 
 class PluginRegistry {
  public:
-  // Folders in order of preference; each may hold <kind folder>/<name>.so or <name>.so. Of two
-  // files for one plugin the first counts, even where it is broken.
+  // `folders` is in order of preference. Each folder may hold <kind folder>/<name>.so or <name>.so.
+  // If two files match a plugin, the first is used, even if it is broken.
   PluginRegistry(PluginFolders folders, Log* log);
   PluginRegistry(const std::vector<std::string>& chosen, Log* log)
       : PluginRegistry(ChosenFolders(chosen), log) {}
 
-  // --plugin-dir, PBRT_SEARCHPATH and the folder beside the program, in this order.
+  // Returns --plugin-dir, PBRT_SEARCHPATH and the folders beside the program, in this order.
   static std::vector<std::string> DefaultFolders(const std::vector<std::string>& extra);
 
-  // The form of that kind of the plugin of that name (aliases resolved: "diffuse" is "area").
-  // Throws Error(Scene) at `where`: missing (listing what exists and where it looked), not a
-  // library, wrong ABI or build, wrong kind, another name, threw.
+  // Returns the factory of that kind and plugin name, after resolving aliases ("diffuse" is
+  // "area"). Throws Error(Scene) at `where` if the plugin is missing (listing the available plugins
+  // and the folders searched), is not a library, has a wrong ABI, build tag, kind or name, or
+  // throws.
   const PluginFactory& Find(PluginKind kind, const std::string& name, const SourceLocation& where);
 
   template <PluginKind kind>
@@ -38,7 +40,8 @@ class PluginRegistry {
             CreateErased(kind, name, params, std::move(bind), &context)));
   }
 
-  // Sorted names of what can be loaded from the kind's folders; loads all of them.
+  // Returns the sorted names of the plugins that can be loaded from the kind's folders. Loads all
+  // of them.
   std::vector<std::string> Available(PluginKind kind) const;
   std::vector<std::string> Loaded() const;  // "integrators/exphotonmap", sorted
   const PluginDescriptor& Load(PluginKind kind, const std::string& name,
@@ -46,19 +49,19 @@ class PluginRegistry {
 
  private:
   std::string PlacesText() const;
-  // Null where there is no such plugin. Throws PluginFileError.
+  // Returns null if there is no such plugin. Throws PluginFileError.
   const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
   [[noreturn]] void ThrowMissing(PluginKind kind, const std::string& name,
                                  const SourceLocation& where) const;
-  // Of all plugins of a kind. The first call for a kind loads them.
+  // Returns the parameter names of all plugins of a kind. The first call for a kind loads them.
   const std::vector<std::string>& ParameterNames(PluginKind kind);
   void* CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
                      BindContext bind, const void* context);
 
   PluginFolders folders_;
   Log* log_;
-  std::map<PluginKind, std::vector<std::string>> parameterNames_;  // of kinds asked for
-  std::set<std::string> noticed_;                                  // aliases that were named before
+  std::map<PluginKind, std::vector<std::string>> parameterNames_;  // of the kinds used so far
+  std::set<std::string> noticed_;                                  // aliases used so far
   std::map<std::string, const PluginDescriptor*> loaded_;          // by "<kind folder>/<name>"
 };
 

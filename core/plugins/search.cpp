@@ -24,8 +24,8 @@ constexpr PluginAlias kAliases[] = {
      "sampler \"bestcandidate\" does not exist yet: \"lowdiscrepancy\" takes its place"},
 };
 
-// The folders beside the program and beside the core's library: of a build tree, of an
-// installation.
+// Returns the existing plugin folders beside the program and beside the core's library. It checks
+// the layouts of a build tree and of an installation.
 std::vector<std::string> FoldersBesideProgram() {
   std::error_code error;
   std::vector<std::string> candidates;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Where plugins lie and what names stand for them. Loads nothing.
+// Plugin search: finds plugin files and resolves aliases. It loads no plugins.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace exphoton {
 
-// Another name that scene files have for a plugin.
+// An alternative name of a plugin in scene files.
 struct PluginAlias {
   PluginKind kind;
   const char* alias;
   const char* name;
-  const char* notice;  // said when it is used; null: the two are the same thing
+  const char* notice;  // logged on use; null: the names are synonyms
 };
 const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name);
 
-// What is wrong with a name, as the rest of a sentence; nothing where it may name a plugin.
+// Returns the error in a plugin name, as the rest of a sentence; nullopt if the name is valid.
 std::optional<std::string> FaultOfPluginName(const std::string& name);
 
-// A plugin is native code that runs with the user's rights, so a folder counts by who named it.
+// Plugins are native code with the user's rights, so the trust in a folder depends on its origin.
 enum class PluginTrust {
-  Chosen,   // by the user: --plugin-dir, PBRT_SEARCHPATH, the program's own folders
-  Allowed,  // named by a scene file, and allowed by the user (--allow-scene-plugins)
-  Skipped,  // named by a scene file: not searched
+  Chosen,   // chosen by the user: --plugin-dir, PBRT_SEARCHPATH, the program's folders
+  Allowed,  // named by a scene file and allowed by the user (--allow-scene-plugins)
+  Skipped,  // named by a scene file; not searched
 };
 struct PluginFolder {
   std::string path;
@@ -40,13 +40,13 @@ struct PluginFile {
   std::string path;
   PluginTrust trust;
 };
-// <folder>/<kind folder>/<name>.so or <folder>/<name>.so of the first folder that has one and is
-// not skipped.
+// Returns <folder>/<kind folder>/<name>.so or <folder>/<name>.so from the first folder that has
+// either and is not skipped.
 std::optional<PluginFile> FindPluginFile(const PluginFolders& folders, PluginKind kind,
                                          const std::string& name);
 
-// Names of all files <folder>/<kind folder>/<name>.so of folders that are not skipped, sorted, each
-// once.
+// Returns the names of all files <folder>/<kind folder>/<name>.so in folders that are not skipped,
+// sorted and without duplicates.
 std::vector<std::string> PluginNamesIn(const PluginFolders& folders, PluginKind kind);
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// NonFiniteLog: the first few camera samples that were not finite, the same ones however the work
-// was divided.
+// NonFiniteLog keeps descriptions of the first few non-finite camera samples. The selection does
+// not depend on threads or tiles.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace exphoton {
 
-// The dropped samples that come first in scanline order, whichever thread met them first.
+// Keeps the dropped samples that come first in scanline order, regardless of the order of Add.
 class NonFiniteLog {
  public:
   void Add(Point2i pixel, std::int64_t index, std::string text) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The tile loop. A tile is only a unit of work: every camera sample is a function of (seed, pixel,
-// sample index), and a pixel's sums are added by one thread in the order of the index.
+// The tile loop. A tile is only a unit of work. Every camera sample is a function of (seed, pixel,
+// sample index). One thread adds up a pixel's samples in the order of their index.
 #include "core/render/render.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace exphoton {
 namespace {
 
-// What one thread works with; its arena keeps it on lines of the cache of its own.
+// The state of one thread. The alignment of its Arena keeps workers on separate cache lines.
 struct Worker {
   explicit Worker(const SampleLayout& layout) : samples(layout) {}
 
@@ -33,7 +33,7 @@ std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options
   return std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1);
 }
 
-// Brings the neighbouring rays from a pixel's distance to the mean distance of a pixel's samples.
+// Scales the ray differentials from the pixel spacing to the mean spacing of a pixel's samples.
 void ScaleDifferentials(RayDifferential* ray, Real scale) {
   ray->xOrigin = ray->o + (ray->xOrigin - ray->o) * scale;
   ray->yOrigin = ray->o + (ray->yOrigin - ray->o) * scale;
@@ -41,7 +41,7 @@ void ScaleDifferentials(RayDifferential* ray, Real scale) {
   ray->yDirection = ray->d + (ray->yDirection - ray->d) * scale;
 }
 
-// seed: what the user said; that of a pass is made from it.
+// `seed` is the user's seed. The seed of a pass is derived from it.
 std::string Describe(const Spectrum& L, const SampleKey& key, std::uint64_t seed) {
   std::ostringstream text;
   text << "radiance (" << L.r << ", " << L.g << ", " << L.b << ") at pixel " << key.pixel.x << ","
@@ -50,7 +50,7 @@ std::string Describe(const Spectrum& L, const SampleKey& key, std::uint64_t seed
   return text.str();
 }
 
-// What the layers say of the first surface; the integrator is not asked.
+// Fills the AOVs of the first surface without the integrator.
 void DescribeSurface(const Scene& scene, const RayDifferential& ray, Arena* arena,
                      AovSample* sample) {
   const auto surface = scene.Intersect(ray);
@@ -67,7 +67,7 @@ void Blacken(AovSample* sample) {
   sample->emission = sample->direct = sample->caustic = sample->indirect = sample->specular = {};
 }
 
-// Where the sample is negative it counts as 0, and so do its parts.
+// Sets negative components of L to 0, and the same components of the light AOVs.
 void ClampNegative(Spectrum* L, AovSample* sample) {
   for (Real Spectrum::*channel : {&Spectrum::r, &Spectrum::g, &Spectrum::b}) {
     if (!(L->*channel < 0)) continue;
@@ -109,7 +109,7 @@ class TileRenderer {
   bool Needs(Feature effect) const { return job_.scene.Features().Needs(effect); }
   bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
-  // False where stopped.
+  // Returns false if rendering was stopped.
   bool RenderPixel(Point2i pixel, Worker* worker) const {
     if (!aovs_ || !aovs_->NeedsTime()) return RenderSamples(pixel, worker);
     const Clock::time_point start = Clock::now();
@@ -186,7 +186,8 @@ class TileRenderer {
   Real differentialScale_;
 };
 
-// A depth limit may cut a little without a word; more is light that the picture lacks.
+// Warns if the depth limit cut more than kSilentShare of the throughput. The picture lacks this
+// light.
 void WarnOfCutPaths(const RenderJob& job, const RayCounters& rays, std::int64_t cameraSamples) {
   constexpr double kSilentShare = 1e-3;
   const auto warn = [&](double cut, double of, const std::string& what) {
@@ -254,7 +255,8 @@ struct PassRenderer::State {
     if (job.volume) job.volume->Preprocess(job.scene);
   }
 
-  // Before anything is worth keeping, who set the flag ends the process (RenderOptions).
+  // If options.pixelsBegun is given, preprocessing sees the stop flag only after the first pixels
+  // have begun. Before that, the caller itself ends the process.
   const std::atomic<bool>* Stop() const {
     return !options.pixelsBegun || *options.pixelsBegun ? options.stop : nullptr;
   }

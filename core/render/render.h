@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Render: preprocess, then every pixel of the film on all threads. The picture depends on scene,
-// integrator, sampler, filter, camera and seed only, never on threads, tiles or crop.
+// Render runs the integrator's preprocessing and then renders every pixel of the film on all
+// threads. The picture depends on scene, integrator, sampler, filter, camera and seed only. It
+// never depends on threads, tiles or crop.
 #pragma once
 
 #include <atomic>
@@ -29,13 +30,13 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   int tileSize = 16;
   TileOrder tileOrder = TileOrder::Scanline;
-  bool isStrict = false;  // a non-finite sample ends the render: throws Error(Internal)
+  bool isStrict = false;                     // a non-finite sample throws Error(Internal)
   const std::atomic<bool>* stop = nullptr;   // set from outside (a signal): stop at the next pixel
-  std::atomic<bool>* pixelsBegun = nullptr;  // set here once there may be something to keep
-  AovFilm* aovs = nullptr;                   // filled beside the film; null: no aov was asked for
-  // Textures are filtered, and bumps differenced, over the footprint that a sample has when a pixel
-  // takes this number of samples; 0: the number that the sampler takes. Renders that are compared
-  // need the same footprint.
+  std::atomic<bool>* pixelsBegun = nullptr;  // Render sets it once there may be pixels to keep
+  AovFilm* aovs = nullptr;                   // filled beside the film; null: no AOVs
+  // Textures are filtered, and bump maps differenced, over the footprint of a sample when a pixel
+  // takes this number of samples. 0 means the number of the sampler. Renders that are compared with
+  // each other need the same footprint.
   std::int64_t footprintSamples = 0;
 };
 
@@ -50,41 +51,41 @@ struct RenderJob {
   Log& log;
   ProgressReporter& progress;
   Statistics& statistics;
-  VolumeIntegrator* volume = nullptr;  // light that media add; null: none
+  VolumeIntegrator* volume = nullptr;  // light from media; null: none
 };
 
 struct RenderResult {
-  bool isComplete = true;                     // false where stopped
+  bool isComplete = true;                     // false if stopped
   std::int64_t nonFiniteSamples = 0;          // dropped, counted as black
   std::vector<std::string> nonFiniteReports;  // the first few: pixel, sample, seed
 };
 
 RenderResult Render(const RenderJob& job, const RenderOptions& options);
 
-// One pass over the image: which samples of each pixel, and by which random numbers.
+// One pass over the image: the range of samples of each pixel, and their seeds.
 struct RenderPass {
-  std::uint64_t preprocessSeed = 0;  // of photons
-  std::uint64_t sampleSeed = 0;      // of camera samples
+  std::uint64_t preprocessSeed = 0;  // for photons
+  std::uint64_t sampleSeed = 0;      // for camera samples
   std::int64_t firstSample = 0, sampleCount = 0;
 };
 
-// Renders pass by pass. Passes may differ in everything that RenderPass says; statistics and
-// complaints are of all of them together.
+// Renders pass by pass. Passes may differ in every member of RenderPass. Statistics and warnings
+// cover all passes together.
 class PassRenderer {
  public:
-  // The job's film is not used: each pass names its own. Both must outlive this.
+  // The job's film is not used, because each pass names its film. Both arguments must outlive this
+  // object.
   PassRenderer(const RenderJob& job, const RenderOptions& options);
   ~PassRenderer();
 
-  // Preprocesses, and adds the pass's samples to the film. Messages of a preprocessing that was
-  // done before with another seed are not repeated. False where stopped; then some pixels lack
-  // samples.
+  // Runs the preprocessing and adds the samples of the pass to the film. Only the first
+  // preprocessing logs messages. Returns false if stopped; some pixels then lack samples.
   bool Run(const RenderPass& pass, const Sampler& sampler, Film* film);
-  // Fills the job's statistics and says what went wrong. Once, at the end.
+  // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
 
-  double PreprocessSeconds() const;  // wall, of the last pass
-  double RenderSeconds() const;      // the same, without preprocessing
+  double PreprocessSeconds() const;  // wall-clock time of the last pass
+  double RenderSeconds() const;      // the same, for rendering without preprocessing
 
  private:
   struct State;

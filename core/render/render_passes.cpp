@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Pass sizes, seeds and stopping.
+// RenderInPasses: pass sizes, seeds and stopping rules.
 #include "core/render/render_passes.h"
 
 #include <algorithm>
@@ -10,11 +10,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Independent replicates of the picture. Passes go to them in turn; those of one replicate go on in
-// the same sequences of camera samples, which are the better the longer they are.
+// The number of independent replicates of the picture. Passes are assigned to replicates in turn.
+// The passes of one replicate continue the same sequences of camera samples, because longer
+// sequences are better distributed.
 constexpr int kReplicates = 8;
-constexpr int kLeastPasses = 2;      // that tell of noise
-constexpr std::int64_t kGrowth = 8;  // a pass adds at most this part of what there is
+constexpr int kLeastPasses = 2;      // needed for a noise estimate
+constexpr std::int64_t kGrowth = 8;  // a pass adds at most 1/8 of the samples so far
 constexpr std::int64_t kLargestPass = 64;
 constexpr std::uint64_t kPassSeed = 0x70617373ull, kReplicateSeed = 0x7265706cull;
 constexpr std::int64_t kPromille = 1000;
@@ -53,13 +54,15 @@ class Passes {
   }
 
  private:
-  // Small at first, so that the noise can be met closely; then an eighth of what there is.
+  // Passes are small at first, so that rendering stops close to the target error. Later passes add
+  // an eighth of the samples so far.
   std::int64_t NextSize() const {
     const std::int64_t total = result_.samplesPerPixel;
     const std::int64_t size = std::clamp<std::int64_t>(total / kGrowth, 1, largestPass_);
     return std::min({size, SizeInTime(), rule_.maxSamples - total});
   }
-  // What the time that is left allows, by the last pass's times; 0: not even one sample.
+  // Returns the pass size that the remaining time allows, judged by the times of the last pass.
+  // Returns 0 if not even one sample fits.
   std::int64_t SizeInTime() const {
     if (!rule_.timeLimit || result_.passes == 0) return largestPass_;
     const double left =
@@ -79,7 +82,7 @@ class Passes {
       pass.sampleSeed = HashKey({options_.seed, kReplicateSeed, std::uint64_t(replicate)});
       pass.firstSample = noise_.SamplesOf(replicate);
     } else {
-      // A complete pattern of its own.
+      // The pass uses a complete sample pattern with a separate seed.
       pass.sampleSeed = pass.preprocessSeed;
       pattern = job_.sampler.WithSamplesPerPixel(size);
     }
@@ -130,13 +133,13 @@ class Passes {
   const RenderJob& job_;
   const StoppingRule& rule_;
   RenderOptions options_;
-  ProgressReporter quiet_;  // phases of every pass would be many lines
+  ProgressReporter quiet_;  // hides the phases of each pass, which would be many lines
   RenderJob quietJob_;
   PassRenderer renderer_;
   Film passFilm_;
   PassNoise noise_;
   std::int64_t largestPass_, lastSize_ = 1;
-  std::unique_ptr<Sampler> endless_;  // where the sampler can go on
+  std::unique_ptr<Sampler> endless_;  // null if the sampler is not progressive
   PassesResult result_;
   std::optional<StopReason> reasonMet_;
 };

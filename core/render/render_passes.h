@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RenderInPasses: a picture as the mean of independent passes, each with its own camera samples and
-// its own preprocessing (photon maps), until a rule says that it is enough. Derivation and
+// RenderInPasses renders the picture as the mean of independent passes until a stopping rule holds.
+// Each pass has separate camera samples and separate preprocessing (photon maps). Derivation and
 // measurements: docs/decisions/0007-stopping-rules.md.
 #pragma once
 
@@ -13,34 +13,34 @@
 namespace exphoton {
 
 struct StoppingRule {
-  std::optional<double> targetError;  // noise part of relMSE, > 0; with it alone time has no say
-  std::optional<double> timeLimit;    // seconds from `start`, preprocessing among them
+  std::optional<double> targetError;  // noise part of relMSE, > 0; used alone, it ignores time
+  std::optional<double> timeLimit;    // seconds from `start`, including preprocessing
   std::chrono::steady_clock::time_point start;
-  std::int64_t maxSamples = kMostSamples;  // a pixel
+  std::int64_t maxSamples = kMostSamples;  // per pixel
 
   static constexpr std::int64_t kMostSamples = std::int64_t(1) << 20;
 };
 
 enum class StopReason { Samples, TargetError, TimeLimit, Signal };
-const char* StopReasonName(StopReason reason);  // "target-error"
+const char* StopReasonName(StopReason reason);  // for example "target-error"
 
 struct PassesResult {
   RenderResult render;
-  StopReason reason = StopReason::Samples;  // Samples: all that were wanted, or maxSamples
-  int passes = 0;                           // whole ones
+  StopReason reason = StopReason::Samples;  // Samples: the wanted number or maxSamples is reached
+  int passes = 0;                           // complete passes
   std::int64_t samplesPerPixel = 0;
   std::optional<double> noise;   // estimated noise part of relMSE; absent with one pass
   std::vector<float> variances;  // of each pixel, three channels; empty with one pass
 };
 
-// Renders into the job's film at least one whole pass, and stops between passes. A pass has one
-// sample a pixel at first and more later; samples and passes depend on the pixels alone, unless
-// there is a time limit.
+// Renders at least one complete pass into the job's film and stops between passes only. The first
+// passes have one sample per pixel, later ones more. Without a time limit, the numbers of samples
+// and passes depend on the pixel values alone.
 PassesResult RenderInPasses(const RenderJob& job, const RenderOptions& options,
                             const StoppingRule& rule);
 
-// Two passes of half the samples each (one more where their number is odd), the second into `other`
-// alone; the job's film gets both.
+// Renders two passes, each with half the samples (rounded up), into `first` and `second`. The job's
+// film receives the samples of both.
 PassesResult RenderTwoHalves(const RenderJob& job, const RenderOptions& options, Film* first,
                              Film* second);
 

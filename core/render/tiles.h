@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Tiles: the pieces of work that a render consists of. The picture does not depend on them.
+// Tiles divides a render into pieces of work. The picture does not depend on them.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace exphoton {
 
-// The crop window cut into squares, numbered in the order in which they are rendered.
+// The crop window, divided into squares that are numbered in rendering order.
 class Tiles {
  public:
   Tiles(const PixelBounds& crop, const RenderOptions& options)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter: a pixel reconstruction filter, used by importance sampling (Ernst, Stamminger and Greiner
-// 2006, "Filter Importance Sampling"): the position of a camera sample is drawn from |filter| round
-// its pixel's centre and contributes to that pixel alone, with weight +-1. So a pixel is a sum over
-// its own samples only, whatever the tiles or the crop.
+// Filter is a pixel reconstruction filter for importance sampling (Ernst, Stamminger and Greiner
+// 2006, "Filter Importance Sampling"). The position of a camera sample is drawn from |filter|
+// around its pixel's centre. The sample contributes to this pixel only, with weight +-1. A pixel is
+// therefore a sum over its own samples, whatever the tiles or the crop.
 #pragma once
 
 #include "core/math/vec.h"
@@ -11,13 +11,13 @@ namespace exphoton {
 
 struct FilterSample {
   Point2 offset;  // from the pixel's centre, in pixels
-  Real weight;    // f / pdf up to a common constant, so that its mean is 1 over [0,1)^2
+  Real weight;    // f / pdf, scaled so that its mean over u in [0,1)^2 is 1
 };
 
 class Filter {
  public:
   virtual ~Filter() = default;
-  virtual Real XWidth() const = 0;  // half-widths in pixels; 0 outside
+  virtual Real XWidth() const = 0;  // half-width in pixels; the filter is 0 outside
   virtual Real YWidth() const = 0;
   virtual Real Evaluate(Point2 offset) const = 0;  // not normalised
   virtual FilterSample Sample(Point2 u) const = 0;

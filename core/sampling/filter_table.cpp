@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// FilterTable: tabulation on one half of the axis and inversion of a piecewise linear density.
+// FilterTable tabulates one half of the axis and inverts a piecewise linear density.
 #include "core/sampling/filter_table.h"
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 namespace exphoton {
 namespace {
 
-// Even, so that the joint of a filter made of two pieces of equal width falls on a step.
+// The number is even, so that the joint of a filter made of two pieces of equal width falls on a
+// step.
 constexpr int kCells = 1024;
 
 }  // namespace
@@ -27,7 +28,7 @@ FilterTable::FilterTable(std::function<double(double)> f, double halfWidth)
 }
 
 FilterTable::Value FilterTable::Sample(Real u) const {
-  // The lower half of u goes to negative x, mirrored, so that x rises with u.
+  // The lower half of u maps to negative x, mirrored, so that x rises with u.
   const double side = u < Real(.5) ? -1 : 1;
   const double v = std::abs(2 * double(u) - 1);
   const double target = std::min(v, 1 - 1e-12) * cumulative_.back();
@@ -35,7 +36,7 @@ FilterTable::Value FilterTable::Sample(Real u) const {
   const auto cell = std::size_t(above - cumulative_.begin()) - 1;
   const double a = values_[cell], slope = values_[cell + 1] - a;
   const double area = (target - cumulative_[cell]) / step_;
-  // a t + slope t^2 / 2 = area, solved without cancellation.
+  // Solves a t + slope t^2 / 2 = area without cancellation.
   const double denominator = a + std::sqrt(std::max(a * a + 2 * slope * area, 0.));
   const double t = denominator > 0 ? std::clamp(2 * area / denominator, 0., 1.) : 0;
   const double x = (double(cell) + t) * step_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SampleLayout and CameraSamples: what integrators ask of a sampler, and the storage of one camera
-// sample's points. The points themselves are made by the sampler plugins.
+// SampleLayout records what integrators request, and CameraSamples stores the points of one camera
+// sample. The sampler plugins make the points.
 #include "core/sampling/sampler.h"
 
 #include <algorithm>

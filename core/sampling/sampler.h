@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sampler: the interface that makes the points of a camera sample; SampleLayout: what integrators
-// asked for; CameraSamples: the points of one sample. Every value is a function of (seed, pixel,
-// sample index, request), so tiles, crops, threads and the order of reading never change it, and
-// nothing is stored for a whole pixel.
+// Sampler is the interface that makes the points of a camera sample. SampleLayout holds the
+// requests of integrators, and CameraSamples holds the points of one sample. Every value is a
+// function of (seed, pixel, sample index, request), so tiles, crops, threads and the order of
+// reading never change it. Nothing is stored for a whole pixel.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace exphoton {
 
-// The requests of an integrator: arrays of 1D and 2D points, each known by a handle.
+// SampleLayout holds the requests of an integrator: arrays of 1D and 2D points, each identified by
+// a handle.
 class SampleLayout {
  public:
   int Request1D(int count);  // count >= 0; returns the handle
@@ -23,24 +24,25 @@ class SampleLayout {
   std::span<const int> Counts1D() const { return counts1D_; }
   std::span<const int> Counts2D() const { return counts2D_; }
 
-  // Whether the points on the lens and in time will be read: nobody makes what nobody reads.
+  // Whether the lens point and the time will be read. Samplers skip values that are not needed.
   bool needsLens = true, needsTime = true;
 
  private:
   std::vector<int> counts1D_, counts2D_;
 };
 
-// Which sample of which pixel. Pixels count from the full image's corner, whatever the crop.
+// SampleKey identifies a sample of a pixel. Pixels count from the full image's corner, whatever the
+// crop.
 struct SampleKey {
   std::uint64_t seed = 0;
   Point2i pixel;
-  std::int64_t index = 0;  // 0 .. SamplesPerPixel - 1, and beyond where the sampler can go on
+  std::int64_t index = 0;  // 0 .. SamplesPerPixel - 1, or more if IsProgressive
 };
 
 class Sampler;
 
-// The points of one camera sample; reused by a thread for all its samples. An array is made when it
-// is first read: what nobody reads costs nothing.
+// CameraSamples holds the points of one camera sample. A thread reuses it for all its samples.
+// Arrays are generated on their first read, so unread arrays cost nothing.
 class CameraSamples {
  public:
   explicit CameraSamples(const SampleLayout& layout);
@@ -49,7 +51,7 @@ class CameraSamples {
   Point2 lens;    // in [0,1)^2, if needed
   Real time = 0;  // in [0,1), if needed
 
-  // After Sampler::Generate; valid until the next.
+  // Return the points of an array. They are valid from Sampler::Generate until its next call.
   std::span<const Real> Array1D(int handle) const { return Read(arrays1D_, handle, 0); }
   std::span<const Point2> Array2D(int handle) const { return Read(arrays2D_, handle, Count1D()); }
   int Count1D() const { return int(arrays1D_.isMade.size()); }  // number of arrays
@@ -63,7 +65,7 @@ class CameraSamples {
   template <class T>
   struct Arrays {
     explicit Arrays(std::span<const int> counts);
-    std::vector<std::size_t> offsets;  // of the first value of each, and of what follows the last
+    std::vector<std::size_t> offsets;  // of each array's first value; the last is the total
     std::vector<T> values;
     std::vector<char> isMade;
   };
@@ -83,22 +85,24 @@ class Sampler {
   virtual ~Sampler() = default;
 
   virtual std::int64_t SamplesPerPixel() const = 0;
-  // The best array size at or above `count` (for example the next power of two).
+  // Returns the best array size at or above `count` (for example the next power of two).
   virtual int RoundCount(int count) const { return count; }
-  // Whether samples beyond SamplesPerPixel make sense, so that a render may go on or stop anywhere.
+  // Returns whether samples beyond SamplesPerPixel make sense, so that a render may continue or
+  // stop anywhere.
   virtual bool IsProgressive() const { return false; }
-  // A sampler like this one with another number of samples a pixel (--spp).
+  // Returns a sampler like this one with another number of samples per pixel (--spp).
   virtual std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const = 0;
 
-  // Begins a camera sample. The sampler must outlive the reading of its arrays.
+  // Begins a camera sample. The sampler must outlive every read of its arrays.
   void Generate(const SampleKey& key, CameraSamples* samples) const;
 
  protected:
-  // Fills film, and lens and time if needed; the others' points do not depend on these needs.
-  // Returns a key for the pixel, which Fill is given.
+  // Fills film, and lens and time if needed. The other points do not depend on these needs. Returns
+  // a key for the pixel, which Fill receives.
   virtual std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const = 0;
-  // Fills an array of sample `index`, well distributed in itself and over the samples of its pixel.
-  // Requests count from 0, those for 1D before those for 2D. May come in any order, or not at all.
+  // Fills an array of sample `index`. Its points are well distributed in themselves and over the
+  // samples of the pixel. Requests count from 0, 1D requests before 2D requests. Calls may come in
+  // any order, or not at all.
   virtual void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
                     std::span<Real> values) const = 0;
   virtual void Fill(std::uint64_t pixelKey, std::int64_t index, int request,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The BSDF of a point: lobes combined under a mask. The geometric normal alone decides what is
-// reflection and what transmission; a direction that is on another side of the shading normal than
-// of the geometric one is handled before any lobe sees it (Veach 1997, section 5.3).
+// Bsdf combines lobes under a mask. The geometric normal alone separates reflection from
+// transmission. A direction on different sides of the shading normal and the geometric normal is
+// handled before any lobe sees it (Veach 1997, section 5.3).
 #include "core/scattering/bsdf.h"
 
 #include <span>
@@ -12,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-// The frame's x follows dpdu, so that anisotropic lobes lie along the surface's parameters.
+// The frame's x axis follows dpdu, so that anisotropic lobes lie along the surface's parameters.
 Frame ShadingFrame(const SurfaceInteraction& si) {
   const Normal3& n = si.shading.n;
   const Vector3 tangent = NormalizeOr(si.shading.dpdu, Vector3());
@@ -26,8 +26,9 @@ Frame ShadingFrame(const SurfaceInteraction& si) {
   return frame;
 }
 
-// wo in the local frame, on the side that the geometric normal says. Where the two normals
-// disagree its cosine changes sign: such a point is seen as under a grazing view, not as black.
+// LocalOut is wo in the local frame, on the side of the geometric normal. If the two normals
+// disagree, the sign of its cosine is flipped, so that the point is seen under a grazing view
+// instead of being black.
 struct LocalOut {
   Vector3 wo;
   Real side = 0;  // wo . ng
@@ -41,13 +42,14 @@ LocalOut ToLocalOut(const Frame& frame, const Normal3& ng, const Vector3& wo) {
   return out;
 }
 
-// Which kinds of lobe serve a pair of directions with these cosines to the geometric normal.
+// Returns the lobe kinds that scatter between two directions with these cosines to the geometric
+// normal.
 LobeSet Served(Real woSide, Real wiSide) {
   if (woSide == 0 || wiSide == 0) return LobeSet::None;
   return (woSide > 0) == (wiSide > 0) ? LobeSet::Reflection : LobeSet::Transmission;
 }
 
-// The lobes under a mask, the specular ones apart.
+// Chosen holds the lobes under a mask, with the specular lobes separate.
 struct Chosen {
   std::array<const Bxdf*, Bsdf::kMaxLobes> sharp, smooth;
   std::size_t sharpCount = 0, smoothCount = 0;
@@ -65,8 +67,9 @@ struct Chosen {
   std::span<const Bxdf* const> Sharp() const { return {sharp.data(), sharpCount}; }
 };
 
-// One of these specular lobes, with probability in proportion to its largest coefficient: so glass
-// reflects a Fresnel share of the photons, each with nearly its whole power. wi stays local.
+// Samples one of these specular lobes in proportion to the largest component of its coefficient.
+// Glass thus reflects a Fresnel share of the photons, each with nearly its full power. wi stays
+// local.
 std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, const Vector3& wo,
                                          Real u) {
   std::array<BsdfSample, Bsdf::kMaxLobes> found;
@@ -92,16 +95,18 @@ std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, con
   return sample;
 }
 
-// A direction that a smooth lobe has drawn, in the local frame: as it was drawn, which is where its
-// density is known, and as lobes see it. They differ for a photon that leaves behind the shading
-// normal: the drawn direction fell behind the geometric normal and was turned round. So the whole
-// hemisphere of the geometric normal is covered once, with the density |wi.ns| of the drawn one.
+// Drawn is a direction sampled from a smooth lobe, in the local frame. `drawn` is the direction as
+// sampled, where its density is known. `seen` is the direction for which lobes are evaluated. They
+// differ for a photon that leaves behind the shading normal: the sampled direction was behind the
+// geometric normal and was reversed, and lobes see the reversed direction mirrored in z. The
+// hemisphere of the geometric normal is thus covered once, with the density |wi.ns| of the sampled
+// direction.
 struct Drawn {
   Vector3 drawn, seen;
 };
 
-// Replaces the density of the picked lobe by the mean over all chosen ones, and its value by the
-// sum of those that serve this pair of sides.
+// Replaces the density of the picked lobe by the mean over all chosen lobes, and its value by the
+// sum of the lobes that scatter between these sides.
 void CombineSmooth(const Chosen& chosen, std::size_t picked, LobeSet served, const Vector3& wo,
                    const Drawn& wi, BsdfSample* sample) {
   Spectrum f;
@@ -134,7 +139,8 @@ int Bsdf::Count(LobeSet mask) const {
   return count;
 }
 
-// visit(lobe, wo, wi) for each masked smooth lobe that serves this pair of sides, in its frame.
+// Calls visit(lobe, wo, wi) for each masked smooth lobe that scatters between these sides, in the
+// local frame.
 template <class Visit>
 void Bsdf::VisitServing(const Vector3& wo, const Vector3& wi, LobeSet mask,
                         const Visit& visit) const {
@@ -185,7 +191,7 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   if (position < Real(chosen.sharpCount)) {
     auto sample = SampleSpecular(chosen.Sharp(), out.wo, position / Real(chosen.sharpCount));
     if (!sample) return std::nullopt;
-    // Undone for what goes straight through, so that an invisible boundary bends nothing.
+    // Undo the flip of wo's cosine for transmission, so that an invisible boundary bends no ray.
     const bool isUndone = out.isMirrored && sample->IsTransmission();
     sample->wi = frame_.ToWorld(isUndone ? MirrorZ(sample->wi) : sample->wi);
     if (!Intersects(sample->lobe, Served(out.side, Dot(sample->wi, ng_)))) return std::nullopt;
@@ -196,7 +202,8 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
     return sample;
   }
 
-  // What f says of light from a direction that is on different sides of the two normals.
+  // A photon from a direction on different sides of the two normals is not scattered, as in f(wi,
+  // wo).
   if (mode == TransportMode::Importance && out.isMirrored) return std::nullopt;
   const std::size_t picked =
       std::min(std::size_t(position) - chosen.sharpCount, chosen.smoothCount - 1);

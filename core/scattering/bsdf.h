@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bsdf: the lobes of a surface at one point, in world space. Lobes live in the caller's arena.
-// The side of wi against the *geometric* normal decides between reflection and transmission; the
-// shading normal gives the frame and the cosines.
+// Bsdf holds the lobes of a surface at one point, in world space. The lobes live in the caller's
+// arena. The side of wi relative to the *geometric* normal decides between reflection and
+// transmission. The shading normal gives the frame and the cosines.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace exphoton {
 struct BsdfSample {
   Vector3 wi;           // unit, world
   Spectrum throughput;  // f |wi.ns| / pdf; finite
-  Real pdf = 0;         // per solid angle over the masked lobes; a specular lobe: its probability
+  Real pdf = 0;         // per solid angle over the masked lobes; a specular lobe's probability
   LobeSet lobe = LobeSet::None;
-  Real eta = 1;  // of a specular transmission: index on wo's side over that on wi's side
+  Real eta = 1;  // of a specular transmission: index on wo's side / index on wi's side
 
   bool IsSpecular() const { return Intersects(lobe, LobeSet::Specular); }
   bool IsTransmission() const { return Intersects(lobe, LobeSet::Transmission); }
@@ -42,25 +42,26 @@ class Bsdf {
   const Normal3& Ns() const { return frame_.z; }
   const Normal3& Ng() const { return ng_; }
 
-  // Sum over the non-specular masked lobes; per steradian, symmetric in mode except for refraction.
+  // Returns the sum over the non-specular masked lobes, per steradian. It does not depend on the
+  // transport mode; only specular refraction does.
   Spectrum f(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
-  // Mean of the masked lobes' densities, per solid angle. Specular lobes in the mask count in the
-  // mean with density 0: pass the same mask to f, Pdf and Sample.
+  // Returns the mean of the masked lobes' densities, per solid angle. Specular lobes in the mask
+  // count with density 0, so pass the same mask to f, Pdf and Sample.
   Real Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask = LobeSet::All) const;
-  // Both, for the price of little more than one.
+  // Returns f and Pdf together, at little more than the cost of one.
   BsdfValue Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) const;
-  // Picks one masked lobe by uLobe, uniformly; if a specular one, then again among the specular
-  // ones in proportion to what they carry. nullopt: no sample (absorbed).
-  // Importance: wo points to where a photon came from, and smooth lobes scatter by f(wi, wo). Where
-  // the normals differ that is not f(wo, wi): light from behind the shading normal is not scattered
-  // but scattered light goes there, to every direction before the geometric normal. The throughput
-  // is f(wi, wo) |wi.ns| / pdf, still without the ShadingNormalFactor.
+  // Picks one masked lobe uniformly by uLobe. If it is specular, a second choice picks a specular
+  // lobe in proportion to its coefficient. Returns nullopt if there is no sample (absorbed).
+  // In Importance mode, wo points to the origin of a photon, and smooth lobes scatter by f(wi, wo).
+  // This differs from f(wo, wi) if the two normals disagree: light from behind the shading normal
+  // is not scattered, but scattered light goes to every direction in front of the geometric normal.
+  // The throughput is f(wi, wo) |wi.ns| / pdf, without the ShadingNormalFactor.
   std::optional<BsdfSample> Sample(const Vector3& wo, Point2 u, Real uLobe,
                                    LobeSet mask = LobeSet::All,
                                    TransportMode mode = TransportMode::Radiance) const;
-  // Sum of hemispherical-hemispherical reflectances of the masked lobes.
+  // Returns the sum of the hemispherical-hemispherical reflectances of the masked lobes.
   Spectrum Rho(LobeSet mask) const;
-  // Whether the diffuse reflection is Bxdf::IsCoated.
+  // Returns whether the diffuse reflection lobe is coated (Bxdf::IsCoated).
   bool IsCoated() const { return isCoated_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bump mapping by forward differences. With q = p + d(u,v) n: dq/du = dp/du + dd/du n + d dn/du.
+// ApplyBump uses forward differences. With q = p + d(u,v) n: dq/du = dp/du + dd/du n + d dn/du.
 #include "core/scattering/bump.h"
 
 namespace exphoton {
@@ -10,7 +10,7 @@ Real StepOf(Real alongX, Real alongY) {
   return step > 0 && std::isfinite(step) ? step : Real(.01);
 }
 
-// The interaction moved by a step of u (or v) along the surface.
+// Returns the interaction moved by a step of u (or v) along the surface.
 SurfaceInteraction Moved(const SurfaceInteraction& si, const Vector3& dp, const Normal3& dn,
                          Real du, Real dv) {
   SurfaceInteraction moved = si;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bxdf: the interface of one scattering lobe, in the local frame where z is the shading normal.
-// Directions are unit and leave the surface. Measures are stated at each method.
+// Bxdf is the interface of one scattering lobe, in the local frame where z is the shading normal.
+// Directions have unit length and point away from the surface. Each method states its measure.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,12 @@
 
 namespace exphoton {
 
-// Radiance: wo points to the eye, refracted radiance scales by the square of the relative index.
-// Importance: wo points to where the photon came from; its power does not change at refraction.
+// In Radiance mode, wo points to the eye, and refracted radiance scales by the square of the
+// relative index. In Importance mode, wo points to the origin of the photon, and its power does not
+// change at refraction.
 enum class TransportMode { Radiance, Importance };
 
-// A set of lobe kinds, one bit for each pair of side and sharpness.
+// LobeSet is a set of lobe kinds, with one bit for each pair of side and sharpness.
 enum class LobeSet : unsigned {
   None = 0,
   DiffuseReflection = 1,
@@ -40,15 +41,15 @@ constexpr bool Intersects(LobeSet a, LobeSet b) { return Any(a & b); }
 
 struct BxdfSample {
   Vector3 wi;
-  // f(wo,wi) |cos wi| / pdf: what a path's throughput is multiplied by. For a specular lobe the
-  // delta's coefficient, its cosine already cancelled.
+  // This factor multiplies the path's throughput: f(wo,wi) |cos wi| / pdf. For a specular lobe it
+  // is the coefficient of the delta, with the cosine already cancelled.
   Spectrum throughput;
-  Real pdf = 0;  // per solid angle, > 0; for a specular lobe the probability of this choice
-  Real eta = 1;  // of a specular transmission: index on wo's side over that on wi's side
+  Real pdf = 0;  // per solid angle, > 0; for a specular lobe its probability
+  Real eta = 1;  // of a specular transmission: index on wo's side / index on wi's side
 };
 
-// What a coat lets through at an angle, relative to its mean over all directions, weighted with the
-// cosine (Ashikhmin and Shirley 2000).
+// Returns the transmittance of a coat at an angle, relative to its cosine-weighted mean over all
+// directions (Ashikhmin and Shirley 2000).
 inline Real CoatTransmission(Real absCos) {
   const Real x = 1 - absCos / 2;
   return (1 - (x * x) * (x * x) * x) * (Real(28) / 23);
@@ -62,16 +63,18 @@ class Bxdf {
   LobeSet Lobe() const { return lobe_; }  // exactly one bit
   bool Matches(LobeSet mask) const { return Intersects(lobe_, mask); }
 
-  // Per steradian; 0 for a specular lobe and where wi is on the side the lobe does not serve.
+  // Returns the value per steradian. It is 0 for a specular lobe, and if wi is on the side to which
+  // the lobe does not scatter.
   virtual Spectrum f(const Vector3& wo, const Vector3& wi) const = 0;
-  // Density of Sample per solid angle; 0 for a specular lobe.
+  // Returns the density of Sample per solid angle, or 0 for a specular lobe.
   virtual Real Pdf(const Vector3& wo, const Vector3& wi) const = 0;
   virtual std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const = 0;
-  // Hemispherical-hemispherical reflectance or transmittance, in [0,1] for physical coefficients:
-  // closed form or a good approximation, never 0 for a lobe that is not black.
+  // Returns the hemispherical-hemispherical reflectance or transmittance, in [0,1] for physical
+  // coefficients. It is a closed form or a good approximation, and never 0 for a lobe that is not
+  // black.
   virtual Spectrum Rho() const = 0;
-  // Whether a diffuse lobe lies under a coat: f = Rho / pi a(cos wo) a(cos wi) with a =
-  // CoatTransmission. Other diffuse lobes count as Lambert's where light is precomputed.
+  // Returns whether a diffuse lobe lies under a coat: f = Rho / pi a(cos wo) a(cos wi) with a =
+  // CoatTransmission. Precomputed lighting treats other diffuse lobes as Lambertian.
   virtual bool IsCoated() const { return false; }
 
  private:

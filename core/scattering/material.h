@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Material: turns a surface interaction into a BSDF. Immutable and shared between threads.
+// Material turns a surface interaction into a BSDF. It is immutable and shared between threads.
 #pragma once
 
 #include "core/base/arena.h"
@@ -15,9 +15,11 @@ class Material {
   // Evaluates textures and applies bump mapping to si->shading, then makes the lobes in `arena`.
   virtual Bsdf Evaluate(SurfaceInteraction* si, TransportMode mode, Arena* arena) const = 0;
 
-  // Every lobe that Evaluate may ever add: a lobe whose coefficient is provably 0 is left out.
+  // Returns every lobe that Evaluate may ever add. A lobe whose coefficient is provably 0 is left
+  // out.
   virtual LobeSet PossibleLobes() const = 0;
-  // Whether any texture is filtered or there is a bump map: without, plain rays do.
+  // Returns whether any texture is filtered or there is a bump map. Otherwise rays need no
+  // differentials.
   virtual bool NeedsDifferentials() const = 0;
 };
 

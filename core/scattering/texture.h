@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Texture: a value that varies over a surface; T is Real ("float") or Spectrum ("color").
+// Texture is a value that varies over a surface; T is Real ("float") or Spectrum ("color").
 #pragma once
 
 #include <memory>
@@ -15,11 +15,11 @@ class Texture {
  public:
   virtual ~Texture() = default;
   virtual T Evaluate(const SurfaceInteraction& si) const = 0;
-  // The value, where it is the same everywhere and known while loading.
+  // Returns the value if it is the same everywhere and known while loading.
   virtual std::optional<T> ConstantValue() const { return std::nullopt; }
-  // Whether every value is provably 0. A texture that is not constant counts as not.
+  // Returns whether every value is provably 0. This is false for a texture that is not constant.
   bool IsProvablyZero() const { return ConstantValue() == T{}; }
-  // Whether Evaluate uses the footprint (dudx ... or dpdx).
+  // Returns whether Evaluate uses the footprint (dudx ... or dpdx).
   virtual bool IsFiltered() const { return false; }
 };
 
@@ -28,7 +28,7 @@ using ColorTexture = Texture<Spectrum>;
 template <class T>
 using TexturePtr = std::shared_ptr<const Texture<T>>;
 
-// A texture with one value everywhere: what a plain parameter value becomes.
+// UniformTexture has one value everywhere. A plain parameter value becomes a UniformTexture.
 template <class T>
 class UniformTexture final : public Texture<T> {
  public:

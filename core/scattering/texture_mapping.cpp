@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Texture coordinates and their derivatives along the pixel's steps.
+// Texture mappings compute texture coordinates and their derivatives along the pixel's steps.
 #include "core/scattering/texture_mapping.h"
 
 #include "core/math/sampling/sampling.h"
@@ -11,8 +11,8 @@ Point2 FiniteOrZero(Point2 d) {
   return std::isfinite(d.x) && std::isfinite(d.y) ? d : Point2(0, 0);
 }
 
-// Change of the azimuth, in turns, of a unit vector that changes by `change`; half a turn on the
-// axis, where every azimuth meets.
+// Returns the change of the azimuth, in turns, of a unit vector that changes by `change`. It is
+// half a turn on the axis, where all azimuths meet.
 Real TurnsOf(const Vector3& unit, const Vector3& change) {
   const Real cross = unit.x * change.y - unit.y * change.x;
   if (cross == 0) return 0;
@@ -57,7 +57,7 @@ TexturePoint2 TextureMapping2D::Curved(const SurfaceInteraction& si) const {
   if (!si.hasDifferentials || !(radius > 0)) return point;
   const auto change = [&](const Vector3& dp) {
     const Vector3 d = worldToTexture_.ApplyVector(dp) / radius;
-    const Vector3 across = d - unit * Dot(unit, d);  // of the unit vector
+    const Vector3 across = d - unit * Dot(unit, d);  // change of the unit vector
     return FiniteOrZero(isSpherical ? Spherical(unit, across) : Cylindrical(unit, across));
   };
   point.dstdx = change(si.dpdx);
@@ -65,7 +65,8 @@ TexturePoint2 TextureMapping2D::Curved(const SurfaceInteraction& si) const {
   return point;
 }
 
-// theta = acos z, so d theta = -dz / sin theta; at a pole it is the whole length of the change.
+// theta = acos z, so d theta = -dz / sin theta. At a pole, d theta is the whole length of the
+// change.
 Point2 TextureMapping2D::Spherical(const Vector3& unit, const Vector3& change) const {
   const Real sinTheta = std::sqrt(unit.x * unit.x + unit.y * unit.y);
   const Real dTheta = SafeDivide(-change.z, sinTheta, Length(change));

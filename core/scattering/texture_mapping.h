@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Mappings from a surface to the plane or space a texture is drawn in, with the pixel's footprint
-// there. Derivatives are analytic and 0 where the footprint is unknown.
+// Texture mappings map a surface to the plane or space of a texture, with the pixel footprint
+// there. Derivatives are analytic. They are 0 if the footprint is unknown.
 #pragma once
 
 #include "core/geometry/interaction.h"
@@ -22,13 +22,14 @@ class TextureMapping2D {
   enum class Kind { Uv, Spherical, Cylindrical, Planar };
   struct Options {
     Kind kind = Kind::Uv;
-    Real uScale = 1, vScale = 1;       // of uv
-    Real uDelta = 0, vDelta = 0;       // of uv and planar
-    Vector3 v1{1, 0, 0}, v2{0, 1, 0};  // of planar: s = uDelta + p.v1, in world space
+    Real uScale = 1, vScale = 1;       // for uv
+    Real uDelta = 0, vDelta = 0;       // for uv and planar
+    Vector3 v1{1, 0, 0}, v2{0, 1, 0};  // for planar: s = uDelta + p.v1, in world space
   };
 
   TextureMapping2D(const Options& options, const Transform& textureToWorld);
 
+  // Returns the texture coordinates.
   // uv: (us u + ud, vs v + vd). spherical: (theta/pi, phi/2pi) about texture space's z axis.
   // cylindrical: ((pi + atan2(y,x))/2pi, z of the unit vector to the point).
   TexturePoint2 Map(const SurfaceInteraction& si) const;
@@ -42,7 +43,7 @@ class TextureMapping2D {
   Transform worldToTexture_;
 };
 
-// World to texture space.
+// TextureMapping3D maps world space to texture space.
 class TextureMapping3D {
  public:
   explicit TextureMapping3D(const Transform& textureToWorld)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Aggregate: the interface of accelerators (plugins): which primitive of a set does a ray hit
-// first. It refers to the PrimitiveSet it was built over and owns nothing of it.
+// Aggregate is the interface of accelerators (plugins). It finds the first primitive of a
+// PrimitiveSet that a ray hits. It refers to the set but does not own it.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace exphoton {
 
-// Whether a ray can hit anything at all; every accelerator asks this first, and may then rely on
+// Returns whether a ray can hit anything. Every accelerator calls this first and may then rely on
 // finite numbers.
 inline bool IsTraceable(const Ray& ray) {
   return IsFinite(ray.o) && IsFinite(ray.d) && ray.d != Vector3() && ray.tMax > 0;
@@ -19,15 +19,15 @@ class Aggregate {
  public:
   virtual ~Aggregate() = default;
 
-  // Nearest hit with 0 < t < ray.tMax; of hits at equal t the one PrimitiveSet prefers.
-  // A ray with a NaN or a zero direction hits nothing.
+  // Returns the nearest hit with 0 < t < ray.tMax. PrimitiveSet defines which of several hits at
+  // equal t wins. A ray with a NaN or a zero direction hits nothing.
   virtual Hit Intersect(const Ray& ray) const = 0;
-  // Whether anything lies in 0 < t < ray.tMax.
+  // Returns whether any primitive is hit in 0 < t < ray.tMax.
   virtual bool Occluded(const Ray& ray) const = 0;
   virtual std::size_t MemoryBytes() const { return 0; }
 };
 
-// A set with its accelerator: what an instance refers to.
+// A primitive set with its accelerator. Instances refer to such an object.
 class ObjectGeometry {
  public:
   ObjectGeometry(std::unique_ptr<PrimitiveSet> set, std::unique_ptr<Aggregate> aggregate)

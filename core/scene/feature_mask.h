@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which effects a build has: bit i stands for Feature(i) of effects.h. All of them, but in builds
-// that measure what carrying an effect costs: those have a header of this name, made by CMake
-// (EXPHOTON_EFFECTS), before this one.
+// kCompiledFeatures is the set of features in this build: bit i represents Feature(i) of
+// required_features.h. Normal builds have all features. Builds that measure the cost of a feature
+// (CMake option EXPHOTON_EFFECTS) use a generated header of the same name, which precedes this one.
 #pragma once
 
 namespace exphoton {

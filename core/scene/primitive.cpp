@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PrimitiveSet: one numbering over triangles, shapes and instances, and the tests behind it. The
-// order of tests never shows: a hit replaces another only where nearer, or as near with lower ids.
+// PrimitiveSet: one numbering of triangles, shapes and instances, and their intersection tests. The
+// order of the tests does not affect the result: a hit replaces another only if it is nearer, or
+// equally near with lower ids.
 #include "core/scene/primitive.h"
 
 #include "core/base/error.h"
@@ -90,8 +91,8 @@ Bounds3 PrimitiveSet::InstanceBounds(const Instance& instance) const {
   Bounds3 bounds = instance.motion ? instance.motion->ApplyBounds(inner)
                                    : instance.instanceToWorld.ApplyBounds(inner);
   if (bounds.IsEmpty()) return bounds;
-  // The ray is rounded when it enters the object's space, in proportion to its distance from the
-  // origin of that space: what lies far from it is uncertain.
+  // The transformation to object space rounds a ray in proportion to its distance from the
+  // object-space origin. The margin covers this error at the farthest point of the bounds.
   const Bounds3 origins = instance.motion ? instance.motion->ApplyBounds(Bounds3(Point3()))
                                           : Bounds3(instance.instanceToWorld.ApplyPoint(Point3()));
   const Real reach = MaxComponent(Max(bounds.max - origins.min, origins.max - bounds.min));
@@ -115,7 +116,7 @@ void PrimitiveSet::Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) co
     return;
   }
   Ray bounded = ray.ray;
-  bounded.tMax = NextUp(hit->t);  // a tie is a hit, so that ids can decide it
+  bounded.tMax = NextUp(hit->t);  // include ties, which ids then decide
   const auto found = shapes_[index]->Intersect(bounded);
   if (found && Wins(found->t, kNoId, id, *hit)) *hit = {found->t, found->uv, id, kNoId};
 }
@@ -129,14 +130,14 @@ Hit PrimitiveSet::Reported(const TraceRay& ray, const Hit& nearest) const {
   return hit ? Hit{hit->t, {hit->b1, hit->b2}, nearest.primitive, kNoId} : nearest;
 }
 
-// The ray in the space of the object; direction not normalised, so that t means the same.
+// Returns the ray in object space. The direction is not normalised, so t keeps its value.
 Ray PrimitiveSet::InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const {
   if (const Motion* motion = instances_[instance].motion.get())
     return RayToLocal(motion->At(ray.time).Inverted(), ray, tMax);
   return RayToLocal(worldToInstance_[instance], ray, tMax);
 }
 
-// That by which a hit was found to be the nearest.
+// Returns the t by which hits are ordered. Reported may have replaced it by the single-precision t.
 Real PrimitiveSet::OrderedDistance(const Ray& ray, const Hit& hit) const {
   if (hit.instance != kNoId || hit.primitive >= triangles_.size()) return hit.t;
   const auto& v = vertices_[hit.primitive];

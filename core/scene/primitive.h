@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PrimitiveSet: the things that one accelerator is built over, in flat arrays, and the test of one
-// ray against one of them. Ids: triangles first, then shapes, then instances.
+// PrimitiveSet stores the primitives of one accelerator in flat arrays and intersects a ray with
+// one primitive. Ids are assigned to triangles first, then to shapes, then to instances.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +18,18 @@ class Aggregate;
 
 inline constexpr std::uint32_t kNoId = ~std::uint32_t(0);
 
-// The nearest hit so far, small enough to live in registers. Ties in t go to the lower instance,
-// then the lower primitive id, so that every accelerator gives the same winner.
+// The nearest hit so far, small enough to stay in registers. Ties in t go to the lower instance,
+// then to the lower primitive id, so that all accelerators find the same hit.
 struct Hit {
   Real t = kInfinity;
   Point2 uv;  // triangle: (b1, b2); shape: ShapeHit::uv
   std::uint32_t primitive = kNoId;
-  std::uint32_t instance = kNoId;  // id in the outer set, where the hit is inside an instance
+  std::uint32_t instance = kNoId;  // id in the outer set if the hit is inside an instance
 
   bool IsHit() const { return primitive != kNoId; }
 };
 
-// A ray with what the tests of many primitives share.
+// A ray with precomputed values that the tests of many primitives share.
 struct TraceRay {
   Ray ray;
   TriangleRay triangle;
@@ -41,11 +41,11 @@ struct PrimitiveAttributes {
   const AreaLight* areaLight = nullptr;
 };
 
-// Same geometry in object space, placed by a transformation.
+// An object's geometry, placed in the world by a transformation.
 struct Instance {
-  Transform instanceToWorld;  // where it moves: at the start
+  Transform instanceToWorld;  // if it moves: at the start of the motion
   const class ObjectGeometry* object = nullptr;
-  std::shared_ptr<const Motion> motion = nullptr;  // null: it rests
+  std::shared_ptr<const Motion> motion = nullptr;  // null: the instance does not move
 };
 
 class PrimitiveSet {
@@ -53,47 +53,50 @@ class PrimitiveSet {
   void AddMesh(std::shared_ptr<const TriangleMesh> mesh, PrimitiveAttributes attributes);
   void AddShape(std::shared_ptr<const Shape> shape, PrimitiveAttributes attributes);
   void AddInstance(const Instance& instance);
-  // Call once after the last Add: assigns ids and lays the triangles out flat.
+  // Assigns ids and builds the flat triangle arrays. Must be called once, after the last Add.
   void Finish();
 
   std::uint32_t Count() const;
   std::uint32_t TriangleCount() const { return std::uint32_t(triangles_.size()); }
-  // Of the true surface (of an instance: with what rounding its rays asks for). Accelerators add
-  // their own margin. Empty for an instance of nothing.
+  // Returns the bounds of the exact surface. The bounds of an instance include a margin for the
+  // rounding of transformed rays. Accelerators add their own margin. An instance without primitives
+  // has empty bounds.
   Bounds3 Bounds(std::uint32_t id) const;
   Bounds3 WorldBounds() const { return bounds_; }
-  // Lobes that the materials may have: of one primitive (for an instance, of all of its object),
-  // and of the whole set once it is finished.
+  // Returns the lobes that the materials may have: of one primitive, or of the whole set after
+  // Finish. The lobes of an instance are those of its whole object.
   LobeSet PossibleLobes(std::uint32_t id) const;
   LobeSet PossibleLobes() const { return lobes_; }
 
-  // Vertices of a triangle, for accelerators that clip.
+  // The vertices of a triangle, for accelerators that clip triangles.
   const std::array<Point3, 3>& TriangleVertices(std::uint32_t id) const { return vertices_[id]; }
 
-  // Whether the ray certainly misses primitive `id`; cheap and inline, false where it is not.
+  // Returns true if the ray certainly misses primitive `id`. The test is cheap and inline. It
+  // returns false if the full test is needed.
   bool Misses(std::uint32_t id, const TraceRay& ray) const {
     if (id >= vertices_.size()) return false;
     const auto& v = vertices_[id];
     return MissesTriangle(ray.triangle, v[0], v[1], v[2]);
   }
-  // Tests primitive `id`; replaces *hit (whose t bounds the search) where nearer, or as near with a
-  // lower id. `hit->t` starts at ray.tMax.
+  // Intersects primitive `id`. Replaces *hit if the new hit is nearer, or equally near with a lower
+  // id. hit->t bounds the search and starts at ray.tMax.
   void Intersect(std::uint32_t id, const TraceRay& ray, Hit* hit) const;
-  // The nearest of all hits as accelerators tell it: of triangles with HitInSingle where that can.
+  // Returns the nearest hit in its final form, as accelerators report it. A triangle hit gets the t
+  // and uv of the single-precision test (HitInSingle) if that test can guarantee its accuracy.
   Hit Reported(const TraceRay& ray, const Hit& nearest) const;
-  // Whether primitive `id` blocks the ray in 0 < t < ray.tMax.
+  // Returns whether primitive `id` blocks the ray in 0 < t < ray.tMax.
   bool Occludes(std::uint32_t id, const TraceRay& ray) const;
 
-  // The full record of a hit that Intersect found with this ray.
+  // Returns the full surface record of a hit that Intersect found with this ray.
   SurfaceInteraction Surface(const Ray& ray, const Hit& hit) const;
-  // Its first part, at a fraction of the cost for triangles: the same p, pError and ng.
+  // Returns the same p, pError and ng as Surface. For triangles, it costs a fraction of Surface.
   SurfacePoint Point(const Ray& ray, const Hit& hit) const;
   PrimitiveAttributes Attributes(const Hit& hit) const;
-  // Of what was hit; null where it rests.
+  // Returns the motion of the primitive that was hit; null if it does not move.
   const Motion* MotionOf(const Hit& hit) const {
     return hit.instance == kNoId ? nullptr : InstanceOf(hit).motion.get();
   }
-  // Whether anything is not in the same place at all times of the interval.
+  // Returns whether any primitive moves during the interval.
   bool MovesWithin(Interval interval) const;
 
  private:
@@ -106,14 +109,14 @@ class PrimitiveSet {
   void IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const;
   SurfaceInteraction InstanceSurface(const Ray& ray, const Hit& hit) const;
 
-  struct Triangle {  // 8 bytes: where the vertices are
+  struct Triangle {  // 8 bytes; locates the vertices
     std::uint32_t mesh, index;
   };
   std::vector<Triangle> triangles_;
   std::vector<std::array<Point3, 3>> vertices_;  // by triangle id, contiguous
   std::vector<std::shared_ptr<const TriangleMesh>> meshes_;
   std::vector<PrimitiveAttributes> meshAttributes_;
-  std::vector<std::uint8_t> meshFlips_;  // whether normals are turned round
+  std::vector<std::uint8_t> meshFlips_;  // per mesh: whether normals are flipped
   std::vector<std::shared_ptr<const Shape>> shapes_;
   std::vector<PrimitiveAttributes> shapeAttributes_;
   std::vector<Instance> instances_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RequiredFeatures and the rules that fill it: an effect is off only where its contribution to this
+// RequiredFeatures and the rules that set it: a feature is off only if its contribution to this
 // scene is provably zero.
 #include "core/scene/required_features.h"
 
@@ -19,12 +19,12 @@ constexpr std::array<const char*, kFeatureCount> kFeatureNames{
 
 constexpr Interval kAlways{-kInfinity, kInfinity};
 
-// What the rules ask of a scene.
+// The properties of a scene that the rules depend on.
 struct SceneTraits {
-  LobeSet lobes = LobeSet::None;  // of any surface
+  LobeSet lobes = LobeSet::None;  // union over all surfaces
   bool needsDifferentials = false;
   int lights, shiningLights;
-  bool mediaEmit = false;  // or may
+  bool mediaEmit = false;  // true if any medium emits or may emit
 
   explicit SceneTraits(const Scene& scene)
       : lights(int(scene.Lights().size())), shiningLights(scene.ShiningLights()) {
@@ -51,7 +51,8 @@ void PlanPhotons(const SceneTraits& traits, RequiredFeatures* plan) {
   const bool hasReceiver = traits.Has(LobeSet::NonSpecular);
   const std::string noReceiver =
       Any(traits.lobes) ? "every surface is specular" : "no surface scatters light";
-  // Light of media over specular surfaces belongs to the gathered light.
+  // Light from media over specular surfaces counts as indirect light, so media alone need no
+  // caustics.
   plan->Set(Feature::Caustics, hasLights && hasSpecular && hasReceiver,
             !hasLights     ? "no light"
             : !hasSpecular ? "no specular surface"
@@ -75,7 +76,7 @@ void PlanPhotons(const SceneTraits& traits, RequiredFeatures* plan) {
                          : "a glossy surface that gather rays may meet");
 }
 
-// Needed where something is elsewhere when the shutter closes than when it opens.
+// Motion is needed if the camera or a shape moves while the shutter is open.
 void PlanMotion(const Scene& scene, const Camera& camera, RequiredFeatures* plan) {
   const Interval shutter = camera.Shutter();
   const bool isCamera = camera.MovesWithin(shutter);

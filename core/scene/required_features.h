@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RequiredFeatures: which effects this scene needs, decided once from the scene alone, each with
-// its reason. An effect is off only where its contribution is provably zero, so the picture never
-// depends on the plan. Passed to integrators and renderer as data.
+// RequiredFeatures states which effects a scene needs, each with its reason. It is computed once,
+// from the scene and the camera. A feature is off only if its contribution is provably zero, so
+// feature culling never changes the picture. Integrators and the renderer receive it as data.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace exphoton {
 
 enum class Feature {
   Caustics,      // caustic photon map and its lookups
-  Indirect,      // indirect map, final gather, radiance photons
-  Transmission,  // the transmitted side of radiance photons
+  Indirect,      // indirect photon map, final gathering, radiance photons
+  Transmission,  // transmitted side of radiance photons
   Specular,      // recursion at specular lobes
   Glossy,        // sampling of glossy lobes where gather rays read radiance photons
   Media,         // transmittance and ray marching
@@ -26,16 +26,16 @@ enum class Feature {
 };
 inline constexpr int kFeatureCount = 10;
 
-const char* FeatureName(Feature effect);  // "caustics", as --effects spells it
+const char* FeatureName(Feature effect);  // for example "caustics", as in --effects
 
 class RequiredFeatures {
  public:
   struct Row {
     bool on = true;
-    std::string reason;  // "no specular surface"
+    std::string reason;  // for example "no specular surface"
   };
 
-  RequiredFeatures();  // everything on: what --effects all gives
+  RequiredFeatures();  // all features on, as with --effects all
   static constexpr bool IsCompiled(Feature effect) {
     return ((kCompiledFeatures >> unsigned(effect)) & 1u) != 0;
   }
@@ -43,9 +43,9 @@ class RequiredFeatures {
   const Row& Get(Feature effect) const { return rows_[std::size_t(effect)]; }
   void Set(Feature effect, bool on, std::string reason);
 
-  // One line an effect: "caustics      off  no specular surface".
+  // Returns one line per feature, such as "caustics      off  no specular surface".
   std::string Describe() const;
-  // Further lines that are no effect ("lights        3 (1 black, skipped)").
+  // Further lines of the description, such as "lights        3 (1 black, skipped)".
   std::vector<std::string> notes;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scene: puts the parts together, prepares the lights and answers rays.
+// Scene: assembles the parts, prepares the lights and answers ray queries.
 #include "core/scene/scene.h"
 
 #include <algorithm>

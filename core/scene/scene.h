@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scene: geometry, lights and the plan of effects; what integrators see. Immutable once made; no
-// globals, so many scenes can live in one process.
+// Scene holds the geometry, the lights and the required features. Integrators see the scene through
+// this class. It is immutable while it is rendered. It uses no globals, so several scenes can exist
+// in one process.
 #pragma once
 
 #include <memory>
@@ -19,21 +20,21 @@ namespace exphoton {
 
 class Camera;
 
-// Where a light comes from, for what people are told of it; empty where nobody said so.
+// The origin of a light, for messages and listings. Empty if unknown.
 struct LightOrigin {
-  std::string plugin;  // "spot"
+  std::string plugin;  // for example "spot"
   std::optional<SourceLocation> where;
 };
 
-// Everything a scene is made of; the scene takes it over.
+// The parts of a scene. The scene takes ownership.
 struct SceneParts {
   std::unique_ptr<PrimitiveSet> primitives;
   std::unique_ptr<Aggregate> aggregate;  // over *primitives
   std::vector<std::unique_ptr<ObjectGeometry>> objects;
   std::vector<std::unique_ptr<Light>> lights;
-  std::vector<LightOrigin> lightOrigins;  // of lights, in their order; may be shorter
-  std::vector<std::shared_ptr<const Material>> materials;       // used by any primitive
-  std::vector<std::shared_ptr<const EmitterSurface>> emitters;  // referred to by area lights
+  std::vector<LightOrigin> lightOrigins;                   // in the order of lights; may be shorter
+  std::vector<std::shared_ptr<const Material>> materials;  // all materials of the primitives
+  std::vector<std::shared_ptr<const EmitterSurface>> emitters;  // referenced by area lights
   std::vector<std::unique_ptr<Medium>> media;
 };
 
@@ -43,24 +44,25 @@ class Scene {
   ~Scene();
 
   std::optional<SurfaceInteraction> Intersect(const RayDifferential& ray) const;
-  // The nearest hit and where it lies, for rays that may need no more; Complete gives the rest.
+  // The nearest hit and its position, for rays that may need nothing else. Complete computes the
+  // full surface record.
   struct HitPoint {
     Hit hit;
     SurfacePoint point;
     const Material* material;
-    const Motion* motion;  // null: the surface rests
+    const Motion* motion;  // null: the surface does not move
   };
   std::optional<HitPoint> IntersectPoint(const Ray& ray) const;
   SurfaceInteraction Complete(const Ray& ray, const Hit& hit) const;
   bool Occluded(const Ray& ray) const { return aggregate_->Occluded(ray); }
 
-  // Radiance of every infinite light along a ray that escaped in direction w.
+  // Returns the radiance of all infinite lights along an escaped ray of direction w.
   Spectrum EscapedRadiance(const Vector3& w) const;
 
-  // All lights in the order of the file. Black ones are kept, so that indices are stable; skip
-  // them.
+  // All lights, in the order of the file. Black lights are kept so that indices are stable. Callers
+  // must skip them.
   const std::vector<std::unique_ptr<Light>>& Lights() const { return parts_.lights; }
-  int ShiningLights() const;  // how many are not black
+  int ShiningLights() const;  // number of lights that are not black
   const LightOrigin& OriginOfLight(std::size_t i) const { return parts_.lightOrigins[i]; }
   const std::vector<const Light*>& InfiniteLights() const { return infiniteLights_; }
   const std::vector<std::shared_ptr<const Material>>& Materials() const { return parts_.materials; }
@@ -69,18 +71,19 @@ class Scene {
   const Aggregate& Accelerator() const { return *aggregate_; }
 
   const RequiredFeatures& Features() const { return effects_; }
-  // Before anything refers to lights: without Feature::Environment infinite lights are taken out.
-  // shutter: when it opens and closes; without Feature::Motion all happens as it opens.
+  // Must be called before other objects refer to lights, because it removes infinite lights if
+  // Feature::Environment is off. `shutter` is the shutter interval. If Feature::Motion is off, all
+  // rays use the time at which the shutter opens.
   void SetFeatures(RequiredFeatures plan, Interval shutter = {0, 0});
-  // The times of all rays: photons spread over them, as camera rays do.
+  // The time interval of camera rays and photons.
   Interval Exposure() const { return exposure_; }
 
-  // Empty where the plan of effects leaves media out.
+  // Empty if Feature::Media is off.
   const std::vector<std::unique_ptr<Medium>>& Media() const { return parts_.media; }
   bool HasMedia() const {
     return RequiredFeatures::IsCompiled(Feature::Media) && !parts_.media.empty();
   }
-  // What part of the light gets through all media, over 0 < t < ray.tMax.
+  // Returns the transmittance of all media over 0 < t < ray.tMax.
   Spectrum Transmittance(const Ray& ray) const {
     return HasMedia() ? TransmittanceOfMedia(ray) : Spectrum(1);
   }
@@ -96,9 +99,10 @@ class Scene {
   Interval exposure_{0, 0};
 };
 
-// The plan for this scene and camera (effects.md's table): decides from materials, lights, camera.
+// Derives the required features from the materials, the lights and the camera.
+// docs/guide/effects.md lists the rules.
 RequiredFeatures PlanFeatures(const Scene& scene, const Camera& camera);
-// Adds to a plan at which times camera rays and photons are shot, if anything ever moves.
+// Adds a note with the times of camera rays and photons, if anything in the scene ever moves.
 void NoteTimes(const Scene& scene, const Camera& camera, RequiredFeatures* plan);
 
 }  // namespace exphoton

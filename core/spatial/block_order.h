@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SortIntoBlocks: puts records into an order in which every aligned run of 16, 256, 4096 ... lies
-// close together: medians along the longest side, as in a k-d tree (Bentley 1975), at multiples of
-// these lengths. Only the last run of a length may be short.
+// BlockOrder sorts records so that every aligned run of 16, 256, 4096 ... records is spatially
+// compact. It splits near the median along the longest axis, as a k-d tree does (Bentley 1975).
+// Split positions are multiples of these lengths, so only the last run of a length may be short.
 #pragma once
 
 #include <algorithm>
@@ -18,16 +18,18 @@ namespace exphoton {
 template <class Record>
 class BlockOrder {
  public:
-  // Calls for records that are in their order: of which set, and from where in it.
+  // Called for each sorted piece with its records, the index of its set, and the index of its first
+  // record in the set.
   using Finish = std::function<void(std::span<Record>, std::size_t set, std::size_t begin)>;
 
-  // Record::p is a position, and finite.
+  // Record::p is the position and must be finite.
   static void Sort(std::span<Record> records, ThreadPool& threads) {
     Sort({&records, 1}, threads, [](std::span<Record>, std::size_t, std::size_t) {});
   }
-  // Several sets, each for itself; at once, because the first step of each is no work for several
-  // threads. finish is called once for every piece of a set, from any thread; a piece begins at a
-  // multiple of kBlockPoints, and ends at one or at the end of the set.
+  // Sorts several sets independently. The first splits of one set offer too little work for all
+  // threads, so all sets are sorted together. finish is called once for every piece of a set, from
+  // any thread. A piece begins at a multiple of kBlockPoints and ends at a multiple or at the end
+  // of the set.
   static void Sort(std::span<const std::span<Record>> sets, ThreadPool& threads,
                    const Finish& finish) {
     constexpr std::size_t kEnough = 64;  // pieces
@@ -64,7 +66,8 @@ class BlockOrder {
     }
   }
 
-  // Parts the records at a multiple of the longest run that is shorter than they; gives the place.
+  // Partitions the records at a multiple of the longest run that is shorter than the span. Returns
+  // the index of the split.
   static std::size_t Split(std::span<Record> records) {
     if (records.size() <= kBlockPoints) return records.size();
     std::size_t run = kBlockPoints;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// BlockStore: memory for records that become blocks of points where they lie, so that building a
-// map of many points takes no more memory than holding it.
+// BlockStore holds records and converts them to blocks of points in place. Building a map of many
+// points therefore takes no more memory than the finished map.
 #pragma once
 
 #include <new>
@@ -18,13 +18,14 @@ class BlockStore : public RecordStore<typename Block::Record> {
   static_assert(sizeof(Block) == kBlockPoints * sizeof(Record));
   static_assert(alignof(Block) <= RecordStore<Record>::kAlignment);
 
-  // What is written to; the rest of what was reserved takes no room in a machine's memory.
+  // Counts the written part only. Reserved pages that were never written take no physical memory.
   std::size_t MemoryBytes() const {
     return (this->Size() + kBlockPoints - 1) / kBlockPoints * sizeof(Block);
   }
 
-  // From here on the records from `begin`, a multiple of kBlockPoints, to `end`, another or the end
-  // of all, are blocks, and records no more. Threads may do so with different ones.
+  // Converts the records [begin, end) to blocks in place; they can no longer be read as records.
+  // `begin` is a multiple of kBlockPoints; `end` is a multiple or the end of the store. Threads may
+  // convert disjoint ranges concurrently.
   void BecomeBlocks(std::size_t begin, std::size_t end) {
     Record records[kBlockPoints];
     for (; begin < end; begin += kBlockPoints) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// EntryGrid: choosing the size of the cubes, and asking the tree for the block near each.
+// EntryGrid: chooses the cell size and asks the BVH for the block near each cell's centre.
 #include "core/spatial/entry_grid.h"
 
 #include <cmath>
@@ -14,7 +14,8 @@ EntryGrid::EntryGrid(const PointTreeView& view, std::size_t cells, ThreadPool& t
   const Vector3 size = bounds.Diagonal();
   const Real longest = MaxComponent(size);
   origin_ = bounds.min;
-  // Cubes along the longest side: the most that are not too many together.
+  // Finds the largest number of cells along the longest side for which the total is at most
+  // `cells`.
   const auto countsFor = [&](std::uint32_t along) {
     std::size_t total = 1;
     for (int axis = 0; axis < 3; ++axis) {

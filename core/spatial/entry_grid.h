@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// EntryGrid: space cut into cubes, for each of which a block of points near its middle is known:
-// where a search for the closest point begins. Only how long a search takes depends on it.
+// EntryGrid divides space into cubic cells and stores for each a block of points near its centre. A
+// search for the closest point begins at that block. The grid affects the time of a search only,
+// never its result.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +17,11 @@ struct PointTreeView;
 
 class EntryGrid {
  public:
-  EntryGrid() = default;  // without cells
-  // At most about `cells` cells over the points of the view, and at least one where there is one.
+  EntryGrid() = default;  // no cells
+  // Makes at most `cells` cells over the points of the view, but at least one if there are points.
   EntryGrid(const PointTreeView& view, std::size_t cells, ThreadPool& threads);
 
-  // Places outside of the grid count as its rim. p must be finite.
+  // Positions outside the grid are clamped to its border cells. p must be finite.
   std::uint32_t BlockNear(const Point3& p) const {
     const auto along = [this](Real offset, std::uint32_t count) {
       const Real at = std::min(std::max(offset * scale_, Real(0)), Real(count - 1));
@@ -35,7 +36,7 @@ class EntryGrid {
 
  private:
   Point3 origin_;
-  Real scale_ = 0;  // cells for each unit of length
+  Real scale_ = 0;  // cells per unit of length
   std::uint32_t counts_[3] = {0, 0, 0};
   std::vector<std::uint32_t> blocks_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Points in blocks of sixteen, one coordinate after the other, so that a block's distances are
-// computed several at a time. Each has a unit direction: where a photon came from, or the normal of
-// what lies there.
+// PointBlock stores sixteen oriented points as a structure of arrays, so that SIMD instructions
+// compute several distances at a time. Each point has a unit direction: the direction towards a
+// photon's origin, or the surface normal of a radiance photon.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ struct OrientedPoint {
   std::uint32_t direction = 0;  // EncodeOctahedral
 };
 
-// Sources of other things that belong to points derive from it. Aligned as a row is long: a block
-// then takes the room of its sixteen records, whatever Real is. Where there are fewer than sixteen
-// points, the last one is repeated: searches know how many there are, and compute with nothing but
-// finite numbers.
+// Blocks with further data per point derive from this struct. The alignment is the size of one row,
+// so that a block is exactly as large as its sixteen records, in single and in double precision. A
+// block with fewer than sixteen points repeats the last one, so that all lanes hold finite numbers.
+// Searches mask the padding lanes by the number of points.
 struct alignas(kBlockPoints * sizeof(Real)) PointBlock {
   using Record = OrientedPoint;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PointBvh: building, from the blocks upwards.
+// PointBvh: construction, from the blocks upwards.
 #include "core/spatial/point_bvh.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PointBvh: bounding boxes over blocks of points, sixteen to a node, level upon level. Its shape
-// follows from the number of blocks alone: child i of node n is node 16 n + i of the level below,
-// and at the lowest level block 16 n + i. The searches (nearest_search.h) walk it.
+// PointBvh is an implicit 16-wide hierarchy of bounding boxes over blocks of points. Child i of
+// node n is node 16 n + i of the level below, or block 16 n + i at the lowest level. Its shape
+// follows from the number of blocks alone. The searches in nearest_search.h traverse it.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace exphoton {
 
 inline constexpr std::uint32_t kBoxChildren = 16;
 
-// The bounds of sixteen children. Where there are fewer, the last one is repeated (PointBlock).
+// The bounds of sixteen children. A node with fewer children repeats the last one (PointBlock).
 struct alignas(64) BoxNode {
   Real low[3][kBoxChildren], high[3][kBoxChildren];
 
@@ -29,8 +29,8 @@ class PointBvh {
   static constexpr int kMaxLevels = 8;
   static constexpr std::size_t kMaxPoints = std::size_t(1) << 31;
 
-  PointBvh() = default;  // of no points
-  // bounds[i]: of block i.
+  PointBvh() = default;  // no points
+  // bounds[i] is the bounding box of block i.
   explicit PointBvh(const std::vector<Bounds3>& bounds);
 
   int Levels() const { return int(levels_.size()); }

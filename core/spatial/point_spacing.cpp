@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Measuring how densely points lie: first guesses from boxes, then searches that begin with them.
+// Estimates the point density: bounding boxes give first guesses, and k-NN queries refine them.
 #include "core/spatial/point_spacing.h"
 
 #include <algorithm>
@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::uint32_t kRunBlocks = PointTreeView::kSpacingPoints / kBlockPoints;
 constexpr std::uint32_t kNeighbours = 32;
-// Of the squared size of all: less is not told apart, and searches never begin with nothing.
+// Lower bound of spacing2, relative to the squared diagonal of all points. It keeps the first
+// search radius above 0.
 constexpr Real kLeast = Real(1) / Real(std::uint64_t(1) << 40);
 
 Bounds3 BoundsOfRun(const PointTreeView& view, std::uint32_t run) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// How densely points lie, measured at every few of them: where searches for the nearest begin.
+// MeasureSpacing2 estimates the local point density, from which k-NN queries choose their first
+// radius.
 #pragma once
 
 #include <vector>
@@ -9,8 +10,8 @@
 
 namespace exphoton {
 
-// For each run of PointTreeView::kSpacingPoints points of the view (whose own spacing does not
-// count) the squared radius round the middle one in which one point is to be expected.
+// Returns for each run of PointTreeView::kSpacingPoints points the squared radius round the run's
+// middle point that is expected to contain one point. The spacing2 of the view is ignored.
 std::vector<Real> MeasureSpacing2(PointTreeView view, ThreadPool& threads);
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PointTree: points in blocks, with whatever else the kind of block holds, under a tree of boxes:
-// ready to be searched.
+// PointTree stores blocks of points and the BVH over them, ready for searches. A block type may
+// hold further data per point.
 #pragma once
 
 #include <stdexcept>
@@ -15,21 +15,23 @@ template <class Block>
 class PointTree {
  public:
   using Record = typename Block::Record;
-  // Memory for each point beside its record: boxes, a sixteenth more for those above.
+  // Memory per point: its share of a block and of the BVH. The factor 16/15 sums the nodes of all
+  // levels.
   static constexpr double kBytesPerPoint =
       double(sizeof(Block)) / kBlockPoints +
       double(sizeof(BoxNode)) / (kBlockPoints * kBoxChildren) * 16 / 15;
 
-  PointTree() = default;  // no points: nothing is near
-  // Takes the records, whose positions must be finite, and sorts them. Throws std::length_error
-  // above PointBvh::kMaxPoints.
+  PointTree() = default;  // no points: searches find nothing
+  // Takes the records and sorts them. Positions must be finite. Throws std::length_error above
+  // PointBvh::kMaxPoints.
   PointTree(BlockStore<Block> records, ThreadPool& threads)
       : PointTree(std::move(MakeAll({&records, 1}, threads).front())) {}
-  // As many trees, at once: threads that one of them leaves idle work at another.
+  // Builds one tree per store. The trees are built together, so that threads without work in one
+  // tree help with another.
   static std::vector<PointTree> MakeAll(std::span<BlockStore<Block>> stores, ThreadPool& threads) {
     std::vector<PointTree> trees(stores.size());
     std::vector<std::span<Record>> sets;
-    std::vector<std::vector<Bounds3>> bounds;  // of the blocks
+    std::vector<std::vector<Bounds3>> bounds;  // bounding boxes of the blocks
     for (std::size_t i = 0; i < stores.size(); ++i) {
       if (stores[i].Size() > PointBvh::kMaxPoints)
         throw std::length_error("too many points for one tree");
@@ -37,7 +39,7 @@ class PointTree {
       sets.push_back(trees[i].store_.Records());
       bounds.emplace_back((trees[i].Size() + kBlockPoints - 1) / kBlockPoints);
     }
-    // While they are in the cache.
+    // Runs right after sorting, while the records are in the CPU cache.
     const auto finish = [&](std::span<Record> records, std::size_t set, std::size_t begin) {
       for (std::size_t i = 0; i < records.size(); i += kBlockPoints) {
         Bounds3 ofBlock;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RecordStore: a growing array of plain records that, unlike a vector, does not write to what it
-// grows by: threads fill it, and so it is they who first touch it.
+// RecordStore is a growing array of trivially copyable records. Unlike std::vector, it leaves new
+// records uninitialised, so that the threads that fill them are the first to touch their memory.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ template <class Record>
 class RecordStore {
  public:
   static_assert(std::is_trivially_copyable_v<Record>);
-  // Of the first record: a line of the cache, two in double.
+  // Alignment of the first record: 64 bytes (one cache line), or 128 bytes if Real is double.
   static constexpr std::size_t kAlignment = 16 * sizeof(Real);
 
   RecordStore() = default;
@@ -43,7 +43,7 @@ class RecordStore {
     Resize(count_ + records.size());
     if (!records.empty()) std::memcpy(memory_.get() + before, records.data(), records.size_bytes());
   }
-  // Records beyond those that there were are whatever memory holds: to be written before read.
+  // New records are uninitialised and must be written before they are read.
   void Resize(std::size_t count) {
     if (count > capacity_) Reserve(std::max(2 * capacity_, count));
     count_ = count;
@@ -59,7 +59,7 @@ class RecordStore {
   }
 
  private:
-  // There is memory for a multiple of so many.
+  // The capacity is a multiple of this.
   static constexpr std::size_t kUnit = 16;
 
   struct Free {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// DirectLighting: the two estimators of one light's share, and the sum over the lights. The same
-// lobe mask serves f, Pdf and Sample, or the weights would not add up to 1.
+// DirectLighting: light sampling and BSDF sampling for one light, and the sum over all lights. f,
+// Pdf and Sample must use the same lobe mask, or the MIS weights do not sum to 1.
 #include "core/transport/direct_lighting.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr LobeSet kLobes = LobeSet::NonSpecular;
 
-// A direction sampled from the BSDF that happens to meet the light.
+// Returns the MIS-weighted contribution of one BSDF sample; 0 if it misses the light.
 Spectrum FromBsdfSample(const ShadingPoint& point, const Light& light,
                         const DirectLightingVariates& sample, LiContext& context) {
   const auto scattered = point.bsdf.Sample(point.Wo(), sample.bsdf, sample.bsdfLobe, kLobes);
@@ -61,7 +61,7 @@ void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
     const Light& light = *scene.Lights()[i];
     if (light.IsProvablyBlack()) continue;
     LightArrays& arrays = arrays_[i];
-    // Every sample of a delta light is the same one.
+    // All samples of a delta light are equal.
     arrays.count = light.IsDelta() ? 1 : std::max(1, sampler.RoundCount(light.SampleCount()));
     if (light.IsDelta()) continue;
     arrays.light2D = layout->Request2D(arrays.count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// DirectLighting: light that reaches a surface straight from the lights, by shadow rays and BSDF
-// samples combined with the power heuristic (Veach 1997, chapter 9). Serves every integrator.
+// DirectLighting estimates the direct light at a surface by next event estimation. It combines
+// light samples and BSDF samples by the power heuristic (Veach 1997, chapter 9). All integrators
+// use it.
 #pragma once
 
 #include <limits>
@@ -13,28 +14,29 @@
 
 namespace exphoton {
 
-// The random numbers of one estimate.
+// The random numbers of one estimate, uniform in [0,1).
 struct DirectLightingVariates {
-  Point2 light;        // point on the light
+  Point2 light;        // position on the light
   Real lightPart = 0;  // part of the light
-  Point2 bsdf;         // direction
+  Point2 bsdf;         // BSDF direction
   Real bsdfLobe = 0;
 };
 
-// One light's contribution to the non-specular lobes, one light sample and one BSDF sample.
-// Delta lights take no BSDF sample. Black lights give 0 without a ray.
+// Estimates the contribution of one light to the non-specular lobes, with one light sample and one
+// BSDF sample. Delta lights take no BSDF sample. Black lights return 0 without tracing a ray.
 Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
                         const DirectLightingVariates& sample, LiContext& context);
 
-// Sums over all lights, each with its own number of samples, from arrays of the sampler. Where more
-// than mostLights are not black, so many samples of lights chosen by a tree stand for the sum.
+// Sums the direct light of all lights; each light has its own number of samples from the sampler's
+// arrays. If more than mostLights lights are not black, mostLights light samples from the light
+// tree estimate the sum instead (ManyLights).
 class DirectLighting {
  public:
   explicit DirectLighting(int mostLights = std::numeric_limits<int>::max())
       : mostLights_(mostLights) {}
 
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout);
-  // Non-specular lobes only; 0 for a surface that has none.
+  // Covers the non-specular lobes only. Returns 0 for a surface without such lobes.
   Spectrum AllLights(const ShadingPoint& point, LiContext& context) const;
 
  private:
@@ -43,8 +45,8 @@ class DirectLighting {
     int light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
   int mostLights_;
-  std::vector<LightArrays> arrays_;  // one a light; count 0 for black lights
-  std::optional<ManyLights> many_;   // instead of the arrays
+  std::vector<LightArrays> arrays_;  // per light; count is 0 for black lights
+  std::optional<ManyLights> many_;   // replaces the arrays
 };
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SurfaceIntegrator: the interface of light transport algorithms (plugins), and the contexts that
-// the renderer hands them. One object serves all threads: Li is const.
+// SurfaceIntegrator is the interface of light transport algorithms (plugins). The contexts hold the
+// data that the renderer passes to them. All threads share one integrator, so Li is const.
 #pragma once
 
 #include <atomic>
@@ -26,44 +26,45 @@ class ThreadPool;
 class ProgressReporter;
 class VolumeIntegrator;
 
-// Thrown by Preprocess where it was asked to stop; the renderer catches it.
+// Preprocess throws this when a stop is requested. The renderer catches it.
 struct PreprocessStopped {};
 
-// What Preprocess works with.
+// The data that the renderer passes to Preprocess.
 struct PreprocessContext {
   ThreadPool& threads;
   std::uint64_t seed = 0;
   Log& log;
-  ProgressReporter& progress;  // one bar a phase
+  ProgressReporter& progress;  // one bar per phase
   Statistics& statistics;
-  bool isStrict = false;           // what is not finite ends the render: throw Error(Internal)
-  const Camera* camera = nullptr;  // for what depends on the view; null: nothing may
-  Point2i resolution;              // of the full image, whatever part of it is rendered
-  const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
-  const std::atomic<bool>* stop = nullptr;   // set from outside; null: cannot be stopped
+  bool isStrict = false;                     // if true, a non-finite value throws Error(Internal)
+  const Camera* camera = nullptr;            // for view-dependent work; null: no such work
+  Point2i resolution;                        // of the full image, regardless of the crop window
+  const VolumeIntegrator* volume = nullptr;  // in-scattered and emitted light of media; null: none
+  const std::atomic<bool>* stop = nullptr;   // set externally; null: cannot be stopped
 
-  // To be called now and then by long work. Throws PreprocessStopped.
+  // Long work must call this regularly. Throws PreprocessStopped.
   void CheckStop() const {
     if (stop && stop->load(std::memory_order_relaxed)) throw PreprocessStopped();
   }
 };
 
-// What one camera sample works with; lives on the stack of the thread that renders it.
+// The data of one camera sample. It lives on the stack of the rendering thread.
 struct LiContext {
   const Scene& scene;
   const CameraSamples& samples;
-  Arena& arena;       // reset by the renderer after each camera sample
-  RayCounters& rays;  // this thread's
-  std::uint64_t key;  // of (seed, pixel, sample index)
-  Real alpha = 1;     // set to 0 by Li where the camera ray escapes and sees nothing
-  // Where Li leaves what it says of layers besides the radiance; null where no layer was asked for.
+  Arena& arena;       // the renderer resets it before each camera sample
+  RayCounters& rays;  // of this thread
+  std::uint64_t key;  // hash of (seed, pixel, sample index)
+  Real alpha = 1;     // Li sets it to 0 if the camera ray escapes and sees no light
+  // Li writes its AOVs here. Null if no AOV is requested.
   AovSample* aovs = nullptr;
-  PixelState* notes = nullptr;               // of the pixel; null: nothing is kept
-  ThreadState* threadState = nullptr;        // of this thread; null: nothing is kept
-  const VolumeIntegrator* volume = nullptr;  // light that media add; null: none
-  std::uint64_t mediaSegments = 0;           // stretches of rays through media so far
+  PixelState* notes = nullptr;               // of the pixel; null: no state is kept
+  ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
+  const VolumeIntegrator* volume = nullptr;  // light from media; null: none
+  std::uint64_t mediaSegments = 0;           // ray segments through media so far
 
-  // Random numbers for one purpose (`stream`: a constant of the integrator's) at this sample.
+  // Returns random numbers for one purpose of this sample. `stream` is a constant that the
+  // integrator chooses for the purpose.
   RandomStream Stream(std::uint64_t stream) const { return RandomStream(HashKey({key, stream})); }
 
   std::optional<SurfaceInteraction> Intersect(const RayDifferential& ray, RayKind kind) {
@@ -78,49 +79,49 @@ struct LiContext {
     rays.Count(RayKind::Shadow);
     return scene.Occluded(ray);
   }
-  // What part of the light gets through along a shadow ray: 0 where a surface blocks it.
+  // Returns the transmittance along a shadow ray; 0 if a surface blocks it.
   Spectrum Unoccluded(const Ray& ray) {
     return Occluded(ray) ? Spectrum() : scene.Transmittance(ray);
   }
 };
 
-// A photon that an integrator has stored, for people to look at.
+// A stored photon, for inspection by the user.
 struct StoredPhoton {
-  std::string map;  // "indirect"
+  std::string map;  // for example "indirect"
   Point3 p;
-  Vector3 wi;  // where it came from
+  Vector3 wi;  // unit direction towards its origin
   Spectrum power;
-  Real distance = 0;  // from the point that was asked about
+  Real distance = 0;  // from the query point
 };
 
 class SurfaceIntegrator {
  public:
   virtual ~SurfaceIntegrator() = default;
 
-  // Work before the first camera ray (photon maps). Called again, with another seed, for each of
-  // several independent passes over the image: what it made before is to be replaced.
+  // Does the work before the first camera ray, such as photon maps. The renderer calls it again
+  // with another seed for each independent pass over the image. Each call replaces earlier results.
   virtual void Preprocess(const Scene& scene, PreprocessContext& context) {
     (void)scene, (void)context;
   }
-  // Says which sample arrays Li wants. Idempotent: may be called any number of times, each time
-  // with a fresh layout.
+  // Requests the sample arrays that Li needs. It is idempotent: it may be called any number of
+  // times, each time with a fresh layout.
   virtual void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) {
     (void)scene, (void)sampler, (void)layout;
   }
-  // What it will compute for this scene, one line a thing ("photons       100000 indirect"), for
+  // Describes the work for this scene in lines such as "photons       100000 indirect", for
   // `exphoton explain`.
   virtual std::vector<std::string> Explain(const Scene& scene) const {
     (void)scene;
     return {};
   }
-  // The layers that Li fills where LiContext::layers is there. Those of kRendererLayers need no
-  // integrator. Light layers must sum to what Li returns, to rounding.
+  // Returns the AOVs that Li fills if LiContext::aovs is not null. The renderer itself fills
+  // kRendererLayers. The light AOVs must sum to the result of Li, up to rounding.
   virtual AovSet Aovs() const { return {}; }
-  // Radiance arriving along the camera ray.
+  // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 
-  // The photons of a map ("direct", "caustic" or "indirect") nearest to a point, nearest first,
-  // after Preprocess. Empty where there are none.
+  // Returns the photons nearest to p in a map ("direct", "caustic" or "indirect"), nearest first.
+  // The result is empty if there are none. Preprocess must have run.
   virtual std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
                                                 int count) const {
     (void)p, (void)map, (void)count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SampledLight: a shadow ray only where something would come of it.
+// SampledLight: a shadow ray is traced only if its contribution can be non-zero.
 #include "core/transport/light_sample.h"
 
 #include "core/math/sampling/mis.h"

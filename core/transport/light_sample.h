@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SampledLight: light that reaches a point from one sampled place on one light, weighted against
-// samples of the BSDF by the power heuristic (Veach 1997, section 9.2). What every estimate of
-// direct light has in common.
+// SampledLight is a sampled point on a chosen light. FromLightSample returns its MIS-weighted
+// contribution, with the power heuristic against BSDF samples (Veach 1997, section 9.2). All
+// estimators of direct light share this code.
 #pragma once
 
 #include "core/transport/integrator.h"
@@ -11,18 +11,18 @@ namespace exphoton {
 
 struct SampledLight {
   const Light* light;
-  Real probability = 1;  // with which this light was chosen among others
-  Point2 place;          // uniform variates: where on the light
-  Real part = 0;         // uniform: on which of its parts
+  Real probability = 1;  // probability of choosing this light
+  Point2 place;          // uniform in [0,1)^2: position on the light
+  Real part = 0;         // uniform in [0,1): part of the light
 };
 
-// How many samples of each technique share the light; a delta light has no other technique.
+// The number of samples of each technique. A delta light has light samples only.
 struct TechniqueCounts {
   int light = 1, bsdf = 1;
 };
 
-// f L |cos| weight / (probability pdf): of `lobes` alone, which those of the BSDF samples must be.
-// To be divided by counts.light.
+// Returns f L |cos| weight / (probability pdf) for `lobes` only. The BSDF samples must use the same
+// lobes. The caller divides by counts.light.
 Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
                          TechniqueCounts counts, LobeSet lobes, LiContext& context);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightSampler: the number of lights decides which of the two methods serves.
+// LightSampler: the number of lights decides between power sampling and the light tree.
 #include "core/transport/light_sampler.h"
 
 namespace exphoton {
 namespace {
 
 constexpr double kUniformShare = 0.5;
-// With fewer lights, the better choices of the tree are not worth the time of its walk.
+// With fewer lights, the light tree's better choices do not repay the time of its traversal.
 constexpr int kManyLights = 16;
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightSampler: chooses one light for a point, and states the probability of that choice. A few
-// lights are chosen by power alone; many by the light tree, which also knows distances.
+// LightSampler chooses one light for a shading point and returns the probability of the choice. It
+// samples few lights by power. It samples many lights by the light tree, which also considers
+// distance.
 #pragma once
 
 #include <unordered_map>
@@ -14,7 +15,7 @@ namespace exphoton {
 class LightSampler {
  public:
   LightSampler() = default;  // no light
-  // The scene must outlive this. Half of the choices by power are uniform.
+  // The scene must outlive this object. Power sampling chooses uniformly in half of the cases.
   explicit LightSampler(const Scene& scene);
 
   bool IsEmpty() const { return lights_.IsEmpty(); }  // every light is black
@@ -23,7 +24,7 @@ class LightSampler {
     const auto choice = lights_.Sample(u);
     return {choice.light, choice.index, choice.probability};
   }
-  // The probability with which Sample chooses a light of the scene at p; 0 for a black one.
+  // Returns the probability that Sample chooses `light` at p; 0 for a black light.
   Real Probability(const Point3& p, const Light& light) const {
     const int index = indices_.at(&light);
     return tree_.IsEmpty() ? lights_.Probability(index) : tree_.Probability(p, index);
@@ -31,7 +32,7 @@ class LightSampler {
 
  private:
   LightDistribution lights_;
-  LightTree tree_;  // empty where lights are few
+  LightTree tree_;  // empty if there are few lights
   std::unordered_map<const Light*, int> indices_;
 };
 

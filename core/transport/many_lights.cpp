@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Two ways to find light at a point: towards lights that the tree chose, and where the BSDF points.
+// ManyLights: light samples from the light tree and BSDF samples, combined by MIS.
 #include "core/transport/many_lights.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 namespace exphoton {
 namespace {
 
-// Light samples for each BSDF sample: most lights among many are small.
+// The number of light samples per BSDF sample. BSDF samples rarely hit a light, because most lights
+// in a scene of many lights are small.
 constexpr int kLightsPerBsdf = 8;
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ManyLights: light that reaches a surface straight from the lights, where they are too many to
-// sample each: a few are chosen by the light tree for every point, and BSDF samples may meet any.
-// Both are combined with the power heuristic for several samples of each (Veach 1997, eq. 9.13).
-// The cost of a point does not depend on the number of lights, but for the logarithm in the tree.
+// ManyLights estimates the direct light of more lights than can be sampled individually. For each
+// shading point, the light tree chooses a few lights; BSDF samples may hit any light. The power
+// heuristic for several samples per technique combines both (Veach 1997, eq. 9.13). The cost of a
+// point grows only logarithmically with the number of lights.
 #pragma once
 
 #include <unordered_map>
@@ -15,14 +15,14 @@ namespace exphoton {
 
 class ManyLights {
  public:
-  // Asks for `count` samples of lights at a shading point.
+  // Requests `count` light samples per shading point.
   void RequestSamples(const Scene& scene, const Sampler& sampler, int count, SampleLayout* layout);
-  // Non-specular lobes only; 0 for a surface that has none.
+  // Covers the non-specular lobes only. Returns 0 for a surface without such lobes.
   Spectrum Estimate(const ShadingPoint& point, LiContext& context) const;
 
  private:
   Spectrum FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe, LiContext& context) const;
-  // Density per solid angle of one light sample making wi by that light.
+  // Returns the density per solid angle with which a light sample chooses `light` and direction wi.
   Real LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
                 const SurfacePoint* on) const;
 

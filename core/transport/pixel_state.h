@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PixelState: what an integrator keeps from one camera sample of a pixel for the next ones, whose
-// rays mostly see the same. The renderer forgets it with each pixel and pass, so that no pixel
-// depends on which were rendered before it. Nothing kept may depend on what a sample found its
-// radiance to be: the mean over samples would no longer be unbiased. One a thread.
+// PixelState keeps data of an integrator from one camera sample of a pixel to the next; such rays
+// mostly hit the same surface. The renderer resets it for each pixel and pass, so that no pixel
+// depends on other pixels. The data must not depend on the radiance of a sample, or the mean over
+// the samples would be biased. There is one object per thread.
 #pragma once
 
 #include "core/base/arena.h"
@@ -13,8 +13,8 @@ class PixelState {
  public:
   void Reset() { note_ = nullptr, arena_.Reset(); }
 
-  // The note of this pixel, a T() when it is first asked for. An integrator keeps one type only; it
-  // must hold nothing that needs a destructor.
+  // Returns the integrator's data of this pixel. The first call creates a T(). An integrator uses a
+  // single type T, which must be trivially destructible.
   template <class T>
   T& Note() {
     static_assert(std::is_trivially_destructible_v<T>);
@@ -24,7 +24,7 @@ class PixelState {
     }
     return *static_cast<T*>(note_);
   }
-  // Memory for what the note points to, after that of earlier calls was given back.
+  // Returns memory for data that the note points to. It frees the memory of earlier calls.
   Arena& FreshArena() {
     arena_.Rewind(mark_);
     return arena_;

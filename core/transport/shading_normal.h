@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The adjoint correction for shading normals: Veach 1997, section 5.3. Scattering with an
-// interpolated or bumped normal is not symmetric; photons carry this factor, camera paths do not.
+// ShadingNormalFactor is the adjoint correction for shading normals (Veach 1997, section 5.3).
+// Scattering with an interpolated or bumped normal is not symmetric. Photon paths apply this
+// factor; camera paths do not.
 #pragma once
 
 #include "core/math/vec.h"
 
 namespace exphoton {
 
-// |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|), wo towards where the photon came from, wi where it goes.
-// 0 where a cosine in the denominator is 0; never above kMaxShadingNormalFactor.
+// Returns |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|). wo points to the photon's previous vertex, wi to its
+// next. Returns 0 if a cosine in the denominator is 0, and at most kMaxShadingNormalFactor.
 inline constexpr Real kMaxShadingNormalFactor = 100;
 inline Real ShadingNormalFactor(const Vector3& wo, const Vector3& wi, const Normal3& ng,
                                 const Normal3& ns) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// MakeShadingPoint: from a hit to a BSDF.
+// MakeShadingPoint: evaluates the material of a hit.
 #include "core/transport/shading_point.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ShadingPoint: a hit with its BSDF, ready to be shaded. What Le, direct lighting, gathering and
-// specular bounces all take.
+// ShadingPoint is a hit with its BSDF. Emission, direct lighting, final gathering and specular
+// bounces take it as input.
 #pragma once
 
 #include "core/geometry/interaction.h"
@@ -13,18 +13,18 @@ namespace exphoton {
 struct ShadingPoint {
   SurfaceInteraction surface;
   Bsdf bsdf;
-  RayDifferential ray;  // that hit it
-  int depth = 0;        // specular bounces between the camera and here
+  RayDifferential ray;  // the ray that hit the surface
+  int depth = 0;        // number of specular bounces since the camera
 
   const Vector3& Wo() const { return surface.wo; }
-  // Radiance that the surface itself emits towards the ray's origin.
+  // Returns the radiance that the surface emits towards the ray's origin.
   Spectrum Le() const {
     if (!surface.areaLight) return {};
     return surface.areaLight->L(surface, surface.uv, surface.wo);
   }
 };
 
-// Evaluates the material at a hit. Ray differentials are computed only if the material asks.
+// Evaluates the material at a hit. Ray differentials are computed only if the material needs them.
 ShadingPoint MakeShadingPoint(const SurfaceInteraction& surface, const RayDifferential& ray,
                               int depth, TransportMode mode, Arena* arena);
 

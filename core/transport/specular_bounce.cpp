@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SampleSpecularRay: one specular lobe's ray, with the footprint of the pixel carried over the
-// bounce. Source: Igehy 1999, "Tracing Ray Differentials", section 3.
+// SampleSpecularRay: samples the ray of one specular lobe and propagates its ray differentials.
+// Source: Igehy 1999, "Tracing Ray Differentials", section 3.
 #include "core/transport/specular_bounce.h"
 
 namespace exphoton {
 namespace {
 
-// The bounce whose derivative is wanted; n is on wo's side.
+// The bounce to differentiate. n is on the side of wo.
 struct Bounce {
   Vector3 wo, wi;
   Normal3 n;
-  Real eta;  // index on wo's side over that on wi's side; 0 for a reflection
+  Real eta;  // refractive index on wo's side over the index on wi's side; 0 for a reflection
 };
 
-// Change of wi for a change dwo of wo and dn of n.
+// Returns the change of wi for a change dwo of wo and dn of n.
 Vector3 DifferentialDirection(const Bounce& b, const Vector3& dwo, const Normal3& dn) {
   const Real cosO = Dot(b.wo, b.n);
   const Real dCosO = Dot(dwo, b.n) + Dot(b.wo, dn);
@@ -27,7 +27,7 @@ Vector3 DifferentialDirection(const Bounce& b, const Vector3& dwo, const Normal3
 
 }  // namespace
 
-// Grazing refraction divides by 0: such neighbours are dropped.
+// Grazing refraction divides by 0. Non-finite differentials are dropped.
 void AddSpecularDifferentials(const ShadingPoint& point, const BsdfSample& sample,
                               RayDifferential* ray) {
   if (!point.ray.hasDifferentials) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Specular bounces: the rays that continue at specular lobes, with differentials for the reflected
-// and refracted footprint (Igehy 1999). What arrives along them is the caller's affair.
+// Specular bounces: the rays that continue at specular lobes, with ray differentials for the
+// reflected and refracted footprint (Igehy 1999). The caller supplies the radiance along each ray.
 #pragma once
 
 #include <optional>
@@ -17,22 +17,23 @@ struct SpecularRay {
   bool isTransmission = false;
 };
 
-// Gives `ray`, which leaves the point by a specular `sample`, the neighbours that the bounce makes
-// of those of point.ray; none where they are unknown or not finite.
+// Sets the differentials of `ray`, which leaves the point by a specular `sample`. They follow from
+// the differentials of point.ray. `ray` gets none if they are unknown or not finite.
 void AddSpecularDifferentials(const ShadingPoint& point, const BsdfSample& sample,
                               RayDifferential* ray);
 
-// The ray of one specular lobe among `lobes` (specular reflection or transmission, or both), picked
-// uniformly by uLobe; nullopt where there is none or it carries nothing.
+// Samples the ray of one specular lobe among `lobes` (reflection, transmission or both); uLobe
+// chooses uniformly. Returns nullopt if there is no such lobe or its throughput is black or not
+// finite.
 std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet lobes, Point2 u,
                                              Real uLobe);
 
-// Beyond this depth one of the two lobes is followed, picked at random, so that the rays of a deep
-// recursion stay countable.
+// From this depth on, one randomly chosen specular lobe is followed instead of both. This bounds
+// the number of rays of a deep recursion.
 inline constexpr int kMaxSplitDepth = 8;
 
-// Sum over reflection and transmission of throughput * incident(ray): both are followed.
-template <class Incident>  // Spectrum(const SpecularRay&)
+// Sums throughput * incident(ray) over specular reflection and transmission.
+template <class Incident>  // signature: Spectrum(const SpecularRay&)
 Spectrum SpecularBounces(const ShadingPoint& point, RandomStream random, Incident&& incident) {
   constexpr LobeSet kTogether[] = {LobeSet::Specular};
   constexpr LobeSet kSplit[] = {LobeSet::SpecularReflection, LobeSet::SpecularTransmission};

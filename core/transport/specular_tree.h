@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SpecularTree: the part that Whitted-style integrators share (Whitted 1980): follow a camera ray
-// to a surface, let the caller shade it, and add what arrives over its specular lobes, up to a
-// depth. Counts what that depth cuts, so that the render can say so. Fills the light layers that
-// are the tree's: what lies behind everything, and what arrives over specular lobes. Deep or large
-// trees end by Russian roulette (Arvo and Kirk 1990), which leaves the mean as it is.
+// SpecularTree is the recursion of Whitted-style integrators (Whitted 1980). It traces a camera
+// ray, lets the caller shade the hit, and adds the radiance over specular lobes up to a maximum
+// depth. It counts the throughput that the depth limit cuts, so that the renderer can warn. It
+// fills the emission AOV of escaped rays and the specular AOV. Russian roulette ends deep or large
+// trees (Arvo and Kirk 1990), which keeps the mean unchanged.
 #pragma once
 
 #include "core/transport/specular_bounce.h"
@@ -11,11 +11,11 @@
 
 namespace exphoton {
 
-// What leaves a point by emission and non-specular lobes, term by term.
+// The radiance that leaves a point by emission and non-specular lobes, by component.
 struct SurfaceLight {
   Spectrum emission, direct, caustic, indirect;
 
-  // Their sum; the camera's own surface leaves them in the layers too.
+  // Returns the sum of the components. At the first hit, it also writes them to the AOVs.
   Spectrum Collect(const ShadingPoint& point, LiContext& context) const {
     if (context.aovs && point.depth == 0) {
       context.aovs->emission = emission;
@@ -31,8 +31,9 @@ class SpecularTree {
  public:
   SpecularTree(int maxDepth, LiContext& context) : maxDepth_(maxDepth), context_(context) {}
 
-  // Radiance along the ray: shade(point), for Spectrum shade(const ShadingPoint&), is what leaves a
-  // point by emission and its non-specular lobes; at depth 0 it fills their light layers.
+  // Returns the radiance along the ray. shade(point) has the signature Spectrum(const
+  // ShadingPoint&). It returns the radiance that leaves a point by emission and non-specular lobes.
+  // At depth 0 it also fills the corresponding light AOVs.
   template <class Shade>
   Spectrum Radiance(const RayDifferential& ray, const Shade& shade) {
     return Along(ray, Spectrum(1), 0, shade);
@@ -40,20 +41,20 @@ class SpecularTree {
 
  private:
   static constexpr std::uint64_t kStream = 0x73706563ull, kRouletteStream = 0x726f756cull;
-  // Trees within both bounds have no roulette.
+  // Trees within both limits use no Russian roulette.
   static constexpr int kPlainDepth = 5;
   static constexpr std::uint64_t kPlainRays = 64;
 
-  // The probability with which a ray is followed that carries `weight` to the camera. Weights above
-  // .1 survive, so that little noise is added. Where a material reflects and transmits without
-  // loss, 10 rays of each depth are expected at most; where it does so with gain, their number
-  // raises the bound.
+  // Returns the Russian roulette probability of a ray whose throughput to the camera is `weight`.
+  // Weights above 0.1 survive, so that little noise is added. If a material reflects and transmits
+  // without loss, at most 10 rays of each depth are expected. If it amplifies light, the growing
+  // number of rays raises the threshold.
   Real Survival(const Spectrum& weight, int depth) {
     ++rays_;
     if (depth <= kPlainDepth && rays_ <= kPlainRays) return 1;
     constexpr Real kSafeWeight = Real(.1);
     const Real excess = std::max(Real(rays_) / Real(kPlainRays), Real(1));
-    // Not below 1e-3: a rare survivor must not outshine its pixel.
+    // At least 1e-3, so that a rare survivor does not become a firefly.
     return std::clamp(weight.MaxComponent() / (kSafeWeight * excess), Real(1e-3), Real(1));
   }
 
@@ -74,7 +75,8 @@ class SpecularTree {
     return media.transmittance * light + media.radiance;
   }
 
-  // What media between the camera and its surface do to the layers; their own light is emission.
+  // Applies the media between the camera and the first hit to the AOVs. Light from the media counts
+  // as emission.
   static void Cover(const MediaSegment& media, AovSample* aovs) {
     for (Spectrum* aov :
          {&aovs->emission, &aovs->direct, &aovs->caustic, &aovs->indirect, &aovs->specular})
@@ -82,7 +84,7 @@ class SpecularTree {
     aovs->emission += media.radiance;
   }
 
-  // Radiance leaving the hit towards the ray's origin.
+  // Returns the radiance leaving the hit towards the ray's origin.
   template <class Shade>
   Spectrum Leaving(const SurfaceInteraction& hit, const RayDifferential& ray,
                    const Spectrum& throughput, int depth, const Shade& shade) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ThreadState: what an integrator keeps for all that one thread renders in a pass: things found
-// once and of use for other pixels. They must follow from the scene and from what Preprocess made
-// alone, so that it makes no difference which thread renders what, and in which order. One a
-// thread.
+// ThreadState keeps data of an integrator that one thread can reuse for other pixels of a pass,
+// such as a cache. The data must follow from the scene and the results of Preprocess alone. The
+// picture then does not depend on which thread renders which pixel, or in which order. There is one
+// object per thread.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ class ThreadState {
  public:
   void Reset() { note_.reset(); }
 
-  // The note of this pass, T(args...) when it is first asked for. An integrator keeps one type
-  // only.
+  // Returns the integrator's data of this pass. The first call creates a T(args...). An integrator
+  // uses a single type T.
   template <class T, class... Args>
   T& Note(Args&&... args) {
     if (!note_) note_ = std::make_shared<T>(std::forward<Args>(args)...);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What media do to one stretch of a path.
+// MarchMedia: transmittance and radiance of the media along one ray segment.
 #include "core/transport/volume_integrator.h"
 
 namespace exphoton {
@@ -10,7 +10,7 @@ MediaSegment MarchMedia(const Ray& ray, const Point3* end, LiContext& context) {
   stretch.d = NormalizeOr(ray.d, ray.d);
   stretch.tMax = end ? Distance(ray.o, *end) : kInfinity;
   MediaSegment segment{context.scene.Transmittance(stretch), {}};
-  // Each stretch of a path has its own numbers, so that they move nothing else.
+  // Each segment has its own random stream, so that media do not shift any other random numbers.
   RandomStream random = context.Stream(kMediaStream + context.mediaSegments++);
   if (context.volume) segment.radiance = context.volume->Li(stretch, context, random);
   return segment;

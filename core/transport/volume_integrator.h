@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// VolumeIntegrator: the interface of light that media add along a ray (plugins), and AlongMedia,
-// by which surface integrators ask what media do to a ray. Scenes without media pay one comparison.
+// VolumeIntegrator is the interface of algorithms for light that media add along a ray (plugins).
+// AlongMedia applies the media to a ray of a surface integrator. It costs scenes without media one
+// comparison.
 #pragma once
 
 #include "core/transport/integrator.h"
@@ -12,21 +13,22 @@ class VolumeIntegrator {
   virtual ~VolumeIntegrator() = default;
 
   virtual void Preprocess(const Scene& scene) { (void)scene; }
-  // Whether Li includes light that comes straight from a light and is scattered once.
+  // Returns whether Li includes single scattering of direct light.
   virtual bool ScattersLight() const { return false; }
-  // Radiance that the scene's media send along the ray to its origin from 0 < t < ray.tMax, what
-  // they absorb on the way taken off. ray.d is unit. `random`: of this stretch alone.
+  // Returns the radiance that reaches the ray's origin from the media in 0 < t < ray.tMax,
+  // attenuated by the media in between. ray.d has unit length. `random` belongs to this segment
+  // alone.
   virtual Spectrum Li(const Ray& ray, LiContext& context, RandomStream random) const = 0;
 };
 
-// What media do to a ray: light from its end arrives times the transmittance, plus radiance.
+// The effect of media on a ray: L_origin = transmittance * L_end + radiance.
 struct MediaSegment {
   Spectrum transmittance{1}, radiance;
 };
 
 MediaSegment MarchMedia(const Ray& ray, const Point3* end, LiContext& context);
 
-// `end`: where the ray ends; null: it escapes.
+// `end` is the end of the ray; null if the ray escapes.
 inline MediaSegment AlongMedia(const Ray& ray, const Point3* end, LiContext& context) {
   if (!context.scene.HasMedia()) [[likely]]
     return {};

@@ -38,10 +38,10 @@ bool GathersIndirectLight(const PhotonSettings& settings, const Scene& scene) {
 PhotonTargets ChooseTargets(const PhotonSettings& settings, const Scene& scene) {
   const ShowMap show = settings.show;
   const bool showsAll = show == ShowMap::Nothing || show == ShowMap::Radiance;
-  const bool gathers = GathersIndirectLight(settings, scene),
-             showsRadiance = show == ShowMap::Radiance;
+  const bool gathers = GathersIndirectLight(settings, scene);
+  const bool showsRadiance = show == ShowMap::Radiance;
   const bool hasIndirect = scene.Features().Needs(Feature::Indirect);
-  const bool hasLight = scene.ShiningLights() > 0;  // media fill the indirect map alone
+  const bool hasLight = scene.ShiningLights() > 0;  // media fill only the indirect map
   PhotonTargets targets;
   const bool hasCaustics = hasLight && scene.Features().Needs(Feature::Caustics) &&
                            scene.Features().Needs(Feature::Specular);

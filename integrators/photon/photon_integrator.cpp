@@ -18,10 +18,11 @@ namespace {
 // Empty where photons of distant lights start towards the whole scene.
 DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scene& scene,
                                       const PhotonTargets& targets, PreprocessContext& context) {
-  // Photons that are only a few times denser do not pay for weights that differ.
+  // A smaller gain in density does not make up for the less uniform photon weights.
   constexpr double kWorthwhileGain = 4;
-  // That start towards the smallest part of what is seen: many estimates' worth, so that no
-  // estimate sees their density change.
+  // On average at least this many photons of the smallest map start towards each bounding sphere.
+  // They are enough for many density estimates, so that the emission density hardly varies within
+  // one estimate.
   constexpr double kLeastPhotons = 2000;
   const auto& lights = scene.Lights();
   const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The shared parameter declarations of the photon integrators.
+// This file declares the parameters that the photon integrators share.
 #include "integrators/photon/photon_settings.h"
 
 namespace exphoton {

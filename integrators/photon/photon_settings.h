@@ -12,14 +12,14 @@
 namespace exphoton {
 
 enum class PhotonRoulette {
-  Luminance,     // survivors keep their luminance
-  MaxComponent,  // survivors keep their largest channel
-  Half,          // probability 1/2 after three bounces: weights vary
+  Luminance,     // survivors have the luminance from before the bounce
+  MaxComponent,  // survivors have the largest channel from before the bounce
+  Half,          // survival probability 1/2 after three bounces; weights vary
 };
 enum class GatherSampling { Photons, Bsdf };
 enum class DensityKernel { Constant, Simpson };
 enum class PhotonAiming {
-  Auto,  // where it makes photons many times denser on what is seen
+  Auto,  // on if photons become at least four times denser at visible points
   On,
   Off,
 };
@@ -27,14 +27,14 @@ enum class ShowMap { Nothing, Radiance, Direct, Caustic, Indirect };
 
 struct PhotonSettings {
   std::optional<std::int64_t> causticPhotons;  // absent: 20000
-  std::optional<std::int64_t> directPhotons;   // absent: as indirectPhotons
+  std::optional<std::int64_t> directPhotons;   // absent: same as indirectPhotons
   std::int64_t indirectPhotons = 100000;
   int nUsed = 50;
   int directLights = 64;
   int maxDepth = 5;
   bool finalGather = true;
   int finalGatherSamples = 32;
-  std::optional<Real> maxDist;  // absent: chosen from the photons
+  std::optional<Real> maxDist;  // absent: chosen from the photon density
   Real rrThreshold = 0;
   Real gatherAngle = 10;  // degrees
   int gatherPhotons = 50;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Notices, warnings and counters of the photon pass.
+// This file writes the notices, warnings and counters of the photon pass.
 #include "integrators/photon/photon_stats.h"
 
 #include <cmath>
@@ -11,13 +11,13 @@
 namespace exphoton {
 namespace {
 
-// Lights that get rows of their own in the table of counters, and notices.
+// Most lights that get rows in the table of counters, and most notices about lights.
 constexpr std::size_t kMostListedLights = 64;
 constexpr int kMostVainNotices = 5;
-// Fewer photons than this may miss a small scene by chance.
+// A light with fewer paths than this may miss a small scene by chance.
 constexpr std::int64_t kTellingShots = 1000;
 
-// Power that the depth limit may cut without a word.
+// Share of the emitted power that the depth limit may cut without a warning.
 constexpr double kSilentCut = 1e-3;
 
 template <class... Parts>
@@ -27,7 +27,7 @@ std::string Text(const Parts&... parts) {
   return out.str();
 }
 
-// "2 spot": counted from 1, in the order of the file.
+// Returns a name such as "2 spot". Lights are counted from 1 in file order.
 std::string LightName(const Scene& scene, std::size_t i) {
   const std::string& plugin = scene.OriginOfLight(i).plugin;
   return Text(i + 1, plugin.empty() ? "" : " ", plugin);
@@ -35,7 +35,7 @@ std::string LightName(const Scene& scene, std::size_t i) {
 
 bool HasShotInVain(const LightTally& light, const PhotonTargets& targets) {
   if (light.shot < kTellingShots || light.stored > 0) return false;
-  // A light without caustics is no news.
+  // If only caustic photons are wanted, a light without caustics is normal.
   return light.hit + light.passedBy == 0 || targets[PhotonKind::Direct] > 0 ||
          targets[PhotonKind::Indirect] > 0;
 }

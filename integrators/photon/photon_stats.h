@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What people are told of a photon pass: shortages, cut power, dropped photons, chosen radii, and
-// the counters of --stats.
+// These functions report on the photon pass: maps that were not filled, power cut by the depth
+// limit, dropped photons, chosen radii, and the counters of --stats.
 #pragma once
 
 #include "integrators/photon/maps/photon_map_set.h"
@@ -9,20 +9,20 @@
 
 namespace exphoton {
 
-// Caustic photons that the file asks for in so many words, where the plan has no caustics.
+// Logs a notice if the scene file sets causticphotons although feature culling excludes caustics.
 void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
                         const Scene& scene, Log& log);
-// Where photons of far lights are aimed.
+// Reports that photons of distant lights are targeted, and the gain.
 void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context);
-// That an aim would be worth its while where there is none.
+// Logs a notice that targeting is off although it would be worthwhile.
 void NoticeUnaimed(const DistantLightTargeting& aim, Log& log);
-// Once the photons are shot, while their buffers are still in the result.
+// To be called after tracing, while the result still holds the photon buffers.
 void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
                       const PhotonSettings& settings, PreprocessContext& context);
-// The table of photons by light, and the lights that shot in vain.
+// Reports the photons per light, and logs notices about lights whose photons were never stored.
 void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, const Scene& scene,
                   PreprocessContext& context);
-// Once the maps are built. radianceMap may be null.
+// To be called after the maps are built. radianceMap may be null.
 void ReportMaps(const PhotonMapSet& maps, const RadiancePhotonMap* radianceMap,
                 const PhotonSettings& settings, PreprocessContext& context);
 

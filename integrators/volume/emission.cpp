@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Volume integrator "emission": what media emit themselves; light that they scatter is lost.
+// The volume integrator "emission" computes the emission of media, but no scattering.
 #include "integrators/volume/common/march.h"
 
 namespace exphoton {

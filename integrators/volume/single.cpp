@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Volume integrator "single": what media emit, and light that comes straight from a light and is
-// scattered once. At each step one light is chosen by power and sampled at one point.
+// The volume integrator "single" computes emission of media and single scattering of direct light.
+// At each step it chooses one light by power (half of the choices are uniform) and samples one
+// point on it.
 #include "core/lights/light_distribution.h"
 #include "integrators/volume/common/march.h"
 
@@ -30,10 +31,10 @@ class SingleScattering final : public VolumeIntegrator {
  private:
   static constexpr double kUniformShare = 0.5;
 
-  // Sum over the media of scattering * phase, times the light that arrives from one light.
+  // Returns sigma_s * phase, summed over the media, times the light of one sampled light.
   Spectrum Scattered(const Point3& p, const Ray& ray, LiContext& context,
                      RandomStream* random) const {
-    // The same numbers whether they are needed or not: what follows does not move.
+    // Draw all numbers even if they are not needed, so that later steps always get the same ones.
     const Real uLight = random->Uniform(), uSubLight = random->Uniform(), u = random->Uniform();
     const Point2 uPoint{u, random->Uniform()};
     if (lights_.IsEmpty()) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The glossy coat that plastic, uber and translucent share: its roughness and its Fresnel term.
+// This header defines the glossy coat of plastic, uber and translucent: roughness and Fresnel term.
 #pragma once
 
 #include "core/scattering/lobes/microfacet.h"
@@ -7,8 +7,9 @@
 
 namespace exphoton {
 
-// The coat's boundary. Inverted: as pbrt 1 to 3 have it, from index 1.5 to 1, so that it reflects
-// totally beyond 41.8 degrees; pictures made with them depend on it. Physical: from 1 to 1.5.
+// CoatFresnel is the direction of the coat's boundary. Inverted goes from index 1.5 to 1, as in
+// pbrt 1 to 3, and reflects totally beyond 41.8 degrees; existing images depend on it. Physical
+// goes from 1 to 1.5.
 enum class CoatFresnel { Inverted, Physical };
 
 struct GlossSettings : SurfaceSettings {

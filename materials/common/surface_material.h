@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SurfaceMaterial: what all materials share: the bump map, colours read without NaN or negative
-// values, warnings of colours above 1, and the answers about lobes and differentials.
+// SurfaceMaterial is the base class of all materials. It applies the bump map, reads colours
+// without NaN or negative values, warns of colours above 1, and reports the possible lobes and the
+// need for ray differentials.
 #pragma once
 
 #include <string>
@@ -22,7 +23,7 @@ inline const ParamTable<SurfaceSettings>& SurfaceParameters() {
   return table;
 }
 
-// Positive and finite values as they are, above 1 too; everything else is 0.
+// Returns positive finite values unchanged, also above 1, and 0 for all other values.
 inline Real NonNegative(Real x) { return x > 0 && x < kInfinity ? x : 0; }
 inline Spectrum NonNegative(const Spectrum& s) {
   return {NonNegative(s.r), NonNegative(s.g), NonNegative(s.b)};
@@ -39,17 +40,17 @@ class SurfaceMaterial : public Material {
 
  protected:
   explicit SurfaceMaterial(const SurfaceSettings& settings) : bumpMap_(settings.bumpMap) {
-    // A constant displacement of a curved surface tilts nothing either.
+    // A constant displacement tilts no normal, even on a curved surface.
     if (bumpMap_ && bumpMap_->ConstantValue()) bumpMap_ = nullptr;
     needsDifferentials_ = bumpMap_ != nullptr;
   }
 
-  // For the constructor: a texture that Evaluate reads.
+  // Registers a texture that Evaluate reads. For constructors.
   template <class T>
   void Reads(const TexturePtr<T>& texture) {
     needsDifferentials_ = needsDifferentials_ || texture->IsFiltered();
   }
-  // A reflectance or transmittance: warns if it is known to create energy.
+  // Registers a reflectance or transmittance. Warns if it is constant and creates energy.
   void ReadsColor(const char* name, const TexturePtr<Spectrum>& color,
                   const MaterialContext& context) {
     Reads(color);
@@ -62,7 +63,7 @@ class SurfaceMaterial : public Material {
   }
   void MayHave(LobeSet lobe) { possible_ = possible_ | lobe; }
 
-  // First of Evaluate: bump mapping, then an empty BSDF in the frame it left.
+  // First step of Evaluate: applies the bump map and returns an empty BSDF in the resulting frame.
   Bsdf MakeBsdf(SurfaceInteraction* si) const {
     if (bumpMap_) ApplyBump(*bumpMap_, si);
     return Bsdf(*si);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Volume "exponential": density a exp(-b h) at height h above p0 along updir, as of air or ground
-// fog. Its integral along a ray is known: no marching.
+// The medium "exponential" has the density a exp(-b h) at height h above p0 along updir, like air
+// or ground fog. The integral along a ray has a closed form, so it needs no ray marching.
 #include "materials/media/common/box_medium.h"
 
 namespace exphoton {
@@ -30,7 +30,8 @@ class Exponential {
 
   double At(const Point3& p) const { return a_ * std::exp(-b_ * Height(p)); }
 
-  // With the exponent falling by x over the part: density at its beginning times (1 - e^-x) / x.
+  // Let the exponent fall by x over the part. The mean density is then the density at the beginning
+  // times (1 - e^-x) / x.
   double Integral(const Point3& o, const Vector3& d, Interval part) const {
     const double length = double(part.max) - double(part.min);
     const double slope =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Volume "homogeneous": the same everywhere in its box (fog, smoke, clear liquids).
+// The medium "homogeneous" has constant density in its box (fog, smoke, clear liquids).
 #include "materials/media/common/box_medium.h"
 
 namespace exphoton {

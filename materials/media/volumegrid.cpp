@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Volume "volumegrid": densities on a grid, trilinear between the middles of its cells. Along a ray
-// that is a cubic in each cell between middles, which two points integrate exactly (Gauss).
+// The medium "volumegrid" interpolates densities on a grid trilinearly between cell centres.
+// Between planes through cell centres the density along a ray is a cubic, which two-point Gauss
+// quadrature integrates exactly.
 #include <array>
 
 #include "materials/media/common/box_medium.h"
@@ -24,7 +25,7 @@ struct Settings : MediumSettings {
   }
 };
 
-constexpr int kMaxCells = 4096;  // an axis
+constexpr int kMaxCells = 4096;  // per axis
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
@@ -55,7 +56,7 @@ class Grid {
     }
     const double end = double(part.max);
     double sum = 0, t = double(part.min);
-    // One piece ends where the ray crosses the next plane through middles on any axis.
+    // A piece ends where the ray crosses the next plane through cell centres, on any axis.
     const int pieces = count_[0] + count_[1] + count_[2] + 6;
     for (int i = 0; i < pieces && t < end; ++i) {
       double next = end;
@@ -76,7 +77,7 @@ class Grid {
   }
 
  private:
-  // Cell 0 has its middle at 0.
+  // Returns a grid coordinate; the centre of cell 0 is at 0.
   double ToCells(const Point3& p, int axis) const {
     const double extent = double(box_.max[axis]) - double(box_.min[axis]);
     if (!(extent > 0)) return 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// bilerp: four values at the corners of the unit square, bilinear between (and beyond).
+// The texture "bilerp" interpolates bilinearly between four values at the corners of the unit
+// square, and extrapolates beyond them.
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// checkerboard: unit cells of two textures, in the plane or in space. Filtered by the exact mean
-// over a box, or by a few weighted samples of the pixel.
+// The texture "checkerboard" alternates two textures in unit cells, in the plane or in space. It is
+// filtered by the exact mean over a box, or by a few weighted samples of the pixel.
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {
@@ -30,14 +30,14 @@ const ParamTable<Settings<T>>& Parameters() {
   return table;
 }
 
-// 1 where floor(x) is odd.
+// Returns 1 if floor(x) is odd, else 0.
 double Parity(double x) {
   const double half = std::floor(x) / 2;
   return half == std::floor(half) ? 0 : 1;
 }
 
-// Share of [x - radius, x + radius] where floor is odd. The integral from 0 to x of Parity is one
-// for every whole pair of cells and what lies in the odd half of the last.
+// Returns the share of [x - radius, x + radius] where floor is odd. The integral of Parity from 0
+// to x is 1 per whole pair of cells, plus the part of the last pair that lies in its odd cell.
 double OddShare(double x, double radius) {
   if (!(x + radius > x - radius)) return Parity(x);
   const auto integral = [](double t) {
@@ -47,14 +47,14 @@ double OddShare(double x, double radius) {
   return std::clamp((integral(x + radius) - integral(x - radius)) / (2 * radius), 0.0, 1.0);
 }
 
-// The place in up to three coordinates with its changes along a pixel's x and y.
+// Place is a position in up to three coordinates, with its changes along a pixel's x and y.
 struct Place {
   std::array<double, 3> x{}, dx{}, dy{};
   int dimension;
 };
 
 double OddByBox(const Place& place) {
-  double even = 1;  // even minus odd: a product over the axes
+  double even = 1;  // even share minus odd share: a product over the axes
   for (std::size_t i = 0; i < std::size_t(place.dimension); ++i) {
     const double radius = std::max(std::abs(place.dx[i]), std::abs(place.dy[i]));
     even *= 1 - 2 * OddShare(place.x[i], radius);
@@ -69,7 +69,7 @@ double OddAt(const Place& place, double stepX, double stepY) {
   return Parity(sum);
 }
 
-// 4 x 4 points of the square of two pixels' width, with Gaussian weights.
+// Averages 4 x 4 points of a square two pixels wide, with Gaussian weights.
 double OddBySamples(const Place& place) {
   constexpr int kSide = 4;
   double sum = 0, weights = 0;
@@ -140,7 +140,7 @@ class Checkerboard final : public Texture<T> {
   TextureMapping2D mapping2_;
   TextureMapping3D mapping3_;
   TexturePtr<T> tex1_, tex2_;
-  // Found once: asking the textures below each time doubles the work at every level of a graph.
+  // Cached, because querying the inner textures doubles the work at every level of a graph.
   std::optional<T> constant_;
   bool isFiltered_;
 };

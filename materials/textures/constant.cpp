@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// constant: one value everywhere.
+// The texture "constant" has one value everywhere.
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// imagemap: an image file (EXR or PNG) as a texture; t = 0 is its top row. A float texture takes
-// the luminance. Pixels that are no finite number count as 0, with a warning.
+// The texture "imagemap" reads an image file (EXR or PNG); t = 0 is the top row. A float texture
+// takes the luminance. Non-finite pixels count as 0, with a warning.
 #include "core/imaging/image.h"
 #include "core/imaging/mipmap.h"
 #include "materials/textures/common/mapping.h"
@@ -33,7 +33,7 @@ const ParamTable<ImageSettings>& ImageParameters() {
   return table;
 }
 
-// The same for both kinds.
+// Float and colour textures have the same parameters.
 template <class T>
 const ParamTable<ImageSettings>& Parameters() {
   return ImageParameters();
@@ -74,7 +74,7 @@ MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& contex
   return MipMap<T>(image.Width(), image.Height(), std::move(texels), settings.wrap);
 }
 
-// Textures of one file share its pixels.
+// Textures with the same file and wrap mode share the pixels.
 template <class T>
 std::shared_ptr<const MipMap<T>> SharedMipMap(const ImageSettings& settings,
                                               const TextureContext& context) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// mix: a texture that goes from one texture to another by a third.
+// The texture "mix" blends two textures by the value of a third.
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {
@@ -50,7 +50,7 @@ class Mix final : public Texture<T> {
 
   TexturePtr<T> tex1_, tex2_;
   TexturePtr<Real> amount_;
-  // Found once: asking the textures below each time doubles the work at every level of a graph.
+  // Cached, because querying the inner textures doubles the work at every level of a graph.
   std::optional<T> constant_;
   bool isFiltered_;
 };

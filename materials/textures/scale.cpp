@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// scale: the product of two textures.
+// The texture "scale" is the product of two textures.
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {
@@ -41,7 +41,7 @@ class Scale final : public Texture<T> {
   }
 
   TexturePtr<T> tex1_, tex2_;
-  // Found once: asking the textures below each time doubles the work at every level of a graph.
+  // Cached, because querying the inner textures doubles the work at every level of a graph.
   std::optional<T> constant_;
   bool isFiltered_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// uv: the texture coordinates themselves as red and green, to look at a parameterisation.
+// The texture "uv" shows texture coordinates as red and green, to inspect a parameterisation.
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {

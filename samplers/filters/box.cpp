@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter "box": every point of a rectangle counts alike.
+// The filter "box" weights all points of a rectangle equally.
 #include <cmath>
 
 #include "core/plugin.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter "gaussian": exp(-alpha x^2) on each axis, lowered so that it ends at 0.
+// The filter "gaussian" is exp(-alpha x^2) on each axis, lowered to reach 0 at the edge.
 #include <cmath>
 
 #include "core/plugin.h"
@@ -23,13 +23,13 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// exp(-alpha x^2) - exp(-alpha width^2), without cancellation for small alpha.
+// Computes exp(-alpha x^2) - exp(-alpha width^2) without cancellation for small alpha.
 double Gaussian(double x, double width, double alpha) {
   const double toEdge = alpha * std::max(width * width - x * x, 0.);
   return -std::exp(-alpha * x * x) * std::expm1(-toEdge);
 }
 
-// Beyond exp(-100) nothing is left to tabulate.
+// The table ends where the Gaussian falls below exp(-100).
 FilterTable MakeTable(Real width, Real alpha) {
   const double w = width, a = alpha;
   return {[w, a](double x) { return Gaussian(x, w, a); }, std::min(w, std::sqrt(100 / a))};

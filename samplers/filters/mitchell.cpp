@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter "mitchell": the piecewise cubics of Mitchell and Netravali 1988, "Reconstruction Filters
-// in Computer Graphics", stretched to the given width. Its lobes are negative: sharp edges.
+// The filter "mitchell" uses the piecewise cubics of Mitchell and Netravali 1988, "Reconstruction
+// Filters in Computer Graphics", stretched to the given width. Its negative lobes sharpen edges.
 #include <cmath>
 
 #include "core/plugin.h"
@@ -23,7 +23,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// Equation 8 of the paper, x in units of half the width: 0 beyond 2.
+// Evaluates equation 8 of the paper. x is in units of half the width; the result is 0 beyond 2.
 double Cubic(double x, double b, double c) {
   if (x >= 2) return 0;
   if (x > 1)

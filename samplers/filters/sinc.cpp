@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter "sinc": the ideal low-pass filter of tau lobes, windowed by the central lobe of a wider
-// sinc (Lanczos).
+// The filter "sinc" is the ideal low-pass filter with tau lobes, windowed by the central lobe of a
+// wider sinc (Lanczos).
 #include <cmath>
 
 #include "core/plugin.h"
@@ -22,7 +22,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// x in units of the width: 0 beyond 1.
+// x is in units of the width. The result is 0 beyond 1.
 double WindowedSinc(double x, double tau) {
   if (x >= 1) return 0;
   const double a = M_PI * x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter "triangle": falls linearly from the centre to the edge, on each axis.
+// The filter "triangle" falls linearly from the centre to the edge, on each axis.
 #include <cmath>
 
 #include "core/plugin.h"
@@ -18,7 +18,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-// Inverse of the cumulative distribution of a triangle on [-1, 1].
+// Inverts the cumulative distribution of a triangle on [-1, 1].
 Real InvertTriangle(Real u) {
   return u < Real(.5) ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Checks of meshes as they enter the scene.
+// FinishMesh moves meshes to world space and checks them.
 #include "shapes/mesh/finish_mesh.h"
 
 #include "core/base/log.h"
@@ -21,7 +21,7 @@ void MoveToWorld(const ShapeContext& context, const std::string& positionParam,
   mesh->flipNormal = context.FlipsNormal();
 }
 
-// Triangles whose vertex normals say nothing: one is 0, or they cancel.
+// Counts the triangles with unusable vertex normals: one is 0, or they cancel.
 std::size_t CountUselessNormals(const TriangleMesh& mesh) {
   std::size_t count = 0;
   for (const auto& v : mesh.indices) {

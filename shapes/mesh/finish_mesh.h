@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What every shape that makes a mesh ends with: to world space, checks, and one warning about what
-// was dropped or replaced. Reading and index checks come before.
+// FinishMesh is the last step of every shape that makes a mesh: it moves the mesh to world space,
+// checks it, and gives one warning about dropped or replaced data. Callers read the data and check
+// indices.
 #pragma once
 
 #include <memory>
@@ -10,13 +11,14 @@
 
 namespace exphoton {
 
-// `mesh` is in object space; positions must be finite there. Throws ParamError about
-// `positionParam` where the transformation makes one that is not.
+// `mesh` is in object space and has finite positions. Throws ParamError about `positionParam` if
+// the transformation makes a position that is not finite.
 std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,
                                           const ShapeContext& context,
                                           const std::string& positionParam);
 
-// Throws ParamError{param} unless indices come in threes and each names one of `vertexCount`.
+// Returns the triangles. Throws ParamError{param} unless indices come in threes and each names one
+// of `vertexCount` vertices.
 std::vector<std::array<std::uint32_t, 3>> CheckedTriangles(const std::vector<int>& indices,
                                                            std::size_t vertexCount,
                                                            const std::string& param);

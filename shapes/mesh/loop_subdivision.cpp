@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Each level puts a vertex on every edge and moves the old ones; at the end all go to their limits.
+// LoopSubdivide adds a vertex on every edge and moves the old vertices, level by level. At the end,
+// all vertices move to their limit positions.
 #include "shapes/mesh/loop_subdivision.h"
 
 #include <algorithm>
@@ -13,11 +14,12 @@ constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 struct Edge {
   std::uint32_t a, b;                          // a < b
-  std::uint32_t opposite[2] = {kNone, kNone};  // of its faces
+  std::uint32_t opposite[2] = {kNone, kNone};  // third vertices of its faces
   bool IsBoundary() const { return opposite[1] == kNone; }
 };
 
-// Edges of a mesh and which of them each side of a face is (side i: from corner i to the next).
+// Edges lists the edges of a mesh, and the edge of each side of a face (side i: corner i to the
+// next).
 struct Edges {
   std::vector<Edge> edges;
   std::vector<std::array<std::uint32_t, 3>> ofFace;
@@ -56,7 +58,7 @@ struct Edges {
   }
 };
 
-// Sums over what surrounds each vertex; at a boundary vertex only its boundary neighbours count.
+// Surroundings sums the neighbours of each vertex, and separately the boundary neighbours.
 struct Surroundings {
   struct Vertex {
     Vec3d sum, boundarySum;
@@ -83,10 +85,10 @@ struct Surroundings {
   }
 };
 
-// Weight of each neighbour when an interior vertex moves (Warren 1995).
+// Returns the weight of each neighbour when an interior vertex moves (Warren 1995).
 double Beta(int valence) { return valence == 3 ? 3.0 / 16 : 3.0 / (8.0 * valence); }
 
-// (1 - n weight) p + weight * (sum of n neighbours).
+// Returns (1 - n weight) p + weight * (sum of n neighbours).
 Vec3d Blend(const Vec3d& p, const Vec3d& sum, int count, double weight) {
   return p * (1 - count * weight) + sum * weight;
 }
@@ -128,8 +130,8 @@ SubdivisionMesh Refine(const SubdivisionMesh& mesh) {
   return fine;
 }
 
-// The neighbours of every vertex in the order of the winding; at a boundary from one end to the
-// other. Empty where faces round a vertex do not form one fan.
+// Rings lists the neighbours of every vertex in winding order; at a boundary from one end to the
+// other. A ring is empty if the faces around the vertex do not form one fan.
 class Rings {
  public:
   explicit Rings(const SubdivisionMesh& mesh) : first_(mesh.positions.size() + 1, 0) {
@@ -147,7 +149,7 @@ class Rings {
     const Spoke* begin = spokes_.data() + first_[vertex];
     const Spoke* end = spokes_.data() + first_[vertex + 1];
     if (begin == end) return {};
-    // A boundary begins at a neighbour that no spoke leads to.
+    // A ring at a boundary begins at a neighbour that no spoke leads to.
     std::uint32_t start = begin->from;
     for (const Spoke* s = begin; s != end; ++s)
       if (std::none_of(begin, end, [&](const Spoke& o) { return o.to == s->from; }))
@@ -172,7 +174,8 @@ class Rings {
   std::vector<Spoke> spokes_;
 };
 
-// The tangent that leads into the surface at a boundary vertex (Hoppe et al. 1994, appendix A).
+// Returns the tangent that points into the surface at a boundary vertex (Hoppe et al. 1994,
+// appendix A).
 Vec3d InwardTangent(const Vec3d& p, const std::vector<Vec3d>& ring) {
   const std::size_t n = ring.size();
   if (n == 2) return ring[0] + ring[1] - p * 2;
@@ -211,7 +214,7 @@ LimitMesh LoopSubdivide(SubdivisionMesh mesh, int levels) {
     const Vec3d& p = mesh.positions[i];
     Vec3d moved = p;
     if (v.IsBoundary()) {
-      // A boundary is a cubic B-spline: 1/6, 2/3, 1/6.
+      // A boundary is a cubic B-spline, with the limit weights 1/6, 2/3, 1/6.
       moved = Blend(p, v.boundarySum, v.boundaryValence, 1.0 / (3 * v.boundaryValence));
     } else if (v.valence > 0) {
       moved = Blend(p, v.sum, v.valence, 1 / (v.valence + 3 / (8 * Beta(v.valence))));

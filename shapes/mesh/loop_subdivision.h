@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Loop subdivision of a triangle mesh with boundaries, ending on the limit surface with its exact
-// normals. Positions in double.
-// Sources: Loop 1987; Warren's weights; limit and tangent masks: Hoppe et al. 1994; Biermann, Levin
-// and Zorin 2000.
+// LoopSubdivide applies Loop subdivision to a triangle mesh with boundaries, and ends on the limit
+// surface with its exact normals. Positions are in double precision. Sources: Loop 1987; Warren's
+// weights; limit and tangent masks: Hoppe et al. 1994; Biermann, Levin and Zorin 2000.
 #pragma once
 
 #include <array>
@@ -20,13 +19,13 @@ struct SubdivisionMesh {
 
 struct LimitMesh {
   SubdivisionMesh mesh;        // vertices on the limit surface
-  std::vector<Vec3d> normals;  // unit, on the side of the winding; 0 where there is none
+  std::vector<Vec3d> normals;  // unit, on the winding's side; 0 if undefined
 };
 
-// Whether no edge has more than two faces and no face names a vertex twice.
+// Returns whether no edge has more than two faces and no face names a vertex twice.
 bool IsManifold(const SubdivisionMesh& mesh);
 
-// `mesh` must be manifold in that sense.
+// IsManifold(mesh) must hold.
 LimitMesh LoopSubdivide(SubdivisionMesh mesh, int levels);
 
 }  // namespace exphoton

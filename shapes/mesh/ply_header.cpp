@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Line by line, every line checked; nothing is allocated by a count that the file claims.
+// ParsePlyHeader checks every line. It never allocates memory by a count that the file claims.
 #include "shapes/mesh/ply_header.h"
 
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The header of a PLY file: what elements follow, how many, with which properties, in which form.
+// PlyHeader holds the header of a PLY file: the format, and the elements with their properties.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,25 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::Float32;
   bool isList = false;
-  PlyType countType = PlyType::Uint8;  // of a list
+  PlyType countType = PlyType::Uint8;  // type of a list's length
 };
 
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  int IndexOf(std::string_view property) const;  // -1: has none of that name
+  int IndexOf(std::string_view property) const;  // -1: no such property
 };
 
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
-  std::size_t bytes = 0;  // of the header itself, end_header line included
+  std::size_t bytes = 0;  // size of the header, including the end_header line
 };
 
-std::size_t PlySize(PlyType type);  // in a binary file
+std::size_t PlySize(PlyType type);  // bytes in a binary file
 
-// Throws PlyError.
+// Throws PlyError if the header is not valid.
 PlyHeader ParsePlyHeader(std::string_view bytes);
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The body of a PLY file. Counts are believed only as far as the file is long enough for them.
+// ParsePly reads the body of a PLY file. It trusts counts only as far as the file is long enough.
 #include "shapes/mesh/ply_reader.h"
 
 #include <zlib.h>
@@ -16,7 +16,7 @@
 namespace exphoton {
 namespace {
 
-// Numbers one after the other, whatever the format.
+// NumberStream reads numbers one after the other, in any format.
 class NumberStream {
  public:
   NumberStream(std::string_view bytes, PlyFormat format) : rest_(bytes), format_(format) {}
@@ -33,7 +33,7 @@ class NumberStream {
     return Decode(raw, type);
   }
 
-  // Whether there can be so many rows of at least one number each.
+  // Throws PlyError if the remaining data is too short for this many rows.
   void NeedRows(std::uint64_t rows, const PlyElement& element) const {
     std::uint64_t least = 0;
     for (const PlyProperty& property : element.properties) {
@@ -91,8 +91,8 @@ class NumberStream {
   PlyFormat format_;
 };
 
-// Calls visit(values) for every row; of a list property, values holds the entries of list
-// `list` only (-1: none) and the others are read over.
+// Calls visit(scalars, entries) for every row. `entries` holds the entries of the list property
+// `list` (-1: none); other lists are skipped.
 template <class Visit>
 void ForEachRow(NumberStream& stream, const PlyElement& element, int list, Visit&& visit) {
   stream.NeedRows(element.count, element);
@@ -212,7 +212,7 @@ std::unique_ptr<TriangleMesh> ReadPly(const std::string& path, std::uint64_t mos
       throw PlyError(std::string("it cannot be read: ") + error.what());
     }
   }());
-  // Reads plain files as they are.
+  // zlib reads uncompressed files unchanged.
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzdopen(opened.Release(), "rb"), gzclose);
   if (!file) throw PlyError("it cannot be opened");
   std::string bytes;

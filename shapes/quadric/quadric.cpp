@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The way of a quadric's hit from object space to the world, with the bound of its error.
+// QuadricShape transforms hits from object space to world space, with bounds on their errors.
 #include "shapes/quadric/quadric.h"
 
 namespace exphoton {
 namespace {
 
-// Roundings of a double computation in object space, relative to the sizes that enter it: large
-// enough for the solution and both transformations, far below one rounding of float.
+// Relative rounding error of a computation in double precision in object space. It covers the
+// solution and both transformations, and is far below one rounding of float.
 constexpr double kSolveError = 64 * std::numeric_limits<double>::epsilon();
 
 double LargestOf(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-// Below this t a hit may be the point that the ray leaves.
+// A hit below this t may be the origin of the ray.
 double SmallestT(const ObjectRay& ray) {
   return kSolveError / 4 * LargestOf(ray.o) / LargestOf(ray.d);
 }
@@ -66,7 +66,7 @@ std::optional<ShapeHit> QuadricShape::Intersect(const Ray& ray) const {
 }
 
 SurfaceInteraction QuadricShape::Surface(const Ray& ray, const ShapeHit& hit) const {
-  // Solved again: t as a Real would place a distant hit along the ray only roughly.
+  // Solve again, because t rounded to Real places a distant hit only roughly along the ray.
   const ObjectRay local = ToObject(ray);
   const QuadricRoots roots = Roots(local);
   const int root = hit.uv.x > 0 ? 1 : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// builds: what accelerators and photon trees take to make, with one thread, and accelerators with
-// two.
+// builds measures the construction of accelerators and photon trees with one thread, and of
+// accelerators also with two.
 #include "core/spatial/point_tree.h"
 #include "tests/benchmark/contest.h"
 #include "tests/benchmark/parts.h"

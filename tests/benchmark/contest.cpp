@@ -39,12 +39,12 @@ void Run(benchmark::State& state, const std::string& name,
   outcome.seconds.resize(count);
   for (const Contestant& contestant : contest.contestants) {
     outcome.contestants.push_back(contestant.name);
-    contestant.work();  // untimed: memory and caches
+    contestant.work();  // untimed: warms memory and caches
   }
   std::size_t first = 0;
   for (auto _ : state) {
     double together = 0;
-    for (std::size_t i = 0; i < count; ++i) {  // another one begins each round
+    for (std::size_t i = 0; i < count; ++i) {  // a different contestant begins each round
       const std::size_t at = (first + i) % count;
       const double start = Now(contest.clock);
       contest.contestants[at].work();

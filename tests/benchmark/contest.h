@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A contest: several ways of doing the same work, timed in turn within one process, so that what
-// else the machine does slows all of them alike. What counts are ratios of times of the same round;
-// their median and quartiles are reported. Google Benchmark selects, repeats and reports.
+// A Contest times several ways of doing the same work in turn within one process, so that other
+// load on the machine slows all of them equally. The results are ratios of times of the same round,
+// as median and quartiles. Google Benchmark selects, repeats and reports contests.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace exphoton {
 
-// Which time a contest is about: that of the one thread, whatever else runs, or that of the clock
-// on the wall, for work of several threads.
+// Clock selects the time to measure: CPU time of one thread, whatever else runs, or wall-clock
+// time, for work of several threads.
 enum class Clock { Thread, Wall };
 
 struct Contestant {
@@ -20,13 +20,13 @@ struct Contestant {
 };
 
 struct Contest {
-  double amount = 0;  // of work in one round
-  std::string unit;   // of which, a second, speed is given: "Mrays" with amount in 1e6 rays
+  double amount = 0;  // work in one round
+  std::string unit;   // speed is in units per second: "Mrays" with amount in 1e6 rays
   std::vector<Contestant> contestants;
   Clock clock = Clock::Thread;
 };
 
-// Registers a contest under "part/size/name". `prepare` is called when it is its turn; it may
+// Registers a contest under "part/size/name". `prepare` is called just before the contest and may
 // throw.
 void AddContest(const std::string& name, int rounds, std::function<Contest()> prepare);
 
@@ -35,20 +35,20 @@ struct Quartiles {
 };
 Quartiles QuartilesOf(std::vector<double> values);
 
-// What a contest gave.
+// Outcome holds the times of a contest.
 struct Outcome {
   std::string name, unit;
   double amount = 0;
   std::vector<std::string> contestants;
   std::vector<std::vector<double>> seconds;  // by contestant, then by round
 
-  int IndexOf(const std::string& contestant) const;  // -1: took no part
-  double Rate(int contestant) const;                 // units a second, median
-  // How many times as fast as the opponent: quartiles over the rounds.
+  int IndexOf(const std::string& contestant) const;  // -1: did not take part
+  double Rate(int contestant) const;                 // units per second, median
+  // Returns how many times as fast as the opponent it is, as quartiles over the rounds.
   Quartiles Ratio(int contestant, int opponent) const;
 };
 
-// Those of the contests that have run, in their order.
+// Returns the outcomes of the contests that have run, in the order of running.
 const std::vector<Outcome>& Outcomes();
 
 }  // namespace exphoton

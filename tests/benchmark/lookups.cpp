@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// lookups: the k nearest photons and the nearest radiance photon, asked of our maps and of
-// nanoflann, one thread. Before they are timed both must find the same neighbours.
+// lookups measures searches for the k nearest photons and the nearest radiance photon, in the
+// photon maps and in nanoflann, with one thread. Both must find the same neighbours before they are
+// timed.
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -38,7 +39,7 @@ struct PhotonArrangement {
     std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
     tight = radii[radii.size() / 2];
   }
-  // As the map has them: it may round positions and directions.
+  // The positions come from the map, because the map may round positions and directions.
   std::vector<Point3> Positions() const {
     std::vector<Point3> points;
     for (std::uint32_t i = 0; i < map.Size(); ++i) points.push_back(map.Position(i));
@@ -76,8 +77,8 @@ struct Found {
   Real radius2;
 };
 
-// As PhotonMap::Find: photons from the front, in a region flattened along the normal; of k the
-// farthest gives the radius.
+// Searches like PhotonMap::Find: it finds photons from the front, in a region flattened along the
+// normal. If k photons are found, the farthest of them gives the radius.
 Found FindWithNanoflann(const PhotonArrangement& a, const SurfacePlace& place, Real radius) {
   NanoflannMap::Near buffer[kNearest];
   const auto near = a.opponent.Nearest(
@@ -113,7 +114,7 @@ Contest KNearest(const std::string& size, Real radii, bool isInOrder) {
   const auto work = [&a, places, radius](auto&& find) {
     double sum = 0;
     for (const SurfacePlace& place : *places) sum += double(find(a, place, radius).radius2);
-    if (sum < 0) throw std::logic_error("negative radii");  // and nothing is left out
+    if (sum < 0) throw std::logic_error("negative radii");  // prevents dead-code elimination
   };
   return {double(places->size()) * 1e-3,
           "k",
@@ -127,7 +128,8 @@ Contest KNearest(const std::string& size, Real radii, bool isInOrder) {
           Clock::Thread};
 }
 
-// A radiance map of as many entries; those that face the right way serve at any distance.
+// RadianceArrangement is a radiance photon map with the same number of entries. An entry whose
+// normal has a positive cosine with the query's normal is valid at any distance.
 struct RadianceArrangement {
   explicit RadianceArrangement(const PhotonArrangement& photons) : made(photons.made) {
     ThreadPool threads(1);
@@ -139,7 +141,7 @@ struct RadianceArrangement {
     settings.kernel = DensityKernel::Simpson;
     settings.radianceReach = 1000;
     settings.radianceNormal = 0;
-    settings.nUsed = 2;  // what an entry says is not looked at
+    settings.nUsed = 2;  // only the positions of entries matter here
     settings.maxDist = Real(10);
     PhotonPassResult result;
     result[PhotonKind::Direct] = PhotonBuffer(std::span(made.photons).first(1000), 1);

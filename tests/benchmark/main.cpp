@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The benchmark program: bench_kernels [--floors FILE] [--tables FILE] [options of Google
-// Benchmark, for example --benchmark_filter=^rays/]. Exit status 1: a ratio is below its floor.
+// bench_kernels is the benchmark program: bench_kernels [--floors FILE] [--tables FILE] [options of
+// Google Benchmark, for example --benchmark_filter=^rays/]. Exit status 1: a ratio is below its
+// floor.
 #include <benchmark/benchmark.h>
 
 #include <exception>
@@ -12,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-// Prints each contest when it is over.
+// Reporter prints each contest when it is over.
 class Reporter final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -31,7 +32,7 @@ class Reporter final : public benchmark::BenchmarkReporter {
   bool hasFailed_ = false;
 };
 
-// Takes "--name value" out of the arguments; empty where it is not there.
+// Removes "--name value" from the arguments and returns the value, or "" if it is missing.
 std::string Take(const std::string& name, int* argc, char** argv) {
   for (int i = 1; i + 1 < *argc; ++i) {
     if (argv[i] != name) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// parsing: scene text to directives, for a mesh as exporters write it. The opponent reads the same
-// numbers with strtod and does nothing else.
+// parsing measures the conversion of scene text to directives, for a mesh in the style of
+// exporters. The opponent only reads the same numbers with strtod.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -24,7 +24,8 @@ class Counting final : public DirectiveHandler {
   int count = 0;
 };
 
-// The vertices of a room, nine numbers a triangle with six digits each, and indices.
+// Returns the mesh of a room as text: nine coordinates per triangle with six digits each, and
+// indices.
 std::string MeshText(std::size_t triangles) {
   const auto room = BenchmarkRoom(triangles);
   std::string text = "WorldBegin\nShape \"trianglemesh\" \"integer indices\" [";
@@ -42,7 +43,7 @@ std::string MeshText(std::size_t triangles) {
   return text + "]\nWorldEnd\n";
 }
 
-// Keeps the text where it is; a parser asks for a copy of its own.
+// OneText keeps the scene text. Each parser receives a copy.
 class OneText final : public SceneSource {
  public:
   explicit OneText(std::string text) : text_(std::move(text)) {}

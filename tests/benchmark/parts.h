@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The parts of the benchmark program; each registers its contests.
+// Each of these functions registers the contests of one part of the benchmark program.
 #pragma once
 
 namespace exphoton {

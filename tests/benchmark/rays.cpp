@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// rays: the same rays through every accelerator and through Embree (3.13, single rays, with and
-// without its flag for robustness), one thread. Before they are timed all must agree on the hits.
+// rays measures the same rays through every accelerator and through Embree (3.13, single rays, with
+// and without its robust flag), with one thread. All must agree on the hits before they are timed.
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kRays = 200000;
 constexpr int kRounds = 21;
 
-// A room with all that is measured in it; made once.
+// Arrangement is a room with the accelerators and rays to measure. It is made once.
 struct Arrangement {
   explicit Arrangement(const std::string& size)
       : room(size == "small" ? SmallRoom() : BenchmarkRoom(TriangleCountOf(size))),
@@ -43,7 +43,7 @@ const Arrangement& ArrangementOf(const std::string& size) {
   return *arrangement;
 }
 
-// Keeps the compiler from leaving work out.
+// Keeps the compiler from optimising the work away.
 void Consume(double value) {
   [[maybe_unused]] static volatile double sink;
   sink = value;
@@ -67,7 +67,8 @@ Contestant Any(const char* name, const Accelerator& accelerator, const std::vect
           }};
 }
 
-// Where distances differ by more than rounding, in more rays than touch an edge: different work.
+// Throws if the accelerators differ in any hit. Throws if Embree's distances differ by more than
+// rounding for more than one ray in 1000; fewer rays than this touch an edge.
 void CheckHits(const Arrangement& a, const std::vector<Ray>& rays) {
   std::size_t differing = 0, ours = 0;
   for (const Ray& ray : rays) {

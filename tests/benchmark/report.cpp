@@ -24,7 +24,7 @@ std::string RatioText(const Quartiles& ratio) {
   return Number(ratio.median) + " (" + Number(ratio.low) + "–" + Number(ratio.high) + ")";
 }
 
-// The speed of the first contestant, and how many times as fast as each of the others it is.
+// Returns the speed of the first contestant and its ratio to each of the others.
 std::string TableRow(const Outcome& outcome) {
   std::string row = "| " + outcome.name.substr(outcome.name.find('/') + 1) + " | " +
                     Number(outcome.Rate(0)) + " " + outcome.unit + "/s |";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What contests gave: a table for docs, and the floors below which a ratio counts as a failure.
+// PrintOutcome, MarkdownTables and CheckFloors report contests: as a line, as tables for docs, and
+// by the floors below which a ratio counts as a failure.
 #pragma once
 
 #include <iosfwd>
@@ -9,18 +10,18 @@
 
 namespace exphoton {
 
-// One line: speeds, and how the first contestant stands to the others.
+// Prints one line: all speeds, and the ratio of the first contestant to each of the others.
 void PrintOutcome(const Outcome& outcome, std::ostream& out);
 
-// Tables of all outcomes, one for each part, in Markdown.
+// Returns Markdown tables of all outcomes, one for each part.
 std::string MarkdownTables();
 
-// Replaces what stands between the lines "<!-- benchmark -->" and "<!-- end -->" of a file. Throws
-// std::runtime_error where they are not there.
+// Replaces the text between the lines "<!-- benchmark -->" and "<!-- end -->" of a file. Throws
+// std::runtime_error if these lines are missing.
 void ReplaceTables(const std::string& path, const std::string& tables);
 
-// Compares with a file of lines "contest contestant opponent floor". Says what is below; returns
-// how many are. Contests that have not run are passed over.
+// Compares the outcomes with a file of lines "contest contestant opponent floor". Prints the ratios
+// below their floor and returns their number. Skips contests that have not run.
 int CheckFloors(const std::string& path, std::ostream& out);
 
 }  // namespace exphoton

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The commands that do not render: help, version, plugins, info, convert, compare.
+// These tests run the commands that do not render: help, version, plugins, info,
+// convert and compare.
 #include <algorithm>
 #include <limits>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Files that the program must not write over, and what it keeps of a file that it replaces.
+// These tests check which files the program must not overwrite, and which properties of a replaced
+// file it keeps.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,7 +23,7 @@ class OutputFiles : public ProgramTest {
     Write("inc.pbrt", "Shape \"disk\"\n");
     Write("scene.pbrt", SmallScene("", "Include \"inc.pbrt\""));
   }
-  // Status 3 before anything is rendered, with these words; every file is as it was.
+  // Expects status 3 with these words before anything is rendered. Every file must be unchanged.
   void ExpectRefused(const Names& arguments, const Names& words) const {
     std::vector<std::pair<std::string, std::string>> before;
     for (const std::string& name : Files()) before.emplace_back(name, Read(name));
@@ -82,7 +83,7 @@ TEST_F(OutputFiles, NoOutputReplacesMeshesOrSpectra) {
 }
 
 #ifndef EXPHOTON_STATIC_PLUGINS
-// Copies, so that a failure does not destroy the build.
+// The test uses copies, so that a failure does not destroy the build.
 TEST_F(OutputFiles, NoOutputReplacesPluginsOrTheProgram) {
   const fs::path build = EXPHOTON_BINARY_DIR;
   fs::create_directories(Path("mine/filters"));
@@ -203,7 +204,7 @@ TEST_F(OutputFiles, AnInterruptedPictureReplacesNothingOfTheUsers) {
   EXPECT_EQ(ReadExr(Path("out.partial-2.exr")).Width(), 8);
 }
 
-// As by nohup.
+// The command nohup also ignores SIGHUP in this way.
 TEST_F(OutputFiles, AHangupThatIsIgnoredStaysIgnored) {
   const std::string program = std::string(EXPHOTON_BINARY_DIR) + "/bin/exphoton";
   const std::string line = "cd '" + Path("") + "' && (trap '' HUP; exec '" + program +
@@ -212,7 +213,7 @@ TEST_F(OutputFiles, AHangupThatIsIgnoredStaysIgnored) {
   EXPECT_TRUE(Exists("out.exr"));
 }
 
-// Each in a world of process numbers of its own: all have the same number.
+// Each render runs in a separate PID namespace, so all renders have the same process id.
 TEST_F(OutputFiles, TwentyRendersToOneNameInContainersAllSucceed) {
   if (std::system("unshare --pid --fork true 2>/dev/null") != 0)
     GTEST_SKIP() << "the kernel makes no new PID namespace here";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The page of a study in a real browser: headless Chromium, if it is installed. It must ask for
-// nothing from the network and complain of nothing.
+// These tests open the report page of a study in headless Chromium, if it is installed. The page
+// must make no network request and cause no console message.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-// The path of a browser; empty where there is none.
+// Returns the path of an installed browser, or "" if there is none.
 std::string FindBrowser() {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
@@ -24,7 +24,8 @@ std::string FindBrowser() {
 
 class PageTest : public ProgramTest {
  protected:
-  // What the browser printed on its console, and whom it asked for what.
+  // Visit holds the browser's console messages, the URLs that it requested, and the
+  // DOM of the page.
   struct Visit {
     std::string console, requests, dom;
   };
@@ -43,7 +44,8 @@ class PageTest : public ProgramTest {
     std::istringstream lines(Read("console.txt"));
     for (std::string line; std::getline(lines, line);)
       if (line.find("CONSOLE") != std::string::npos) visit.console += line + "\n";
-    // The browser itself asks its maker for updates and the time.
+    // The browser itself contacts its vendor for updates and for the time. These requests
+    // do not count.
     const std::string log = Read("net.json");
     const std::regex url("\"url\":\"((?:https?|wss?|ftp)://([^/\"]*)[^\"]*)\"");
     const std::regex own("(.*\\.)?(google|googleapis|gvt1|gstatic)\\.com(:\\d+)?");
@@ -65,7 +67,7 @@ TEST_F(PageTest, AsksForNothingFromTheNetworkAndHasNoErrorInABrowser) {
   EXPECT_NE(visit.dom.find("<h1>On box,"), std::string::npos);
   EXPECT_EQ(visit.console, "");
   EXPECT_EQ(visit.requests, "");
-  // That this would be noticed:
+  // A faulty page shows that the test would notice errors and requests.
   Write("bad.html",
         "<!DOCTYPE html><img src=\"http://example.invalid/x.png\"><script>nothing()</script>");
   const Visit bad = Open(browser, "bad.html");

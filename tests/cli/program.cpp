@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The program of this build by the processes of tests/support.
+// ProgramTest starts the program of this build with the process helpers of tests/support.
 #include "tests/cli/program.h"
 
 #include <chrono>
@@ -9,7 +9,7 @@
 namespace exphoton {
 namespace {
 
-constexpr double kTimeLimit = 600;  // seconds: for a sanitizer on a busy machine
+constexpr double kTimeLimit = 600;  // seconds; enough for a sanitizer build on a busy machine
 
 }  // namespace
 

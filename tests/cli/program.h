@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Runs the built program in a folder of its own, as a user would, and looks at what it leaves.
+// ProgramTest runs the built program in a temporary folder, as a user would, and inspects the files
+// that the program leaves there.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,29 +15,32 @@ namespace exphoton {
 
 using ProgramResult = ProcessResult;
 
-// A test with an empty folder, which is the program's working folder and is removed at the end.
+// ProgramTest gives each test an empty folder. The folder is the program's working folder and is
+// removed at the end of the test.
 class ProgramTest : public testing::Test {
  protected:
-  // `input`: what standard input holds.
+  // The program reads `input` from its standard input.
   ProgramResult Run(const std::vector<std::string>& arguments, const std::string& input = "") const;
-  // Starts it without waiting; Wait gives its result.
+  // Starts the program without waiting for it. Wait returns its result.
   pid_t Start(const std::vector<std::string>& arguments, const std::string& input = "") const;
   ProgramResult Wait(pid_t process) const;
-  // Waits until what Start began has said this on standard error; false after 30 s.
+  // Waits until the started program has written this text to standard error. Returns
+  // false after 30 s.
   bool WaitForMessage(const std::string& text) const;
 
   std::string Path(const std::string& name) const { return folder_.File(name); }
   void Write(const std::string& name, const std::string& text) const;
   std::string Read(const std::string& name) const;
   bool Exists(const std::string& name) const;
-  // Sorted names of all files, except what the test's own plumbing made.
+  // Returns the sorted names of all files, except the files that the test harness makes.
   std::vector<std::string> Files() const { return folder_.Names(); }
 
  private:
   TestFolder folder_;
 };
 
-// A lit sphere, rendered in no time to "out.exr"; `options` stand before WorldBegin, `world` after.
+// Returns a scene with a lit sphere that renders quickly to "out.exr". `options` are placed before
+// WorldBegin and `world` after it.
 std::string SmallScene(const std::string& options = "", const std::string& world = "");
 
 }  // namespace exphoton

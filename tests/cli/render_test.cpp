@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The program as its users meet it: exit statuses, messages, and what it leaves in the folder.
+// These tests run the program as its users do. They check exit statuses, messages, and the files
+// that the program leaves in the folder.
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -20,7 +21,7 @@ using Names = std::vector<std::string>;
 
 class RenderCommandTest : public ProgramTest {
  protected:
-  // An error leaves nothing behind and leaves an older picture alone.
+  // An error must leave no new file and must not change an older picture.
   void ExpectFailure(const ProgramResult& result, int status, const std::string& message) {
     EXPECT_EQ(result.status, status) << result.err;
     EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
@@ -32,7 +33,8 @@ class RenderCommandTest : public ProgramTest {
     Write("out.exr", "older picture");
     Write("scene.pbrt", scene);
     arguments.push_back("scene.pbrt");
-    // The user's word: a scene's own may replace pictures only.
+    // The option -o is the user's choice and may replace any file. A scene's own file name may only
+    // replace a picture.
     const bool isNamed = std::find(arguments.begin(), arguments.end(), "-o") != arguments.end();
     if (!isNamed) arguments.insert(arguments.end(), {"-o", "out.exr"});
     return Run(arguments);
@@ -262,7 +264,8 @@ TEST_F(RenderCommandTest, ExplainsPhotonMapsAndTheirMemory) {
   Write("scene.pbrt", SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer directphotons\" 5"));
   const std::string text = Run({"explain", "scene.pbrt"}).out;
   EXPECT_NE(text.find("photons       5 direct, 100000 indirect\n"), std::string::npos) << text;
-  // 100005 photons of 30 bytes, an eighth of them radiance photons of 34: 3.2 MiB, rounded up.
+  // The maps hold 100005 photons of 30 bytes, and an eighth as many radiance photons of 34 bytes.
+  // The sum of 3.2 MiB is rounded up.
   EXPECT_NE(text.find("memory        about 4 MiB for the photon maps\n"), std::string::npos)
       << text;
 }
@@ -300,7 +303,7 @@ TEST_F(RenderCommandTest, KeepsWhatIsFinishedWhenInterrupted) {
     Write("scene.pbrt", SmallScene());
     const pid_t process =
         Start({"scene.pbrt", "-o", "out.exr", "--nthreads", "1", "--spp", "100000000"});
-    ASSERT_TRUE(WaitForMessage("effects"));  // said just before rendering
+    ASSERT_TRUE(WaitForMessage("effects"));  // this message is printed just before rendering
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
     ASSERT_EQ(kill(process, signal), 0);
     const ProgramResult result = Wait(process);
@@ -382,7 +385,7 @@ TEST_F(RenderCommandTest, EndsWithoutWaitingForAReaderThatIsGone) {
                               "/bin/exphoton' explain scene.pbrt 2>/dev/null; echo $? >status; } "
                               "| true";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_NE(Read("status"), "141\n");  // 0 or 3, never killed by SIGPIPE
+  EXPECT_NE(Read("status"), "141\n");  // 0 or 3; 141 would be death by SIGPIPE
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Stopping rules, halves and layers as users meet them on the command line.
+// These tests use stopping rules, renders in two halves, and AOVs from the command
+// line, as users do.
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,7 +18,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// A lamp that casts soft shadows, so that there is noise.
+// Returns a scene with a lamp that casts soft shadows, so that the picture has noise.
 std::string NoisyScene(const std::string& integrator = "\"path\"") {
   return "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16 \"string filename\" "
          "\"out.exr\"\nCamera \"perspective\"\nPixelFilter \"box\"\nSurfaceIntegrator " +
@@ -131,7 +132,7 @@ TEST_F(StoppingTest, WritesLayersInHalfAndFloat) {
   }
 }
 
-// In rows 6 and 7 is the sphere, in the last two rows of the window is nothing.
+// Rows 6 and 7 show the sphere. The last two rows of the window show nothing.
 TEST_F(StoppingTest, ScalesTheVarianceBetweenPassesByThePixelsOwnAlpha) {
   EXPECT_EQ(RunScene({"--aov", "Variance", "--target-error", "0.01", "--pixelbounds", "0,24,6,16",
                       "--float"})
@@ -177,7 +178,7 @@ TEST_F(StoppingTest, CallsAFolderThatIsGoneStatus3) {
 }
 
 TEST_F(StoppingTest, LeavesNoPartialFileWhenInterruptedTwice) {
-  // A picture that takes a while to write.
+  // The picture is large, so that writing it takes a while.
   Write("scene.pbrt", NoisyScene("\"whitted\""));
   for (const int delay : {0, 30, 90}) {
     const pid_t process =

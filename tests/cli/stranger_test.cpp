@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scene and study files that come from somebody else: they run no code, replace no file of the
-// user's, wait for nothing and show no content of other files.
+// These tests run scene and study files from an untrusted source. Such files must run no code,
+// replace no file of the user, wait for nothing, and reveal no content of other files.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ TEST_F(Stranger, ASceneMayAddAFileOrReplaceAPictureOfThisProgram) {
   Write("scene.pbrt", Film("new.exr"));
   EXPECT_EQ(Run({"scene.pbrt"}).status, 0);
   EXPECT_EQ(ReadExr(Path("new.exr")).Width(), 4);
-  EXPECT_EQ(Run({"scene.pbrt"}).status, 0);  // its own
+  EXPECT_EQ(Run({"scene.pbrt"}).status, 0);  // replaces the scene's own picture
 }
 
 TEST_F(Stranger, ASceneReplacesNoOtherFile) {
@@ -51,7 +51,7 @@ TEST_F(Stranger, ASceneReplacesNoOtherFile) {
     EXPECT_NE(result.err.find(std::string("scene.pbrt --spp 4 -o ") + name + "\n"),
               std::string::npos)
         << result.err;
-    // The user's word counts.
+    // The user's explicit option may replace the file.
     EXPECT_EQ(Run({"scene.pbrt", "-o", name}).status, 0);
   }
   Write("notes.txt", "my notes");
@@ -146,7 +146,8 @@ TEST_F(StrangersPlugins, ThatAreNoPluginsNeverRun) {
   EXPECT_EQ(Run({"scene.pbrt", "--allow-scene-plugins"}).status, 2);
   Write("scene.pbrt", SmallScene("PixelFilter \"nosuch\""));
   EXPECT_EQ(Run({"scene.pbrt", "--plugin-dir", Path("theirs")}).status, 2);
-  // A list of what there is may load plugins of the user's folder, but no other library.
+  // The error message lists the available filters. To make the list, the program may load plugins
+  // from the user's folder, but no other library.
   unlink(Path("theirs/filters/marking_filter.so").c_str());
   unlink(Path("mark").c_str());
   EXPECT_EQ(Run({"scene.pbrt", "--plugin-dir", Path("theirs")}).status, 2);
@@ -154,7 +155,7 @@ TEST_F(StrangersPlugins, ThatAreNoPluginsNeverRun) {
 }
 #endif
 
-// The lines with which version 1's own scenes begin.
+// The test uses the SearchPath lines with which the scenes of version 1 begin.
 TEST_F(Stranger, ScenesOfVersion1WithASearchPathStillRender) {
   for (const char* path : {"../../plugins:&", "/usr/local/pbrt/bin:&:.", "&", "bin", ""}) {
     Write("scene.pbrt", std::string("SearchPath \"") + path + "\"\n" + SmallScene());
@@ -253,7 +254,7 @@ TEST_F(Stranger, LimitsEndWhatTakesTooLongToPrepare) {
   EXPECT_NE(result.err.find("longer than --limits allows"), std::string::npos) << result.err;
   EXPECT_LT(result.seconds, 20);
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
-  // Rendering is not limited by it.
+  // The time limit applies to preparation only, not to rendering.
   Write("scene.pbrt", SmallScene());
   EXPECT_EQ(Run({"scene.pbrt", "--nthreads", "1", "--spp", "40000", "--limits", "time=0.5"}).status,
             0);

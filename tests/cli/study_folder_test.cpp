@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What a study does to its folder: it touches nothing that no study has written.
+// These tests check how a study changes its folder. It must not touch a file that no
+// study has written.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -63,7 +64,7 @@ TEST_F(StudyFolderTest, ASceneCalledRunningIsNotRemoved) {
   EXPECT_EQ(Read("out/running.pbrt"), SmallScene());
 }
 
-// Its page has not been written yet.
+// The folder belongs to a study that has not written its report yet.
 TEST_F(StudyFolderTest, AReportOfSomebodyElseIsNotReplaced) {
   fs::create_directories(Path("out/.exphoton-study"));
   Write("out/.exphoton-study/files.txt", "exphoton study 1\n");
@@ -105,7 +106,7 @@ TEST_F(StudyFolderTest, TwoStudiesDoNotShareAFolder) {
 
 TEST_F(StudyFolderTest, StudiesOfEarlierVersionsGoOn) {
   ASSERT_EQ(Run(Options("out")).status, 0);
-  fs::remove_all(Path("out/.exphoton-study"));  // they had none
+  fs::remove_all(Path("out/.exphoton-study"));  // earlier versions did not make this folder
   const ProgramResult again = Run(Options("out"));
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_NE(again.err.find("2 renders were there already"), std::string::npos) << again.err;

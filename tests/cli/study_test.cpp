@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Studies as a user meets them: a folder of results, going on after an interruption, the same
-// pictures again, and a page that needs nothing from outside.
+// These tests run studies as a user does. They check the folder of results, continuation after an
+// interruption, identical pictures in a second study, and a page that loads nothing from outside.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -21,7 +21,8 @@ class StudyTest : public ProgramTest {
                                  "Translate 0 -1 4 Shape \"disk\" \"float radius\" 9 "
                                  "Translate 0 1 -4"));
   }
-  // Two integrators at two settings each, with three seeds: 12 renders of some 20 ms.
+  // The options give two integrators with two settings each and three seeds: 12 renders
+  // of about 20 ms.
   std::vector<std::string> Options(const std::string& folder) const {
     return {"study",       "box.pbrt",   "--integrators", "directlighting,path",
             "--vary",      "spp=1,4",    "--seeds",       "3",
@@ -29,7 +30,7 @@ class StudyTest : public ProgramTest {
             "--reference", "half-b.exr", "--title",       "box",
             "--out",       folder};
   }
-  // The same, slow enough to be interrupted.
+  // The options give a similar study that is slow enough to be interrupted.
   std::vector<std::string> SlowOptions(const std::string& folder) const {
     std::vector<std::string> options{"study",      "box.pbrt",    "--integrators", "path",
                                      "--vary",     "spp=128,192", "--seeds",       "6",
@@ -48,7 +49,7 @@ class StudyTest : public ProgramTest {
   study::Results ReadResults(const std::string& folder) const {
     return study::FromJson(Read(folder + "/results.json"));
   }
-  // The bytes of every picture of a study, in the order of its rows.
+  // Returns the bytes of every picture of a study, in the order of its rows.
   std::vector<std::string> Pictures(const std::string& folder) const {
     std::vector<std::string> bytes;
     for (const study::RunRow& row : ReadResults(folder).runs)
@@ -213,7 +214,7 @@ TEST_F(StudyTest, ReadsStudyFilesWithPathsOfTheirOwnFolder) {
   const ProgramResult result = Run({"study", "sub/small.study", "--seeds", "1", "--out", "out"});
   EXPECT_EQ(result.status, 0) << result.err;
   const study::Results results = ReadResults("out");
-  EXPECT_EQ(results.seeds, 1);  // the command line wins
+  EXPECT_EQ(results.seeds, 1);  // the command line takes precedence
   ASSERT_EQ(results.settings.size(), 2u);
   EXPECT_EQ(results.settings[0].label, "one bounce");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What is laid out by hand must be right in double too, a build that few make: that this compiles
-// with EXPHOTON_DOUBLE, in every build, is the test.
+// Data layouts written by hand must also be right in double precision, which is rarely built. Every
+// build compiles this file with EXPHOTON_DOUBLE, and the compilation is the test.
 #include "accelerators/bvh/traverse/traverse.h"
 #include "accelerators/kd/kd_build.h"
 #include "integrators/photon/gather/cone_directions.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Any file is a picture or an error that names it. (The reader opens files by name, so the bytes
-// go through one in memory.)
+// fuzz_exr checks that ReadExr makes any file an image or throws an ImageError. ReadExr opens files
+// by name, so the bytes are passed as a file in memory.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Any ray against any finite triangles: accelerators answer as brute force does, t is a number.
+// fuzz_intersect traces any ray against any finite triangles. Accelerators must agree with brute
+// force, and t must be a valid number.
 #include "tests/fuzz/input.h"
 #include "tests/support/geometry_scenes.h"
 #include "tests/support/test_plugin.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Weights of two techniques lie in [0, 1] and add up to 1 for any densities; cones hold what they
-// draw, with a density that is positive and finite.
+// fuzz_mis checks MIS weights and cones. For any densities the weights of two techniques lie in [0,
+// 1] and add up to 1. Directions drawn from cones have unit length and a positive, finite density.
 #include <cmath>
 
 #include "core/math/sampling/mis.h"

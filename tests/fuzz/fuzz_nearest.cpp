@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The searches find what looking at every point finds, for any finite points.
+// fuzz_nearest checks that the searches agree with brute force for any finite points.
 #include "tests/fuzz/input.h"
 #include "tests/support/point_trees.h"
 
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   NearestQuery query;
   query.k = 1 + input.Byte() % 64;
   query.p = input.AnyPoint();
-  // Farther apart than this, squared distances are infinite for every search.
+  // Beyond this limit squared distances overflow in every search.
   const auto isNear = [](const Point3& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < Real(1e18);
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A valid scene in which one plugin is chosen by the first bytes and has any parameters at all.
+// fuzz_params loads a valid scene in which the first byte selects one plugin and the rest is its
+// parameters.
 #include <array>
 #include <string>
 
@@ -29,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     LoadSceneText(text);
   } catch (const Error& error) {
     fuzz::Require(error.Status() != ExitStatus::Internal, "no error is an internal one");
-  } catch (const std::runtime_error&) {  // the text ended the scene, or began another
+  } catch (const std::runtime_error&) {  // the text ended the scene or began another
   }
   return 0;
 }

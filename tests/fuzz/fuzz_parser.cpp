@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Any text is directives or an error. Includes find the text itself and a harmless file.
+// fuzz_parser checks that any text gives directives or an error. The text may include itself and a
+// harmless file.
 #include "core/base/log.h"
 #include "core/parser/syntax/parser.h"
 #include "tests/fuzz/input.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Any text is a scene that renders to a finite picture, or an error; tiny pictures, few photons.
-// Sizes that would only cost time are refused before the render, and counts are replaced.
+// fuzz_scene checks that any text is a scene that renders to a finite image, or gives an error.
+// Large scenes would only cost time: they are not rendered, and photon counts are replaced by small
+// ones.
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ bool IsCheap(const RenderSetup& setup) {
          setup.sampler->SamplesPerPixel() <= kMostSamples;
 }
 
-// Whatever the text says. For an integrator without such parameters this ends in an error, so only
-// where there seems to be one that has them.
+// Overrides the photon counts in the text. An integrator without these parameters would fail, so
+// only a text that seems to contain a photon integrator gets them.
 std::vector<ParameterOverride> FewPhotons(const std::string& text) {
   const std::string directive = "SurfaceIntegrator";
   if (text.find("photonmap\"") == std::string::npos) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Any bytes are tokens or an error with its place; numbers are finite.
+// fuzz_tokenizer checks that any bytes give tokens or an error, and that numbers are finite.
 #include <cmath>
 
 #include "core/parser/syntax/tokenizer.h"

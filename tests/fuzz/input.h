@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bytes of a fuzzer as numbers; past the end all is 0.
+// Input reads the bytes of a fuzzer as numbers. Beyond the end all bytes are 0.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ class Input {
   std::size_t size_;
 };
 
-// A broken promise is a find like a crash.
+// Aborts if a promise is broken, so that the fuzzer reports it like a crash.
 inline void Require(bool holds, const char* promise) {
   if (holds) return;
   std::fprintf(stderr, "broken promise: %s\n", promise);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Runs a fuzz target without a fuzzer: over every file of the folders and files that are named.
+// This program runs a fuzz target without a fuzzer, over every given file and every file in the
+// given folders.
 #include <filesystem>
 #include <fstream>
 #include <iterator>

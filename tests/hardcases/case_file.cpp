@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A line is a keyword and its words; lines that begin with | are text of what stands before them.
+// ReadCatalogue reads lines, each with a keyword and its words. A line that begins with | is text
+// that belongs to the keyword above it.
 #include "tests/hardcases/case_file.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ struct Template {
   std::string text;
 };
 
-// A run before its lists of values are multiplied out.
+// Draft is a run before its lists of values are expanded to one run per combination.
 struct Draft {
   Run run;
   Values values;
@@ -29,7 +30,7 @@ struct Draft {
   std::vector<Each> lists;
 };
 
-// Words apart by blanks; "..." or '...' keeps blanks (and the other quotes) within a word.
+// Splits a line at blanks. "..." or '...' keeps blanks and the other quotes within a word.
 std::vector<std::string> Words(const std::string& line) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < line.size();) {
@@ -63,7 +64,8 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-// Replaces {key}; braces round anything else stay, so that a misspelt key is seen by the parser.
+// Replaces {key} by its value. Braces round anything else stay, so the scene parser reports a
+// misspelt key.
 std::string Fill(std::string text, const Values& values) {
   for (int depth = 0; depth < 4; ++depth) {
     for (const auto& [key, value] : values) {
@@ -205,7 +207,7 @@ class Reader {
     }
   }
 
-  // each a,b 1,2 3,4: two runs, one with a = 1 and b = 2.
+  // Reads a list: "each a,b 1,2 3,4" gives two runs, the first with a = 1 and b = 2.
   void TakeList(const std::vector<std::string>& words) {
     Draft::Each list{Split(Word(words, 1), ','), {}};
     for (std::size_t i = 2; i < words.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The catalogue of hard cases as data: what the files in cases/ say. Their language is described in
-// docs/development/robustness.md; this reads it and knows nothing of how a case is judged.
+// ReadCatalogue reads the catalogue of hard cases from the files in cases/.
+// docs/development/robustness.md describes their language. This file does not depend on how a case
+// is judged.
 #pragma once
 
 #include <map>
@@ -11,42 +12,43 @@ namespace exphoton::hardcases {
 
 using Values = std::map<std::string, std::string>;
 
-// One thing asked of a run's outcome: "mean", {"0.5", "1%"}.
+// Check is one requirement on a run's outcome: "mean", {"0.5", "1%"}.
 struct Check {
   std::string kind;
   std::vector<std::string> arguments;
 };
 
-// One scene rendered, for one choice of the values in it.
+// Run is one scene to render, with one choice of the values in it.
 struct Run {
   std::string name;  // unique within its case
   std::string scene;
   std::vector<std::string> arguments;    // after the program's name
   std::vector<std::string> environment;  // NAME=value
   int status = 0;
-  int seeds = 1;  // independent pictures; 8 where a mean is asked for
+  int seeds = 1;  // number of independent pictures; at least 8 to check a mean
   bool isStrict = true;
-  bool isSlow = false;        // of a case that is not
+  bool isSlow = false;        // only this run, not the whole case
   double timeLimit = 60;      // seconds
   double memoryLimit = 1000;  // megabytes
   std::vector<Check> checks;
 };
 
-// A script for bash, in an empty folder; $EXPHOTON is the program. Passes where it exits with 0.
+// Script is a bash script that runs in an empty folder; $EXPHOTON is the program. Exit status 0
+// passes.
 struct Script {
   std::string name, text;
   double timeLimit = 60;
 };
 
-// Tests by name: a program (unit, stat ...) and a pattern as GoogleTest's filter knows it.
+// NamedTest selects tests of a program (unit, stat ...) by a wildcard pattern of test names.
 struct NamedTest {
   std::string program, pattern;
 };
 
 struct Case {
   std::string id, title, expected;
-  std::string note;  // where the catalogue's expectation had to be corrected, and why
-  std::string open;  // why it does not hold, or cannot be asked yet; empty: it must pass
+  std::string note;  // how and why the catalogue's expectation was corrected
+  std::string open;  // why it fails or cannot be tested yet; empty: it must pass
   bool isSlow = false;
   std::vector<NamedTest> tests;
   std::vector<Run> runs;
@@ -58,8 +60,8 @@ struct Group {
   std::vector<Case> cases;
 };
 
-// Every *.txt in the folder, by name; templates of one file serve those after it. Throws
-// std::runtime_error that names file and line.
+// Reads all *.txt in the folder in the order of their names. Later files may use templates of
+// earlier ones. Throws std::runtime_error with file and line.
 std::vector<Group> ReadCatalogue(const std::string& folder);
 
 }  // namespace exphoton::hardcases

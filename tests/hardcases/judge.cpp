@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What holds for every run is asked of every run: its status, a picture that is finite and nowhere
-// negative or, where it fails, an error at a place and an older picture left alone.
+// Judge checks every run for its status and for a picture without negative or non-finite values. A
+// run that should fail must report an error with its place and keep the older picture.
 #include "tests/hardcases/judge.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Runs a case's scenes and scripts and compares what came out with what the case asks for.
+// Judge runs a case's scenes and scripts and compares the outcome with the case's requirements.
 #pragma once
 
 #include <map>
@@ -13,10 +13,10 @@
 namespace exphoton::hardcases {
 
 struct Verdict {
-  std::vector<std::string> seen;      // for the table, in few words
+  std::vector<std::string> seen;      // short texts for the table
   std::vector<std::string> failures;  // none: passed
   std::vector<double> falseAlarms;    // of its means (PictureResult::falseAlarm)
-  double seconds = 0, megabytes = 0;  // together; the most of any process
+  double seconds = 0, megabytes = 0;  // the sum; the maximum over processes
 };
 
 struct Programs {
@@ -24,7 +24,7 @@ struct Programs {
   std::string exphoton;    // the program under test
   double patience = 1;     // multiplies time and memory limits (sanitizers)
   std::uint64_t seed = 1;  // first seed
-  bool isFull = false;     // slow runs too
+  bool isFull = false;     // includes slow runs
 };
 
 class Judge {
@@ -34,7 +34,7 @@ class Judge {
 
  private:
   struct Pictures {
-    std::vector<Image> images;  // one a seed
+    std::vector<Image> images;  // one per seed
     ProcessResult last;
   };
 
@@ -49,13 +49,14 @@ class Judge {
   void RunScript(const Script& script);
   void Count(const ProcessResult& outcome);
   void Fail(const std::string& where, const std::string& what);
-  // Of an earlier run of the case, or null with a failure.
+  // Returns the pictures of an earlier run of the case. If there are none, records a failure and
+  // returns null.
   const Pictures* Of(const std::string& where, const std::string& name);
 
   const Case& asked_;
   const Programs& programs_;
   std::map<std::string, Pictures> pictures_;
-  std::map<int, int> statuses_;  // how many runs ended with which
+  std::map<int, int> statuses_;  // number of runs by status
   Verdict verdict_;
 };
 

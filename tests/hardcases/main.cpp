@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// hardcases: runs the catalogue of hard cases and prints what was expected and what was seen.
+// hardcases runs the catalogue of hard cases and prints the expected and the actual results.
 // Exit status: 0 all passed or are known to be open, 1 some failed, 2 wrong usage or catalogue.
 #include <algorithm>
 #include <atomic>

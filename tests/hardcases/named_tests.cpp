@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GoogleTest programs, asked by their own filter.
+// NamedTests runs GoogleTest programs and selects their tests by GoogleTest's filter.
 #include "tests/hardcases/named_tests.h"
 
 #include <fnmatch.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The tests that cases name: whether they exist, and where asked, whether they pass.
+// NamedTests checks that the tests that cases name exist and, on request, that they pass.
 #pragma once
 
 #include <map>
@@ -13,15 +13,15 @@ namespace exphoton::hardcases {
 
 class NamedTests {
  public:
-  // Lists the tests of every program that a case names, in the folder of the programs.
+  // Lists the tests of every program that a case names. `folder` holds the programs.
   NamedTests(const std::string& folder, const std::vector<const Case*>& cases);
 
-  // Runs those that are named, each once; `jobs` programs at a time.
+  // Runs each named test once, with `jobs` programs at a time.
   void Run(int jobs);
 
   struct Result {
     int count = 0;
-    std::vector<std::string> failed, missing;  // names; patterns that match nothing
+    std::vector<std::string> failed, missing;  // names of tests; patterns that match no test
   };
   Result Of(const Case& asked) const;
 
@@ -30,7 +30,7 @@ class NamedTests {
 
   std::string folder_;
   std::vector<const Case*> cases_;
-  std::map<std::string, std::set<std::string>> known_;  // of each program
+  std::map<std::string, std::set<std::string>> known_;  // names of the tests of each program
   std::set<std::string> passed_;
   bool areRun_ = false;
 };

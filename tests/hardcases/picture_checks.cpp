@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Comparisons of pictures by bits, by pixels and by means.
+// CheckPicture compares pictures bit for bit, pixel by pixel and by means.
 #include "tests/hardcases/picture_checks.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string Text(const char* format, auto... values) {
   return buffer.data();
 }
 
-// "1%" of a scale, or an absolute number.
+// Converts "1%" to a fraction of the scale and any other word to an absolute number.
 double Tolerance(const std::string& word, double scale) {
   const double number = std::stod(word);
   return word.back() == '%' ? number / 100 * std::abs(scale) : number;
@@ -88,7 +88,7 @@ PictureResult CheckSpread(const Check& check, std::span<const Image> pictures) {
   return {worst <= Tolerance(check.arguments.at(0), 1), Text("blocks within %.2g %%", worst * 100)};
 }
 
-// Bit for bit after a factor and an exchange of channels.
+// Compares bit for bit after multiplication by a factor and an optional permutation of channels.
 PictureResult CheckBits(const Image& picture, const Image& other, float factor, bool isPermuted) {
   if (picture.data != other.data || picture.ChannelCount() != other.ChannelCount())
     return {false, "the pictures differ in size"};
@@ -107,7 +107,7 @@ PictureResult CheckBits(const Image& picture, const Image& other, float factor, 
   return {different == 0, different == 0 ? "same bits" : Text("%d pixels differ", different)};
 }
 
-// Mean over mean, with single precision's whole range.
+// Compares the ratio of two means, computed in double precision.
 PictureResult CheckRatio(const Check& check, const Image& picture, const Image& other) {
   const double ratio = MeanOver(picture, {}) / MeanOver(other, {});
   const double asked = std::stod(check.arguments.at(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Text for people; nothing here decides anything.
+// These functions only format results as text. They decide nothing.
 #include "tests/hardcases/report.h"
 
 #include <array>

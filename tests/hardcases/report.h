@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The table of all cases: on the terminal while they run, and as a page in Markdown.
+// TerminalLine and Page print the table of all cases: on the terminal while they run, and as a page
+// in Markdown.
 #pragma once
 
 #include <string>
@@ -23,10 +24,10 @@ struct Line {
 
 std::string TerminalLine(const Line& line);
 
-// How often the means that were measured would fail with other seeds, all together.
+// Returns the probability that any of the measured means would fail with other seeds, as text.
 std::string FalseAlarmText(const std::vector<Line>& lines);
 
-// A summary by group, and the table of cases.
+// Summary returns a table with one row per group. Page returns the tables of all cases.
 std::string Summary(const std::vector<Line>& lines);
 std::string Page(const std::vector<Line>& lines);
 

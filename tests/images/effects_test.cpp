@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The plan of effects drops only what is provably nothing: with and without it our scenes are the
-// same pictures, bit for bit.
+// These tests check that feature culling drops only features that contribute nothing. With and
+// without it, the project's scenes must give the same pictures, bit for bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanTest,
                            return name;
                          });
 
-// The box of cornell-caustic as text, without the blocks that wear one of the materials.
+// Returns the box of cornell-caustic as text, without the blocks that use one of the materials.
 std::string CausticBoxWithout(const std::vector<std::string>& materials) {
   std::ifstream file(std::string(EXPHOTON_SOURCE_DIR) + "/scenes/cornell-caustic/geometry.pbrt");
   std::ostringstream stream;
@@ -83,7 +83,7 @@ TEST(CausticBox, WithoutBallsAndRingShootsNoCausticPhotonAndSaysWhy) {
   EXPECT_TRUE(std::isnan(render.Counter("photons/caustic paths")));
   EXPECT_TRUE(std::isnan(render.Counter("photons/caustic stored")));
   EXPECT_GE(render.Counter("photons/indirect stored"), 3000);
-  // All photons shot are those that the other two maps ask for.
+  // Only the indirect and direct maps determine the number of photons shot.
   EXPECT_EQ(render.Counter("photons/shot"), std::max(render.Counter("photons/indirect paths"),
                                                      render.Counter("photons/direct paths")));
   EXPECT_GT(MeanRadiance(render.image), .01);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// For each condition of the plan of effects the scenes that would make it false if it looked at the
-// wrong thing: the row is as stated, and the picture is the same, bit for bit, with every effect
-// on.
+// These tests check each condition of feature culling, with scenes for which a wrong condition
+// would fail. The feature must be on or off as stated. The picture must be the same, bit for bit,
+// with all features on.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,13 +28,13 @@ const std::string kBall = "Translate .3 0 .4 Shape \"sphere\" \"float radius\" .
 const std::string kEqualBlend =
     "Texture \"by place\" \"float\" \"bilerp\" \"float v00\" -.4 \"float v01\" -.1\n";
 
-// A world, and a row of its plan.
+// Condition is a world with the expected state of one feature.
 struct Condition {
   std::string name, world;
   Feature effect;
   bool on;
-  std::string header = "";  // before the camera
-  std::string camera = "";  // parameters
+  std::string header = "";  // text before the camera
+  std::string camera = "";  // camera parameters
 };
 
 std::string TextOf(const Condition& c, const std::string& integrator) {
@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
                   " \"float lensradius\" 1e-6 \"float focaldistance\" 1"}),
     [](const auto& info) { return info.param.name; });
 
-// A sky whose mean underflows is no proof that it is black.
+// A sky whose mean underflows to 0 is not provably black.
 TEST(PlanOfEffects, KeepsASkyWithOneFaintTexel) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / "exphoton-faint-sky";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Comparison with the stored references.
+// MeasureRegion and LargestFirefly compare pictures with the stored references.
 #include "tests/images/reference.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ double Grey(const Image& image, int x, int y) {
   return sum / 3;
 }
 
-// Which pixels count, as Reference says.
+// Returns which pixels count, as defined at Reference.
 std::vector<bool> FindCounting(const Image& image) {
   const int width = image.Width(), height = image.Height();
   std::vector<double> greys;
@@ -47,7 +47,7 @@ std::vector<bool> FindCounting(const Image& image) {
   return counts;
 }
 
-// Calls visit(x, y, index) for the pixels of the region that count; returns how many there are.
+// Calls visit(x, y, index) for each pixel of the region that counts. Returns their number.
 template <class Visit>
 int ForCounting(const Reference& reference, const PixelBounds& region, Visit&& visit) {
   int count = 0;
@@ -69,7 +69,8 @@ double MeanOfRegion(const Reference& reference, const Image& picture, const Pixe
   return sum / count;
 }
 
-// P(|T| > t) for Student's T, by the finite series of Abramowitz and Stegun 26.7.3 and 26.7.4.
+// Returns P(|T| > t) for Student's T, by the finite series of Abramowitz and Stegun 26.7.3 and
+// 26.7.4.
 double StudentTail(double t, int degrees) {
   const double angle = std::atan(t / std::sqrt(double(degrees)));
   const double sine = std::sin(angle), cosine = std::cos(angle);

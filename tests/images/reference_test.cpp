@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Every scene with every integrator that renders all of its light, at 64 x 48 pixels, against path
-// tracing: no pixel that is not finite, no bias beyond the stated one in the picture's mean or in
-// any of 4 x 3 blocks, no fireflies. Settings are small; tolerances are those of the settings.
+// These tests compare every scene with path tracing at 64 x 48 pixels, for every integrator that
+// renders all of its light. They allow no non-finite pixel, no fireflies, and no bias beyond the
+// stated one in the mean of the picture or of any of 4 x 3 blocks. The tolerances are for the small
+// settings used here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,14 +19,14 @@ constexpr int kSeeds = 6;
 
 struct Tolerances {
   double picture;  // of the mean, relative
-  double block;    // of a block's mean, relative to it or to half the picture's, if darker
+  double block;    // relative to the block's mean, or to half the picture's if larger
   double firefly;  // largest pixel over the reference around it
 };
 
 struct PictureCase {
   const char* scene;
   const char* variant;  // the file; its integrator
-  int samples;          // a pixel
+  int samples;          // per pixel
   std::vector<ParameterOverride> parameters;
   Tolerances tolerances;
 
@@ -41,9 +42,9 @@ std::vector<ParameterOverride> Photons(const char* indirect, const char* gather,
 
 const std::vector<ParameterOverride> kDeep = {{"SurfaceIntegrator", "maxdepth", "200"}};
 
-// Path tracing has no bias; what its tolerances exceed 1 % by is noise, of caustics above all.
-// Photon maps have (docs/theory/exphotonmap.md, section 6): it is largest in blocks full of contact
-// shadows, +4 % under the skylight room's chair, and falls slowly with the photons.
+// Path tracing has no bias; tolerances above 1 % allow for its noise, mainly of caustics. Photon
+// maps have a bias (docs/theory/exphotonmap.md, section 6). It is largest in blocks full of contact
+// shadows, +4 % under the skylight room's chair, and falls slowly with the number of photons.
 const PictureCase kCases[] = {
     {"skylight-room", "emitters", 16, kDeep, {.01, .05, 4}},
     {"skylight-room", "photonmap", 6, Photons("300000", "16"), {.02, .10, 5}},
@@ -141,8 +142,8 @@ std::string CaseName(const testing::TestParamInfo<PictureCase>& info) {
 
 INSTANTIATE_TEST_SUITE_P(References, Picture, testing::ValuesIn(kCases), CaseName);
 
-// directlighting and whitted leave light out: they never exceed the reference. Two threads, tiles
-// of another size and another order give the same bits.
+// directlighting and whitted omit some light, so they never exceed the reference. Two threads,
+// another tile size and another tile order give the same bits.
 TEST(Picture, WithoutIndirectLightIsNoBrighterAndAlwaysTheSame) {
   for (const char* scene : {"skylight-room", "cornell-caustic", "glossy-room", "furnace",
                             "veach-mis", "moving-spheres", "glossy-floor-room"}) {

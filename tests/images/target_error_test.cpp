@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// --target-error on our scenes: the noise between five renders to a target, measured afterwards, is
-// what was asked for. Scenes of lamps and mirrors need many passes to be measured at all
-// (docs/decisions/0007-stopping-rules.md), so the caustics are path traced here.
+// This test renders the project's scenes with --target-error. The noise measured between five
+// renders must match the target. Scenes of lights and mirrors need many passes for a useful
+// measurement (docs/decisions/0007-stopping-rules.md), so caustics are path traced here.
 #include <gtest/gtest.h>
 
 #include "core/render/render_passes.h"
@@ -34,7 +34,8 @@ PassesResult RenderTo(double target, std::uint64_t seed, LoadedScene& scene, Ima
   return result;
 }
 
-// Mean over pixels and channels of the variance between pictures, over (r^2 + .01).
+// Returns the mean over pixels and channels of the variance between pictures over (r^2 + .01),
+// where r is the mean of the pictures.
 double NoiseBetween(const std::vector<Image>& images) {
   const double count = double(images.size());
   double sum = 0, values = 0;
@@ -60,7 +61,7 @@ class TargetErrorTest : public testing::TestWithParam<Target> {};
 TEST_P(TargetErrorTest, IsTheNoiseBetweenSeeds) {
   LoadOptions load;
   load.parameters = GetParam().parameters;
-  load.pixelBounds = PixelBounds{8, 14, 56, 48};  // time is short
+  load.pixelBounds = PixelBounds{8, 14, 56, 48};  // to save time
   LoadedScene scene = LoadSceneFile(GetParam().scene, load);
   std::vector<Image> images(5);
   for (std::size_t i = 0; i < images.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The variants of a scene are one scene: their files differ in the line of the surface integrator,
-// so that pictures differ by integrator alone.
+// These tests check that the variants of a scene differ only in the line of the surface integrator,
+// so that their pictures differ only by integrator.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -21,7 +21,7 @@ std::vector<std::string> ReadLines(const std::filesystem::path& path) {
   return lines;
 }
 
-// The folders that hold a scene: those with geometry.
+// Returns the scene folders, which are the folders with geometry.
 std::vector<std::filesystem::path> SceneFolders() {
   std::vector<std::filesystem::path> folders;
   for (const auto& entry : std::filesystem::directory_iterator(kScenes))
@@ -50,7 +50,7 @@ TEST(SceneVariants, DifferInTheIntegratorsLineAlone) {
   }
 }
 
-// emitters.pbrt is path.pbrt with the patch in the sun's place (and a first line that says so).
+// emitters.pbrt equals path.pbrt, except for its first line and the patch in place of the sun.
 TEST(SceneVariants, EmittersReplaceTheSunAlone) {
   const std::vector<std::string> path = ReadLines(kScenes / "skylight-room/path.pbrt");
   const std::vector<std::string> emitters = ReadLines(kScenes / "skylight-room/emitters.pbrt");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What blocks bring back, one thing after the other, and matrices that are written out.
+// These tests check which parts of the graphics state a block restores at its end, one part at a
+// time. They also check matrices that are given as sixteen numbers.
 #include <gtest/gtest.h>
 
 #include "tests/parser/parse_support.h"
@@ -7,7 +8,7 @@
 namespace exphoton {
 namespace {
 
-// What a ray from (x, 0, -50) along +z meets.
+// Returns the surface that a ray from (x, 0, -50) along +z hits first.
 std::optional<SurfaceInteraction> SeenAt(const BuiltScene& built, Real x) {
   if (!built.error.empty()) {
     ADD_FAILURE() << built.error;
@@ -28,7 +29,8 @@ void ExpectBounds(const BuiltScene& built, const Point3& min, const Point3& max)
   EXPECT_LT(Distance(bounds.max, max), 1e-3) << bounds.max.x << " " << bounds.max.y;
 }
 
-// A disk within a block that changes everything, one after it, and one before all.
+// The scene has one disk before a block, one disk within a block that changes every attribute, and
+// one disk after the block.
 const std::string kDisks =
     "Texture \"paint\" \"color\" \"constant\" \"color value\" [.5 .5 .5]\n"
     "MakeNamedMaterial \"coat\" \"string type\" \"matte\"\n"
@@ -97,7 +99,7 @@ TEST(ConcatTransform, MultipliesTheCurrentMatrixFromTheRight) {
       BuildText(InWorld("Translate 1 2 3 ConcatTransform [2 0 0 0  0 2 0 0  0 0 2 0  5 0 0 1]\n"
                         "Shape \"sphere\"")),
       {4, 0, 1}, {8, 4, 5});
-  // Not commutative: the scale acts on the second translation.
+  // The product is not commutative: the scale acts on the second translation.
   ExpectBounds(
       BuildText(InWorld("ConcatTransform [2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 1] "
                         "ConcatTransform [1 0 0 0  0 1 0 0  0 0 1 0  5 0 0 1] Shape \"sphere\"")),
@@ -108,7 +110,7 @@ TEST(TransformDirective, ReplacesTheMatrixAndReadsItColumnByColumn) {
   ExpectBounds(BuildText(InWorld("Translate 1 2 3 Transform [1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1] "
                                  "Shape \"sphere\"")),
                {4, 5, 6}, {6, 7, 8});
-  // A shear: x += 2 y. The triangle's corner (0, 1, 0) goes to (2, 1, 0).
+  // The matrix is the shear x += 2 y. It moves the triangle's corner (0, 1, 0) to (2, 1, 0).
   ExpectBounds(
       BuildText(InWorld("Transform [1 0 0 0  2 1 0 0  0 0 1 0  0 0 0 1] Shape \"trianglemesh\" "
                         "\"integer indices\" [0 1 2] \"point P\" [0 0 0 1 0 0 0 1 0]")),

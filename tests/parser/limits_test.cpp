@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scene files that ask for endless work in a few lines: chains and graphs of textures, and files
-// that include others over and over. They are refused at once, and --limits allows more.
+// These tests load short scene files that would cause endless work: chains and graphs of textures,
+// and files that include other files repeatedly. The loader must refuse such files at once, and
+// --limits must allow more.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -10,7 +11,8 @@
 namespace exphoton {
 namespace {
 
-// Texture t<i> uses t<i-1> through the parameters, each of which is "tex1" or "tex2".
+// Returns a chain of textures. Texture t<i> uses t<i-1> through each of the given parameters, which
+// are "tex1" or "tex2".
 std::string Chain(int length, const std::vector<std::string>& parameters,
                   const std::string& plugin = "mix") {
   std::string text = "Texture \"t0\" \"color\" \"uv\"\n";
@@ -45,11 +47,11 @@ TEST(TextureGraphs, ThatDoubleAtEachLevelDoNotHangTheParser) {
               std::string::npos)
         << built.error;
     EXPECT_NE(built.error.find("--limits texturenodes=N"), std::string::npos);
-    // Without the limit: loading alone evaluates nothing.
+    // Without the limit the scene loads, because loading alone evaluates no texture.
     LoadOptions options;
     options.limits.textureNodes = std::int64_t(1) << 59;
     EXPECT_EQ(BuildText(InWorld(Chain(58, {"tex1", "tex2"}, plugin)), options).error, "");
-    // Sums do not overflow.
+    // The sum of the node counts must not overflow.
     options.limits.textureNodes = (std::int64_t(1) << 60) - 1;
     EXPECT_NE(BuildText(InWorld(Chain(200, {"tex1", "tex2"}, plugin)), options).error, "");
   }
@@ -57,7 +59,8 @@ TEST(TextureGraphs, ThatDoubleAtEachLevelDoNotHangTheParser) {
 }
 
 TEST(TextureGraphs, CountATextureOnlyForTheKindThatIsUsed) {
-  // Both kinds have every name, and each uses the other's kind once.
+  // Every name exists as a colour texture and as a float texture. Each texture uses the texture
+  // below it of the same kind, so counting both kinds would double the count at every level.
   std::string text =
       "Texture \"t0\" \"color\" \"uv\"\nTexture \"t0\" \"float\" \"bilerp\" \"float v01\" 1\n";
   for (int i = 1; i < 200; ++i) {

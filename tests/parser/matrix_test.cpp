@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Matrices in homogeneous coordinates: a common factor of all sixteen numbers does not change the
-// picture, and a projection is an error.
+// These tests check that matrices have homogeneous coordinates. A common factor of all sixteen
+// numbers must not change the picture, and a projective matrix must be an error.
 #include <gtest/gtest.h>
 
 #include "tests/parser/parse_support.h"
@@ -19,7 +19,8 @@ std::string Numbers(const std::vector<double>& numbers, double factor) {
   return text + " ]";
 }
 
-// Quadrics, a mesh, a light and a textured surface, all placed by matrices times a factor.
+// Renders quadrics, a mesh, a light and a textured surface, whose matrices are all multiplied
+// by the factor.
 TestRender RenderTimes(double factor, const std::string& accelerator, const char* directive) {
   const auto place = [&](const std::vector<double>& numbers) {
     return "AttributeBegin " + std::string(directive) + ' ' + Numbers(numbers, factor) + ' ';
@@ -55,7 +56,7 @@ TEST(Matrix, TimesAFactorDoesNotBlackenOrLoseQuadrics) {
         EXPECT_EQ(RenderTimes(factor, accelerator, directive).image.pixels, plain.image.pixels)
             << accelerator << " times " << factor;
       }
-      // Numbers that the division rounds.
+      // The division by these factors rounds.
       for (const double factor : {1.000001, 3e5, -7e-9}) {
         const TestRender render = RenderTimes(factor, accelerator, directive);
         EXPECT_LT(LargestDifference(render.image, plain.image), 1e-3)
@@ -76,7 +77,7 @@ TEST(Matrix, ThatIsAProjectionIsAnError) {
         << built.error;
     EXPECT_NE(built.error.find("hint: the matrix is given column by column"), std::string::npos);
   }
-  // A matrix written row by row, with its translation in the last row.
+  // The first matrix is written row by row, so its translation is read into the last row.
   EXPECT_NE(BuildText(InWorld("Transform [1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1]")).error, "");
   EXPECT_NE(BuildText(InWorld("Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0]")).error, "");
   EXPECT_NE(BuildText(InWorld("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 0]")).error, "");

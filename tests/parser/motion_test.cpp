@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ActiveTransform and TransformTimes: what moves, between where and when; what cannot.
+// These tests check ActiveTransform and TransformTimes: which objects move, between which places
+// and at which times, and which objects cannot move.
 #include <gtest/gtest.h>
 
 #include "tests/parser/parse_support.h"
@@ -9,7 +10,7 @@ namespace {
 
 constexpr Interval kAlways{-kInfinity, kInfinity};
 
-// "line:column: text" of the error, the place within the text of the world.
+// Returns "line:column: text" of the error. The text of the world begins on line 2.
 std::string ErrorIn(const std::string& world) {
   const std::string error = BuildText("Accelerator \"bruteforce\" WorldBegin\n" + world).error;
   const std::size_t begin = error.find("scene.pbrt:");
@@ -17,7 +18,8 @@ std::string ErrorIn(const std::string& world) {
   return error.substr(begin + 11, error.find('\n') - begin - 11);
 }
 
-// What the world's only instance is, as (0 0 0) and (1 0 0) of its space at three times.
+// Track holds the points (0, 0, 0) and (1, 0, 0) of a moving instance's space at times
+// 0, 1/2 and 1.
 struct Track {
   Point3 p[3], x[3];
 };
@@ -92,7 +94,7 @@ TEST(CoordinateSystem, RemembersBothTimes) {
                                 "Identity CoordSysTransform \"there\" Shape \"sphere\"")));
   EXPECT_EQ(track.p[0], Point3(0, 0, 0));
   EXPECT_EQ(track.p[2], Point3(1, 0, 0));
-  // It is recalled as a whole, whichever time is active.
+  // CoordSysTransform restores the matrices of both times, whichever time is active.
   const Track again =
       TrackOf(BuildText(InWorld(kEnd + "Translate 1 0 0 CoordinateSystem \"there\" Identity " +
                                 kStart + "CoordSysTransform \"there\" Shape \"sphere\"")));
@@ -235,7 +237,7 @@ TEST(AreaLight, MovesWithItsShape) {
     ref.time = time;
     const auto sample = light.SampleDirect(ref, {Real(.5), Real(.5)}, Real(.5));
     ASSERT_TRUE(sample);
-    EXPECT_LT(sample->wi.y, Real(-.99));  // straight down to where the light is then
+    EXPECT_LT(sample->wi.y, Real(-.99));  // straight down to the light's position at this time
     EXPECT_EQ(sample->shadowRay.time, time);
   }
 }

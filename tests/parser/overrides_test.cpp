@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the command line changes in a scene: --set, --integrator, --quick, --spp, --effects.
+// These tests check the changes that the command line makes to a scene: --set, --integrator,
+// --quick, --spp and --effects.
 #include "core/parser/overrides.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scene text in memory to tokens, directives, scenes or the diagnostic that a user would read.
+// These helpers convert scene text in memory to tokens, directives, scenes, or the diagnostic that
+// a user would read.
 #pragma once
 
 #include <map>
@@ -16,7 +17,7 @@ namespace exphoton {
 
 using Files = std::map<std::string, std::string>;
 
-// Keeps what the parser hands over.
+// DirectiveList stores the directives that the parser emits.
 class DirectiveList final : public DirectiveHandler {
  public:
   void Handle(Directive directive) override { directives.push_back(std::move(directive)); }
@@ -28,7 +29,7 @@ inline std::string Diagnostic(const Error& error) {
   return FormatDiagnostic("error", error.what(), error.Where(), error.Hint());
 }
 
-// The directives of "scene.pbrt" among the files; throws Error.
+// Returns the directives of the file "scene.pbrt". Throws Error.
 inline std::vector<Directive> ParseFiles(const Files& files, Log* log = nullptr) {
   Log quiet(Log::Level::Normal, Log::Sink::Memory);
   MemorySource source(files);
@@ -40,7 +41,7 @@ inline std::vector<Directive> ParseText(const std::string& text) {
   return ParseFiles({{"scene.pbrt", text}});
 }
 
-// What parsing alone says is wrong; "" where nothing is.
+// Returns the diagnostic of parsing alone, or "" if there is no error.
 inline std::string ParseErrorOf(const Files& files) {
   try {
     ParseFiles(files);
@@ -53,11 +54,11 @@ inline std::string ParseErrorOf(const std::string& text) {
   return ParseErrorOf(Files{{"scene.pbrt", text}});
 }
 
-// A scene built in full, with all that it said.
+// BuiltScene is the result of building a scene in full, with all messages of the build.
 struct BuiltScene {
   std::unique_ptr<Log> log = std::make_unique<Log>(Log::Level::Normal, Log::Sink::Memory);
   std::vector<std::unique_ptr<RenderSetup>> setups;
-  std::string error;  // the diagnostic; "" where it was built
+  std::string error;  // the diagnostic; "" if the scene was built
   int status = 0;
 
   std::string Messages() const {
@@ -79,7 +80,7 @@ inline BuiltScene BuildText(const std::string& text, LoadOptions options = {}) {
   return built;
 }
 
-// A small picture and a fast accelerator; what follows stands in its world.
+// Wraps the text in a world with a small film and an accelerator that is quick to build.
 inline std::string InWorld(const std::string& text) {
   return "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
          "Accelerator \"bruteforce\"\nWorldBegin\n" +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// How directives and parameters are written, and the exact words of what is wrong with them.
+// These tests check the syntax of directives and parameters, and the exact wording of the
+// error messages.
 #include "core/parser/syntax/parser.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +64,8 @@ struct Case {
   const char* message;
 };
 
-// Each message without the line and caret, which the first test of errors shows in full.
+// The messages are compared without the source line and the caret. Other tests compare
+// full messages.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.text; }
 class ParserError : public testing::TestWithParam<Case> {};
 

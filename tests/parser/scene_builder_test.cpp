@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What scenes mean: blocks, transformations, materials, textures, objects, defaults; and the words
-// for what is out of place.
+// These tests check the meaning of scenes: blocks, transformations, materials, textures, objects
+// and defaults. They also check the messages for misplaced directives.
 #include <gtest/gtest.h>
 
 #include "core/scattering/material.h"
@@ -16,7 +16,7 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.text.substr(0, 200); }
 
-// "line:column: text | hint" of what building says.
+// Returns "line:column: text | hint" of the error that building the scene reports.
 std::string ShortErrorOf(const std::string& text, LoadOptions options = {}) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
   options.pluginFolders.push_back(std::string(EXPHOTON_BINARY_DIR) + "/plugins");
@@ -179,7 +179,7 @@ TEST(SceneBuilder, MirrorsLookAtInTheDialectOfVersion2) {
 }
 
 TEST(SceneBuilder, BringsBackTheStateAtTheEndOfABlock) {
-  // The second sphere stands at the origin with radius 1, whatever the block did.
+  // The sphere lies at the origin with radius 1, because both blocks restore the transformation.
   const BuiltScene built = BuildText(InWorld(
       "AttributeBegin Scale 100 100 100 AttributeEnd TransformBegin Translate 50 0 0 TransformEnd\n"
       "Shape \"sphere\""));
@@ -199,7 +199,7 @@ TEST(SceneBuilder, PutsAnAreaLightOnEachShapeOfItsBlockOnly) {
       "AttributeBegin AreaLightSource \"area\" Shape \"sphere\" Shape \"trianglemesh\" \"integer "
       "indices\" [0 1 2 0 2 3] \"point P\" [0 0 0 1 0 0 1 1 0 0 1 0] AttributeEnd Shape \"disk\""));
   ASSERT_EQ(built.error, "");
-  EXPECT_EQ(built.setups[0]->scene->Lights().size(), 2u);  // one for the whole mesh
+  EXPECT_EQ(built.setups[0]->scene->Lights().size(), 2u);  // one light for the whole mesh
 }
 
 TEST(SceneBuilder, MakesOneMaterialForAllTheShapesThatWearIt) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scene files on disk: folders, devices, pipes, links and compressed files. And: no sequence of
-// bytes makes the parser do anything but parse or say an error.
+// These tests read scene files from disk: folders, devices, pipes, links and compressed files. They
+// also check that the parser either parses a sequence of bytes or reports an error.
 #include "core/parser/syntax/source.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class FileSourceTest : public testing::Test {
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(Path(name), std::ios::binary) << text;
   }
-  // What is wrong, without the folder's name; the number of directives where nothing is.
+  // Returns the error without the folder's name, or the number of directives if there is no error.
   std::string Parse(const std::string& name) const {
     Log log(Log::Level::Normal, Log::Sink::Memory);
     FileSource source;
@@ -92,8 +92,8 @@ TEST_F(FileSourceTest, RecognisesACycleThroughALink) {
   EXPECT_EQ(Parse("a.pbrt"), "2: the file includes itself: a.pbrt -> b.pbrt");
 }
 
-// Not a fuzzer, but what one would find first: pieces of the language in any order, and flipped
-// bytes.
+// The test is not a fuzzer, but tries the inputs that a fuzzer would find first: pieces of the
+// language in any order, and flipped bytes.
 TEST(Parser, SurvivesAnySequenceOfBytes) {
   const std::vector<std::string> pieces{"Shape",
                                         "\"sphere\"",

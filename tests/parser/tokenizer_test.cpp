@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The lexical rules: numbers, strings, comments, bytes that do not belong into text.
+// These tests check the lexical rules: numbers, strings, comments, and bytes that text
+// may not contain.
 #include "core/parser/syntax/tokenizer.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +100,7 @@ TEST(Tokenizer, DoesNotTakeNanAndInfForNumbers) {
 TEST(Tokenizer, ReadsNumbersAlikeInEveryLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* locale : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", ""}) {
-    std::setlocale(LC_ALL, locale);  // where it is not installed nothing changes
+    std::setlocale(LC_ALL, locale);  // no effect if the locale is not installed
     EXPECT_EQ(NumberOf("1.5"), 1.5);
   }
   std::setlocale(LC_ALL, before.c_str());
@@ -184,7 +185,7 @@ TEST(Tokenizer, RefusesTruncatedAndDamagedGzip) {
   std::string bytes = Compressed("1 2 3 4 5 6 7 8 9 10 11 12");
   for (std::size_t size = 2; size < bytes.size(); ++size)
     EXPECT_THROW(Gunzip(std::string_view(bytes).substr(0, size)), SourceError) << size;
-  bytes[bytes.size() - 6] = char(bytes[bytes.size() - 6] ^ 1);  // in the checksum
+  bytes[bytes.size() - 6] = char(bytes[bytes.size() - 6] ^ 1);  // damages the checksum
   EXPECT_THROW(Gunzip(bytes), SourceError);
 }
 
@@ -203,7 +204,7 @@ TEST(Tokenizer, SaysWhyTheSceneCannotBeRead) {
 TEST(Tokenizer, DoesNotSkipTheRestOfAFileWithLineEndsOfOldMacsAtAComment) {
   EXPECT_EQ(TokensOf("# made by hand\r1 2 # two\r\r3\r").size(), 3u);
   EXPECT_EQ(TokensOf("# made by hand\r\n1 2 # two\r\n3\r\n#").size(), 3u);
-  // Lines are counted alike, whatever ends them.
+  // Every kind of line end must give the same line numbers.
   for (const std::string end : {"\r", "\n", "\r\n"}) {
     const std::string text = "# first" + end + end + "Identity # third" + end + "Identty" + end;
     EXPECT_NE(ParseErrorOf(text).find("scene.pbrt:4:1: error: unknown directive Identty"),

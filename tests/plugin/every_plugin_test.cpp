@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What holds for every plugin that is built: what it exports, declares and is documented as.
+// These tests check every plugin that is built: its exported symbol, its declared parameters, its
+// summary and its page in docs/reference/.
 #include <gtest/gtest.h>
 
 #include <cstdio>

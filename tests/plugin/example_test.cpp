@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The example of docs/development/writing-a-plugin.md: built outside of the program's own folder of plugins,
-// found through PBRT_SEARCHPATH, and quoted as it is.
+// These tests cover the example plugin of docs/development/writing-a-plugin.md. The plugin is built
+// outside the program's own plugin folder and is found through PBRT_SEARCHPATH. The page must quote
+// the plugin's source verbatim.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -27,8 +28,8 @@ TEST(ExamplePlugin, IsQuotedInTheDocumentationAsItIs) {
 
 #ifndef EXPHOTON_STATIC_PLUGINS
 
-// A disk above an endless floor. From the point under its centre a disk of radius r at height h
-// covers the share r^2 / (r^2 + h^2) of the hemisphere, weighted by the cosine.
+// The scene is a disk above an endless floor. From the floor point under its centre, a disk of
+// radius r at height h covers the fraction r^2 / (r^2 + h^2) of the cosine-weighted hemisphere.
 TEST(ExamplePlugin, RendersFromPbrtSearchpath) {
   setenv("PBRT_SEARCHPATH", EXPHOTON_BINARY_DIR "/example_plugins", 1);
   TestRenderOptions options;
@@ -54,7 +55,8 @@ TEST(ExamplePlugin, RendersFromPbrtSearchpath) {
         options);
     return MeanRadiance(render.image);
   };
-  // 16384 stratified directions: independent ones would have a standard error of 0.004.
+  // The 16384 directions are stratified. Independent directions would give a standard
+  // error of 0.004.
   EXPECT_NEAR(openness(""), .5, .01);
   EXPECT_EQ(openness("\"float reach\" .9"), 1);
 }

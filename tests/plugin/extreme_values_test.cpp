@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Every parameter of every plugin with the values at which programs break: what is in its declared
-// range is accepted, or refused by a rule of the plugin's; what is outside of it is an error that
-// names the parameter. Nothing else may happen.
+// These tests give every parameter of every plugin extreme values. A value within the declared
+// range must be accepted or refused by a rule of the plugin. A value outside the range must cause
+// an error that names the parameter. No other outcome is allowed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ const std::vector<double>& SpecialNumbers() {
   return numbers;
 }
 
-// How many numbers one value of a type has; 0 where it has none.
+// Returns how many numbers one value of the type has, or 0 for a type without numbers.
 int NumbersOf(ParamType type) {
   switch (type) {
     case ParamType::Bool:
@@ -49,7 +49,7 @@ bool IsInteger(ParamType type) {
   return type == ParamType::Integer || type == ParamType::IntegerList;
 }
 
-// Whether a value obeys its declaration.
+// Returns whether the number is a valid value by the parameter's declaration.
 bool IsInRange(const ParamDecl& decl, double number) {
   const double rounded = double(Real(number));
   if (!std::isfinite(number) || !std::isfinite(rounded)) return false;
@@ -63,7 +63,7 @@ bool IsInRange(const ParamDecl& decl, double number) {
   return !decl.max || (decl.maxExcluded ? rounded < double(Real(*decl.max)) : number <= *decl.max);
 }
 
-// What is allowed but takes long: each level quadruples the triangles.
+// Returns whether the value is allowed but slow: each subdivision level quadruples the triangles.
 bool TakesLong(const ParamDecl& decl, double number) {
   return decl.name == "nlevels" && number > 6 && IsInRange(decl, number);
 }
@@ -75,7 +75,7 @@ ParsedParam Declared(const ParamDecl& decl) {
   return param;
 }
 
-// What is required besides the parameter that is tried.
+// Returns valid values for all required parameters except the parameter under test.
 ParamSet Required(const ParamTableBase& table, const std::string& except) {
   ParamSet params;
   for (const ParamDecl& decl : table.Declarations()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The plugin loader: what it finds, and a sentence for every way to fail. The faulty plugins are
-// made from tests/plugin/modules/.
+// These tests check the plugin loader: the plugins that it finds, and the message for each kind of
+// failure. The faulty plugins are built from tests/plugin/modules/.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -42,7 +42,7 @@ class Loader : public ::testing::Test {
   }
   SourceLocation Here() const { return {"a.pbrt", 2, 1, "PixelFilter", nullptr}; }
 
-  // What a person reads when a scene names this filter.
+  // Returns the message that a user reads when a scene names this filter.
   std::string Fails(const std::string& name, const std::vector<std::string>& folders) {
     PluginRegistry registry = Registry(folders);
     ParamSet params;
@@ -93,9 +93,10 @@ TEST_F(Loader, ListsWhatThereIsWhereAFilterIsMissing) {
             "there is no filter \"box\"; no plugin of this kind was found (looked in /nowhere)");
 }
 
-// Plugins of the kind are opened once to know their parameters, not for each unknown name.
-// To open every plugin of a kind takes about 1 ms, and a scene may have thousands of unknown
-// parameters. When the file of "mitchell" is gone, its parameters can only come from memory.
+// The registry opens the plugins of a kind once and keeps their parameter tables for all unknown
+// parameter names. Opening every plugin of a kind takes about 1 ms, and a scene may have
+// thousands of unknown parameters. After the file of "mitchell" is removed, its parameters can
+// only come from memory.
 TEST_F(Loader, LooksUpTheParametersOfAKindOnce) {
   for (const char* name : {"box.so", "mitchell.so"})
     fs::copy_file(kPlugins + "/filters/" + name, folder_ / "filters" / name);
@@ -151,8 +152,9 @@ TEST_F(Loader, APluginWhoseConstructorThrowsDoesNotAbortTheProgram) {
               "throwing_constructor.so\" fails while it is loaded, in a constructor: no licence");
 }
 
-// Every sixteenth of the file's length. Up to where the loaded parts end it is truncated; beyond,
-// only tables for debuggers are lost, and it may load.
+// The test cuts the file at every sixteenth of its length. A cut before the end of the loadable
+// segments must be reported as truncation. A later cut removes only debug tables, so the library
+// may still load.
 TEST_F(Loader, ATruncatedLibraryIsRefusedAndKillsNothing) {
   std::ifstream whole(kPlugins + "/filters/box.so", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(whole), {}};
@@ -172,7 +174,7 @@ TEST_F(Loader, ATruncatedLibraryIsRefusedAndKillsNothing) {
 TEST_F(Loader, GivesTheReasonOfTheSystemForAnotherMachine) {
   std::ifstream whole(kPlugins + "/filters/box.so", std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(whole), {}};
-  bytes[18] = char(0xF7);  // e_machine: no machine that there is
+  bytes[18] = char(0xF7);  // e_machine becomes 247 (EM_BPF), which is no host CPU
   std::ofstream(folder_ / "filters/alien.so", std::ios::binary) << bytes;
   EXPECT_EQ(FailsToLoad("alien", folder_).rfind("cannot be loaded: ", 0), 0u);
 }
@@ -189,7 +191,8 @@ TEST_F(Loader, CodeOfALibraryThatIsNoPluginNeverRuns) {
   unsetenv("EXPHOTON_TEST_MARK");
 }
 
-// Bytes of a library's tables changed one at a time: a sentence or a plugin, and no signal.
+// The test damages one byte at a time in the first 4096 bytes of a library, which include its
+// tables. FaultOfLibrary must refuse or accept the file, and must not cause a signal.
 TEST_F(Loader, DamagedTablesOfALibraryAreRefusedOrHarmless) {
   const std::string bytes = ReadAll(kPlugins + "/filters/box.so");
   const fs::path file = folder_ / "filters/box.so";
@@ -221,7 +224,7 @@ TEST_F(Loader, AFolderThatASceneNamesIsNotSearchedUnlessItIsAllowed) {
   EXPECT_TRUE(skipping.Create<PluginKind::Filter>("box", {}, {}, {}));
 }
 
-// Whoever can write the file chooses the code.
+// Anyone who can write the file chooses the code that the program runs.
 TEST_F(Loader, AnAllowedPluginThatOthersCanChangeIsRefused) {
   const fs::path file = folder_ / "filters/refusing_factory.so";
   fs::copy_file(kFaulty + "/filters/refusing_factory.so", file);
@@ -246,7 +249,7 @@ TEST_F(Loader, AnAllowedPluginThatOthersCanChangeIsRefused) {
     ASSERT_EQ(chown(file.c_str(), 0, 0), 0);
   }
   EXPECT_EQ(load(), "");
-  EXPECT_EQ(load(), "");  // once more by its open descriptor
+  EXPECT_EQ(load(), "");  // the second load uses another descriptor
 }
 
 TEST_F(Loader, SaysWhatIsWrongWithADescriptor) {
@@ -348,7 +351,7 @@ TEST_F(Loader, ParametersOfSiblingsAreRecognised) {
   ParamSet params;
   ParsedParam tau;
   tau.type = "float";
-  tau.name = "tau";  // of the filter "sinc"
+  tau.name = "tau";  // a parameter of the filter "sinc"
   tau.numbers = {3};
   params.Add(tau);
   BindContext bind;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Random scenes with fixed seeds: the short form of what ./dev soak does.
+// This test checks random scenes with fixed seeds. It is the short form of ./dev soak.
 #include <gtest/gtest.h>
 
 #include "tests/random/scenes/run.h"
@@ -29,7 +29,7 @@ TEST(RandomScenes, GiveNoMoreEnergyThanTheyGet) {
 TEST(RandomScenes, LookTheSameToPathAndBothPhotonIntegrators) {
   SceneRun run({.maxStatisticalTries = 0});
   for (std::uint64_t seed = 1; seed <= 16; ++seed) run.CompareAgreement(seed);
-  run.CompareAgreement(44);  // shows glossy lobes that radiance photons take for diffuse ones
+  run.CompareAgreement(44);  // detects glossy lobes that radiance photons treat as diffuse
   run.JudgeComparisons();
   ExpectNoFailure(run);
 }

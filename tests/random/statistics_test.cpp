@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The statistics of runs over random scenes against closed forms and tables.
+// These tests compare the statistics of runs over random scenes with closed forms and tables.
 #include "tests/random/scenes/statistics.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace exphoton::random_scenes {
 namespace {
 
 TEST(RunStatistics, IncompleteBetaIsABinomialTail) {
-  // I_p(k, n - k + 1) is the chance of at least k of n: 56/1024 for 8 of 10 at p = 1/2.
+  // I_p(k, n - k + 1) is the probability of at least k of n: 56/1024 for 8 of 10 at p = 1/2.
   EXPECT_NEAR(IncompleteBeta(8, 3, .5), 56 / 1024., 1e-14);
   EXPECT_NEAR(IncompleteBeta(1, 1, .3), .3, 1e-14);
   EXPECT_NEAR(IncompleteBeta(.5, .5, .25), 1 / 3., 1e-14);  // 2/pi asin(sqrt(x))
@@ -29,7 +29,7 @@ TEST(RunStatistics, StudentTailMatchesTables) {
 TEST(RunStatistics, BoundOfTheFailureRateMatchesClopperAndPearson) {
   EXPECT_NEAR(LargestFailureRate(0, 200), 1 - std::pow(.05, 1 / 200.), 1e-12);
   EXPECT_NEAR(LargestFailureRate(0, 10000), 2.99528e-4, 1e-8);
-  // Of one failure in ten: (1 - p)^10 + 10 p (1 - p)^9 = .05.
+  // For one failure in ten, (1 - p)^10 + 10 p (1 - p)^9 = .05.
   const double p = LargestFailureRate(1, 10);
   EXPECT_NEAR(std::pow(1 - p, 10) + 10 * p * std::pow(1 - p, 9), .05, 1e-12);
   EXPECT_NEAR(p, .394163, 1e-6);
@@ -37,7 +37,8 @@ TEST(RunStatistics, BoundOfTheFailureRateMatchesClopperAndPearson) {
 }
 
 TEST(RunStatistics, BenjaminiAndHochbergRejectUpToTheLastChanceBelowTheLine) {
-  // The example of their paper, section 3.2: 15 p-values, of which four are rejected at .05.
+  // The example in section 3.2 of their paper has 15 p-values. The rule rejects four of them
+  // at .05.
   const std::vector<double> chances{.0001, .0004, .0019, .0095, .0201, .0278, .0298, .0344,
                                     .0459, .3240, .4262, .5719, .6528, .7590, 1};
   EXPECT_EQ(Rejected(chances, .05), (std::vector<std::size_t>{0, 1, 2, 3}));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bad inputs: scene files, parameters, graphs of textures and includes, images and PLY files, all
-// damaged at random. Each is rendered by a process of its own, which must end within a minute with
-// one of the documented statuses, without a signal; where it fails it must say why and leave no
-// picture. Usage: bad_inputs [--cases N] [--first N] [--seconds S]. Cases have fixed seeds.
+// bad_inputs renders randomly damaged inputs: scene files, parameters, graphs of textures and
+// includes, images and PLY files. Each runs in a separate process, which must end within a minute
+// with a documented status and without a signal. A process that fails must print a message and
+// leave no picture. Usage: bad_inputs [--cases N] [--first N] [--seconds S]. Cases have fixed
+// seeds.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -82,8 +83,8 @@ Names WordsOf(const std::string& text) {
   return words;
 }
 
-// Words of the world dropped, doubled, exchanged or replaced. What comes before WorldBegin stays,
-// so that pictures stay small.
+// Drops, doubles, exchanges or replaces words of the world. The text before WorldBegin stays, so
+// pictures stay small.
 std::string DamagedScene(Luck* luck) {
   const std::string text =
       random_scenes::SceneText(random_scenes::SceneOfSeed(luck->Below(100000)).value(),
@@ -120,7 +121,7 @@ const std::string kSmall =
     "Sampler \"lowdiscrepancy\" \"integer pixelsamples\" 1\nCamera \"perspective\"\nWorldBegin\n"
     "LightSource \"point\"\nTranslate 0 0 3\n";
 
-// Each texture reads earlier ones, itself, or one that is not there.
+// Each texture reads earlier textures, itself, or a missing one.
 std::string TextureGraph(Luck* luck) {
   const std::size_t count = 1 + luck->Below(400);
   const bool isChain = luck->OneIn(2);
@@ -138,7 +139,7 @@ std::string TextureGraph(Luck* luck) {
          "\nShape \"sphere\"\nWorldEnd\n";
 }
 
-// Files that include others twice, themselves, a folder, a pipe, or nothing.
+// The files include other files twice, themselves, a folder, a pipe, or a missing file.
 std::string IncludeGraph(Luck* luck, const TestFolder& folder) {
   const std::size_t count = 1 + luck->Below(35), times = 1 + luck->Below(2);
   for (std::size_t i = 0; i < count; ++i) {
@@ -201,7 +202,7 @@ std::string BadPly(Luck* luck, const TestFolder& folder) {
   return kSmall + "Shape \"plymesh\" \"string filename\" \"mesh.ply\"\nWorldEnd\n";
 }
 
-// What is wrong; "" for nothing.
+// Returns a description of the fault, or "" if there is none.
 std::string Judge(const ProcessResult& result, const TestFolder& folder) {
   if (result.isLate) return "it did not end";
   if (result.status < 0 || result.status > 4)
@@ -271,6 +272,6 @@ int main(int argc, char** argv) {
   std::printf("%u bad inputs in %.0f s: status 0: %d, 1: %d, 2: %d, 3: %d, 4: %d; faults: %u\n",
               done, elapsed(), statuses[0], statuses[1], statuses[2], statuses[3], statuses[4],
               failed);
-  // Inputs that are all fine, or all refused, show nothing.
+  // The test needs both accepted and refused inputs, more than 5 % of each.
   return failed == 0 && statuses[0] * 20 > int(done) && statuses[2] * 20 > int(done) ? 0 : 1;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Random command lines in a scratch folder: after each, every file that was there before is as it
-// was, or is an output that the command line names, or a picture of this program that a scene
-// names. Usage: command_lines [--cases N] [--first N]. Cases have fixed seeds and run in this
-// process.
+// command_lines runs random command lines in a scratch folder. Afterwards every file must be
+// unchanged, unless the command line names it as an output, or a scene names it and it was a
+// picture of this program. Usage: command_lines [--cases N] [--first N]. Cases have fixed seeds.
+// Worker processes call cli::RunProgram directly.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -41,7 +41,7 @@ class Dice {
   std::mt19937 engine_;
 };
 
-// What is in a folder: the text of each file, and where each link leads.
+// Returns the content of a folder: the text of each file and the target of each link.
 std::map<std::string, std::string> Snapshot(const fs::path& folder) {
   std::map<std::string, std::string> entries;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -61,7 +61,8 @@ void WritePicture(const std::string& name, const std::string& software, float va
   WriteExr(name, image, false);
 }
 
-// The file at the end of all links, which need not exist; independent of the program's own way.
+// Returns the file at the end of all links, which may be missing. This code is independent of the
+// program's code for the same task.
 fs::path Target(const fs::path& name) {
   fs::path at = fs::absolute(name);
   for (int i = 0; i < 20 && fs::is_symlink(at); ++i)
@@ -72,11 +73,11 @@ fs::path Target(const fs::path& name) {
 struct Command {
   Names words{"exphoton"};
   Names outputs;       // named on the command line
-  Names sceneOutputs;  // named by scenes alone
+  Names sceneOutputs;  // named only by scenes
   Names inputs;
 };
 
-// The folder of one case, which is the working folder while this lives.
+// Case is the folder of one case. It is the working folder during the object's lifetime.
 class Case {
  public:
   Case(const std::string& folder, unsigned seed) : dice_(seed), folder_(folder) {
@@ -112,7 +113,7 @@ class Case {
   }
 
  private:
-  // One of the files that there are, or a new one, spelt in one of many ways.
+  // Returns the name of an existing or a new file, in one of many spellings.
   std::string Name() {
     static const Names kNames{
         "inc.pbrt",    "sub/inc2.pbrt",  "notes.txt",      "light.spd",          "sub/notes.txt",
@@ -232,7 +233,7 @@ class Case {
   std::string folder_;
 };
 
-// Output goes to files outside of the case's folder, so that it can be shown.
+// Silence redirects output to a file outside the case's folder, from which it can be printed later.
 class Silence {
  public:
   explicit Silence(const std::string& file) {
@@ -266,7 +267,7 @@ std::string Line(const Names& words) {
   return line;
 }
 
-// What is wrong; "" for nothing.
+// Returns a description of the fault, or "" if there is none.
 std::string Judge(const Command& command, int status, const std::set<fs::path>& user,
                   const std::set<fs::path>& scene, const std::set<fs::path>& inputs,
                   const std::map<std::string, std::string>& before,
@@ -329,7 +330,7 @@ bool RunCase(unsigned seed, const std::string& scratch, Tally* tally) {
   return false;
 }
 
-// Runs every `step`-th case in this process; the numbers go through the pipe.
+// Runs every `step`-th case in this process and writes the tally to the pipe.
 [[noreturn]] void Work(unsigned first, unsigned count, unsigned offset, unsigned step, int out) {
   Tally tally;
   {
@@ -360,7 +361,7 @@ int Run(unsigned first, unsigned count) {
   }
   std::printf("%d command lines: %d with status 0, %d refused (status 3), %d with a fault\n",
               sum.cases, sum.rendered, sum.refused, sum.failed);
-  // A generator that only fails, or never meets a conflict, shows nothing.
+  // The test needs renders and refusals, more than 10 % of each.
   const bool isTelling = sum.rendered * 10 > sum.cases && sum.refused * 10 > sum.cases;
   return sum.failed == 0 && sum.cases == int(count) && isTelling ? 0 : 1;
 }
@@ -369,7 +370,7 @@ int Run(unsigned first, unsigned count) {
 }  // namespace exphoton
 
 int main(int argc, char** argv) {
-  // In memory where that is possible: each written file is brought to the disk.
+  // The program flushes each written file to the disk, so a folder in memory is faster.
   if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 0);
   unsigned cases = 400, first = 0;
   for (int i = 1; i + 1 < argc; i += 2) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Signals at random moments of renders and studies: the picture is the older one or a complete new
-// one, no temporary file is left, and a study goes on afterwards.
+// signals sends signals at random moments of renders and studies. The picture must then be the
+// older one or a complete new one, no temporary file may be left, and a study must be able to
+// continue.
 // Usage: signals [--moments N], the number of moments for each signal that ends a process.
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -41,13 +42,13 @@ std::vector<int> FatalSignals() {
       case SIGCONT:
       case SIGURG:
       case SIGWINCH:
-      case SIGPIPE:  // ignored by the program, as SIGXFSZ
+      case SIGPIPE:  // the program ignores SIGPIPE and SIGXFSZ
       case SIGXFSZ:
         continue;
       default:
         break;
     }
-    // Of the realtime signals the first and the last will do.
+    // The first and the last realtime signal represent all of them.
     if (signal >= 32 && signal != SIGRTMIN && signal != SIGRTMAX) continue;
     signals.push_back(signal);
   }
@@ -56,7 +57,7 @@ std::vector<int> FatalSignals() {
 
 bool AsksToStop(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
 
-// Cheap pixels in a large picture: much of the time goes into writing files.
+// Returns a large picture of cheap pixels, so writing files takes much of the time.
 std::string RenderScene() {
   return "Film \"image\" \"integer xresolution\" 320 \"integer yresolution\" 240 \"string "
          "filename\" \"out.exr\"\nAccelerator \"bruteforce\"\nCamera \"perspective\"\nSampler "
@@ -78,7 +79,7 @@ class Experiment {
     fs::remove_all(folder_.File("study"));
   }
 
-  // What is wrong; "" for nothing.
+  // Returns a description of the fault, or "" if there is none.
   std::string RenderWith(int signal) {
     ResetRender();
     const ProcessResult result = Interrupt(Command(kRender), signal, renderSeconds_);
@@ -114,7 +115,7 @@ class Experiment {
     return "";
   }
 
-  int Ended() const { return ended_; }  // runs that a signal ended, of all
+  int Ended() const { return ended_; }  // number of runs that a signal ended
 
  private:
   enum Kind { kRender, kStudy };
@@ -161,7 +162,7 @@ class Experiment {
     }
   }
 
-  // What was finished must be readable.
+  // An interrupted run may leave the older picture, but its partial picture must be readable.
   std::string Partial(const ProcessResult& result, int signal) const {
     if (result.status == 0) return "status 0, and the older picture is there";
     if (AsksToStop(signal) && fs::exists(folder_.File("out.partial.exr")) &&

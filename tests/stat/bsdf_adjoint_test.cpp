@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The factor by which photons carry the light that cameras see under a shading normal, as a formula
-// (that photons do carry it: photon_shading_test.cpp): the integral of
-// g(wo) |wo.ng| f(wo, wi) |wi.ns| h(wi) over both directions, once from wo as camera paths sample
-// it and once from wi as photons do (Veach 1997, section 5.3), for patterns g and h.
+// These tests check the factor by which photons carry the light that cameras see under a shading
+// normal. The integral of g(wo) |wo.ng| f(wo, wi) |wi.ns| h(wi) over both directions must be the
+// same from wo, as camera paths sample it, and from wi, as photons do (Veach 1997, section 5.3),
+// for patterns g and h. photon_shading_test.cpp checks that photons are shot with this factor.
 #include "core/math/sampling/random.h"
 #include "core/math/sampling/sampling.h"
 #include "core/scattering/lobes/lambert.h"
@@ -21,7 +21,7 @@ struct Form {
   const Bsdf& bsdf;
   Pattern g, h;
 
-  // From one direction, drawn by its cosine to the geometric normal, over both sides.
+  // Draws one direction by its cosine to the geometric normal, over both sides of the surface.
   double FromCamera(RandomStream* random) const {
     return Mean(
         random,
@@ -43,7 +43,7 @@ struct Form {
  private:
   template <class Value>
   double Mean(RandomStream* random, Value&& value, TransportMode mode) const {
-    constexpr int kSide = 800;  // strata of the first direction
+    constexpr int kSide = 800;  // strata of the first direction, along each axis
     double sum = 0;
     for (int i = 0; i < kSide * kSide; ++i) {
       const Real x = (Real(i % kSide) + random->Uniform()) / kSide;
@@ -73,7 +73,7 @@ constexpr Patterns kPatterns[] = {{"everywhere", Everywhere, Everywhere},
                                   {"to grazing views", Grazing, Everywhere},
                                   {"from grazing light", Everywhere, Grazing}};
 
-// All light that arrives is 2, or less under a pattern.
+// The total incident light is 2, or less under a pattern. The tolerance is absolute.
 void ExpectEqual(const Bsdf& bsdf, double tolerance) {
   for (const Patterns& patterns : kPatterns) {
     const Form form{bsdf, patterns.g, patterns.h};

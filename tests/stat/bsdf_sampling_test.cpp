@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Chi-square of every smooth lobe and every material: sampled directions against Pdf. False alarms:
-// 1 % over all of this file's tests.
+// These chi-square tests compare sampled directions with Pdf, for every smooth lobe and every
+// material. The false-alarm rate is 1 % over all tests of this file.
 #include "core/base/arena.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/scattering.h"
@@ -13,7 +13,7 @@ constexpr int kTests = 400;
 const std::vector<Real> kCosines{1,          Real(.9),   Real(.5),   Real(.2),  Real(.1),
                                  Real(1e-2), Real(1e-3), Real(1e-6), Real(-.7), -1};
 
-// A direction so near the horizon that rounding may count it to the wrong cell, moved off it.
+// Moves a direction off the horizon if rounding may count it to the wrong cell.
 Vector3 OffHorizon(const Vector3& w) {
   if (std::abs(w.z) > Real(1e-3)) return w;
   return Normalize(Vector3(w.x, w.y, std::copysign(Real(1e-3), w.z)));
@@ -57,7 +57,8 @@ std::vector<MaterialCase> Materials() {
 
 class MaterialSampling : public testing::TestWithParam<MaterialCase> {
  protected:
-  // Smooth samples under the mask, of a surface whose normals differ, in world space.
+  // Checks smooth samples under the mask, in world space, on a surface whose shading normal differs
+  // from its geometric normal.
   void Check(LobeSet mask, Real tilt) {
     TestPlugins plugins;
     const auto material = plugins.MakeMaterial(GetParam().text);

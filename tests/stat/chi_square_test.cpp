@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The chi-square test itself: right tails, and it refuses wrong densities. False alarms: 1 % over
-// the three tests of samplers that are right.
+// These tests check the chi-square test itself: its tail probabilities must be right, and it must
+// refuse wrong densities. The false-alarm rate is 1 % over the three tests of correct samplers.
 #include "tests/support/chi_square.h"
 
 #include "core/math/sampling/sampling.h"

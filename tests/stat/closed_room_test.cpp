@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Deep interreflection in a closed room with furniture: no light is lost in corners and along
-// edges, whatever the accelerator. Every surface emits 1 and reflects 0.8, so that the radiance is
-// 5 everywhere. Tolerance 1 %, by the rule of equivalence.h.
+// These tests render deep interreflection in a closed, furnished room. No light may be lost in
+// corners and along edges, with any accelerator. Every surface emits 1 and reflects 0.8, so the
+// radiance is 5 everywhere. The tolerance is 1 %, by the rule of equivalence.h.
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Surfaces as emitters: SampleToward and SamplePoint make the densities they state, seen from
-// outside, from afar, from within and from close by. False alarms: 1 % over all chi-square tests of
-// this file together.
+// These tests check surfaces as emitters. SampleToward and SamplePoint must have the densities that
+// they state, for reference points outside, far away, inside and very close. The false-alarm rate
+// is 1 % over all chi-square tests of this file.
 #include <gtest/gtest.h>
 
 #include "core/scene/primitive.h"
@@ -19,7 +19,8 @@ struct Case {
   const char* name;
   const char* shape;
   Point3 ref;
-  // Whether one direction may be made by points behind each other; then all of them count.
+  // Whether SampleToward may return any of several points along one direction. If so, their
+  // densities add up. Otherwise only the nearest point counts.
   bool countsAllHits;
   Transform toWorld = {};
 };
@@ -64,7 +65,8 @@ class EmitterSampling : public testing::TestWithParam<Case> {
     ref_.p = GetParam().ref;
   }
 
-  // Sum of the densities of the points along w; of the first alone unless all count.
+  // Returns the sum of the densities of the surface points along w, or only the density of the
+  // nearest point if countsAllHits is false.
   double Pdf(const Vector3& w) const {
     Ray ray;
     ray.o = ref_.p;
@@ -131,7 +133,7 @@ TEST_P(EmitterSampling, SaysOfASampleWhatItSaysOfAHit) {
 INSTANTIATE_TEST_SUITE_P(All, EmitterSampling, testing::ValuesIn(kCases),
                          [](const auto& info) { return std::string(info.param.name); });
 
-// SamplePoint in coordinates in which it must be uniform on the unit square.
+// SamplePoint must be uniform in the coordinates to which toSquare maps its points.
 struct AreaCase {
   const char* name;
   const char* shape;
@@ -175,7 +177,8 @@ TEST(EmitterArea, IsSampledUniformly) {
   }
 }
 
-// Irradiance of a receiver that faces the sphere's centre: pi L (r / d)^2; pi L within.
+// The irradiance of a receiver that faces the sphere's centre is pi L (r / d)^2 outside the sphere
+// and pi L inside.
 TEST(SphereEmitter, GivesTheIrradianceOfTheClosedForm) {
   TestPlugins plugins;
   const auto sphere = plugins.MakeEmitter(R"("sphere")");
@@ -193,7 +196,7 @@ TEST(SphereEmitter, GivesTheIrradianceOfTheClosedForm) {
         const auto s = sphere->SampleToward(ref, {x, y}, 0);
         if (!s) continue;
         const Vector3 w = NormalizeOr(s->point.p - ref.p, {});
-        // Outside, the near half emits; within, the far wall.
+        // Outside, the receiver sees the near half of the sphere. Inside, it sees the far wall.
         if ((Dot(w, s->point.ng) < 0) == (d > 1)) sum += std::max(double(-w.z / s->pdf), 0.0);
       }
       return sum / kSamples / double(kPi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The rule of means over seeds, on numbers whose distribution is known.
+// These tests check the rule for means over seeds on numbers with a known distribution.
 #include "tests/support/equivalence.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kRuns = 20000;
 
-// How often means of 8 seeds, normal about `offset` with deviation 1, are not within the tolerance.
+// Returns the fraction of runs that miss the tolerance. Each run has the means of 8 seeds, which
+// are normal about `offset` with standard deviation 1.
 double ShareThatFails(double offset, double tolerance) {
   std::mt19937 engine(1);
   std::normal_distribution<double> normal(offset, 1);
@@ -24,7 +25,7 @@ double ShareThatFails(double offset, double tolerance) {
   return double(failed) / kRuns;
 }
 
-// Five standard errors of a share: a false alarm in two million.
+// The tolerance is five standard errors of a fraction: a false alarm in two million.
 TEST(Equivalence, FailsAsOftenAsItsFalseAlarmRateSays) {
   SeedEstimate estimate;
   estimate.standardDeviation = 1;

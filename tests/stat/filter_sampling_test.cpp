@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Whether filters are sampled in proportion to their absolute value. One of 10 chi-square tests: a
-// false alarm in 1 % of the seeds, and the seed is fixed.
+// These tests check that filters are sampled in proportion to their absolute value. The 10
+// chi-square tests together raise a false alarm for 1 % of the seeds, and the seed is fixed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ void TestFilter(const std::string& text) {
   TestPlugins plugins;
   const auto filter = plugins.MakeFilter(text);
   const Real w = filter->XWidth(), h = filter->YWidth();
-  // The integral of |f|, on a fine grid.
+  // The integral of |f| is computed on a fine grid.
   constexpr int kSteps = 2000;
   double integral = 0;
   for (int i = 0; i < kSteps; ++i)

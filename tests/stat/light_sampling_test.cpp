@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Lights sample the densities they state: directions towards them, directions and positions of the
-// rays that they emit; and the mean weight of those rays is their power. False alarms: 1 % over all
-// chi-square tests of this file together.
+// These tests check that lights have the densities that they state, for directions towards them and
+// for directions and positions of the rays that they emit. The mean weight of these rays must be
+// the light's power. The false-alarm rate is 1 % over all chi-square tests of this file.
 #include <gtest/gtest.h>
 
 #include "core/imaging/files/exr.h"
@@ -16,7 +16,8 @@ namespace {
 constexpr int kTests = 15;
 const Sphere3 kWorld{{1, -2, Real(.5)}, 3};
 
-// A map with every kind of texel: black, dim, bright, coloured; rows by the poles are bright.
+// Writes a map with every kind of texel: black, dim, bright and coloured. The rows at the
+// poles are bright.
 std::string WriteMap(int width, int height) {
   Image image(width, height, {"R", "G", "B"});
   RandomStream random(99);
@@ -71,7 +72,7 @@ class PlainLight : public testing::TestWithParam<Case> {
     const Point2 direction{random.Uniform(), random.Uniform()};
     return light_->SampleEmission(position, direction, random.Uniform(), 0);
   }
-  // Finer quadrature, since maps have edges.
+  // Maps have edges, so the quadrature is finer.
   static ChiSquareOptions Options() { return {.quadratureDepth = 7}; }
 
   TestPlugins plugins_;
@@ -100,7 +101,8 @@ TEST_P(PlainLight, EmitsItsPowerInTheMean) {
       if (const auto emission = Emit(random)) sum += double(emission->power.g);
     return sum / kSamples;
   });
-  // A map's power is an estimate: cells weigh their mean, and a stretch is not accounted for.
+  // A map's power is an estimate: it weights the mean of each cell by the cell's solid angle, and
+  // it ignores a stretch of the light's transformation.
   const bool isMap = GetParam().text.find("mapname") != std::string::npos;
   const double tolerance = !isMap ? .001 : GetParam().toWorld.SimilarityScale() ? .2 : .5;
   EXPECT_TRUE(IsWithin(tolerance, estimate, double(light_->Power().g)));
@@ -124,7 +126,7 @@ TEST_P(SkyLight, IsSampledFromAPointByItsDensity) {
   EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kTests));
 }
 
-// Wherever there is radiance there is density, or light would be missing.
+// Every direction with radiance must have a positive density. Otherwise light would be missing.
 TEST_P(SkyLight, HasDensityWhereverItShines) {
   RandomStream random(7);
   for (int i = 0; i < 20000; ++i) {
@@ -135,7 +137,8 @@ TEST_P(SkyLight, HasDensityWhereverItShines) {
   }
 }
 
-// All in a plane through the middle of the world: the disk that its sphere casts, evenly filled.
+// Projected to a plane through the world's centre, the origins of the rays must fill the disk of
+// the world's bounding sphere evenly.
 TEST_P(SkyLight, EmitsFromADiskThatCoversTheWorld) {
   const auto sample = [&](RandomStream& random) -> std::optional<Point2> {
     const auto emission = Emit(random);
@@ -143,7 +146,7 @@ TEST_P(SkyLight, EmitsFromADiskThatCoversTheWorld) {
     const Vector3 fromCentre = emission->ray.o - kWorld.center;
     EXPECT_GE(Length(fromCentre), kWorld.radius);
     const Frame frame = Frame::FromZ(emission->ray.d);
-    // As radius squared and angle, in which a uniform disk is a uniform rectangle.
+    // Radius squared and angle map a uniform disk to a uniform rectangle.
     const Real x = Dot(fromCentre, frame.x), y = Dot(fromCentre, frame.y);
     return Point2{(x * x + y * y) / Square(kWorld.radius), std::atan2(y, x)};
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Direct light and path tracing against closed forms: planes under each kind of light, furnaces,
-// lights split, black and hidden. Equivalence rule over 8 seeds (tests/support/equivalence.h); the
-// truths are derived where they stand.
+// These tests compare direct lighting and path tracing with closed forms: planes under each kind of
+// light, furnaces, and split, black and hidden lights. They use the equivalence rule over 8 seeds
+// (tests/support/equivalence.h). Each test derives its expected value.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -22,8 +22,8 @@ SeedEstimate Mean(const std::string& scene) {
   });
 }
 
-// A camera that sees a tiny spot of a matte floor at the origin, from (0, 0, 1) above, and lights.
-// The floor is the plane z = 0, its normal +z.
+// Returns a scene with the lights, in which the camera at (0, -.3, 1) sees a tiny spot of a matte
+// floor at the origin. The floor is the plane z = 0 with the normal +z.
 std::string FloorUnder(const std::string& integrator, const std::string& lights, int samples) {
   return "SurfaceIntegrator " + integrator + R"(
 Film "image" "integer xresolution" [4] "integer yresolution" [4]
@@ -44,11 +44,11 @@ WorldEnd
 
 class FloorLight : public testing::TestWithParam<const char*> {
  protected:
-  // Depth 0: lamps reflect light as well, which the closed forms leave out.
+  // Depth 0 removes the light that lamps reflect, because the closed forms do not include it.
   static std::string Integrator() {
     return "\"" + std::string(GetParam()) + "\" \"integer maxdepth\" 0";
   }
-  // Irradiance that the picture of the floor shows.
+  // Returns the irradiance that the picture of the floor shows.
   SeedEstimate Irradiance(const std::string& lights, int samples) const {
     const SeedEstimate estimate = Mean(FloorUnder(Integrator(), lights, samples));
     const double factor = M_PI / kAlbedo;
@@ -74,7 +74,7 @@ TEST_P(FloorLight, OfAUniformSkyIsPiTimesRadiance) {
   EXPECT_TRUE(IsWithin(.005, estimate, 3 * M_PI));
 }
 
-// E = pi L r^2 / (r^2 + h^2) under the middle of a disk.
+// Under the centre of a disk, the irradiance is E = pi L r^2 / (r^2 + h^2).
 TEST_P(FloorLight, OfADiskAboveIsTheClosedForm) {
   const auto estimate = Irradiance(R"(AttributeBegin
 Translate 0 0 2
@@ -86,7 +86,7 @@ AttributeEnd)",
   EXPECT_TRUE(IsWithin(.005, estimate, M_PI * 7 * 2.25 / (2.25 + 4)));
 }
 
-// E = pi L (r/d)^2 cos for a sphere wholly above the horizon.
+// Under a sphere wholly above the horizon, the irradiance is E = pi L (r/d)^2 cos.
 TEST_P(FloorLight, OfASphereIsTheClosedForm) {
   const auto estimate = Irradiance(R"(AttributeBegin
 Translate 3 0 4
@@ -97,7 +97,8 @@ AttributeEnd)",
   EXPECT_TRUE(IsWithin(.002, estimate, M_PI * 7 * (1.0 / 25) * .8));
 }
 
-// Lambert's formula: E = L/2 sum over edges of angle times the z of the edge's unit normal.
+// Lambert's formula is E = L/2 times a sum over the edges. Each term is the edge's angle times the
+// z component of the edge's unit normal.
 TEST_P(FloorLight, OfATriangleIsLambertsFormula) {
   const double v[3][3] = {{-1, -.5, 2}, {2, 0, 1.5}, {.5, 1.5, 3}};
   double irradiance = 0;
@@ -160,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, FloorLight,
                          testing::Values("whitted", "directlighting", "path"),
                          [](const auto& info) { return std::string(info.param); });
 
-// The three ways of choosing lights have one mean.
+// All three strategies for choosing lights must have the same mean.
 TEST(DirectLightingStrategies, HaveTheSameMean) {
   const std::string lights = R"(LightSource "point" "color I" [5 5 5] "point from" [3 0 4]
 LightSource "infinite" "color L" [.1 .1 .1]
@@ -173,8 +174,9 @@ LightSource "infinite" "color L" [.1 .1 .1]
   }
 }
 
-// Emission e and reflection a in a closed sphere: e / (1 - a) everywhere. With a depth, the sum of
-// e a^i for i up to depth + 1: light is collected at depth + 1 surfaces.
+// A closed sphere with emission e and reflectance a shows e / (1 - a) everywhere. With a depth
+// limit, the radiance is the sum of e a^i for i up to depth + 1, because light is collected at
+// depth + 1 surfaces.
 TEST(PathFurnace, ShowsEmissionOverOneMinusAlbedo) {
   for (const double albedo : {.5, .8, .9}) {
     const std::string a = std::to_string(albedo);
@@ -196,9 +198,9 @@ TEST(PathFurnace, OfALimitedDepthShowsAPartialSum) {
   }
 }
 
-// A delta lobe beside a diffuse one, sampled and weighted under one mask: a sphere that emits e and
-// reflects .6 Kd lets .4 straight through, from a black sphere round it that shines E inwards.
-// L = (e + .4 E) / (1 - .6 Kd).
+// A delta lobe and a diffuse lobe are sampled and weighted under one mask. The sphere emits e,
+// reflects .6 Kd and transmits .4 unchanged from a black sphere around it, which emits E inwards.
+// The radiance is L = (e + .4 E) / (1 - .6 Kd).
 TEST(PathFurnace, WithADeltaLobeBesideADiffuseOneHasTheClosedForm) {
   const std::string scene = TestHeader("\"path\" \"integer maxdepth\" [1000]", 8, 8, 128) +
                             R"(WorldBegin
@@ -216,7 +218,7 @@ WorldEnd
   EXPECT_TRUE(IsWithin(.005, Mean(scene), (1 + .4 * 2) / (1 - .3)));
 }
 
-// A light in a closed matte sphere: the centre makes radiance a I / (pi R^2 (1 - a)).
+// A point light at the centre of a closed matte sphere gives the radiance a I / (pi R^2 (1 - a)).
 TEST(PathFurnace, WithAPointLightInTheMiddleHasTheClosedForm) {
   const std::string scene = TestHeader("\"path\" \"integer maxdepth\" [1000]", 8, 8, 256) +
                             R"(WorldBegin
@@ -228,8 +230,8 @@ WorldEnd
   EXPECT_TRUE(IsWithin(.005, Mean(scene), 1));
 }
 
-// A small lamp seen only through a perfect mirror or a pane without refraction: emission after
-// specular bounces counts once, and in full.
+// A small lamp is visible only through a perfect mirror or a pane without refraction. Emission
+// after specular bounces must count once and in full.
 TEST(Emission, ThroughSpecularBouncesIsSeenInFull) {
   for (const char* integrator : {"whitted", "directlighting", "path"}) {
     const std::string scene =

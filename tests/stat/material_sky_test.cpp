@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A sphere of each material under a sky of radiance 1, by the path tracer: what absorbs nothing is
-// invisible, what absorbs shows its albedo. Equivalence over 8 seeds (tests/support/equivalence.h).
+// These tests path-trace a sphere of each material under a sky of radiance 1. A material that
+// absorbs nothing is invisible, and a material that absorbs shows its albedo. The tests use the
+// equivalence rule over 8 seeds (tests/support/equivalence.h).
 #include "tests/support/equivalence.h"
 #include "tests/support/test_scene.h"
 
@@ -42,7 +43,7 @@ TEST(MaterialUnderSky, ClearGlassIsInvisible) {
   EXPECT_TRUE(IsWithin(.02, Mean(R"("glass")", 64), 1));
 }
 
-// In each pixel, not only in the mean: rays go straight through.
+// Every pixel must be right, not only the mean, because rays go straight through.
 TEST(MaterialUnderSky, GlassOfIndexOneIsInvisibleInEveryPixel) {
   for (const char* index : {"1", "1.0000001"}) {
     const TestRender render =
@@ -52,8 +53,8 @@ TEST(MaterialUnderSky, GlassOfIndexOneIsInvisibleInEveryPixel) {
   }
 }
 
-// The camera sees the whole sky through the sphere's surroundings and the albedo on it: black gives
-// the share of the picture that the sphere covers.
+// The picture shows the sky around the sphere and the albedo on the sphere. With a black sphere,
+// the mean is the fraction of the picture that the sphere does not cover.
 TEST(MaterialUnderSky, GreyMatteShowsItsAlbedo) {
   const double black = Mean(R"("matte" "color Kd" [0 0 0])", 32).mean;
   EXPECT_TRUE(IsWithin(.01, Mean(R"("matte" "color Kd" [.5 .5 .5])", 32), (1 + black) / 2));

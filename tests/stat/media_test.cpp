@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Participating media against closed forms: Beer and Lambert's law for every kind of ray and of
-// density, emission, and single scattering in a slab under parallel light.
+// These tests compare participating media with closed forms: the Beer-Lambert law for every kind of
+// ray and density, emission, and single scattering in a slab under parallel light.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace exphoton {
 namespace {
 
-// A narrow orthographic view along +z from the origin. The medium fills 1 <= z <= 4, far wider.
+// Returns a narrow orthographic view along +z from the origin. The medium fills 1 <= z <= 4 and is
+// far wider than the view.
 std::string Header(const std::string& integrator, const std::string& volumeIntegrator) {
   return "Camera \"orthographic\" \"float screenwindow\" [-.1 .1 -.1 .1]\n"
          "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
@@ -23,7 +24,7 @@ std::string Slab(const std::string& kind, const std::string& parameters) {
   return "Volume \"" + kind + "\" \"point p0\" [-50 -50 1] \"point p1\" [50 50 4] " + parameters +
          "\n";
 }
-// A disk at z = 5 that faces the camera.
+// This disk at z = 5 faces the camera.
 const std::string kDisk =
     "AttributeBegin Translate 0 0 5 ReverseOrientation Shape \"disk\" \"float radius\" 3 "
     "AttributeEnd\n";
@@ -35,7 +36,7 @@ const char* const kIntegrators[] = {
     "\"photonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\"",
     "\"exphotonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\""};
 
-// The three densities with their integrals along the view.
+// Density is one of the three kinds of density, with its integral along the view.
 struct Density {
   std::string kind, parameters;
   double integral;
@@ -46,7 +47,7 @@ std::vector<Density> Densities() {
       {"exponential", "\"float a\" 2 \"float b\" .5 \"vector updir\" [0 0 1]",
        4 * (1 - std::exp(-1.5))},
       {"exponential", "\"float a\" 2 \"float b\" .5 \"vector updir\" [0 1 0]", 6 * std::exp(-25.0)},
-      // Linear between the middles 1.5, 2.5 and 3.5, constant beyond.
+      // The density is linear between the cell centres 1.5, 2.5 and 3.5, and constant beyond them.
       {"volumegrid", "\"integer nz\" 3 \"float density\" [1 2 .5]", .5 + 1.5 + 1.25 + .25}};
 }
 
@@ -68,7 +69,7 @@ TEST(Media, AbsorbWhatTheCameraSeesThroughThem) {
 }
 
 TEST(Media, AbsorbTheSameAtEverySlant) {
-  // Turned and scaled with the transformation of the Volume, seen along a diagonal.
+  // The Volume's transformation scales the medium, and the camera looks along a diagonal.
   const TestRender render = RenderSceneText(
       "LookAt 0 0 0  0 .6 .8  0 1 0\n" + Header("\"directlighting\"", "\"emission\"") +
       "AttributeBegin Scale 2 2 2 Volume \"volumegrid\" \"point p0\" [-50 -50 .5] "
@@ -78,7 +79,8 @@ TEST(Media, AbsorbTheSameAtEverySlant) {
   EXPECT_NEAR(MeanRadiance(render.image), std::exp(-.3 * 3.5 / .8), 2e-4);
 }
 
-// The radiance of the disk in the world, by every integrator and by photons that are stored on it.
+// Expects the radiance of the disk in the world from every integrator, and from photons that are
+// stored on the disk.
 void ExpectLitThroughMedia(const std::string& world, double expected, int photons,
                            double tolerance) {
   for (const char* integrator : kIntegrators) {
@@ -108,7 +110,8 @@ TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
                         100000, .01);
 }
 
-// The medium goes on behind the disk; only the way to it counts, for every kind of ray.
+// The medium continues behind the disk. Only the medium in front of the disk may absorb, for
+// every kind of ray.
 TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {
   const std::string world =
       "Volume \"homogeneous\" \"point p0\" [-50 -50 1] \"point p1\" [50 50 50] \"color sigma_a\" "
@@ -118,8 +121,8 @@ TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {
                         20000, .03);
 }
 
-// The medium lies behind a wide lamp. Light rays that were sampled by the BSDF end at the lamp, and
-// its light is E = pi L R^2 / (R^2 + h^2).
+// The medium lies behind a wide lamp. BSDF-sampled rays towards the light end at the lamp, so the
+// irradiance is E = pi L R^2 / (R^2 + h^2).
 TEST(Media, DoNotAbsorbTheLightOfALampBeforeThem) {
   const std::string world =
       "Volume \"homogeneous\" \"point p0\" [-900 -900 -900] \"point p1\" [900 900 -1.5] "
@@ -158,8 +161,8 @@ TEST(Media, EmitWithoutBias) {
   EXPECT_TRUE(IsWithin(.01, EstimateOverSeeds(measure), (1 - std::exp(-3 * sigma)) / sigma));
 }
 
-// Light travels at angle theta to the view and is scattered once: over the depth s the radiance is
-// the integral of E sigma_s p exp(-sigma_t s (1 + 1 / cos theta)).
+// Light travels at the angle theta to the view and is scattered once. The radiance is the integral
+// of E sigma_s p exp(-sigma_t s (1 + 1 / cos theta)) over the depth s.
 TEST(Media, ScatterParallelLightOnceAsTheSlabFormulaSays) {
   for (const double g : {0.0, .5, -.4}) {
     const double sigmaS = .3, sigmaT = .5, cosine = .8;
@@ -189,8 +192,8 @@ TEST(Media, ScatterParallelLightOnceAsTheSlabFormulaSays) {
   }
 }
 
-// Two lights at the same angle to the view, on either side of it, one three times as bright as the
-// other: together four times the light of one.
+// Two lights shine at the same angle to the view from opposite sides, and one is three times as
+// bright as the other. Together they must give four times the light of the dimmer light.
 TEST(Media, ScatterTheLightOfEveryLight) {
   const double rate = .5 * (1 + 1 / .8);
   const double expected = 4 * .3 / (4 * M_PI) * (1 - std::exp(-3 * rate)) / rate;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Things, cameras and lights that move, against closed forms and against the mean of pictures in
-// which they stand still. Seeds are fixed; tolerances are several times the noise seen with them.
+// These tests compare moving objects, cameras and lights with closed forms, and with the mean of
+// pictures of stopped motion. Seeds are fixed. Tolerances are several times the noise that was
+// measured with these seeds.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -24,7 +25,7 @@ std::string Square(double x0, double x1, double y0, double y1, double z) {
   return text.str();
 }
 const std::string kEmits = "AreaLightSource \"area\" ";
-// Black, so that no pixel is transparent.
+// The backdrop is black, so that no pixel is transparent.
 const std::string kBackdrop =
     "Material \"matte\" \"color Kd\" [0 0 0]\n" + Square(-99, 99, -99, 99, 9);
 
@@ -36,7 +37,7 @@ TestRender Render(const std::string& integrator, const std::string& world, int s
   return RenderSceneText(TestHeader(integrator, size, size, samples) + world, options);
 }
 
-// "Transform [...]" of a matrix, column by column.
+// Returns "Transform [...]" with the numbers of the matrix, column by column.
 std::string TransformText(const Transform& transform) {
   std::ostringstream text;
   text.precision(17);
@@ -54,7 +55,7 @@ double LargestDifference(const Image& a, const Image& b) {
   return largest;
 }
 
-// The part of [a, b] that [x, x + w] covers, its mean over x from x0 to x1.
+// Returns the fraction of [a, b] that [x, x + w] covers, as a mean over x from x0 to x1.
 double MeanCoverage(double a, double b, double w, double x0, double x1) {
   double sum = 0;
   constexpr int kSteps = 20000;
@@ -82,7 +83,7 @@ TEST(Motion, OfTheShutterPartOfTheWayShowsThatPart) {
       "TransformTimes 2 4\nCamera \"perspective\" \"float fov\" 90 \"float shutteropen\" 1 \"float "
       "shutterclose\" 3\n";
   const Image image = Render("\"whitted\"", camera + world, 1024).image;
-  for (int x = 0; x < 8; ++x) {  // half of the time it stands, then it moves by 1.5
+  for (int x = 0; x < 8; ++x) {  // it rests for half of the time, then it moves by 1.5
     const double a = -1 + x * .25;
     const double truth =
         (MeanCoverage(a, a + .25, .5, -1, -1) + MeanCoverage(a, a + .25, .5, -1, .5)) / 2;
@@ -91,8 +92,8 @@ TEST(Motion, OfTheShutterPartOfTheWayShowsThatPart) {
 }
 
 TEST(Motion, OfATurningSectorLightsEachAngleForItsShare) {
-  // A quarter turns by a quarter about the view: at angle b of the half circle, for 1 - |b - 90| /
-  // 90 of the time.
+  // A quarter disk turns by 90 degrees about the view direction. It covers the angle b of the half
+  // circle for 1 - |b - 90| / 90 of the time.
   const std::string world = "WorldBegin\n" + kBackdrop + kEmits + kEnd + "Rotate 90 0 0 1 " + kAll +
                             "Translate 0 0 1 Rotate 180 1 0 0 Rotate -90 0 0 1 Shape \"disk\" "
                             "\"float radius\" 4 \"float phimax\" 90\nWorldEnd\n";
@@ -192,8 +193,8 @@ TEST(Motion, OffIsTheMomentThatTheShutterOpens) {
   }
 }
 
-// Mean of pictures with the motion stopped at the middles of so many parts of the time. world(at):
-// the text with the transformation `at` for the moving one.
+// Returns the mean of pictures whose motion is stopped at the midpoints of kStills equal parts of
+// the time. world(at) returns the scene with the transformation `at` for the moving object.
 template <class World>
 double MeanOfStills(const std::string& integrator, const AnimatedTransform& motion,
                     const World& world, int samples) {
@@ -207,7 +208,8 @@ double MeanOfStills(const std::string& integrator, const AnimatedTransform& moti
   return sum / kStills;
 }
 
-// Behind the viewer: a lamp that hides what it lights would be seen to do so only at its own time.
+// The lamp moves behind the camera. In view, it would hide the surface that it lights, but only at
+// the times of its positions.
 AnimatedTransform LampMotion() {
   const Transform start = Transform::Translate({-1, 0, -2}) * *Transform::Rotate(-60, {0, 1, 0});
   const Transform end = Transform::Translate({1, 1, -1}) * *Transform::Rotate(50, {1, 1, 0}) *
@@ -235,7 +237,7 @@ TEST(Motion, OfALampLightsAsItsPositionsDo) {
   }
 }
 
-// Photons of a lamp that is stretched as it moves carry what it emits.
+// A lamp is stretched as it moves. Its photons must carry the power that it emits.
 TEST(Motion, OfALampShootsThePhotonsThatItsPositionsDo) {
   const auto world = [](const std::string& at) {
     return "WorldBegin\n" + kMatte + Square(-20, 20, -20, 20, 4) + kBegin + kEmits +
@@ -272,8 +274,8 @@ TEST(Motion, OfABlockerLeavesThePhotonsOfTheMean) {
   EXPECT_TRUE(IsWithin(.03, moving, truth));
 }
 
-// A wall that moves through parallel light is lit all the time: photons of all times must be found
-// from where it is now.
+// A wall that moves through parallel light is lit at all times. A query must find photons of all
+// times from the wall's current position.
 TEST(Motion, OfAReceiverKeepsItsPhotonsTogether) {
   const std::string light =
       "LightSource \"distant\" \"point from\" [0 0 -1] \"point to\" [0 0 0] \"color L\" [2 2 2]\n";
@@ -293,7 +295,7 @@ TEST(Motion, OfAReceiverKeepsItsPhotonsTogether) {
 
 TEST(Motion, InAFurnaceChangesNothing) {
   const std::string material = "\"matte\" \"color Kd\" [.5 .5 .5]";
-  std::string world = FurnaceWorld(1, material);  // inside out
+  std::string world = FurnaceWorld(1, material);  // normals point inwards
   world.insert(world.rfind("WorldEnd"),
                "ReverseOrientation " + kEnd + "Translate 1 .3 0 Rotate 90 0 1 0 " + kAll +
                    "Translate -.5 0 .5 Shape \"sphere\" \"float radius\" .2\n");

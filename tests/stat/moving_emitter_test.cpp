@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Surfaces that emit while they are moved, turned and stretched: their densities are those of what
-// they make, as found by counting, and both ways to a density agree.
+// These tests check surfaces that emit while they move, turn and stretch. Their stated densities
+// must match counted samples, and the two ways to compute a density must agree.
 #include <gtest/gtest.h>
 
 #include "core/geometry/moving_emitter.h"
@@ -29,10 +29,9 @@ class MovingEmitterTest : public testing::TestWithParam<const char*> {
 };
 
 constexpr int kSamples = 200000;
-constexpr double kTolerance = .01;  // 4 standard errors or more
+constexpr double kTolerance = .01;  // at least 4 standard errors
 
-// The mean of 1 / pdf is the measure of what is sampled: the area, as a fine mesh of the surface at
-// that time has it.
+// The mean of 1 / pdf is the measure of the sampled set, which is the surface's area at that time.
 TEST_P(MovingEmitterTest, PointsCoverTheAreaOfTheirTime) {
   RandomStream random(1);
   for (const Real time : {Real(0), Real(.4), Real(1)}) {
@@ -42,7 +41,7 @@ TEST_P(MovingEmitterTest, PointsCoverTheAreaOfTheirTime) {
       const Real x = random.Uniform(), y = random.Uniform(), part = random.Uniform();
       const EmitterSample sample = emitter_.SamplePoint({x, y}, part, time);
       area += 1 / double(sample.pdf) / kSamples;
-      // The same by the local surface and two tangents, moved.
+      // The expected area comes from the local surface, with two transformed tangents.
       const EmitterSample local = local_->SamplePoint({x, y}, part, time);
       const Frame frame = Frame::FromZ(local.point.ng);
       truth += double(Length(Cross(at.ApplyVector(frame.x), at.ApplyVector(frame.y)))) /
@@ -53,7 +52,8 @@ TEST_P(MovingEmitterTest, PointsCoverTheAreaOfTheirTime) {
   }
 }
 
-// Irradiance by directions sampled towards the surface equals that by points on it.
+// The irradiance from directions sampled towards the surface must equal the irradiance from points
+// sampled on it.
 TEST_P(MovingEmitterTest, DirectionsBringWhatPointsBring) {
   RandomStream random(2);
   SurfacePoint ref;

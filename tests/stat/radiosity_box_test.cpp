@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A closed box with six reflectances and a square lamp against an independent radiosity solution:
-// patches, form factors by Lambert's formula for polygons, in double. Nothing of the renderer is
-// used but its pictures, each of which shows one whole wall without perspective.
+// These tests compare a closed box with six reflectances and a square lamp with an independent
+// radiosity solution. The solution uses patches and Lambert's form factors for polygons, in
+// double precision and without the renderer's code. Each rendered picture shows one whole wall
+// without perspective.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,7 +24,8 @@ V CrossOf(const V& a, const V& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Wall w of the unit cube: axis w / 2 is 0 (w even) or 1; (s, t) run over the other two axes.
+// Wall w of the unit cube is the plane where axis w / 2 is 0 (w even) or 1 (w odd). The coordinates
+// (s, t) run over the other two axes.
 struct Wall {
   double albedo;
   V At(int w, double s, double t) const {
@@ -39,7 +41,8 @@ constexpr int kCeiling = 3;
 constexpr double kLampRadiosity = 10;
 constexpr double kPi64 = 3.14159265358979323846;
 
-// Share of what leaves a point with this normal that meets the polygon; all of it is in front.
+// Returns the fraction of the light from a point with this normal that meets the polygon. The
+// polygon must lie entirely in front of the point.
 double FormFactor(const V& from, const V& normal, const std::array<V, 4>& corners) {
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -52,8 +55,8 @@ double FormFactor(const V& from, const V& normal, const std::array<V, 4>& corner
   return std::abs(sum) / (2 * kPi64);
 }
 
-// Mean radiosity of each wall from n x n patches a wall; the lamp is the middle quarter of the
-// ceiling and reflects nothing.
+// Returns the mean radiosity of each wall from n x n patches per wall. The lamp is the middle
+// quarter of the ceiling and reflects nothing.
 std::array<double, 6> Radiosity(int n) {
   const auto isLamp = [&](int w, int s, int t) {
     return w == kCeiling && s >= n / 4 && s < 3 * n / 4 && t >= n / 4 && t < 3 * n / 4;
@@ -131,7 +134,7 @@ std::string BoxWorld() {
   return world + "WorldEnd\n";
 }
 
-// The camera stands in the middle and sees exactly the wall.
+// The camera is at the centre and sees exactly the wall.
 std::string WallView(const std::string& integrator, int wall, int samples) {
   std::array<std::string, 3> target{".5", ".5", ".5"};
   target[std::size_t(wall / 2)] = wall % 2 ? "1" : "0";
@@ -151,7 +154,8 @@ struct View {
 
 class RadiosityBox : public testing::TestWithParam<View> {};
 
-// A side and the back; 2 % as for every picture of photons.
+// The test covers a side wall and the back wall. The tolerance is 2 %, as for every
+// photon-mapped picture.
 TEST_P(RadiosityBox, HasTheWallsOfTheRadiositySolution) {
   static const std::array<double, 6> truth = Radiosity(16);
   for (const int wall : {0, 5}) {
@@ -176,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
             "\"photonmap\" \"integer indirectphotons\" [100000] \"integer finalgathersamples\" [8]",
             32}));
 
-// Patches of half the size change nothing that matters here; the box is closed.
+// Patches of half the size must change the solution by less than 1 %.
 TEST(RadiosityBoxItself, Converges) {
   const auto coarse = Radiosity(8), fine = Radiosity(16);
   for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(coarse[w] / fine[w], 1, .01) << w;

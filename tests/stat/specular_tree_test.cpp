@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Specular trees: rays that reflect and refract at every hit do not double without end, and the
-// mean of the picture stays what it is.
+// These tests check specular trees. Rays that reflect and refract at every hit must not double
+// without end, and Russian roulette must not change the mean of the picture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace exphoton {
 namespace {
 
-// Three shells of the material round the camera, in a sky of radiance 1.
+// Returns three shells of the material around the camera and a small sphere beside it, in a sky
+// of radiance 1.
 std::string Shells(const std::string& material) {
   return "WorldBegin\nLightSource \"infinite\"\nMaterial " + material +
          "\nShape \"sphere\" Shape \"sphere\" \"float radius\" 2 Shape \"sphere\" \"float "
@@ -48,8 +49,8 @@ TEST(SpecularTree, OfMaterialsThatReflectAndTransmitEndsInTime) {
   }
 }
 
-// Each of the three shells is glass on its inside, so radiance grows by the square of the index at
-// each; without loss nothing else changes it in a sky that is the same everywhere.
+// Inside each of the three shells is glass, so each shell multiplies the radiance by the squared
+// index. The glass absorbs nothing and the sky is uniform, so nothing else changes the radiance.
 TEST(SpecularTree, LosesAndAddsNoLightByRoulette) {
   const auto mean = EstimateOverSeeds([](std::uint64_t seed) {
     return MeanRadiance(
@@ -59,7 +60,7 @@ TEST(SpecularTree, LosesAndAddsNoLightByRoulette) {
 }
 
 TEST(SpecularTree, UpToDepth5HasNoNoiseOfRoulette) {
-  // Two lobes at each of five hits: 62 rays, all of them followed for every seed.
+  // Two lobes at each of five hits give at most 62 rays. All of them are followed for every seed.
   for (const std::uint64_t seed : {1, 2, 3}) {
     const TestRender render = RenderShells(kUber, 5, seed, 1);
     EXPECT_EQ(RaysPerSample(render), RaysPerSample(RenderShells(kUber, 5, seed + 10, 1)));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What must not change a picture, bit for bit: scale and power by powers of two, effects computed
-// or skipped, threads, tiles and crops. Over all integrators but those with photons, which have
-// their own such tests (effects excepted), in a scene with every kind of light.
+// These tests check changes that must not alter any bit of a picture: scale and power by powers of
+// two, skipped features, threads, tiles and crops. They cover all integrators in a scene with every
+// kind of light. Photon integrators appear only in the tests of features, because
+// photon_identity_test.cpp covers the rest.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -21,7 +22,7 @@ std::string Grey(double value) {
   return "[" + v + " " + v + " " + v + "]";
 }
 
-// Photons are few: what is compared is bits, not noise.
+// Few photons are enough, because the tests compare bits and noise does not matter.
 std::string Integrator(const std::string& name) {
   std::string text = "\"" + name + "\"";
   if (name.find("photon") != std::string::npos)
@@ -82,7 +83,7 @@ TEST_P(Transport, ScalesExactlyWithThePowerOfTheLights) {
   const TestRender bright = RenderSceneText(Scene(GetParam(), {.power = 1024}));
   ASSERT_EQ(bright.image.pixels.size(), one.image.pixels.size());
   for (std::size_t i = 0; i < one.image.pixels.size(); ++i) {
-    const float factor = i % 4 == 3 ? 1.f : 1024.f;  // not alpha
+    const float factor = i % 4 == 3 ? 1.f : 1024.f;  // alpha does not scale
     ASSERT_EQ(bright.image.pixels[i], one.image.pixels[i] * factor);
   }
 }
@@ -107,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Transport,
 
 class Features : public testing::TestWithParam<std::string> {};
 
-// The rule of the plan: an effect is off only where it adds nothing.
+// Feature culling may turn an effect off only where the effect adds nothing.
 TEST_P(Features, ComputedOrSkippedGiveTheSamePictureBitForBit) {
   for (const World& world :
        {World{}, World{.hasGlass = false}, World{.hasTexture = false}, World{.hasSky = false},

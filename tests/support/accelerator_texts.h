@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The accelerators, with the settings that tests compare with brute force.
+// kAccelerators lists the accelerators and settings that tests compare with brute force.
 #pragma once
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Chi-square test: counting, quadrature of the density over the cells, pooling of rare cells, and
-// the tail of the distribution (Abramowitz and Stegun, 6.5.29 and 6.5.31).
+// TestPlane and TestDirections count samples per cell, integrate the density over the cells, pool
+// rare cells and evaluate the tail of the distribution (Abramowitz and Stegun, 6.5.29 and 6.5.31).
 #include "tests/support/chi_square.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 using Density = std::function<double(double, double)>;
 
 double TensorSum(const Density& f, double x0, double y0, double dx, double dy) {
-  // Gauss-Legendre with 3 x 3 points.
+  // Gauss-Legendre quadrature uses 3 x 3 points.
   constexpr double kNode = 0.7745966692414834;
   const double node[3] = {(1 - kNode) / 2, 0.5, (1 + kNode) / 2};
   constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -33,7 +33,7 @@ double Integrate(const Density& f, double x0, double y0, double dx, double dy, i
     quarter[i] = TensorSum(f, x0 + (i & 1) * hx, y0 + (i >> 1) * hy, hx, hy);
     sum += quarter[i];
   }
-  // The first levels are always taken, lest a small bright part falls between the points.
+  // The first levels are always halved, because a small bright part may lie between the points.
   constexpr int kAlways = 2;
   if (depth <= 0 || (level >= kAlways && std::abs(sum - whole) <= 1e-4 * std::abs(sum))) return sum;
   sum = 0;
@@ -47,7 +47,7 @@ struct Cell {
   double expected, observed;
 };
 
-// Compares counts with expectations; cells that expect fewer than 5 are pooled.
+// Compares counts with expectations. Cells with an expectation below 5 are pooled.
 ChiSquareResult Compare(std::vector<Cell> cells, double mass) {
   ChiSquareResult result;
   result.mass = mass;
@@ -111,7 +111,7 @@ ChiSquareResult TestRectangle(
     }
     cells[cell].observed += 1;
   }
-  // A rest so small that quadrature alone may have made it cannot be tested as a cell.
+  // If the rest is no larger than the error of the quadrature, its cell cannot be tested.
   const double rest = 1 - mass;
   cells.back().expected = std::max(rest, 0.0) * samples;
   if (rest <= 1e-3 && cells.back().observed <= 2e-3 * samples) cells.pop_back();
@@ -133,7 +133,7 @@ double ChiSquareTail(double x, int degrees) {
     for (int k = 1; k < 100000 && term > 1e-15 * sum; ++k) sum += term *= z / (a + k);
     return std::clamp(1 - front * sum, 0.0, 1.0);
   }
-  // Continued fraction by the modified method of Lentz.
+  // The continued fraction is evaluated by the modified method of Lentz.
   double b = z + 1 - a, c = 1e300, d = 1 / b, h = d;
   for (int k = 1; k < 100000; ++k) {
     const double an = -k * (k - a);
@@ -167,7 +167,7 @@ ChiSquareResult TestDirections(const DirectionGrid& grid,
                                const ChiSquareOptions& options) {
   const Frame frame = Frame::FromZ(NormalizeOr(grid.axis, {0, 0, 1}));
   constexpr double kTwoPi = 6.283185307179586;
-  // Coordinates: 1 - cos(theta), phi; solid angle is their product measure.
+  // The coordinates are 1 - cos(theta) and phi. Solid angle is their product measure.
   const auto draw = [&](RandomStream& random) -> std::optional<std::pair<double, double>> {
     const auto w = sample(random);
     if (!w) return std::nullopt;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The equivalence rule. Quantiles of Student's t distribution from the usual tables.
+// IsWithin is the equivalence test of a Monte Carlo mean. The quantiles of Student's t distribution
+// are from the usual tables.
 #include "tests/support/equivalence.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ double StudentQuantile995(int degrees) {
   constexpr int kEntries = int(sizeof kTable / sizeof *kTable);
   if (degrees < 1) return kTable[0];
   if (degrees <= kEntries) return kTable[degrees - 1];
-  // Cornish-Fisher expansion about the normal quantile; exact to 4 digits here.
+  // The Cornish-Fisher expansion about the normal quantile is exact to 4 digits here.
   const double z = 2.5758293;
   return z + (z * z * z + z) / (4.0 * degrees);
 }
@@ -33,8 +34,8 @@ SeedEstimate EstimateFrom(std::span<const double> meansOfSeeds) {
   return estimate;
 }
 
-// The mean of the seeds is normal and independent of their variance, which is chi-square with
-// K - 1 degrees; an integral over the latter by the midpoint rule.
+// The mean of the seeds is normal and independent of their variance, which is chi-square with K - 1
+// degrees of freedom. The midpoint rule integrates over the variance.
 double FalseAlarmRate(const SeedEstimate& estimate, double offset, double tolerance) {
   const int degrees = estimate.seeds - 1;
   const double sigma = estimate.standardDeviation / std::sqrt(double(estimate.seeds));

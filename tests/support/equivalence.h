@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The rule of every Monte Carlo test of a mean: K independent seeds give K means; the test passes
-// where |mean - truth| plus the half-width of the 99 % confidence interval (Student's t) is within
-// the tolerance. A half-width beyond the tolerance fails: noise can never make a test pass.
+// IsWithin is the rule of every Monte Carlo test of a mean. K independent seeds give K means. The
+// test passes if |mean - truth| plus the half-width of the 99 % confidence interval (Student's t)
+// is within the tolerance. A half-width beyond the tolerance fails, so noise never makes a test
+// pass.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ struct SeedEstimate {
   int seeds = 0;                 // K
 };
 
-// The quantile t(0.995, degrees) of Student's distribution.
+// Returns the quantile t(0.995, degrees) of Student's distribution.
 double StudentQuantile995(int degrees);
 
 SeedEstimate EstimateFrom(std::span<const double> meansOfSeeds);
@@ -34,11 +35,12 @@ SeedEstimate EstimateOverSeeds(Measure&& measure, int count = kGateSeeds) {
   return EstimateFrom(means);
 }
 
-// The probability that as many other seeds fail the rule, where means of seeds are normal with the
-// estimate's standard deviation and a mean that lies `offset` beside the truth.
+// Returns the probability that the same number of other seeds fails the rule. The seeds' means are
+// assumed to be normal with the estimate's standard deviation and a mean that differs from the
+// truth by `offset`.
 double FalseAlarmRate(const SeedEstimate& estimate, double offset, double tolerance);
 
-// tolerance is relative to |truth|.
+// The tolerance is relative to |truth|.
 testing::AssertionResult IsWithin(double relativeTolerance, const SeedEstimate& estimate,
                                   double truth);
 testing::AssertionResult IsWithinAbsolute(double tolerance, const SeedEstimate& estimate,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Random geometry for tests; everything follows from the seed.
+// RandomScene, AwkwardRay and ShapesAndInstances make random geometry for tests. The seed alone
+// determines the result.
 #include "tests/support/geometry_scenes.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,8 @@ Triangle RandomTriangle(RandomStream& random, Real extent, Real size) {
           center + RandomVector(random) * size};
 }
 
-// Vertices on a coarse grid: many coplanar, touching and axis-parallel triangles.
+// Places vertices on a coarse grid, which gives many coplanar, touching and axis-parallel
+// triangles.
 Triangle SnappedTriangle(RandomStream& random) {
   Triangle triangle;
   for (Point3& p : triangle)
@@ -68,7 +70,7 @@ TriangleList TrianglesOfKind(std::uint64_t kind, RandomStream& random) {
         list.insert(list.end(), box.begin(), box.end());
         break;
       }
-      case 8:  // equal ones
+      case 8:  // identical triangles
         list.push_back(i % 3 == 0 ? RandomTriangle(random, 1, 1) : list.back());
         break;
       default:
@@ -127,7 +129,8 @@ std::unique_ptr<PrimitiveSet> TriangleSet(const TriangleList& triangles) {
 
 TriangleList BoxTriangles(const Point3& min, const Point3& max) {
   const Bounds3 box(min, max);
-  // Corners by bits x, y, z; each face counter-clockwise seen from outside.
+  // Bits 0, 1 and 2 of a corner select x, y and z. Each face is counter-clockwise seen from
+  // outside.
   constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                 {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   TriangleList list;
@@ -167,7 +170,7 @@ std::unique_ptr<PrimitiveSet> RandomScene(std::uint64_t seed) {
 Ray AwkwardRay(const PrimitiveSet& set, RandomStream& random) {
   const Bounds3 world = set.WorldBounds();
   const auto anywhere = [&] {
-    const Real least = MaxComponent(world.Diagonal()) * Real(.1);  // flat worlds too
+    const Real least = MaxComponent(world.Diagonal()) * Real(.1);  // for flat worlds
     const Vector3 r = RandomVector(random), d = Max(world.Diagonal(), Vector3(least));
     return world.Center() + Vector3(d.x * r.x, d.y * r.y, d.z * r.z);
   };
@@ -223,7 +226,7 @@ ShapesAndInstances::ShapesAndInstances(TestPlugins& plugins, const std::string& 
   set_.AddMesh(MeshOf(TrianglesOfKind((seed + 1) % 10, random)), {});
   addShapes(set_, 8);
   for (int i = 0; i < 6; ++i) set_.AddInstance({transform(2), object_.get()});
-  // The same instance twice: equal t throughout, decided by id.
+  // The same instance is placed twice: t is equal everywhere, and the ids decide.
   const Transform twice = transform(1);
   set_.AddInstance({twice, object_.get()});
   set_.AddInstance({twice, object_.get()});

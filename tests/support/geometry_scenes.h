@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Random geometry for tests of intersection and acceleration: sets of triangles with all that is
-// awkward, shapes with instances, and rays that aim at edges, vertices and planes.
+// These functions make random geometry for tests of intersection and acceleration: sets of awkward
+// triangles, shapes with instances, and rays that aim at edges, vertices and planes.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@ class TestPlugins;
 
 using TriangleList = std::vector<std::array<Point3, 3>>;
 
-// A finished set of these triangles, each with vertices of its own; degenerate ones are dropped.
+// Returns a finished set of these triangles, which share no vertices. Drops degenerate triangles.
 std::unique_ptr<PrimitiveSet> TriangleSet(const TriangleList& triangles);
 std::shared_ptr<TriangleMesh> MeshOf(const TriangleList& triangles);
 
-// The twelve triangles of a box, outside outwards.
+// Returns the twelve triangles of a box. Their normals point outwards.
 TriangleList BoxTriangles(const Point3& min, const Point3& max);
-// A closed mesh of a unit sphere about the centre: `rings` by `sectors` quads, vertices shared bit
-// for bit.
+// Returns a closed mesh of a unit sphere about the centre. It has `rings` by `sectors` quads, whose
+// common vertices are equal bit for bit.
 TriangleList SphereTriangles(const Point3& center, int rings, int sectors);
 
-// One of several kinds of scene, chosen by the seed.
+// Returns a scene of one of several kinds, chosen by the seed.
 std::unique_ptr<PrimitiveSet> RandomScene(std::uint64_t seed);
 
-// A ray about the set: random, along an axis with zeros of either sign, from or to vertices and
-// edges, in the plane of a triangle; sometimes with an end.
+// Returns a ray near the set: random, along an axis with zeros of either sign, from or to vertices
+// and edges, or in the plane of a triangle. Some rays have a finite tMax.
 Ray AwkwardRay(const PrimitiveSet& set, RandomStream& random);
 
-// Triangles, spheres, disks and cylinders, and instances of such a set.
+// ShapesAndInstances is a set of triangles, spheres, disks, cylinders and instances of such a set.
 class ShapesAndInstances {
  public:
   ShapesAndInstances(TestPlugins& plugins, const std::string& accelerator, std::uint64_t seed);
@@ -46,10 +46,10 @@ class ShapesAndInstances {
   PrimitiveSet set_;
 };
 
-// A crowd of 30,000 small triangles with spheres among them, far more than one piece of building.
+// Returns 30,000 small triangles and 600 spheres, far more than one task of a parallel build.
 std::unique_ptr<PrimitiveSet> CrowdOfTriangles(TestPlugins& plugins);
-// Fails the test where an accelerator over such a crowd answers an awkward ray otherwise than brute
-// force does.
+// Fails the test if an accelerator over such a set answers an awkward ray differently from brute
+// force.
 void ExpectHitsOfBruteForce(const Aggregate& tested, const PrimitiveSet& crowd,
                             TestPlugins& plugins);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Shooting photons into a scene without an integrator about it.
+// ShootPhotons shoots photons into a scene without an integrator.
 #pragma once
 
 #include "core/base/log.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A light of which only place and power matter: for tests of how lights are chosen.
+// PlacedLight is a light with only a place and a power, for tests of light selection.
 #pragma once
 
 #include "core/lights/light.h"
@@ -8,7 +8,7 @@ namespace exphoton {
 
 class PlacedLight final : public Light {
  public:
-  // Nowhere without a place.
+  // A light without a place has no bounds.
   PlacedLight(std::optional<Point3> place, Real power, bool isBlack = false)
       : place_(place), power_(power), isBlack_(isBlack) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Trees of points for tests of searches, and what looking at every point finds.
+// TestPointTree is a point tree for tests of searches, with brute-force searches for comparison.
 #pragma once
 
 #include <vector>
@@ -35,7 +35,7 @@ class TestPointTree {
     std::uint32_t index;
     friend auto operator<=>(const Near&, const Near&) = default;
   };
-  // Nearest first.
+  // Returns the nearest point first.
   std::vector<Near> Nearest(const NearestSearch& search, const NearestQuery& query) const;
   std::vector<Near> NearestByBruteForce(const NearestQuery& query) const;
   ClosestPoint ClosestByBruteForce(const ClosestQuery& query, const ClosestLimits& limits) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// By fork and wait4; a child that is late is killed with its whole process group.
+// RunProcess uses fork and wait4. A child beyond its time limit is killed with its process group.
 #include "tests/support/process.h"
 
 #include <fcntl.h>
@@ -50,7 +50,7 @@ pid_t StartProcess(const ProcessCommand& command) {
   for (const auto& word : command.words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   WriteFile(command.folder + "/" + kInputName, command.input);
-  unlink((command.folder + "/" + kErrName).c_str());  // of a process before
+  unlink((command.folder + "/" + kErrName).c_str());  // left by an earlier process
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) Become(command, argv);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A child process as tests start it: in a folder of its own, its output in files there; what it
-// left and what it used.
+// RunProcess runs a child process for tests. The child runs in a given folder, where files receive
+// its output. The result has its output, exit status, run time and memory.
 #pragma once
 
 #include <sys/types.h>
@@ -11,30 +11,30 @@
 namespace exphoton {
 
 struct ProcessResult {
-  int status = -1;  // exit status; 128 + n where a signal ended it
+  int status = -1;  // exit status; 128 + n after signal n
   bool isLate = false;
-  double seconds = 0, megabytes = 0;  // wall time since the wait began; peak resident set
+  double seconds = 0, megabytes = 0;  // wall time of the wait; peak resident set
   std::string out, err;
 };
 
 struct ProcessCommand {
   std::vector<std::string> words;
-  std::string folder;                      // where it runs; gets files that TestFolder hides
-  std::vector<std::string> environment{};  // added: NAME=value
-  std::string input{};                     // what standard input holds
-  double timeLimit = 60;                   // seconds, after which it is killed with its children
+  std::string folder;                      // working folder; gets files that TestFolder hides
+  std::vector<std::string> environment{};  // additional variables: NAME=value
+  std::string input{};                     // content of standard input
+  double timeLimit = 60;                   // seconds until it is killed with its children
 };
 
-// Starts it as the leader of a process group, with the default answers to signals.
+// Starts the process as the leader of a process group, with default signal handlers.
 pid_t StartProcess(const ProcessCommand& command);
 ProcessResult WaitForProcess(pid_t process, const std::string& folder, double timeLimit);
-// Both.
+// Starts a process and waits for it.
 ProcessResult RunProcess(const ProcessCommand& command);
 
-std::string ReadFile(const std::string& path);  // "" where there is none
+std::string ReadFile(const std::string& path);  // "" if there is no such file
 void WriteFile(const std::string& path, const std::string& text);
 
-// An empty folder that is removed at the end.
+// TestFolder is an empty folder that its destructor removes.
 class TestFolder {
  public:
   TestFolder();
@@ -43,8 +43,8 @@ class TestFolder {
   TestFolder& operator=(const TestFolder&) = delete;
   const std::string& Path() const { return path_; }
   std::string File(const std::string& name) const { return path_ + "/" + name; }
-  std::vector<std::string> Names() const;  // sorted, without what StartProcess made
-  // What a process that runs here has said so far.
+  std::vector<std::string> Names() const;  // sorted, without StartProcess's files
+  // Returns the output so far of a process that runs in this folder.
   std::string StandardOutput() const;
   std::string StandardError() const;
 

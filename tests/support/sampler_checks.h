@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What tests of samplers share: the samplers to test, a layout with every kind of request, and
-// whether points are stratified, nets or uncorrelated.
+// This file has helpers for tests of samplers: the samplers to test, a layout with every kind of
+// request, and checks that points are stratified, nets or uncorrelated.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ struct Requests {
   }
 };
 
-// All numbers of a sample in a row.
+// Returns all numbers of a sample in one list.
 inline std::vector<Real> Flatten(const CameraSamples& s) {
   std::vector<Real> all = {s.film.x, s.film.y, s.lens.x, s.lens.y, s.time};
   for (int i = 0; i < s.Count1D(); ++i)
@@ -50,7 +50,7 @@ inline std::vector<Real> MakeSamples(const Sampler& sampler, const SampleKey& ke
   return Flatten(samples);
 }
 
-// Whether each of the strata of [0,1) holds exactly as many of the values as every other.
+// Returns whether all strata of [0,1) hold the same number of values.
 inline testing::AssertionResult IsStratified(const std::vector<Real>& values, int strata) {
   std::vector<int> counts(std::size_t(strata), 0);
   for (Real v : values) ++counts[std::size_t(double(v) * strata)];
@@ -71,7 +71,7 @@ inline testing::AssertionResult IsStratified(const std::vector<Point2>& points, 
   return IsStratified(cells, columns * rows);
 }
 
-// Every way to cut the square into 2^k equal dyadic rectangles.
+// Tests every way to cut the square into 2^k equal dyadic rectangles.
 inline testing::AssertionResult IsNet(const std::vector<Point2>& points) {
   const int n = int(points.size());
   for (int columns = 1; columns <= n; columns *= 2) {
@@ -81,8 +81,8 @@ inline testing::AssertionResult IsNet(const std::vector<Point2>& points) {
   return testing::AssertionSuccess();
 }
 
-// One column of values for each number of a sample, over many pixels. `value` maps what a sampler
-// gives to a number of mean 0.
+// Returns one column of values over many pixels for each number of a sample. `value` maps a number
+// of the sampler to a number with mean 0.
 template <class F>
 std::vector<std::vector<double>> Columns(const Sampler& sampler, int pixels, F&& value) {
   std::vector<std::vector<double>> columns;
@@ -94,8 +94,9 @@ std::vector<std::vector<double>> Columns(const Sampler& sampler, int pixels, F&&
   return columns;
 }
 
-// Whether no two of the chosen columns, each uniform on [-.5, .5), correlate. The standard
-// deviation of a correlation is 1/sqrt(n); 5 of them: 2e-5 in 36 tests.
+// Returns whether no two of the chosen columns, each uniform on [-.5, .5), are correlated. The
+// standard deviation of a correlation is 1/sqrt(n). The limit is 5 standard deviations, which 36
+// tests exceed by chance with probability 2e-5.
 inline testing::AssertionResult AreUncorrelated(const std::vector<std::vector<double>>& columns,
                                                 const std::vector<std::size_t>& chosen) {
   for (const std::size_t a : chosen) {

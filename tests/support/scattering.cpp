@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Surfaces, lobes and integrals for tests of scattering.
+// Surfaces, lobes and integrals for tests of scattering are defined here.
 #include "tests/support/scattering.h"
 
 #include "core/math/sampling/sampling.h"

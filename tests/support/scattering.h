@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What tests of scattering share: a flat surface, every kind of smooth lobe, directions that
-// include the awkward ones, and integrals over directions.
+// This file has helpers for tests of scattering: a flat surface, every kind of smooth BSDF lobe,
+// ordinary and awkward directions, and integrals over directions.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@
 
 namespace exphoton {
 
-// The plane z = 0 at the origin, normal +z, dpdu = x, uv = (.25, .75), no differentials.
+// Returns the plane z = 0 at the origin: normal +z, dpdu = x, uv = (.25, .75), no differentials.
 SurfaceInteraction FlatSurface();
-// The same, with a shading normal tilted by `angle` (radians) from z towards x.
+// Returns FlatSurface with a shading normal tilted by `angle` (radians) from z towards x.
 SurfaceInteraction TiltedSurface(Real angle);
 
 struct NamedLobe {
@@ -24,16 +24,17 @@ struct NamedLobe {
 
   friend void PrintTo(const NamedLobe& named, std::ostream* out) { *out << named.name; }
 };
-// Every non-specular lobe, with coefficients at most 1, at ordinary and extreme roughness.
+// Returns every non-specular BSDF lobe, with coefficients of at most 1, at ordinary and extreme
+// roughness.
 std::vector<NamedLobe> SmoothLobes();
 
-// Unit vectors with these cosines to z, at an azimuth off the axes.
+// Returns unit vectors with these cosines to z, at an azimuth off the axes.
 std::vector<Vector3> Directions(const std::vector<Real>& cosines);
 
-// Integral of lobe.f |cos wi| over all wi, by the mean of Sample's throughput on a stratified grid
-// of side x side.
+// Returns the integral of lobe.f |cos wi| over all wi. It is the mean throughput of Sample on a
+// stratified grid of side x side.
 Spectrum Albedo(const Bxdf& lobe, const Vector3& wo, int side = 64);
-// The cosine-weighted mean of Albedo over the upper hemisphere.
+// Returns the cosine-weighted mean of Albedo over the upper hemisphere.
 Spectrum HemisphericalAlbedo(const Bxdf& lobe, int side = 32);
 
 }  // namespace exphoton

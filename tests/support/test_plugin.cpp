@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// TestPlugins: parses one directive from memory and lets the registry make the plugin.
+// TestPlugins parses one directive from memory and creates the plugin by the registry.
 #include "tests/support/test_plugin.h"
 
 #include "core/parser/syntax/parser.h"
@@ -51,7 +51,7 @@ void TestPlugins::Define(const std::string& name, TexturePtr<Spectrum> texture) 
 template <PluginKind kind>
 std::unique_ptr<typename PluginTraits<kind>::Product> TestPlugins::Make(
     const std::string& text, const typename PluginTraits<kind>::Context& context) {
-  // Every directive with one name and parameters is written alike.
+  // All directives with a name and parameters have the same syntax, so "Shape" does for each.
   MemorySource source({{"test.pbrt", "Shape " + text + "\n"}});
   OneDirective handler;
   ParseScene(source, "test.pbrt", handler, log_);

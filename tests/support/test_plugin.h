@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Makes single plugins from scene text, for tests of one light, shape or material without a scene:
+// TestPlugins makes single plugins from scene text, for tests of a light, shape or material without
+// a scene:
 //   TestPlugins plugins;
 //   auto light = plugins.MakeLight(R"("spot" "float coneangle" 20)");
 #pragma once
@@ -17,7 +18,7 @@ class TestPlugins {
  public:
   TestPlugins();
 
-  // `text`: the plugin's name in quotes and its parameters, as behind a directive.
+  // `text` is the plugin's name in quotes and its parameters, as they follow a directive.
   std::unique_ptr<Light> MakeLight(const std::string& text, const Transform& toWorld = {});
   std::unique_ptr<AreaLight> MakeAreaLight(const std::string& text,
                                            std::shared_ptr<const EmitterSurface> surface);
@@ -25,7 +26,8 @@ class TestPlugins {
                           bool reverseOrientation = false);
   std::unique_ptr<Aggregate> MakeAccelerator(const std::string& text,
                                              const PrimitiveSet& primitives, int threads = 1);
-  // The shape as a surface to sample; keeps what it refers to.
+  // Returns the shape as a surface to sample. TestPlugins keeps the mesh that the surface refers
+  // to.
   std::shared_ptr<const EmitterSurface> MakeEmitter(const std::string& text,
                                                     const Transform& toWorld = {},
                                                     bool reverseOrientation = false);
@@ -38,7 +40,7 @@ class TestPlugins {
                                                  const Transform& toWorld = {});
   std::unique_ptr<ColorTexture> MakeColorTexture(const std::string& text,
                                                  const Transform& toWorld = {});
-  // What "texture" parameters of later texts may name.
+  // Defines a texture that "texture" parameters of later texts may name.
   void Define(const std::string& name, TexturePtr<Real> texture);
   void Define(const std::string& name, TexturePtr<Spectrum> texture);
 

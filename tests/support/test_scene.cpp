@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Loading and rendering of scenes from text.
+// LoadSceneText and RenderSceneText load and render scenes from text.
 #include "tests/support/test_scene.h"
 
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Renders small scenes from text, in process, to an Image: for tests of whole integrators against
-// closed forms. The text is what a scene file says; furnace scenes and the like are made here.
+// RenderSceneText renders a small scene from text, in process, to an Image. It is for tests of
+// whole integrators against closed forms. TestHeader and FurnaceWorld return common scene texts.
 #pragma once
 
 #include <atomic>
@@ -20,10 +20,10 @@ namespace exphoton {
 struct TestRenderOptions {
   std::uint64_t seed = 1;
   int threads = 1;
-  LoadOptions load;  // integrator, samplesPerPixel, effects ...; the plugin folder is filled in
+  LoadOptions load;  // integrator, samplesPerPixel, effects ...; the plugin folder is added
   int tileSize = 16;
   TileOrder tileOrder = TileOrder::Scanline;
-  std::int64_t footprintSamples = 0;  // RenderOptions
+  std::int64_t footprintSamples = 0;  // as in RenderOptions
   bool isStrict = true;               // a non-finite sample throws
   AovSet aovs;                        // appended to the image's channels
   const std::atomic<bool>* stop = nullptr;
@@ -36,33 +36,34 @@ struct TestRender {
   std::vector<Statistics::Counter> counters;
   RayCounters rays;
 
-  bool Says(const std::string& part) const;       // whether a message contains it
-  double Counter(const std::string& name) const;  // NaN where there is none
+  bool Says(const std::string& part) const;       // whether a message contains `part`
+  double Counter(const std::string& name) const;  // NaN if there is none
 };
 
-// A scene made from text, and what it said; for tests that look into it.
+// LoadedScene is a scene made from text with its log, for tests that inspect it.
 struct LoadedScene {
   std::unique_ptr<Log> log;
   std::unique_ptr<RenderSetup> setup;
 };
 LoadedScene LoadSceneText(const std::string& text, LoadOptions options = {});
 
-// The first scene of the text.
+// Renders the first scene of the text.
 TestRender RenderSceneText(const std::string& text, const TestRenderOptions& options = {});
 TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options = {});
 
-// Mean of R, G and B over the image, or over pixels [x0,x1) x [y0,y1) counted from its corner.
+// Returns the mean of R, G and B over the image, or over pixels [x0,x1) x [y0,y1) counted from the
+// image's corner.
 double MeanRadiance(const Image& image);
 double MeanRadiance(const Image& image, const PixelBounds& region);
-// Mean of one channel ("R").
+// Returns the mean of one channel ("R").
 double MeanChannel(const Image& image, const std::string& channel);
 
-// Options and camera of a width x height picture with a box filter, up to and without WorldBegin.
-// The camera stands at the origin, looks along +z, and has a field of view of 90 degrees.
+// Returns the options and camera of a width x height picture with a box filter, without WorldBegin.
+// The camera is at the origin, looks along +z, and has a field of view of 90 degrees.
 std::string TestHeader(const std::string& integrator, int width, int height, int samples);
 
-// A closed sphere of radius 1 about the origin that emits `emission` on its inside and reflects
-// `material` (a Material directive without the word: "\"matte\" \"color Kd\" [.5 .5 .5]").
+// Returns a closed sphere of radius 1 about the origin. It emits `emission` on its inside and
+// reflects `material` (a Material directive without the word: "\"matte\" \"color Kd\" [.5 .5 .5]").
 // Radiance is emission / (1 - albedo) everywhere.
 std::string FurnaceWorld(double emission, const std::string& material);
 

@@ -8,12 +8,12 @@ namespace exphoton {
 namespace {
 
 constexpr int kBins = 32;
-constexpr std::size_t kSweepLimit = 64;  // items up to which every place is tried
+constexpr std::size_t kSweepLimit = 64;  // largest number of items for which every split is tried
 
-// Cost by blocks of eight: what a leaf below will hold.
+// Returns the cost of testing `count` triangles, in blocks of eight.
 double Blocks(std::uint32_t count) { return double((count + 7) / 8); }
 
-// Which bins a middle belongs to, one an axis.
+// Binning maps the centre of a box to one bin per axis.
 class Binning {
  public:
   explicit Binning(const BuildBox& middles) : min_(middles.low) {
@@ -21,7 +21,7 @@ class Binning {
     Point3 scale;
     for (int axis = 0; axis < 3; ++axis) {
       const Real extent = bounds.max[axis] * Real(.5) - bounds.min[axis] * Real(.5);
-      // Nothing is binned within an extent whose inverse overflows.
+      // An extent whose inverse overflows is not binned.
       const bool isWide = extent > Real(kBins) * std::numeric_limits<Real>::min();
       scale[axis] = isWide ? Real(kBins) / 2 / extent : 0;
       canSplit_[axis] = scale[axis] > 0;
@@ -46,7 +46,7 @@ struct Bins {
 
 struct Split {
   double cost = std::numeric_limits<double>::infinity();
-  int axis = -1, bin = 0;  // the first part has the bins below
+  int axis = -1, bin = 0;  // the first part consists of the bins below
 };
 
 void TryAxis(const Bins& bins, int axis, Split* best) {
@@ -69,8 +69,9 @@ void TryAxis(const Bins& bins, int axis, Split* best) {
   }
 }
 
-// The items in their order along one axis, those of equal middles as they lie. By counting which
-// come before each: few are sorted faster so than by branches that nobody can predict.
+// Sorts the items along one axis. Items with equal centres keep their order. Each item's place is
+// the number of items before it. For few items, counting is faster than sorting with unpredictable
+// branches.
 using Places = std::array<std::uint8_t, kSweepLimit>;
 void SortPlaces(const std::array<Real, kSweepLimit>& middles, std::size_t count, Places* places) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -97,7 +98,7 @@ void Sweep(std::span<const BvhItem> items, const Places& places, int axis, BvhSp
   }
 }
 
-// Few items: every place in their order along each axis.
+// Tries every split of a small run in its order along each axis.
 BvhSplit SweepRun(const BvhRun& run) {
   const std::span<BvhItem> items = run.items;
   std::array<Real, kSweepLimit> middles[3];

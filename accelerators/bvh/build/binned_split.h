@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Splitting a run of primitives in two by the surface area heuristic over 32 bins an axis.
+// SplitRun splits a run of primitives in two by the surface area heuristic over 32 bins per axis.
 // Source: Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
 #pragma once
 
@@ -12,24 +12,26 @@ namespace exphoton {
 struct BvhRun {
   std::span<BvhItem> items;
   BuildBox box;
-  BuildBox middles;  // of the items' boxes
+  BuildBox middles;  // bounds of the centres of the items' boxes
 };
 BvhRun MakeRun(std::span<BvhItem> items);
 
-// The items are reordered: `count` belong to the first part, at least one, fewer than all, and lie
-// lower on the axis.
+// BvhSplit describes a split that has reordered the items. The first part has `count` items, at
+// least one and fewer than all, and lies lower on the axis.
 struct BvhSplit {
   std::size_t count = 0;
   int axis = 0;
-  double cost = 0;  // half areas times blocks of triangles, of both parts; as if each were a leaf
+  double cost = 0;  // as two leaves: sum of half area times blocks of triangles
 };
-// By SAH where the middles differ; otherwise in the middle of the run. At least two items.
+// Splits by the SAH if the centres differ, otherwise in the middle of the run. The run needs at
+// least two items.
 BvhSplit SplitRun(const BvhRun& run);
 
-// By the median of the middles along their longest extent: halves, whatever the shape.
+// Splits at the median of the centres along the axis of their largest extent. The halves are equal
+// whatever the distribution.
 BvhSplit HalveRun(const BvhRun& run);
 
-// What a run costs as a leaf, in the same unit.
+// Returns the cost of a run as a leaf, in the unit of BvhSplit::cost.
 double LeafCost(const BvhRun& run);
 
 }  // namespace exphoton

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What is split when a hierarchy is built: boxes as vectors of four, of which the last lane means
-// nothing. Comparisons and sums only, so that every machine builds the same tree.
+// BuildBox and BvhItem hold the boxes that the BVH builder splits, as vectors of four whose last
+// lane is unused. All operations round identically on every machine, so every machine builds the
+// same tree.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,8 @@ struct Real4 {
 
   static Real4 All(Real x) { return {_mm_set1_ps(x)}; }
   static Real4 Of(const Point3& p) { return {_mm_setr_ps(p.x, p.y, p.z, 0)}; }
-  // The last lane 0: bits of a number may be a subnormal float there, which takes long to add.
+  // The last lane becomes 0. It may hold the bits of an id, which as a float can be subnormal, and
+  // subnormal numbers are slow to add.
   static Real4 Three(const Real* lanes) {
     const __m128 mask = _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0));
     return {_mm_and_ps(_mm_load_ps(lanes), mask)};
@@ -82,7 +84,7 @@ struct BuildBox {
 
   void Extend(const BuildBox& b) { low = Min(low, b.low), high = Max(high, b.high); }
   void Extend(Real4 p) { low = Min(low, p), high = Max(high, p); }
-  // Halves first, so that it never overflows.
+  // Halves each term first, so the sum never overflows.
   Real4 Middle() const { return low * Real4::All(Real(.5)) + high * Real4::All(Real(.5)); }
   Bounds3 ToBounds() const {
     Real a[4], b[4];
@@ -93,7 +95,8 @@ struct BuildBox {
   }
 };
 
-// Half the surface of a box in double: what no finite box overflows.
+// Returns half the surface area in double precision, which no finite single-precision box
+// overflows.
 inline double HalfArea(const Bounds3& box) {
   const double x = double(box.max.x) - double(box.min.x), y = double(box.max.y) - double(box.min.y),
                z = double(box.max.z) - double(box.min.z);
@@ -101,7 +104,8 @@ inline double HalfArea(const Bounds3& box) {
 }
 inline double HalfArea(const BuildBox& box) { return HalfArea(box.ToBounds()); }
 
-// What a run has of a primitive: 32 bytes, as its box leaves room for.
+// BvhItem is one primitive of a run: its box, with the id in the spare fourth lane. It takes 32
+// bytes in single precision.
 struct alignas(4 * sizeof(Real)) BvhItem {
   Real low[3] = {kInfinity, kInfinity, kInfinity};
   std::uint32_t id = 0;
@@ -113,7 +117,7 @@ struct alignas(4 * sizeof(Real)) BvhItem {
     for (int axis = 0; axis < 3; ++axis)
       low[axis] = bounds.min[axis], high[axis] = bounds.max[axis];
   }
-  // With margins.
+  // Returns the box including the margins.
   BuildBox Box() const { return {Real4::Three(low), Real4::Three(high)}; }
 };
 

@@ -7,10 +7,10 @@
 namespace exphoton {
 namespace {
 
-constexpr std::uint32_t kChunkItems = 8192;  // primitives whose bounds are one piece of work
+constexpr std::uint32_t kChunkItems = 8192;  // primitives per task that computes bounds
 
-// Larger by at least the margin on every side, and by one step of Real where that is more. Finite:
-// nothing is ever hit beyond.
+// Pads the bounds on every side by at least the margin and at least one floating-point step. The
+// result stays finite, because no hit is infinitely far away.
 Bounds3 Grown(const Bounds3& bounds) {
   constexpr Real kLargest = std::numeric_limits<Real>::max();
   const Real margin = kBvhMargin * MaxComponent(bounds.Diagonal());
@@ -32,7 +32,7 @@ std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threa
       items[id] = bounds.IsEmpty() ? BvhItem({}, kNoId) : BvhItem(Grown(bounds), id);
     }
   });
-  std::erase_if(items, [](const BvhItem& item) { return item.id == kNoId; });  // of nothing
+  std::erase_if(items, [](const BvhItem& item) { return item.id == kNoId; });  // empty
   return items;
 }
 

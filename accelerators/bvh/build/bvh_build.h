@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Construction of a bounding volume hierarchy over a set of primitives. Builds the arrays; knows
-// nothing of rays. The result depends on the set alone, not on the threads.
+// BuildBvh constructs a bounding volume hierarchy over a set of primitives. This file does not
+// depend on ray traversal. The result depends on the primitives alone, not on the number of
+// threads.
 #pragma once
 
 #include "accelerators/bvh/bvh_layout.h"
@@ -11,7 +12,7 @@ namespace exphoton {
 BvhArrays BuildBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles,
                    ThreadPool& threads);
 
-// Below, threads would take longer to start than to save.
+// For fewer primitives, starting threads takes longer than they save.
 inline constexpr std::uint32_t kBvhFewPrimitives = 20000;
 
 }  // namespace exphoton

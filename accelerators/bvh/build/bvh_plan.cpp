@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Upper nodes are split level by level, each level by all threads; the small trees below them are
-// planned by one thread each and then put behind the upper nodes.
+// Planner splits upper nodes level by level, and all threads share each level. One thread plans
+// each small tree below them. The small trees are then appended behind the upper nodes.
 #include "accelerators/bvh/build/bvh_plan.h"
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace exphoton {
 namespace {
 
 constexpr std::size_t kMaxLeafOthers = 2;
-// What two leaves must save to be better than one: they take more memory, and to wait for memory is
-// much of the work.
+// A run that can be a leaf is split only if the leaf costs more than this factor times the split.
+// Two leaves take more memory than one, and waiting for memory is a large part of the work.
 constexpr double kLeafPreference = 1.25;
 
-// How runs are split: what does not depend on where in the plan they are.
+// Splitter chooses how to split a run, independently of the run's position in the plan.
 class Splitter {
  public:
   Splitter(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles, int sahDepth)
@@ -21,7 +21,7 @@ class Splitter {
         maxLeafTriangles_(maxLeafTriangles),
         sahDepth_(sahDepth) {}
 
-  // Few enough, and all of a kind.
+  // Returns whether the items are few enough for a leaf and all of one kind.
   bool CanBeLeaf(const BvhRun& run) const {
     const std::size_t count = run.items.size();
     if (count == 1) return true;
@@ -32,9 +32,9 @@ class Splitter {
     return count <= (isTriangle ? maxLeafTriangles_ : kMaxLeafOthers);
   }
 
-  // Of two items at least.
+  // The run needs at least two items.
   BvhSplit Split(const BvhRun& run, int depth) const {
-    if (run.items.size() <= maxLeafTriangles_) {  // perhaps two kinds: part them
+    if (run.items.size() <= maxLeafTriangles_) {  // separates triangles from others, if it has both
       const auto middle = std::partition(run.items.begin(), run.items.end(),
                                          [this](const BvhItem& item) { return IsTriangle(item); });
       const std::size_t triangles = std::size_t(middle - run.items.begin());
@@ -71,7 +71,7 @@ void SetCollapse(const Collapse& collapse, BvhPlanNode* node) {
   node->shares = collapse.shares, node->isLeaf = collapse.isLeaf;
 }
 
-// Plans a small tree; the lower half of a node is the next one.
+// Plans a small tree in depth-first order, so the lower half of a node directly follows it.
 ForestCost PlanTree(const Splitter& splitter, const BvhRun& run, std::uint32_t first, int depth,
                     std::vector<BvhPlanNode>* plan) {
   const std::size_t own = plan->size();
@@ -110,7 +110,7 @@ class Planner {
   }
 
  private:
-  // A run whose tree is one piece of work.
+  // Piece is a run whose tree is planned as one task.
   struct Piece {
     std::size_t node = 0;
     int depth = 0;
@@ -122,7 +122,7 @@ class Planner {
     runs_.push_back(run);
   }
 
-  // Splits the nodes from `begin` on; returns where those of the next level begin.
+  // Splits the nodes from index `begin` on. Returns the index of the next level's first node.
   std::size_t SplitLevel(std::size_t begin, int depth) {
     const std::size_t end = plan_.size();
     std::vector<Halves> halves(end - begin);
@@ -160,7 +160,7 @@ class Planner {
   void CollapseUpper() {
     for (std::size_t i = plan_.size(); i-- > 0;) {
       BvhPlanNode& node = plan_[i];
-      if (node.lower == 0) continue;  // a piece
+      if (node.lower == 0) continue;  // PlanPieces has planned it
       const Collapse collapse = CollapseHalves(HalfArea(runs_[i].box), false,
                                                costs_[i + node.lower], costs_[i + node.upper]);
       SetCollapse(collapse, &node);
@@ -168,7 +168,7 @@ class Planner {
     }
   }
 
-  // The root of a piece stands where its run did, the rest behind all that is there.
+  // Puts the root of each piece at its run's place in the plan and appends the rest of the piece.
   void AppendPieces() {
     std::vector<std::size_t> begins;
     std::size_t end = plan_.size();
@@ -192,8 +192,8 @@ class Planner {
   Splitter splitter_;
   ThreadPool& threads_;
   std::vector<BvhPlanNode> plan_;
-  std::vector<BvhRun> runs_;       // of the upper nodes and the pieces, as in the plan
-  std::vector<ForestCost> costs_;  // likewise
+  std::vector<BvhRun> runs_;       // of the upper nodes and the pieces, indexed like the plan
+  std::vector<ForestCost> costs_;  // indexed like the plan
   std::vector<Piece> pieces_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Everything has its place before it is written: upper nodes and the trees below them follow one
-// another in the order of a walk, each as long as counted. Then threads write the trees, and then
-// the upper nodes are written, from the last to the first, as a node tells how its children block
-// rays.
+// WriteBvh assigns a position to every node and leaf first. Upper nodes and the trees below them
+// follow each other in depth-first order, with sizes counted in advance. Threads then write the
+// trees. Upper nodes are written last, from the last to the first, because each needs the blocking
+// estimates of its children.
 #include "accelerators/bvh/build/bvh_write.h"
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 namespace exphoton {
 namespace {
 
-constexpr Blocking kOtherBlocking{.5, 4};  // of shapes and instances: a guess
+constexpr Blocking kOtherBlocking{.5, 4};  // a guess for shapes and instances
 
-// The children of a node of eight, as numbers in the plan.
+// Children lists the children of an 8-wide node by their index in the plan.
 struct Children {
   std::array<std::uint32_t, kBvhWidth> nodes{};
   int count = 1;
@@ -30,7 +30,7 @@ struct Children {
   }
 
  private:
-  // Replaces a child by at most `most` below it, `share` of them in its lower half.
+  // Replaces a child by at most `most` nodes below it, `share` of them from its lower half.
   void Open(std::span<const BvhPlanNode> plan, int child, int most, int share) {
     if (share == 0) return;
     const std::uint32_t node = nodes[child];
@@ -43,7 +43,7 @@ struct Children {
   }
 };
 
-// How much of the arrays something takes; or where in them it begins.
+// Extent is a size in each of the two arrays, or a position in each.
 struct Extent {
   std::size_t lines = 0, others = 0;
 
@@ -83,12 +83,12 @@ class Writer {
   }
 
  private:
-  // An upper node, with its leaves, or a whole tree.
+  // Part is an upper node with its leaves, or a whole tree.
   struct Part {
-    std::uint32_t node = 0;          // of the plan
-    int depth = 1;                   // of its deepest node
-    Extent extent;                   // how much it takes, and once that is known where it begins
-    std::vector<std::size_t> below;  // of an upper node: the part of each child, if it has one
+    std::uint32_t node = 0;          // index in the plan
+    int depth = 1;                   // depth of its deepest node
+    Extent extent;                   // its size; after Place(), its position
+    std::vector<std::size_t> below;  // upper nodes: the part of each child that is no leaf
     Written written;
   };
 
@@ -101,7 +101,7 @@ class Writer {
     return IsLeafOfTriangles(leaf) ? Extent{kBvhBlockLines, 0} : Extent{0, 1 + leaf.count};
   }
 
-  // A part for each upper node and each tree, in the order of a walk. Returns its number.
+  // Adds a part for each upper node and each tree in depth-first order. Returns the part's index.
   std::size_t Gather(std::uint32_t node, int depth) {
     const std::size_t own = parts_.size();
     parts_.push_back({node, depth, {}, {}, {}});
@@ -123,7 +123,7 @@ class Writer {
     return own;
   }
 
-  // Adds what a tree takes; returns how many nodes its longest way down has.
+  // Adds the size of a tree to *extent. Returns the number of nodes on its longest path.
   int Measure(std::uint32_t node, Extent* extent) const {
     const Children children(plan_, node);
     *extent += {kBvhNodeLines, 0};
@@ -139,7 +139,7 @@ class Writer {
   }
 
   void Place() {
-    Extent end{0, 1};  // before all others: the list of none
+    Extent end{0, 1};  // the empty list comes first
     for (Part& part : parts_) {
       const Extent extent = part.extent;
       part.extent = end;
@@ -152,7 +152,7 @@ class Writer {
     arrays_.others.resize(end.others);
   }
 
-  // Writes a node and all below it from a place on, which moves behind it.
+  // Writes a node and everything below it at *place and advances *place past them.
   Written WriteTree(std::uint32_t node, Extent* place) {
     const Children children(plan_, node);
     const std::size_t line = place->lines;
@@ -176,7 +176,7 @@ class Writer {
     part->written = WriteNode(part->extent.lines, part->node, children, written);
   }
 
-  // Close behind their node.
+  // Writes the leaves directly behind their node.
   void WriteLeaves(const Children& children, Extent* place,
                    std::array<Written, kBvhWidth>* written) {
     for (int i = 0; i < children.count; ++i) {
@@ -221,7 +221,7 @@ class Writer {
       for (const BvhItem& item : items) *list++ = item.id;
       return {BvhChild(BvhChild::Kind::Others, std::uint32_t(place.others)), kOtherBlocking};
     }
-    // Lower ids first: of equal hits the first found stays.
+    // Lower ids come first: of hits at equal t, the first one found stays.
     std::sort(items.begin(), items.end(),
               [](const BvhItem& a, const BvhItem& b) { return a.id < b.id; });
     std::array<std::uint32_t, kBvhWidth> ids;
@@ -229,12 +229,13 @@ class Writer {
     for (std::size_t i = 0; i < items.size(); ++i) {
       ids[i] = items[i].id;
       const auto& v = primitives_.TriangleVertices(ids[i]);
-      const Vec3d first(v[0]);  // in double no area overflows
+      const Vec3d first(v[0]);  // in double precision no area overflows
       area += Length(Cross(Vec3d(v[1]) - first, Vec3d(v[2]) - first)) / 2;
     }
     new (&arrays_.lines[place.lines])
         BvhBlock(MakeBlock(primitives_, std::span(ids).first(items.size())));
-    // A line that meets a convex body of surface 2 h meets a flat piece in it with 2 area / (2 h).
+    // A random line that meets a convex body of surface area 2 h meets a flat piece inside it with
+    // probability 2 area / (2 h).
     const double halfArea = HalfArea(leaf.bounds);
     return {BvhChild(BvhChild::Kind::Triangles, std::uint32_t(place.lines)),
             {halfArea > area ? area / halfArea : 1, 1}};
@@ -244,7 +245,7 @@ class Writer {
   const std::span<const BvhPlanNode> plan_;
   const std::span<BvhItem> items_;
   std::vector<Part> parts_;
-  std::vector<std::size_t> trees_;  // the parts that are whole trees
+  std::vector<std::size_t> trees_;  // indices of the parts that are whole trees
   BvhArrays arrays_;
 };
 

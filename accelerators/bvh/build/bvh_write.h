@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Writes a planned hierarchy as the arrays that rays walk through.
+// WriteBvh converts a planned hierarchy to the arrays that rays traverse.
 #pragma once
 
 #include "accelerators/bvh/build/bvh_plan.h"
 
 namespace exphoton {
 
-// Reorders the items within the leaves. Throws Error (Resource) where they are too many.
+// Reorders the items within the leaves. Throws Error (Resource) if the arrays would be too large.
 BvhArrays WriteBvh(const PrimitiveSet& primitives, std::span<const BvhPlanNode> plan,
                    std::span<BvhItem> items, ThreadPool& threads);
 

@@ -46,7 +46,7 @@ Blocking OrderByBlocking(std::span<const ChildBlocking> children, BvhOrder* orde
                    });
   *order = Pack(lanes);
   Blocking all{0, 1};
-  double free = 1;  // chance that nothing has blocked the ray so far
+  double free = 1;  // probability that nothing has blocked the ray so far
   for (std::size_t i = 0; i < children.size(); ++i) {
     const ChildBlocking& child = children[lanes[i]];
     all.work += free * child.entered * child.inside.work;

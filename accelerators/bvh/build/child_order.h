@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The orders in which rays visit the children of a node: from near to far by the signs of their
-// direction, as the splits say which side is which; and for rays that ask only whether anything is
-// hit, what is most likely to block them for the least work first.
+// NearOrders and OrderByBlocking compute the orders in which rays visit the children of a node.
+// Closest-hit rays visit them from front to back, by the signs of the ray's direction along the
+// split axes. Shadow rays first visit the children that are most likely to block them per unit of
+// work.
 // Source: Fuetterling et al. 2017 (see bvh_layout.h); Nah and Manocha 2014, "SATO: surface area
 // traversal order for shadow ray tracing".
 #pragma once
@@ -12,12 +13,12 @@
 
 namespace exphoton {
 
-// Grows with the splits of a node: child `upper` has been split off child `lower`.
+// NearOrders grows with each split of a node, which splits child `upper` off child `lower`.
 class NearOrders {
  public:
   NearOrders();
   void Split(int lower, int upper, int axis);
-  // As BvhNode::orders; the blocking order is not filled in.
+  // Returns BvhNode::orders without the blocking order.
   std::array<BvhOrder, 5> Packed() const;
 
  private:
@@ -25,18 +26,18 @@ class NearOrders {
   int count_ = 1;
 };
 
-// What is known of a ray that enters a box, on average over all lines that meet it.
+// Blocking describes a ray that enters a box, on average over all lines through the box.
 struct Blocking {
-  double chance = 0;  // that something in the box blocks it
-  double work = 1;    // tests until that is decided
+  double chance = 0;  // probability that something in the box blocks the ray
+  double work = 1;    // number of tests until this is decided
 };
 
 struct ChildBlocking {
   Blocking inside;
-  double entered = 0;  // chance that a ray that enters the node enters this child
+  double entered = 0;  // probability that a ray in the node enters this child
 };
 
-// Orders the children of a node, whose Blocking it returns.
+// Orders the children of a node and returns the Blocking of the node.
 Blocking OrderByBlocking(std::span<const ChildBlocking> children, BvhOrder* order);
 
 }  // namespace exphoton

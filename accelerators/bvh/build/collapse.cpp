@@ -6,8 +6,8 @@
 namespace exphoton {
 namespace {
 
-// A visit of a node and of a leaf take about the same time; up to twice as much for one of them
-// changes hardly any tree.
+// Visits of a node and of a leaf take about the same time. Doubling one of the two costs changes
+// hardly any tree.
 constexpr double kNodeVisit = 1, kLeafVisit = 1;
 
 }  // namespace
@@ -22,7 +22,7 @@ Collapse CollapseLeaf(double halfArea) {
 Collapse CollapseHalves(double halfArea, bool canBeLeaf, const ForestCost& lower,
                         const ForestCost& upper) {
   Collapse best;
-  ForestCost opened;  // as at least two children
+  ForestCost opened;  // cost as at least two children
   std::array<int, kBvhWidth> shares{};
   opened.fill(std::numeric_limits<double>::infinity());
   for (int k = 2; k <= kBvhWidth; ++k) {

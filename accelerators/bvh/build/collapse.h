@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which nodes of a binary tree become nodes of eight, so that the work expected of a ray is least:
-// by dynamic programming from the leaves up.
+// CollapseLeaf and CollapseHalves choose which nodes of a binary tree become 8-wide nodes. Dynamic
+// programming from the leaves up minimises the expected work of a ray.
 // Source: Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs through
 // compressed wide BVHs", section 3.1; the costs are those of MacDonald and Booth 1990.
 #pragma once
@@ -12,17 +12,19 @@
 
 namespace exphoton {
 
-// least[k - 1]: the expected work (half areas times visits) of all below a node of the binary tree,
-// that node included, if it stands for at most k children of a node of eight.
+// least[k - 1] is the least expected work (half areas times visits) in a subtree of the binary
+// tree, if the subtree is represented by at most k children of an 8-wide node.
 using ForestCost = std::array<double, kBvhWidth>;
 
-// Of the children that a node of the binary tree stands for, how many its lower half has. Four
-// bits for each number of children.
+// A subtree of the binary tree may be represented by k children of an 8-wide node. ForestShares
+// stores how many of them belong to the lower half, in four bits for each k.
 class ForestShares {
  public:
-  // Where it becomes a node of eight itself. 0: it cannot, for it has no halves.
+  // Returns the share of an 8-wide node made from this node itself. 0: impossible, as it has no
+  // halves.
   int OfNode() const { return int(bits_ & 15); }
-  // Where it stands for at most `children`, 1 to 8. 0: it is a single child.
+  // Returns the share if the subtree gets at most `children` children, 1 to 8. 0: it is a single
+  // child.
   int Of(int children) const { return children > 1 ? At(children) : 0; }
 
   void SetOfNode(int share) { bits_ |= std::uint32_t(share); }
@@ -37,12 +39,12 @@ class ForestShares {
 struct Collapse {
   ForestCost least;
   ForestShares shares;
-  bool isLeaf = false;  // where it is a single child; of others there is a node of eight
+  bool isLeaf = false;  // a single child is a leaf; otherwise it is an 8-wide node
 };
 
-// Of a leaf of the binary tree.
+// Returns the Collapse of a leaf of the binary tree.
 Collapse CollapseLeaf(double halfArea);
-// Of a node with two halves, which may be a leaf all the same.
+// Returns the Collapse of a node with two halves. If canBeLeaf, the node may also become a leaf.
 Collapse CollapseHalves(double halfArea, bool canBeLeaf, const ForestCost& lower,
                         const ForestCost& upper);
 

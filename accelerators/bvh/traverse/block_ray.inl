@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of traverse.inl: a ray as blocks of triangles see it, in single precision. What is sure
-// here and what it gives is as in HitInSingle (triangle_single.h): the same operations in the same
-// order.
+// BlockRay is a ray in the form that tests blocks of triangles in single precision. This file is
+// part of traverse.inl. It does the same operations in the same order as HitInSingle
+// (triangle_single.h), so it accepts the same hits and returns the same values.
 
-// Of the triangles of a block: which may be hit; of which of those it is sure that the ray's line
-// crosses them, so that the determinant has the right sign; and that they are hit, with what
-// HitInSingle would find.
+// BlockHits is the result for a block, with one bit per triangle in each mask. Possible: the
+// triangle may be hit. Crossed: the ray's line certainly crosses it, so the sign of the determinant
+// is right. Sure: it is certainly hit, and the values are those of HitInSingle.
 struct BlockHits {
   unsigned possible = 0, crossed = 0, sure = 0;
   Real8 t, e1, e2, determinant;
 };
 
-// The shear of TriangleRay, eight wide.
+// BlockRay holds the shear of TriangleRay, eight wide.
 struct BlockRay {
   Real8 ox, oy, oz, sx, sy, sz;
   int kx, ky, kz;
-  unsigned sureLanes;  // all or none
+  unsigned sureLanes;  // all bits set, or none
 
   explicit BlockRay(const TriangleRay& ray)
       : ox(Real8::All(ray.ox)), oy(Real8::All(ray.oy)), oz(Real8::All(ray.oz)),
         sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)), sz(Real8::All(ray.sz)), kx(ray.kx),
         ky(ray.ky), kz(ray.kz), sureLanes(kHitsInSingle && MayHitInSingle(ray) ? ~0u : 0u) {}
 
-  // Without those that are surely beyond tMax or behind the origin.
+  // Leaves out triangles that are certainly beyond tMax or behind the origin.
   BlockHits Hits(const BvhBlock& block, Real tMax) const {
     Real8 x[3], y[3], z[3], e[3];
     for (int v = 0; v < 3; ++v) {
@@ -39,7 +39,7 @@ struct BlockRay {
     BlockHits hits;
     hits.possible = PresentMask(block.ids) & ~(LessMask(least, zero) & LessMask(zero, most));
     if (hits.possible == 0) return hits;
-    if (!kHitsInSingle) {  // the distance lies between those of the vertices
+    if (!kHitsInSingle) {  // t lies between the vertices' t
       const Real8 t[3] = {z[0] * sz, z[1] * sz, z[2] * sz};
       hits.possible &= ~(LessMask(Real8::All(Limit(tMax)), Min(Min(t[0], t[1]), t[2])) |
                          LessMask(Max(Max(t[0], t[1]), t[2]), zero));
@@ -60,11 +60,11 @@ struct BlockRay {
     const unsigned isSure = hits.crossed & sureLanes & LessMask(bound, Abs(volume)) &
                             LessMask(Real8::All(kLeastSingle), size) &
                             LessMask(size, Real8::All(kLargestSingle));
-    // t (1 - kSingleError) > tMax, whatever is rounded.
+    // This test implies t (1 - kSingleError) > tMax, whatever the rounding.
     const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
-    // DecideTriangle finds the same sign of the volume, which is off by less than Gamma(7) 6 X Y Z,
-    // and by what products underflow (those in edges are nothing where the line crosses: there X Y
-    // is more than 2^-76).
+    // DecideTriangle finds the same sign of the volume. The error of the volume is less than
+    // Gamma(7) 6 X Y Z plus the underflow of its products. Underflow in the edges is negligible
+    // where the line crosses the triangle, because X Y exceeds 2^-76 there.
     const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(Square(kLeastSingle));
     const unsigned isBehind = hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
     hits.possible &= ~(isBeyond | isBehind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Testing a run of triangle blocks against a ray, with the widest vectors of the machine: the leaf
-// test of the hierarchy, for other accelerators whose leaves have such blocks.
+// BvhTraversal's block functions test a run of triangle blocks against a ray, with the widest SIMD
+// target of the machine. This is the leaf test of the BVH, for other accelerators whose leaves
+// consist of such blocks.
 #pragma once
 
 #include <span>
@@ -10,7 +11,7 @@
 
 namespace exphoton {
 
-// Fills a block with up to kBvhWidth triangles of the set.
+// Returns a block with up to kBvhWidth triangles of the set.
 BvhBlock MakeBlock(const PrimitiveSet& primitives, std::span<const std::uint32_t> ids);
 
 }  // namespace exphoton

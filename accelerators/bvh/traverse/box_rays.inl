@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of traverse.inl: a ray as boxes see it. Whatever arithmetic does to rays from far away, with
-// directions of any length, no box that holds a hit is passed by.
+// SlantedRay and AnyRay are rays in the form that slab tests need. This file is part of
+// traverse.inl. Rounding never makes a ray miss a box that holds a hit, however far away the ray
+// starts and however long its direction is.
 
-// Which way a ray goes through boxes.
+// BoxRows gives the near and far rows of a node for the signs of a ray's direction.
 struct BoxRows {
-  std::size_t near[3], far[3];  // bytes from the first row of a node
-  unsigned backward = 0;        // a bit an axis
+  std::size_t near[3], far[3];  // byte offsets in a node
+  unsigned backward = 0;        // bit per axis: d is negative
 
   static const BoxRows& Of(const Vector3& d);
   explicit constexpr BoxRows(unsigned signs) : near(), far(), backward(signs) {
@@ -28,8 +29,8 @@ inline const BoxRows& BoxRows::Of(const Vector3& d) {
                   unsigned(std::signbit(d.z)) << 2];
 }
 
-// Where a ray enters the eight boxes of a node, and where it leaves them, at most at tMax: a box is
-// met where first <= last.
+// Crossings holds the t at which a ray enters and leaves the eight boxes of a node. The exit is
+// limited to tMax. The ray meets a box if first <= last.
 struct Crossings {
   Real8 first, last;
 
@@ -40,16 +41,16 @@ struct Crossings {
   }
 };
 
-// Directions are compared with parts of their largest component, and divided by. Where it is less
-// than this neither can be done; such rays look into every box.
+// The tests compare a direction with fractions of its largest component and divide by it. A largest
+// component below this limit is too small for both; such a ray enters every box.
 constexpr Real kLeastDirection = Real(1) / (std::uint64_t(1) << 50) / (std::uint64_t(1) << 50);
 
-// The ray as boxes see it, where it is perpendicular to no axis: planes are crossed at
-// plane / d - o / d. What rounding of o / d may shift is added to what rounding of the hit may.
+// SlantedRay is the fast form for a ray that is perpendicular to no axis. The ray crosses a plane
+// at plane / d - o / d. The margin covers the rounding of o / d and the rounding of the hit.
 struct SlantedRay {
   const BoxRows& rows;
   Real8 nearScale[3], nearShift[3], farScale[3], farShift[3];
-  bool isSlanted;  // whether it is; nothing else is set where not
+  bool isSlanted;  // false: nothing else is set
 
   explicit SlantedRay(const Ray& ray) : rows(BoxRows::Of(ray.d)) {
     const Vector3 size = Abs(ray.d);
@@ -58,7 +59,7 @@ struct SlantedRay {
                 slope >= kBvhMargin * kLeastDirection;
     if (!isSlanted) [[unlikely]]
       return;
-    // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x up to 1/2.
+    // With x = slope / |d|: 1 / (1 + x) >= 1 - x, and 1 / (1 - x) <= 1 + 2 x for x up to 1/2.
     const Axes inverse = Axes::All(1) / AxesOf(ray.d), x = Axes::All(slope) * Abs(inverse);
     const Axes nearest = inverse * (Axes::All(1 - Gamma(6)) - x);
     const Axes farthest = inverse * (Axes::All(1 + Gamma(6)) + (x + x));
@@ -85,7 +86,7 @@ struct SlantedRay {
   }
 };
 
-// The ray as boxes see it, whatever its direction.
+// AnyRay is the form for a ray of any direction.
 struct AnyRay {
   const BoxRows& rows;
   Real8 nearOrigin[3], nearInverse[3], farOrigin[3], farInverse[3];
@@ -111,13 +112,14 @@ struct AnyRay {
     }
   }
 
-  // For an axis to which the ray is (nearly) perpendicular: either never crosses a plane, or has
-  // done so for good. It strays by less than 5/8 of the spread: what it may hit begins behind one
-  // moved origin and ends ahead of the other, by 3/8 at least. Divided by the slope that is later
-  // than any hit. The slope has an inverse, as d[major] is no less than kLeastDirection.
+  // Sets an axis to which the ray is nearly perpendicular. Up to the farthest hit, the ray strays
+  // by less than 5/8 of the spread along this axis. A box with a possible hit therefore begins
+  // behind one moved origin and ends ahead of the other, by at least 3/8 of the spread. This
+  // distance divided by the slope is later than any hit. The slope has an inverse, because
+  // |d[major]| is at least kLeastDirection.
   void SetPerpendicular(const Ray& ray, int axis, int major, const Bounds3& world) {
     constexpr double kMargin = double(kBvhMargin);
-    // The farthest that any hit can be along the major axis.
+    // reach is the farthest that any hit can be along the major axis.
     const double reach = std::max(std::abs(double(world.min[major]) - double(ray.o[major])),
                                   std::abs(double(world.max[major]) - double(ray.o[major])));
     const double spread = 8 * kMargin * reach;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// NearestHit: what a walk through triangles has found so far. Hits are ordered as DecideTriangle
-// orders them, but to ask it takes doubles, and more time than all else in a leaf: of two triangles
-// whose distances in single precision (triangle_single.h) are clearly apart it is not asked.
+// NearestHit holds the nearest hit found so far during traversal. DecideTriangle defines the order
+// of hits, but its double-precision arithmetic costs more than all other work in a leaf. It is
+// skipped for two triangles whose single-precision distances (triangle_single.h) clearly differ.
 #pragma once
 
 #include "accelerators/bvh/bvh_layout.h"
@@ -11,15 +11,15 @@ namespace exphoton {
 struct NearestHit {
   explicit NearestHit(Real tMax) : low(tMax), high(tMax) { hit.t = tMax; }
 
-  Hit hit;  // as it will be told; its t is that of the ray's end where there is none
-  // Between which lies the distance by which it is ordered; equal where that is known.
+  Hit hit;  // the hit to report; without one, t is the end of the ray
+  // Bounds of the distance that orders the hit; equal once this distance is known.
   Real low, high;
-  const BvhBlock* block = nullptr;  // of a triangle whose distance is not known
+  const BvhBlock* block = nullptr;  // the triangle's block while the distance is unknown
   int lane = 0;
 };
 
-// Tests a shape or an instance against a nearest hit whose distance is known. Theirs is ordered as
-// it is told.
+// Tests a shape or an instance against a nearest hit whose distance is known. The reported distance
+// of shapes and instances also orders them.
 inline void IntersectOther(const PrimitiveSet& primitives, std::uint32_t id, const TraceRay& ray,
                            NearestHit* nearest) {
   Hit ordered = nearest->hit;

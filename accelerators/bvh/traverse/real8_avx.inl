@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the traversals for AVX2 and AVX-512 share: eight Reals in a register, and where the children
-// of a node are in an order. Included into an unnamed namespace, where those instructions are on.
+// Real8 and PlaceOrder are common to the AVX2 and AVX-512 traversals: eight Reals in a register,
+// and the reading of child orders. The file is included into an unnamed namespace where these
+// instructions are enabled.
 
 struct Real8 {
   __m256 v;
@@ -21,12 +22,12 @@ inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 
 constexpr bool kHitsInSingle = kTellsInSingle;
 
-// IsTraceable, of origin and direction together.
+// Tests IsTraceable for the origin and the direction in one register.
 inline bool IsWorthTracing(const Ray& ray) {
   static_assert(offsetof(Ray, o) == 0 && offsetof(Ray, d) == 12 && sizeof(Ray) >= 32);
   const __m256 components = _mm256_loadu_ps(reinterpret_cast<const float*>(&ray));
   const __m256 sizes = _mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), components);
-  const __m256i bits = _mm256_castps_si256(sizes);  // ordered as what they stand for, NaN last
+  const __m256i bits = _mm256_castps_si256(sizes);  // ordered like the floats, NaN last
   const __m256i isFinite =
       _mm256_cmpgt_epi32(_mm256_castps_si256(_mm256_set1_ps(kInfinity)), bits);
   const __m256i isNotZero = _mm256_cmpgt_epi32(bits, _mm256_setzero_si256());
@@ -35,15 +36,15 @@ inline bool IsWorthTracing(const Ray& ray) {
   return (finite & 0x3f) == 0x3f && (notZero & 0x38) != 0 && ray.tMax > 0;
 }
 
-// Lanes 0 to 2 are axes; in the others is what divides as well.
+// Lanes 0 to 2 are the axes. The other lanes hold 1, so division by them is safe.
 using Axes = Real8;
 inline Axes AxesOf(const Vec3& a) { return {_mm256_setr_ps(a.x, a.y, a.z, 1, 1, 1, 1, 1)}; }
 inline Real8 AllOf(Axes a, int axis) {
   return {_mm256_permutevar8x32_ps(a.v, _mm256_set1_epi32(axis))};
 }
 
-// Reads an order from its end to its beginning, or where that of the opposite direction is meant
-// from its beginning to its end, so that what is last lies on top of a stack.
+// PlaceOrder reads an order from its end to its beginning, so that the nearest child comes last, on
+// top of the stack. For the opposite direction it reads from the beginning to the end.
 class PlaceOrder {
  public:
   explicit PlaceOrder(bool isOpposite)
@@ -51,11 +52,11 @@ class PlaceOrder {
                            : _mm256_setr_epi32(28, 24, 20, 16, 12, 8, 4, 0)),
         flip_(isOpposite ? 0 : 28) {}
 
-  // The lane at each place, in the three low bits, all that permutations heed.
+  // Returns the lane at each place in the three low bits. Permutations ignore the other bits.
   __m256i Lanes(BvhOrder order) const {
     return _mm256_srlv_epi32(_mm256_set1_epi32(int(order)), shifts_);
   }
-  // The lane at the last of the places of a mask, which is not 0.
+  // Returns the lane at the last place in a mask, which must not be 0.
   unsigned LastLane(BvhOrder order, unsigned places) const {
     const unsigned last = 4 * unsigned(std::bit_width(places)) - 4;
     return order >> (last ^ flip_) & 7;

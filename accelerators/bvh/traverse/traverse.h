@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Walking rays through the hierarchy: one implementation (traverse.inl), compiled for each width of
-// vectors; the widest that the machine has is chosen when the program runs. All give the same
-// hits, bit for bit, which are those of brute force.
+// BvhTraversal traces rays through the BVH. Its one implementation (traverse.inl) is compiled for
+// each SIMD target, and the widest target of the machine is chosen at run time. All targets return
+// the hits of brute force, bit for bit.
 #pragma once
 
 #include "accelerators/bvh/bvh_layout.h"
@@ -9,7 +9,7 @@
 
 namespace exphoton {
 
-// Room for a ray as the leaf test sees it, made ready once for all its leaves.
+// BlockRayRoom is storage for a ray in the form of the leaf test, prepared once for all leaves.
 struct alignas(64) BlockRayRoom {
   std::byte bytes[512];
 };
@@ -18,9 +18,10 @@ struct BvhTraversal {
   const char* name;
   Hit (*intersect)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   bool (*occluded)(const BvhArrays&, const PrimitiveSet&, const Ray&);
-  // The leaf test by itself, of `count` blocks, for other accelerators: makes a ray ready; replaces
-  // the nearest where nearer (or as near with a lower id); decides its distance, which shapes and
-  // instances need; whether any triangle blocks the ray.
+  // These functions are the leaf test for other accelerators. makeBlockRay prepares a ray.
+  // intersectBlocks replaces *nearest by a nearer hit, or by one at equal t with a lower id. settle
+  // computes the distance of *nearest, which must be known before shapes and instances are tested.
+  // occludedByBlocks returns whether any triangle of `count` blocks blocks the ray.
   void (*makeBlockRay)(const TriangleRay&, BlockRayRoom*);
   void (*intersectBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
                           const TriangleRay&, NearestHit* nearest);
@@ -32,11 +33,11 @@ struct BvhTraversal {
 extern const BvhTraversal kPortableTraversal;
 #if defined(__x86_64__) && !defined(EXPHOTON_DOUBLE)
 #define EXPHOTON_BVH_AVX 1
-extern const BvhTraversal kAvx2Traversal;    // call only where the machine has AVX2
-extern const BvhTraversal kAvx512Traversal;  // and only where it has AVX-512 F, VL and DQ
+extern const BvhTraversal kAvx2Traversal;    // requires AVX2
+extern const BvhTraversal kAvx512Traversal;  // requires AVX2 and AVX-512 F, VL, DQ
 #endif
 
-// The best one for this machine, with no wider vectors than wanted.
+// FastestTraversal returns the best traversal for this machine that is no wider than `widest`.
 enum class BvhVectors { Portable, Avx2, Widest };
 const BvhTraversal& FastestTraversal(BvhVectors widest);
 

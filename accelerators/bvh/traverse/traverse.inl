@@ -1,42 +1,42 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal, written on what the including file defines for its vectors: Real8 (Load, Store,
-// All, +, -, *, /, MultiplyAdd, Min, Max, Abs, LessMask), Axes (All, +, -, *, /, Abs, AxesOf,
-// AllOf), IsWorthTracing (IsTraceable), PresentMask, kHitsInSingle (whether vectors may tell hits),
-// and PushOrder, whose Push finds the children where first <= last and returns how many: the first
-// of the order is *next, and the stack has the others above what was there, the second on top.
-// Included into an unnamed namespace.
+// This file is the traversal of the BVH, included into an unnamed namespace. The including file
+// defines for its SIMD target: Real8 (Load, Store, All, +, -, *, /, MultiplyAdd, Min, Max, Abs,
+// LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf), IsWorthTracing (IsTraceable), PresentMask,
+// kHitsInSingle (whether SIMD code may accept hits) and PushOrder. PushOrder::Push finds the
+// children with first <= last and returns their number. It returns the first of the order in *next
+// and pushes the others, the second on top.
 //
-// Boxes are entered wherever rounding might have put a hit. A hit at t may be computed up to
-// slope * t off the ray on each axis, slope = kBvhMargin * |d|: the ray is a thin cone, whose
-// earliest crossing of a plane is (plane - o) / (|d_axis| + slope) and whose latest
-// (plane - o) / (|d_axis| - slope). On an axis to which the ray is perpendicular within the slope,
-// planes are moved by what the cone spreads to on its way through the scene instead.
+// Rays enter boxes wherever rounding might have put a hit. The computed hit at t may lie up to
+// slope * t off the ray on each axis, with slope = kBvhMargin * |d|. The ray is thus a thin cone.
+// It crosses a plane at the earliest at (plane - o) / (|d_axis| + slope) and at the latest at
+// (plane - o) / (|d_axis| - slope). If the ray is perpendicular to an axis within the slope, planes
+// are instead moved by the cone's largest spread in the scene.
 
-// Of lambdas: a call would put vectors into memory.
+// Force-inline lambdas: an out-of-line call would spill the SIMD registers.
 #define EXPHOTON_INLINE __attribute__((always_inline))
 
 #include "accelerators/bvh/traverse/box_rays.inl"
 
-// Vectors compare with a little more than t: what rounding may add to a distance on the way.
+// SIMD code compares with a slightly larger t, which covers the rounding of the computed distance.
 inline Real Limit(Real t) { return t * (1 + Gamma(8)); }
 
 #include "accelerators/bvh/traverse/block_ray.inl"
 
-// The triangle of a lane, as DecideTriangle wants it.
+// Returns the triangle of a lane in the form that DecideTriangle needs.
 inline auto CornersOf(const BvhBlock& block, int lane) {
   return TriangleCorners<3 * kBvhWidth, kBvhWidth>{&block.vertices[0][0][lane]};
 }
 
-// A way down leaves at most seven children waiting at each node; and all eight lanes are written.
+// Each node on a path leaves at most seven children on the stack. Push writes all eight lanes.
 constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
 
-// Walks the tree from near to far or, where any hit will do, first to where one is likely.
-// visit(child) deals with a leaf, and returns the t beyond which nothing matters any more (ties at
-// it do); a negative one ends the walk.
+// Visits the leaves along the ray: closest-hit rays from near to far, shadow rays in the blocking
+// order. visit(child) tests a leaf and returns the t beyond which no hit matters any more; a hit at
+// exactly this t still matters. A negative t ends the traversal.
 template <bool kIsAny, class BoxRay, class Visit>
 [[gnu::always_inline]] inline void Walk(const BvhArrays& arrays, const TraceRay& trace,
                                         const BoxRay& ray, const Visit& visit) {
-  // The stack has the nearest on top; an order for the opposite direction is read backwards.
+  // The nearest child is on top of the stack. The opposite direction reads an order backwards.
   const unsigned backward = ray.rows.backward;
   const bool isOpposite = !kIsAny && backward & 4;
   const PushOrder order(isOpposite);
@@ -86,24 +86,25 @@ template <bool kIsAny, class Visit>
   }
 }
 
-// Decides the distance by which the nearest is ordered.
+// Computes the distance that orders the nearest hit, if it is unknown.
 [[gnu::noinline]] void Settle(const TriangleRay& ray, NearestHit* nearest) {
   if (nearest->low == nearest->high) return;
   const auto found = DecideTriangle(ray, kInfinity, CornersOf(*nearest->block, nearest->lane));
   if (found) nearest->low = nearest->high = found->t;
 }
 
-// Whether DecideTriangle refuses a triangle that the ray's line crosses, with this determinant, as
-// lying behind the ray's origin: most often the one that the ray starts on.
+// Returns whether DecideTriangle rejects a triangle, which the ray's line crosses with this
+// determinant, because it lies behind the ray's origin. Most often it is the triangle that the ray
+// starts on.
 inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Real determinant) {
   return PlaneIsBehind(ray.o, CornersOf(block, lane), -double(determinant) * double(ray.sz));
 }
 
-// Decides a triangle, and whether it wins over the nearest.
+// Decides by DecideTriangle whether a triangle is hit and wins over the nearest hit.
 [[gnu::noinline]] void Decide(const BvhBlock& block, int lane, const TriangleRay& ray,
                               NearestHit* nearest) {
   const std::uint32_t id = block.ids[lane];
-  if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;  // met before
+  if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;  // tested before
   const auto corners = CornersOf(block, lane);
   const auto decided = DecideTriangle(ray, nearest->high, corners);
   if (!decided) return;
@@ -116,7 +117,7 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
   nearest->low = nearest->high = decided->t;
 }
 
-// Tests a block; replaces the nearest where a triangle of it wins.
+// Tests a block and replaces *nearest if one of its triangles wins.
 [[gnu::always_inline]] inline void IntersectBlock(const BvhBlock& block, const BlockRay& blockRay,
                                                   const TriangleRay& ray, NearestHit* nearest) {
   const BlockHits hits = blockRay.Hits(block, nearest->high);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal for x86-64 machines with AVX2: a vector of eight is one register.
+// kAvx2Traversal is the traversal for x86-64 machines with AVX2. Eight Reals fill one register.
 #include "accelerators/bvh/traverse/traverse.h"
 
 #if defined(EXPHOTON_BVH_AVX)
@@ -13,8 +13,8 @@
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
-// From here on, and not for the headers above: an inline function of theirs that was compiled for
-// AVX2 could replace the one that other files use.
+// The target applies from here on and not to the headers above. Otherwise the linker could use an
+// inline function of theirs that was compiled for AVX2 in other files, too.
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2,fma,bmi,popcnt"))), apply_to = function)
 #else
@@ -37,9 +37,10 @@ inline unsigned PresentMask(const std::uint32_t* ids) {
   return unsigned(~_mm256_movemask_ps(_mm256_castsi256_ps(isMissing))) & 0xff;
 }
 
-// For each mask of lanes those that are set, the lowest first: what moves them together.
+// Gathering lists, for each mask, the lanes that are set, the lowest first. Permuting by this list
+// moves them together.
 struct Gathering {
-  std::uint64_t lanes[256];  // a byte each
+  std::uint64_t lanes[256];  // a byte per lane
   constexpr Gathering() : lanes() {
     for (unsigned mask = 0; mask < 256; ++mask)
       for (unsigned lane = 0, count = 0; lane < kBvhWidth; ++lane)

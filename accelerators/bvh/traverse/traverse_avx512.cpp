@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal for x86-64 machines with AVX-512: a vector of eight is half a register, of which
-// there are 32, with masks and compression.
+// kAvx512Traversal is the traversal for x86-64 machines with AVX-512. Eight Reals fill half a
+// register. The target has 32 registers, masks and compression.
 #include "accelerators/bvh/traverse/traverse.h"
 
 #if defined(EXPHOTON_BVH_AVX)
@@ -14,8 +14,8 @@
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 
-// From here on, and not for the headers above: an inline function of theirs that was compiled for
-// AVX-512 could replace the one that other files use.
+// The target applies from here on and not to the headers above. Otherwise the linker could use an
+// inline function of theirs that was compiled for AVX-512 in other files, too.
 #if defined(__clang__)
 #pragma clang attribute push( \
     __attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma,bmi,popcnt"))), apply_to = function)
@@ -51,7 +51,8 @@ class PushOrder : PlaceOrder {
     *next = node.children[LastLane(places, met)];
     const __m256i all = _mm256_permutexvar_epi32(
         order, _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)));
-    // Compressed in registers: straight to memory is slow on some machines.
+    // The lanes are compressed in registers, because compressing straight to memory is slow on some
+    // machines.
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(children),
                         _mm256_maskz_compress_epi32(met, all));
     _mm256_storeu_ps(enters, _mm256_maskz_compress_ps(met, firsts));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The traversal for any machine: vectors of eight as loops that the compiler maps to what there is
-// (x86-64: pairs of SSE registers). Also the choice between the traversals.
+// kPortableTraversal is the traversal for any machine. Its vectors of eight are loops, which the
+// compiler maps to the available instructions (x86-64: pairs of SSE registers). This file also
+// chooses between the traversals.
 #include <array>
 #include <new>
 
@@ -54,7 +55,7 @@ inline Real8 MultiplyAdd(const Real8& a, const Real8& b, const Real8& c) { retur
 constexpr bool kHitsInSingle = false;
 inline bool IsWorthTracing(const Ray& ray) { return IsTraceable(ray); }
 
-// Lanes are axes; in the last is what divides as well.
+// Lanes 0 to 2 are the axes. The last lane holds 1, so division by it is safe.
 using Axes = Lanes<4>;
 inline Axes AxesOf(const Vec3& a) { return {{a.x, a.y, a.z, 1}}; }
 template <int kCount>
@@ -65,7 +66,7 @@ inline Lanes<kCount> Abs(const Lanes<kCount>& a) {
 }
 inline Real8 AllOf(const Axes& a, int axis) { return Real8::All(a.lanes[axis]); }
 
-// A bit a lane where a < b; none for NaN.
+// Returns a mask with a bit for each lane where a < b. NaN gives no bit.
 inline unsigned LessMask(const Real8& a, const Real8& b) {
   unsigned mask = 0;
   for (int i = 0; i < kBvhWidth; ++i) mask |= unsigned(a.lanes[i] < b.lanes[i]) << i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From rows and pictures to points, lines and the sentence that says it all (headline.cpp).
+// Analyse turns the rows and pictures of a study into points, lines and a headline (headline.cpp).
 #include "core/app/analysis/analysis.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Reference ReadReference(const std::string& folder, const ReferenceRecord& record
                           : MakeReference(a, ReadImage(PathOf(folder, record.b)));
 }
 
-// Where nothing else is known: the mean of the pictures, which makes their noise measurable.
+// Without a reference, uses the mean of the pictures, so that their noise can still be measured.
 Reference MeanPicture(const std::vector<Image>& pictures) {
   Image mean(pictures.front().data, pictures.front().display, {"R", "G", "B"});
   std::vector<double> sums(mean.pixels.size());
@@ -43,7 +43,7 @@ Measured MeanOfRuns(const Results& results, const std::vector<std::size_t>& runs
   return MeanOf(values);
 }
 
-// Mean seconds of every phase, and what the process took besides.
+// Returns the mean seconds of every phase. "other" is the rest of the process's time.
 NamedValues MeanPhases(const Results& results, const SettingResult& setting) {
   NamedValues phases;
   const bool isWall = results.clock == "wall";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Analysis: what the pictures and times of a study say, setting by setting, and its headline.
+// Analysis holds the error and time of each setting of a study, and a headline that sums them up.
 #pragma once
 
 #include <optional>
@@ -12,51 +12,54 @@
 
 namespace exphoton::study {
 
-// The runs of one setting together.
+// SettingResult summarises all runs of one setting.
 struct SettingResult {
   std::size_t setting = 0;
-  std::vector<std::size_t> runs;  // indices of rows
+  std::vector<std::size_t> runs;  // indices of Results::runs
   Separation separation;
   CostPoint cost;  // seconds by the study's clock; error: see Analysis::hasReference
   Measured cpu, wall;
-  double mse = 0, trimmed = 0, meanError = 0, relativeMean = 0, p99 = 0, flip = 0;  // means of runs
-  long long nonFinite = 0;  // pixels, of all runs
+  // Means over the runs.
+  double mse = 0, trimmed = 0, meanError = 0, relativeMean = 0, p99 = 0, flip = 0;
+  long long nonFinite = 0;  // pixels, summed over the runs
   double samplesPerPixel = 0, peakMemory = 0, photonsStored = 0, photonPaths = 0;
-  NamedValues phases;  // mean seconds by the study's clock; "other": the rest of the process
+  NamedValues phases;  // mean seconds by the study's clock; "other": the rest
   double Efficiency() const { return 1 / (cost.error.value * cpu.value); }
 };
 
-// Settings with one label: one line of the charts.
+// Settings with the same label form one line of the charts.
 struct Line {
   std::string label;
   std::vector<std::size_t> settings;  // indices of Analysis::settings
-  TimeToError toTarget;               // of the headline's error
+  TimeToError toTarget;               // time to the headline's error
 };
 
 struct Analysis {
-  bool hasReference = false;  // false: errors are the noise between seeds alone
+  bool hasReference = false;  // false: errors are the noise between seeds only
   Reference reference;
   std::vector<SettingResult> settings;
   std::vector<Line> lines;
-  std::optional<double> target;  // error of the headline; none where no two lines can be compared
-  bool targetIsTooFine = false;  // the reference's noise does not allow any error to be compared
-  std::string headline;          // one sentence or a few
+  // The headline's error; empty if no two lines can be compared.
+  std::optional<double> target;
+  // True if the reference is too noisy to compare any error.
+  bool targetIsTooFine = false;
+  std::string headline;  // one or a few sentences
 
   std::vector<CostPoint> Points(const Line& line) const;
   std::vector<CostPoint> Points() const;  // of all settings
 };
 
-// Reads all pictures of the study in `folder`. Throws ImageError.
+// Reads and analyses all pictures of the study in `folder`. Throws ImageError.
 Analysis Analyse(const std::string& folder, const Results& results);
 
-// Fills metrics and flip of every row, if there is a reference.
+// Fills `metrics` and `flip` of every row if there is a reference.
 void MeasureRuns(const std::string& folder, Results* results);
 
-// "9.8 s", "1.3 min"; "0.012"
+// Format numbers for people: "9.8 s", "1.3 min"; "0.012".
 std::string SecondsText(double seconds);
 std::string ShortNumber(double value, int digits = 2);
 
-// The greatest of 1, 0.5, 0.3, 0.2, 0.1 ... : an error that is pleasant to name.
+// Returns round errors in descending order: 1, 0.5, 0.3, 0.2, 0.1 and so on.
 std::vector<double> RoundErrors();
 
 }  // namespace exphoton::study

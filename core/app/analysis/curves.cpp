@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Fronts, interpolation in log-log, and differences along one parameter.
+// This file computes Pareto fronts, log-log interpolation and the effect of doubling a parameter.
 #include "core/app/analysis/curves.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::optional<double> ToNumber(const std::string& text) {
   return value;
 }
 
-// "label|everything but the parameter", equal for settings that differ in it alone.
+// Returns a key that is equal for settings that differ only in `parameter`.
 std::string Others(const Setting& setting, const std::string& parameter) {
   std::string text = setting.label + "|" + setting.integrator;
   for (const auto& [name, value] : setting.parameters)
@@ -76,6 +76,7 @@ TimeToError FindTimeToError(const std::vector<CostPoint>& points, double error) 
     const double rise = std::log(b.seconds.value / a.seconds.value);
     result.kind = TimeToError::Kind::Reached;
     result.seconds.value = a.seconds.value * std::exp(t * rise);
+    // The error propagates to first order:
     // d ln seconds = (1-t) d ln s_a + t d ln s_b - rise / length ((1-t) d ln e_a + t d ln e_b)
     const double slope = rise / length;
     const double fromA =
@@ -94,7 +95,7 @@ Measured Ratio(const Measured& a, const Measured& b) {
 
 std::vector<KnobCost> FindKnobCosts(const std::vector<Setting>& settings,
                                     const std::vector<CostPoint>& points) {
-  // (label, parameter) -> groups of settings that differ in the parameter alone.
+  // Maps (label, parameter) to groups of settings that differ only in the parameter.
   std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<Step>>> all;
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (!IsUsable(points[i])) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What points of (seconds, error) say: which are worth their price, how long a given error takes,
-// and what one step of a parameter costs.
+// CostPoint is a measured pair (seconds, error). The functions here find the Pareto front of such
+// points, the time to reach an error, and the effect of doubling a parameter.
 #pragma once
 
 #include <string>
@@ -15,33 +15,33 @@ struct CostPoint {
   Measured seconds, error;
 };
 
-// Indices of the points that no other point beats in both seconds and error, by rising seconds.
-// Points without a positive finite error or time are left out.
+// Returns the indices of the points that no other point beats in both seconds and error, in order
+// of increasing seconds. Ignores points without a positive finite error and time.
 std::vector<std::size_t> ParetoFront(const std::vector<CostPoint>& points);
 
-// Seconds to reach an error: between two points of the Pareto front on a straight line in log-log;
-// never extrapolated.
+// TimeToError is the time to reach an error. It is interpolated between two points of the Pareto
+// front, linearly in log-log, and never extrapolated.
 struct TimeToError {
   enum class Kind {
-    Reached,  // seconds
-    AtMost,   // even the cheapest point has less error: its seconds
-    Never,    // no point has so little error
+    Reached,  // `seconds` is the time to the error
+    AtMost,   // the cheapest point has a smaller error; `seconds` is its time
+    Never,    // all points have a larger error
   };
   Kind kind = Kind::Never;
-  Measured seconds;  // standard error from those of the two points, to first order
-  CostPoint best;    // of all points, the one with the least error
+  Measured seconds;  // standard error by first-order propagation
+  CostPoint best;    // the point with the smallest error
 };
 TimeToError FindTimeToError(const std::vector<CostPoint>& points, double error);
 
-// a / b with its standard error to first order.
+// Returns a / b with its standard error to first order.
 Measured Ratio(const Measured& a, const Measured& b);
 
-// What doubling a numeric parameter does, among points that differ in nothing else, averaged over
-// neighbouring pairs.
+// KnobCost is the effect of doubling a numeric parameter. It is averaged over neighbouring pairs of
+// settings that differ only in that parameter.
 struct KnobCost {
   std::string label, parameter;
   double secondsPerDoubling = 0;
-  double errorFactor = 1;  // of the error, by one doubling (geometric mean)
+  double errorFactor = 1;  // factor on the error per doubling (geometric mean)
   int pairs = 0;
 };
 std::vector<KnobCost> FindKnobCosts(const std::vector<Setting>& settings,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Reading settings and knobs, and multiplying them out.
+// This file parses settings and knobs, and expands their combinations.
 #include "core/app/analysis/plan.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string Trim(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// "name=value"; false where it is something else.
+// Parses "name=value". Returns false for any other text.
 bool ParseParameter(const std::string& text, Parameter* parameter) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) return false;
@@ -35,7 +35,8 @@ std::string BudgetText(double seconds) {
   return text;
 }
 
-// The knobs of one base: special ones hide general ones.
+// Returns the knobs that apply to a base. A knob for its integrator or label overrides a general
+// one.
 std::vector<const Knob*> KnobsOf(const Setting& base, const StudyPlan& plan,
                                  const ParameterOracle& oracle) {
   std::vector<const Knob*> chosen;

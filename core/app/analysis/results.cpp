@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Results as JSON (RFC 8259, by nlohmann's library) and as CSV (RFC 4180).
+// This file converts Results to JSON (RFC 8259, with nlohmann's library) and CSV (RFC 4180).
 #include "core/app/analysis/results.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace exphoton::study {
 namespace {
 
-// Members stay in the order in which they are written.
+// Keeps the members in insertion order.
 using Json = nlohmann::ordered_json;
 constexpr int kFormat = 1;
 
@@ -29,7 +29,7 @@ NamedValues ToValues(const Json& json) {
   return values;
 }
 
-// Members that may be absent, or null where a number was not finite.
+// Read members that can be missing, or null because a number was not finite.
 double Number(const Json& json, const char* name) {
   const auto found = json.find(name);
   return found != json.end() && found->is_number() ? found->get<double>() : 0;
@@ -65,7 +65,7 @@ NamedValues MetricValues(const RunRow& row) {
           {"nonFinitePixels", double(m.nonFinitePixels)}};
 }
 
-// What does not depend on the study.
+// Writes the values that do not depend on the study.
 Json FromRun(const RunRow& row) {
   return {{"key", row.key},
           {"seed", row.seed},
@@ -112,7 +112,7 @@ RunRow ToRow(const Json& json) {
   row.counters = ToValues(json.value("counters", Json::object()));
   row.image = Text(json, "image");
   row.command = Text(json, "command");
-  return row;  // metrics are measured anew from the pictures
+  return row;  // metrics are measured again from the pictures
 }
 
 Json FromReference(const ReferenceRecord& reference) {
@@ -176,7 +176,7 @@ std::string CsvNumber(double value) {
   return text;
 }
 
-// The names that any row has, in a stable order.
+// Returns all names in the member over all rows, sorted.
 std::set<std::string> Names(const Results& results, NamedValues RunRow::*member) {
   std::set<std::string> names;
   for (const RunRow& row : results.runs)
@@ -213,7 +213,7 @@ double RunRow::PhotonsStored() const {
 }
 
 double RunRow::PhotonPaths() const {
-  double most = 0;  // maps are filled by the same paths
+  double most = 0;  // all maps are filled from the same paths
   for (const auto& [name, value] : counters)
     if (name.starts_with("photons/") && name.ends_with(" paths")) most = std::max(most, value);
   return most;

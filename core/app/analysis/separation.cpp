@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sums over pixels in double; pixels that are not finite anywhere are left out of all of them.
+// Separate sums over pixels in double precision. A pixel that is not finite in any picture is left
+// out.
 #include "core/app/analysis/separation.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace exphoton::study {
 namespace {
 
-// The values of R, G, B of a picture, pixel by pixel.
+// Returns R, G, B of each pixel, row by row.
 std::vector<float> Colors(const Image& image, const std::string& name) {
   const std::array<int, 3> from = FindColors(image, name);
   std::vector<float> values;
@@ -26,7 +27,8 @@ bool IsFinitePixel(const std::vector<float>& values, std::size_t pixel) {
          std::isfinite(values[3 * pixel + 2]);
 }
 
-// One seed's, and each set's without one seed: weighted means over the values that count.
+// Sums computes weighted means over the pixels that are finite in the reference and in all
+// pictures.
 class Sums {
  public:
   Sums(const std::vector<std::vector<float>>& pictures, const std::vector<float>& truth)
@@ -40,7 +42,7 @@ class Sums {
   const std::vector<std::size_t>& Pixels() const { return pixels_; }
   double Count() const { return 3 * double(pixels_.size()); }
 
-  // mean w (x_k - r)^2
+  // Returns mean w (x_k - r)^2.
   double RelMse(std::size_t k) const {
     double sum = 0;
     ForValues([&](std::size_t i, double w) {
@@ -49,7 +51,7 @@ class Sums {
     });
     return sum / Count();
   }
-  // mean w s^2 over all seeds but `without`; K or more: over all.
+  // Returns mean w s^2 over all seeds except `without`, or over all seeds if `without` >= K.
   double Variance(std::size_t without) const {
     const std::size_t all = pictures_.size();
     const double count = double(without < all ? all - 1 : all);
@@ -78,7 +80,7 @@ class Sums {
   std::vector<std::size_t> pixels_;
 };
 
-// The jackknife's standard error from the values without one seed each.
+// Returns the jackknife standard error from the estimates that leave out one seed each.
 double Jackknife(const std::vector<double>& partial) {
   const Measured mean = MeanOf(partial);
   double squares = 0;
@@ -87,8 +89,9 @@ double Jackknife(const std::vector<double>& partial) {
   return std::sqrt((count - 1) / count * squares);
 }
 
-// Standard error of 2 mean w (m - truth)(truth - r), the part of relMse that comes from the
-// reference's noise meeting the error; (a - b) / 2 stands for that noise.
+// Returns the standard error of 2 mean w (m - truth)(truth - r), m the mean picture and r the
+// reference. This is the cross term of relMse between the error and the reference's noise. `noise`,
+// (a - b) / 2, is a sample of that noise.
 double CrossError(const Sums& sums, const std::vector<float>& mean, const std::vector<float>& truth,
                   const std::vector<float>& noise) {
   if (noise.empty()) return 0;
@@ -124,11 +127,11 @@ Reference MakeReference(Image a) {
 }
 
 Reference MakeReference(const Image& a, const Image& b) {
-  CompareImages(a, b);  // the checks
+  CompareImages(a, b);  // checks sizes and channels
   Reference reference;
   const std::vector<float> first = Colors(a, "half a"), second = Colors(b, "half b");
   reference.mean = Image(a.data, a.display, {"R", "G", "B"});
-  std::vector<double> squares;  // of the pixels
+  std::vector<double> squares;  // of each pixel
   for (std::size_t i = 0; i < first.size(); ++i) {
     reference.mean.pixels[i] = float((double(first[i]) + double(second[i])) / 2);
     reference.halfDifference.push_back(float((double(first[i]) - double(second[i])) / 2));
@@ -151,7 +154,7 @@ Separation Separate(const std::vector<Image>& pictures, const Reference& referen
   result.seeds = int(pictures.size());
   std::vector<std::vector<float>> values;
   for (const Image& picture : pictures) {
-    CompareImages(reference.mean, picture);  // the checks
+    CompareImages(reference.mean, picture);  // checks sizes and channels
     values.push_back(Colors(picture, "the picture"));
   }
   const std::vector<float> truth = Colors(reference.mean, "the reference");

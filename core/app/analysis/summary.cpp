@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Settings as CSV (RFC 4180).
+// SummaryCsv writes one row of CSV (RFC 4180) per setting.
 #include "core/app/analysis/summary.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// summary.csv: one row a setting, with everything that the page says of it, for charts of one's
-// own.
+// SummaryCsv makes summary.csv: one row per setting with all measurements of the report, as data
+// for custom charts.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace exphoton::study {
 
-// Empty fields where something is unknown; "x +-" columns are standard errors.
+// Unknown values are empty fields. Columns "x +-" are standard errors.
 std::string SummaryCsv(const Results& results, const Analysis& analysis);
 
 }  // namespace exphoton::study

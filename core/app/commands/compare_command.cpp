@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The table of differences, and difference images. Measures nothing itself: core/imaging does.
+// RunCompare prints a table of differences and writes difference images. core/imaging computes the
+// metrics.
 #include "core/app/commands/compare_command.h"
 
 #include <algorithm>
@@ -93,7 +94,7 @@ bool AreIdentical(const Image& a, const Image& b) {
          std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(), isSame);
 }
 
-// Errors name the files: several are read.
+// Errors name the files, because the command reads several.
 Comparison Compare(const std::string& referenceName, const Image& reference,
                    const std::string& name, const Image& picture) {
   FindColors(reference, referenceName);
@@ -110,12 +111,13 @@ Comparison Compare(const std::string& referenceName, const Image& reference,
   return result;
 }
 
-// Without its ending.
+// Returns the path without extension.
 std::string DifferenceName(const CompareOptions& options, const std::string& picture) {
   return (fs::path(options.differenceFolder) / fs::path(picture).stem()).string() + "-difference";
 }
 
-// Two pictures of one name in two folders have one difference image.
+// Checks the files to write. Two pictures with the same name in different folders are refused,
+// because they would share a difference image.
 void CheckFiles(const CompareOptions& options) {
   if (options.differenceFolder.empty()) return;
   MakeFolder(options.differenceFolder);
@@ -183,7 +185,7 @@ CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
 
 int RunCompare(const std::vector<std::string>& arguments) {
   constexpr int kDifferent = 1, kTrouble = 2;
-  bool isSame = true;  // also where only help was asked for
+  bool isSame = true;  // stays true if only help was requested
   const int status = Guarded([&] {
     const CompareOptions options = ParseCompareOptions(arguments);
     const Limits limits = ParseLimits(options.limits);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton compare`: how far pictures are from a reference. `arguments` without the program's and
-// the command's name.
+// `exphoton compare` measures the difference between pictures and a reference. `arguments` exclude
+// the names of the program and the command.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace exphoton::cli {
 
-// 0: all the same; 1: one differs; 2: they cannot be compared.
+// Returns 0 if all pictures match, 1 if one differs and 2 if they cannot be compared.
 int RunCompare(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Looking at pictures and changing their format.
+// These commands print information about pictures or convert their format.
 #include "core/app/commands/image_commands.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string WindowText(const char* name, const PixelBounds& window) {
                window.y0);
 }
 
-// Least, mean and greatest of the finite values.
+// Prints minimum, mean and maximum of the finite values.
 std::string ChannelText(const Image& image, int channel) {
   double sum = 0;
   float low = std::numeric_limits<float>::infinity(), high = -low;

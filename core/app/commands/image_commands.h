@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton info` and `convert`: pictures without scenes. `arguments` without the
-// program's and the command's name; the result is the exit status.
+// `exphoton info` and `exphoton convert` process pictures without scenes. `arguments` exclude the
+// names of the program and the command. The functions return the exit status.
 #pragma once
 
 #include <string>

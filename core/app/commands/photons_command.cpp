@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Loads the scene, shoots its photons, follows one camera ray through the middle of a pixel and
-// asks the integrator what lies around the point it meets. A table, and a plot of directions on the
-// hemisphere over that point.
+// PrintPhotonsAt loads a scene, shoots its photons and traces one camera ray through the centre of
+// a pixel. It prints the photons nearest to the hit point as a table and can plot their directions
+// on the hemisphere.
 #include "core/app/commands/photons_command.h"
 
 #include <cmath>
@@ -68,13 +68,13 @@ LoadOptions SceneOptions(const Options& options) {
   return load;
 }
 
-// A surface point with its frame: n towards the viewer, and two directions along the surface.
+// Place is a surface point with its frame: n points towards the viewer, s and t are tangential.
 struct Place {
   Point3 p;
   Normal3 n;
   Vector3 s, t;
 
-  // Angle to the normal and about it, in degrees, and whether it is above the surface.
+  // Polar angle from the normal and azimuth about it, in degrees.
   double Polar(const Vector3& w) const {
     return std::acos(std::clamp(double(Dot(w, n)), -1., 1.)) * 180 / 3.14159265358979;
   }
@@ -93,7 +93,7 @@ Place FindPlace(const RenderSetup& setup, const PixelBounds& pixel) {
   const auto hit = setup.scene->Intersect(ray);
   if (!hit) FailUsage("nothing is seen at this pixel");
   Place place{hit->p, FaceForward(hit->ng, -ray.d), {}, {}};
-  // s along the world's x axis, or its z axis where the surface faces x.
+  // s lies along the world's x axis, or along its z axis if the normal is nearly parallel to x.
   const Vector3 n(place.n);
   const Vector3 axis = std::abs(n.x) < Real(.9) ? Vector3(1, 0, 0) : Vector3(0, 0, 1);
   place.s = Normalize(axis - n * Dot(axis, n));
@@ -120,8 +120,8 @@ std::string TableText(const Place& place, const std::vector<StoredPhoton>& photo
   return text;
 }
 
-// Directions on the unit disk, where areas are solid angles (Lambert's projection); a photon's area
-// is its power.
+// Plots directions by Lambert's azimuthal equal-area projection, so that areas in the plot are
+// proportional to solid angles. The area of a dot is proportional to the photon's power.
 std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photons) {
   using study::Coordinate;
   constexpr double kSize = 360, kRadius = 150, kDegree = 3.14159265358979 / 180;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton info --photons-at x,y SCENE`: the photons around the surface point that a pixel shows.
+// `exphoton info --photons-at x,y SCENE` prints the photons around the surface point of a pixel.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace exphoton::cli {
 
-// `arguments` without the program's and the command's name. Throws as ParseArguments and
-// LoadScenes.
+// `arguments` exclude the names of the program and the command. Throws Error and TextRequest.
 void PrintPhotonsAt(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

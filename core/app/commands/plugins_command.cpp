@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The list of plugins by kind, the parameters of those that are named, and the generated pages.
+// RunPlugins prints the plugins by kind or the parameters of named plugins, and writes the
+// reference pages.
 #include "core/app/commands/plugins_command.h"
 
 #include "core/app/options/errors.h"
@@ -12,7 +13,7 @@
 namespace exphoton::cli {
 namespace {
 
-// Pages begin with a line that says what wrote them; other files of their names stay.
+// Overwrites an existing page only if its first line, which names the generator, matches.
 void WriteReference(const std::string& folder, PluginRegistry& registry) {
   const auto pages = ReferencePages(registry);
   for (const auto& [file, page] : pages) {

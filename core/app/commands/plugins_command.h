@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton plugins`: what can be named in a scene, and with which parameters.
+// `exphoton plugins` lists the plugins that a scene can name, and their parameters.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace exphoton::cli {
 
-// `arguments` without the program's and the command's name; returns the exit status.
+// `arguments` exclude the names of the program and the command. Returns the exit status.
 int RunPlugins(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From scene files to pictures: check all files of the run, then load, render, write and report one
-// scene file after the other.
+// RunRender checks all files of the run first. It then loads, renders and writes one scene file
+// after the other.
 #include "core/app/commands/render_command.h"
 
 #include <algorithm>
@@ -33,7 +33,8 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// When the work for a picture began, and what of it was reading the scene.
+// Begin holds the start times of the work for a picture, and the seconds spent on loading the
+// scene.
 struct Begin {
   Clock::time_point wall = Clock::now();
   double cpu = ProcessCpuSeconds();
@@ -43,10 +44,10 @@ struct Begin {
 // Thrown after an interrupted picture has been written.
 struct Interrupted {};
 
-// What the scene files of a command line share.
+// Run is the state shared by all scene files of a command line.
 struct Run {
   RunFiles files;
-  std::string statistics;  // of all pictures so far, as JSON
+  std::string statistics;  // JSON lines of all pictures so far
   FileSource::Streams streams;
 };
 
@@ -56,7 +57,7 @@ class FileRenderer {
   FileRenderer(const RenderCommand& command, Run& run, Log& log)
       : command_(command), names_(command), run_(run), log_(log), watch_(command.limits.seconds) {}
 
-  // `index`: of the file among the command line's.
+  // `index` is the position of the file on the command line.
   void Render(std::size_t index) {
     const std::string& path = command_.scenes[index];
     Setups setups = Load(path);
@@ -74,7 +75,7 @@ class FileRenderer {
   }
 
  private:
-  // What has been written.
+  // Picture is an image that has been written.
   struct Picture {
     std::string path;
     Image image;
@@ -95,7 +96,7 @@ class FileRenderer {
   Run& run_;
   Log& log_;
   InterruptWatch watch_;
-  std::optional<Begin> begin_;  // of the first picture
+  std::optional<Begin> begin_;  // set by Load, taken by the first picture
 };
 
 Setups FileRenderer::Load(const std::string& path) {
@@ -177,7 +178,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   if (!run.isComplete) throw Interrupted();
 }
 
-// Reading the scene is work for the first picture of a file.
+// Loading the scene file counts towards its first picture.
 void FileRenderer::AddLoadingTimes(const RenderSetup& setup, const Begin& begin,
                                    Statistics* statistics) const {
   const double wall = begin.loadWall - setup.acceleratorSeconds;
@@ -211,7 +212,7 @@ FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
   return picture;
 }
 
-// What follows once there is a picture.
+// Runs after the picture is written: warnings, the preview and a message.
 void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
   if (picture.report.clampedToHalf > 0)
     log_.Warning(std::to_string(picture.report.clampedToHalf) +
@@ -224,7 +225,7 @@ void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
               picture.path + "\" (rendered in " + seconds + ")");
 }
 
-// The file has a line for each picture so far, so that an interrupted run keeps them.
+// Rewrites the file with one line per picture so far, so that an interrupted run keeps them.
 void FileRenderer::Report(const RunRecord& run) {
   if (command_.printsStatistics) PrintOut(StatisticsTable(run));
   if (command_.statsFile.empty()) return;
@@ -234,8 +235,8 @@ void FileRenderer::Report(const RunRecord& run) {
   WriteTextFile(command_.statsFile, run_.statistics);
 }
 
-// With several scene files, what each writes is known only by reading them all. Nothing is loaded
-// for that, and what is wrong in a file is said later, when it is loaded.
+// With several scene files, the output names are known only after reading all of them. ScanScene
+// reads them without loading plugins. Errors in a file are reported later, when it is loaded.
 void CheckAllFiles(const RenderCommand& command, Run& run, Log& log) {
   if (command.mode != RenderMode::Render || command.scenes.size() < 2) return;
   const InterruptWatch watch(command.limits.seconds);
@@ -262,7 +263,7 @@ int RenderFiles(const RenderCommand& command, Run& run) {
       try {
         FileRenderer(command, run, log).Render(index);
       } catch (const Interrupted&) {
-        // Its picture is written; the status says the rest.
+        // The picture is written; SignalNumber gives the exit status.
       }
     });
     log.Summarize();

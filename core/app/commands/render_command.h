@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton render` and its forms that do not render: scenes in, pictures out.
+// RunRender implements `exphoton render` and its modes that do not render.
 #pragma once
 
 #include "core/app/options/options.h"
 
 namespace exphoton::cli {
 
-// Does every scene of the command; one that fails does not keep the others from rendering. Returns
-// the exit status of the first failure, 0 where there was none.
+// Processes every scene of the command; a failure does not keep the other scenes from rendering.
+// Returns the exit status of the first failure, or 0.
 int RunRender(const RenderCommand& command);
 
 }  // namespace exphoton::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Dispatch by the first argument; without a command's name it is a scene to render.
+// RunProgram dispatches by the first argument. Without a command name, the arguments are scenes to
+// render.
 #include "core/app/options/app.h"
 
 #include "core/app/commands/compare_command.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The program: which command was asked for, and the exit status of what went wrong.
+// RunProgram runs the command that the arguments name and turns every failure into an exit status.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace exphoton::cli {
 
-// `arguments` with the program's name first. Returns the exit status: 0 done; 1 command line; 2
-// scene; 3 files; 4 resources; 5 internal; 128 + n on signal n.
+// `arguments` begin with the program's name. Returns the exit status: 0 success; 1 command line; 2
+// scene; 3 files; 4 resources; 5 internal; 128 + n on signal n. The compare command differs.
 int RunProgram(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

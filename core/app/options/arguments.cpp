@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Quoting for a shell.
+// CommandLineText quotes arguments for a POSIX shell.
 #include "core/app/options/arguments.h"
 
 namespace exphoton::cli {

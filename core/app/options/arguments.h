@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Arguments as one line of text.
+// CommandLineText joins arguments into one line of text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace exphoton::cli {
 
-// Words as a shell would need them, so that the line can be pasted.
+// Quotes the arguments for a POSIX shell, so that the line can be pasted.
 std::string CommandLineText(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The last place that an exception reaches.
+// GuardedCall is the outermost exception handler of the program.
 #include "core/app/options/errors.h"
 
 #include <cstdio>
@@ -28,7 +28,7 @@ int Fail(ExitStatus status, const std::string& text,
   return int(status);
 }
 
-// With nothing that allocates: what fails here has nowhere left to go.
+// Must not allocate memory: a failure here could no longer be reported.
 int FailWithoutMemory() {
   if (IsRedrawable()) std::fputs("\r\x1b[K", stderr);
   std::fputs("exphoton: error: ", stderr);
@@ -42,7 +42,8 @@ int FailBySystem(ExitStatus status, const std::string& text, const std::error_co
   return Fail(status, text);
 }
 
-// Writing the message of a failure may run out of memory itself.
+// Handles all exceptions except std::bad_alloc, which it passes on. Formatting a message can throw
+// std::bad_alloc, too.
 int Try(void (*work)(const void*), const void* context) {
   try {
     work(context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Memory is limited by the system (RLIMIT_DATA: what the process can write to), time by
-// InterruptWatch.
+// The system enforces the memory limit (RLIMIT_DATA bounds the process's writable memory).
+// InterruptWatch enforces the time limit.
 #include "core/app/options/limits.h"
 
 #include <sys/resource.h>
@@ -71,7 +71,7 @@ void LimitMemory(const Limits& limits) {
   rlimit limit{};
   getrlimit(RLIMIT_DATA, &limit);
   const auto bytes = rlim_t(*limits.memoryBytes);
-  if (limit.rlim_cur <= bytes) return;  // there is a lower one already
+  if (limit.rlim_cur <= bytes) return;  // the current limit is already lower
   limit.rlim_cur = bytes;
   if (setrlimit(RLIMIT_DATA, &limit) != 0)
     throw Error(ExitStatus::Resource, std::string("cannot limit memory: ") + std::strerror(errno));

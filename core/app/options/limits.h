@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// --limits: how much memory and time the files of a command may cost, for files from strangers, and
-// what a scene may ask for.
+// Limits holds the values of --limits: bounds on the memory and time that input files may cost, and
+// on the totals that a scene may request. They protect against files from untrusted sources.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ class OptionParser;
 
 struct Limits {
   std::optional<double> memoryBytes;
-  std::optional<double> seconds;  // until the first pixel, or of a command that renders nothing
+  std::optional<double> seconds;  // until the first pixel; for commands without rendering, in total
   SceneLimits scene;
 };
 
@@ -24,7 +24,7 @@ Limits ParseLimits(const std::string& text);
 // Limits the memory of this process and its children. Throws Error(Resource).
 void LimitMemory(const Limits& limits);
 
-// Declares the option, as text for ParseLimits.
+// Declares the option --limits, as text for ParseLimits.
 void AddLimitsOption(OptionParser& app, std::string* text);
 
 // Declares --allow-scene-plugins.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The one file that includes CLI11.
+// OptionParser is implemented with CLI11. No other file includes CLI11.
 #include "core/app/options/option_parser.h"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// OptionParser: the options of one command, its --help, and errors as usage errors. It hides CLI11,
-// whose header takes seconds to compile, behind one source file.
+// OptionParser parses the options of one command, prints its --help and reports usage errors. It
+// hides CLI11, whose header takes seconds to compile, behind one source file.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ class Option;
 
 namespace exphoton::cli {
 
-// Thrown for --help and --version: the text goes to standard output, the status is 0.
+// Thrown for --help and --version: the text goes to standard output and the exit status is 0.
 struct TextRequest {
   std::string text;
 };
 
-// One declared option; each call refines it.
+// OptionHandle refers to a declared option. Each call refines the declaration.
 class OptionHandle {
  public:
   explicit OptionHandle(CLI::Option* option) : option_(option) {}
 
-  OptionHandle& TypeName(const std::string& name);  // what --help shows for the value
+  OptionHandle& TypeName(const std::string& name);  // placeholder for the value in --help
   OptionHandle& DefaultText(const std::string& text);
   OptionHandle& Required();
-  OptionHandle& TakeLast();   // given twice, the later value wins
-  OptionHandle& OnePerUse();  // of a list: each use of the option takes one value
+  OptionHandle& TakeLast();   // if given several times, the last value wins
+  OptionHandle& OnePerUse();  // for lists: each use of the option takes one value
   OptionHandle& OneOf(const std::vector<std::string>& words);
   OptionHandle& Between(int least, int greatest);
   OptionHandle& Between(std::int64_t least, std::int64_t greatest);
@@ -43,12 +43,12 @@ class OptionHandle {
 
 class OptionParser {
  public:
-  // `name` is the command as a user types it: "exphoton compare".
+  // `name` is the command as the user types it: "exphoton compare".
   OptionParser(const std::string& description, const std::string& name);
   ~OptionParser();
 
-  // `names` is "-o,--outfile" for an option, "scenes" for the arguments without a name. The target
-  // keeps its value where the option is not given, and must outlive Parse.
+  // `names` is "-o,--outfile" for an option, "scenes" for positional arguments. The target keeps
+  // its value if the option is not given, and must outlive Parse.
   OptionHandle Add(const std::string& names, std::string& target, const std::string& help);
   OptionHandle Add(const std::string& names, int& target, const std::string& help);
   OptionHandle Add(const std::string& names, std::int64_t& target, const std::string& help);
@@ -60,12 +60,12 @@ class OptionParser {
   OptionHandle Add(const std::string& names, std::vector<std::string>& target,
                    const std::string& help);
   OptionHandle AddFlag(const std::string& name, bool& target, const std::string& help);
-  void AddVersion(const std::string& text);  // --version
-  void Footer(const std::string& text);      // below the list of --help
-  bool Has(const std::string& name) const;   // "--outfile"
+  void AddVersion(const std::string& text);  // declares --version
+  void Footer(const std::string& text);      // text below the list of --help
+  bool Has(const std::string& name) const;   // takes the full name: "--outfile"
 
-  // Fills the targets. Throws TextRequest for --help and --version, a usage error for arguments
-  // that the options do not allow.
+  // Fills the targets. Throws TextRequest for --help and --version, and a usage error for invalid
+  // arguments.
   void Parse(const std::vector<std::string>& arguments);
 
  private:

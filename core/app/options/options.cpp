@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The options of `exphoton render`, declared to CLI11.
+// ParseRenderCommand declares and evaluates the options of `exphoton render`.
 #include "core/app/options/options.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr int kMaxThreads = 4096;
 constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 
-// What CLI11 stores as text and is read afterwards.
+// RawOptions holds option values that TakeRaw converts and checks after parsing.
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "v1";
   std::vector<std::string> sets, pluginFolders;
@@ -134,7 +134,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!command->outfile.empty() && command->scenes.size() > 1)
     FailUsage("--outfile names one picture, but there are several scenes");
   Log quiet(Log::Level::Quiet, Log::Sink::Memory);
-  ChooseEffects(RequiredFeatures(), load.effects, quiet);  // throws where it cannot be read
+  ChooseEffects(RequiredFeatures(), load.effects, quiet);  // throws if the value is invalid
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the command line of `exphoton render` says, and of its forms that do not render (--check,
-// --explain). The other commands have few options and read them themselves.
+// RenderCommand holds the command line of `exphoton render` and of its modes that do not render
+// (--check, --explain). Other commands have few options and parse them themselves.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct RenderCommand {
   std::vector<std::string> scenes;  // "-": standard input
   RenderMode mode = RenderMode::Render;
   LoadOptions load;
-  std::string outfile;                           // "": what the scene says
+  std::string outfile;                           // "": the name from the scene
   std::string previewFile;                       // "": none
   std::string statsFile;                         // "": none; "-": standard output
   AovSet aovs;                                   // --aov
@@ -36,12 +36,12 @@ struct RenderCommand {
   bool showsProgress = true;
   int threadCount = 0;  // 0: all cores
   std::uint64_t seed = 0;
-  std::int64_t footprintSamples = 0;  // RenderOptions
+  std::int64_t footprintSamples = 0;  // see RenderOptions
   Log::Level logLevel = Log::Level::Normal;
-  std::string commandLine;  // as it was typed, for the picture's attributes
+  std::string commandLine;  // as typed, for the picture's attributes
 };
 
-// `arguments` without the program's and the command's name. Throws Error(CommandLine), TextRequest.
+// `arguments` exclude the names of program and command. Throws Error(CommandLine), TextRequest.
 RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, RenderMode mode);
 
 std::string VersionText();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Lists of numbers separated by commas, and --set.
+// This file parses comma-separated numbers, durations, AOV names and --set.
 #include "core/app/options/values.h"
 
 #include <charconv>
@@ -13,7 +13,7 @@
 namespace exphoton::cli {
 namespace {
 
-// Exactly `count` numbers, or a usage error.
+// Parses exactly `count` numbers, or throws a usage error.
 template <class T>
 std::vector<T> ParseList(const std::string& option, const std::string& text, std::size_t count,
                          const std::string& form) {
@@ -34,7 +34,7 @@ std::vector<T> ParseList(const std::string& option, const std::string& text, std
       break;
     }
     at = next + 1;
-    if (at == end) break;  // a comma at the end
+    if (at == end) break;  // trailing comma
   }
   const bool isWhole = at == end && !text.empty() && text.back() != ',';
   if (!isWhole || values.size() != count)

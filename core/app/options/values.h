@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Values of options that are more than one number or word. Errors name the option.
+// These functions parse option values that are more than one number or word. Errors name the
+// option.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +13,16 @@
 
 namespace exphoton::cli {
 
-// "0.25,0.75,0,1" for x0 x1 y0 y1.
+// "0.25,0.75,0,1" for x0 x1 y0 y1, as fractions of the picture.
 std::vector<Real> ParseCropWindow(const std::string& text);
 // "10,20,0,5": columns 10 to 19 of rows 0 to 4.
 PixelBounds ParsePixelBounds(const std::string& text);
-// "x,y": that pixel alone.
+// "x,y": bounds of one pixel.
 PixelBounds ParsePixel(const std::string& text);
 // "SurfaceIntegrator.maxdist=1.5".
 ParameterOverride ParseOverride(const std::string& text);
 
-// "90", "90s", "1.5m", "1h": seconds, more than 0.
+// "90", "90s", "1.5m", "1h": positive duration, in seconds.
 double ParseDuration(const std::string& option, const std::string& text);
 // "Albedo,N,direct".
 AovSet ParseLayerList(const std::string& text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Output paths: what is checked is done, not guessed: a temporary file is made and removed again.
+// CheckWritable tries to write: it makes a temporary file and removes it again.
 #include "core/app/output/output_files.h"
 
 #include <sys/stat.h>
@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
   throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + why);
 }
 
-// In a folder such as /tmp only a file's owner, or the folder's, may replace it.
+// In a folder with the sticky bit, such as /tmp, only the owner of the file or of the folder may
+// replace a file.
 bool MayReplace(const std::string& path) {
   const std::string target = FollowLinks(path);
   struct stat file, folder;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Where pictures and reports go, and the check before rendering that they can be written there.
+// CheckWritable checks before rendering that an output file can be written. The other functions
+// write files and standard output.
 #pragma once
 
 #include <string>
 
 namespace exphoton::cli {
 
-// Throws Error(File) where `path` cannot be written. Leaves nothing behind.
+// Throws Error(File) if `path` cannot be written. Leaves no file behind.
 void CheckWritable(const std::string& path);
 
-// Makes the folder and those above it. Throws Error(File).
+// Makes the folder and its missing parents. Throws Error(File).
 void MakeFolder(const std::string& path);
 
-// Replaces the file in one step. Throws Error(File).
+// Replaces the file atomically. Throws Error(File).
 void WriteTextFile(const std::string& path, const std::string& text);
 
-// To standard output; throws Error(File) where that fails (a full disk).
+// Writes to standard output. Throws Error(File) if that fails, for example on a full disk.
 void PrintOut(const std::string& text);
 
 }  // namespace exphoton::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Names from the command line win over those of scene files.
+// OutputNames prefers names from the command line to names from scene files.
 #include "core/app/output/output_names.h"
 
 #include "core/app/options/arguments.h"
@@ -18,7 +18,7 @@ std::string OutputNames::Picture(const std::string& name) const {
   return FollowLinks(NameFromUser().value_or(name));
 }
 
-// The whole command again, where one scene is rendered; otherwise one for this scene.
+// Suggests a command with -o NAME: the original one if it renders one scene, else one for `scene`.
 std::string OutputNames::LineWithOutput(const std::string& scene, const std::string& name) const {
   const bool isAlone = command_.scenes.size() == 1 && !command_.commandLine.empty();
   const std::string line = isAlone ? command_.commandLine : "exphoton " + CommandLineText({scene});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// OutputNames: what a render command writes for each picture, and who has named it.
+// OutputNames lists the files that a render command writes for each picture and who named them.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ class OutputNames {
  public:
   explicit OutputNames(const RenderCommand& command) : command_(command) {}
 
-  // Both count from 0: the file among the command line's, and the picture among the file's.
+  // Both count from 0: the scene file on the command line, and the picture in that file.
   struct Place {
     std::size_t file, picture;
   };
-  // `name`: what the picture's Film says, or nothing.
+  // Adds the picture's output files. `name` is the file name from Film, or empty.
   void AddTo(RunFiles& files, const Place& place, const std::string& name) const;
 
-  // The file of the picture, at the end of links.
+  // Returns the picture's file, with links resolved.
   std::string Picture(const std::string& name) const;
 
  private:
-  std::optional<std::string> NameFromUser() const;  // -o, or --set Film.filename
+  std::optional<std::string> NameFromUser() const;  // from -o or --set Film.filename
   std::string LineWithOutput(const std::string& scene, const std::string& name) const;
 
   const RenderCommand& command_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From a command to films, and from films to an image.
+// RenderPicture renders into films, and MakeImage converts films to an image.
 #include "core/app/output/picture.h"
 
 #include <algorithm>
@@ -20,7 +20,8 @@ PassesResult RenderFixed(const RenderJob& job, const RenderOptions& options) {
   return result;
 }
 
-// Between passes the photons' noise shows too, which the samples of one pixel do not know.
+// Uses the variance between passes instead of the sample variance. Each pass has its own photon
+// maps, so the variance between passes includes the noise of the photons.
 void ReplaceVariance(const std::vector<float>& variances, const Film& film, bool premultiplyAlpha,
                      Image* image) {
   const int channel = image->FindChannel("Variance.R");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Picture: what one render leaves, whichever way it was decided how much to render, and the image
-// that is made of it, with its layers.
+// RenderPicture renders a picture into films. MakeImage combines the films into one image with
+// AOVs.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,8 @@
 
 namespace exphoton::cli {
 
-// Where a picture grows. layers and halves are there only if asked for.
+// PictureFilms holds the films of a picture. aovs and halves are null unless the command requests
+// them.
 struct PictureFilms {
   PictureFilms(const RenderCommand& command, const RenderSetup& setup);
 
@@ -20,15 +21,15 @@ struct PictureFilms {
   std::unique_ptr<Film> halves[2];
 };
 
-// Renders as the command says: a fixed number of samples, by a stopping rule, or as two halves.
+// Renders as the command says: a fixed sample count, a stopping rule, or two halves.
 PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                            const RenderOptions& options,
                            std::chrono::steady_clock::time_point start, PictureFilms* films);
 
-// The channels of the picture and of every layer; no attributes.
+// Returns an image with the channels of the picture and of all AOVs, without attributes.
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha);
 
-// Throws Error(CommandLine) for a layer that the scene's integrator does not know.
+// Throws Error(CommandLine) for an AOV that the scene's integrator does not provide.
 void CheckLayers(const RenderCommand& command, const RenderSetup& setup);
 
 // "Albedo, N, half1, half2".

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The attributes that an EXR carries; names as pbrt-v4 and the OpenEXR standard have them.
+// PictureAttributes makes the attributes of an EXR picture. The names follow pbrt-v4 and the
+// OpenEXR standard.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -10,7 +11,7 @@
 namespace exphoton::cli {
 namespace {
 
-// OpenEXR multiplies row vectors from the left: the transpose of ours.
+// OpenEXR uses row vectors, so its matrices are the transpose of ours.
 std::vector<float> MatrixAttribute(const Matrix4& matrix) {
   std::vector<float> values;
   for (std::size_t column = 0; column < 4; ++column)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Files are compared by what they are (device and inode, or folder and name), not by their
-// spelling.
+// RunFiles compares files by identity (device and inode, or folder and name), not by path text.
 #include "core/app/output/run_files.h"
 
 #include <sys/stat.h>
@@ -32,7 +31,8 @@ bool Exists(const std::string& path) {
   return lstat(path.c_str(), &status) == 0;
 }
 
-// What a scene or study file names may add a file, or replace a picture of ours, near it.
+// A name from a scene or study file may create a file, or replace a picture of this program, only
+// in the working folder or the scene's folder.
 void CheckSceneName(const OutputFile& output) {
   if (output.namedBy.empty()) return;
   const std::string target = FollowLinks(output.path);

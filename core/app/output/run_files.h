@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RunFiles: every file that a run of the program reads or writes. It refuses, before anything is
-// rendered, to write over a file that the run reads or writes otherwise, and to write where only a
-// scene file, which may come from anybody, says so.
+// RunFiles records every file that a run reads or writes. Before rendering, it refuses to overwrite
+// a file that the run reads or also writes otherwise. It also restricts output names that come from
+// a scene file, because scene files can come from untrusted sources.
 #pragma once
 
 #include <map>
@@ -17,34 +17,34 @@ namespace exphoton::cli {
 
 struct OutputFile {
   std::string path;
-  std::string what;    // "the picture", "the preview (--preview)"
-  std::string remedy;  // a hint: what to do where the name cannot be used
-  // The scene file that names it; "": the user does, on the command line.
+  std::string what;    // for example "the picture"
+  std::string remedy;  // hint: what to do if the name cannot be used
+  // The scene file that names this output; "": the user named it on the command line.
   std::string namedBy{};
 };
 
 class RunFiles {
  public:
-  // The program itself is an input from the start.
+  // Adds the program and its core library as inputs.
   RunFiles();
 
-  // `reader`: what reads it, for messages: "the scene \"a.pbrt\""; "" for the program itself.
+  // `reader` names the reader in messages: "the scene \"a.pbrt\""; "" for the program itself.
   void AddInput(const std::string& path, const std::string& reader);
-  // Of a scene: "-" is standard input.
+  // Adds a scene file ("-" is standard input) and the files that it reads.
   void AddScene(const std::string& path, const std::set<std::string>& inputs);
   void AddScene(const RenderSetup& setup);
-  // Libraries that lie there are inputs.
+  // Libraries (.so) in these folders must not be overwritten.
   void AddPluginFolders(const std::vector<std::string>& folders);
 
-  // `key` names the output within the run: one added again under its key replaces it.
+  // `key` names the output within the run. A second output with the same key replaces the first.
   void AddOutput(const std::string& key, OutputFile output);
 
-  // Throws Error(File) for a conflict, for an output that only a scene names and that may not be
-  // written, and for one that cannot be written. Leaves nothing behind.
+  // Throws Error(File) for a conflict between files, for a forbidden output name from a scene file
+  // and for a file that cannot be written. Leaves no files behind.
   void Check(Log& log);
 
-  // Where an interrupted picture goes: "room.partial.exr" for "room.exr", or another name where
-  // that one would replace something else.
+  // Returns the name for an interrupted picture: "room.partial.exr" for "room.exr", or a variant if
+  // that name would overwrite another file.
   std::string PartialPicture(const std::string& path) const;
 
  private:
@@ -59,10 +59,10 @@ class RunFiles {
   std::map<FileIdentity, Input> inputs_;
   std::vector<std::string> pluginFolders_;
   std::map<std::string, OutputFile> outputs_;
-  std::set<std::string> warned_;  // of hard links
+  std::set<std::string> warned_;  // paths with a warning about hard links
 };
 
-// Whether the file is a picture that this program has written.
+// Returns whether this program wrote the file.
 bool IsOwnPicture(const std::string& path);
 
 }  // namespace exphoton::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A run record as one line of JSON (RFC 8259).
+// StatisticsJson writes a RunRecord as one line of JSON (RFC 8259).
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -9,7 +9,7 @@
 namespace exphoton::cli {
 namespace {
 
-// Writes members one after the other and puts the commas.
+// Writes JSON members in sequence and inserts the commas.
 class JsonWriter {
  public:
   void Open(char bracket) {
@@ -103,7 +103,7 @@ void AddOptional(const char* key, const std::optional<double>& value, JsonWriter
   json->Key(key), json->Number(value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
-// What was reached, and by which rule.
+// Writes the amount of rendering and the rule that stopped it.
 void AddStopping(const RunRecord& run, JsonWriter* json) {
   json->Key("passes"), json->Integer(run.passes);
   json->Key("stoppedBy"), json->Text(run.stoppedBy);
@@ -142,7 +142,7 @@ std::string StatisticsJson(const RunRecord& run) {
   JsonWriter json;
   json.Open('{');
   AddScene(run, &json);
-  json.Key("seed"), json.Text(std::to_string(run.seed));  // 64 bits: no JSON number holds them
+  json.Key("seed"), json.Text(std::to_string(run.seed));  // JSON numbers hold only 53 bits
   json.Key("threads"), json.Integer(run.threads);
   json.Key("complete"), json.Bool(run.isComplete);
   json.Key("nonFiniteSamples"), json.Integer(run.nonFiniteSamples);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Statistics as a table, and the text of `exphoton explain`. JSON is in run_json.cpp.
+// This file formats statistics as a table and the text of `exphoton explain`. The file run_json.cpp
+// writes JSON.
 #include "core/app/output/run_record.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ std::string Print(const char* format, Args... args) {
   return text;
 }
 
-// Counts without decimals, others with what they need.
+// Prints integers without decimals and other values with six significant digits.
 std::string Number(double value) {
   return value == std::floor(value) && std::abs(value) < 1e15 ? Print("%.0f", value)
                                                               : Print("%.6g", value);
@@ -35,7 +36,7 @@ std::string Row(const std::string& label, const std::string& text) {
   return Print("%-13s ", label.c_str()) + text + "\n";
 }
 
-// What a phase of Statistics does; "" for those of plugins, whose names must do.
+// Describes a phase of Statistics; "" for phases of plugins, which have descriptive names.
 const char* PhaseMeaning(const std::string& name) {
   const std::pair<const char*, const char*> meanings[] = {
       {"parse", "reading the scene: files, plugins, textures, meshes"},

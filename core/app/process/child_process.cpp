@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// fork, exec and wait4. The parent waits on a pipe that the child holds open as long as it lives,
-// so that it notices both the child's end and a request to stop.
+// RunSelf uses fork, exec and wait4. The parent polls a pipe that the child holds open while it
+// lives, so that it notices both the child's end and a request to stop.
 #include "core/app/process/child_process.h"
 
 #include <fcntl.h>
@@ -36,10 +36,10 @@ void Redirect(const char* path, int flags, int target) {
   if (file != target) close(file);
 }
 
-// In the child, until it is another program; no memory is allocated here.
+// Runs in the child between fork and exec, so it must not allocate memory.
 [[noreturn]] void Become(const char* program, char* const* arguments, const char* log) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  setpgid(0, 0);  // Ctrl-C reaches the parent alone, which ends this one
+  setpgid(0, 0);  // Ctrl-C then reaches only the parent, which kills the child
   RestoreSignals();
   Redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   Redirect(log, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
@@ -48,7 +48,7 @@ void Redirect(const char* path, int flags, int target) {
   _exit(126);
 }
 
-// True once the pipe's other end is closed.
+// Waits up to 0.1 s. Returns true once the other end of the pipe is closed.
 bool IsClosed(int pipe) {
   constexpr int kMilliseconds = 100;
   pollfd poll{pipe, POLLIN, 0};
@@ -86,7 +86,7 @@ ChildResult RunSelf(const std::vector<std::string>& arguments, const std::string
 
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = [&] {
-    const SignalBlock block;  // a handler in the child would remove what is the parent's
+    const SignalBlock block;  // a handler in the child would remove the parent's files
     const pid_t process = fork();
     if (process == 0) Become(program.c_str(), argv.data(), logFile.c_str());
     SetWorkingChild(process);
@@ -104,7 +104,7 @@ ChildResult RunSelf(const std::vector<std::string>& arguments, const std::string
     kill(child, SIGKILL);
   }
   close(ends[0]);
-  SetWorkingChild(0);  // it has ended; once it is waited for, its number may be another's
+  SetWorkingChild(0);  // the child has ended; after wait4, another process can get its PID
   int status = 0;
   rusage usage{};
   while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {

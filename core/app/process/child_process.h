@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A run of this program in a process of its own, measured from outside. POSIX.
+// RunSelf runs this program in a child process and measures its time and memory (POSIX).
 #pragma once
 
 #include <atomic>
@@ -9,17 +9,18 @@
 namespace exphoton::cli {
 
 struct ChildResult {
-  int status = 0;               // exit status; 128 + n where a signal ended it
-  bool wasInterrupted = false;  // `stop` was set: the child was ended
+  int status = 0;               // exit status; 128 + n if signal n ended the child
+  bool wasInterrupted = false;  // `stop` was set and the child was killed
   double wallSeconds = 0, cpuSeconds = 0;
   double peakMemory = 0;  // bytes
-  std::string messages;   // what it said on standard error
+  std::string messages;   // the child's standard output and error
 };
 
-std::string OwnProgram();  // the path of the running program; throws Error(Internal)
+std::string OwnProgram();  // path of the running program; throws Error(Internal)
 
-// Waits for it to end; ends it once `stop` is set, and with this process. Standard input is empty,
-// standard output and error go to `logFile`, which is read and removed. Throws Error(Resource).
+// Runs this program and waits for its end. Kills it if `stop` is set or this process ends. Its
+// standard input is empty; its standard output and error go to `logFile`, which is read and
+// removed. Throws Error(Resource).
 ChildResult RunSelf(const std::vector<std::string>& arguments, const std::string& logFile,
                     const std::atomic<bool>& stop);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A thread that looks at the stop flag ten times a second.
+// InterruptWatch polls the stop flag ten times a second, in a thread.
 #include "core/app/process/interrupt_watch.h"
 
 #include <chrono>
@@ -15,7 +15,7 @@ namespace exphoton::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kInterval(100);
-constexpr int kGraceIntervals = 5;  // for what looks at the flag itself
+constexpr int kGraceIntervals = 5;  // time for code that polls the stop flag to end first
 
 }  // namespace
 
@@ -23,7 +23,7 @@ InterruptWatch::InterruptWatch(std::optional<double> limitSeconds) : limitSecond
   try {
     thread_ = std::thread([this] { Watch(); });
   } catch (const std::system_error&) {
-    // No thread to be had: an interrupt then waits for the work that is under way.
+    // Without a thread, an interrupt takes effect only after the current work.
   }
 }
 

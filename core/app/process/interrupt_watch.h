@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// InterruptWatch: ends the process where it is interrupted before anything is worth keeping, or
-// where that takes longer than it may (--limits). Long work before the first pixel (reading,
-// building, photons) need not look at the stop flag then.
+// InterruptWatch ends the process if it is interrupted, or exceeds the time limit (--limits),
+// before there is a result worth keeping. Long work before the first pixel (parsing, building
+// accelerators, tracing photons) therefore need not poll the stop flag.
 #pragma once
 
 #include <atomic>
@@ -14,13 +14,13 @@ namespace exphoton::cli {
 
 class InterruptWatch {
  public:
-  // Ends the process with status 4 where MustFinish is not set after limitSeconds.
+  // Ends the process with status 4 if MustFinish is not set within limitSeconds.
   explicit InterruptWatch(std::optional<double> limitSeconds = {});
   ~InterruptWatch();
   InterruptWatch(const InterruptWatch&) = delete;
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-  // Once set, there is something to write, and the process ends by itself.
+  // Set once there is something to write. The watch then leaves the process alone.
   std::atomic<bool>& MustFinish() { return mustFinish_; }
 
  private:

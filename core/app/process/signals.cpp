@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Handlers call only what POSIX lists as async-signal-safe. The flags are static because signals
-// belong to the process.
+// Signal handlers call only async-signal-safe functions (POSIX). The flags are static because
+// signals belong to the process.
 #include "core/app/process/signals.h"
 
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ void End(int signal) {
   }
   RemoveTemporaryFiles();
   std::signal(signal, SIG_DFL);
-  raise(signal);  // arrives when this handler returns, as the signal is blocked here
+  raise(signal);  // delivered when this handler returns, since the signal is blocked here
 }
 
 void Stop(int signal) {
@@ -38,12 +38,12 @@ void Stop(int signal) {
 
 bool EndsAProcess(int signal) {
   switch (signal) {
-    case SIGKILL:  // not to be caught, like SIGSTOP
+    case SIGKILL:  // cannot be caught, like SIGSTOP
     case SIGSTOP:
     case SIGTSTP:
     case SIGTTIN:
     case SIGTTOU:
-    case SIGCHLD:  // ignored by default, like the next ones
+    case SIGCHLD:  // ignored by default, like the following ones
     case SIGCONT:
     case SIGURG:
     case SIGWINCH:
@@ -55,7 +55,7 @@ bool EndsAProcess(int signal) {
 
 bool AsksToStop(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
 
-// A stack that overflowed has no room for a handler.
+// Gives handlers their own stack, because an overflowed stack has no room for a handler.
 void UseOwnStack() {
   static char room[1 << 16];
   stack_t stack{};
@@ -73,7 +73,7 @@ void WatchSignals() {
   for (int signal = 1; signal <= SIGRTMAX; ++signal) {
     struct sigaction before {};
     if (!EndsAProcess(signal) || sigaction(signal, nullptr, &before) != 0) continue;
-    // Others' handlers stay too: sanitizers and floating-point traps have some.
+    // Keep handlers of others, such as sanitizers and floating-point traps, and ignored signals.
     if ((before.sa_flags & SA_SIGINFO) || before.sa_handler != SIG_DFL) continue;
     struct sigaction action {};
     action.sa_handler = AsksToStop(signal) ? Stop : End;

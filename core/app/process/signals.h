@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Signals. The first SIGINT, SIGTERM or SIGHUP asks the work to stop; a second one, and every other
-// signal that ends a process and can be caught, removes what is unfinished and ends the process.
+// WatchSignals installs signal handlers. The first SIGINT, SIGTERM or SIGHUP sets the stop flag. A
+// second one, and every other catchable signal that ends a process, removes unfinished files and
+// ends the process.
 #pragma once
 
 #include <sys/types.h>
@@ -9,17 +10,17 @@
 
 namespace exphoton::cli {
 
-// Once a process; the flag is the process's, like the signals. A signal that is ignored stays so
-// (SIGHUP under nohup). SIGPIPE and SIGXFSZ are ignored: writes fail with an error instead.
+// Installs the handlers. Call it once per process. Ignored signals stay ignored (SIGHUP under
+// nohup). SIGPIPE and SIGXFSZ become ignored, so that writes fail with an error instead.
 void WatchSignals();
 
-// In a forked child: the answers to signals that a new program should begin with.
+// Restores the default handlers and clears the signal mask, in a forked child before exec.
 void RestoreSignals();
 
 const std::atomic<bool>& StopFlag();
-int SignalNumber();  // 0: none came
+int SignalNumber();  // 0: no signal was received
 
-// The process that works for this one; a signal that ends this one ends it first. 0: none.
+// Sets the child process that a signal kills before it ends this process. 0: none.
 void SetWorkingChild(pid_t child);
 
 }  // namespace exphoton::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Error against seconds. Drawn with it: error bars of one standard error, the slope that pure noise
-// has, floors where bias dominates, and where the reference's noise forbids to read anything.
+// Chart plots error against seconds. It also shows error bars of one standard error, the slope of
+// pure noise, the bias of each line, and the range in which the reference is too noisy.
 #include "core/app/report/cost_chart.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ class Chart {
              Coordinate((kTop + kHeight - kBottom) / 2) + ") rotate(-90)\">" + name + "</text>";
   }
 
-  // Below ten times the reference's noise nothing is compared.
+  // Shades the errors below ten times the reference's noise, which are not compared.
   void AddReferenceLimit() {
     if (!analysis_.reference.variance.IsKnown()) return;
     const double limit = analysis_.reference.variance.value / kMaxReferenceShare;
@@ -69,7 +69,7 @@ class Chart {
                      "below: the reference is too noisy to compare", "end", "note");
   }
 
-  // Below all points: error ~ 1 / seconds.
+  // Draws the slope of pure noise, error ~ 1 / seconds, below all points.
   void AddSlope() {
     double product = 1e300;
     for (const SettingResult& setting : analysis_.settings)
@@ -88,7 +88,8 @@ class Chart {
              ")\">pure noise: its root falls with slope −1/2</text>";
   }
 
-  // The least bias of each line, where it is certain (two standard errors).
+  // Draws bias^2 of each line's most accurate setting if it is significant: at least two standard
+  // errors and a tenth of the error.
   void AddFloors() {
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) {
       const auto points = analysis_.Points(analysis_.lines[i]);
@@ -122,7 +123,7 @@ class Chart {
     if (!corners.empty()) ends_.emplace_back(number, corners.back());
   }
 
-  // The line's name at its end, moved where it would lie on another.
+  // Writes the line's name at its end, moved down if it would cover other text or markers.
   void AddName(std::size_t number, Point2d end) {
     constexpr double kHeightOfText = 14, kWidthOfLetter = 9.8;
     const std::string& label = analysis_.lines[number].label;
@@ -179,9 +180,9 @@ class Chart {
   const Analysis& analysis_;
   LogScale x_, y_;
   std::string text_;
-  // Where something stands that a name must not cover, and how wide it is.
+  // Left ends and widths of texts and markers, in SVG units. Names must not cover these.
   std::vector<std::pair<Point2d, double>> taken_;
-  std::vector<std::pair<std::size_t, Point2d>> ends_;  // of the lines, by their numbers
+  std::vector<std::pair<std::size_t, Point2d>> ends_;  // end point of each line, by line number
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The chart of error against seconds, both logarithmic: one line for each label.
+// CostChart draws error against seconds, both logarithmic, with one line per label.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace exphoton::study {
 
-// An <svg> element. Points on the Pareto front of all settings carry the numbers 1, 2 ... of
-// FrontOf.
+// Returns an <svg> element. The points on the Pareto front of all settings are numbered 1, 2 and so
+// on, in the order of FrontOf.
 std::string CostChart(const Results& results, const Analysis& analysis);
 
-// Indices of Analysis::settings on the front of all, by rising seconds.
+// Returns the indices of Analysis::settings on the Pareto front of all, by increasing seconds.
 std::vector<std::size_t> FrontOf(const Analysis& analysis);
 
 }  // namespace exphoton::study

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Choosing the error to speak of, and the words. Nothing is extrapolated: a line that never got
-// there is said to, and no ratio is stated that the reference's noise does not allow.
+// WriteHeadline chooses a target error and composes the sentence. Nothing is extrapolated: the
+// sentence names the lines that do not reach the error. It states no ratio for which the reference
+// is too noisy.
 #include "core/app/report/headline.h"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ std::string Format(const char* format, Args... args) {
 
 using Kind = TimeToError::Kind;
 
-// The finest error that as many lines as possible, at least two, reach by interpolation, and that
-// the reference can tell. With one line: the finest that it reaches.
+// Returns the smallest round error that at least two lines reach by interpolation and that the
+// reference can measure. With a single line, one suffices.
 std::optional<double> ChooseTarget(const Analysis& analysis) {
   const std::size_t wanted = std::min<std::size_t>(2, analysis.lines.size());
   std::optional<double> best;
@@ -90,7 +91,7 @@ std::string Sentence(const Results& results, const Analysis& analysis) {
   return text;
 }
 
-// Where no error can be compared: the least of each line.
+// If no target error was found: states the smallest error of each line.
 std::string WithoutTarget(const Results& results, const Analysis& analysis) {
   std::string text = "On " + results.title + ", no error was reached by two lines";
   if (analysis.targetIsTooFine)
@@ -107,7 +108,7 @@ std::string WithoutTarget(const Results& results, const Analysis& analysis) {
   return text + ".";
 }
 
-// Where every line is one setting: the most efficient ones, relative to the first.
+// If every line is one setting: states the most efficient ones, relative to the first line.
 std::string Efficiencies(const Results& results, const Analysis& analysis) {
   constexpr std::size_t kNamed = 3;
   const std::string& base = analysis.lines.front().label;
@@ -136,7 +137,7 @@ bool HasOnlySingleSettings(const Analysis& analysis) {
                      [](const Line& line) { return line.settings.size() == 1; });
 }
 
-// The least error of any line must be told from the reference's noise.
+// Returns whether the reference is too noisy for even the largest measured error.
 bool IsTooNoisy(const Analysis& analysis) {
   double largest = 0;
   for (const SettingResult& setting : analysis.settings)

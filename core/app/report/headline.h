@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The sentence that a study comes down to: how long each line takes to one error.
+// WriteHeadline sums up a study in a sentence: the time that each line takes to reach one error.
 #pragma once
 
 #include "core/app/analysis/analysis.h"
 
 namespace exphoton::study {
 
-// Chooses the error, finds every line's time to it, and fills target, toTarget and headline.
+// Chooses the error and each line's time to reach it. Fills target, toTarget and headline.
 void WriteHeadline(const Results& results, Analysis* analysis);
 
-// 1 / (error x seconds), as a multiple of another setting's; unknown where the reference is too
-// noisy for either.
+// Returns 1 / (error x seconds) relative to another setting, or unknown if the reference is too
+// noisy for either setting.
 Measured RelativeEfficiency(const Analysis& analysis, const SettingResult& setting,
                             const SettingResult& base);
 
-// "a reference rendered 4 times as long would do", for errors that the reference is too noisy for;
-// empty where it is good enough.
+// Returns a note such as "one rendered 4 times as long would do" if the reference is too noisy for
+// this error, and "" otherwise.
 std::string ShortfallText(const Reference& reference, double error);
 
 }  // namespace exphoton::study

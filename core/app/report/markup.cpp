@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Strings of markup; nothing here knows what a study is.
+// This file writes HTML and SVG text, independent of studies.
 #include "core/app/report/markup.h"
 
 #include <cmath>
@@ -100,7 +100,8 @@ std::string SvgPolyline(const std::vector<Point2d>& points, const std::string& c
 std::string SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                       const std::string& title) {
   const std::string end = "><title>" + Escape(title) + "</title></";
-  const int kind = (shape + shape / kSeriesColors) % kSeriesColors;  // another one in another round
+  // Each round of colours starts with another shape, so lines of the same colour have two shapes.
+  const int kind = (shape + shape / kSeriesColors) % kSeriesColors;
   if (kind == 0)
     return "<circle" + At("cx", "cy", at) + " r=\"" + Coordinate(size) + "\"" + Class(classes) +
            end + "circle>";

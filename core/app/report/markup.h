@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Text of HTML and SVG: escaping, numbers, base64, and the few shapes that charts are drawn with.
-// Colours are classes of the page's style sheet (page_style.cpp), so that they follow light and
-// dark.
+// These functions produce HTML and SVG text: escaping, numbers, base64 and the shapes of the
+// charts. Colours are CSS classes of the page's style sheet (page_style.cpp), so they adapt to
+// light and dark mode.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ namespace exphoton::study {
 std::string Escape(const std::string& text);
 std::string Base64(const std::string& bytes);
 std::string Coordinate(double value);  // at most two decimals
-std::string Percent(double share);     // "12.34%" of 0.1234
+std::string Percent(double share);     // "12.34%" for 0.1234
 
-inline constexpr int kSeriesColors = 6;  // classes c0 ... c5
-inline constexpr int kPhaseColors = 8;   // classes p0 ... p7
+inline constexpr int kSeriesColors = 6;  // CSS classes c0 to c5
+inline constexpr int kPhaseColors = 8;   // CSS classes p0 to p7
 
 struct Point2d {
   double x = 0, y = 0;
@@ -23,19 +23,19 @@ struct Point2d {
 
 std::string SvgLine(Point2d a, Point2d b, const std::string& classes);
 std::string SvgRect(Point2d corner, Point2d size, const std::string& classes);
-// anchor: start, middle or end.
+// `anchor` is start, middle or end.
 std::string SvgText(Point2d at, const std::string& text, const std::string& anchor,
                     const std::string& classes = "");
 std::string SvgPolyline(const std::vector<Point2d>& points, const std::string& classes);
-// A circle, square, triangle, diamond, cross or down triangle, by its number; `title` appears on
-// hover.
+// Draws the marker for a line number: a circle, square, triangle, diamond, pentagon or inverted
+// triangle. `title` appears on hover.
 std::string SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                       const std::string& title);
 
-// A logarithmic scale from data to pixels, with ticks at 1, 2 and 5, or closer.
+// LogScale maps data to pixels logarithmically, with ticks at 1, 2 and 5 per decade, or denser.
 class LogScale {
  public:
-  // Covers [low, high] and some space around it.
+  // Covers [low, high] with a small margin.
   LogScale(double low, double high, double pixelLow, double pixelHigh);
   double operator()(double value) const;
   double Low() const { return low_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Pictures at equal time and at equal error, maps, and the data behind everything.
+// This file makes the sections with pictures at equal time and equal error, maps, and the data.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,9 +15,9 @@
 namespace exphoton::study {
 namespace {
 
-constexpr double kErrorScale = .5;  // relative error of full red or blue
+constexpr double kErrorScale = .5;  // relative error shown as full red or blue
 
-// The setting on a line's front whose time, or error, is nearest to a value.
+// Returns the setting on a line's Pareto front whose `member` is nearest to `value` (log ratio).
 std::size_t Nearest(const Analysis& analysis, const Line& line, double value,
                     Measured CostPoint::*member) {
   std::size_t nearest = line.settings.front();
@@ -31,7 +31,7 @@ std::size_t Nearest(const Analysis& analysis, const Line& line, double value,
   return nearest;
 }
 
-// Pictures of some settings, of the first seed each.
+// Gallery shows settings, each by the picture of its first seed.
 class Gallery {
  public:
   Gallery(const std::string& folder, const Results& results, const Analysis& analysis)
@@ -86,7 +86,7 @@ class Gallery {
   std::vector<std::array<double, 4>> crops_;
 };
 
-// The time at which the headline's fastest line reaches its error, or a middle one.
+// Returns the shortest time in which a line reaches the headline's error, or else the median time.
 double CommonTime(const Analysis& analysis) {
   double time = 1e300;
   for (const Line& line : analysis.lines)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Small pictures, encoded.
+// This file reduces, crops and encodes the report's pictures.
 #include "core/app/report/page_pictures.h"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ std::string Element(const Image& image, float exposure, const std::string& alt, 
          "\" alt=\"" + Escape(alt) + "\"" + (isPixelated ? " class=\"pixels\"" : "") + ">";
 }
 
-// From dark violet over green to yellow, close to equal steps of lightness (after "viridis" by
-// van der Walt and Smith); sRGB, linear between anchors.
+// Maps [0, 1] to colours from dark violet over green to yellow, in nearly equal steps of lightness
+// (after "viridis" by van der Walt and Smith). Values are sRGB, linear between anchors.
 std::array<double, 3> FalseColor(double t) {
   constexpr std::array<std::array<double, 3>, 6> kAnchors = {{{.267, .005, .329},
                                                               {.254, .265, .530},
@@ -39,7 +39,7 @@ std::array<double, 3> FalseColor(double t) {
   return color;
 }
 
-// The inverse of PNG's encoding, so that false colours arrive as they are.
+// Inverts the sRGB encoding that EncodePng applies, so that false colours are kept.
 float Decode(double v) {
   return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Pictures of the page as <img> elements with their data inside.
+// PictureElement and MapElement return pictures of the report as <img> elements with embedded data.
 #pragma once
 
 #include <array>
@@ -9,20 +9,21 @@
 
 namespace exphoton::study {
 
-// Averages blocks of pixels until the picture is at most this wide; not finite ones become 0.
+// Averages blocks of pixels until the picture is at most this wide. Non-finite values count as 0.
 Image Shrink(const Image& image, int maxWidth);
-// Fractions x0 x1 y0 y1 of the picture; at least one pixel.
+// Crops to fractions x0 x1 y0 y1 of the picture, at least one pixel.
 Image CropOf(const Image& image, const std::array<double, 4>& fractions);
 
-// `scale`: what values are multiplied by. alt: for people who cannot see it.
+// `scale` multiplies all values. `alt` is the text alternative of the picture.
 std::string PictureElement(const Image& image, double scale, const std::string& alt,
                            bool isPixelated);
 
-// One channel in false colours, on a logarithmic scale from the 1st to the 99th percentile, with
-// its legend. Values that are not above 0 are grey.
+// Shows one channel in false colours with a legend. The scale is logarithmic, from the 1st to the
+// 99th percentile. Values that are not positive are grey.
 std::string MapElement(const Image& image, const std::string& channel, const std::string& unit);
 
-// The quarter-width window in which |a - b| / (b + mean) is largest.
+// Returns the window (a quarter of width and height, as fractions) with the largest sum of relMSE
+// terms, each at most 1.
 std::array<double, 4> WorstWindow(const Image& image, const Image& reference);
 
 }  // namespace exphoton::study

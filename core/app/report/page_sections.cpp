@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Headline, curves, bars, prices and data. Pictures are in page_gallery.cpp.
+// This file makes the headline, curves, bars and price list. Pictures are in page_gallery.cpp.
 #include "core/app/report/page_sections.h"
 
 #include <algorithm>
@@ -47,13 +47,13 @@ std::string ReferenceFacts(const Results& results, const Analysis& analysis) {
   return facts;
 }
 
-// A file with its folder: enough to tell it from others; the whole path stands with the commands.
+// Returns the file name with its parent folder. The report's commands show the full path.
 std::string FileInFolder(const std::string& path) {
   const std::filesystem::path file(path);
   return (file.parent_path().filename() / file.filename()).string();
 }
 
-// What a reader must know of a reference that shows another scene file.
+// Explains a reference that was rendered from another scene file.
 std::string ReferenceNote(const Results& results) {
   const ReferenceRecord& r = results.reference;
   if (r.scene.empty() || r.scene == results.scene || r.sceneHash == results.sceneHash) return "";
@@ -71,7 +71,7 @@ std::size_t LineNumber(const Analysis& analysis, const std::string& label) {
 }
 
 struct Bar {
-  double share;  // of the full width
+  double share;  // fraction of the full width
   std::string classes, title;
 };
 
@@ -93,7 +93,8 @@ std::string BarCell(const std::vector<Bar>& bars) {
   return text + "</svg></td>";
 }
 
-// Long bars are cut there, so that short ones can be told apart.
+// Returns the value at which bars are cut, at most four times the median, so that short bars remain
+// distinguishable.
 double FullWidth(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(),
                               [](double v) { return !std::isfinite(v) || v <= 0; }),
@@ -103,7 +104,7 @@ double FullWidth(std::vector<double> values) {
   return std::min(values.back(), 4 * values[values.size() / 2]);
 }
 
-// Phases by name, those of a render in their order; each has a colour.
+// Returns the names of all phases, in the order of a render. Each phase has a colour.
 std::vector<std::string> PhaseNames(const Analysis& analysis) {
   std::vector<std::string> names{"parse",    "accelerator", "shoot", "kd-trees",
                                  "radiance", "render",      "write"};
@@ -144,7 +145,7 @@ std::string BarRow(const Analysis& analysis, const SettingResult& setting, const
              Cell(worth.IsKnown() ? ShortNumber(worth.value) + "×" : "–"));
 }
 
-// Of a line the cheapest setting that is accurate enough; null where there is none.
+// Returns the line's cheapest setting with at most the target error, or null if there is none.
 const SettingResult* CheapestOf(const Analysis& analysis, const Line& line, double target) {
   const SettingResult* best = nullptr;
   for (const std::size_t s : line.settings) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The page's style sheet. Series colours follow Okabe and Ito's palette for all kinds of sight;
-// each series has a marker of its own too.
+// PageStyle returns the style sheet of the report. The series colours follow Okabe and Ito's
+// palette for colour-blind readers. Each series also has a distinct marker.
 #include "core/app/report/page_sections.h"
 
 namespace exphoton::study {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The page as a whole.
+// MakeReport assembles the report's sections into one HTML page.
 #include "core/app/report/report.h"
 
 #include "core/app/report/markup.h"

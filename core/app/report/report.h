@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The page of a study and the sentence that sums it up.
+// MakeReport makes the HTML page of a study.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace exphoton::study {
 
-// report.html: everything inside, no network, no script.
+// Returns the text of report.html, which is self-contained: no network access and no scripts.
 std::string MakeReport(const std::string& folder, const Results& results, const Analysis& analysis);
 
 }  // namespace exphoton::study

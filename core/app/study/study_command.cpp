@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A study from its options to its page: reference, runs, measurements, files.
+// RunStudy runs a whole study: reference, renders, measurements and result files.
 #include "core/app/study/study_command.h"
 
 #include <filesystem>
@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "skylight-room" for .../skylight-room/exphotonmap.pbrt: variants of a scene share a folder.
+// Returns "skylight-room" for .../skylight-room/exphotonmap.pbrt: variants of a scene share a
+// folder.
 std::string TitleOf(const StudyOptions& options) {
   if (!options.title.empty()) return options.title;
   const fs::path scene = fs::absolute(options.scene);
@@ -53,7 +54,7 @@ study::Results Describe(const StudyOptions& options, const SceneFacts& scene,
   return results;
 }
 
-// One more render, of the first setting with photon maps, that shows where time and photons are.
+// Renders AOVs of time and photon density with the first exphotonmap setting, or the first setting.
 std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
                                        const std::vector<study::Setting>& settings,
                                        StudyRunner& runner) {
@@ -65,7 +66,7 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
   if (!chosen) return {};
   study::Setting setting = *chosen;
   std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
-  // Photons have maps only in some integrators, and with some of their switches.
+  // Only some integrators, with some parameters, provide AOVs of photons.
   study::RunRow row;
   for (const char* aovs : {"time,photondensity,radiancedistance", "time,photondensity", "time"}) {
     try {
@@ -82,7 +83,7 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
            "Distance from gather hits to the radiance photon used" + of, "units of length"}};
 }
 
-// Reads pictures, measures, and writes every file that is made from them.
+// Measures the pictures and writes all result files.
 void WriteResults(StudyFolder& folder, study::Results* results) {
   const std::string& path = folder.Path();
   study::MeasureRuns(path, results);
@@ -94,7 +95,7 @@ void WriteResults(StudyFolder& folder, study::Results* results) {
   PrintOut(analysis.headline + "\n" + path + "/report.html\n");
 }
 
-// Before hours of rendering: it must have the size of what is rendered, and R, G and B.
+// Checks the reference before hours of rendering: it needs the size of the renders, and R, G and B.
 void CheckReference(const StudyOptions& options, const SceneFacts& scene,
                     const study::ReferenceRecord& reference) {
   for (const std::string& name : {reference.a, reference.b}) {
@@ -118,7 +119,8 @@ std::string PlanText(const StudyOptions& options, const std::vector<study::Setti
   return text;
 }
 
-// Before hours of rendering: the results must not be what the study reads, nor somebody else's.
+// Checks before hours of rendering that the result files overwrite neither inputs nor foreign
+// files.
 void ClaimResults(const StudyOptions& options, const SceneFacts& scene, StudyFolder& folder) {
   RunFiles files;
   for (const std::string& input : options.inputFiles) files.AddInput(input, "the study");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// `exphoton study` and `exphoton report`. `arguments` without the program's and the command's name;
-// the result is the exit status.
+// RunStudy and RunReport implement `exphoton study` and `exphoton report`. `arguments` exclude the
+// names of the program and the command. The functions return the exit status.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace exphoton::cli {
 
-// commandLine: as it was typed.
+// `commandLine` is the full command as typed.
 int RunStudy(const std::vector<std::string>& arguments, const std::string& commandLine);
 int RunReport(const std::vector<std::string>& arguments);
 

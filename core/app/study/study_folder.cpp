@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The list is locked while a study runs, and a file is listed before it is written: a study that is
-// killed in between leaves a name too many there, and no file too few.
+// StudyFolder locks its file list while a study runs. A file is listed before it is written. If a
+// study is killed in between, the list has a name without a file, but no file is missing from the
+// list.
 #include "core/app/study/study_folder.h"
 
 #include <fcntl.h>
@@ -34,7 +35,7 @@ constexpr const char* kFormat = "exphoton study 1";
 }
 [[noreturn]] void FailBySystem(const std::string& path) { Fail(path, std::strerror(errno)); }
 
-// A folder that is no link, made if need be.
+// Opens a folder that is not a link, and makes it if necessary.
 std::unique_ptr<Descriptor> OpenOwnFolder(int parent, const char* name, const std::string& path) {
   if (mkdirat(parent, name, 0777) != 0 && errno != EEXIST) FailBySystem(path);
   constexpr int kFlags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
@@ -66,7 +67,7 @@ StudyFolder::~StudyFolder() {
   if (own_) unlinkat(own_->Get(), "running", AT_REMOVEDIR);
 }
 
-// Studies of earlier versions have no list, but results that say what they are.
+// Studies of earlier versions have no file list, but a valid results.json.
 void StudyFolder::CheckIsAStudy() {
   if (!HoldsAnything(path_)) return;
   try {

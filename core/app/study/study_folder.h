@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// StudyFolder: the folder of a study's results. It keeps a list of what studies have written there
-// and never touches anything else. Unfinished files lie in a folder of their own.
+// StudyFolder manages the folder of a study's results. It keeps a list of the files that studies
+// have written there and never changes other files. Unfinished files are kept in a subfolder.
 //
 //   DIR/.exphoton-study/files.txt   first line: format; then each written file, relative to DIR
-//   DIR/.exphoton-study/running/    of the render under way; emptied at the start and the end
+//   DIR/.exphoton-study/running/    files of the current render; emptied at the start and the end
 #pragma once
 
 #include <memory>
@@ -15,27 +15,27 @@
 
 namespace exphoton::cli {
 
-// What is made from all renders, at the top of the folder.
+// kStudyResults names the files computed from all renders, at the top of the folder.
 inline constexpr const char* kStudyResults[] = {"results.json", "results.csv", "summary.csv",
                                                 "report.html"};
 
 class StudyFolder {
  public:
-  // Makes the folder or goes on in one that a study has made, alone: another process may not use it
-  // at the same time. Throws Error(File) for a folder that holds other things.
+  // Makes the folder, or continues in the folder of an earlier study. Locks the folder against
+  // other processes. Throws Error(File) if the folder is in use or holds files of other origin.
   explicit StudyFolder(const std::string& path);
   ~StudyFolder();
 
   const std::string& Path() const { return path_; }
 
-  // The path of DIR/NAME, which is about to be written. Throws Error(File) where something is there
-  // that no study has written, or a link that leads out of the folder.
+  // Returns the path of DIR/NAME and adds it to the list, before the file is written. Throws
+  // Error(File) if no study has written an existing file, or if a link leads out of the folder.
   std::string Claim(const std::string& name);
 
   // Removes DIR/NAME if a study has written it.
   void Remove(const std::string& name) const;
 
-  // A path for an unfinished file.
+  // Returns a path for an unfinished file.
   std::string Running(const std::string& name) const;
   void RemoveRunning() const;
 

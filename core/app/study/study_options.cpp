@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The options, declared to CLI11, and study files turned into arguments.
+// ParseStudyOptions declares the options and converts study files to arguments.
 #include "core/app/study/study_options.h"
 
 #include <algorithm>
@@ -29,17 +29,17 @@ struct RawOptions {
 
 bool IsStudyFile(const std::string& path) { return fs::path(path).extension() == ".study"; }
 
-// Options of a study file whose values are paths.
+// Returns whether the value of this study-file option is a path.
 bool NamesAFile(const std::string& option) {
   return option == "scene" || option == "reference" || option == "reference-scene";
 }
 
-// Options of this study file, in messages.
+// Returns the prefix of messages about a line of a study file.
 std::string PlaceIn(const std::string& path, int line) {
   return path + ":" + std::to_string(line) + ": ";
 }
 
-// A study file may come from anybody, so these are the user's alone.
+// Refuses options that only the user may give, because study files can come from untrusted sources.
 void CheckIsTheirs(const std::string& name, const std::string& value, const std::string& place) {
   const bool isTheirs = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
   if (isTheirs) return;
@@ -49,7 +49,7 @@ void CheckIsTheirs(const std::string& name, const std::string& value, const std:
                   (value.empty() ? "" : " " + CommandLineText({value})));
 }
 
-// It may only add a folder, or go on in a study's, near the working folder or the study file.
+// A study file may only name a folder inside the working folder or inside its own folder.
 void CheckFolder(const std::string& folder, const std::string& file, const std::string& place) {
   if (LiesIn(folder, ".") || LiesIn(folder, FolderOf(file))) return;
   throw Error(ExitStatus::File,
@@ -214,7 +214,7 @@ void Check(const StudyOptions& options) {
   if (!options.cropWindow.empty()) ParseCropWindow(options.cropWindow);
 }
 
-// A study reads its files more than once, so none can be a pipe.
+// A study reads its input files more than once, so none of them can be a pipe.
 void TakeInputFiles(StudyOptions* options) {
   std::vector<std::string> files{options->scene};
   files.insert(files.end(), options->references.begin(), options->references.end());
@@ -242,7 +242,7 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   AddWhat(app, options, raw);
   AddReference(app, options, raw);
   AddRender(app, options, raw);
-  // A study file's options come first, whichever place it has.
+  // Options of study files come first, so that the command line overrides them.
   std::vector<std::string> arguments, rest;
   for (const std::string& argument : given) {
     const bool isFile = IsStudyFile(argument) && argument[0] != '-';

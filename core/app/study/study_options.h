@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the command line of `exphoton study`, or a study file, says. A study file (NAME.study) holds
-// options, one a line, without the dashes: "seeds 4". Its paths count from its own folder. The
-// command line comes after it and wins.
+// StudyOptions holds the options of `exphoton study`, from the command line or a study file. A
+// study file (NAME.study) has one option per line, without dashes: "seeds 4". Its paths are
+// relative to its own folder. The command line takes precedence.
 #pragma once
 
 #include <string>
@@ -21,21 +21,21 @@ struct StudyOptions {
   std::string limits;                   // of every render
   std::vector<std::string> inputFiles;  // study files, scenes and references
   std::string cropWindow;               // of every render
-  std::int64_t footprintSamples = 16;   // of every render, so that all show the same picture
-  std::vector<std::string> crops;       // parts shown larger on the page: "x0,x1,y0,y1"
+  std::int64_t footprintSamples = 16;   // equal in every render, so that all show the same picture
+  std::vector<std::string> crops;       // parts enlarged in the report: "x0,x1,y0,y1"
   std::vector<std::string> references;  // none, one, or two halves
   std::string makeReference;            // a setting, for example "path maxdepth=100"; "": none
-  std::string referenceScene;           // another file that shows the same; "": the scene
+  std::string referenceScene;           // another file with the same picture; "": the scene
   double referenceSeconds = 30 * 60;
   std::string clock = "cpu";
   std::vector<double> targets{.1, .03, .01, .003};
   bool makesMaps = true;
   bool isQuiet = false;
-  bool onlyPlans = false;  // print the renders instead of doing them
+  bool onlyPlans = false;  // print the planned renders and stop
   std::string commandLine;
 };
 
-// Throws Error(CommandLine), Error(File), TextRequest.
+// Throws Error(CommandLine), Error(File) and TextRequest.
 StudyOptions ParseStudyOptions(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The reference of a study: two halves with independent random numbers, rendered in rounds, each
-// round averaged into its half by its number of samples. reference/state.txt says what is done; it
-// changes last, so that an interrupted reference goes on with its last whole round.
+// PrepareReference renders the reference of a study as two halves with independent random numbers.
+// Each round is averaged into its half, weighted by sample counts. reference/state.txt records the
+// progress. It is written last, so an interrupted reference continues after its last complete
+// round.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kState = "reference/state.txt";
-constexpr int kRounds = 8;  // about so many after the first
+constexpr int kRounds = 8;  // approximate number of rounds after the first
 
 struct State {
   std::string key;
@@ -43,7 +44,7 @@ State ReadState(const std::string& path) {
   return text ? state : State();
 }
 
-// (old n + new m) / (n + m), value by value.
+// Returns (n old + m added) / (n + m) for each value.
 Image Average(const Image& old, double n, const Image& added, double m) {
   Image mean = added;
   for (std::size_t i = 0; i < mean.pixels.size(); ++i)
@@ -78,7 +79,8 @@ class ReferenceMaker {
   }
 
  private:
-  // Within the study's folder. Names change with every round: what the state names is whole.
+  // Returns a path relative to the study folder. Every round writes new files, so the files of the
+  // recorded round are always complete.
   std::string Half(char which, int round) const {
     return std::string("reference/half-") + which + "-" + std::to_string(round) + ".exr";
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One process after the other. A run's picture gets its name first and its row last: a row without
-// a picture cannot be, and a picture without a row is rendered again.
+// StudyRunner runs one render at a time. The picture is moved into place before its row is written.
+// A row thus always has a picture, and a picture without a row is rendered again.
 #include "core/app/study/study_runner.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void Rename(const std::string& from, const std::string& to) {
   if (error) throw Error(ExitStatus::File, "cannot write \"" + to + "\": " + error.message());
 }
 
-// Mean seconds of the runs of each setting, for the time that remains.
+// Forecast keeps the mean seconds of each setting's runs, to estimate the remaining time.
 class Forecast {
  public:
   void Add(std::size_t setting, double seconds) {
@@ -46,7 +46,7 @@ class Forecast {
     total_ += seconds;
     ++count_;
   }
-  // Of a setting that was not seen: the mean of all.
+  // Returns the mean over all runs for a setting without runs.
   double Of(std::size_t setting) const {
     const auto found = means_.find(setting);
     if (found != means_.end()) return found->second.first / found->second.second;
@@ -96,7 +96,8 @@ RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
 
 std::string StudyRunner::KeyOf(const std::vector<std::string>& arguments) const {
   std::string text = program_.fingerprint + "|" + program_.processor + "|" + scene_.hash;
-  for (std::size_t i = 2; i < arguments.size(); ++i) text += "|" + arguments[i];  // not the file
+  // Skip "render" and the scene's path; scene_.hash identifies the scene.
+  for (std::size_t i = 2; i < arguments.size(); ++i) text += "|" + arguments[i];
   return HashOfText(text);
 }
 
@@ -115,7 +116,7 @@ bool StudyRunner::FindDone(const std::string& name, const std::string& key,
     const Image image = ReadExr(base + ".exr");
     return row->key == key && image.Width() == scene_.width && image.Height() == scene_.height;
   } catch (const std::exception&) {
-    return false;  // damaged: rendered again
+    return false;  // damaged: render again
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// StudyRunner: renders of a study, each in a process of its own, so that none disturbs another. A
-// picture and its row (images/NAME.exr, NAME.json) stand for a run that is done, under a name made
-// from all that it depends on; such a run is not repeated.
+// StudyRunner renders the runs of a study, each in a separate process for independent measurements.
+// A finished run consists of a picture and a row (images/NAME.exr, NAME.json). NAME contains a hash
+// of everything that the run depends on. A finished run is not repeated.
 #pragma once
 
 #include "core/app/analysis/results.h"
@@ -11,12 +11,12 @@
 
 namespace exphoton::cli {
 
-// Thrown where the user stopped the study; everything that is done stays.
+// Thrown if the user stopped the study. Finished runs are kept.
 struct StudyInterrupted {};
 
-// What one process did.
+// RenderedPicture is the result of one child process.
 struct RenderedPicture {
-  study::RunRow row;  // image and key empty
+  study::RunRow row;  // without image and key
   std::string path;   // of the picture; the caller moves it
 };
 
@@ -31,15 +31,16 @@ class StudyRunner {
 
   StudyFolder& Folder() { return folder_; }
 
-  // All runs of all settings, seed by seed, so that an interrupted study is balanced.
+  // Runs all settings, seed by seed, so that an interrupted study has about equally many runs of
+  // each.
   std::vector<study::RunRow> RunAll(const std::vector<study::Setting>& settings);
 
-  // One run, done or found; its row's setting is 0.
+  // Returns a run, rendered or found in the folder. The row's setting is 0.
   study::RunRow RunOne(const study::Setting& setting, std::uint64_t seed,
                        const std::vector<std::string>& extra = {});
 
-  // Renders without looking for what is done. Throws StudyInterrupted, or Error with what the
-  // process said.
+  // Renders even if the folder has the run. Throws StudyInterrupted, or Error with the messages of
+  // the child process.
   RenderedPicture Render(const std::vector<std::string>& arguments);
 
  private:
@@ -48,7 +49,7 @@ class StudyRunner {
     std::uint64_t seed;
   };
   std::string KeyOf(const std::vector<std::string>& arguments) const;
-  // False where there is no such run, or its picture cannot be read.
+  // Returns false if there is no such run or its files cannot be read.
   bool FindDone(const std::string& name, const std::string& key, study::RunRow* row) const;
   std::string NameOf(const study::Setting& setting, std::uint64_t seed,
                      const std::string& key) const;
@@ -57,12 +58,13 @@ class StudyRunner {
   StudyFolder& folder_;
   SceneFacts scene_;
   ProgramFacts program_;
-  bool wasFound_ = false;  // the last run was not rendered
+  bool wasFound_ = false;  // the last run was found, not rendered
 };
 
-// The reference that the options ask for, rendered or named; empty where none is asked for.
+// Returns the reference that the options request, rendered or given, or an empty record if there is
+// none.
 study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner& runner);
 
-void Say(const StudyOptions& options, const std::string& text);  // unless quiet
+void Say(const StudyOptions& options, const std::string& text);  // to standard error, unless quiet
 
 }  // namespace exphoton::cli

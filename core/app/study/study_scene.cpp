@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Scenes are loaded once, in this process, only to be looked at; the hash is FNV-1a, which tells
-// files apart and is no protection against malice.
+// ExamineScene loads a scene in this process only to inspect it. Hashes are FNV-1a, which
+// distinguishes files but is not cryptographic.
 #include "core/app/study/study_scene.h"
 
 #include <sys/utsname.h>
@@ -66,7 +66,7 @@ std::string ProcessorName() {
   return "unknown processor";
 }
 
-// Asks the plugins' own declarations.
+// Looks up parameters in the declarations of the plugins.
 class PluginOracle final : public study::ParameterOracle {
  public:
   explicit PluginOracle(const StudyOptions& options)

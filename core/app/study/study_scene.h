@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What a study must know of a scene and of this program before it renders: sizes, hashes, and which
-// integrator has which parameter.
+// SceneFacts and ProgramFacts hold the sizes and hashes that a study needs before rendering.
+// PlanSettings checks the settings against the parameters of each integrator.
 #pragma once
 
 #include <string>
@@ -10,31 +10,30 @@
 namespace exphoton::cli {
 
 struct SceneFacts {
-  int width = 0, height = 0;            // of the part that is rendered
-  std::string hash;                     // of everything that the scene's files say
-  std::vector<std::string> inputFiles;  // that it reads
+  int width = 0, height = 0;            // of the rendered part
+  std::string hash;                     // of the directives and all input files
+  std::vector<std::string> inputFiles;  // files that the scene reads
 };
-// Reads the scene. Throws Error.
+// Loads the scene. Throws Error.
 SceneFacts ExamineScene(const std::string& path, const StudyOptions& options);
 
 struct ProgramFacts {
   std::string version, fingerprint, processor, system;
   int cores = 0;
 };
-// The fingerprint is that of the program's file, its library and its plugins.
+// The fingerprint is a hash of the program, its library and its plugins.
 ProgramFacts ExamineProgram(const StudyOptions& options);
 
 std::string HashOfText(const std::string& text);    // 16 hexadecimal digits
-std::string ReadTextFile(const std::string& path);  // empty where it cannot be read
+std::string ReadTextFile(const std::string& path);  // empty if the file cannot be read
 
-// The settings of the plan, checked: integrators exist, numbers of --setting too. Throws Error.
+// Expands the plan. Throws Error for an unknown integrator or parameter.
 std::vector<study::Setting> PlanSettings(const StudyOptions& options);
 
-// The arguments of `exphoton render` that render this scene with this setting and seed, without
-// those that say where to.
+// Returns the arguments of `exphoton render` for a scene, setting and seed, without output options.
 std::vector<std::string> RenderArguments(const StudyOptions& options, const std::string& scene,
                                          const study::Setting& setting, std::uint64_t seed);
-// "exphoton render ..." as a shell takes it.
+// Returns "exphoton render ..." quoted for a shell.
 std::string CommandText(const std::vector<std::string>& arguments);
 
 }  // namespace exphoton::cli

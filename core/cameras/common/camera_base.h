@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the camera plugins share: their parameters, the film's window and the way from a ray in
-// camera space to one in world space with neighbours. Camera space is left-handed: x to the right,
-// y up, the view along +z.
+// CameraBase is the shared part of the camera plugins: their parameters, the film's window and the
+// conversion of camera-space rays to world-space rays with neighbours. Camera space is left-handed:
+// x to the right, y up, the view along +z.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ inline const ParamTable<CameraSettings>& CameraParameters() {
   return table;
 }
 
-// A ray in camera space; only the part with start <= t <= end is seen.
+// CameraSpaceRay is a ray in camera space. Only the part with start <= t <= end is seen.
 struct CameraSpaceRay {
   Point3 o;
   Vector3 d;  // unit
@@ -92,15 +92,15 @@ class CameraBase : public Camera {
  protected:
   virtual CameraSpaceRay Generate(Point2 film, Point2 lens) const = 0;
 
-  // Film to the screen: x to the right, y up; the film's y runs down.
+  // Maps the film to the screen, where x runs to the right and y up. The film's y runs down.
   std::array<double, 2> Screen(Point2 film) const {
     const auto& [x0, x1, y0, y1] = window_;
     return {x0 + (x1 - x0) * (double(film.x) / xResolution_),
             y1 - (y1 - y0) * (double(film.y) / yResolution_)};
   }
 
-  // The ray through the thin lens at `point` (z = 0) that meets the ray without a lens, of
-  // direction (slopeX, slopeY, 1), in the plane that is sharp. Clipped at the planes of hither and
+  // Returns a ray through the thin lens at `point` (z = 0). It meets the ray without a lens, of
+  // direction (slopeX, slopeY, 1), in the plane of focus. It is clipped at the planes of hither and
   // yon.
   CameraSpaceRay ThinLensRay(const Point3& point, double slopeX, double slopeY, Point2 lens) const {
     CameraSpaceRay ray{point, {}, 0, 0};
@@ -117,7 +117,7 @@ class CameraBase : public Camera {
     return ray;
   }
 
-  // Rows of a projective matrix that take the window to [-1,1]^2 and hither..yon to 0..1.
+  // Returns a projective matrix that maps the window to [-1,1]^2 and hither..yon to 0..1.
   Matrix4 WindowMatrix(double scale, bool isPerspective) const {
     const auto& [x0, x1, y0, y1] = window_;
     const double hither = settings_.hither, depth = double(settings_.yon) - hither;
@@ -152,7 +152,7 @@ class CameraBase : public Camera {
     ray.yOrigin = y.o, ray.yDirection = y.d;
     return ray;
   }
-  // A camera may be scaled: the direction becomes a unit one again, distances grow with it.
+  // A camera may be scaled. The direction is then normalised again, and tMax grows with the scale.
   static Ray ToWorld(const Transform& toWorld, const CameraSpaceRay& local) {
     Ray ray;
     ray.o = toWorld.ApplyPoint(local.o + local.d * local.start);
@@ -164,7 +164,7 @@ class CameraBase : public Camera {
 
   CameraSettings settings_;
   AnimatedTransform motion_;
-  Transform cameraToWorld_;  // as the shutter opens
+  Transform cameraToWorld_;  // when the shutter opens
   int xResolution_, yResolution_;
   std::array<double, 4> window_;  // x0 x1 y0 y1
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Writing OpenEXR by the library's C++ interface. Aovs are channel names with a dot, as usual.
-// Reading is in exr_read.cpp.
+// WriteExr: writes OpenEXR files by the library's C++ interface. AOVs are channels with a dot in
+// the name, as is customary. exr_read.cpp reads OpenEXR files.
 #include "core/imaging/files/exr.h"
 
 #include <IexErrnoExc.h>
@@ -34,10 +34,10 @@ constexpr int kLinesPerBlock = 16;  // of ZIP compression
 
 Imath::Box2i ToBox(const PixelBounds& b) { return {{b.x0, b.y0}, {b.x1 - 1, b.y1 - 1}}; }
 
-// The library writes through this; errors leave it as exceptions. In the end it goes back to write
-// the table of where blocks of lines are, eight bytes each: 0 for a block that there is not. It
-// (3.1) takes lines that it could not compress for want of memory for lines yet to come, and ends
-// without them and without an error.
+// The library writes through this stream, and errors leave it as exceptions. At the end, the
+// library seeks back and writes the table of line block offsets. An entry has eight bytes; 0 marks
+// a missing block. OpenEXR 3.1 treats lines that it could not compress for lack of memory as not
+// yet written, and closes the file without them and without an error.
 class FileStream final : public Imf::OStream {
  public:
   FileStream(AtomicFile* file, bool* isComplete, const std::string& path)
@@ -89,7 +89,7 @@ Imf::Header MakeHeader(const Image& image, bool asHalf) {
   return header;
 }
 
-// A frame buffer for the lines from y on, whose interleaved values begin at `values`.
+// Returns a frame buffer for the lines from y on. Their interleaved values begin at `values`.
 template <class T>
 Imf::FrameBuffer MakeFrameBuffer(const Image& image, T* values, int y, int lines) {
   Imf::FrameBuffer buffer;
@@ -104,14 +104,14 @@ Imf::FrameBuffer MakeFrameBuffer(const Image& image, T* values, int y, int lines
 }
 
 half ToHalf(float value, long long* clamped) {
-  if (std::abs(value) > kLargestHalf) {  // false for NaN, which stays what it is
+  if (std::abs(value) > kLargestHalf) {  // false for NaN, which is kept
     ++*clamped;
     value = std::copysign(kLargestHalf, value);
   }
   return half(value);
 }
 
-// A block of lines at a time, so that the halves need little memory.
+// Converts one block of lines at a time, so that the half values need little memory.
 long long WriteHalves(const Image& image, Imf::OutputFile* out) {
   const std::size_t lineValues = std::size_t(image.Width()) * image.channels.size();
   std::vector<half> block(lineValues * kLinesPerBlock);
@@ -149,14 +149,14 @@ ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf
         out.setFrameBuffer(MakeFrameBuffer(image, pixels, image.data.y0, image.Height()));
         out.writePixels(image.Height());
       }
-    }  // here the table of line offsets is written
+    }  // the destructor writes the table of line offsets
     if (!isComplete) throw std::bad_alloc();
     file.Commit();
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const Iex::EnomemExc&) {  // of the operating system's ENOMEM, as a file is opened
+  } catch (const Iex::EnomemExc&) {  // ENOMEM of the operating system while opening a file
     throw std::bad_alloc();
   } catch (const std::exception& error) {
     throw Error(ExitStatus::File, "cannot write \"" + path + "\": " + error.what());

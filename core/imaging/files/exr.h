@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// OpenEXR in and out: scanline RGBA and layers, half or float, ZIP.
+// OpenEXR input and output: scanline RGBA and AOVs, half or float, ZIP compression.
 #pragma once
 
 #include <string>
@@ -9,19 +9,21 @@
 namespace exphoton {
 
 struct ExrWriteReport {
-  long long clampedToHalf = 0;  // values beyond +-65504 written as +-65504
+  long long clampedToHalf = 0;  // values beyond +-65504, written as +-65504
 };
 
-// Writes to a temporary file beside `path`, then renames it there: an error leaves an older file
-// untouched and no temporary behind. Throws Error(File).
+// Writes to a temporary file beside `path` and renames it to `path` at the end. An error leaves an
+// older file untouched and no temporary file behind. Throws Error(File).
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf);
 Image ReadExr(const std::string& path);  // throws ImageError
 
-// The attribute "software" of a file's first header; "" where it has none, or is no EXR file.
+// Returns the attribute "software" of the file's first header. Returns "" if it is missing or if
+// the file is not an EXR file.
 std::string ExrSoftware(const std::string& path);
 
-// OpenEXR makes its pool of threads when it first has work for it; were there no memory for that,
-// it would wait for ever for the work that it could not hand over. To be called before it has any.
+// Creates OpenEXR's thread pool, which the library otherwise creates at its first use. If memory is
+// exhausted at that time, the library waits forever for work that it could not start. Must be
+// called before the library's first use of threads.
 void MakeTheLibrarysThreadPool();
 
 }  // namespace exphoton

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Reading OpenEXR: scanlines or tiles, any number of channels of any type, as float. Of a file with
-// several parts, the first. Deep and subsampled data are refused. Sizes are checked on the header
-// alone, before anything of the picture's size is allocated.
+// ReadExr: reads scanline and tiled OpenEXR files with any number of channels of any type, as
+// float. It reads the first part of a multi-part file. It refuses deep and subsampled data. Sizes
+// are checked on the header alone, before any allocation in proportion to the picture.
 #include <IexErrnoExc.h>
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
@@ -47,7 +47,8 @@ Window CheckWindow(const Imath::Box2i& box) {
   return {{box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}, width * height};
 }
 
-// R, G, B, A first, in this order; others as the file has them (sorted).
+// Returns R, G, B, A first, in this order. The other channels follow in the order of the file,
+// which is sorted.
 std::vector<std::string> ChannelNames(const Imf::ChannelList& list) {
   std::vector<std::string> names;
   for (const char* name : {"R", "G", "B", "A"})
@@ -74,7 +75,7 @@ Image DescribeImage(const Imf::Header& header) {
   return image;
 }
 
-// Reads the first header by itself and leaves the stream at its beginning.
+// Reads the first header alone and rewinds the stream.
 Image CheckHeader(Imf::IStream* stream) {
   char bytes[8];
   stream->read(bytes, 8);
@@ -92,7 +93,7 @@ std::map<std::string, ImageAttribute> ReadAttributes(const Imf::Header& header) 
   std::map<std::string, ImageAttribute> attributes;
   for (auto entry = header.begin(); entry != header.end(); ++entry) {
     const std::string name = entry.name();
-    if (name == "pixelAspectRatio" || name == "screenWindowWidth") continue;  // of every file
+    if (name == "pixelAspectRatio" || name == "screenWindowWidth") continue;  // in every file
     const Imf::Attribute& value = entry.attribute();
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&value)) {
       attributes[name] = text->value();
@@ -108,7 +109,7 @@ std::map<std::string, ImageAttribute> ReadAttributes(const Imf::Header& header) 
   return attributes;
 }
 
-// A luminance picture becomes R, G, B.
+// Converts a luminance picture to R, G, B.
 Image ExpandLuminance(const Image& image) {
   std::vector<std::string> names = {"R", "G", "B"};
   const int alpha = image.FindChannel("A");

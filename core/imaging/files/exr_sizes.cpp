@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A header is a list of attributes: name, type (each ended by a zero byte), size, value; an empty
-// name ends it. A file of several parts has several headers, ended by an empty one (the OpenEXR
-// file layout, openexr.com).
+// Walks the headers of an OpenEXR file. A header is a list of attributes: name and type (both
+// zero-terminated), size, value. An empty name ends the list. A multi-part file has several
+// headers, and an empty header ends them. Source: the OpenEXR file layout, openexr.com.
 #include "core/imaging/files/exr_sizes.h"
 
 #include <array>
@@ -18,11 +18,12 @@ constexpr std::size_t kLongestName = 255;
 constexpr std::uint32_t kMagic = 20000630;
 constexpr unsigned kMultiPartFlag = 0x1000;
 
-// Deflate makes at most 1032 bytes of one; the lossy methods drop whole blocks besides.
+// Deflate expands a byte to at most 1032 bytes. The lossy methods also drop whole blocks.
 constexpr double kMostInflation = 65536;
 constexpr double kAlwaysFine = 1 << 26;
 
-// Types of one size. The library reads as many bytes as these have, whatever size is given.
+// Attribute types of fixed size. The library reads this number of bytes, whatever size the file
+// states.
 struct FixedType {
   std::string_view name;
   std::uint32_t bytes;
@@ -53,7 +54,7 @@ class HeaderWalk {
  private:
   [[noreturn]] static void Fail() { throw ImageError("an attribute of a wrong size"); }
 
-  // Little-endian; 0 at the end of the file.
+  // Reads a little-endian number; 0 at the end of the file.
   std::uint32_t Number() {
     std::array<char, 4> bytes{};
     file_.read(bytes.data(), bytes.size());
@@ -63,7 +64,7 @@ class HeaderWalk {
     return number;
   }
 
-  // A name or type, and past its end.
+  // Reads a zero-terminated name or type and skips the zero byte.
   std::string Text() {
     std::string text;
     for (int c; text.size() <= kLongestName && (c = file_.get()) > 0;) text.push_back(char(c));
@@ -72,7 +73,7 @@ class HeaderWalk {
 
   std::uint64_t Position() { return std::uint64_t(file_.tellg()); }
 
-  // The number of attributes, as far as they can be read.
+  // Checks one header. Returns the number of attributes that could be read.
   int CheckHeader() {
     for (int count = 0;; ++count) {
       if (Text().empty()) return count;

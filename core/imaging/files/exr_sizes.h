@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What an OpenEXR file says of its own sizes, checked against the file before the library believes
-// it: a few damaged bytes would make it allocate gigabytes.
+// Checks the sizes that an OpenEXR file states against the file's length before the library uses
+// them. Otherwise, a few damaged bytes could make the library allocate gigabytes.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace exphoton {
 
-// Throws ImageError if it is no OpenEXR file or an attribute of a header is longer than the file or
-// has not the size of its type. Other damage is left to the library.
+// Throws ImageError if the file is not an OpenEXR file, or if an attribute is longer than the file
+// or has the wrong size for its type. The library detects other damage.
 void CheckExrHeaders(const std::string& path);
 
-// Throws ImageError where a file of this length cannot hold so many bytes of pixels, however well
-// they are compressed.
+// Throws ImageError if a file of this length cannot hold pixelBytes bytes of pixels under any
+// compression.
 void CheckExrPixels(const std::string& path, double pixelBytes);
 
 }  // namespace exphoton

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PNG by libpng's simplified interface. 8-bit samples are decoded here, exactly; 16-bit ones are
-// taken as sRGB and decoded by the library to 16 linear bits.
+// PNG by libpng's simplified interface. This file decodes 8-bit samples exactly. The library treats
+// 16-bit samples as sRGB and decodes them to 16 linear bits.
 #include "core/imaging/files/png.h"
 
 #include <png.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kMaxPixels = std::uint64_t(1) << 28;
 
-// IEC 61966-2-1.
+// The sRGB transfer functions of IEC 61966-2-1.
 double DecodeSrgb(double v) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
@@ -31,7 +31,7 @@ double EncodeSrgb(double v) {
 
 std::uint8_t ToByte(double v) { return std::uint8_t(std::lround(std::clamp(v, 0., 1.) * 255)); }
 
-// Frees what the library holds, however the scope is left.
+// Frees the library's memory whenever the scope ends.
 struct PngImage {
   png_image image{};
   PngImage() { image.version = PNG_IMAGE_VERSION; }
@@ -55,7 +55,7 @@ Image Read8(const std::string& path, png_image* png, int channels, Image result)
   return result;
 }
 
-// The library's linear formats have colours multiplied by alpha; that is undone.
+// The library's linear formats premultiply colours by alpha. This function divides by alpha again.
 Image Read16(const std::string& path, png_image* png, int channels, Image result) {
   png->format = channels == 4 ? PNG_FORMAT_LINEAR_RGB_ALPHA : PNG_FORMAT_LINEAR_RGB;
   png->flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
@@ -96,7 +96,7 @@ std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& 
     for (int x = 0; x < image.Width(); ++x) {
       for (std::size_t c = 0; c < channels; ++c) {
         double v = image.At(x, y, from[c]);
-        if (!(v > 0)) v = 0;  // NaN too
+        if (!(v > 0)) v = 0;  // also for NaN
         bytes.push_back(ToByte(c == 3 ? v : EncodeSrgb(std::min(v * scale, 1.))));
       }
     }

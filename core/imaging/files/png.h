@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PNG in and out: previews (sRGB, 8 bit, exposure in stops) and texture files.
+// PNG input and output: previews (sRGB, 8 bit, exposure in stops) and texture files.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace exphoton {
 
-// Channels R,G,B (and A if present) tone-mapped by 2^exposure, clamped, sRGB-encoded. Atomic as
-// WriteExr. Throws Error(File).
+// Writes the channels R, G, B (and A if present). R, G, B are multiplied by 2^exposure, clamped and
+// sRGB-encoded. The write is atomic, as in WriteExr. Throws Error(File).
 void WritePng(const std::string& path, const Image& image, float exposure = 0);
-// The bytes of that file.
+// Returns the bytes that WritePng writes.
 std::string EncodePng(const Image& image, float exposure = 0);
 Image ReadPng(const std::string& path);  // throws ImageError
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AovFilm: summing layers, and their channels in the order of the layers.
+// AovFilm: sums of the AOVs, and their output as channels in the order of the AOVs.
 #include "core/imaging/film/aov_film.h"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 namespace exphoton {
 namespace {
 
-// Aovs that are weighted means over the samples.
+// AOVs that are weighted means over the samples.
 constexpr AovSet kAveraged = kSurfaceLayers | kLightAovs | AovSet{Aov::PhotonDensity};
 
-// The values of an averaged layer at one sample; returns how many.
+// Writes the values of an averaged AOV at one sample to `out`. Returns their number.
 std::size_t ValuesOf(Aov aov, const AovSample& sample, double* out) {
   const auto color = [out](const Spectrum& s) {
     out[0] = double(s.r), out[1] = double(s.g), out[2] = double(s.b);
@@ -109,8 +109,8 @@ double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
   return weights.absSum > 0 ? double(v.absSum) / double(weights.absSum) : 0;
 }
 
-// Of the quotient R = sum(w L) / sum(w), to first order: the sum of the squares of w (L - R), over
-// sum(w)^2, as if samples were independent.
+// Returns the variance of the quotient R = sum(w L) / sum(w), to first order: the sum of (w (L -
+// R))^2, divided by sum(w)^2. The samples are assumed to be independent.
 double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
   const Weights& weights = weights_[pixel];
   const double n = double(weights.samples), sum = std::max(std::abs(weights.sum), .5 * n);

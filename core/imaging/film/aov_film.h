@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AovFilm: sums of the layers that were asked for, beside a Film and weighted as it is: a pixel
-// of a layer is sum(w x) / sum(w) over the pixel's samples. Exists only where layers are wanted.
+// AovFilm accumulates the requested AOVs beside a Film, with the same weights. A pixel of an
+// averaged AOV is sum(w x) / sum(w) over the pixel's samples. The object exists only if AOVs are
+// requested.
 #pragma once
 
 #include <vector>
@@ -18,13 +19,14 @@ class AovFilm {
   bool NeedsSurface() const { return !(wanted_ & kSurfaceLayers).IsEmpty(); }
   bool NeedsTime() const { return wanted_.Has(Aov::Time); }
 
-  // One camera sample: its layers, the radiance L that the Film got, and the filter's weight. A
-  // pixel is filled by one thread at a time.
+  // Adds one camera sample: its AOVs, the radiance L that the Film received, and the filter weight.
+  // Only one thread at a time may add to a pixel.
   void AddSample(Point2i pixel, const AovSample& sample, const Spectrum& L, Real weight);
   void AddTime(Point2i pixel, double seconds);
 
-  // Appends the channels to the film's picture. Light layers are scaled as the picture is, so that
-  // they sum to it; a channel that the picture shows as 0 because it is negative is 0 in all.
+  // Appends the channels to the film's picture. Light AOVs are scaled like the picture, so that
+  // they sum to it. If the picture shows a negative channel as 0, the channel is 0 in all light
+  // AOVs.
   void AppendTo(const Film& film, bool premultiplyAlpha, Image* image) const;
 
  private:
@@ -33,12 +35,12 @@ class AovFilm {
     std::int64_t samples = 0;
     float absSum = 0;
   };
-  // Sums of w x, and of |w| x for pixels whose weights nearly cancel (film.h).
+  // Sums of w x, and sums of |w| x for pixels whose weights nearly cancel (see film.h).
   struct Value {
     double sum = 0;
     float absSum = 0;
   };
-  struct Moments {  // for Variance, of one channel
+  struct Moments {  // for Variance, one channel
     double wwLL = 0, wwL = 0, wL = 0;
   };
 
@@ -51,16 +53,16 @@ class AovFilm {
   PixelBounds crop_;
   AovSet wanted_;
   std::vector<Aov> aovs_, averaged_;
-  std::size_t valueCount_ = 0;  // averaged channels a pixel
+  std::size_t valueCount_ = 0;  // averaged channels per pixel
   std::vector<Weights> weights_;
   std::vector<Value> values_;
-  std::vector<Moments> moments_;  // three a pixel
+  std::vector<Moments> moments_;  // three per pixel
   std::vector<double> seconds_;
   std::vector<double> distances_;  // sums of radianceDistance
   std::vector<std::int64_t> reads_;
 };
 
-// The image with channels added; `values` holds them pixel by pixel.
+// Adds channels to the image. `values` holds them pixel by pixel.
 void AppendChannels(const std::vector<std::string>& names, const std::vector<float>& values,
                     Image* image);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Names and meanings of the layers.
+// Names, channels and descriptions of the AOVs.
 #include "core/imaging/film/aovs.h"
 
 #include <algorithm>
@@ -22,7 +22,8 @@ std::string Lower(std::string_view text) {
   return lower;
 }
 
-// "albedo.rgb" is "albedo" if those are its channels.
+// Returns whether `item` names the AOV. "albedo.rgb" matches "albedo", because it lists all its
+// channels.
 bool Matches(const std::string& item, const AovInfo& info) {
   const std::string name = Lower(info.name);
   if (item == name) return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Aovs: what a picture can hold besides its radiance, by the names that pbrt-v4 and tev use, and
-// AovSample: what one camera sample says of them. Filling them is the renderer's and the
-// integrator's affair; summing them layer_film.h's.
+// Aov lists the quantities that a picture can hold besides its radiance. The names are those of
+// pbrt-v4 and tev. AovSample holds the values of one camera sample. The renderer and the integrator
+// fill them; AovFilm (aov_film.h) accumulates them.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +19,24 @@ namespace exphoton {
 enum class Aov {
   Albedo,    // hemispherical reflectance and transmittance of the first surface
   Normal,    // its shading normal, turned to the camera, in world space
-  Position,  // where it was hit, in world space
-  Variance,  // of the pixel's value
-  // The light layers: how light left the first surface. They sum to the picture.
-  Emission,          // by itself, and what lies behind everything
-  Direct,            // by non-specular lobes, straight from a light
+  Position,  // position of the first hit, in world space
+  Variance,  // variance of the pixel value
+  // The light AOVs divide the light that leaves the first surface. They sum to the picture.
+  Emission,          // emitted by the first surface, and the background
+  Direct,            // scattered by non-specular lobes, directly from a light
   Caustic,           // by non-specular lobes, from a light over specular surfaces only
-  Indirect,          // by non-specular lobes, everything else
-  Specular,          // by its specular lobes
-  Time,              // seconds that the pixel took, of one thread
+  Indirect,          // by non-specular lobes, all other light
+  Specular,          // by the specular lobes
+  Time,              // milliseconds that the pixel took, on one thread
   Samples,           // camera samples
-  PhotonDensity,     // photons of all maps per unit of area at the first surface
+  PhotonDensity,     // photons of all maps per unit area at the first surface
   RadianceDistance,  // mean distance from gather hits to the radiance photons they read
 };
 inline constexpr int kAovCount = 13;
 
 struct AovInfo {
-  const char* name;                   // "Albedo", as --aov takes it
-  std::vector<std::string> channels;  // "Albedo.R" ...
+  const char* name;                   // for example "Albedo", as in --aov
+  std::vector<std::string> channels;  // for example "Albedo.R"
   const char* meaning;
 };
 const AovInfo& GetAovInfo(Aov aov);
@@ -56,7 +56,7 @@ class AovSet {
   friend constexpr bool operator==(AovSet, AovSet) = default;
 
   std::vector<Aov> List() const;  // in the order of the enumeration
-  std::string Names() const;      // "Albedo, N"
+  std::string Names() const;      // for example "Albedo, N"
 
  private:
   constexpr explicit AovSet(std::uint32_t bits) : bits_(bits) {}
@@ -66,26 +66,27 @@ class AovSet {
 inline constexpr AovSet kLightAovs{Aov::Emission, Aov::Direct, Aov::Caustic, Aov::Indirect,
                                    Aov::Specular};
 inline constexpr AovSet kSurfaceLayers{Aov::Albedo, Aov::Normal, Aov::Position};
-// What the renderer fills for every integrator.
+// The AOVs that the renderer fills for every integrator.
 inline constexpr AovSet kRendererLayers =
     kSurfaceLayers | AovSet{Aov::Variance, Aov::Time, Aov::Samples};
 
-// "Albedo,N,direct" or "light" for all light layers; upper and lower case alike, and "Albedo.RGB"
-// for "Albedo". nullopt where a name is unknown: it is then in *unknown.
+// Parses a list such as "Albedo,N,direct". "light" selects all light AOVs. Case is ignored, and
+// "Albedo.RGB" is the same as "Albedo". Returns nullopt if a name is unknown and stores that name
+// in *unknown.
 std::optional<AovSet> ParseLayers(std::string_view list, std::string* unknown);
 
-// What one camera sample says besides its radiance. Light layers as long as they are not sums to be
-// weighted: the renderer does that.
+// The AOV values of one camera sample. Light AOVs are not yet weighted by the filter; AovFilm does
+// this.
 struct AovSample {
-  AovSet wanted;  // those that cost something to know are filled only if asked for
+  AovSet wanted;  // integrators fill costly AOVs only if they are in this set
 
   Spectrum emission, direct, caustic, indirect, specular;
   Spectrum albedo;
-  Normal3 n;  // all 0 where the ray escaped
-  Point3 p;   // the same
+  Normal3 n;  // 0 if the ray escaped
+  Point3 p;   // 0 if the ray escaped
   double photonDensity = 0;
-  double radianceDistance = 0;           // summed over
-  std::int64_t radiancePhotonsRead = 0;  // so many
+  double radianceDistance = 0;           // sum over the reads
+  std::int64_t radiancePhotonsRead = 0;  // number of reads
 };
 
 }  // namespace exphoton

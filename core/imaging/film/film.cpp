@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Film: sums in double, so that the mean of 1e8 samples is as good as that of one; one division a
-// pixel, at the end.
+// Film: sums in double precision, so that the mean of 1e8 samples is as accurate as a single
+// sample. Each pixel is divided by its weight once, at the end.
 #include "core/imaging/film/film.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace exphoton {
 
 PixelBounds FilmSettings::Crop() const {
   const std::vector<Real> window = cropWindow.value_or(std::vector<Real>{0, 1, 0, 1});
-  // In Real, as scene files meant it: 0.2 of 300 pixels is 60, not 60.0000009.
+  // Computed in Real like the values in scene files: 0.2 of 300 pixels is 60, not 60.0000009.
   const auto pixel = [](int resolution, Real fraction) {
     const double edge = double(std::ceil(Real(resolution) * fraction));
     return int(std::clamp(edge, 0., double(resolution)));
@@ -29,7 +29,7 @@ Film::Film(PixelBounds full, PixelBounds crop) : full_(full), crop_(crop) {
       crop.y1 > full.y1) {
     throw Error(ExitStatus::Scene, "the crop window holds no pixel of the film");
   }
-  // The pixels and the image that is made of them in the end.
+  // Counts the pixels and the final image.
   const double need = double(crop.Width()) * crop.Height() * (sizeof(Pixel) + 4 * sizeof(float));
   const std::string text = "a film of " + std::to_string(crop.Width()) + " x " +
                            std::to_string(crop.Height()) + " pixels needs " + Megabytes(need);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Film: sums of the samples of each pixel, in double, in the order of the sample index. A pixel is
-// filled by one thread at a time; its value never depends on its neighbours.
+// Film accumulates the samples of each pixel in double precision, in the order of the sample index.
+// Only one thread at a time may fill a pixel. A pixel never depends on its neighbours.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace exphoton {
 
-// What Film "image" says; its parameter table is in parser/.
+// The parameters of Film "image". Their table is in core/parser/film_parameters.h.
 struct FilmSettings {
   std::string filename = "pbrt.exr";
   bool premultiplyAlpha = true;
@@ -24,46 +24,49 @@ struct FilmSettings {
   int writeFrequency = -1;
 
   PixelBounds Full() const { return {0, 0, xResolution, yResolution}; }
-  PixelBounds Crop() const;  // pixels whose centre lies in the crop window, as v1: ceil to ceil
+  PixelBounds Crop() const;  // pixels whose upper left corner is in the crop window, as in pbrt v1
 };
 
 class Film {
  public:
-  Film(PixelBounds full, PixelBounds crop);  // throws Error(Resource) where memory lacks
+  Film(PixelBounds full, PixelBounds crop);  // throws Error(Resource) if memory is insufficient
 
   const PixelBounds& Full() const { return full_; }
   const PixelBounds& Crop() const { return crop_; }
 
-  // weight is the filter's (FilterSample). L must be finite. A sample that was dropped still counts
-  // as one, as black.
+  // Adds one sample. `weight` is the filter weight (FilterSample). L must be finite. A dropped
+  // sample counts as a black sample.
   void AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
 
-  // Back to no samples.
+  // Removes all samples.
   void Clear();
-  // Adds the samples of another film with the same windows, as if they had come after its own.
+  // Adds the samples of another film with the same windows, as if they followed this film's
+  // samples.
   void Add(const Film& other);
 
-  // sum(w L) and sum(w) of a pixel, for those who reckon with several films.
+  // sum(w L) and sum(w) of a pixel, for computations with several films.
   struct Sums {
     double r = 0, g = 0, b = 0, weight = 0;
   };
-  // Of the crop window's pixels, row by row.
+  // `index` counts the crop window's pixels row by row.
   Sums SumsOf(std::size_t index) const {
     const Pixel& p = pixels_[index];
     return {p.r, p.g, p.b, p.weight};
   }
   std::size_t PixelCount() const { return pixels_.size(); }
-  // r, g, b, alpha as ToImage starts from them: neither clamped nor premultiplied.
+  // Returns r, g, b, alpha before ToImage clamps and premultiplies them.
   std::array<double, 4> MeanOf(Point2i pixel) const { return pixels_[IndexOf(pixel)].Mean(); }
 
-  // R, G, B, A: sum(w L) / sum(w) over each pixel's samples, never below 0, alpha at most 1; pixels
-  // without a sample are 0. premultiplyAlpha, as v1 has it: R, G, B are multiplied by A.
+  // Returns R, G, B, A: sum(w L) / sum(w) over each pixel's samples. Values are at least 0, and
+  // alpha is at most 1. Pixels without samples are 0. premultiplyAlpha multiplies R, G, B by A, as
+  // in pbrt v1.
   Image ToImage(bool premultiplyAlpha) const;
 
  private:
-  // sum(w) is close to the number of samples, except by chance after the first few samples under a
-  // filter with negative lobes. There the mean by |w| is used, which needs little precision.
+  // sum(w) is close to the number of samples, except by chance after the first few samples of a
+  // filter with negative lobes. Such pixels use the mean weighted by |w|, which needs little
+  // precision.
   struct Pixel {
     double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
     std::int64_t samples = 0;

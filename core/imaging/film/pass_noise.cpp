@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The estimator: how far each group lies from the mean of all, over what the picture is nearby.
+// PassNoise: the variance between groups, relative to the local mean of the picture.
 #include "core/imaging/film/pass_noise.h"
 
 #include <algorithm>
@@ -11,10 +11,12 @@
 namespace exphoton {
 namespace {
 
-// sum(w) where it may be divided by. Filters with negative lobes can make it small by chance.
+// Returns sum(w), bounded from below for division. Filters with negative lobes can make it small by
+// chance.
 double SafeWeight(double weight, double samples) { return std::max(weight, .5 * samples); }
 
-// The mean over the (2 kReach + 1)^2 pixels round each, as far as they exist. Three channels.
+// Returns the mean over the (2 kReach + 1)^2 pixels round each pixel, clipped to the image. Three
+// channels.
 std::vector<float> BoxMean(const std::vector<float>& values, std::size_t width) {
   constexpr std::ptrdiff_t kReach = 2;
   const auto columns = std::ptrdiff_t(width);

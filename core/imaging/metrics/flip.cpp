@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// FLIP as the paper has it: pictures blurred by the eye's contrast sensitivity and compared in
-// CIELAB, with the difference of edges and points as an exponent. Sections in comments are the
-// paper's. All filters are sums of separable ones.
+// FLIP as published: pictures are blurred by the eye's contrast sensitivity and compared in CIELAB.
+// The difference of edges and points is an exponent. Section numbers refer to the paper. All
+// filters are sums of separable filters.
 #include "core/imaging/metrics/flip.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Triple = std::array<double, 3>;
 using Plane = std::vector<double>;
-constexpr double kPixelsPerDegree = 67.02;  // 0.7 m from a display of 3840 pixels on 0.7 m
+constexpr double kPixelsPerDegree = 67.02;  // 0.7 m from a display with 3840 pixels on 0.7 m
 constexpr double kCirclePi = std::numbers::pi;
 
 constexpr std::array<Triple, 3> kToXyz = {
@@ -36,7 +36,7 @@ Triple Multiply(const std::array<Triple, 3>& m, const Triple& v) {
 
 Triple White() { return Multiply(kToXyz, {1, 1, 1}); }
 
-// The linearised Lab of section 4.1.1: achromatic, red-green, blue-yellow.
+// Converts to the linearised Lab of section 4.1.1: achromatic, red-green, blue-yellow.
 Triple ToOpponent(const Triple& rgb) {
   const Triple xyz = Multiply(kToXyz, rgb), white = White();
   const double x = xyz[0] / white[0], y = xyz[1] / white[1], z = xyz[2] / white[2];
@@ -49,7 +49,7 @@ Triple FromOpponent(const Triple& v) {
   return Multiply(kFromXyz, {x * white[0], y * white[1], z * white[2]});
 }
 
-// CIELAB with the Hunt adjustment of section 4.1.2.
+// Converts to CIELAB with the Hunt adjustment of section 4.1.2.
 Triple ToHuntLab(const Triple& rgb) {
   const Triple xyz = Multiply(kToXyz, rgb), white = White();
   const auto f = [](double t) {
@@ -70,7 +70,7 @@ struct Grid {
   std::size_t Size() const { return std::size_t(width) * std::size_t(height); }
 };
 
-// Correlates rows with one kernel and columns with another; edges are repeated.
+// Correlates rows with one kernel and columns with another; edge pixels are repeated.
 Plane Filter(const Plane& in, Grid grid, const Plane& rows, const Plane& columns) {
   const auto pass = [&](const Plane& from, const Plane& kernel, bool isRow) {
     const int radius = int(kernel.size() / 2);
@@ -98,7 +98,7 @@ Plane Tabulate(int radius, const std::function<double(double)>& f) {
   return kernel;
 }
 
-// Positive weights sum to 1, negative ones to -1.
+// Scales positive weights to a sum of 1, and negative weights to a sum of -1.
 Plane Normalized(Plane kernel) {
   double above = 0, below = 0;
   for (const double w : kernel) (w > 0 ? above : below) += std::abs(w);
@@ -111,7 +111,7 @@ struct Lobe {
   double a, b;
 };
 
-// Table 1 and section 4.1.1.
+// Applies the contrast sensitivity function of table 1 and section 4.1.1.
 Plane Sensitivity(const Plane& in, Grid grid, const std::vector<Lobe>& lobes) {
   constexpr double kWidest = .04;
   const int radius =
@@ -135,7 +135,7 @@ Plane Sensitivity(const Plane& in, Grid grid, const std::vector<Lobe>& lobes) {
 }
 
 struct Prepared {
-  std::vector<Triple> lab;  // after the eye's blur
+  std::vector<Triple> lab;  // after the contrast sensitivity filter
   Plane edges, points;      // magnitudes of first and second derivatives
 };
 
@@ -157,7 +157,7 @@ Prepared Prepare(const std::vector<Triple>& rgb, Grid grid) {
     for (double& v : color) v = std::clamp(v, 0., 1.);
     result.lab.push_back(ToHuntLab(color));
   }
-  // Section 4.2: features about 0.082 degrees wide.
+  // Section 4.2: features are about 0.082 degrees wide.
   const double deviation = .5 * .082 * kPixelsPerDegree;
   const int radius = int(std::ceil(3 * deviation));
   const auto gauss = [=](double x) { return std::exp(-x * x / (2 * deviation * deviation)); };
@@ -177,7 +177,7 @@ Prepared Prepare(const std::vector<Triple>& rgb, Grid grid) {
   return result;
 }
 
-// Section 4.1.3: [0, largest] to [0, 1], most of it for small differences.
+// Maps [0, largest] to [0, 1]; small differences get most of the range (section 4.1.3).
 double Redistribute(double difference, double largest) {
   constexpr double kPower = .7, kKnee = .4, kAtKnee = .95;
   const double v = std::pow(difference, kPower), knee = kKnee * largest;

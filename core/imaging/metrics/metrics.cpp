@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Differences between images, summed in double over the pixels that are finite in both.
+// Differences between images, summed in double precision over the pixels that are finite in both.
 #include "core/imaging/metrics/metrics.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string SizeText(const Image& image) {
   return std::to_string(image.Width()) + " x " + std::to_string(image.Height());
 }
 
-// Both images' colours, checked once.
+// Two images with their colour channels, checked once.
 struct Pair {
   Pair(const Image& reference, const Image& other) : a(reference), b(other) {
     if (a.Width() != b.Width() || a.Height() != b.Height())
@@ -44,7 +44,8 @@ struct Pair {
   std::array<int, 3> from, to;
 };
 
-// Mean without the worst thousandth, and the 99 % quantile of the root; reorders the errors.
+// Computes the mean without the worst thousandth, and the square root of the 99 % quantile. Sorts
+// the errors.
 void TakeTail(std::vector<double>* errors, ImageDifference* difference) {
   const std::size_t count = errors->size();
   std::sort(errors->begin(), errors->end());
@@ -72,7 +73,7 @@ std::array<int, 3> FindColors(const Image& image, const std::string& name) {
 
 ImageDifference CompareImages(const Image& reference, const Image& image) {
   ImageDifference difference;
-  std::vector<double> errors;  // of the pixels: means over the colours
+  std::vector<double> errors;  // per pixel: mean over the colours
   Pair(reference, image).ForPixels([&](int, int, const auto& r, const auto& v, bool isFinite) {
     if (!isFinite) {
       ++difference.nonFinitePixels;
@@ -135,7 +136,7 @@ Image SignedErrorImage(const Image& reference, const Image& image, double fullSc
     double error = 0;
     for (std::size_t c = 0; c < 3; ++c) error += (v[c] - r[c]) * std::sqrt(RelMseWeight(r[c])) / 3;
     const double t = std::clamp(error / fullScale, -1., 1.);
-    // From white through a pure hue; linear light.
+    // Blends from white to a pure hue, in linear light.
     const std::array<double, 3> color =
         !isFinite ? std::array<double, 3>{1, .8, 0}
         : t >= 0  ? std::array<double, 3>{1 - .4 * t * t, (1 - t) * (1 - t), (1 - t) * (1 - t)}

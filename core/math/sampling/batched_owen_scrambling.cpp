@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One loop, compiled for each width of vectors.
+// BatchedOwenScrambling is one loop that is compiled for each SIMD target.
 #include "core/math/sampling/batched_owen_scrambling.h"
 
 #include "core/base/simd_targets.h"

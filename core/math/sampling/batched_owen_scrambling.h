@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// BatchedOwenScrambling: Owen scrambling of many points of a sequence under one key, with the
-// widest vectors that the machine has; the same bits with any.
+// BatchedOwenScrambling applies Owen scrambling with one key to many points of a sequence. It uses
+// the widest SIMD target of the machine; all targets give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@ namespace exphoton {
 void BatchedOwenScrambling(const std::uint32_t* reversed, std::size_t count, std::uint32_t key,
                            Real* fractions);
 
-// One for each width of vectors that this machine can run, the widest last: for tests.
+// AvailableScramblers returns one function per SIMD target that this machine can run, the widest
+// last. Tests compare them.
 using Scrambler = void (*)(const std::uint32_t* reversed, std::size_t count, std::uint32_t key,
                            Real* fractions);
 std::span<const Scrambler> AvailableScramblers();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Tabulated distributions: construction and inversion of the cumulative sums.
+// Tabulated distributions are constructed from cumulative sums and sampled by their inversion.
 #include "core/math/sampling/distribution.h"
 
 #include <algorithm>
@@ -7,20 +7,21 @@
 namespace exphoton {
 namespace {
 
-// Cumulative sums from 0 to exactly 1, or an empty vector where the sum is not positive.
+// Returns cumulative sums from 0 to exactly 1, or an empty vector if the sum is not positive and
+// finite.
 std::vector<double> CumulativeSums(std::span<const double> weights, double& sum) {
   std::vector<double> cdf(weights.size() + 1, 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) cdf[i + 1] = cdf[i] + weights[i];
   sum = cdf.back();
   if (!(sum > 0) || !std::isfinite(sum)) return {};
   for (double& c : cdf) c /= sum;
-  // Entries after the last positive weight are 1 too, so that a zero weight is never chosen.
+  // Entries after the last positive weight are also 1, so that a zero weight is never chosen.
   for (std::size_t i = weights.size(); i > 0 && weights[i - 1] == 0; --i) cdf[i - 1] = 1;
   cdf.back() = 1;
   return cdf;
 }
 
-// The i with cdf[i] <= u < cdf[i+1]; such an i has positive probability.
+// Returns the i with cdf[i] <= u < cdf[i+1]. Such an i has positive probability.
 int FindInterval(const std::vector<double>& cdf, double u) {
   const auto it = std::upper_bound(cdf.begin(), cdf.end(), u);
   const auto last = static_cast<std::ptrdiff_t>(cdf.size()) - 2;

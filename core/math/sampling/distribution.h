@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Tabulated distributions with cumulative sums in double: a discrete one that returns an index and
-// its *probability*, and piecewise-constant densities on [0,1) and [0,1)^2.
+// Tabulated distributions have cumulative sums in double. DiscreteDistribution returns an index and
+// its *probability*. PiecewiseConstant1D and PiecewiseConstant2D are densities on [0,1) and
+// [0,1)^2.
 #pragma once
 
 #include <span>
@@ -11,14 +12,14 @@
 
 namespace exphoton {
 
-// Chooses i with probability weight_i / sum. Weights must be finite and not negative; if all are 0
-// the distribution is empty (IsEmpty) and must not be sampled.
+// DiscreteDistribution chooses i with probability weight_i / sum. Weights must be finite and not
+// negative. If all are 0, the distribution is empty (IsEmpty) and must not be sampled.
 class DiscreteDistribution {
  public:
   struct Choice {
     int index;
-    Real probability;  // of that index; > 0
-    Real remapped;     // u, rescaled to a fresh uniform in [0,1)
+    Real probability;  // probability of `index`; > 0
+    Real remapped;     // u rescaled to a new uniform variate in [0,1)
   };
 
   DiscreteDistribution() = default;
@@ -31,12 +32,13 @@ class DiscreteDistribution {
   Real Probability(int index) const;  // 0 for an empty distribution
 
  private:
-  double sum_ = 0;           // before cdf_: the constructor computes both at once
+  double sum_ = 0;           // precedes cdf_, whose initialiser sets it
   std::vector<double> cdf_;  // cdf_[i] = P(choice < i); size + 1 entries, last one exactly 1
   int size_ = 0;
 };
 
-// Density on [0,1) proportional to a step function of n equal steps. All zero: uniform.
+// PiecewiseConstant1D is a density on [0,1) proportional to a step function of n equal steps. If
+// all steps are 0, it is uniform.
 class PiecewiseConstant1D {
  public:
   struct Value {
@@ -57,7 +59,8 @@ class PiecewiseConstant1D {
   double integral_ = 0;
 };
 
-// Density on [0,1)^2 proportional to a width x height image, rows from y = 0. All zero: uniform.
+// PiecewiseConstant2D is a density on [0,1)^2 proportional to a width x height image, with rows
+// from y = 0. If all values are 0, it is uniform.
 class PiecewiseConstant2D {
  public:
   PiecewiseConstant2D() = default;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Low-discrepancy points with keyed randomisation and 64-bit indices.
-//   (0,2)-sequence: first two Sobol' dimensions, Owen-scrambled by hashing
+// These low-discrepancy sequences are randomised by a key:
+//   (0,2)-sequence: first two Sobol' dimensions with 32-bit indices, Owen-scrambled by hashing
 //     (Laine and Karras 2011; Burley 2020, "Practical Hash-based Owen Scrambling").
-//   Halton: radical inverses with Owen-scrambled (position- and prefix-dependent) digits
-//     (Owen 1995; Faure and Tezuka 2002 for the plain permutations).
+//   Halton: radical inverses of 64-bit indices with Owen-scrambled (position- and prefix-dependent)
+//     digits (Owen 1995; Faure and Tezuka 2002 for the plain permutations).
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ constexpr std::uint32_t ReverseBits32(std::uint32_t v) {
   return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
 }
 
-// Owen scrambling of a 32-bit binary fraction, tree chosen by `key`; of its bits in reverse order,
-// and with the result in reverse order too: what it costs without turning the bits round.
+// OwenScramble scrambles a 32-bit binary fraction; `key` chooses the scrambling tree.
+// OwenScrambleReversed takes and returns the bits in reverse order, which saves two bit reversals.
 constexpr std::uint32_t OwenScrambleReversed(std::uint32_t v, std::uint32_t key) {
   v += key;
   v ^= v * 0x6c50b47cu;
@@ -34,9 +34,10 @@ constexpr std::uint32_t OwenScramble(std::uint32_t v, std::uint32_t key) {
   return ReverseBits32(OwenScrambleReversed(ReverseBits32(v), key));
 }
 
-// Second Sobol' dimension (the first is the bit-reversed index) as a 32-bit fraction, its bits in
-// reverse order. Its matrix is Pascal's triangle modulo 2, and C(j, i) is odd where the bits of i
-// are among those of j (Lucas): bit i is the sum of all bits j whose number contains the bits of i.
+// Returns the second Sobol' dimension as a 32-bit fraction with its bits in reverse order. (The
+// first dimension is the bit-reversed index.) Its matrix is Pascal's triangle modulo 2, and C(j, i)
+// is odd if the bits of i are among the bits of j (Lucas). Bit i is therefore the sum modulo 2 of
+// all bits j whose number contains the bits of i.
 constexpr std::uint32_t SobolSecondReversed(std::uint32_t index) {
   index ^= (index >> 16) & 0x0000ffffu;
   index ^= (index >> 8) & 0x00ff00ffu;
@@ -49,13 +50,14 @@ constexpr std::uint32_t SobolSecond(std::uint32_t index) {
   return ReverseBits32(SobolSecondReversed(index));
 }
 
-// Cut off, not rounded, so that no point leaves its binary stratum.
+// Truncates instead of rounding, so that no point leaves its binary stratum.
 inline Real FractionToReal(std::uint32_t v) {
   if constexpr (sizeof(Real) == 4) return Real(std::int32_t(v >> 8)) * Real(1.0 / 16777216.0);
   return Real(v) * Real(1.0 / 4294967296.0);
 }
 
-// Point `index` of the scrambled van der Corput sequence and of the scrambled (0,2)-sequence.
+// These return point `index` of the scrambled van der Corput sequence and of the scrambled
+// (0,2)-sequence.
 inline Real ScrambledVanDerCorput(std::uint32_t index, std::uint32_t key) {
   return FractionToReal(ReverseBits32(OwenScrambleReversed(index, key)));
 }
@@ -68,9 +70,9 @@ inline Point2 ScrambledSobol2(std::uint32_t index, std::uint64_t key) {
 
 inline constexpr std::uint32_t kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
 
-// Radical inverse of a 64-bit index in `base`, every digit permuted by a permutation chosen by
-// key and by the digits before it (nested, Owen); in [0, kOneMinusEpsilon]. Trailing zero digits
-// are permuted too, down to the resolution of Real.
+// Returns the radical inverse of a 64-bit index in `base`, in [0, kOneMinusEpsilon]. The key and
+// the preceding digits choose the permutation of each digit (nested Owen scrambling). Trailing zero
+// digits are permuted too, down to the resolution of Real.
 inline Real ScrambledRadicalInverse(std::uint32_t base, std::uint64_t index, std::uint64_t key) {
   const double inverseBase = 1.0 / base;
   double scale = inverseBase, value = 0;

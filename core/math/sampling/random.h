@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Random numbers keyed by what they are for (seed, pixel or path, sample, dimension), so that no
-// result depends on the order in which threads work. Hash: finaliser of MurmurHash3 / SplitMix64
-// (Steele, Lea and Flood 2014); permutations: Kensler 2013, "Correlated Multi-Jittered Sampling".
+// Random numbers are keyed by their purpose (seed, pixel or path, sample, dimension), so that no
+// result depends on thread scheduling. The hash is the finaliser of MurmurHash3 / SplitMix64
+// (Steele, Lea and Flood 2014). Permutations are from Kensler 2013, "Correlated Multi-Jittered
+// Sampling".
 #pragma once
 
 #include <cstdint>
@@ -20,14 +21,14 @@ constexpr std::uint64_t MixBits(std::uint64_t v) {
   return v;
 }
 
-// A key made of a chain of integers; different chains give independent keys.
+// Makes a key from a chain of integers. Different chains give independent keys.
 constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
   std::uint64_t h = 0x9e3779b97f4a7c15ull;
   for (std::uint64_t part : parts) h = MixBits(h + 0x9e3779b97f4a7c15ull + MixBits(part + h));
   return h;
 }
 
-// The upper bits as a Real in [0, kOneMinusEpsilon]; never 1.
+// Converts the upper bits to a Real in [0, kOneMinusEpsilon]. The result is never 1.
 constexpr Real UniformFromBits(std::uint64_t bits) {
   if constexpr (sizeof(Real) == 4) {
     return Real(bits >> 40) * Real(1.0 / 16777216.0);
@@ -36,7 +37,8 @@ constexpr Real UniformFromBits(std::uint64_t bits) {
   }
 }
 
-// A stream of uniform variates, wholly determined by its key (a SplitMix64 counter).
+// RandomStream is a stream of uniform variates that its key fully determines (a SplitMix64
+// counter).
 class RandomStream {
  public:
   constexpr explicit RandomStream(std::uint64_t key) : state_(key) {}
@@ -51,12 +53,13 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-// Where index i of 0..length-1 goes in the permutation chosen by `key`: any length, no table.
+// Returns the image of index i of 0..length-1 under the permutation chosen by `key`. It needs no
+// table and allows any length.
 constexpr std::uint32_t PermuteIndex(std::uint32_t i, std::uint32_t length, std::uint32_t key) {
   if (length <= 1) return 0;
   if (length <= 16) {
-    // The hash below is far from uniform for so few. Fisher and Yates' shuffle, following one
-    // index.
+    // The hash below is far from uniform for short lengths. Follow one index through the
+    // Fisher-Yates shuffle instead.
     std::uint64_t state = MixBits(key + 0x9e3779b97f4a7c15ull);
     for (std::uint32_t k = length; k > 1; --k) {
       state = state * 6364136223846793005ull + 1442695040888963407ull;
@@ -94,11 +97,11 @@ constexpr std::uint32_t PermuteIndex(std::uint32_t i, std::uint32_t length, std:
   return static_cast<std::uint32_t>((std::uint64_t(i) + key) % length);
 }
 
-// Where all of 0..N-1 go, N <= 16: to[i] = PermuteIndex(i, N, key).
+// Permutes all of 0..N-1, N <= 16: to[i] = PermuteIndex(i, N, key).
 template <std::size_t N>
 constexpr void PermuteAll(std::uint32_t key, std::uint8_t (&to)[N]) {
   static_assert(N > 1 && N <= 16);
-  std::uint8_t at[N] = {};  // who has come here
+  std::uint8_t at[N] = {};  // the index that is now at each place
   for (std::size_t i = 0; i < N; ++i) at[i] = std::uint8_t(i);
   std::uint64_t state = MixBits(key + 0x9e3779b97f4a7c15ull);
   for (std::uint32_t k = N; k > 1; --k) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Real16 for x86-64 machines with AVX2: two registers. Lanes are compressed by permutations from a
-// table.
+// Real16 for the AVX2 target uses two registers. A table of permutations compresses lanes.
 
 struct Real16 {
   __m256 low, high;
@@ -31,7 +30,7 @@ inline Real16 Abs(Real16 a) {
   const __m256 sign = _mm256_set1_ps(Real(-0.));
   return {_mm256_andnot_ps(sign, a.low), _mm256_andnot_ps(sign, a.high)};
 }
-// The magnitude of a, which is not negative, with the sign of b.
+// Returns a, which must not be negative, with the sign of b.
 inline Real16 CopySign(Real16 a, Real16 b) {
   const __m256 sign = _mm256_set1_ps(Real(-0.));
   return {_mm256_or_ps(a.low, _mm256_and_ps(sign, b.low)),
@@ -52,7 +51,7 @@ inline __m256 UpperHalves(__m256i words) {
 inline std::size_t CountLessEqual(Real16 a, Real16 b) {
   return unsigned(__builtin_popcount(LessEqualMask(a, b)));
 }
-// a where a <= b, 0 elsewhere.
+// Returns a where a <= b, 0 elsewhere.
 inline Real16 IfLessEqual(Real16 a, Real16 b) {
   return {_mm256_and_ps(a.low, _mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ)),
           _mm256_and_ps(a.high, _mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ))};
@@ -65,7 +64,7 @@ inline void LoadOctahedral(const std::uint32_t* bits, Real16* a, Real16* b) {
   *b = {UpperHalves(low), UpperHalves(high)};
 }
 
-// All bits where the mask has a bit, eight lanes from `from`.
+// Expands the eight mask bits from `from` to eight lanes of all ones or all zeros.
 inline __m256i LanesOf(unsigned mask, int from) {
   const __m256i bit = _mm256_slli_epi32(_mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128), from);
   return _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(int(mask)), bit), bit);
@@ -75,14 +74,15 @@ inline std::int32_t LeastOfEight(__m256i v) {
   least = _mm_min_epi32(least, _mm_shuffle_epi32(least, 0x4e));
   return _mm_cvtsi128_si32(_mm_min_epi32(least, _mm_shuffle_epi32(least, 0xb1)));
 }
-// The least of the keys of the mask's lanes, signed.
+// Returns the smallest key, signed, among the lanes of the mask.
 inline std::int32_t LeastKey(__m256i low, __m256i high, unsigned mask) {
   const __m256i none = _mm256_set1_epi32(std::numeric_limits<std::int32_t>::max());
   return LeastOfEight(_mm256_min_epi32(_mm256_blendv_epi8(none, low, LanesOf(mask, 0)),
                                        _mm256_blendv_epi8(none, high, LanesOf(mask, 8))));
 }
-// The lane of the mask (not 0) with the least value, but for its last four bits, of which the place
-// takes the room. Values are not negative, so their bits are ordered as they are.
+// Returns the lane with the smallest value among the lanes of the mask, which must not be 0. The
+// last four bits of each value are replaced by its lane number and do not count. Values must not be
+// negative, so that their bits have the same order as the values.
 inline unsigned NearestLane(Real16 values, unsigned mask) {
   const __m256i places = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i low4 = _mm256_set1_epi32(15);
@@ -92,13 +92,14 @@ inline unsigned NearestLane(Real16 values, unsigned mask) {
   };
   return unsigned(LeastKey(key(values.low, 0), key(values.high, 8), mask)) & 15;
 }
-// Of values that are not negative; where the mask is 0, no matter what.
+// Returns the smallest value among the lanes of the mask. Values must not be negative. The result
+// is unspecified if the mask is 0.
 inline Real LeastOf(Real16 values, unsigned mask) {
   return std::bit_cast<Real>(
       LeastKey(_mm256_castps_si256(values.low), _mm256_castps_si256(values.high), mask));
 }
 
-// Of values that are not negative.
+// Returns the largest value. Values must not be negative.
 inline Real LargestOf(Real16 values) {
   const __m256 eight = _mm256_max_ps(values.low, values.high);
   __m128 largest = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
@@ -106,7 +107,7 @@ inline Real LargestOf(Real16 values) {
   return _mm_cvtss_f32(_mm_max_ss(largest, _mm_shuffle_ps(largest, largest, 1)));
 }
 
-// For each mask of eight the lanes that it names, in order.
+// For each 8-bit mask, this table lists the lanes of the mask in order.
 constexpr auto kCompress = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
   for (unsigned mask = 0; mask < 256; ++mask)
@@ -119,7 +120,8 @@ inline __m256i OrderOf(unsigned mask) {
   return _mm256_cvtepu8_epi32(
       _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kCompress[mask].data())));
 }
-// Writes the lanes of the mask one after the other, and up to sixteen in all; how many there were.
+// Writes the lanes of the mask contiguously and returns their number. It may write up to sixteen
+// values.
 inline std::size_t StoreLanes(Real16 values, unsigned mask, Real* to) {
   const unsigned first = mask & 0xff, second = mask >> 8;
   const auto count = unsigned(__builtin_popcount(first));
@@ -143,8 +145,8 @@ inline std::size_t KeepSixteen(Real16 values, __m256i low, __m256i high, unsigne
   KeepEight(values.high, high, second, distance2 + count, index + count);
   return count + unsigned(__builtin_popcount(second));
 }
-// Writes the lanes of the mask, and their indices, one after the other, and up to sixteen in all;
-// how many there were.
+// Writes the lanes of the mask and their indices contiguously, and returns their number. It may
+// write up to sixteen values and indices.
 inline std::size_t AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask,
                                Real* distance2, std::uint32_t* index) {
   const __m256i places = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -152,7 +154,7 @@ inline std::size_t AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned
                      _mm256_add_epi32(places, _mm256_set1_epi32(int(firstIndex + 8))), mask,
                      distance2, index);
 }
-// The same with given indices.
+// Does the same with the indices in `from`.
 inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* from,
                              Real* distance2, std::uint32_t* index) {
   const auto* indices = reinterpret_cast<const __m256i*>(from);

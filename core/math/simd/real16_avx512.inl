@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Real16 for x86-64 machines with AVX-512: one register. Lanes are compressed in registers and
-// stored whole: compressing stores are slow on some machines.
+// Real16 for the AVX-512 target uses one register. Lanes are compressed in registers and stored
+// whole, because compressing stores are slow on some machines.
 
 struct Real16 {
   __m512 v;
@@ -18,7 +18,7 @@ inline Real16 Min(Real16 a, Real16 b) { return {_mm512_min_ps(a.v, b.v)}; }
 inline Real16 Max(Real16 a, Real16 b) { return {_mm512_max_ps(a.v, b.v)}; }
 inline Real16 Sqrt(Real16 a) { return {_mm512_sqrt_ps(a.v)}; }
 inline Real16 Abs(Real16 a) { return {_mm512_abs_ps(a.v)}; }
-// The magnitude of a, which is not negative, with the sign of b.
+// Returns a, which must not be negative, with the sign of b.
 inline Real16 CopySign(Real16 a, Real16 b) {
   const __m512i sign = _mm512_and_si512(_mm512_castps_si512(b.v), _mm512_set1_epi32(int(1u << 31)));
   return {_mm512_castsi512_ps(_mm512_or_si512(_mm512_castps_si512(a.v), sign))};
@@ -32,7 +32,7 @@ inline unsigned EqualMask(Real16 a, Real16 b) { return _mm512_cmp_ps_mask(a.v, b
 inline std::size_t CountLessEqual(Real16 a, Real16 b) {
   return unsigned(__builtin_popcount(LessEqualMask(a, b)));
 }
-// a where a <= b, 0 elsewhere.
+// Returns a where a <= b, 0 elsewhere.
 inline Real16 IfLessEqual(Real16 a, Real16 b) {
   return {_mm512_maskz_mov_ps(__mmask16(LessEqualMask(a, b)), a.v)};
 }
@@ -43,32 +43,35 @@ inline void LoadOctahedral(const std::uint32_t* bits, Real16* a, Real16* b) {
   b->v = _mm512_cvtepi32_ps(_mm512_srai_epi32(words, 16));
 }
 
-// The lane of the mask (not 0) with the least value, but for its last four bits, of which the place
-// takes the room. Values are not negative, so their bits are ordered as they are.
+// Returns the lane with the smallest value among the lanes of the mask, which must not be 0. The
+// last four bits of each value are replaced by its lane number and do not count. Values must not be
+// negative, so that their bits have the same order as the values.
 inline unsigned NearestLane(Real16 values, unsigned mask) {
   const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m512i keys = _mm512_or_si512(
       _mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(values.v)), places);
   return unsigned(_mm512_mask_reduce_min_epi32(__mmask16(mask), keys)) & 15;
 }
-// Of values that are not negative; where the mask is 0, no matter what.
+// Returns the smallest value among the lanes of the mask. Values must not be negative. The result
+// is unspecified if the mask is 0.
 inline Real LeastOf(Real16 values, unsigned mask) {
   return std::bit_cast<Real>(
       _mm512_mask_reduce_min_epi32(__mmask16(mask), _mm512_castps_si512(values.v)));
 }
 
-// Of values that are not negative.
+// Returns the largest value. Values must not be negative.
 inline Real LargestOf(Real16 values) {
   return std::bit_cast<Real>(_mm512_reduce_max_epi32(_mm512_castps_si512(values.v)));
 }
 
-// Writes the lanes of the mask one after the other, and sixteen in all; how many there were.
+// Writes the lanes of the mask contiguously and returns their number. It always writes sixteen
+// values.
 inline std::size_t StoreLanes(Real16 values, unsigned mask, Real* to) {
   _mm512_storeu_ps(to, _mm512_maskz_compress_ps(__mmask16(mask), values.v));
   return unsigned(__builtin_popcount(mask));
 }
-// Writes the lanes of the mask, and their indices, one after the other, and sixteen in all; how
-// many there were.
+// Writes the lanes of the mask and their indices contiguously, and returns their number. It always
+// writes sixteen values and indices.
 inline std::size_t AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned mask,
                                Real* distance2, std::uint32_t* index) {
   const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
@@ -77,7 +80,7 @@ inline std::size_t AppendLanes(Real16 values, std::uint32_t firstIndex, unsigned
   _mm512_storeu_si512(index, _mm512_maskz_compress_epi32(__mmask16(mask), indices));
   return unsigned(__builtin_popcount(mask));
 }
-// The same with given indices.
+// Does the same with the indices in `from`.
 inline std::size_t KeepLanes(Real16 values, unsigned mask, const std::uint32_t* from,
                              Real* distance2, std::uint32_t* index) {
   const __m512i indices = _mm512_loadu_si512(from);

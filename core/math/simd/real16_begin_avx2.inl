@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What real16_avx2.inl needs, and from here on AVX2: not for headers, an inline function of which
-// could then replace the one that other files use. Until vectors_end.inl.
+// This file includes the headers of real16_avx2.inl and enables AVX2 until vectors_end.inl. Do not
+// include headers in between: the linker could use their inline functions, compiled for AVX2, in
+// other files.
 #include <immintrin.h>
 
 #include <algorithm>

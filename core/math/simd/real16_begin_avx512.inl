@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What real16_avx512.inl needs, and from here on AVX-512: not for headers, an inline function of
-// which could then replace the one that other files use. Until vectors_end.inl.
+// This file includes the headers of real16_avx512.inl and enables AVX-512 until vectors_end.inl. Do
+// not include headers in between: the linker could use their inline functions, compiled for
+// AVX-512, in other files.
 #include <immintrin.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include <limits>
 
 #if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC bug 105593: in its own intrinsics
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC bug 105593, in its intrinsics
 #endif
 
 #if defined(__clang__)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Real16 for any machine: loops that the compiler maps to what there is.
+// Real16 for the portable target uses loops that the compiler maps to the available instructions.
 
 struct Real16 {
   Real lanes[kReal16Lanes];
@@ -67,7 +67,8 @@ inline void LoadOctahedral(const std::uint32_t* bits, Real16* a, Real16* b) {
   }
 }
 
-// The lane of the mask (not 0) with the least value, the lowest of equals.
+// Returns the lane with the smallest value among the lanes of the mask, which must not be 0. Ties
+// go to the lowest lane.
 inline unsigned NearestLane(const Real16& values, unsigned mask) {
   unsigned nearest = unsigned(__builtin_ctz(mask));
   for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
@@ -76,8 +77,8 @@ inline unsigned NearestLane(const Real16& values, unsigned mask) {
   }
   return nearest;
 }
-// Of values that are not negative; where the mask is 0, no matter what. Bits of the mask beyond the
-// lanes mean nothing.
+// Returns the smallest value among the lanes of the mask. Values must not be negative. The result
+// is unspecified if the mask is 0. Mask bits beyond the lanes are ignored.
 inline Real LeastOf(const Real16& values, unsigned mask) {
   Real least = kInfinity;
   for (std::uint32_t i = 0; i < kReal16Lanes; ++i)
@@ -85,7 +86,7 @@ inline Real LeastOf(const Real16& values, unsigned mask) {
   return least;
 }
 
-// Of values that are not negative.
+// Returns the largest value. Values must not be negative.
 inline Real LargestOf(const Real16& values) {
   Real largest = 0;
   for (const Real lane : values.lanes) largest = lane > largest ? lane : largest;
@@ -97,7 +98,7 @@ inline std::size_t CountLessEqual(const Real16& a, const Real16& b) {
   for (std::uint32_t i = 0; i < kReal16Lanes; ++i) count += a.lanes[i] <= b.lanes[i];
   return count;
 }
-// a where a <= b, 0 elsewhere.
+// Returns a where a <= b, 0 elsewhere.
 inline Real16 IfLessEqual(const Real16& a, const Real16& b) {
   Real16 r;
   for (std::uint32_t i = 0; i < kReal16Lanes; ++i)
@@ -105,13 +106,13 @@ inline Real16 IfLessEqual(const Real16& a, const Real16& b) {
   return r;
 }
 
-// Writes the lanes of the mask one after the other; how many there were.
+// Writes the lanes of the mask contiguously and returns their number.
 inline std::size_t StoreLanes(const Real16& values, unsigned mask, Real* to) {
   std::size_t count = 0;
   for (; mask != 0; mask &= mask - 1) to[count++] = values.lanes[__builtin_ctz(mask)];
   return count;
 }
-// The same with their indices.
+// These do the same for the lanes and their indices.
 inline std::size_t KeepLanes(const Real16& values, unsigned mask, const std::uint32_t* from,
                              Real* distance2, std::uint32_t* index) {
   std::size_t count = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From here on the instructions that every machine has.
+// This file ends the code of a SIMD target. The code after it uses only instructions of every
+// machine.
 #if defined(__clang__)
 #pragma clang attribute pop
 #else

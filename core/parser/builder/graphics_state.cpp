@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Saving, restoring and sharing graphics states.
+// GraphicsState copies shared tables before a change. StateStack saves and restores states.
 #include "core/parser/builder/graphics_state.h"
 
 namespace exphoton {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What AttributeBegin saves and AttributeEnd brings back: transformation, material, area light,
-// orientation and the names known so far. Cheap to copy.
+// GraphicsState is the state that AttributeBegin saves and AttributeEnd restores: transformation,
+// material, area light, orientation and the textures and materials named so far. It is cheap to
+// copy.
 #pragma once
 
 #include <map>
@@ -15,12 +16,12 @@
 
 namespace exphoton {
 
-// A Material directive. The object is made when a shape first wears it, with the textures known
-// there; later shapes share it.
+// MaterialSpec stores a Material directive. The first shape that uses it instantiates the Material,
+// with the textures known at that shape. Later shapes share the object.
 struct MaterialSpec {
   std::string name;
   ParamSet params;
-  std::shared_ptr<const TextureTable> textures;  // null: those known at the shape
+  std::shared_ptr<const TextureTable> textures;  // null: use the textures known at the shape
 
   std::shared_ptr<const Material> made;
   int madeGeneration = -1;
@@ -36,24 +37,24 @@ struct GraphicsState {
   ActiveTimes active = ActiveTimes::All;
   bool reverseOrientation = false;
   std::shared_ptr<MaterialSpec> material;
-  std::shared_ptr<const AreaLightSpec> areaLight;  // null: shapes emit nothing
+  std::shared_ptr<const AreaLightSpec> areaLight;  // null: shapes do not emit
   std::shared_ptr<TextureTable> textures = std::make_shared<TextureTable>();
   using MaterialMap = std::map<std::string, std::shared_ptr<MaterialSpec>>;
   std::shared_ptr<MaterialMap> namedMaterials = std::make_shared<MaterialMap>();
 
-  // To be called before a change of what other states may share.
+  // Return a table that may be changed. A table that other states share is copied first.
   TextureTable& OwnTextures();
   MaterialMap& OwnNamedMaterials();
 };
 
-// The open blocks. Each remembers the state it brings back and where it began.
+// StateStack holds the open blocks, each with its start and the state that its end restores.
 class StateStack {
  public:
   enum class Block { Attribute, Transform, Object };
   static constexpr std::size_t kMaxDepth = 4096;
 
   void Push(Block block, const GraphicsState& state, const SourceLocation& where);
-  // Closes the innermost block, which must be of that kind; `name` is the directive's.
+  // Closes the innermost block, which must be of this kind. `name` is the directive's name.
   void Pop(Block block, const std::string& name, const SourceLocation& where, GraphicsState* state);
 
   bool IsEmpty() const { return entries_.empty(); }
@@ -70,7 +71,7 @@ class StateStack {
   std::vector<Entry> entries_;
 };
 
-// "scene.pbrt:12", for use within a message.
+// Returns "scene.pbrt:12", for use within a message.
 std::string PlaceName(const SourceLocation& where);
 
 [[noreturn]] void FailAt(const SourceLocation& where, const std::string& text,

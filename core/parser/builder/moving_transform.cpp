@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// From two matrices of a scene file to a motion, with what people need to hear of it.
+// MotionBetween converts a pair of transformations to an AnimatedTransform, with errors and
+// warnings.
 #include "core/parser/builder/moving_transform.h"
 
 #include "core/base/log.h"

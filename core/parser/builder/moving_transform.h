@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The current transformation at the two times that TransformTimes names, and which of the two
-// directives change (ActiveTransform).
+// MovingTransform is the current transformation at the two times given by TransformTimes.
+// ActiveTimes selects which of the two transformations later directives change (ActiveTransform).
 #pragma once
 
 #include <string>
@@ -21,7 +21,8 @@ struct MovingTransform {
 
 enum class ActiveTimes { All, Start, End };
 
-// The motion from one to the other. Throws Error(Scene) where there is none: `what` cannot move so.
+// Returns the motion from start to end over `times`. Throws Error(Scene) if they cannot be
+// interpolated; `what` names the object in messages.
 AnimatedTransform MotionBetween(const MovingTransform& transform, Interval times,
                                 const std::string& what, const SourceLocation& where, Log& log);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Defaults, overrides from the command line, and the making of camera, film, sampler, filter and
-// integrator.
+// RenderDirectives applies defaults and command-line overrides, and makes camera, film, sampler,
+// filter and integrators.
 #include "core/parser/builder/render_directives.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kQuickResolutionDivisor = 4;
 
-// The one class of objects that the core itself makes, or accepts without effect.
+// Checks the name in a directive without plugins: Film, made by the core, and Renderer, ignored.
 void RequireName(const std::string& what, const std::string& name, const SourceLocation& where,
                  const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -32,7 +32,7 @@ RenderDirectives::RenderDirectives(const LoadOptions& options) : options_(option
   OverrideIntegrator();
 }
 
-// Its parameters stay: those of another integrator are only noticed.
+// Replaces the name but keeps the parameters: by default, unknown parameters cause only warnings.
 void RenderDirectives::OverrideIntegrator() {
   if (!options_.integrator) return;
   integrator_.name = *options_.integrator;

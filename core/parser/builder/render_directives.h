@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RenderDirectives: what a file says before WorldBegin about how to render, and the objects made
-// from it at WorldEnd.
+// RenderDirectives stores the directives before WorldBegin that say how to render, and makes the
+// objects from them at WorldEnd.
 #pragma once
 
 #include <string>
@@ -17,18 +17,18 @@ class RenderDirectives {
  public:
   explicit RenderDirectives(const LoadOptions& options);
 
-  // Camera, Film, Sampler ...: the last one of each wins.
+  // Stores Camera, Film, Sampler and so on. The last directive of each kind wins.
   void Handle(Directive directive, const MovingTransform& current);
-  // Between which the transformations of moving things run; for all of the scene.
+  // Sets the times of the start and end transformations, for the whole scene.
   void SetTransformTimes(Interval times) { transformTimes_ = times; }
   Interval TransformTimes() const { return transformTimes_; }
 
-  // The place of errors in what the file leaves to the defaults.
+  // Sets the location that errors report for directives that the file leaves out.
   void SetDefaultPlace(const SourceLocation& where);
 
   AcceleratorSpec Accelerator(PluginRegistry& registry) const;
 
-  // Makes everything but the scene.
+  // Makes everything except the scene.
   void Create(PluginRegistry& registry, Log& log, bool hasMedia, RenderSetup* setup) const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The state machine of the scene language. WorldEnd makes a setup and resets the state.
+// SceneBuilder is the state machine of the scene language. WorldEnd adds a RenderSetup and resets
+// the state.
 #include "core/parser/builder/scene_builder.h"
 
 #include <algorithm>
@@ -144,7 +145,7 @@ void SceneBuilder::ChangeTransform(const Directive& directive) {
 
 void SceneBuilder::SetActiveTransform(const Directive& directive) {
   const std::string& when = directive.strings[0];
-  const std::vector<std::string> known{"All", "StartTime", "EndTime"};  // in ActiveTimes' order
+  const std::vector<std::string> known{"All", "StartTime", "EndTime"};  // in ActiveTimes order
   const auto found = std::find(known.begin(), known.end(), when);
   if (found == known.end())
     FailAt(directive.Where(),
@@ -177,7 +178,7 @@ void SceneBuilder::SetMaterial(Directive directive) {
       world_->MakeMaterialSpec(std::move(directive.strings[0]), std::move(directive.params));
 }
 
-// Version 2: the plugin's name is the parameter "type".
+// In the syntax of version 2, the parameter "type" names the plugin.
 void SceneBuilder::MakeNamedMaterial(Directive directive) {
   const std::string& name = directive.strings[0];
   const ParsedParam* type = directive.params.Find("type");
@@ -209,8 +210,9 @@ void SceneBuilder::UseNamedMaterial(const Directive& directive) {
   state_.material = found->second;
 }
 
-// A scene file may come from anybody, and a plugin is code: its folder must lie in one that the
-// user has named, or the user must have allowed it.
+// Decides whether a SearchPath folder may supply plugins. Scene files can come from untrusted
+// sources, and plugins are native code. The folder must therefore lie inside a folder that the user
+// chose, unless the user allowed scene plugins.
 PluginFolder SceneBuilder::JudgeFolder(const std::string& path, const SourceLocation& where) {
   for (const std::string& chosen : options_.pluginFolders)
     if (LiesIn(path, chosen)) return {path, PluginTrust::Chosen};
@@ -220,7 +222,8 @@ PluginFolder SceneBuilder::JudgeFolder(const std::string& path, const SourceLoca
   return {path, PluginTrust::Skipped};
 }
 
-// The program's own folders stay at the end, so that old paths do no harm.
+// Sets the plugin folders; "&" inserts the current ones. The user's and the program's own folders
+// are always appended, so a scene with an outdated path still finds the standard plugins.
 void SceneBuilder::SetSearchPath(const Directive& directive) {
   const std::string& text = directive.strings[0];
   PluginFolders folders;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SceneBuilder: directives in, render setups out. It keeps the state of the language: which block
-// is open, the current transformation, named coordinate systems.
+// SceneBuilder turns directives into render setups. It keeps the state of the language: the open
+// blocks, the current transformation and the named coordinate systems.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ namespace exphoton {
 
 class SceneBuilder final : public DirectiveHandler {
  public:
-  // options and log must outlive the builder; log must outlive what it makes.
+  // `options` and `log` must outlive the builder. `log` must also outlive the setups.
   SceneBuilder(std::string sceneName, const LoadOptions& options, Log& log);
 
   void Handle(Directive directive) override;
@@ -51,7 +51,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::unique_ptr<PluginRegistry> registry_;
 
   std::optional<RenderDirectives> render_;
-  std::optional<WorldBuilder> world_;  // while a world is open
+  std::optional<WorldBuilder> world_;  // set between WorldBegin and WorldEnd
   std::optional<SourceLocation> worldBegin_;
   GraphicsState state_;
   StateStack stack_;

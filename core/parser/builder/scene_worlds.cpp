@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The world's beginning and end: where a scene becomes a render setup.
+// SceneBuilder completes a render setup at WorldEnd. LoadScenes parses a file with a SceneBuilder.
 #include <algorithm>
 #include <utility>
 
@@ -18,7 +18,7 @@ void SceneBuilder::BeginWorld(const Directive& directive) {
   state_.active = ActiveTimes::All;
   if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = MovingTransform();
   coordinateSystems_["world"] = MovingTransform();
-  state_.material = std::make_shared<MaterialSpec>();  // loaded only if a shape wears it
+  state_.material = std::make_shared<MaterialSpec>();  // instantiated only if a shape uses it
   state_.material->name = "matte";
   state_.material->params.where = directive.Where();
 }
@@ -60,7 +60,7 @@ void SceneBuilder::Finish(const SourceLocation& end) {
 
 namespace {
 
-// Included files may belong to several scenes.
+// Adds all files that the source has read, since an included file can affect several scenes.
 void AddFilesRead(const SceneSource& source, RenderSetup* setup) {
   std::set<std::string> files = source.FilesRead();
   files.insert(setup->inputFiles.begin(), setup->inputFiles.end());

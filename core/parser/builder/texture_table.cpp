@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Textures by name, and sums over their graphs that cannot overflow.
+// TextureTable finds textures by name. Sums of texture graph sizes saturate instead of overflowing.
 #include "core/parser/builder/texture_table.h"
 
 #include <algorithm>

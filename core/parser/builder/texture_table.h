@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// TextureTable: the textures that a scene has defined so far, with the size of the graph below
-// each. TextureUse: which of them a directive refers to.
+// TextureTable holds the textures that a scene has defined so far, with the size of the graph below
+// each. TextureUse records the textures that one directive refers to.
 #pragma once
 
 #include <map>
@@ -11,32 +11,32 @@
 
 namespace exphoton {
 
-// What one lookup of a texture may evaluate. A texture that is used twice counts twice, as it is
-// evaluated twice.
+// TextureGraph measures the work of one texture lookup. A texture that is referenced twice counts
+// twice, because it is evaluated twice.
 struct TextureGraph {
-  int depth = 0;           // textures on the longest way down
-  std::int64_t nodes = 0;  // textures in all; sums saturate
+  int depth = 0;           // number of textures on the longest path
+  std::int64_t nodes = 0;  // total number of textures; sums saturate
 
   void Include(const TextureGraph& other);
 };
 
-// Deeper graphs could overflow the stack of a thread: each texture evaluates those that it uses.
+// Deeper graphs could overflow a thread's stack, because texture evaluation is recursive.
 inline constexpr int kMaxTextureDepth = 256;
 
-// Shared by graphics states until one of them defines another texture.
+// Graphics states share a table until one of them defines another texture.
 class TextureTable final : public TextureLookup {
  public:
   TexturePtr<Real> Float(const std::string& name) const override;
   TexturePtr<Spectrum> Color(const std::string& name) const override;
   std::vector<std::string> Names() const override;
   bool Has(const std::string& name, bool isColor) const;
-  // Empty where there is no such texture.
+  // Returns an empty graph if there is no such texture.
   TextureGraph Graph(const std::string& name, bool isColor) const;
 
   void Define(const std::string& name, TexturePtr<Real> texture, const TextureGraph& graph);
   void Define(const std::string& name, TexturePtr<Spectrum> texture, const TextureGraph& graph);
 
-  // Changes when a name gets another meaning: materials made before are then made anew.
+  // Changes when a name is redefined. Materials made from an older generation are then remade.
   int generation = 0;
 
  private:
@@ -49,7 +49,7 @@ class TextureTable final : public TextureLookup {
   std::map<std::string, Entry<Spectrum>> color_;
 };
 
-// Finds textures in a table, and adds up the graphs of the textures found.
+// Looks up textures in a table and sums the graphs of the textures found.
 class TextureUse final : public TextureLookup {
  public:
   explicit TextureUse(const TextureTable& table) : table_(table) {}
@@ -64,7 +64,7 @@ class TextureUse final : public TextureLookup {
   }
   std::vector<std::string> Names() const override { return table_.Names(); }
 
-  // The graph of a texture that evaluates each of the found ones once.
+  // Returns the graph of a texture that evaluates each texture found once.
   TextureGraph Above() const;
 
  private:

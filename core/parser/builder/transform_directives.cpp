@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Each directive multiplies the current matrix from the right, as in version 1.
+// ApplyTransform multiplies the current matrix from the right, as in pbrt version 1.
 #include "core/parser/builder/transform_directives.h"
 
 #include <cmath>
@@ -19,12 +19,12 @@ Transform Require(const std::optional<Transform>& transform, const Directive& di
   return *transform;
 }
 
-// Part of the sixteenth number that the 4th, 8th and 12th may be: rounding of a program that
-// computed the matrix in double.
+// kRowNoise is the tolerance for the 4th, 8th and 12th number of a matrix, relative to the 16th. It
+// allows for rounding in a program that computed the matrix in double precision.
 constexpr double kRowNoise = 1e-12;
 
-// The affine map that a matrix in homogeneous coordinates means: all numbers divided by the last.
-// Shapes, bounds and normals use the first three rows only, so a projection has no meaning here.
+// Returns the affine map of a homogeneous matrix: all numbers divided by the last. Throws for
+// projective matrices, because shapes, bounds and normals use only the first three rows.
 Matrix4 AffineMatrix(const Matrix4& matrix, const Directive& directive) {
   const auto& last = matrix.m[3];
   for (std::size_t column = 0; column < 3; ++column) {
@@ -35,20 +35,20 @@ Matrix4 AffineMatrix(const Matrix4& matrix, const Directive& directive) {
                 directive.Where(),
                 "the matrix is given column by column; the 4th, 8th and 12th number must be 0");
   }
-  Matrix4 affine;  // its last row is 0 0 0 1
+  Matrix4 affine;  // last row: 0 0 0 1
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t column = 0; column < 4; ++column)
       affine.m[row][column] = matrix.m[row][column] / last[3];
   return affine;
 }
 
-// Sixteen numbers, column by column.
+// Reads sixteen numbers, column by column.
 Transform MatrixOf(const Directive& directive) {
   Matrix4 matrix;
   for (std::size_t column = 0; column < 4; ++column)
     for (std::size_t row = 0; row < 4; ++row)
       matrix.m[row][column] = directive.numbers[column * 4 + row];
-  // A last row of zeros is singular, as are numbers that are not finite.
+  // FromMatrix rejects a last row of zeros and numbers that are not finite.
   if (matrix.m[3] != std::array<double, 4>{0, 0, 0, 0} && std::isfinite(matrix.m[3][3]))
     matrix = AffineMatrix(matrix, directive);
   return Require(Transform::FromMatrix(matrix), directive, "the matrix is singular");
@@ -64,7 +64,7 @@ Transform LookAtOf(const Directive& directive, Dialect dialect) {
 }
 
 bool IsFinite(const Transform& transform) {
-  double sum = 0;  // not finite where any term is not
+  double sum = 0;  // not finite if any term is not finite
   for (const Matrix4* matrix : {&transform.Matrix(), &transform.InverseMatrix()})
     for (const auto& row : matrix->m)
       for (const double value : row) sum += std::abs(value) * 1e-3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The directives that change the current transformation, as a function of the one before.
+// ApplyTransform applies a transformation directive to the current transformation.
 #pragma once
 
 #include "core/parser/builder/moving_transform.h"
@@ -8,9 +8,9 @@
 
 namespace exphoton {
 
-bool IsTransformDirective(DirectiveId id);  // those of one matrix; not the named ones
+bool IsTransformDirective(DirectiveId id);  // false for CoordSysTransform
 
-// Throws Error(Scene) where the result is singular or not finite.
+// Returns the new current transformation. Throws Error(Scene) if it is singular or not finite.
 Transform ApplyTransform(const Transform& current, const Directive& directive, Dialect dialect);
 
 }  // namespace exphoton

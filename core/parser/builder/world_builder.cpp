@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Shapes with their materials and area lights, lights, and textures. Instances are in
-// world_objects.cpp.
+// WorldBuilder makes shapes with their materials and area lights, lights, media and textures. The
+// file world_objects.cpp handles objects and instances.
 #include "core/parser/builder/world_builder.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void RequireRest(const GraphicsState& state, const Directive& directive, const s
          "the transformation is not the same at StartTime and EndTime");
 }
 
-// Refuses a texture whose lookup could overflow the stack or would not end.
+// Refuses a texture whose lookup could overflow the stack or take too long.
 void CheckGraph(const TextureGraph& graph, const Directive& directive, const SceneLimits& limits) {
   const std::string subject = "texture \"" + directive.strings[0] + "\" ";
   if (graph.depth > kMaxTextureDepth)
@@ -83,8 +83,9 @@ void WorldBuilder::AddVolume(const Directive& directive, const GraphicsState& st
 
 namespace {
 
-// The plan of effects trusts ConstantValue, so Evaluate must give that very value: a blend of 1 and
-// 1 may be off by a rounding error, which would open an opaque surface.
+// Replaces a constant texture by its ConstantValue. Feature culling relies on that value, so
+// Evaluate must return it exactly: a mix of 1 and 1 can be off by a rounding error, which would
+// make an opaque surface let light through.
 template <class T>
 TexturePtr<T> WithoutRounding(TexturePtr<T> texture) {
   const auto value = texture->ConstantValue();
@@ -191,7 +192,7 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
     log_.Warning("a shape in an object cannot be an area light: it does not emit", shape.Where());
     return nullptr;
   }
-  // The light itself refuses a surface that has a problem, with the true reason.
+  // If the surface has a problem, the light's factory reports it, so the area is not checked here.
   const Real area = surface->EmitterProblem() ? Real(1) : surface->Area();
   if (!(area > 0) || !std::isfinite(area)) {
     log_.Warning("an area light of area 0 does not emit", shape.Where());
@@ -214,7 +215,8 @@ void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
       WithoutMaterialParameters(name, state.material->name, std::exchange(directive.params, {}));
   directive.params.where = where;
   const std::shared_ptr<const Motion> motion = MotionFor(directive, state);
-  // What moves is made in its own space, a set of its own, and placed by its motion.
+  // A moving shape is made in object space in a separate set, and an instance with the motion
+  // places that set in the world.
   const Transform toWorld = motion ? Transform() : state.transform.start;
   std::unique_ptr<ShapeGeometry> geometry = registry_.Create<PluginKind::Shape>(
       name, params, Bind(PluginKind::Shape, name, state.textures.get()),

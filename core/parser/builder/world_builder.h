@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// WorldBuilder: what stands between WorldBegin and WorldEnd becomes shapes, lights, materials,
-// textures and instances. One a scene; blocks and transformations are scene_builder.h's.
+// WorldBuilder makes the shapes, lights, materials, textures and instances of one scene from the
+// directives between WorldBegin and WorldEnd. SceneBuilder handles blocks and transformations.
 #pragma once
 
 #include <map>
@@ -16,16 +16,16 @@
 
 namespace exphoton {
 
-// The accelerator that the scene names, made over a finished set.
+// AcceleratorSpec names the accelerator plugin for the world and for each object.
 struct AcceleratorSpec {
   std::string name;
   ParamSet params;
-  int threads = 1;  // that may build it; 0: as many as there are cores
+  int threads = 1;  // for building it; 0: one per core
 };
 
 class WorldBuilder {
  public:
-  // transformTimes: between which what moves does so.
+  // `transformTimes` are the times of the start and end transformations.
   WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options,
                AcceleratorSpec accelerator, Interval transformTimes);
 
@@ -33,7 +33,7 @@ class WorldBuilder {
   void AddVolume(const Directive& directive, const GraphicsState& state);
   void AddShape(Directive directive, const GraphicsState& state);
   void DefineTexture(const Directive& directive, GraphicsState* state);
-  // Checks the name; the object is made by the first shape that wears it.
+  // Checks that the plugin exists. The first shape that uses the material instantiates it.
   std::shared_ptr<MaterialSpec> MakeMaterialSpec(std::string name, ParamSet params);
   std::shared_ptr<AreaLightSpec> MakeAreaLightSpec(Directive directive);
 
@@ -42,15 +42,15 @@ class WorldBuilder {
   void AddInstance(const Directive& directive, const GraphicsState& state);
   bool IsInObject() const { return object_ != nullptr; }
 
-  // The finished world. Nothing may be added after it.
+  // Returns the finished world. Nothing may be added afterwards.
   SceneParts Take();
-  // What building accelerators has taken so far, as phase "accelerator".
+  // Returns the time spent on building accelerators so far, as phase "accelerator".
   const Statistics& Times() const { return times_; }
 
  private:
   struct ObjectDefinition {
     std::unique_ptr<PrimitiveSet> set = std::make_unique<PrimitiveSet>();
-    const ObjectGeometry* geometry = nullptr;  // once an instance needed it
+    const ObjectGeometry* geometry = nullptr;  // built for the first instance
     std::vector<Instance> moving;              // parts that move within the object
     SourceLocation where;
   };
@@ -63,18 +63,18 @@ class WorldBuilder {
   const AreaLight* AreaLightFor(const AreaLightSpec* spec,
                                 std::shared_ptr<const EmitterSurface> surface,
                                 const Directive& shape, const GraphicsState& state);
-  // The shape's motion; null where it rests.
+  // Returns the shape's motion, or null if the shape does not move.
   std::shared_ptr<const Motion> MotionFor(const Directive& directive,
                                           const GraphicsState& state) const;
   bool Declares(PluginKind kind, const std::string& plugin, const std::string& parameter,
                 const SourceLocation& where);
-  // A shape's parameters without those that only its material knows.
+  // Returns a shape's parameters without those that only its material declares.
   ParamSet WithoutMaterialParameters(const std::string& shape, const std::string& material,
                                      ParamSet params);
-  struct Placed {  // what AddGeometry adds, and to what
+  struct Placed {  // the arguments of AddGeometry that depend on motion
     ShapeGeometry geometry;
     PrimitiveSet& set;
-    const Motion* motion;  // of the set; null: it rests
+    const Motion* motion;  // of the set; null: static
   };
   void AddGeometry(Placed placed, const Material* material, const Directive& directive,
                    const GraphicsState& state);
@@ -88,7 +88,7 @@ class WorldBuilder {
   Statistics times_;
   SceneParts parts_;
   std::map<std::string, ObjectDefinition> objects_;
-  ObjectDefinition* object_ = nullptr;  // the one being defined
+  ObjectDefinition* object_ = nullptr;  // the object being defined; null outside ObjectBegin
   int textureGenerations_ = 0;
   SharedCache shared_;
 };

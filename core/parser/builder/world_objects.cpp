@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Objects and their instances, accelerators, and the finished world.
+// WorldBuilder makes objects, their instances and accelerators, and returns the finished world.
 #include <utility>
 
 #include "core/base/log.h"
@@ -22,7 +22,7 @@ void WorldBuilder::BeginObject(const Directive& directive) {
     FailAt(directive.Where(),
            "ObjectBegin inside the object that begins at " + PlaceName(object_->where));
   const std::string& name = directive.strings[0];
-  // Instances made so far keep the geometry that they have.
+  // Instances made before a redefinition keep the old object's geometry.
   objects_[name] = ObjectDefinition();
   object_ = &objects_[name];
   object_->where = directive.Where();

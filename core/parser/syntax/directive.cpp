@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The table of directives: versions 1 and 2, in the order of the enumeration.
+// kDirectives lists the directives of versions 1 and 2, in the order of DirectiveId.
 #include "core/parser/syntax/directive.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The directives of the scene language as data: what follows each name, and where it may stand.
+// DirectiveSpec describes the syntax of each directive: its arguments and the scope that allows it.
 #pragma once
 
 #include <string>
@@ -58,26 +58,26 @@ struct DirectiveSpec {
   std::string_view name;
   DirectiveId id;
   DirectiveScope scope = DirectiveScope::Anywhere;
-  int numbers = 0;  // that follow; brackets round them are allowed
-  int strings = 0;  // quoted, before any parameters
+  int numbers = 0;  // count of numbers; brackets around them are optional
+  int strings = 0;  // count of quoted strings before any parameters
   bool hasParameters = false;
-  bool hasWord = false;  // a bare word: ActiveTransform All
+  bool hasWord = false;  // an unquoted word, as in ActiveTransform All
 };
 
-// One directive as a file says it.
+// Directive is one parsed directive of a file.
 struct Directive {
   const DirectiveSpec* spec = nullptr;
   std::vector<double> numbers;
-  std::vector<std::string> strings;  // the bare word too
-  ParamSet params;                   // params.where: of the directive
+  std::vector<std::string> strings;  // includes the unquoted word
+  ParamSet params;                   // params.where is the location of the directive
 
   const SourceLocation& Where() const { return params.where; }
 };
 
-// nullptr where there is none of that name.
+// Returns nullptr if there is no directive of that name.
 const DirectiveSpec* FindDirective(std::string_view name);
 std::vector<std::string> DirectiveNames();
-// "pbrt-v4" for a directive of a later version, "" for any other word.
+// Returns "pbrt-v4" or "pbrt-v3" for a directive of that later version, "" for any other word.
 std::string_view LaterVersionOf(std::string_view name);
 
 }  // namespace exphoton

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One loop over the tokens: a directive's name, its numbers or strings, its parameters.
+// Parser loops over the tokens of a scene. Each directive is a name, then numbers or strings, then
+// parameters.
 #include "core/parser/syntax/parser.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kMaxLocatedValues = 16;  // longer lists get the place of their declaration
+constexpr std::size_t kMaxLocatedValues = 16;  // longer lists have one location
 
 enum class ValueKind { Numbers, Strings, Either };
 struct TypeSpec {
@@ -91,7 +92,7 @@ class Parser {
   Tokenizer tokens_;
   DirectiveHandler& handler_;
   Log& log_;
-  Token token_;  // the next one
+  Token token_;  // lookahead: the token to parse next
 };
 
 void Parser::FailUnknown() const {
@@ -122,7 +123,8 @@ void Parser::ParseDirective() {
   handler_.Handle(std::move(directive));
 }
 
-// The token behind the name is not read before the included file: it belongs after it.
+// Opens the included file before reading the token after the file name, since that token follows
+// the included text.
 void Parser::ParseInclude(const TextPosition& where) {
   if (token_.kind != TokenKind::String)
     Fail("Include takes the name of a file in quotes, found " + Describe(token_));
@@ -170,7 +172,7 @@ void Parser::ParseParameters(ParamSet* params) {
     if (params->Find(param.name))
       log_.Warning("parameter \"" + param.name + "\" is given twice: the last one counts",
                    param.where);
-    // Sets of parameters are searched from end to end; real ones have less than 50.
+    // ParamSet searches linearly; real directives have fewer than 50 parameters.
     constexpr std::size_t kMaxParameters = 1000;
     if (params->All().size() == kMaxParameters)
       Fail("more than " + std::to_string(kMaxParameters) + " parameters of one directive");
@@ -180,7 +182,7 @@ void Parser::ParseParameters(ParamSet* params) {
     Fail("expected a parameter or a directive, found " + Describe(token_));
 }
 
-// At "type name"; reads its values too.
+// Parses a declaration "type name" and the values that follow.
 ParsedParam Parser::ParseDeclaration() {
   constexpr std::string_view kBlanks = " \t\r\n\f\v";
   const std::string declaration(token_.text);
@@ -220,7 +222,7 @@ void Parser::ParseValues(ParsedParam* param, ValueKind kind) {
 }
 
 void Parser::ParseValue(ParsedParam* param, ValueKind kind) {
-  const auto name = [&] { return "parameter \"" + param->name + "\""; };  // millions never fail
+  const auto name = [&] { return "parameter \"" + param->name + "\""; };  // built only for errors
   if (token_.kind != TokenKind::Number && token_.kind != TokenKind::String) {
     const bool isBareBool = token_.text == "true" || token_.text == "false";
     Fail(name() + " has " + Describe(token_) + " for a value",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ParseScene: scene text to directives, one after the other. It knows how each is written, not what
-// it means, nor where it may stand.
+// ParseScene converts scene text to a sequence of directives. It checks the syntax of each
+// directive, but neither its meaning nor the scope that allows it.
 #pragma once
 
 #include <string>
@@ -17,12 +17,12 @@ class DirectiveHandler {
  public:
   virtual ~DirectiveHandler() = default;
   virtual void Handle(Directive directive) = 0;
-  // After the last directive; `end` is the end of the file.
+  // Called after the last directive; `end` is the end of the file.
   virtual void Finish(const SourceLocation& end) = 0;
 };
 
-// Throws Error(File) where `path` cannot be read, Error(Scene) for what is wrong in it. The log
-// gets the warnings (a parameter given twice).
+// Throws Error(File) if `path` cannot be read and Error(Scene) for syntax errors. Logs warnings,
+// for example for a parameter given twice.
 void ParseScene(SceneSource& source, const std::string& path, DirectiveHandler& handler, Log& log,
                 const SceneLimits& limits = {});
 

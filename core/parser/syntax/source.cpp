@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Reading whole scene files into memory, with limits, so that no input makes us read for ever.
+// FileSource and MemorySource read whole scene files into memory, with limits on their size.
 #include "core/parser/syntax/source.h"
 
 #include <fcntl.h>
@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::size_t kMaxTextBytes = std::size_t(8) << 30;    // of one file, decompressed
 constexpr std::size_t kMaxStreamBytes = std::size_t(1) << 28;  // of a pipe or device
-constexpr std::size_t kMaxInflation = 1100;                    // deflate's limit is 1032
+constexpr std::size_t kMaxInflation = 1100;                    // expansion; deflate: at most 1032
 
-// The scene on the command line may be a pipe; a file that another one names may not.
+// The scene on the command line can be a pipe; an included file cannot.
 int OpenSource(const std::string& path, bool isIncluded) {
   try {
     if (isIncluded) return OpenRegularFile(path);
@@ -35,7 +35,7 @@ int OpenSource(const std::string& path, bool isIncluded) {
 }
 
 std::string ReadDescriptor(int file, std::size_t expected, std::size_t limit) {
-  std::string text(expected + 1, '\0');  // one more, so that the end is met without growing
+  std::string text(expected + 1, '\0');  // spare byte: read() reports the end without a resize
   std::size_t size = 0;
   for (;;) {
     if (size == text.size()) text.resize(text.size() + text.size() / 2 + (1 << 16));
@@ -106,8 +106,8 @@ std::string Gunzip(std::string_view bytes) {
   std::size_t consumed = 0, size = 0;
   int result = Z_OK;
   while (consumed < bytes.size() || result == Z_OK) {
-    if (result == Z_STREAM_END) {                  // another member follows
-      if (!IsGzip(bytes.substr(consumed))) break;  // padding after the last one
+    if (result == Z_STREAM_END) {                  // another gzip member follows
+      if (!IsGzip(bytes.substr(consumed))) break;  // padding after the last member
       inflateReset(&stream);
     }
     if (size == text.size()) text.resize(std::max<std::size_t>(text.size() * 2, 1 << 16));

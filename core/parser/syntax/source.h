@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SceneSource: where the text of scene files comes from: the file system (plain or gzip, "-" for
-// standard input) or a table in memory, for tests. Tokens are made from it in tokenizer.h.
+// SceneSource supplies the text of scene files: from the file system (plain or gzip, "-" for
+// standard input) or, in tests, from a table in memory. The tokenizer (tokenizer.h) reads it.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace exphoton {
 
-// Why a text cannot be had, without its name: "no such file", "is a directory".
+// SourceError says why a text cannot be read, without its name: "no such file", "is a directory".
 class SourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -21,23 +21,24 @@ class SceneSource {
  public:
   virtual ~SceneSource() = default;
 
-  // The whole text, decompressed. An included file must be a regular one, so that a device or a
-  // pipe named by mistake does not hang. Throws SourceError.
+  // Returns the whole text, decompressed. An included file must be a regular file, so that a device
+  // or pipe named by mistake does not block. Throws SourceError.
   virtual std::string Read(const std::string& path, bool isIncluded) = 0;
 
-  // The paths of all files that have been read; none where the text is not in files.
+  // Returns the paths of all files read so far; empty if the text does not come from files.
   virtual std::set<std::string> FilesRead() const { return {}; }
 
-  // The path that `name` stands for in the file `from`: relative to that file's folder.
+  // Returns the path of `name` as written in the file `from`: relative to the folder of `from`.
   virtual std::string Resolve(const std::string& name, const std::string& from) const;
 
-  // One name for each file, however it is spelt: to recognise a file that includes itself.
+  // Returns one canonical name for all spellings of a path, to detect a file that includes itself.
   virtual std::string Identity(const std::string& path) const { return path; }
 };
 
 class FileSource : public SceneSource {
  public:
-  // Texts by path. What can be read only once (standard input, pipes) is kept there, if given.
+  // Streams holds texts by path. If `streams` is given, Read stores text there that can be read
+  // only once (standard input, pipes), and returns the stored text in later calls.
   using Streams = std::map<std::string, std::string>;
   explicit FileSource(Streams* streams = nullptr) : streams_(streams) {}
 
@@ -59,7 +60,7 @@ class MemorySource : public SceneSource {
   std::map<std::string, std::string> files_;
 };
 
-bool IsGzip(std::string_view bytes);         // by its magic number
-std::string Gunzip(std::string_view bytes);  // all members, one after the other; SourceError
+bool IsGzip(std::string_view bytes);         // tests the magic number
+std::string Gunzip(std::string_view bytes);  // all members; throws SourceError
 
 }  // namespace exphoton

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The lexical rules of scene files. Numbers go through std::from_chars, so no locale matters.
+// Tokenizer implements the lexical rules of scene files. Numbers are parsed by std::from_chars,
+// independent of the locale.
 #include "core/parser/syntax/tokenizer.h"
 
 #include <charconv>
@@ -11,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kMaxShownColumn = 1000;  // a caret further out helps nobody
+constexpr std::size_t kMaxShownColumn = 1000;  // in bytes; errors further right show no source line
 constexpr std::size_t kShownAfterColumn = 100;
 
 bool IsBlank(char c) {
@@ -19,7 +20,8 @@ bool IsBlank(char c) {
 }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-// What a number or a word is made of, so that "12abc" is one bad number and not two tokens.
+// Returns whether c can be part of a number or word. "12abc" is therefore one malformed number and
+// not two tokens.
 bool IsWordPart(char c) { return IsLetter(c) || IsDigit(c) || c == '.' || c == '+' || c == '-'; }
 
 std::string ShowCharacter(char c) {
@@ -114,7 +116,7 @@ bool Tokenizer::SkipBlanks() {
   std::size_t at = file_->offset;
   for (; at < text.size(); ++at) {
     const char c = text[at];
-    // Lines end with LF, CR LF or, in files of old systems, CR alone.
+    // Lines end with LF, CR LF or, in old Mac OS files, CR alone.
     const bool isLoneReturn = c == '\r' && (at + 1 == text.size() || text[at + 1] != '\n');
     if (c == '\n' || isLoneReturn) {
       ++file_->line;
@@ -164,11 +166,11 @@ Token Tokenizer::ReadNumber() {
   const TextPosition start = Position();
   const char* const begin = file_->text.data() + start.offset;
   const char* const end = file_->text.data() + file_->text.size();
-  const char* first = begin + (*begin == '+' ? 1 : 0);  // from_chars takes no plus
+  const char* first = begin + (*begin == '+' ? 1 : 0);  // from_chars accepts no plus sign
   const char* magnitude = first + (first == begin && *first == '-' ? 1 : 0);
   Token token{TokenKind::Number, {}, 0, start};
   std::from_chars_result result{first, std::errc::invalid_argument};
-  if (magnitude < end && (IsDigit(*magnitude) || *magnitude == '.'))  // neither "nan" nor "+-1"
+  if (magnitude < end && (IsDigit(*magnitude) || *magnitude == '.'))  // rejects "nan" and "+-1"
     result = std::from_chars(first, end, token.number);
   const bool isWhole = result.ptr == end || !IsWordPart(*result.ptr);
   if (result.ec == std::errc{} && isWhole &&
@@ -214,8 +216,8 @@ Token Tokenizer::ReadString() {
   }
 }
 
-// At a backslash. The escapes of version 1: \ddd is decimal, and a backslash before any other
-// character stands for that character.
+// Reads the escape sequence at a backslash, by the rules of version 1: \ddd is decimal, and a
+// backslash before any other character yields that character.
 void Tokenizer::AppendEscape(TextPosition start) {
   const std::string& text = file_->text;
   const TextPosition escape = Position();
@@ -224,7 +226,7 @@ void Tokenizer::AppendEscape(TextPosition start) {
   const char c = text[at++];
   constexpr std::string_view kNames = "ntrbf", kMeanings = "\n\t\r\b\f";
   if (c == '\r' && at < text.size() && text[at] == '\n') ++at;
-  if (c == '\n' || c == '\r') {  // the string goes on in the next line
+  if (c == '\n' || c == '\r') {  // a line continuation
     ++file_->line;
     file_->lineStart = at;
   } else if (const std::size_t index = kNames.find(c); index != std::string_view::npos) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Tokenizer: scene text to words, strings, numbers and brackets, through included files. It knows
-// no directive. Text views of a token stay valid until the next one is read; nothing is allocated
-// for a number, since meshes have millions.
+// Tokenizer splits scene text, including included files, into words, strings, numbers and brackets.
+// It does not distinguish directives. The text view of a token is valid until the next token is
+// read. Number tokens allocate no memory, since meshes have millions of them.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace exphoton {
 
 enum class TokenKind { End, Word, String, Number, OpenBracket, CloseBracket };
 
-// A place, cheap to copy; Tokenizer::Locate makes words of it while its file is being read.
+// TextPosition is a position in the file being read and cheap to copy. Tokenizer::Locate converts
+// it to a SourceLocation while that file is still open.
 struct TextPosition {
   std::uint32_t line = 0;
   std::size_t lineStart = 0, offset = 0;
@@ -26,28 +27,28 @@ struct TextPosition {
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  std::string_view text;  // of a Word, or the characters of a String
-  double number = 0;      // finite, and within the range of Real
+  std::string_view text;  // the Word, or the contents of the String
+  double number = 0;      // finite and in the range of Real
   TextPosition position;
 };
 
 class Tokenizer {
  public:
-  static constexpr std::size_t kMaxStringBytes = 1 << 20;  // of a string or a word
+  static constexpr std::size_t kMaxStringBytes = 1 << 20;  // limit for one string or word
   static constexpr int kMaxIncludeDepth = 32;
 
-  // Throws Error(File) where `path` cannot be read. Include fails after maxIncludes calls.
+  // Throws Error(File) if `path` cannot be read. Include fails after maxIncludes calls.
   Tokenizer(SceneSource& source, const std::string& path,
             std::int64_t maxIncludes = SceneLimits().includes);
 
-  // The next token. At the end of an included file it goes on behind the Include.
+  // Returns the next token. At the end of an included file, continues after its Include directive.
   Token Next();
-  // Goes on with the text of `name`, as named by a directive at `where`. Throws Error(Scene).
+  // Continues with the text of `name`, as written by the Include at `where`. Throws Error(Scene).
   void Include(const std::string& name, const TextPosition& where);
 
-  // Of a token of the file that is being read.
+  // Converts the position of a token in the file being read.
   SourceLocation Locate(const TextPosition& position) const;
-  // The place behind the last token: what is missing is missing here.
+  // Returns the location after the last token, for errors about missing text.
   SourceLocation Here() const;
 
  private:
@@ -70,12 +71,12 @@ class Tokenizer {
 
   SceneSource& source_;
   std::int64_t maxIncludes_, includes_ = 0;
-  std::vector<std::unique_ptr<File>> files_;  // the innermost last; never empty
+  std::vector<std::unique_ptr<File>> files_;  // innermost file last; never empty
   File* file_ = nullptr;
   std::string unescaped_;
 };
 
-// Text as it can be shown in a message: at most `limit` bytes, without control characters.
+// Replaces control characters and cuts the text to `limit` bytes, for use in messages.
 std::string Printable(std::string_view text, std::size_t limit = 60);
 
 }  // namespace exphoton

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Hemispherical-hemispherical reflectances of the glossy lobes, by Blinn exponent. Computed once by
-// a midpoint rule of 96 x 192 x 96 points (error below 1e-4); tests/unit compares them with an
-// independent one. Rows: exponent 2^j - 1, interpolated linearly in log2(exponent + 1).
+// These tables hold the hemispherical-hemispherical reflectances of the glossy lobes, by Blinn
+// exponent. They were computed by a midpoint rule of 96 x 192 x 96 points (error below 1e-4);
+// tests/unit compares them with an independent computation. Row j has exponent 2^j - 1. Values are
+// interpolated linearly in log2(exponent + 1).
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ namespace exphoton {
 
 inline constexpr int kAlbedoRows = 11;
 
-// A place between two rows.
+// AlbedoRow is a place between two rows.
 struct AlbedoRow {
   std::size_t index;
   Real fraction;  // towards index + 1
@@ -24,7 +25,8 @@ struct AlbedoRow {
   }
 };
 
-// Torrance-Sparrow with F = 1, split by the cosine wo.h: column i for [i, i+1)/16.
+// This table is for the Torrance-Sparrow lobe with F = 1, split by the cosine wo.h. Column i covers
+// [i, i+1)/16.
 inline constexpr std::array<std::array<float, 16>, kAlbedoRows> kMicrofacetAlbedo{{
     {0.00005f, 0.00077f, 0.00221f, 0.00438f, 0.00723f, 0.01084f, 0.01524f, 0.02052f, 0.02655f,
      0.03370f, 0.04179f, 0.05120f, 0.06193f, 0.07462f, 0.08989f, 0.11132f},
@@ -50,7 +52,8 @@ inline constexpr std::array<std::array<float, 16>, kAlbedoRows> kMicrofacetAlbed
      0.07429f, 0.08212f, 0.08994f, 0.09774f, 0.10557f, 0.11339f, 0.12121f},
 }};
 
-// The gloss of Ashikhmin and Shirley: for Schlick's terms 1 and (1 - wo.h)^5.
+// This table is for the gloss of Ashikhmin and Shirley. The columns are for Schlick's terms 1 and
+// (1 - wo.h)^5.
 inline constexpr std::array<std::array<float, 2>, kAlbedoRows> kFresnelBlendAlbedo{{
     {0.42907f, 0.00611f},
     {0.49999f, 0.00771f},

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Blinn's distribution of microfacet normals, D(h) = (e+2)/(2 pi) cos^e h, and its sampling.
-// Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
+// BlinnDistribution is Blinn's distribution of microfacet normals, D(h) = (e+2)/(2 pi) cos^e h,
+// with its sampling. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized
+// Pictures".
 #pragma once
 
 #include "core/math/sampling/sampling.h"
 
 namespace exphoton {
 
-// The exponent of a roughness: its inverse, at most 1000; so for roughness 0 too, and for one that
-// is no number or negative.
+// Returns the exponent of a roughness: its inverse, at most 1000. A roughness of 0, below 0 or NaN
+// gives 1000.
 inline constexpr Real kMaxBlinnExponent = 1000;
 inline Real BlinnExponent(Real roughness) {
   return roughness > 1 / kMaxBlinnExponent ? 1 / roughness : kMaxBlinnExponent;
@@ -20,9 +21,10 @@ class BlinnDistribution {
       : exponent_(exponent), norm_((exponent + 2) * kInv2Pi) {}
 
   Real Exponent() const { return exponent_; }
-  // Facet area per unit area and steradian; the integral of D cos over the hemisphere is 1.
+  // Returns the facet area per unit area and steradian. The integral of D cos over the hemisphere
+  // is 1.
   Real D(Real cosH) const { return norm_ * std::pow(cosH, exponent_); }
-  // Half vector about +z with density D cos per solid angle.
+  // Samples a half vector about +z with density D cos per solid angle.
   Vector3 Sample(Point2 u) const {
     const Real cosH = std::pow(1 - u.x, 1 / (exponent_ + 2));
     return SphericalDirection(SafeSqrt((1 - cosH) * (1 + cosH)), cosH, 2 * kPi * u.y);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Fresnel reflectance of unpolarised light at dielectrics and conductors, and the refracted cosine.
-// A small value instead of a class hierarchy: it is evaluated in the innermost loops.
-// Sources: Born and Wolf, "Principles of Optics", section 1.5; for conductors the classic
-// approximation of Cook and Torrance 1982 (R perpendicular and parallel for large eta^2 + k^2).
+// Fresnel computes the reflectance of unpolarised light at dielectrics and conductors. It is a
+// small value instead of a class hierarchy, because the innermost loops evaluate it. Sources: Born
+// and Wolf, "Principles of Optics", section 1.5; for conductors the classic approximation of Cook
+// and Torrance 1982 (R perpendicular and parallel for large eta^2 + k^2).
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace exphoton {
 
-// |cos| of the refracted direction, or nullopt at total internal reflection (and exactly at the
-// critical angle). relativeEta = eta of the incident side / eta of the other side. Written without
-// sin^2, so that grazing cosines survive.
+// Returns |cos| of the refracted direction, or nullopt at total internal reflection (and exactly at
+// the critical angle). relativeEta is eta of the incident side / eta of the other side. The formula
+// avoids sin^2, which would lose grazing cosines.
 inline std::optional<Real> RefractedCosine(Real cosIncident, Real relativeEta) {
   const Real cos2 =
       (1 - relativeEta) * (1 + relativeEta) + Square(relativeEta) * Square(cosIncident);
@@ -21,8 +21,8 @@ inline std::optional<Real> RefractedCosine(Real cosIncident, Real relativeEta) {
   return std::min(std::sqrt(cos2), Real(1));
 }
 
-// Reflectance of a dielectric boundary. cosIncident < 0: light comes from the inside, and the
-// indices change places. 1 at total internal reflection.
+// Returns the reflectance of a dielectric boundary. If cosIncident < 0, light comes from the
+// inside, and the indices change places. The result is 1 at total internal reflection.
 inline Real FresnelDielectric(Real cosIncident, Real etaOutside, Real etaInside) {
   if (etaOutside == etaInside) return 0;
   if (cosIncident < 0) std::swap(etaOutside, etaInside);
@@ -36,8 +36,8 @@ inline Real FresnelDielectric(Real cosIncident, Real etaOutside, Real etaInside)
   return (Square(parallel) + Square(perpendicular)) / 2;
 }
 
-// Reflectance of a conductor with index eta and absorption k (relative to the outside); the
-// approximation that pictures made with pbrt 1 and 2 depend on.
+// Returns the reflectance of a conductor with index eta and absorption k (relative to the outside).
+// Pictures made with pbrt 1 and 2 depend on this approximation.
 inline Real FresnelConductor(Real cosIncident, Real eta, Real k) {
   const Real c = std::min(std::abs(cosIncident), Real(1)), c2 = c * c;
   const Real norm = eta * eta + k * k, cross = 2 * eta * c;
@@ -49,8 +49,8 @@ inline Real FresnelConductor(Real cosIncident, Real eta, Real k) {
   return (parallel + perpendicular) / 2;
 }
 
-// The index of refraction of a dielectric with this reflectance at normal incidence, which is
-// taken as at most .999.
+// Returns the index of refraction of a dielectric with this reflectance at normal incidence. The
+// reflectance is limited to .999.
 inline Real EtaFromReflectance(Real reflectance) {
   const Real root = std::sqrt(std::clamp(reflectance, Real(0), Real(.999)));
   return (1 + root) / (1 - root);
@@ -73,7 +73,8 @@ class Fresnel {
     return f;
   }
 
-  // cosIncident: of the incident direction and the (micro)facet's normal; its sign says the side.
+  // cosIncident is the cosine of the angle between the incident direction and the (micro)facet's
+  // normal. Its sign gives the side.
   Spectrum operator()(Real cosIncident) const {
     switch (kind_) {
       case Kind::Dielectric:
@@ -91,7 +92,7 @@ class Fresnel {
  private:
   enum class Kind { None, Dielectric, Conductor };
   Kind kind_ = Kind::None;
-  Spectrum eta_;  // of a dielectric: outside and inside index in r and g
+  Spectrum eta_;  // for a dielectric: outside and inside index in r and g
   Spectrum k_;
 };
 

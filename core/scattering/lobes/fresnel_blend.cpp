@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Ashikhmin and Shirley's coated diffuse surface. Half vectors are sampled in proportion to
-// cos^e(phi), with the azimuth by one stretched circle instead of four quadrants.
+// The coated diffuse surface of Ashikhmin and Shirley samples half vectors in proportion to
+// cos^e(phi). The azimuth comes from one stretched circle instead of four quadrants.
 #include "core/scattering/lobes/fresnel_blend.h"
 
 #include "core/math/sampling/sampling.h"
@@ -14,8 +14,8 @@ Real Power5(Real x) { return Square(Square(x)) * x; }
 
 }  // namespace
 
-// f = 28 / (23 pi) Kd (1 - Ks) (1 - (1 - cos wi / 2)^5) (1 - (1 - cos wo / 2)^5), of which the
-// hemispherical reflectance is 23 / 28 Kd (1 - Ks).
+// f = 28 / (23 pi) Kd (1 - Ks) (1 - (1 - cos wi / 2)^5) (1 - (1 - cos wo / 2)^5). Its
+// hemispherical-hemispherical reflectance is 23 / 28 Kd (1 - Ks).
 BlendedDiffuse::BlendedDiffuse(const Spectrum& diffuse, const Spectrum& gloss)
     : Bxdf(LobeSet::DiffuseReflection),
       rho_(diffuse * (Spectrum(1) - Clamp(gloss, 0, 1)) * (Real(23) / 28)) {}
@@ -46,7 +46,8 @@ BlendedGloss::BlendedGloss(const Spectrum& gloss, Real exponentX, Real exponentY
       normD_(std::sqrt((ex_ + 2) * (ey_ + 2)) * kInv2Pi),
       normPdf_(std::sqrt((ex_ + 1) * (ey_ + 1)) * kInv2Pi) {}
 
-// From x^2 + y^2, not 1 - z^2: at the peak the exponent is 0/0 but the power is 1.
+// The exponent uses x^2 + y^2 instead of 1 - z^2. At the peak the exponent is 0/0, but the power is
+// 1.
 Real BlendedGloss::PowH(const Vector3& h) const {
   const Real sin2 = h.x * h.x + h.y * h.y;
   if (!(sin2 > 0)) return 1;
@@ -88,7 +89,7 @@ std::optional<BxdfSample> BlendedGloss::Sample(const Vector3& wo, Point2 u) cons
   return BxdfSample{wi, weight, pdf};
 }
 
-// From a table at the exponent whose width is the mean of the two.
+// The table is read at the exponent whose lobe width is the mean of the two widths.
 Spectrum BlendedGloss::Rho() const {
   const Real width = (1 / std::sqrt(ex_ + 1) + 1 / std::sqrt(ey_ + 1)) / 2;
   const AlbedoRow row = AlbedoRow::Of(1 / (width * width) - 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Ideal diffuse reflection, sampled by the cosine.
+// Lambert samples ideal diffuse reflection in proportion to the cosine.
 #include "core/scattering/lobes/lambert.h"
 
 #include "core/math/sampling/sampling.h"

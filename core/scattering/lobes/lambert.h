@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Ideal diffuse reflection: f = R / pi.
+// Lambert is ideal diffuse reflection: f = R / pi.
 #pragma once
 
 #include "core/scattering/bxdf.h"

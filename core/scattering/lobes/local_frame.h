@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Small helpers for directions in a lobe's local frame, where z is the shading normal.
+// These helpers work on directions in a lobe's local frame, where z is the shading normal.
 #pragma once
 
 #include <optional>
@@ -8,20 +8,22 @@
 
 namespace exphoton {
 
-// Strictly on the same side of the surface; a direction in the surface is on neither side. By
-// comparisons, since a product of two tiny cosines underflows.
+// Returns whether both directions are strictly on the same side of the surface. A direction in the
+// surface is on neither side. The signs are compared, because a product of two tiny cosines
+// underflows.
 constexpr bool SameHemisphere(const Vector3& a, const Vector3& b) {
   return (a.z > 0 && b.z > 0) || (a.z < 0 && b.z < 0);
 }
 constexpr Vector3 MirrorZ(const Vector3& v) { return {v.x, v.y, -v.z}; }
-// v, or its mirror image on the side where `side` is (+z for side.z == 0).
+// Returns v, mirrored if necessary to the side of `side` (+z for side.z == 0).
 constexpr Vector3 OnSideOf(const Vector3& v, const Vector3& side) {
   return (v.z < 0) != (side.z < 0) ? MirrorZ(v) : v;
 }
 
-// The half vector of two directions on one side, on that side too, and its cosine to both:
-// |wo + wi| / 2, which cancels less than a dot product where they are nearly opposite. nullopt
-// where they are on no common side or exactly opposite.
+// HalfVector is the half vector of two directions on one side of the surface, with its cosine to
+// both. The half vector is on this side too. The cosine is |wo + wi| / 2, which cancels less than a
+// dot product for nearly opposite directions. `Of` returns nullopt for directions on no common side
+// or exactly opposite.
 struct HalfVector {
   Vector3 h;
   Real cosine;  // wo.h = wi.h > 0

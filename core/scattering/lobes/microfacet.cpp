@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Torrance and Sparrow's reflection, sampled by the half vector.
+// Microfacet samples Torrance-Sparrow reflection by the half vector.
 #include "core/scattering/lobes/microfacet.h"
 
 #include "core/scattering/lobes/albedo_tables.h"
@@ -27,12 +27,12 @@ Real Microfacet::Pdf(const Vector3& wo, const Vector3& wi) const {
 std::optional<BxdfSample> Microfacet::Sample(const Vector3& wo, Point2 u) const {
   const Vector3 h = OnSideOf(distribution_.Sample(u), wo);
   const Real oh = Dot(wo, h);
-  if (!(oh > 0)) return std::nullopt;  // the facet's back
+  if (!(oh > 0)) return std::nullopt;  // back of the facet
   const Vector3 wi = h * (2 * oh) - wo;
   if (!SameHemisphere(wo, wi)) return std::nullopt;
   const Real cosO = std::abs(wo.z), cosI = std::abs(wi.z), cosH = std::abs(h.z);
   const Real pdf = distribution_.Pdf(cosH) / (4 * oh);
-  // f cos_i / pdf: D cancels, and what is left is at most 2.
+  // In f cos_i / pdf, D cancels, and the rest is at most 2.
   const Real g = std::min(Real(1), 2 * cosH * std::min(cosO, cosI) / oh);
   const Spectrum weight = reflectance_ * fresnel_(oh) * (g * oh / (cosO * cosH));
   if (!(pdf > 0) || !std::isfinite(pdf) || !weight.IsFinite()) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Glossy reflection by microfacets: f = R D G F / (4 cos_i cos_o), Blinn's D and V-grooves' G.
-// Source: Torrance and Sparrow 1967, "Theory for Off-Specular Reflection from Roughened Surfaces".
+// Microfacet is glossy reflection by microfacets: f = R D G F / (4 cos_i cos_o), with Blinn's D and
+// the G of V-grooves. Source: Torrance and Sparrow 1967, "Theory for Off-Specular Reflection from
+// Roughened Surfaces".
 #pragma once
 
 #include "core/scattering/bxdf.h"
@@ -28,7 +29,8 @@ class Microfacet final : public Bxdf {
   BlinnDistribution distribution_;
 };
 
-// Hemispherical-hemispherical reflectance for R = 1, from albedo_tables.h; error below 0.01.
+// Returns the hemispherical-hemispherical reflectance for R = 1, from albedo_tables.h. The error is
+// below 0.01.
 Spectrum MicrofacetAlbedo(Real exponent, const Fresnel& fresnel);
 
 }  // namespace exphoton

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Oren and Nayar's diffuse reflection without trigonometry, sampled by the cosine.
+// OrenNayar evaluates Oren and Nayar's diffuse reflection without trigonometric functions and
+// samples it in proportion to the cosine.
 #include "core/scattering/lobes/oren_nayar.h"
 
 #include "core/math/sampling/sampling.h"
@@ -14,14 +15,15 @@ OrenNayar::OrenNayar(const Spectrum& reflectance, Real sigma)
   b_ = Real(.45) * sigma2 / (sigma2 + Real(.09));
 }
 
-// cos(dphi) sin(alpha) tan(beta) with alpha the larger, beta the smaller polar angle: the two sines
-// cancel against the azimuths' normalisation, which leaves (wi.xy . wo.xy) / max(cosines).
+// The model's term is cos(dphi) sin(alpha) tan(beta), with alpha the larger and beta the smaller
+// polar angle. The two sines cancel against the normalisation of the azimuths. This leaves
+// (wi.xy . wo.xy) / max(cosines).
 Spectrum OrenNayar::f(const Vector3& wo, const Vector3& wi) const {
   if (!SameHemisphere(wo, wi)) return {};
   const Real azimuth = std::max(wo.x * wi.x + wo.y * wi.y, Real(0));
   const Real rough = azimuth / std::max(std::abs(wo.z), std::abs(wi.z));
   const Spectrum value = reflectance_ * (kInvPi * (a_ + b_ * rough));
-  return value.IsFinite() ? value : Spectrum();  // both cosines denormal
+  return value.IsFinite() ? value : Spectrum();  // not finite if both cosines are denormal
 }
 
 Real OrenNayar::Pdf(const Vector3& wo, const Vector3& wi) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Rough diffuse reflection: the qualitative model of Oren and Nayar 1994, "Generalization of
-// Lambert's Reflectance Model", eq. 30. sigma is the deviation of the facets' slope angle.
+// OrenNayar is rough diffuse reflection: the qualitative model of Oren and Nayar 1994,
+// "Generalization of Lambert's Reflectance Model", eq. 30. sigma is the standard deviation of the
+// facets' slope angle.
 #pragma once
 
 #include "core/scattering/bxdf.h"

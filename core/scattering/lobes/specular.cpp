@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Delta lobes: the mirrored and the refracted direction with their coefficients.
+// The delta lobes return the mirrored or the refracted direction with its coefficient.
 #include "core/scattering/lobes/specular.h"
 
 namespace exphoton {
 namespace {
 
-// The mean over a hemisphere of g, weighted by 2 cos d(cos): midpoint rule in the cosine, which
-// resolves the steep part of Fresnel's equations at grazing angles.
+// Returns the mean of g over a hemisphere, weighted by 2 cos d(cos). The midpoint rule in the
+// cosine resolves the steep part of Fresnel's equations at grazing angles.
 template <class G>
 auto HemisphericalMean(G&& g) {
   constexpr int kTerms = 32;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Ideal mirrors and smooth refracting boundaries: delta lobes, whose f and Pdf are 0 and which
-// exist only for Sample. The deltas' cosines are cancelled on paper, so that no grazing direction
-// divides by 0.
+// SpecularReflection and SpecularTransmission are ideal mirrors and smooth refracting boundaries.
+// They are delta lobes: f and Pdf are 0, and only Sample returns light. The cosines of the deltas
+// are cancelled analytically, so that no grazing direction divides by 0.
 #pragma once
 
 #include "core/scattering/bxdf.h"
@@ -9,7 +9,8 @@
 
 namespace exphoton {
 
-// Reflects about the normal; coefficient R F(cos wo), the cosine with its sign.
+// SpecularReflection reflects about the normal. The coefficient is R F(cos wo), with the signed
+// cosine.
 class SpecularReflection final : public Bxdf {
  public:
   SpecularReflection(const Spectrum& reflectance, const Fresnel& fresnel)
@@ -25,9 +26,10 @@ class SpecularReflection final : public Bxdf {
   Fresnel fresnel_;
 };
 
-// Refracts into the other side; coefficient T (1 - F). Radiance changes by the square of the
-// relative index, so that L / eta^2 is constant along the refracted ray (Veach 1997, section 5.2);
-// the power of photons does not. Equal indices: straight through.
+// SpecularTransmission refracts to the other side. The coefficient is T (1 - F). Radiance scales by
+// the square of the relative index, so that L / eta^2 is constant along the refracted ray (Veach
+// 1997, section 5.2). The power of photons does not change. With equal indices, the ray goes
+// straight through.
 class SpecularTransmission final : public Bxdf {
  public:
   SpecularTransmission(const Spectrum& transmittance, Real etaOutside, Real etaInside,

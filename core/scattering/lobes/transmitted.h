@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Diffuse or glossy transmission through a thin sheet: a reflection lobe, mirrored to the other
-// side. f, Pdf and Sample mirror the same vector in the same way (z alone).
+// Transmitted is diffuse or glossy transmission through a thin sheet: a reflection lobe mirrored to
+// the other side. f, Pdf and Sample all mirror wi, and only its z.
 #pragma once
 
 #include "core/scattering/bxdf.h"
@@ -8,7 +8,7 @@
 
 namespace exphoton {
 
-// Reflection: a concrete reflection lobe, held by value.
+// Reflection is a concrete reflection lobe, held by value.
 template <class Reflection>
 class Transmitted final : public Bxdf {
  public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search.inl: what a search for the k nearest has found so far, and the choice of
-// the k among it.
+// Part of nearest_search.inl: the candidates that a k-nearest-neighbour search has found so far,
+// and the selection of the k nearest among them.
 
-// Candidates by ascending index, cut back to the k nearest when there is no more room.
+// Stores candidates by ascending index. A full buffer is cut back to the k nearest.
 class Candidates {
  public:
   Candidates(const NearBuffer& buffer, std::uint32_t k, Real limit2)
@@ -40,14 +40,16 @@ class Candidates {
       within += CountLessEqual(Real16::LoadUnaligned(distance2_ + i), pivot);
     return within;
   }
-  // Infinite distances, so that all can be read as whole vectors.
+  // Pads with infinite distances, so that the buffer can be read in vectors of 16 lanes.
   void PadToVector() { Real16::All(kInfinity).StoreUnaligned(distance2_ + count_); }
 
-  // The squared distance of the k-th nearest, of more than k. Squared distances are spread about
-  // evenly on a surface, so pivots are interpolated; what they leave is sorted.
+  // Returns the squared distance of the k-th nearest of more than k candidates. On a surface,
+  // squared distances are about uniformly distributed, so pivots are interpolated linearly.
+  // KthBetween then selects among the candidates left between the last two pivots.
   Real KthDistance2() const {
     constexpr int kTries = 6;
-    // The k-th is in (low2, high2]; what an earlier cut has left may be just beyond the limit.
+    // The k-th distance is in (low2, high2]. Candidates kept by an earlier cut may lie one step
+    // beyond limit2_, so high2 includes them.
     Real low2 = -1, high2 = NextUp(limit2_);
     std::size_t below = 0, upTo = count_;
     for (int i = 0; i < kTries && upTo > k_; ++i) {
@@ -76,7 +78,7 @@ class Candidates {
     return *std::max_element(lanes, lanes + kBlockPoints);
   }
 
-  // The rank-th of those in (low2, high2].
+  // Returns the rank-th smallest squared distance in (low2, high2].
   Real KthBetween(Real low2, Real high2, std::size_t rank) const {
     constexpr std::size_t kFew = 64;
     Real few[kFew] = {};
@@ -89,7 +91,8 @@ class Candidates {
       std::nth_element(few, few + rank - 1, few + count);
       return few[rank - 1];
     }
-    // Most are equal, or extremely uneven: halve by bits of the numbers, which are ordered as they.
+    // Most distances are equal or extremely uneven. Bisect the bit patterns, which have the same
+    // order as the numbers because squared distances are not negative.
     RealBits lowBits = low2 < 0 ? 0 : std::bit_cast<RealBits>(low2) + 1;
     RealBits highBits = std::bit_cast<RealBits>(high2);
     while (lowBits < highBits) {
@@ -103,11 +106,12 @@ class Candidates {
     return std::bit_cast<Real>(lowBits);
   }
 
-  // Keeps the k nearest. What comes later has a higher index, so it must be nearer than they are.
+  // Keeps the k nearest. Later candidates have higher indices and lose ties, so they must be
+  // strictly nearer: limit2_ is the number just below the k-th distance.
   void Cut() {
     PadToVector();
     const Real kth2 = KthDistance2();
-    std::size_t spare = k_ - CountWithin(NextDownFrom(kth2));  // how many of the k are at kth2
+    std::size_t spare = k_ - CountWithin(NextDownFrom(kth2));  // kept candidates at distance kth2
     std::size_t kept = 0;
     const Real16 kth = Real16::All(kth2);
     for (std::size_t i = 0; i < count_; i += kBlockPoints) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search.inl: the search for the closest disk, one at a time.
+// Part of nearest_search.inl: the search for the closest disk that covers a point, one query at a
+// time.
 
-// What all searches of a call have in common.
+// The data that all queries of one call share.
 struct Disks {
   const PointTreeView& view;
   const ClosestLimits& limits;
 
-  // As far as anything is found.
+  // The initial best: no point, and the search radius as its squared distance.
   ClosestPoint None() const { return {std::min(limits.maxRadius2, kLargest), ClosestPoint::kNone}; }
 
-  // The block to begin with; none where nothing can be found. What the grid names is nearly always
-  // the right one.
+  // Returns the block where the search begins, or kNone if nothing can be found. The block from the
+  // entry grid nearly always contains the closest disk.
   std::uint32_t FirstBlock(const Point3& p) const {
     if (view.count == 0 || !IsFinite(p)) return ClosestPoint::kNone;
     return view.grid ? view.grid->BlockNear(p) : FindBlockNear(view, p);
@@ -29,14 +30,14 @@ struct Disks {
     return LessEqualMask(zero, along) | LessMask(along * along, least2);
   }
 
-  // Squared: that of a block's farthest point.
+  // Returns the squared distance from p to the farthest point of the block.
   Real Farthest2(std::uint32_t number, const Point3& p) const {
     Real16 dx, dy, dz;
     return LargestOf(PointDistance2(Block(number), Place16(p), &dx, &dy, &dz));
   }
 
-  // Whether the block has something better. Lanes that repeat the last point never are: of equals
-  // the lowest is taken.
+  // Replaces *best if the block has a closer disk, and returns whether it does. Ties go to the
+  // lowest index, so padding lanes, which repeat the last point, never win.
   bool Scan(std::uint32_t number, const ClosestQuery& query, ClosestPoint* best) const {
     const DiskBlock& block = Block(number);
     Real16 dx, dy, dz;
@@ -60,13 +61,13 @@ struct Disks {
   }
 };
 
-// Through the tree, nearest boxes first.
+// Traverses the BVH for a single query and visits the nearest boxes first.
 class ClosestWalk {
  public:
   ClosestWalk(const Disks& disks, const ClosestQuery& query)
       : disks_(disks), query_(query), p_(query.p), top_(disks.view.tree->Levels() - 1) {}
 
-  // The closest of all, if it is `best` of block `first`.
+  // Returns the closest disk of all blocks. `best` must be the closest disk of block `first`.
   ClosestPoint After(std::uint32_t first, const ClosestPoint& best) {
     best_ = best;
     for (int level = 0; level <= top_; ++level, first >>= 4) {
@@ -97,8 +98,8 @@ class ClosestWalk {
     pending_[level] = Promising(level, Present(disks_.view, level, node));
   }
 
-  // Of the lanes those that may hold something better: not farther, or nearer if indices there are
-  // higher.
+  // Returns the lanes whose boxes may hold a better disk. A box qualifies if it is nearer than the
+  // best disk, or equally near with indices that may be lower.
   unsigned Promising(int level, unsigned lanes) const {
     const Real16 best2 = Real16::All(best_.distance2);
     lanes &= LessEqualMask(boxes_[level], best2);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search.inl: searches for the closest disk, several at a time.
+// Part of nearest_search.inl: batched searches for the closest disk.
 
-// Up to sixteen searches side by side: first the block that each begins with, then level by level
-// the boxes as near as what it found there, all in one list. Hardly a branch depends on a single
-// search, so that a processor works at several.
+// Runs up to 16 queries together. Each query first scans its entry block. Then all queries descend
+// the BVH level by level. One list holds pairs of a query and a box no farther than its best disk.
+// Hardly any branch depends on a single query, so the processor can overlap several.
 class ClosestTogether {
  public:
   static constexpr std::size_t kMost = 16;
 
-  // best: one for each query.
+  // best has one result per query.
   void Find(const Disks& disks, std::span<const ClosestQuery> queries, ClosestPoint* best) {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       first_[i] = disks.FirstBlock(queries[i].p);
@@ -20,8 +20,9 @@ class ClosestTogether {
       best[i] = disks.None();
       if (first_[i] == ClosestPoint::kNone) continue;
       disks.Scan(first_[i], queries[i], &best[i]);
-      // In corners the first block is often of the other wall: as near as a part of it is wide
-      // there mostly is one that serves. All that is left would be too much for the list.
+      // In a corner, the entry block often belongs to the other wall and has no valid disk. A valid
+      // disk usually lies within a quarter of the distance to the block's farthest point, so this
+      // radius is tried first. An unlimited radius would overflow the list.
       if (best[i].index == ClosestPoint::kNone)
         best[i].distance2 =
             std::min(best[i].distance2, kGuess2 * disks.Farthest2(first_[i], queries[i].p));
@@ -46,20 +47,20 @@ class ClosestTogether {
   }
 
  private:
-  // An item of a list: a node or block, below the number of the query that is to look at it.
+  // A list item: the query number in the upper bits, the node or block number in the lower bits.
   static constexpr int kNodeBits = 28;
   static_assert(PointBvh::kMaxPoints / kBlockPoints <= std::size_t(1) << kNodeBits);
   static std::uint32_t QueryOf(std::uint32_t item) { return item >> kNodeBits; }
   static std::uint32_t NodeOf(std::uint32_t item) { return item & ((1u << kNodeBits) - 1); }
 
-  // Of the nodes in the list the children that may hold something better; how many there are.
+  // Appends the children that may hold a better disk to `to`. Returns their number.
   std::size_t Descend(const Disks& disks, std::span<const ClosestQuery> queries,
                       const ClosestPoint* best, int level, std::span<const std::uint32_t> from,
                       std::uint32_t* to) {
     std::size_t count = 0;
     for (const std::uint32_t item : from) {
       const std::uint32_t q = QueryOf(item), node = NodeOf(item);
-      if (count > kRoom) {  // so much is as near: one after the other, it becomes less
+      if (count > kRoom) {  // list full: the single-query walk shrinks its radius as it goes
         alone_ |= 1u << q;
         continue;
       }
@@ -75,11 +76,11 @@ class ClosestTogether {
   }
 
   static constexpr std::size_t kRoom = 256;
-  static constexpr Real kGuess2 = Real(1) / 16;  // twice or half of it is as good
+  static constexpr Real kGuess2 = Real(1) / 16;  // a factor of two changes little
   std::uint32_t first_[kMost];
-  unsigned alone_;  // those to be found by a walk
+  unsigned alone_;  // bit i: query i needs a single-query walk
   std::uint32_t lists_[2][kRoom + 2 * kBlockPoints];
-  Real distance2_[kBlockPoints];  // that nobody reads
+  Real distance2_[kBlockPoints];  // scratch output of AppendLanes, never read
 };
 
 void Closest(const PointTreeView& view, const ClosestLimits& limits,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search.inl: distances of sixteen boxes or points at a time, and which of the
-// sixteen there are. Box distances are rounded as point distances are, step by step, and every step
-// is monotone: a box is never farther than a point in it.
+// Part of nearest_search.inl: distances to 16 boxes or points at a time, and masks of the lanes
+// that hold data. Box distances use the same operations in the same order as point distances, and
+// each operation is monotone. The rounded distance to a box is therefore never larger than to a
+// point in it.
 
 constexpr Real kLargest = std::numeric_limits<Real>::max();
 
@@ -11,7 +12,7 @@ struct Place16 {
   explicit Place16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
 };
 
-// Squared distances from p to the children's boxes.
+// Returns the squared distances from p to the children's boxes.
 inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
   const Real16 zero = Real16::All(0);
   const auto along = [&](int axis, Real16 at) {
@@ -21,8 +22,8 @@ inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
   return dx * dx + dy * dy + dz * dz;
 }
 
-// The same as flattened distances: what a point's height over the plane through p with normal n
-// makes of them.
+// Returns the flattened squared distances (NearestQuery) from p to the children's boxes. n is the
+// normal of the plane through p.
 inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Place16& p, const Place16& n,
                                     Real16 steepness) {
   const auto products = [&](int axis, Real16 at, Real16 normal, Real16* least, Real16* most) {
@@ -42,7 +43,8 @@ inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Place16& p, const
   return Max(height * height, BoxDistance2(node, p));
 }
 
-// The direction of each point, some length long, dotted with n.
+// Returns the dot product of n and each point's direction. The directions are not normalised;
+// *length2 receives their squared lengths.
 inline Real16 DotDirection(const PointBlock& block, const Place16& n, Real16* length2) {
   Real16 a, b;
   LoadOctahedral(block.direction, &a, &b);
@@ -61,9 +63,9 @@ inline Real16 PointDistance2(const PointBlock& block, const Place16& p, Real16* 
   return *dx * *dx + *dy * *dy + *dz * *dz;
 }
 
-// Those of a node's sixteen children that there are, as a mask; at level -1 the points of a block.
-// The others repeat the last one (PointBvh, BlockStore), so that there is always something finite to
-// compute with.
+// Returns the mask of the children that exist among a node's 16. At level -1, the children are the
+// points of a block. The other lanes repeat the last child (PointBvh, BlockStore), so that all
+// lanes hold finite numbers.
 inline unsigned Present(const PointTreeView& view, int level, std::uint32_t node) {
   const std::uint32_t last = (view.count - 1) >> (4 * (level + 1));
   return node < last >> 4 ? 0xffff : (2u << (last & 15)) - 1;
@@ -78,9 +80,9 @@ inline void PrefetchBlock(const PointBlock& block, std::size_t bytes) {
   for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(line + at);
 }
 
-// The block nearest to p, going down to the nearest box at each level: in or beside p's
-// surroundings, which is all that is asked of it. Children that repeat the last are not nearer than
-// it, and the lowest of equals is taken.
+// Descends to the nearest box at each level. The block found is near p but not always the nearest,
+// and its users need no more. Ties go to the lowest lane, so padding lanes, which repeat the last
+// child, are never chosen.
 inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
   std::uint32_t node = 0;
   for (int level = view.tree->Levels() - 1; level >= 0; --level)

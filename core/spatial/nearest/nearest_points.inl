@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Part of nearest_search.inl: the search for the k nearest points.
 
-// Offers every point within the limit. measureBoxes(node) gives squared distances of the children,
-// measure(block, &distance2) the lanes of a block that count.
+// Offers every point within the limit to the candidates. measureBoxes(node) returns the squared
+// distances of the children. measure(block, &distance2) returns the mask of the lanes that may be
+// offered.
 template <class MeasureBoxes, class Measure>
 inline void Collect(const PointTreeView& view, Candidates* candidates, MeasureBoxes&& measureBoxes,
                     Measure&& measure) {
@@ -43,7 +44,7 @@ inline void Collect(const PointTreeView& view, Candidates* candidates, MeasureBo
   }
 }
 
-// One search with a fixed radius.
+// Runs one search with a fixed radius.
 inline void CollectFor(const PointTreeView& view, const NearestQuery& query, const Place16& p,
                        Candidates* candidates) {
   if (!query.isFlattened) {
@@ -71,8 +72,8 @@ inline void CollectFor(const PointTreeView& view, const NearestQuery& query, con
       });
 }
 
-// Begins with the radius in which k points are to be expected and goes on with larger ones until
-// they are there, so that far more are rarely looked at.
+// The first radius is expected to contain somewhat more than k points. It grows until k points are
+// found, so the search rarely visits far more than k points.
 NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const NearBuffer& buffer) {
   if (view.count == 0 || !IsFinite(query.p)) return {};
   constexpr Real kFirst = Real(1.5), kGrowth = 4;

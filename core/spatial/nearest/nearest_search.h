@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Searches in blocks of points under a tree of boxes: one implementation (nearest_search.inl),
-// compiled for each width of vectors; the widest that the machine has is chosen when the program
-// runs. All give the same answers, bit for bit, and the same as looking at every point would:
-// neighbours are ordered by squared distance, ties by index.
+// NearestSearch: k-nearest-neighbour and closest-disk queries on blocks of points under a BVH. The
+// implementation (nearest_search.inl) is compiled for several SIMD targets; the widest that the
+// machine supports is chosen at run time. All targets give the same bits as a linear search over
+// all points. Neighbours are ordered by squared distance; ties go to the lower index.
 #pragma once
 
 #include <span>
@@ -13,16 +13,16 @@
 
 namespace exphoton {
 
-// Where the searches look. Blocks derive from PointBlock and follow one another.
+// The data that a search reads. Blocks derive from PointBlock and are contiguous.
 struct PointTreeView {
   const PointBvh* tree = nullptr;
   const std::byte* blocks = nullptr;
   std::size_t blockBytes = sizeof(PointBlock);
-  std::uint32_t count = 0;  // of points
-  // Area round each run of kSpacingPoints points, by the squared radius, in which one point is to
-  // be expected: only how long a search takes depends on it. May be null.
+  std::uint32_t count = 0;  // number of points
+  // For each run of kSpacingPoints points: the squared radius round the middle point that is
+  // expected to contain one point. It affects the time of a search only. May be null.
   const Real* spacing2 = nullptr;
-  const EntryGrid* grid = nullptr;  // for the closest; may be null
+  const EntryGrid* grid = nullptr;  // entry points of closest-disk queries; may be null
 
   static constexpr std::uint32_t kSpacingPoints = 64;
 };
@@ -30,34 +30,33 @@ struct PointTreeView {
 struct NearestQuery {
   Point3 p;
   std::uint32_t k = 1;          // >= 1
-  Real maxRadius2 = kInfinity;  // as far as this, inclusive; a distance whose square is infinite is
-                                // never found
-  // If set, a point at height h over the plane through p with normal n counts as if it were at
-  // least h * steepness away.
+  Real maxRadius2 = kInfinity;  // inclusive; overflowed squared distances are never found
+  // If set, the distance of a point is at least h * steepness, where h is its height over the plane
+  // through p with normal n.
   bool isFlattened = false;
   Real steepness = 0;
-  bool isOneSided = false;  // with isFlattened: only points whose direction has dot(n, .) > 0
+  bool isOneSided = false;  // with isFlattened: only points with dot(n, direction) > 0
   Normal3 n;
 };
 
-// What a search found, by ascending index.
+// The result of a k-nearest-neighbour query, by ascending index.
 struct NearPoints {
   std::span<const Real> distance2;
   std::span<const std::uint32_t> index;
-  std::size_t farthest = 0;  // its place in the two, the last of equals; 0 where nothing was found
+  std::size_t farthest = 0;  // index of the largest distance, the last one if tied; 0 if empty
 
   std::size_t size() const { return index.size(); }
 };
 
-// Room that a search for k needs.
+// Buffer that a k-nearest-neighbour query needs.
 class NearBuffer {
  public:
   static std::size_t SizeFor(std::size_t k) { return 4 * k + 5 * kBlockPoints; }
-  std::span<Real> distance2;  // SizeFor(k) each
+  std::span<Real> distance2;  // both have SizeFor(k) elements
   std::span<std::uint32_t> index;
 };
 
-// One of the points that are disks: Reach2 below is the squared radius of each.
+// A block of points that are disks: reach2 holds their squared radii.
 struct DiskBlock : PointBlock {
   Real reach2[kBlockPoints];
 };
@@ -67,10 +66,10 @@ struct ClosestQuery {
   Normal3 n;  // unit
 };
 
-// For all queries of a search.
+// Limits that all queries of one call share.
 struct ClosestLimits {
-  Real minCosine = 0;   // only points whose direction d has dot(n, d) > minCosine
-  Real maxRadius2 = 0;  // none has a larger reach2
+  Real minCosine = 0;   // only disks whose direction d has dot(n, d) > minCosine
+  Real maxRadius2 = 0;  // upper bound of all reach2
 };
 
 struct ClosestPoint {
@@ -81,23 +80,23 @@ struct ClosestPoint {
 
 struct NearestSearch {
   const char* name;
-  // A block near p, for a view with points.
+  // Returns a block near p. The view must have points.
   std::uint32_t (*blockNear)(const PointTreeView&, const Point3& p);
-  // The k nearest.
+  // Returns the k nearest points.
   NearPoints (*nearest)(const PointTreeView&, const NearestQuery&, const NearBuffer&);
-  // For each query the nearest disk with an agreeing normal that reaches p. The view's blocks are
-  // DiskBlocks. Many queries at once take less time each.
+  // Finds for each query the nearest disk that covers p and has an agreeing normal. The view's
+  // blocks must be DiskBlocks. Batches of queries take less time per query.
   void (*closest)(const PointTreeView&, const ClosestLimits&, std::span<const ClosestQuery>,
                   ClosestPoint* found);
 };
 
 extern const NearestSearch kPortableNearestSearch;
 #if defined(EXPHOTON_WIDE_VECTORS)
-extern const NearestSearch kAvx2NearestSearch;    // call only where the machine has AVX2
-extern const NearestSearch kAvx512NearestSearch;  // and AVX-512 F
+extern const NearestSearch kAvx2NearestSearch;    // requires AVX2
+extern const NearestSearch kAvx512NearestSearch;  // requires AVX-512 F
 #endif
 
-// Those that this machine can run, the fastest last.
+// Returns the searches that this machine can run, the fastest last.
 std::span<const NearestSearch* const> AvailableNearestSearches();
 const NearestSearch& FastestNearestSearch();
 

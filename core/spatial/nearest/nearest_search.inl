@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The searches, in terms of vectors of sixteen (Real16 and what goes with it), which the including
-// file defines for its instructions.
+// The searches, written in terms of Real16. The including file defines Real16 and its functions for
+// its SIMD target.
 
 #include "core/spatial/nearest/nearest_distances.inl"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The searches for x86-64 machines with AVX2: a vector of sixteen is two registers. Lanes
-// are compressed by permutations from a table.
+// The searches for x86-64 machines with AVX2. A Real16 occupies two registers. Lanes are compressed
+// by permutations from a table.
 #include "core/spatial/nearest/nearest_search.h"
 
 #if defined(EXPHOTON_WIDE_VECTORS)

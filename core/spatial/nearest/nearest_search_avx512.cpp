@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The searches for x86-64 machines with AVX-512: a vector of sixteen is one register. Lanes are
-// compressed in registers and stored whole: compressing stores are slow on some machines.
+// The searches for x86-64 machines with AVX-512. A Real16 is one register. Lanes are compressed in
+// registers and stored whole, because compressing stores are slow on some machines.
 #include "core/spatial/nearest/nearest_search.h"
 
 #if defined(EXPHOTON_WIDE_VECTORS)

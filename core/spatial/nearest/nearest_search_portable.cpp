@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The searches for any machine: vectors of sixteen as loops that the compiler maps to what there
-// is. Also the choice between the searches.
+// The searches for any machine, with Real16 as loops that the compiler may vectorise. This file
+// also lists the searches that the machine supports and chooses the fastest.
 #include <algorithm>
 #include <bit>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ConeDirections, the loops for any machine, and the choice between those for wider vectors.
+// This file compiles the loops of ConeDirections for any machine, and selects the SIMD target.
 #include "integrators/photon/gather/cone_directions.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::span<const ConeLoops> ConeDirections::Loops() {
 }
 
 ConeDirections::ConeDirections(std::size_t capacity, Arena* arena) {
-  const std::size_t room = WholeRuns(capacity) + kRun;  // more than is chosen may be written
+  const std::size_t room = WholeRuns(capacity) + kRun;  // `choose` may write one run more
   x_ = arena->Room<Real>(3 * room);
   y_ = x_ + room;
   z_ = y_ + room;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ConeDirections: unit directions, one component after the other, and how many of them lie close to
-// another direction: counted with the widest vectors that the machine has, to the same number.
+// ConeDirections stores unit directions as a structure of arrays, and counts how many lie close to
+// another direction. It uses the widest SIMD target of the machine; all give the same number.
 #pragma once
 
 #include <span>
@@ -10,20 +10,20 @@
 
 namespace exphoton {
 
-// Directions to choose from, one component after the other. Rows can be read up to a whole number
-// of runs; what fills the last has a limit of 0.
+// DirectionRows is a structure of arrays of directions to choose from. Rows can be read up to a
+// whole number of runs; padding has a limit of 0.
 struct DirectionRows {
   const Real *x, *y, *z;
-  const Real *value, *limit;  // >= 0, and a number
+  const Real *value, *limit;  // >= 0, not NaN
   std::size_t count;
 };
 
-// Loops over runs. One for each width of vectors.
+// ConeLoops holds the loops over runs, compiled for one SIMD target.
 struct ConeLoops {
-  // Writes the directions whose value * scale < limit one after the other, and up to a run more;
-  // how many there were.
+  // Writes the directions with value * scale < limit, and up to one run of other values after them.
+  // Returns the number of chosen directions.
   std::size_t (*choose)(const DirectionRows& from, Real scale, Real* x, Real* y, Real* z);
-  // How many of the directions of whole runs end within a chord of w.
+  // Counts the directions with |axis - w|^2 <= chord2. `count` is a whole number of runs.
   int (*count)(const Real* x, const Real* y, const Real* z, std::size_t count, const Vector3& w,
                Real chord2);
 };
@@ -32,8 +32,8 @@ class ConeDirections {
  public:
   static constexpr std::size_t kRun = kReal16Lanes;
 
-  ConeDirections() = default;  // none
-  // With room for `capacity`, as long as the arena keeps it.
+  ConeDirections() = default;  // no directions
+  // Makes room for `capacity` directions, valid as long as the arena keeps it.
   ConeDirections(std::size_t capacity, Arena* arena);
 
   void Add(const Vector3& w) {  // unit
@@ -42,16 +42,16 @@ class ConeDirections {
     z_[count_] = w.z;
     ++count_;
   }
-  // Of `from` those whose value * scale < limit.
+  // Adds the directions of `from` with value * scale < limit.
   void AddChosen(const DirectionRows& from, Real scale);
   void Set(std::size_t i, const Vector3& w) { x_[i] = w.x, y_[i] = w.y, z_[i] = w.z; }
-  // To be called after the last change.
+  // Pads the last run. Must be called after the last change.
   void Finish();
 
   std::size_t size() const { return count_; }
   Vector3 operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
 
-  // Whether the i-th ends within a chord of w: |w - axis|^2 <= chord2, chord2 <= 4.
+  // Returns whether the i-th axis lies within a chord of w: |w - axis|^2 <= chord2, chord2 <= 4.
   bool IsWithin(std::size_t i, const Vector3& w, Real chord2) const {
     const Real dx = x_[i] - w.x, dy = y_[i] - w.y, dz = z_[i] - w.z;
     return dx * dx + dy * dy + dz * dz <= chord2;
@@ -60,12 +60,12 @@ class ConeDirections {
     return Fastest().count(x_, y_, z_, WholeRuns(count_), w, chord2);
   }
 
-  // So many directions, as they fill runs.
+  // Rounds `count` up to whole runs.
   static constexpr std::size_t WholeRuns(std::size_t count) {
     return (count + kRun - 1) / kRun * kRun;
   }
 
-  static std::span<const ConeLoops> Loops();  // that this machine can run, the widest last
+  static std::span<const ConeLoops> Loops();  // for this machine, widest last
 
  private:
   static constexpr Real kFar = 9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The loops over cone axes, in terms of Real16, which the including file defines.
+// This file implements the loops over cone axes with Real16, which the including file defines.
 
 std::size_t Choose(const DirectionRows& from, Real scale, Real* x, Real* y, Real* z) {
   const Real16 scales = Real16::All(scale);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The loops over cone axes for x86-64 machines with AVX-512.
+// This file compiles the loops over cone axes for x86-64 machines with AVX-512.
 #include "integrators/photon/gather/cone_directions_wide.h"
 
 #if defined(EXPHOTON_WIDE_VECTORS)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// FinalGather: how many rays by each technique, and the numbers they ask for.
+// FinalGather divides the rays between the two techniques, and requests their samples.
 #include "integrators/photon/gather/final_gather.h"
 
 namespace exphoton {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// FinalGather: indirect light at a point by rays over its hemisphere, some drawn by the BSDF, some
-// round the directions of nearby photons, combined with the power heuristic (Veach 1997,
-// section 9.2; docs/theory/exphotonmap.md, eq. 16 and 17). What a ray brings is another's affair.
+// FinalGather estimates indirect light at a point by gather rays over its hemisphere. Some rays
+// sample the BSDF, others the guiding distribution of nearby photons; the power heuristic combines
+// both (Veach 1997, section 9.2; docs/theory/exphotonmap.md, eq. 16 and 17). The Incident policy
+// supplies the radiance along each ray.
 #pragma once
 
 #include <vector>
@@ -21,28 +22,29 @@ class FinalGather {
   FinalGather() = default;
   explicit FinalGather(const PhotonSettings& settings);
 
-  // Where nothing will be gathered the requests are empty, and leave those of others as they are.
+  // If `gathers` is false, the requested arrays are empty, and the samples of other requests stay
+  // the same.
   void RequestSamples(bool gathers, SampleLayout* layout);
 
-  // To be called when the photons are there, which must outlive the pass.
+  // Must be called when the photons are stored. `photons` must outlive the pass.
   void Prepare(const PhotonMap& photons) { guide_.Prepare(photons); }
 
-  // Integral over the non-specular lobes of f * incident * |cos|, by rays with 0 < t < infinity.
-  // All are traced before the first is read, so that caches hold the one or the other:
-  // incident.Trace(ray) gives an Incident::Segment, incident.Look(segments) then looks at all of
-  // them together, incident.Read(segment) gives the radiance.
+  // Integrates f * incident * |cos| over the non-specular lobes, by rays with 0 < t < infinity. All
+  // rays are traced before the first one reads a map, so that the caches hold either the scene or
+  // the maps. incident.Trace(ray) returns an Incident::Segment, incident.Look(segments) looks up
+  // all of them together, and incident.Read(segment) returns the radiance.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
                   const Incident& incident) const;
 
  private:
-  // Fixed once a gather, and the same for f, Pdf and Sample.
+  // Fixed for the whole gather: f, Pdf and Sample must use the same lobes.
   static constexpr LobeSet kLobes = LobeSet::NonSpecular;
   static constexpr std::uint64_t kRouletteStream = 0x676174686572ull;
 
-  // Roulette (eq. 18): the factor to trace a ray of weight c with, or 0. Photons tell how many
-  // times brighter than on average its direction is, pi lightPdf / |cos|; where they found nothing
-  // they may have missed something.
+  // Russian roulette (eq. 18). Returns the factor on a ray of weight c, or 0 to skip it. The
+  // photons estimate how many times brighter than average its direction is: pi lightPdf / |cos|.
+  // The estimate counts as at least 1, because photons may have missed light.
   Real SurvivalFactor(Real c, Real lightPdf, Real absCos, RandomStream* random) const {
     const Real expected = c * std::max(absCos, kPi * lightPdf);
     const Real threshold = rrThreshold_ * absCos;
@@ -51,15 +53,15 @@ class FinalGather {
     return random->Uniform() < survival ? 1 / survival : Real(0);
   }
 
-  // How the rays are divided between the techniques, and the numbers that they read.
+  // Split is the number of rays per technique, and the sample arrays that they read.
   struct Split {
     int bsdfRays = 0, photonRays = 0;
-    int directions = -1, lobes = -1;  // of the BSDF's: 2D, 1D
-    int cones = -1, radii = -1;       // of the photons': 2D, 1D
+    int directions = -1, lobes = -1;  // of the BSDF rays: 2D, 1D
+    int cones = -1, radii = -1;       // of the guided rays: 2D, 1D
   };
 
-  // As many rays follow the photons as there is light where they lead: of the halvings of one half
-  // the least that is no less than this share of the rays.
+  // The number of guided rays follows the share of the light that their directions carry: it is the
+  // smallest of S/2, S/4, S/8 ... that is at least guide.share * S, with S rays in total.
   const Split& SplitFor(const GuidedDirections& guide) const {
     if (guide.axes.size() == 0) return splits_.back();
     const Split* split = splits_.data();
@@ -68,7 +70,7 @@ class FinalGather {
     return *split;
   }
 
-  std::vector<Split> splits_;  // by descending photonRays; the last has none
+  std::vector<Split> splits_;  // by descending photonRays, which is 0 in the last
   PhotonGuide guide_;
   Cone cone_;
   Real rrThreshold_ = 0;
@@ -113,7 +115,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   const auto along = context.samples.Array2D(split.cones);
   const auto radii = context.samples.Array1D(split.radii);
   for (std::size_t i = 0; i < along.size(); ++i) {
-    // The axes follow a curve: where along it and which way from there are stratified together.
+    // The axes are in Hilbert order: axis and azimuth are stratified jointly.
     const auto sample = cones.Draw(along[i].x, {radii[i], along[i].y});
     const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
     if (scattered.f.IsBlack()) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Following gather rays over specular and glossy surfaces to the radiance that they read.
+// GatherRay follows rays over specular and glossy surfaces to the radiance that they read.
 #include "integrators/photon/gather/gather_ray.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct SpecularChoice {
   Spectrum throughput;
 };
 
-// One specular lobe, reflection or transmission, picked in proportion to what it carries.
+// Picks one specular lobe, reflection or transmission, in proportion to its throughput.
 std::optional<SpecularChoice> FollowSpecular(const ShadingPoint& point, RandomStream* random) {
   const Point2 u{random->Uniform(), random->Uniform()};
   const Real uLobe = random->Uniform(), uSide = random->Uniform();
@@ -79,7 +79,7 @@ void GatherRay::Look(std::span<Segment> segments) const {
 
 Spectrum GatherRay::Along(const Segment& segment) const {
   Walk walk(segment);
-  // Most segments end the walk, in a scene where nothing lies on the way.
+  // Fast path for most segments: without media, a segment without lobes to follow ends the walk.
   if (!context_.scene.HasMedia() && !Any(LobesToFollow(segment)))
     return segment.hit && segment.hit->material ? FromMaps(&walk) : Spectrum();
   do {
@@ -99,9 +99,10 @@ bool GatherRay::GoOn(Walk* walk) const {
   const LobeSet lobes = LobesToFollow(walk->segment);
   if (!Any(lobes)) return false;
   if (!Intersects(lobes, LobeSet::Glossy)) return Bounce(LobeSet::Specular, walk);
-  // Russian roulette before the BSDF is made, which takes as long as tracing a ray: at first by the
-  // glossy share of the surface, later also by the throughput.
-  constexpr Real kMostSurvival = Real(.95);  // where nothing is absorbed, walks have to end, too
+  // Play Russian roulette before the BSDF is made, because making it takes as long as tracing a
+  // ray. The survival probability is the glossy share of the surface (1 if unknown), from the
+  // second glossy bounce on times the throughput.
+  constexpr Real kMostSurvival = Real(.95);  // ends walks where nothing is absorbed
   const auto& entry = walk->segment.entry;
   Real survival = entry && !Intersects(lobes, LobeSet::Specular) ? entry->packed.GlossyShare() : 1;
   if (walk->glossyBounces > 0)
@@ -116,7 +117,7 @@ bool GatherRay::Bounce(LobeSet lobes, Walk* walk) const {
   const ShadingPoint point = Shade(walk->segment);
   Real glossy = Intersects(lobes, LobeSet::Glossy) && point.bsdf.Has(LobeSet::Glossy) ? 1 : 0;
   if (glossy > 0 && Intersects(lobes, LobeSet::Specular) && point.bsdf.Has(LobeSet::Specular)) {
-    // One of both, so that no walk branches.
+    // Choose one of glossy and specular, so that the walk does not branch.
     glossy = point.bsdf.Rho(LobeSet::Glossy).Y();
     glossy = SafeDivide(glossy, glossy + point.bsdf.Rho(LobeSet::Specular).Y(), Real(.5));
     glossy = std::clamp(glossy, Real(.1), Real(.9));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One search for a cell, and one place in a table for each cell: the last that asked for it has it.
+// GuideCache is direct-mapped: a miss runs one k-NN query and overwrites the slot.
 #include "integrators/photon/gather/guide_cache.h"
 
 #include <bit>
@@ -12,19 +12,19 @@
 namespace exphoton {
 namespace {
 
-// As far as squares of distances are finite.
+// Shortens v so that squared distances stay finite.
 Vector3 Within(const Vector3& v) {
   constexpr Real kFarthest = Real(1e18);
   const Real length = MaxComponent(Abs(v));
   return length > kFarthest ? v * (kFarthest / length) : v;
 }
 
-// The largest expectation e for which n is clearly more: n > 2 e + sqrt(e), twice as many and not
-// by chance.
+// Returns the largest expected count e that n significantly exceeds: n > 2 e + sqrt(e), which is
+// twice as many and not by chance.
 Real ClearlyExceeded(Real n) { return Square((std::sqrt(1 + 8 * n) - 1) / 4); }
 
-// From the number of others within the cone about each. Where there are very many, estimated by
-// every n-th of them: they are in the order of their directions.
+// Computes denserThan from the number of other photons within the cone about each direction. Of
+// more than kMost photons, only every n-th is counted; in Hilbert order these are well distributed.
 void CompareWithOthers(const ConeDirections& axes, const Cone& cone, Arena* arena,
                        Real* denserThan) {
   constexpr std::size_t kMost = 1024;

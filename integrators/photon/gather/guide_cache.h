@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GuideCache: where the light of nearby photons comes from, found once for each cell of space and
-// kept while a thread works close by. What a cell says follows from where it lies alone, so no
-// pixel depends on which were rendered before it.
+// GuideCache stores, per cell of space, the origins of the light of nearby photons. Each thread
+// keeps cells while it works close by. A cell's content depends only on its position, so no pixel
+// depends on the pixels rendered before it.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace exphoton {
 
-// The photons nearest to a place, in the order of a curve over the sphere.
+// GuideCacheCell holds the photons nearest to a point, in Hilbert order of their directions.
 class GuideCacheCell {
  public:
   GuideCacheCell() = default;
@@ -20,16 +20,16 @@ class GuideCacheCell {
                  Arena* scratch);
 
   const Point3& Middle() const { return middle_; }
-  Real Radius2() const { return radius2_; }  // within which they lie, squared
+  Real Radius2() const { return radius2_; }  // squared distance of the farthest photon
   std::size_t size() const { return count_; }
-  // Where the light of each comes from, from the middle, one component after the other.
+  // Origins of the photons' light, relative to the middle, as a structure of arrays.
   const Real* X() const { return rows_.data(); }
   const Real* Y() const { return X() + Room(); }
   const Real* Z() const { return Y() + Room(); }
-  // Of each: so many others come from within a cone about its direction, seen from the middle, that
-  // light is denser there than at random if fewer than this are to be expected.
+  // Per photon: the largest expected neighbour count for which its cone, seen from the middle, is
+  // significantly over-dense.
   const Real* DenserThan() const { return Z() + Room(); }
-  // Length of a row: whole runs; what fills the last is 0.
+  // Length of a row: whole runs, padded with 0.
   std::size_t Room() const { return rows_.size() / kRows; }
 
  private:
@@ -43,11 +43,11 @@ class GuideCacheCell {
 
 class GuideCache {
  public:
-  // Cells of `count` photons and `width`, > 0. The map must outlive this.
+  // Each cell is `width` > 0 wide and holds `count` photons. The map must outlive this object.
   GuideCache(const PhotonMap& map, int count, const Cone& cone, Real width)
       : map_(map), count_(count), cone_(cone), width_(width), slots_(kSlots) {}
 
-  // That p lies in. Valid until the next call.
+  // Returns the cell that contains p. It is valid until the next call.
   const GuideCacheCell& At(const Point3& p);
 
  private:

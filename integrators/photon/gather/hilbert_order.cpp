@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The curve lies on the octahedral square, in which neighbours are neighbours on the sphere.
-// Sorting by counting: a few additions a photon, and no branch that depends on where light comes
-// from.
+// HilbertOrder uses a Hilbert curve on the octahedral square, where neighbours are also neighbours
+// on the sphere. It sorts by counting, with a few additions per photon and no branches that depend
+// on directions.
 #include "integrators/photon/gather/hilbert_order.h"
 
 #include <array>
@@ -11,9 +11,9 @@ namespace exphoton {
 namespace {
 
 constexpr std::uint32_t kBits = 4, kSide = 1 << kBits;  // cells along a side of the square
-constexpr std::uint32_t kDigits = kSide;                // of a place on the curve: two of these
+constexpr std::uint32_t kDigits = kSide;                // a curve position has two digits
 
-// Where the Hilbert curve through the square passes cell (x, y): 0 to kSide^2 - 1.
+// Returns the position at which the Hilbert curve visits cell (x, y): 0 to kSide^2 - 1.
 constexpr std::uint8_t HilbertPlace(std::uint32_t x, std::uint32_t y) {
   std::uint32_t place = 0;
   for (std::uint32_t half = kSide / 2; half > 0; half /= 2) {
@@ -34,9 +34,10 @@ constexpr std::array<std::uint8_t, kSide * kSide> HilbertPlaces() {
 }
 constexpr auto kPlaces = HilbertPlaces();
 
-// Of EncodeOctahedral: two numbers of 16 bits with sign, of which the upper bits give the cell.
+// Returns the curve position of an EncodeOctahedral code. The code has two signed 16-bit numbers,
+// whose upper bits give the cell.
 std::uint8_t PlaceOf(std::uint32_t octahedral) {
-  const std::uint32_t shifted = octahedral ^ 0x80008000u;  // both without sign
+  const std::uint32_t shifted = octahedral ^ 0x80008000u;  // makes both numbers unsigned
   return kPlaces[(shifted >> (32 - kBits)) * kSide + (shifted >> (16 - kBits) & (kSide - 1))];
 }
 
@@ -45,7 +46,7 @@ struct Placed {
   std::uint32_t place;
 };
 
-// Stable, by the digit that begins at bit `shift`.
+// Stable counting sort by the digit that begins at bit `shift`.
 void SortByDigit(std::span<const Placed> from, std::uint32_t shift, Placed* to) {
   std::uint32_t next[kDigits + 1] = {};
   for (const Placed& item : from) ++next[(item.place >> shift & (kDigits - 1)) + 1];

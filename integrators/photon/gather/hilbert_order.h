@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons in an order that keeps those of like directions together, so that stratified choices from
-// it are stratified over directions. No order of the photons themselves, and none that is exact.
+// HilbertOrder sorts photons so that similar directions lie close together. Stratified choices from
+// the sorted photons are then stratified over directions. The map itself is not reordered. The
+// order is only as fine as its cells of directions.
 #pragma once
 
 #include "core/base/arena.h"
@@ -8,8 +9,8 @@
 
 namespace exphoton {
 
-// The photons in the order in which a Hilbert curve passes the cells, about 13 degrees wide, of
-// their directions; those of one cell as given. Lies in the arena.
+// Returns the photons in the order in which a Hilbert curve visits the cells of their directions.
+// Cells are about 13 degrees wide; photons of one cell keep their order. Uses the arena.
 std::span<const std::uint32_t> HilbertOrder(const PhotonMap& map,
                                             std::span<const std::uint32_t> photons, Arena* arena);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which photons of a cell are followed from a point, and whom else they serve.
+// PhotonGuide selects the photons of a cell to follow from a point, and reuses them nearby.
 #include "integrators/photon/gather/photon_guide.h"
 
 #include "integrators/photon/gather/guide_cache.h"
@@ -9,15 +9,15 @@
 namespace exphoton {
 namespace {
 
-// Directions from which clearly more light comes than a diffuse surface sends rays. What else
-// lights it the rays by the BSDF find as well, and rays spent on it would be missing where
-// light is dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
+// Selects the directions from which clearly more light comes than a diffuse surface sends rays.
+// BSDF rays find the other light as well; guided rays spent on it would be missing where light is
+// dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
 // Importance Sampling). A direction's own photon does not count.
 GuidedDirections WorthFollowing(const GuideCacheCell& cell, const RestPose& rest, const Point3& p,
                                 const LitSide& side, const Cone& cone, Arena* arena) {
   const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);
   const ReprojectedCell view(cell, rest.Point(p), atRest, arena);
-  // Photons to be expected in a cone round the normal, if all came as a diffuse surface sends rays.
+  // Expected photons in a cone about the normal, with the density of a diffuse surface's rays.
   const Real diffusePdf = side.isTwoSided ? kInvPi / 2 : kInvPi;
   const Real expected = Real(std::max(view.lit - 1, 1)) * diffusePdf / cone.Pdf();
   ConeDirections axes(cell.size(), arena);
@@ -28,14 +28,14 @@ GuidedDirections WorthFollowing(const GuideCacheCell& cell, const RestPose& rest
   return {axes, Real(axes.size()) / Real(std::max(view.lit, 1))};
 }
 
-// The guide of the camera sample that looked last, and where it was.
+// LastGuide is the guide of the previous camera sample in the pixel, and its shading point.
 struct LastGuide {
   GuidedDirections directions;
-  Real reach2 = 0;  // of the photons, squared
+  Real reach2 = 0;  // squared distance of the farthest photon
   Point3 p;
   LitSide side;
 
-  // Well within the photons that were found, and on as good as the same plane.
+  // Returns whether the guide is valid at `at`: well within reach, on nearly the same plane.
   bool Serves(const Point3& at, const LitSide& seen) const {
     constexpr Real kRadii2 = Square(Real(.25)), kMinCosine = Real(.95);
     return DistanceSquared(at, p) < kRadii2 * reach2 && Dot(seen.ng, side.ng) > kMinCosine &&
@@ -46,10 +46,10 @@ struct LastGuide {
 }  // namespace
 
 void PhotonGuide::Prepare(const PhotonMap& map) {
-  constexpr Real kRadii = Real(.75);  // twice that is noisier, a third is not better
+  constexpr Real kRadii = Real(.75);  // twice as much is noisier, a third is no better
   Arena arena;
   if (count_ > 0) cellWidth_ = kRadii * map.TypicalRadius(count_, &arena);
-  if (!(cellWidth_ > 0)) cellWidth_ = 1;  // no photon, or all on one spot
+  if (!(cellWidth_ > 0)) cellWidth_ = 1;  // no photons, or all at one point
 }
 
 GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const PhotonMap& map,

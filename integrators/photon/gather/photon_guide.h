@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonGuide: the directions that some of a gather's rays keep close to: of the photons nearest to
-// a point, those that come from where more light comes from than rays by the BSDF would look for.
-// Camera samples of a pixel mostly see points so close together that one search serves them all; a
-// gather is unbiased whatever guides it (docs/theory/exphotonmap.md, section 5).
+// PhotonGuide selects the directions that guide some rays of a gather. Of the photons nearest to a
+// point, it keeps the ones whose directions carry more light than BSDF sampling would look for.
+// Camera samples of a pixel mostly see nearby points, so they share one query. A gather is unbiased
+// for any guide (docs/theory/exphotonmap.md, section 5).
 #pragma once
 
 #include "core/transport/integrator.h"
@@ -14,19 +14,19 @@
 namespace exphoton {
 
 struct GuidedDirections {
-  ConeDirections axes;  // in the order of a curve over the sphere; none: the BSDF does as well
-  Real share = 0;       // that they are of the photons which light this side of the surface
+  ConeDirections axes;  // in Hilbert order; empty: BSDF sampling does as well
+  Real share = 0;       // selected share of the photons that light this side of the surface
 };
 
 class PhotonGuide {
  public:
-  PhotonGuide() = default;  // none
-  // By `count` photons and cones about them.
+  PhotonGuide() = default;  // no guiding
+  // Guides by `count` photons and cones about their directions.
   PhotonGuide(int count, const Cone& cone) : count_(count), cone_(cone) {}
 
-  // To be called when the map is there, which must outlive the pass.
+  // Must be called when the map is built. The map must outlive the pass.
   void Prepare(const PhotonMap& map);
-  // Valid until the next call for this pixel.
+  // The result is valid until the next call for this pixel.
   GuidedDirections Directions(const ShadingPoint& point, const PhotonMap& map,
                               LiContext& context) const;
 

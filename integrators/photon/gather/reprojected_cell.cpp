@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// One loop, compiled for each width of vectors: no branch, no choice between numbers.
+// ReprojectedCell compiles one loop for each SIMD target. The loop has no branches and no selects.
 #include "integrators/photon/gather/reprojected_cell.h"
 
 #include <cmath>
@@ -11,12 +11,12 @@ namespace {
 
 [[gnu::always_inline]] inline void Look(const GuideCacheCell& cell, const Vector3& from,
                                         const LitSide& side, ReprojectedCell* view) {
-  constexpr Real kNowhere = Real(2e-19);  // makes what lies at p a direction, and no other one
+  constexpr Real kNowhere = Real(2e-19);  // avoids 0 / 0 for an origin at p; changes no other
   const Real *const x = cell.X(), *const y = cell.Y(), *const z = cell.Z();
   Real *const wx = view->x, *const wy = view->y, *const wz = view->z, *const cosine = view->cosine;
   const Vector3 p = from;
   const Normal3 ng = side.ng, ns = side.ns;
-  const Real horizon = side.isTwoSided ? -2 : 0;  // light from below does not count
+  const Real horizon = side.isTwoSided ? -2 : 0;  // a one-sided surface ignores light from below
   const std::size_t count = cell.size();
   int lit = 0;
   EXPHOTON_INDEPENDENT_ITERATIONS

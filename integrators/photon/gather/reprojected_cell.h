@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ReprojectedCell: a cell's photons as a point of a surface sees them: their directions, and which
-// of them light its side. With the widest vectors that the machine has, to the same bits.
+// ReprojectedCell is a cache cell reprojected to a shading point: the directions of its photons,
+// and which of them light the side of the surface. It uses the machine's widest SIMD target; all
+// give the same bits.
 #pragma once
 
 #include <span>
@@ -11,10 +12,10 @@
 
 namespace exphoton {
 
-// The side of a surface that photons light.
+// LitSide describes the side of a surface that photons light.
 struct LitSide {
   Normal3 ng, ns;           // unit, towards the viewer
-  bool isTwoSided = false;  // the surface transmits: it is lit from below, too
+  bool isTwoSided = false;  // the surface transmits, so light from below counts too
 
   LitSide() = default;
   LitSide(const Normal3& geometric, const Normal3& shading, bool twoSided)
@@ -26,19 +27,21 @@ struct LitSide {
 };
 
 struct ReprojectedCell {
-  // One of each for every photon of the cell, in its order, and 0 up to whole runs; in the arena.
+  // Arrays with one element per photon, in the cell's order, padded with 0 to whole runs. They lie
+  // in the arena.
   Real *x, *y, *z;  // unit directions
-  Real* cosine;     // |w . ns|; more than kUnlit where it does not light the side
-  int lit = 0;      // that do
+  Real* cosine;     // |w . ns|; above kUnlit if the photon does not light the side
+  int lit = 0;      // number of photons that light the side
 
   static constexpr Real kUnlit = Real(1e30);
 
   ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side, Arena* arena);
 
-  // From p - cell.Middle(). One for each width of vectors, for tests.
+  // A Looker computes the arrays as seen from p, which is relative to cell.Middle(). There is one
+  // per SIMD target, for tests.
   using Looker = void (*)(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
                           ReprojectedCell* view);
-  static std::span<const Looker> Lookers();  // that this machine can run, the widest last
+  static std::span<const Looker> Lookers();  // for this machine, widest last
 };
 
 }  // namespace exphoton

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// KernelDisk: the weight per area of a photon at squared distance d2 from the centre of a disk of
-// squared radius r2. Each kernel integrates to 1 over the disk (docs/theory/exphotonmap.md, eq. 10).
-// Simpson's is 3 / (pi r^2) (1 - (d/r)^2)^2 (Silverman 1986, "biweight").
+// KernelDisk computes the kernel weight, per area, of a photon at squared distance d2 from the
+// centre of a disk of squared radius r2. Each kernel integrates to 1 over the disk
+// (docs/theory/exphotonmap.md, eq. 10). Simpson's kernel is 3 / (pi r^2) (1 - (d/r)^2)^2 (Silverman
+// 1986, "biweight").
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 namespace exphoton {
 
-// The weights of all photons of one disk, which share its divisions.
+// One object weights all photons of a disk, so that they share its divisions.
 class KernelDisk {
  public:
   KernelDisk(DensityKernel kernel, Real r2)
@@ -21,7 +22,7 @@ class KernelDisk {
         scale_((isSimpson_ ? 3 : 1) * kInvPi * inverse_) {}
 
   Real Weight(Real d2) const {
-    // A photon at the very rim of a fixed disk counts for the constant kernel: the search found it.
+    // The constant kernel includes photons at the rim of the disk, as the search does.
     if (!isSimpson_) return scale_;
     return d2 < r2_ ? scale_ * Square(1 - d2 * inverse_) : Real(0);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PackedRadiance: the radiance of a radiance photon together with two facts about its surface, in
-// the room of the radiance alone. Radiance is never negative, so the signs of its three channels
-// are free: one holds whether the surface is coated, two hold the glossy share in four steps.
+// PackedRadiance stores the radiance of a radiance photon and two properties of its surface in the
+// memory of the radiance alone. Radiance is never negative, so the sign bits of the channels are
+// free. The sign of red holds whether the surface is coated; green and blue hold the glossy share
+// in four steps.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@ namespace exphoton {
 
 class PackedRadiance {
  public:
-  // The steps that a glossy share is rounded up to.
+  // A glossy share is rounded up to one of these steps.
   static constexpr std::array<Real, 4> kShares{Real(1) / 16, Real(1) / 4, Real(1) / 2, 1};
 
   PackedRadiance() = default;

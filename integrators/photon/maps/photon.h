@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons as plain data, and how they are stored. Not how they are searched: that is photon_map.h.
+// This header defines photons and the buffers that store them. photon_map.h searches them.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,23 @@
 
 namespace exphoton {
 
-// A packet of power that arrived at a surface.
+// Photon is a packet of power that arrived at a surface.
 struct Photon {
   Point3 p;
-  Vector3 wi;      // unit, back along its path: where the light came from
-  Spectrum alpha;  // power; a map's estimate divides by the number of paths traced for that map
-  // Along the path, to where it was emitted or last scattered by other than mirrors and glass, as a
-  // part of PhotonBuffer::farthest.
+  Vector3 wi;      // unit, towards where the light came from
+  Spectrum alpha;  // power; density estimates divide it by the map's number of paths
+  // Path length since the emission or the last non-specular scattering, as a fraction of
+  // PhotonBuffer::farthest.
   Real distance = 1;
 };
 
-// A place at which exitant radiance is to be computed: a sample of the stored photons.
+// RadiancePhotonSite is a stored photon at which radiance will be precomputed.
 struct RadiancePhotonSite {
   Point3 p;
-  Normal3 n;             // unit geometric normal, on the side the photon arrived on
+  Normal3 n;             // unit geometric normal, on the side where the photon arrived
   Spectrum reflectance;  // hemispherical-hemispherical, diffuse lobes only
   Spectrum transmittance;
-  Real glossyShare = 0;   // of what the non-specular lobes scatter, by the glossy ones; in [0,1]
+  Real glossyShare = 0;   // glossy part of the non-specular albedo, in [0,1]
   bool isCoated = false;  // Bsdf::IsCoated
 };
 
@@ -38,8 +38,8 @@ inline const char* PhotonKindName(PhotonKind kind) {
                                        : "indirect";
 }
 
-// A photon of 28 bytes: its direction takes four, and is within 1.2e-3 radians of what it was; the
-// distance lies in its lowest bits (photon_distance.h).
+// PhotonRecord stores a photon in 28 bytes. The direction takes 4 bytes, with an error below 1.2e-3
+// radians. The distance takes the lowest bits of the direction code (photon_distance.h).
 struct PhotonRecord {
   Point3 p;
   std::uint32_t direction = 0;  // EncodeOctahedral
@@ -52,7 +52,7 @@ struct PhotonRecord {
         alpha(photon.alpha) {}
 };
 
-// Sixteen photons.
+// PhotonBlock stores sixteen photons as a structure of arrays.
 struct PhotonBlock : PointBlock {
   using Record = PhotonRecord;
 
@@ -67,11 +67,11 @@ struct PhotonBlock : PointBlock {
   }
 };
 
-// The photons of one map, and the number of paths traced from the lights until it was full.
+// PhotonBuffer holds the photons of one map, and the number of paths traced until it was full.
 struct PhotonBuffer {
   BlockStore<PhotonBlock> photons;
   std::int64_t paths = 0;
-  Real farthest = Real(1e9);  // what distances are parts of
+  Real farthest = Real(1e9);  // scene units; Photon::distance is a fraction of this
 
   PhotonBuffer() = default;
   PhotonBuffer(std::span<const Photon> given, std::int64_t pathCount) : paths(pathCount) {

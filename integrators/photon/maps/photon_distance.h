@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Distances in eight bits, as parts of another one: eight steps to an octave, so within 4.5 %, from
-// that one to a 2^32th of it; what is nearer or farther is taken to the end. Good enough for how
-// directions change from a photon to a point close to it.
+// EncodeDistance stores a distance in eight bits as a fraction of a reference distance. The code is
+// logarithmic with eight steps per octave, so its error is within 4.5 %. Fractions are clamped to
+// [2^-32, 1]. This suffices to reproject the direction of a photon to nearby points.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace exphoton {
 
 inline constexpr int kDistanceStepsPerOctave = 8;
 
-// part: of the distance that others are measured by; the code is the same at every scale.
+// part: the distance over the reference distance, so that the code is independent of scale.
 inline std::uint8_t EncodeDistance(Real part) {
   const Real least = std::ldexp(Real(1), -32);
   const Real octaves = -std::log2(std::clamp(part, least, Real(1)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photon maps: searching with the side and height tests inside the search.
+// PhotonMap applies the side and height tests inside the k-NN search.
 #include "integrators/photon/maps/photon_map.h"
 
 #include <algorithm>
@@ -49,9 +49,9 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   if (found.size() < std::size_t(query.k)) return {found.index, found.distance2, maxRadius2};
   const Real floor2 = std::max(Square(minRadius_), std::numeric_limits<Real>::min());
   const Real farthest2 = found.distance2[found.farthest];
-  // Coincident photons: a disk no smaller.
+  // Coincident photons: the radius is at least the rounding error of positions.
   if (farthest2 < floor2) return {found.index, found.distance2, floor2};
-  // The last takes the place of the farthest.
+  // Remove the farthest photon: the last one takes its place.
   const std::size_t last = found.size() - 1;
   buffer.distance2[found.farthest] = buffer.distance2[last];
   buffer.index[found.farthest] = buffer.index[last];
@@ -89,7 +89,7 @@ Real PhotonMap::TypicalRadius(int k, Arena* arena) const {
   const std::size_t step = std::max<std::size_t>(1, Size() / kSamples);
   for (std::size_t i = 0; i < Size(); i += step) {
     const Arena::Mark mark = arena->GetMark();
-    // One more than k: the photon itself is among them, at distance 0.
+    // Query k + 1 photons, because the photon itself is found at distance 0.
     const NearPoints near = Nearest(Position(std::uint32_t(i)), k + 1, arena);
     radii.push_back(near.size() == 0 ? 0 : std::sqrt(near.distance2[near.farthest]));
     arena->Rewind(mark);

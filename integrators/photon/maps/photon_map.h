@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonMap: the photons of one kind, ready to be searched, with their own path count N. An empty
-// map is legal: everything about it is zero. Knows nothing of how photons were shot.
+// PhotonMap stores the photons of one kind with the number N of traced paths, and finds the photons
+// near a point. An empty map is legal: all its results are zero. The class does not depend on how
+// photons are traced.
 #pragma once
 
 #include <span>
@@ -12,31 +13,32 @@
 
 namespace exphoton {
 
-// Where and how far to look for photons.
+// PhotonQuery is a k-nearest-neighbours query for photons.
 struct PhotonQuery {
   Point3 p;
   Normal3 n;             // unit geometric normal of the receiver
   int k = 50;            // >= 2
   Real maxDistance = 0;  // > 0
-  // Only photons that arrived on n's side count, during the search already: those on the far side
-  // of a thin wall neither add light nor shrink the radius.
+  // Only photons that arrived on n's side count. The test acts during the search, so photons on the
+  // far side of a thin wall neither add light nor shrink the radius.
   bool isOneSided = true;
-  // For irradiance: photons count by what a coat lets through at their angle, CoatTransmission.
+  // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
 };
 
-// The photons round a point: those whose kernel weight is not 0 by construction, in an order that
-// follows from which they are.
+// PhotonNeighbourhood holds the photons of one density estimate. If k photons are found, the k-th
+// only gives the radius and is left out. The order depends only on the set of photons, so that sums
+// are deterministic.
 struct PhotonNeighbourhood {
   std::span<const std::uint32_t> photons;
-  std::span<const Real> distance2;  // of each
-  Real radius2 = 0;                 // of the disk they stand for; > 0 if there are any
+  std::span<const Real> distance2;  // one per photon
+  Real radius2 = 0;                 // of the estimation disk; > 0 if there are photons
 };
 
 class PhotonMap {
  public:
-  // A search region is flattened along the normal: a photon at height h counts as if it were at
-  // least h / kFlatness away, which keeps corners and thin walls apart.
+  // The search region is flattened along the normal: a photon at height h counts as if it were at
+  // least h / kFlatness away (eq. 11). This separates surfaces at corners and thin walls.
   static constexpr Real kFlatness = Real(.5);
 
   static constexpr double kBytesPerPhoton =
@@ -45,7 +47,7 @@ class PhotonMap {
   PhotonMap() = default;
   PhotonMap(PhotonBuffer buffer, ThreadPool& threads)
       : PhotonMap(PointTree<PhotonBlock>(std::move(buffer.photons), threads), buffer, threads) {}
-  // The tree: made from the buffer's photons.
+  // `tree` is built from the buffer's photons.
   PhotonMap(PointTree<PhotonBlock> tree, const PhotonBuffer& buffer, ThreadPool& threads);
 
   bool IsEmpty() const { return tree_.Size() == 0; }
@@ -56,8 +58,8 @@ class PhotonMap {
   std::uint32_t DirectionCode(std::uint32_t i) const {                     // as EncodeOctahedral
     return tree_.BlockOf(i).direction[tree_.Lane(i)];
   }
-  // Where the light of the photon was before, and came from straight or over mirrors: within 4.5 %
-  // of its distance.
+  // Returns the apparent origin of the photon: the point along its direction at its path length
+  // since the emission or the last non-specular scattering. The distance is within 4.5 %.
   Point3 Origin(std::uint32_t i) const {
     const Real part = DecodeDistance(OctahedralNote(DirectionCode(i)));
     return Position(i) + Direction(i) * (farthest_ * part);
@@ -65,24 +67,25 @@ class PhotonMap {
   Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }
   std::size_t MemoryBytes() const;
 
-  // The k nearest photons within maxDistance. Where there are k, the farthest is left out and gives
-  // the radius; where there are fewer all count and the radius is maxDistance: both estimates are
-  // then unbiased on a plane, and so is the switch between them.
+  // Finds the k nearest photons within maxDistance. If there are k, the farthest is left out and
+  // gives the radius. If there are fewer, all count and the radius is maxDistance. On a plane both
+  // estimates are unbiased, and so is the switch between them (eq. 9).
   PhotonNeighbourhood Find(const PhotonQuery& query, Arena* arena) const;
 
-  // Irradiance on the side of n, with the constant kernel: sum(alpha) / (N pi r^2). Returns r too.
+  // Estimates the irradiance on the side of n with the constant kernel, sum(alpha) / (N pi r^2).
+  // Returns r too.
   struct Irradiance {
     Spectrum e;
     Real radius = 0;
   };
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena) const;
 
-  // The k nearest photons at any distance and on any side, by ascending index; fewer if the map has
-  // fewer.
+  // Finds the k nearest photons at any distance and on any side; all photons if the map has fewer.
+  // The result is ordered by ascending index.
   NearPoints Nearest(const Point3& p, int k, Arena* arena) const;
 
-  // Distance within which k photons are found around a typical photon: a high quantile over a fixed
-  // sample of the photons. 0 for an empty map.
+  // Returns the distance within which a typical photon has k neighbours: the 0.9 quantile over a
+  // fixed sample of the photons. 0 for an empty map.
   Real TypicalRadius(int k, Arena* arena) const;
 
  private:
@@ -93,10 +96,10 @@ class PhotonMap {
   }
 
   PointTree<PhotonBlock> tree_;
-  std::vector<Real> spacing2_;  // where searches begin
+  std::vector<Real> spacing2_;  // local squared spacing; speeds up searches
   std::int64_t paths_ = 0;
   Real farthest_ = 0;
-  Real minRadius_ = 0;  // what positions resolve
+  Real minRadius_ = 0;  // rounding error of the positions
 };
 
 }  // namespace exphoton

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Building the three maps, and density estimates with a kernel.
+// PhotonMapSet builds the three maps and computes kernel density estimates.
 #include "integrators/photon/maps/photon_map_set.h"
 
 #include "core/base/parallel.h"
@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-// |wi.ns| / |wi.ng|, capped: a photon's power is per geometric area, f |cos| is per shading area.
+// Returns |wi.ns| / |wi.ng|, capped: photon power is per geometric area, f |cos| per shading area.
 Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns) {
   if (ng == ns) return 1;
   const Real geometric = AbsDot(wi, ng);
@@ -19,8 +19,8 @@ Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns)
   return std::min(AbsDot(wi, ns) / geometric, kMaxShadingNormalFactor);
 }
 
-// Photons that lie on one spot, or are too few to tell, say nothing of a radius: then it follows
-// from the size of the scene.
+// Returns the lower bound of a search radius, relative to the scene radius. It applies if photons
+// coincide, or if they are too few to measure their spacing.
 Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
   return sceneRadius * (photons < std::size_t(nUsed) ? Real(.01) : Real(1e-6));
 }
@@ -57,12 +57,13 @@ Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Aren
   const PhotonNeighbourhood around = map.Find(
       {rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind), isOneSided}, arena);
 
-  // Where every lobe is diffuse, powers are summed side by side and reflected once.
+  // If every lobe is diffuse, sum the power on each side first and reflect it once.
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
   const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && !bsdf.IsCoated();
   const KernelDisk disk(kernel_, around.radius2);
   Spectrum front, back, glossy;
-  // And where that is all, directions do not matter: the search has seen to the side.
+  // If the surface is also one-sided and has no separate shading normal, photon directions do not
+  // matter: the search has already tested the side.
   const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.surface.ng;
   for (std::size_t i = 0; i < around.photons.size(); ++i) {
     const std::uint32_t photon = around.photons[i];
@@ -73,7 +74,7 @@ Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Aren
     }
     const Vector3 wi = rest.DirectionBack(map.Direction(photon));
     const Spectrum flux = weighted * GeometricToShading(wi, point.surface.ng, bsdf.Ns());
-    // As in the BSDF, light that is on different sides of the two normals scatters nothing.
+    // As in the BSDF, light on different sides of the two normals is not scattered.
     if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
     if (!isDiffuse) {
       glossy += bsdf.f(point.Wo(), wi, lobes) * flux;

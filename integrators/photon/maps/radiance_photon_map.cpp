@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Computing radiance photons and finding the one that serves a hit.
+// RadiancePhotonMap computes the radiance photons, and finds the one that is valid for a hit.
 #include "integrators/photon/maps/radiance_photon_map.h"
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 namespace exphoton {
 namespace {
 
-// One entry, or two where the surface transmits; none where it is black.
+// Returns the number of entries for a site: two if the surface transmits, none if it is black.
 int CountEntries(const RadiancePhotonSite& site, bool needsTransmission) {
   if (needsTransmission && !site.transmittance.IsBlack()) return 2;
   return site.reflectance.IsBlack() ? 0 : 1;
 }
 
-// Writes as many as `entries` has place for. reach2 is the squared radius of the estimate yet.
+// Computes all `entries` of a site. reach2 receives the squared radius of the density estimate; the
+// caller scales it to the validity radius.
 void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Arena* arena,
                     std::span<RadianceRecord> entries) {
   if (entries.empty()) return;
@@ -43,13 +44,13 @@ RadiancePhotonMap::RadiancePhotonMap(std::span<RadiancePhotonSite> sites, const 
                                      PreprocessContext& context)
     : minCosine_(settings.radianceNormal), reach_(settings.radianceReach) {
   constexpr std::size_t kChunk = 256;
-  // Neighbours one after the other: they read the same photons.
+  // Process neighbours one after the other, because they read the same photons.
   BlockOrder<RadiancePhotonSite>::Sort(sites, context.threads);
   const std::size_t chunks = (sites.size() + kChunk - 1) / kChunk;
   const auto sitesOf = [&](std::size_t chunk) {
     return sites.subspan(chunk * kChunk, std::min(kChunk, sites.size() - chunk * kChunk));
   };
-  std::vector<std::size_t> first{0};  // entry of each chunk, and of what follows the last
+  std::vector<std::size_t> first{0};  // index of each chunk's first entry, then the total
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
     first.push_back(first.back());
     for (const RadiancePhotonSite& site : sitesOf(chunk))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RadiancePhotonMap: exitant radiance (or irradiance) precomputed at a sample of the stored
-// photons, read by gather rays. Christensen 1999, "Faster Photon Map Global Illumination".
+// RadiancePhotonMap stores exitant radiance (or irradiance), precomputed at a sample of the stored
+// photons, and finds the radiance photon that is valid for a hit of a gather ray. Source:
+// Christensen 1999, "Faster Photon Map Global Illumination".
 #pragma once
 
 #include <optional>
@@ -13,20 +14,21 @@
 
 namespace exphoton {
 
-// A radiance photon of 32 bytes. Its normal is within 7e-5 radians of the surface's.
+// RadianceRecord stores a radiance photon in 32 bytes. Its normal is within 7e-5 radians of the
+// surface's normal.
 struct RadianceRecord {
   Point3 p;
-  std::uint32_t direction = 0;  // EncodeOctahedral, of the normal on the side that it speaks for
-  Real reach2 = 0;              // it serves within this squared distance
-  // Exitant: radiance leaving on that side by the diffuse lobes; Irradiance: arriving on it. Of a
-  // coated surface each photon counts by CoatTransmission.
+  std::uint32_t direction = 0;  // EncodeOctahedral of the normal on the valid side
+  Real reach2 = 0;              // squared validity radius
+  // Exitant mode: radiance leaving on that side by the diffuse lobes. Irradiance mode: irradiance
+  // on that side. On a coated surface, each photon is weighted by CoatTransmission.
   PackedRadiance value;
 };
 
 struct RadianceBlock : DiskBlock {
   using Record = RadianceRecord;
 
-  PackedRadiance value[kBlockPoints];  // read one by one
+  PackedRadiance value[kBlockPoints];  // only read for single lanes
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
     reach2[lane] = record.reach2;
@@ -36,13 +38,13 @@ struct RadianceBlock : DiskBlock {
 
 class RadiancePhotonMap {
  public:
-  // What serves a surface point.
+  // The radiance photon that is valid for a surface point.
   struct Entry {
     PackedRadiance packed;
-    Real radius2 = 0;    // squared, of its estimate
-    Real distance2 = 0;  // squared, from the point
+    Real radius2 = 0;    // squared radius of its density estimate
+    Real distance2 = 0;  // squared distance from the point
 
-    // The radiance or irradiance, seen at an angle to the normal.
+    // Returns the radiance or irradiance. absCos: cosine between normal and viewing direction.
     Spectrum Value(Real absCos) const {
       const Spectrum value = packed.Radiance();
       return packed.IsCoated() ? value * CoatTransmission(absCos) : value;
@@ -53,11 +55,11 @@ class RadiancePhotonMap {
   static constexpr double kBytesPerEntry =
       PointTree<RadianceBlock>::kBytesPerPoint + double(kGridCellsPerEntry * sizeof(std::uint32_t));
 
-  RadiancePhotonMap() = default;  // empty: finds nothing
-  // Computes all entries in parallel (docs/theory/exphotonmap.md, eq. 13): Lo = rho_r / pi E(p, n)
-  // + rho_t / pi E(p, -n), of the diffuse lobes, and for the other side too where something is
-  // transmitted. Without needsTransmission (Feature::Transmission) rho_t counts as 0. Sites are put
-  // into another order.
+  RadiancePhotonMap() = default;  // empty: Find returns nothing
+  // Computes all entries in parallel: Lo = rho_r / pi E(p, n) + rho_t / pi E(p, -n) for the diffuse
+  // lobes (docs/theory/exphotonmap.md, eq. 13). A transmitting surface gets a second entry for its
+  // other side. Without needsTransmission (Feature::Transmission), rho_t counts as 0. The
+  // constructor reorders the sites.
   RadiancePhotonMap(std::span<RadiancePhotonSite> sites, const PhotonMapSet& maps,
                     const PhotonSettings& settings, bool needsTransmission,
                     PreprocessContext& context);
@@ -65,9 +67,9 @@ class RadiancePhotonMap {
   std::size_t Size() const { return tree_.Size(); }
   std::size_t MemoryBytes() const { return tree_.MemoryBytes() + grid_.MemoryBytes(); }
 
-  // The nearest entry that speaks for a surface point p with unit normal n (turned towards where
-  // the radiance goes): its normal agrees and p lies within its reach (eq. 14). Many at once take
-  // less time each.
+  // Finds the nearest entry that is valid for a surface point p with unit normal n, turned to the
+  // side that the radiance leaves on: the normals agree, and p lies within the validity radius
+  // (eq. 14). A batch of places takes less time per place.
   using Place = ClosestQuery;
   void Find(std::span<const Place> places, std::optional<Entry>* found) const;
   std::optional<Entry> Find(const Place& place) const {
@@ -84,10 +86,10 @@ class RadiancePhotonMap {
   }
 
   PointTree<RadianceBlock> tree_;
-  EntryGrid grid_;  // where lookups begin
+  EntryGrid grid_;  // entry points of lookups
   Real minCosine_ = 0;
-  Real reach_ = 0;      // an entry serves within so many radii of its estimate
-  Real maxReach2_ = 0;  // squared reach of any entry
+  Real reach_ = 0;      // validity radius, in radii of an entry's estimate
+  Real maxReach2_ = 0;  // largest squared validity radius
 };
 
 }  // namespace exphoton

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RestPose: where photons of moving surfaces are kept: not where they arrived, but where that part
-// of the surface was as it began to move. Photons of all times lie close together there, as they do
-// on a surface at rest, and a lookup at any time finds them. Surfaces at rest pay one comparison.
-// What a map then says of a point is the mean over the exposure of what arrives there as it moves.
+// RestPose maps points of moving surfaces to the pose at the start of the motion, in which the maps
+// store photons. Photons of all times then lie close together, as on a surface at rest, and a
+// lookup at any time finds them. A map thus holds the mean over the shutter interval of the light
+// that arrives at a point of the moving surface. For surfaces at rest the cost is one comparison.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace exphoton {
 
 class RestPose {
  public:
-  // Of a point that is hit at `time`; motion null: of a surface at rest.
+  // The pose of a surface that is hit at `time`. motion is null for a surface at rest.
   RestPose(const Motion* motion, Real time) {
     if (!motion) [[likely]]
       return;
@@ -34,7 +34,8 @@ class RestPose {
   Vector3 DirectionBack(const Vector3& w) const {
     return fromRest_ ? NormalizeOr(fromRest_->ApplyVector(w), w) : w;
   }
-  // Of the power of a photon, where the surface is stretched: its density is per area now.
+  // Factor on the power of a photon if the motion stretches the surface: rest area over current
+  // area, because density estimates divide by area in the rest pose.
   Real PowerScale(const Normal3& ng) const { return toRest_ ? AreaScale(*toRest_, ng) : Real(1); }
 
  private:

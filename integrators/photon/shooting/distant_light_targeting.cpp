@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The hierarchy of balls, and photons that start on their shadows.
+// DistantLightTargeting builds the hierarchy of bounding spheres, and samples photon starts on
+// their projected disks.
 #include "integrators/photon/shooting/distant_light_targeting.h"
 
 #include <algorithm>
@@ -10,11 +11,11 @@
 namespace exphoton {
 namespace {
 
-// Fewer would not tell where photons are wanted.
+// Fewer points do not show where photons are wanted.
 constexpr std::size_t kLeastPoints = 16;
-// Balls reach beyond their points, because the points are a sample of what is wanted.
+// Radii are enlarged by this factor, because the points are only a sample of the wanted region.
 constexpr Real kMargin = Real(1.5);
-// From level to level radii shrink no more than so, or the density would jump.
+// Radii shrink at most by this factor from level to level, or the density would jump.
 constexpr Real kLeastShrink = Real(.25);
 constexpr int kMostLevels = 64;
 
@@ -24,7 +25,7 @@ Bounds3 BoundsOf(std::span<const Point3> points) {
   return bounds;
 }
 
-// The first half of the points lies below the second along the axis.
+// Partitions the points at the median along the axis.
 void Halve(std::span<Point3> points, int axis) {
   std::nth_element(points.begin(), points.begin() + std::ptrdiff_t(points.size() / 2), points.end(),
                    [axis](const Point3& a, const Point3& b) { return a[axis] < b[axis]; });
@@ -39,15 +40,15 @@ DistantLightTargeting::DistantLightTargeting(std::vector<Point3> wanted, const S
     : world_(world) {
   if (wanted.size() < kLeastPoints || !(world.radius > 0)) return;
   AddLevels(wanted, std::max(leastShare, double(kLeastPoints) / double(wanted.size())));
-  std::vector<double> shares{1};  // the world's
+  std::vector<double> shares{1};  // the world sphere
   for (const Ball& ball : balls_) shares.push_back(ball.share);
   shares_ = DiscreteDistribution(shares);
   for (Ball& ball : balls_) ball.share /= shares_.Sum();
   gain_ = Gain(wanted);
 }
 
-// A part whose points fit into a much smaller ball gets balls round all of them until they do not;
-// then it is halved, unless its halves would hold less than leastShare of the points.
+// A set of points that fits a much smaller sphere gets a chain of shrinking spheres first. Then it
+// is halved, unless a half would hold less than leastShare of the points.
 void DistantLightTargeting::AddLevels(std::span<Point3> wanted, double leastShare) {
   struct Part {
     std::span<Point3> points;
@@ -103,7 +104,7 @@ void DistantLightTargeting::Redirect(LightLeSample* emission, Point2 u) const {
     const Point2 d = SampleDisk({choice.remapped, u.y});
     onPlane = (frame.x * d.x + frame.y * d.y) * world_.radius;
   } else {
-    // Within s of the squared radius lies 2 s - s^2 of a shadow's photons.
+    // The CDF over the squared relative radius s is 2 s - s^2.
     const Ball& ball = balls_[std::size_t(choice.index - 1)];
     const Real d = ball.radius * SafeSqrt(1 - std::sqrt(1 - choice.remapped));
     const Real phi = 2 * kPi * u.y;
@@ -111,13 +112,15 @@ void DistantLightTargeting::Redirect(LightLeSample* emission, Point2 u) const {
               frame.y * (Dot(ball.center, frame.y) + d * std::sin(phi));
   }
   const double density = Density(onPlane, frame);
-  // A little beyond the sphere, so that rounding never starts a photon inside a wall it touches.
+  // Start slightly outside the world sphere, so that rounding never starts a photon inside a wall
+  // that touches the sphere.
   emission->ray.o = world_.center + onPlane + toLight * (world_.radius * Real(1.001));
   emission->power *= Real(double(emission->pdfPosition) / density);
   emission->pdfPosition = Real(density);
 }
 
-// The median over the wanted points, as if every shadow had its ball's own distances.
+// Returns the median gain of the wanted points. Distances in space replace distances on the
+// projected disks, so that the result does not depend on the direction of light.
 double DistantLightTargeting::Gain(std::span<const Point3> wanted) const {
   std::vector<double> gains;
   for (const Point3& p : wanted) {

@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// DistantLightTargeting: where photons of far lights (the sun, the sky) should land. They start on
-// a disk that covers the scene, so in a wide landscape next to none would land near the house that
-// is looked at. Given points where photons are wanted, the aim is a hierarchy of balls: level by
-// level the points are halved, and a level's balls hold them all. A photon picks a level, every
-// level alike, a ball of it in proportion to the points in it, and a place on the shadow that the
-// ball throws. Places of the disk (radius R, about the world's shadow) then have density, per area,
-//   p(x) = q [1 / (pi R^2) + sum over balls i of share_i 2 (1 - d_i^2 / r_i^2)+ / (pi r_i^2)],
-// d_i the distance to the shadow's middle, and a photon's power is multiplied by 1 / (pi R^2 p).
-// Nothing is lost, as p is at least the first term: defensive mixture sampling, Veach 1997, section
-// 9.2.4; photons where the camera looks: Peter and Pietrek 1998. From level to level the density
-// falls off about as 1 / distance^2, so that light that bounces in from outside comes in photons
-// whose power is not too great; within a shadow it is smooth, and no ball is so small that a
-// density estimate would see it change.
+// DistantLightTargeting implements emission importance sampling for distant lights (the sun, the
+// sky): more photons start towards points that matter for the image. Uniform starts on the disk
+// that covers the scene would send almost no photons to a house in a wide landscape. Sources: Veach
+// 1997, section 9.2.4 (defensive mixture sampling); Peter and Pietrek 1998.
 #pragma once
 
 #include <span>
@@ -22,25 +13,35 @@
 
 namespace exphoton {
 
+// The wanted points are covered by a hierarchy of bounding spheres; from level to level the sets of
+// points are halved. A photon picks the world sphere (weight 1) or a sphere i (weight share_i, its
+// share of the points), and then a position on the projected disk of that sphere. Let q be the
+// inverse sum of the weights, R the radius of the world sphere and d_i the distance to the centre
+// of disk i. The density of photon starts per area is
+//   p(x) = q [1 / (pi R^2) + sum over spheres i of share_i 2 (1 - d_i^2 / r_i^2)+ / (pi r_i^2)].
+// The power of a photon is multiplied by 1 / (pi R^2 p). No light is lost, because p is at least
+// the first term. Outside the wanted region p falls off roughly as 1 / distance^2, which limits the
+// power of photons that bounce in from outside. Within a disk p is smooth, and no disk is so small
+// that p varies noticeably within one density estimate.
 class DistantLightTargeting {
  public:
-  DistantLightTargeting() = default;  // no aim
-  // World: the ball that the lights were prepared with. No ball but the last of a level's chain
-  // holds less than leastShare of the points, in (0,1]. Too few points give no aim.
+  DistantLightTargeting() = default;  // empty: no targeting
+  // `world` is the bounding sphere that the lights were prepared with. No sphere holds less than
+  // leastShare, in (0,1], of the points, up to rounding. Too few points give an empty object.
   DistantLightTargeting(std::vector<Point3> wanted, const Sphere3& world, double leastShare);
 
   bool IsEmpty() const { return shares_.IsEmpty(); }
 
-  // Moves the start of a far light's photon (Light::IsFar) and weighs its power accordingly; u is
-  // used up.
+  // Moves the start of a photon of a distant light (Light::IsFar) to a position chosen by u, and
+  // updates its power and density.
   void Redirect(LightLeSample* emission, Point2 u) const;
 
-  // How much denser than without aim photons start towards a wanted point: the median.
+  // Median over the wanted points of the density of photon starts, relative to uniform starts.
   double Gain() const { return gain_; }
 
  private:
   struct Ball {
-    Vector3 center;  // from the world's
+    Vector3 center;  // relative to the world's centre
     Real radius;
     double share;  // of all photons
 
@@ -48,13 +49,13 @@ class DistantLightTargeting {
   };
   void AddLevels(std::span<Point3> wanted, double leastShare);  // reorders the points
   double WorldDensity() const;
-  // At `offset` from the world's centre on the plane of the frame's x and y.
+  // Density per area at `offset` from the world's centre, in the plane of frame.x and frame.y.
   double Density(const Vector3& offset, const Frame& frame) const;
   double Gain(std::span<const Point3> wanted) const;
 
   Sphere3 world_;
-  std::vector<Ball> balls_;      // without the world's
-  DiscreteDistribution shares_;  // of the world and then the balls
+  std::vector<Ball> balls_;      // without the world sphere
+  DiscreteDistribution shares_;  // of the world sphere, then of balls_
   double gain_ = 1;
 };
 

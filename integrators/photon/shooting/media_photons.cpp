@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Emission is sampled from a grid of boxes over each medium; scattering from a uniform distance
-// within the media.
+// MediaPhotons samples emission from a grid of boxes over each medium, and scattering at a uniform
+// distance within the media.
 #include "integrators/photon/shooting/media_photons.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace exphoton {
 namespace {
 
-// Boxes over all media together: enough that the emission within one varies little.
+// Most boxes for all media together, and per axis of one medium. Emission varies little in a box.
 constexpr int kMaxBoxes = 1 << 16;
 constexpr int kMostPerAxis = 16;
-// The part of the choices that is uniform over the boxes, for emission that the estimates miss.
+// Share of the choices that is uniform over the boxes, for emission that the box centres miss.
 constexpr double kUniformShare = 0.1;
 
 double Volume(const Bounds3& box) {
@@ -44,7 +44,7 @@ MediaPhotons::MediaPhotons(const Scene& scene, const VolumeIntegrator* volume) :
   for (const auto& medium : scene.Media())
     if (medium->Emits()) AddCells(*medium, perAxis, &luminances);
   for (const double luminance : luminances) power_ += luminance;
-  // A constant added to each box gives every box its part of the uniform share.
+  // Adding this constant to every box makes kUniformShare of the choices uniform.
   const double uniform =
       power_ > 0 ? kUniformShare / (1 - kUniformShare) * power_ / double(boxes_.size()) : 1.0;
   for (double& luminance : luminances) luminance += uniform;
@@ -76,8 +76,8 @@ MediaPhotons::Photon MediaPhotons::SampleEmission(Real uBox, const Point3& uPosi
   const Cell& cell = boxes_[std::size_t(choice.index)];
   const Point3 p = PointIn(cell.box, uPosition);
   const Ray ray{p, SampleUniformSphere(uDirection), kInfinity, time};
-  // Emission is a radiance per unit of length, the same in all directions: 4 pi of it leave a unit
-  // of volume.
+  // Emission is a radiance per unit length, the same in all directions, so the power per unit
+  // volume is 4 pi times the emission.
   const auto factor = Real(4 * double(kPi) * Volume(cell.box) / double(choice.probability));
   return {ray, cell.medium->At(p).emission * factor};
 }
@@ -105,7 +105,8 @@ MediaPhotons::Passage MediaPhotons::Pass(const Ray& ray, Real end, const Spectru
     phase += sigma * (medium->Phase(w, -ray.d) * (4 * kPi));
   }
   const Spectrum weight = alpha * scene_->Transmittance(stretch) * (inside.max - inside.min);
-  // The choice must not depend on the direction: it is made by the light that is scattered in all.
+  // The choice must not depend on the sampled direction, so it uses the light scattered in all
+  // directions together.
   const Real scatteredY = (weight * scattering).Y();
   const Real probability = SafeDivide(scatteredY, scatteredY + passed.Y(), Real(0));
   if (!(uDistanceChoice.y < probability)) return {std::nullopt, passed / (1 - probability)};

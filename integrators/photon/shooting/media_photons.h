@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// MediaPhotons: photons that participating media send to surfaces: those that media emit, and those
-// that leave a light and are scattered once. Light that media scatter more than once is not part of
-// it, because no volume integrator computes it. Sources: Chandrasekhar 1960, chapter 1; Jensen and
-// Christensen 1998, "Efficient simulation of light transport in scenes with participating media".
+// MediaPhotons creates the photons that participating media send to surfaces: photons that media
+// emit, and photons of lights that media scatter once. Multiple scattering is left out, because no
+// volume integrator computes it. Sources: Chandrasekhar 1960, chapter 1; Jensen and Christensen
+// 1998, "Efficient simulation of light transport in scenes with participating media".
 #pragma once
 
 #include <optional>
@@ -15,28 +15,29 @@ namespace exphoton {
 
 class MediaPhotons {
  public:
-  // No media: every answer is empty.
+  // Without media nothing is emitted or scattered.
   MediaPhotons() = default;
-  // `volume` decides whether light is scattered; null: it is not.
+  // `volume` decides whether media scatter light. If it is null, they neither scatter nor emit.
   MediaPhotons(const Scene& scene, const VolumeIntegrator* volume);
 
   bool Emit() const { return !cells_.IsEmpty(); }
   bool Scatter() const { return scatters_; }
-  // Luminance of the power that all media emit, in watts; an estimate by a point in each of many
+  // Luminance of the power that all media emit, in watts, estimated from one point in each of many
   // small boxes.
   double EmittedPower() const { return power_; }
 
   struct Photon {
     Ray ray;
-    Spectrum power;  // divided by the density of the choice
+    Spectrum power;  // divided by the density of the sample
   };
-  // A photon that a medium emits. Its start has a density proportional to the emission, box by box.
+  // Samples a photon that a medium emits. The density of its origin is constant within each box and
+  // follows the emission at the centre of the box.
   Photon SampleEmission(Real uBox, const Point3& uPosition, Point2 uDirection, Real time) const;
 
-  // What becomes of a photon of power `alpha` that a light sends along `ray` (unit direction):
-  // scattered within the media, or passed on towards the surface at distance `end` (infinity: it
-  // meets none). One of both is chosen in proportion to the light that it carries, so that the path
-  // does not branch. uDistance, uChoice, uDirection: uniform in [0,1).
+  // Sends a photon of power `alpha`, which left a light along `ray` (unit direction), through the
+  // media. The photon is either scattered by a medium or reaches the surface at distance `end`
+  // (infinity: there is none). One of the two is chosen in proportion to the light that it carries,
+  // so that the path does not branch. uDistanceChoice and uDirection are uniform in [0,1)^2.
   struct Passage {
     std::optional<Ray> scattered;  // nullopt: the photon goes on along its ray
     Spectrum alpha;                // at the point of scattering or at the surface; may be black

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Merging: counting first, so that all chunks can be copied at the same time.
+// Merge counts first, so that all chunks can be copied in parallel.
 #include "integrators/photon/shooting/photon_chunk.h"
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 namespace exphoton {
 namespace {
 
-// A store that holds this part of what it is wanted to gets memory for the whole.
+// A store that holds this share of its target reserves memory for the whole target.
 constexpr double kShareBeforeReserving = 1. / 16;
 
-// Where in a store the part of each chunk goes, behind what there is, and room for it.
+// Enlarges the store by `part` of all chunks. Returns the index of each chunk's first record.
 template <class Part, class Record>
 std::vector<std::size_t> MakeRoom(std::span<const PhotonChunk> chunks, const Part& part,
                                   double wanted, RecordStore<Record>* store) {
@@ -21,7 +21,7 @@ std::vector<std::size_t> MakeRoom(std::span<const PhotonChunk> chunks, const Par
     count += part(chunks[c]).size();
   }
   if (count == store->Size()) return first;
-  // From here on it will hardly stay empty: memory for all, once, and for the last batch.
+  // The store will probably be filled: reserve the target, and 1/64 more for the last batch.
   if (double(count) >= wanted * kShareBeforeReserving)
     store->Reserve(std::size_t(wanted * (1 + 1. / 64)));
   store->Resize(count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonChunk: what the paths of one piece of work leave behind, and how the pieces of a batch
-// become part of a result: in their order, whoever traced them.
+// PhotonChunk collects the photons of one parallel task, and Merge appends the chunks of a batch to
+// the result. The chunks are merged in order, so the result does not depend on the threads.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 
 namespace exphoton {
 
-// Aligned, so that threads that fill neighbours do not wait for each other's lines of the cache.
+// Alignment avoids false sharing: neighbouring chunks are filled by different threads.
 struct alignas(128) PhotonChunk {
   std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
   std::vector<RadiancePhotonSite> sites;
   double emittedPower = 0, cutPower = 0;
-  std::int64_t dropped = 0, firstDropped = -1;  // photons; the number of the first one's path
+  std::int64_t dropped = 0, firstDropped = -1;  // photons; path index of the first one
   std::int64_t overgrown = 0, passedBy = 0;
 
-  void Clear();  // keeps its memory
+  void Clear();  // keeps the memory
 };
 
-// Adds the chunks of a batch, one after the other.
+// Appends the chunks of a batch in order.
 void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, ThreadPool& threads,
            PhotonPassResult* result);
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonPathSampler: the random numbers of photon path i. Light choice, emission and first bounce
-// take the i-th point of padded Owen-scrambled (0,2)-sequences, each pair with its own order of the
-// points (Burley 2020: Owen's scrambling of the index itself, so that aligned blocks of 2^m indices
-// stay such blocks; and of the sixteen of a block before it, as that alone keeps neighbours
-// together in every pair). Everything after that is an independent stream. Indices are 64-bit:
-// beyond 2^32 the sequences start again with other keys.
+// PhotonPathSampler generates the random numbers of photon path i. Light choice, emission and first
+// bounce use point i of padded Owen-scrambled (0,2)-sequences (Burley 2020). All later numbers come
+// from an independent stream. Beyond 2^32 paths the sequences restart with other keys (indices are
+// 64-bit).
 #pragma once
 
 #include "core/math/sampling/low_discrepancy.h"
@@ -12,10 +10,11 @@
 
 namespace exphoton {
 
-// What all paths of one period of the sequences (2^32 paths, aligned) have in common.
+// PhotonPathSequences holds the data shared by all paths of one period of the sequences (2^32 path
+// indices, aligned).
 class PhotonPathSequences {
  public:
-  // `path` is any of the period.
+  // `path` is any path index of the period.
   PhotonPathSequences(std::uint64_t seed, std::uint64_t path) : seed_(seed), period_(path >> 32) {
     const std::uint64_t key = HashKey({seed, kSequenceKey, period_});
     for (int i = 0; i < kPairs; ++i) orders_[i] = Order(HashKey({key, std::uint64_t(i)}));
@@ -38,7 +37,9 @@ class PhotonPathSequences {
   static constexpr std::uint64_t kSequenceKey = 0x70686f746f6e31ull;
   static constexpr std::uint64_t kTimeKey = 0x70686f746f6e33ull;
 
-  // A pair's own order of the points, or the pairs would be functions of each other.
+  // Each pair has its own order of the points, or the pairs would be functions of each other. Owen
+  // scrambling of the index keeps aligned blocks of 2^m indices together. Alone it would keep
+  // neighbours together in every pair, so indices are first permuted within blocks of sixteen.
   struct Order {
     Order() = default;
     explicit Order(std::uint64_t ofPair) : key(ofPair) {
@@ -62,13 +63,13 @@ class PhotonPathSequences {
 
 class PhotonPathSampler {
  public:
-  // The sequences are of the path's period, and must outlive this.
+  // The sequences must be those of the path's period and outlive this object.
   PhotonPathSampler(const PhotonPathSequences& sequences, std::uint64_t path)
       : sequences_(sequences),
         index_(std::uint32_t(path)),
         stream_(HashKey({sequences.Seed(), kStreamKey, path})) {}
 
-  // The next pair: of the sequences while there are any left, then of the stream.
+  // Returns the next pair, from the sequences while any are left, then from the stream.
   Point2 Next2D() {
     if (pair_ == PhotonPathSequences::kPairs) {
       const Real x = stream_.Uniform();
@@ -76,10 +77,10 @@ class PhotonPathSampler {
     }
     return sequences_.Pair(pair_++, index_);
   }
-  // In [0,1): when the photon is under way. Well distributed over the paths, and of its own: with
-  // it or without, all other numbers are the same.
+  // Returns the time of the photon in [0,1), well distributed over the paths. All other numbers are
+  // the same whether or not it is called.
   Real Time() const { return sequences_.Time(index_); }
-  // From the stream at once.
+  // Always takes a number from the stream.
   Real Independent() { return stream_.Uniform(); }
 
  private:

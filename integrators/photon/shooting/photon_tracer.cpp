@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Shooting photons: one path from its light to its end, and the batches that paths come in.
+// PhotonTracer traces single photon paths from light to end, and schedules the batches of paths.
 #include "integrators/photon/shooting/photon_tracer.h"
 
 #include <algorithm>
@@ -17,11 +17,12 @@
 
 namespace exphoton {
 
-// A photon that has grown by so much since its light has met surfaces that reflect more than they
-// receive, over and over; sums over maps with such photons would overflow. No roulette comes near.
+// Largest growth of the power of a photon since its emission. A photon beyond it has hit many
+// surfaces that reflect more than they receive, and its power could overflow sums over the map.
+// Russian roulette never comes near this limit.
 constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
 
-// One photon path: follows it to its end and stores into the chunk what `open` maps want.
+// Path follows one photon path to its end, and stores photons for the `open` maps in the chunk.
 class PhotonTracer::Path {
  public:
   Path(const PhotonTracer& tracer, const PhotonPathSequences& sequences, std::uint64_t index,
@@ -46,7 +47,7 @@ class PhotonTracer::Path {
       const auto surface = tracer_.scene_.Intersect(ray);
       if (hits == 1 && !isOfMedia_ && tracer_.media_.Scatter()) {
         if (ScatterInMedia(surface ? &surface->p : nullptr, &ray)) {
-          hits = 0;  // a first ray again, which begins in a medium
+          hits = 0;  // again a first ray, which now begins in a medium
           continue;
         }
         if (!surface) return;
@@ -59,8 +60,8 @@ class PhotonTracer::Path {
       if (!(alpha_.MaxComponent() > 0)) return;
       const ShadingPoint point =
           MakeShadingPoint(*surface, ray, hits, TransportMode::Importance, arena);
-      // Gather rays see the light of media on their way; surfaces keep what arrives from media with
-      // the light that arrives from surfaces.
+      // Photons from media belong to the indirect map. Gather rays themselves add the light of
+      // media between their ends.
       const PhotonKind kind = isOfMedia_        ? PhotonKind::Indirect
                               : hits == 1       ? PhotonKind::Direct
                               : isSpecularPath_ ? PhotonKind::Caustic
@@ -72,7 +73,7 @@ class PhotonTracer::Path {
   }
 
   void AddTo(std::span<LightTally> lights) const {
-    if (light_ < 0) return;  // it began in a medium
+    if (light_ < 0) return;  // the path began in a medium
     LightTally& light = lights[std::size_t(light_)];
     ++light.shot;
     light.hit += hasHit_;
@@ -81,7 +82,7 @@ class PhotonTracer::Path {
   }
 
  private:
-  // What media take from the photon on its way to p.
+  // Multiplies the power by the transmittance of the media up to p.
   void Absorb(const Ray& ray, const Point3& p) {
     if (!tracer_.scene_.HasMedia()) return;
     Ray stretch = ray;
@@ -89,8 +90,8 @@ class PhotonTracer::Path {
     alpha_ *= tracer_.scene_.Transmittance(stretch);
   }
 
-  // Takes off what media absorb and, where they scatter, decides whether they scatter the photon.
-  // True: the photon goes on along a new ray from a point of the media.
+  // Applies absorption and, if the media scatter, decides whether they scatter the photon. Returns
+  // true if the photon continues along a new ray from a point in the media.
   bool ScatterInMedia(const Point3* end, RayDifferential* ray) {
     const Point2 uDistanceChoice = samples_.Next2D(), uDirection = samples_.Next2D();
     Ray stretch = *ray;
@@ -104,7 +105,7 @@ class PhotonTracer::Path {
     return true;
   }
 
-  // Of all of the path.
+  // Returns the time of the whole path.
   Real Time() const {
     const auto [open, close] = tracer_.scene_.Exposure();
     if (open == close) return open;
@@ -140,7 +141,7 @@ class PhotonTracer::Path {
     *ray = RayDifferential(emission.ray);
     return Begin(emission.power / tracer_.mediaShare_);
   }
-  // Whether a photon of this power sets out.
+  // Sets the emitted power. Returns false if there is nothing to trace.
   bool Begin(const Spectrum& power) {
     alpha_ = power;
     if (!alpha_.IsFinite()) {
@@ -178,13 +179,13 @@ class PhotonTracer::Path {
   bool IsOnlyOpen(PhotonKind kind) const {
     return open_[std::size_t(kind)] && std::count(open_.begin(), open_.end(), true) == 1;
   }
-  // Whether a map still wants photons of what comes after a bounce of this kind.
+  // Returns whether an open map can store photons after a bounce of this kind.
   bool IsWantedAfter(bool isSpecular) const {
     if (open_[std::size_t(PhotonKind::Indirect)]) return true;
     return isSpecular && open_[std::size_t(PhotonKind::Caustic)];
   }
 
-  // Bsdf sampling (eq. 5 and 6) and Russian roulette (eq. 7); false where the path ends.
+  // Samples the BSDF (eq. 5, 6) and plays Russian roulette (eq. 7). Returns false if the path ends.
   bool Scatter(const ShadingPoint& point, int hits, RayDifferential* ray) {
     const Point2 u = samples_.Next2D(), uChoice = samples_.Next2D();
     const auto sample =
@@ -203,7 +204,7 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
-    if (alpha_.MaxComponent() / kMostGrowth > emittedMost_) {  // cannot overflow
+    if (alpha_.MaxComponent() / kMostGrowth > emittedMost_) {  // the division cannot overflow
       ++chunk_->overgrown;
       return false;
     }
@@ -215,7 +216,8 @@ class PhotonTracer::Path {
     return true;
   }
 
-  // exphotonmap: the survivor keeps what the photon had, so weights stay nearly constant.
+  // With Luminance (MaxComponent), the survivor has the luminance (largest channel) from before the
+  // bounce, so photon weights stay nearly constant.
   Real SurvivalProbability(const Spectrum& scattered, int hits) const {
     constexpr int kPlainBounces = 3;
     switch (tracer_.settings_.photonRoulette) {
@@ -241,23 +243,24 @@ class PhotonTracer::Path {
   bool hasPassedBy_ = false;
   bool isOfMedia_ =
       false;  // a medium emitted the photon, or scattered it on its way from the light
-  std::int64_t stored_ = 0;  // photons
+  std::int64_t stored_ = 0;  // photon count
   Spectrum alpha_;
   Real emittedMost_ = 0;
-  Real distance_ = 0;            // since the light, or the last scattering that was not specular
+  Real distance_ = 0;            // path length since the light or the last non-specular scattering
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
 
 namespace {
 
-// That photons are likely to have come over mirrors, too; > 0.
+// Returns the largest distance that the 8-bit code can represent; > 0. Eight scene radii leave room
+// for specular chains.
 Real FarthestDistance(const Scene& scene) {
   constexpr Real kRadii = 8;
   return std::max(kRadii * BoundingSphere(scene.WorldBounds()).radius,
                   std::numeric_limits<Real>::min());
 }
 
-// An aimed light needs fewer photons by as much as they lie denser.
+// A targeted light needs fewer photons, in inverse proportion to the gain in density.
 std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting& aim) {
   std::vector<double> factors(scene.Lights().size(), 1.0);
   if (aim.IsEmpty()) return factors;
@@ -266,7 +269,7 @@ std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting
   return factors;
 }
 
-// The part of the paths that begin in media: by power, but neither source starves the other.
+// Returns the share of paths that begin in media: by power, but at least kLeast for both sources.
 Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightDistribution& lights) {
   constexpr double kLeast = .05;
   if (!media.Emit()) return 0;
@@ -299,7 +302,7 @@ void PhotonTracer::TraceChunk(std::int64_t firstPath,
                               Worker* worker, PhotonChunk* chunk) const {
   const PhotonPathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
   chunk->Clear();
-  worker->lights.resize(scene_.Lights().size());  // here, so that the memory is this thread's own
+  worker->lights.resize(scene_.Lights().size());  // here, so that the memory is local to the thread
   for (int i = 0; i < kChunkPaths; ++i) {
     Path path(*this, sequences, std::uint64_t(firstPath + i), open, radianceFraction, chunk);
     worker->arena.Reset();
@@ -310,7 +313,7 @@ void PhotonTracer::TraceChunk(std::int64_t firstPath,
 
 namespace {
 
-// How much of its target a map has, or of the paths that it may have.
+// Returns how full a map is: the larger of its shares of the photon target and of the path limit.
 double Filled(const PhotonTargets& targets, const PhotonPassResult& result, std::size_t map,
               std::int64_t maxPaths) {
   const double stored = double(result.buffers[map].photons.Size()) / double(targets.counts[map]);
@@ -339,7 +342,7 @@ PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets,
                  &workers[std::size_t(worker)], &chunks[std::size_t(c)]);
     });
     Merge(chunks, targets, context.threads, &result);
-    double least = 1, most = 0;  // filled, of the maps that are wanted and of those still open
+    double least = 1, most = 0;  // least over the requested maps, most over the open maps
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
       if (targets.counts[m] == 0) continue;
       PhotonBuffer& buffer = result.buffers[m];
@@ -364,7 +367,8 @@ PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets,
 }
 
 std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, double filled) {
-  // Half of what the fullest map is likely to need yet: it must not be overfilled.
+  // A batch has at most half of the paths that the fullest map probably still needs, so that the
+  // map is not overfilled.
   const double needed = filled > 0 ? double(paths) * (1 - filled) / filled : 0;
   std::int64_t most = kMaxBatchPaths;
   while (most < kLargestBatchPaths && double(4 * most) <= needed) most *= 2;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonTracer: shoots photons from the lights in numbered batches and sorts what they leave behind
-// into buffers. Path i is a function of (seed, i) alone; batches grow from 64 to 4096 paths, and to
-// 65536 where maps want far more; they are traced in parallel and merged in order; a buffer counts
-// the paths of whole batches only, because stopping at the n-th photon would bias every estimate.
-// Jensen 2001, chapter 5.
+// PhotonTracer traces photons from the lights in numbered batches, and sorts the stored photons
+// into one buffer per map (Jensen 2001, chapter 5). Path i depends on (seed, i) alone. Batches have
+// 64 to 4096 paths, up to 65536 if the maps need many more; they are traced in parallel and merged
+// in order. A buffer counts the paths of whole batches, because stopping at the n-th photon would
+// bias every estimate.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@
 
 namespace exphoton {
 
-// How many photons each map wants; 0: the map is not requested.
+// PhotonTargets is the number of photons that each map wants; 0: the map is not requested.
 struct PhotonTargets {
   std::array<std::int64_t, kPhotonKindCount> counts{};
   Real radianceFraction = 0;  // of the stored photons; 0: no radiance photons
 
   std::int64_t& operator[](PhotonKind kind) { return counts[std::size_t(kind)]; }
   std::int64_t operator[](PhotonKind kind) const { return counts[std::size_t(kind)]; }
-  std::int64_t Least() const {  // of those that are wanted; 0: none is
+  std::int64_t Least() const {  // smallest target above 0; 0: there is none
     std::int64_t least = 0;
     for (const std::int64_t count : counts)
       if (count > 0) least = least > 0 ? std::min(least, count) : count;
@@ -35,11 +35,11 @@ struct PhotonTargets {
   }
 };
 
-// What became of the paths that left one light.
+// LightTally counts the results of the paths that left one light.
 struct LightTally {
   std::int64_t shot = 0;      // paths
-  std::int64_t hit = 0;       // of them, those that met a surface
-  std::int64_t passedBy = 0;  // of them, those that were not traced: PhotonPassResult::passedBy
+  std::int64_t hit = 0;       // paths that hit a surface
+  std::int64_t passedBy = 0;  // paths that were not traced: see PhotonPassResult::passedBy
   std::int64_t stored = 0;    // photons, in all maps together
 
   void Add(const LightTally& other) {
@@ -54,13 +54,12 @@ struct PhotonPassResult {
   std::array<PhotonBuffer, kPhotonKindCount> buffers;
   RecordStore<RadiancePhotonSite> sites;
   std::vector<LightTally> lights;  // in the scene's order
-  std::int64_t paths = 0;          // in all
-  // Of them, those that were not traced: only the caustic map was open, and they pass all specular
-  // surfaces by.
+  std::int64_t paths = 0;          // of all lights and media
+  // Paths not traced: only the caustic map was open, and the ray misses all specular surfaces.
   std::int64_t passedBy = 0;
   double emittedPower = 0;          // luminance, summed over the paths
-  double cutPower = 0;              // of it, cut by the depth limit
-  std::int64_t droppedPhotons = 0;  // whose power was not finite
+  double cutPower = 0;              // part of it, cut by the depth limit
+  std::int64_t droppedPhotons = 0;  // their power was not finite
   std::int64_t firstDroppedPath = -1;
   std::int64_t overgrownPaths = 0;  // ended because surfaces kept multiplying their power
 
@@ -75,14 +74,14 @@ class PhotonTracer {
   PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
                DistantLightTargeting aim = {}, MediaPhotons media = {});
 
-  // Shoots until every requested map is full, has had maxphotonpaths, or has stored nothing in its
-  // first kFruitlessPaths. Says so once where a map fell short.
+  // Traces until every requested map is full, has used maxphotonpaths, or has stored nothing in its
+  // first kFruitlessPaths.
   PhotonPassResult Shoot(const PhotonTargets& targets, PreprocessContext& context) const;
 
   static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
-  // Paths that one piece of parallel work traces: the smallest batch.
+  // Paths per parallel task; also the smallest batch.
   static constexpr int kChunkPaths = 64;
-  // The largest batch while a map may soon be full, and far from that.
+  // Largest batch while a map may soon be full, and while all maps are far from full.
   static constexpr std::int64_t kMaxBatchPaths = 4096;
   static constexpr std::int64_t kLargestBatchPaths = 65536;
 
@@ -96,8 +95,8 @@ class PhotonTracer {
 
   void TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
                   Real radianceFraction, Worker* worker, PhotonChunk* chunk) const;
-  // The paths of the batch after one of `last`, when so many have been traced and the fullest of
-  // the maps that want more holds this part of what it wants.
+  // Returns the size of the next batch. last: the previous size; paths: traced so far; filled: the
+  // share of its target that the fullest open map holds.
   static std::int64_t NextBatch(std::int64_t last, std::int64_t paths, double filled);
 
   const Scene& scene_;
@@ -106,10 +105,10 @@ class PhotonTracer {
   DistantLightTargeting aim_;
   MediaPhotons media_;
   LightDistribution lights_;
-  Real mediaShare_;  // of the paths, those that begin in a medium
+  Real mediaShare_;  // share of the paths that begin in a medium
   SpecularBoxes specularBoxes_;
-  LobeSet lobes_;  // that photons scatter by
-  Real farthest_;  // PhotonBuffer::farthest
+  LobeSet lobes_;  // lobes that scatter photons
+  Real farthest_;  // see PhotonBuffer::farthest
 };
 
 }  // namespace exphoton

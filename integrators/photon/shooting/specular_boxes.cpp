@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Boxes by halving: the surfaces are split at the middle one along the longest axis of their
-// centres, again and again.
+// SpecularBoxes splits the surfaces recursively at their median centre along the longest axis.
 #include "integrators/photon/shooting/specular_boxes.h"
 
 #include <algorithm>
@@ -31,7 +30,7 @@ void Split(std::span<Bounds3> parts, int most, std::vector<Bounds3>* boxes) {
   Split(parts.subspan(parts.size() / 2), most / 2, boxes);
 }
 
-// Covers how far a hit that an accelerator reports can lie beside the surface.
+// Returns the margin for the distance by which a reported hit can lie off its surface.
 Vector3 MarginOf(const Bounds3& world) {
   constexpr Real kMargin = Real(1e-4);
   return Vector3(kMargin * std::max(MaxComponent(Abs(world.min)), MaxComponent(Abs(world.max))));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SpecularBoxes: a few boxes that hold every specular surface of a scene. A photon that passes them
-// all by cannot make a caustic, because its path would have to begin with a specular surface. Not
-// an accelerator: a ray that meets a box may still miss the surface.
+// SpecularBoxes bounds all specular surfaces of a scene by a few boxes. A photon whose first ray
+// misses all boxes cannot make a caustic, because its path would have to begin with a specular
+// surface. This is not an accelerator: a ray that hits a box may still miss the surface.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@ namespace exphoton {
 
 class SpecularBoxes {
  public:
-  // Boxes of parts of the surfaces; more hold them closer and take longer to test.
+  // More boxes bound the surfaces more tightly, but take longer to test.
   static constexpr int kMostBoxes = 16;
 
-  SpecularBoxes() = default;  // none: every ray passes by
+  SpecularBoxes() = default;  // no boxes: every ray passes by
   explicit SpecularBoxes(const Scene& scene);
 
-  // Whether the ray certainly misses all specular surfaces at all times of the exposure.
+  // Returns whether the ray certainly misses all specular surfaces during the shutter interval.
   bool PassesBy(const Ray& ray) const;
 
   const std::vector<Bounds3>& Boxes() const { return boxes_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Following camera rays and one bounce on, to places that photons can be stored at.
+// VisiblePoints traces camera rays and one further bounce, to points where photons can be stored.
 #include "integrators/photon/shooting/visible_points.h"
 
 #include <optional>
@@ -20,7 +20,7 @@ class VisiblePointTracer {
   VisiblePointTracer(const Scene& scene, Arena* arena, std::uint64_t key)
       : scene_(scene), arena_(arena), random_(key) {}
 
-  // The first place along the ray, or beyond specular surfaces, with another lobe.
+  // Returns the first hit with a non-specular lobe, following specular bounces.
   std::optional<ShadingPoint> Follow(RayDifferential ray) {
     for (int bounces = 0; bounces <= kMostSpecularBounces; ++bounces) {
       const auto surface = scene_.Intersect(ray);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// VisiblePoints: a sample of the places whose light reaches the camera: what camera rays hit,
-// straight or over specular surfaces, and what light from there hits next, where final gathering
-// reads the maps. For aiming photons (photon_aim.h); a function of scene, camera, film size and
-// seed alone.
+// VisiblePoints samples points whose light reaches the camera: hits of camera rays, directly or
+// after specular bounces, and hits of one further bounce, where final gathering reads the maps.
+// DistantLightTargeting uses them. The result depends on scene, camera, film size and seed alone.
 #pragma once
 
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace exphoton {
 
-// About as many of each kind as rays that did not escape; `size` is that of the full image.
+// Returns about one point of each kind per ray that hits. `size`: resolution of the full image.
 std::vector<Point3> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
                                   std::uint64_t seed);
 

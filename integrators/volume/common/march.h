@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Ray marching through media: the integral of transmittance times a source along a ray, by one
-// point a step, all at the same random offset. Transmittance is exact, so the estimate has no bias.
+// March integrates transmittance times a source term along a ray by ray marching, with one point
+// per step, all at the same random offset. Transmittance is exact, so the estimate is unbiased.
 #pragma once
 
 #include "core/plugin.h"
@@ -20,11 +20,11 @@ inline const ParamTable<MarchSettings>& MarchParameters() {
   return table;
 }
 
-// source(p) is the radiance added per unit of length. ray.d is unit.
+// source(p) returns the radiance added at p per unit length. ray.d has unit length.
 template <class Source>
 Spectrum March(const Ray& ray, const Scene& scene, Real stepSize, Real offset,
                const Source& source) {
-  constexpr double kMaxSteps = 4096;  // longer steps rather than more: still without bias
+  constexpr double kMaxSteps = 4096;  // beyond this, steps get longer; still unbiased
   Interval part{kInfinity, 0};
   for (const auto& medium : scene.Media()) {
     const auto overlap = medium->Overlap(ray);

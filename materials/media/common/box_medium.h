@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// BoxMedium: what the volume plugins share: a box p0 to p1 in the space of the Volume directive,
-// with the same coefficients everywhere, times a density that the plugin defines.
+// BoxMedium is the base of the medium plugins: a box from p0 to p1 in the space of the Volume
+// directive, with constant coefficients times a density that the plugin defines.
 #pragma once
 
 #include <cmath>
@@ -29,8 +29,8 @@ inline const ParamTable<MediumSettings>& MediumParameters() {
   return table;
 }
 
-// Density: At(p), at a point of the box, and Integral(o, d, part), of the density over t along
-// o + t d for a part inside; both in the space of the box.
+// Density provides At(p), the density at a point of the box, and Integral(o, d, part), the integral
+// of the density over t along o + t d, for a part inside the box. Both are in the space of the box.
 template <class Density>
 class BoxMedium final : public Medium {
  public:
@@ -68,7 +68,7 @@ class BoxMedium final : public Medium {
     const double along =
         density_.Integral(toMedium_.ApplyPoint(ray.o), toMedium_.ApplyVector(ray.d), part);
     const Real depth = Real(along * double(Length(ray.d)));
-    // Per channel: nothing times infinitely much is nothing.
+    // Per channel, so that a coefficient of 0 times an infinite depth gives 0.
     const auto channel = [&](Real coefficient) {
       return coefficient > 0 ? coefficient * depth : 0;
     };
@@ -82,7 +82,7 @@ class BoxMedium final : public Medium {
 
  private:
   MediumSettings settings_;
-  Bounds3 box_, bounds_;  // in the medium's space and in the world's
+  Bounds3 box_, bounds_;  // in medium space and in world space
   Transform toMedium_;
   Density density_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What textures share: the parameters of a mapping to the plane, and how a plugin serves floats and
-// colours from one template.
+// This header defines the parameters of 2D texture mappings, and a macro that registers the float
+// and the colour texture of one template.
 #pragma once
 
 #include "core/plugin.h"
@@ -39,7 +39,7 @@ inline const ParamTable<MappingSettings>& MappingParameters() {
 
 }  // namespace exphoton
 
-// A plugin of both texture kinds from templates Parameters<T>() and Create<T>.
+// Registers a plugin of both texture kinds from the templates Parameters<T>() and Create<T>.
 #define EXPHOTON_TEXTURE_PLUGIN(pluginName, pluginSummary)                           \
   EXPHOTON_PLUGIN(                                                                   \
       pluginName, pluginSummary,                                                     \

@@ -7,8 +7,8 @@
 namespace exphoton {
 namespace {
 
-// Where its rays begin, as its users set it: it has no other guard against the surface that a ray
-// leaves.
+// Rays start at this t, as Embree's users set it. Embree has no other protection against hits on
+// the surface that a ray leaves.
 constexpr float kStart = 1e-5f;
 
 RTCRay Converted(const Ray& ray) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A set of triangles in Embree, with its defaults for single rays: the opponent of the
-// accelerators.
+// EmbreeRoom is a set of triangles in Embree, with Embree's defaults for single rays. It is the
+// opponent of the accelerators.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -13,13 +13,13 @@ namespace exphoton {
 
 class EmbreeRoom {
  public:
-  // isRobust: with the flag that keeps rays from slipping between triangles. threads 0: all.
+  // isRobust sets the flag that keeps rays from slipping between triangles. threads = 0: all.
   EmbreeRoom(const PrimitiveSet& set, bool isRobust, int threads = 1);
   ~EmbreeRoom();
   EmbreeRoom(const EmbreeRoom&) = delete;
   EmbreeRoom& operator=(const EmbreeRoom&) = delete;
 
-  void Build();  // again, from the vertices; the constructor has done it once
+  void Build();  // rebuilds from the vertices; the constructor builds, too
   Hit Intersect(const Ray& ray) const;
   bool Occluded(const Ray& ray) const;
 

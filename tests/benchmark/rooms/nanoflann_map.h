@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// nanoflann (1.4.3) asked the questions of the photon maps, with the same conditions inside its
-// search: the opponent of core/spatial.
+// NanoflannMap searches with nanoflann (1.4.3) as the photon maps do, with the same conditions
+// inside the search. It is the opponent of core/spatial.
 #pragma once
 
 #include <nanoflann.hpp>
@@ -18,7 +18,7 @@ class NanoflannMap {
  public:
   explicit NanoflannMap(std::vector<Point3> points)
       : cloud_{std::move(points)}, tree_(3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(10)) {
-    tree_.buildIndex();  // leaves of ten: its default
+    tree_.buildIndex();  // leaves of ten: nanoflann's default
   }
 
   const Point3& At(std::uint32_t index) const { return cloud_.points[index]; }
@@ -29,8 +29,8 @@ class NanoflannMap {
     friend bool operator<(const Near& a, const Near& b) { return a.distance2 < b.distance2; }
   };
 
-  // The k nearest within the radius, the farthest first; measure(index, distance2) changes
-  // distances to larger ones, infinite for what does not count.
+  // Returns the k nearest points within the radius, the farthest first. measure(index, distance2)
+  // may increase a distance; infinity excludes a point.
   template <class Measure>
   std::span<const Near> Nearest(const Point3& p, std::size_t k, float radius2, Near* buffer,
                                 Measure&& measure) const {
@@ -41,7 +41,8 @@ class NanoflannMap {
   }
 
  private:
-  // What nanoflann collects results in: a heap beats its own sorted list for many neighbours.
+  // Heap is the result set for nanoflann. For many neighbours it is faster than nanoflann's sorted
+  // list.
   template <class Measure>
   struct Heap {
     Near* near;

@@ -26,7 +26,7 @@ void AddBox(const Point3& min, const Point3& max, TriangleMesh* mesh) {
   }
 }
 
-// A body: a sphere with bumps of several sizes, 2 * rings * sectors triangles.
+// Adds a body: a sphere with bumps of several sizes, made of 2 * rings * sectors triangles.
 void AddBody(const Point3& center, const Vector3& radii, Real phase, int rings, int sectors,
              TriangleMesh* mesh) {
   const auto base = std::uint32_t(mesh->p.size());
@@ -54,7 +54,7 @@ void AddBody(const Point3& center, const Vector3& radii, Real phase, int rings, 
   }
 }
 
-// Rays from what the rays hit, by the cosine about the side that they came from.
+// Returns rays from the hits of `rays`, cosine-distributed about the normal on the incoming side.
 std::vector<Ray> Bounce(const PrimitiveSet& room, const Aggregate& accelerator,
                         const std::vector<Ray>& rays, std::uint64_t seed) {
   std::vector<Ray> bounced;
@@ -71,7 +71,7 @@ std::vector<Ray> Bounce(const PrimitiveSet& room, const Aggregate& accelerator,
   return bounced;
 }
 
-// As a final gather: many from one point, then from the next.
+// Returns gather rays in the order of final gathering: many from one point, then from the next.
 std::vector<Ray> Gather(const PrimitiveSet& room, const Aggregate& accelerator,
                         const std::vector<Ray>& rays) {
   constexpr std::size_t kEach = 32;
@@ -117,7 +117,7 @@ std::unique_ptr<PrimitiveSet> BenchmarkRoom(std::size_t triangles) {
   const int rings = std::max(3, int(std::sqrt(each / 3.2))), sectors = std::max(3, rings * 8 / 5);
   RandomStream random(11);
   const auto between = [&](Real low, Real high) { return low + (high - low) * random.Uniform(); };
-  for (int i = 0; i < kBodies; ++i) {  // in a grid of 4 x 3, jittered
+  for (int i = 0; i < kBodies; ++i) {  // in a jittered grid of 4 x 3
     const Real size = between(Real(.55), Real(.95));
     const Vector3 radii(size * between(Real(.8), Real(1.2)), size * between(Real(.8), Real(1.4)),
                         size * between(Real(.8), Real(1.2)));

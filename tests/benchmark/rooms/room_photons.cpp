@@ -22,7 +22,7 @@ std::vector<SurfacePlace> Hits(const PrimitiveSet& room, const Aggregate& accele
   return places;
 }
 
-// Diffuse paths from a lamp under the ceiling; each leaves up to four photons.
+// Traces diffuse paths from a light under the ceiling. Each path leaves up to four photons.
 void Shoot(const PrimitiveSet& room, const Aggregate& accelerator, std::size_t count,
            RoomPhotons* made) {
   RandomStream random(21);
@@ -43,7 +43,7 @@ void Shoot(const PrimitiveSet& room, const Aggregate& accelerator, std::size_t c
   }
 }
 
-// Every third bit: 10 bits of a coordinate in [-8, 8).
+// Spreads a coordinate in [-8, 8), as 10 bits, to every third bit.
 std::uint32_t Spread(Real x) {
   auto bits = std::uint32_t(std::clamp((x + 8) * 64, Real(0), Real(1023)));
   bits = (bits | bits << 16) & 0x030000ff;

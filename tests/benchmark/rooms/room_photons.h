@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons of a lamp in the room of the benchmarks, and the places where a renderer asks for them.
+// ShootRoomPhotons returns the photons of a light in the benchmark room, and the places where a
+// renderer searches for them.
 #pragma once
 
 #include "integrators/photon/maps/photon.h"
@@ -9,18 +10,18 @@ namespace exphoton {
 
 struct SurfacePlace {
   Point3 p;
-  Normal3 n;  // on the side that is asked for
+  Normal3 n;  // on the side that is searched
 };
 
 struct RoomPhotons {
   std::vector<Photon> photons;
-  std::vector<RadiancePhotonSite> seeds;  // one a photon
-  std::vector<SurfacePlace> coherent;     // what camera rays hit, in scanlines
-  std::vector<SurfacePlace> scattered;    // what bounced rays hit, shuffled
+  std::vector<RadiancePhotonSite> seeds;  // one per photon
+  std::vector<SurfacePlace> coherent;     // camera ray hits, in scanlines
+  std::vector<SurfacePlace> scattered;    // second-bounce hits, shuffled
 };
 RoomPhotons ShootRoomPhotons(std::size_t count, std::size_t places);
 
-// In the order of a curve through space (Morton 1966), which keeps neighbours together.
+// Sorts places along a Morton curve (Morton 1966), which keeps neighbours together.
 std::vector<SurfacePlace> InMortonOrder(std::vector<SurfacePlace> places);
 
 }  // namespace exphoton

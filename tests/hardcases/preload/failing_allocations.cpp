@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A library to preload (LD_PRELOAD) that lets an allocation fail: the one with the number
-// FAIL_ALLOCATION, counted from the start of main, and with FAIL_ALLOCATION_SINCE=1 every one after
-// it. COUNT_ALLOCATIONS names a file that gets how many there were. glibc only.
+// This library, loaded by LD_PRELOAD, makes memory allocations fail. FAIL_ALLOCATION is the number
+// of the allocation that fails, counted from the start of main. If FAIL_ALLOCATION_SINCE is set,
+// all later ones fail, too. COUNT_ALLOCATIONS names a file for the total number. The library needs
+// glibc.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -80,7 +81,8 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   return *memory ? 0 : ENOMEM;
 }
 
-// The C library's start of a program: main is replaced, so that what comes before does not count.
+// The C library starts a program here. This version replaces main, so that earlier allocations are
+// not counted.
 int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
                       void (*loaderFini)(), void* stack) {
   using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: the constructor of a global variable throws.
+// This plugin for the loader's tests is faulty on purpose. The constructor of a global variable
+// throws while the library is loaded.
 #include "tests/plugin/modules/stub_filter.h"
 
 namespace {

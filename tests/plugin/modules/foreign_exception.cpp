@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: its factory throws what is no exception.
+// This plugin for the loader's tests is faulty on purpose. Its factory throws an int, which is not
+// a standard exception.
 #include "tests/plugin/modules/stub_filter.h"
 
 namespace {

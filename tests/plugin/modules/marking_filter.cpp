@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A plugin that works and leaves a file when it is loaded, to show whether it was.
+// This plugin works, and creates a file when it is loaded. Tests look for the file to find out
+// whether the plugin's code has run.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// No plugin: a library whose constructor leaves a file, to show that it has run.
+// This library is not a plugin. Its static initialiser creates a file, so that tests can find out
+// whether the library's code has run.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: it calls itself by another name than its file.
+// This plugin for the loader's tests is faulty on purpose. Its descriptor has another name
+// than its file.
 #include "tests/plugin/modules/stub_filter.h"
 
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: it does not say what it is.
+// This plugin for the loader's tests is faulty on purpose. Its entry function returns a
+// null descriptor.
 #include "core/plugin.h"
 
 extern "C" __attribute__((visibility("default"))) const exphoton::PluginDescriptor*

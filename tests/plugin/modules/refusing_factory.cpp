@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: its factory refuses a parameter.
+// This plugin for the loader's tests works, but its factory refuses a parameter value of more
+// than 2 with a ParamError.
 #include "tests/plugin/modules/stub_filter.h"
 
 namespace {

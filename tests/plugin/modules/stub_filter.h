@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the faulty plugins of the loader's tests share: a filter that is as small as one can be. A
-// real plugin has no header.
+// StubFilter is a minimal filter. The faulty plugins of the loader's tests share it through this
+// header. A real plugin needs no header.
 #pragma once
 
 #include "core/plugin.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: it fails when it is asked what it is.
+// This plugin for the loader's tests is faulty on purpose. Its entry function throws an exception.
 #include "core/plugin.h"
 
 extern "C" __attribute__((visibility("default"))) const exphoton::PluginDescriptor*

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: its factory throws a standard exception.
+// This plugin for the loader's tests is faulty on purpose. Its factory throws a standard exception.
 #include "tests/plugin/modules/stub_filter.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: it calls a function that is nowhere.
+// This plugin for the loader's tests is faulty on purpose. It calls a function that is not defined.
 #include "core/plugin.h"
 
 extern "C" const exphoton::PluginDescriptor* NowhereToBeFound();

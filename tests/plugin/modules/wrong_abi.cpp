@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: built for an interface that there is not yet.
+// This plugin for the loader's tests is faulty on purpose. It states a version of the plugin
+// interface that does not exist yet.
 #include "core/plugin.h"
 
 extern "C" __attribute__((visibility("default"))) const exphoton::PluginDescriptor*

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A faulty plugin for the loader's tests: built by another compiler.
+// This plugin for the loader's tests is faulty on purpose. Its build tag names another compiler.
 #include "core/plugin.h"
 
 extern "C" __attribute__((visibility("default"))) const exphoton::PluginDescriptor*

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Agreement of the integrators, and the bound on energy.
+// IntegratorLook compares the integrators, and CompareWithEnergy tests the bound on energy.
 //
-// Left out of the comparison of integrators, by changing the scene:
-// - lights without size where a surface is specular: path tracing cannot find their caustics;
-// - shapes that move: a photon map knows the mean of the light over the exposure only;
+// The comparison of integrators changes the scene to leave out:
+// - delta lights with specular surfaces: path tracing cannot find their caustics;
+// - moving shapes: a photon map has only the mean of the light over the shutter interval;
 // - bumps and interpolated normals: radiance photons see the surface as smooth;
-// - open rooms, far lights, and shapes that are sheets: estimates near the edge of a sheet find
-//   photons of its other side, and too few beyond its edge;
-// - rough matte surfaces: radiance photons take Lambert's law;
-// - lamps that shine into their own body, and pictures that are far darker than the lamps: next to
-//   no light should come out of a closed body, but photons leak through its edges.
-// These are the biases of docs/theory/exphotonmap.md, section 6, that have no bound. What is left, the
-// blur of photon maps, is allowed for by the margins below, and where it exceeds them because it
-// falls when there are more photons (run.h).
+// - open rooms, distant and infinite lights, and open shapes: density estimates near the edge of a
+//   sheet find photons of its other side, and too few beyond its edge;
+// - rough matte surfaces: radiance photons assume Lambert's law;
+// - emitters that shine into their closed body, and pictures far darker than the emitters: hardly
+//   any light should leave a closed body, but photons leak through its edges.
+// These are the biases of docs/theory/exphotonmap.md, section 6, that have no bound. The remaining
+// bias is the blur of photon maps. The margins below allow for it. Larger blur is recognised
+// because it falls with more photons (run.h).
 //
-// The bound on energy: in a furnace (TextOptions::isFurnace) each surface emits at most 1 - a,
-// where a is a bound of its albedo, and the sky 1. If no radiance is above M, none that leaves a
-// surface is above (1 - a) + a M, so M <= 1. Media absorb, and scatter no more than they absorb.
-// Inside glass radiance may be the squared index times that, so the camera must not be there.
+// The bound on energy holds in a furnace (TextOptions::isFurnace). Each surface emits at most
+// 1 - a, where a is a bound on its albedo, and the sky emits 1. If no radiance exceeds M, no
+// radiance that leaves a surface exceeds (1 - a) + a M, so M <= 1. Media absorb, and scatter no
+// more than they absorb. Inside glass, radiance may be larger by the squared index, so the camera
+// must be outside.
 #include "tests/random/scenes/agreement.h"
 
 #include <algorithm>
@@ -35,17 +36,17 @@ namespace {
 
 constexpr int kSeeds = 6;
 constexpr double kPictureMargin = .02, kBlockMargin = .05, kEnergyMargin = .01;
-// Of exphotonmap against itself without radiance photons, with the same photons.
+// These margins are for exphotonmap against itself without radiance photons, with the same photons.
 constexpr double kPairPictureMargin = .01, kPairBlockMargin = .03;
 constexpr int kBlocks = 2;  // along each axis
-// Mean radiance below which pictures are not compared; lamps have .2 to 3.6.
+// Pictures with a lower mean radiance are not compared; emitters have .2 to 3.6.
 constexpr double kDark = .005;
 
 struct Method {
   const char* integrator;
   int samples;
   int gatherRays;
-  std::uint64_t seed;  // added to that of the comparison
+  std::uint64_t seed;  // added to the comparison's seed
 };
 constexpr Method kPath{"\"path\" \"integer maxdepth\" 60", 32, 1, 0};
 constexpr Method kPhotonMap{
@@ -76,7 +77,8 @@ TextOptions OptionsOf(const Method& method, const Effort& effort) {
   return options;
 }
 
-// Luminance is not needed: the mean of the channels. [0] is the picture, then come the blocks.
+// Means holds means over the channels; luminance is not needed. [0] is the picture, the blocks
+// follow.
 using Means = std::array<std::vector<double>, 1 + kBlocks * kBlocks>;
 
 void SubtractEmission(Image* image) {
@@ -88,7 +90,7 @@ void SubtractEmission(Image* image) {
   }
 }
 
-// Without the lamps that the camera sees, if `hidesLamps`: they would hide an error of the rest.
+// Emission that the camera sees directly would hide errors of other light; hidesLamps subtracts it.
 Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesLamps) {
   Means means;
   const int width = kFilmWidth / kBlocks, height = kFilmHeight / kBlocks;
@@ -123,7 +125,7 @@ void CompareMeans(const std::string& what, const Means& a, const Means& b,
   const double whole = SampleOf(b[0]).mean;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
-    // A dark block is compared with a part of the picture's mean, as an eye would.
+    // The scale of a dark block is a part of the picture's mean, as its errors are hardly visible.
     const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
     const double margin = (i == 0 ? kPictureMargin : kBlockMargin) * scale;
     comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
@@ -132,8 +134,8 @@ void CompareMeans(const std::string& what, const Means& a, const Means& b,
   }
 }
 
-// The same seeds give the same photons and gather rays, so the differences of pairs have less noise
-// than those of means.
+// The same seeds give the same photons and gather rays, so differences of pairs have less noise
+// than differences of means.
 void ComparePairs(const std::string& what, const Means& a, const Means& b,
                   std::vector<Comparison>* comparisons) {
   const double whole = SampleOf(b[0]).mean;
@@ -153,7 +155,7 @@ double Length(const Place& place, double x, double y, double z) {
   return std::hypot(.3 * place.x - x, .3 * place.y - y, .3 * place.z - z);
 }
 
-// Whether the camera may be within a body.
+// Returns whether the camera may be inside a body.
 bool IsCameraInside(const SceneModel& scene) {
   constexpr std::array<std::array<double, 3>, 3> kCameras{
       {{.1, .2, -1.9}, {.1, .2, -.1}, {-1.5, -.1, -1.2}}};
@@ -173,7 +175,7 @@ SceneModel WithoutKnownDifferences(const SceneModel& scene) {
   same.camera.shutter = 0;
   std::erase_if(same.lights,
                 [](const LightModel& light) { return light.kind >= LightKind::Distant; });
-  // Where both are, scenes take turns in what they lose.
+  // A scene with both delta lights and specular materials keeps only one of them, by turns.
   const bool keepsLights = !same.lights.empty() && same.integrator % 2 == 0;
   const auto simplify = [&](MaterialModel* material) {
     material->bump = 0;
@@ -227,7 +229,7 @@ std::vector<Comparison> IntegratorLook::Compare(const std::string& only) {
 
 std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort& effort) {
   std::vector<Comparison> comparisons;
-  // Both lobes of shinymetal go to 1 at grazing angles.
+  // Both lobes of shinymetal approach 1 at grazing angles.
   const auto gains = [](const MaterialModel& m) { return m.kind == MaterialKind::ShinyMetal; };
   const auto refracts = [](const MaterialModel& m) { return m.kind == MaterialKind::Glass; };
   if (HasMaterial(scene, gains)) return comparisons;

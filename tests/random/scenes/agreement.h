@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What must hold in the mean: path, photonmap and exphotonmap agree, and no picture is brighter
-// than the energy that its scene gets. Each function returns one-sided p-values, to be judged over
-// a whole run (run.h); none of them is a verdict.
+// IntegratorLook and CompareWithEnergy test properties of means: path, photonmap and exphotonmap
+// agree, and no picture is brighter than its scene's energy allows. Each function returns one-sided
+// p-values, which are judged over a whole run (run.h). A single p-value is not a verdict.
 #pragma once
 
 #include <cstdint>
@@ -15,31 +15,31 @@ namespace exphoton::random_scenes {
 
 struct Comparison {
   std::string what;
-  double chance = 1;      // that chance alone gives such a difference beyond the margin
+  double chance = 1;      // p-value: probability of such a difference beyond the margin
   double difference = 0;  // of the two means
   std::string detail;     // the two means and their standard errors
 };
 
-// How much a comparison may cost.
+// Effort limits the cost of a comparison.
 struct Effort {
-  int factor = 1;        // multiplies samples and photons: 1 at the first look, 16 at the second
-  int photonFactor = 1;  // multiplies the photons once more
+  int factor = 1;        // for samples and photons: 1 in the first stage, 16 in the second
+  int photonFactor = 1;  // additional factor for the photons
   std::uint64_t firstSeed = 1;
 };
 
-// The scene without what one of the integrators is stated not to find, or to find with a bias that
-// has no bound (agreement.cpp lists them).
+// Returns the scene without everything that an integrator is documented not to find, or to find
+// with an unbounded bias (agreement.cpp lists these cases).
 SceneModel WithoutKnownDifferences(const SceneModel& scene);
 
-// The integrators' pictures of one scene, rendered when they are first compared.
+// IntegratorLook renders one scene with each integrator when the picture is first needed.
 class IntegratorLook {
  public:
   IntegratorLook(const SceneModel& scene, const Effort& effort);
   IntegratorLook(IntegratorLook&&) noexcept;
   ~IntegratorLook();
 
-  // All comparisons; with `only` those of the two integrators of the comparison of that name.
-  // None where the picture is far darker than the lamps.
+  // Returns all comparisons, or with `only` those of the two integrators in the comparison of that
+  // name. Without `only`, returns none if the picture is far darker than the emitters.
   std::vector<Comparison> Compare(const std::string& only = "");
 
  private:
@@ -49,7 +49,7 @@ class IntegratorLook {
 
 std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort& effort);
 
-// The scene files that were compared, for a report.
+// Return the scene files that were compared, for a report.
 std::string AgreementText(const SceneModel& scene);
 std::string EnergyText(const SceneModel& scene);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Materials and textures of random scenes. Coefficients are scaled so that no material but
-// shinymetal and metal can return more light than it gets.
+// MaterialText writes the materials and textures of random scenes. Coefficients are scaled so that
+// a material returns no more light than it receives. The exceptions are shinymetal, and metal,
+// which has no coefficient to scale.
 #include <algorithm>
 #include <cstdio>
 
@@ -9,7 +10,7 @@
 namespace exphoton::random_scenes {
 namespace {
 
-// What the lobes of a material may reflect together.
+// The lobes of a material together reflect at most this fraction.
 constexpr double kReflected = .95;
 
 double DiffuseShare(const MaterialModel& material) {
@@ -19,12 +20,12 @@ double DiffuseShare(const MaterialModel& material) {
 
 std::string Name(int number) { return "\"t" + std::to_string(number) + "\""; }
 
-// Texture "tN" "color" CLASS
+// Returns: Texture "tN" "color" CLASS
 std::string Define(int number, const std::string& type, const std::string& rest) {
   return "  Texture " + Name(number) + " \"" + type + "\" " + rest + "\n";
 }
 
-// The class of a texture and its parameters. Textures that it needs are added to `text`.
+// Returns the class of a texture and its parameters. Appends textures that it needs to `text`.
 std::string ClassText(const TextureModel& t, int* next, std::string* text) {
   const std::string first = ColourText(t.first, 1), second = ColourText(t.second, 1);
   const std::string both = " \"color tex1\" " + first + " \"color tex2\" " + second;
@@ -57,7 +58,7 @@ std::string ClassText(const TextureModel& t, int* next, std::string* text) {
   return "\"constant\" \"color value\" " + first;
 }
 
-// A parameter whose value is the texture times factor.
+// Returns a parameter whose value is the texture times the factor.
 std::string Coefficient(const std::string& name, const TextureModel& t, double factor, int* next,
                         std::string* text) {
   if (t.kind == TextureKind::Constant)
@@ -83,7 +84,7 @@ std::string BumpText(int bump, int* next, std::string* text) {
   return " \"texture bumpmap\" " + Name(number);
 }
 
-// A float parameter: one of three values, or a texture between the first and the second.
+// Returns a float parameter: one of three values, or a texture between the first two.
 std::string Choice(const std::string& name, int choice, const std::array<const char*, 3>& values,
                    int* next, std::string* text) {
   if (choice < 3) return " \"float " + name + "\" " + values[std::size_t(choice)];
@@ -94,7 +95,7 @@ std::string Choice(const std::string& name, int choice, const std::array<const c
   return " \"texture " + name + "\" " + Name(number);
 }
 
-// uber's opacity: 3 is a texture.
+// Returns uber's opacity, as MaterialModel::opacity defines it.
 std::string OpacityText(int opacity, int* next, std::string* text) {
   if (opacity == 0) return "";
   if (opacity == 1) return " \"color opacity\" [.5 .5 .5]";
@@ -111,7 +112,7 @@ std::string OpacityText(int opacity, int* next, std::string* text) {
   return " \"texture opacity\" " + Name(number);
 }
 
-// The largest value of a texture in a channel.
+// Returns the largest value of a texture in a channel.
 double Largest(const TextureModel& t, int Colour::*channel) {
   if (t.kind == TextureKind::Uv || t.kind == TextureKind::Image) return 1;
   if (t.kind == TextureKind::Constant) return .1 * (t.first.*channel);
@@ -123,7 +124,7 @@ double AlbedoOf(const MaterialModel& m, int Colour::*channel) {
                kr = Largest(m.mirror, channel);
   const double diffuse = DiffuseShare(m), glossy = kReflected - diffuse;
   switch (m.kind) {
-    // Oren and Nayar's model returns up to 2 % more than its reflectance at grazing angles.
+    // The Oren-Nayar model returns up to 2 % more than its reflectance at grazing angles.
     case MaterialKind::Matte:
       return kReflected * kd * (m.roughness == 0 ? 1 : 1.02);
     case MaterialKind::Mirror:

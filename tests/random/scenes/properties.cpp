@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The exact properties. A first round varies several things at once, which costs four pictures a
-// scene; a difference is then looked for with one variation at a time.
+// BrokenInvariance tests the exact properties. The first round varies several things at once. It
+// costs three pictures per scene, and two more with Embree. If a picture differs, single variations
+// then locate the cause.
 #include "tests/random/scenes/properties.h"
 
 #include <cmath>
@@ -22,7 +23,7 @@ struct Variation {
   int tileSize = 16;
   std::string accelerator = "bvh";
   bool keepsLastElements = true;
-  std::string integrator = "";  // empty: the scene's own
+  std::string integrator = "";  // empty: the scene's integrator
 };
 
 Image Rendered(const SceneModel& scene, const Variation& variation) {
@@ -44,7 +45,7 @@ std::string Exact(float value) {
   return text;
 }
 
-// The first pixel that is not the same in both, or empty.
+// Returns a description of the first pixel that differs, or "".
 std::string Difference(const Image& a, const Image& b) {
   for (int y = 0; y < a.Height(); ++y)
     for (int x = 0; x < a.Width(); ++x)
@@ -61,7 +62,7 @@ std::string BadPixel(const Image& image) {
   return "";
 }
 
-// What differs between the base picture and the variation, found by one variation at a time.
+// Returns the single variation that changes the picture, with the first difference.
 std::string Culprit(const SceneModel& scene, const Image& base) {
   const std::vector<Variation> single{
       {.name = "the same again"},
@@ -85,8 +86,8 @@ constexpr bool kHasEmbree = true;
 constexpr bool kHasEmbree = false;
 #endif
 
-// Embree's own test of a triangle may miss one that a ray only touches, as its page says, so a few
-// pixels may differ. Photons would spread such a difference over the picture.
+// Embree's triangle test may miss a triangle that a ray only touches, as its documentation states,
+// so a few pixels may differ. Photons would spread such a difference over the picture.
 std::string BrokenByEmbree(const SceneModel& scene) {
   if (!kHasEmbree) return "";
   constexpr int kMaxPixels = 3;

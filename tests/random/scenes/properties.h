@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What must hold exactly of every random scene: the picture does not depend on the plan of effects,
-// on threads and tiles, on the accelerator, nor on a factor of a matrix, and every pixel is finite
-// and at least 0.
+// BrokenInvariance tests properties that hold exactly for every random scene. The picture does not
+// depend on feature culling, threads, tiles, the accelerator, or a factor of a matrix. Every pixel
+// is finite and at least 0.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace exphoton::random_scenes {
 
-// Empty where all hold; else a sentence that names what differs.
+// Returns "" if all properties hold, or else a sentence that names the difference.
 std::string BrokenInvariance(const SceneModel& scene);
 
 }  // namespace exphoton::random_scenes

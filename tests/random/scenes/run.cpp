@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Checking, repeating and counting.
+// SceneRun checks scenes, repeats alarms and counts failures.
 #include "tests/random/scenes/run.h"
 
 #include <cmath>
@@ -15,10 +15,10 @@
 namespace exphoton::random_scenes {
 namespace {
 
-constexpr double kFalseAlarms = .05;  // of the first look
-constexpr double kCertain = 1e-6;     // at the second look
-constexpr int kMorePhotons = 16;      // at the third look
-constexpr double kStillThere = 1e-4;  // while shrinking, at the effort of the first look
+constexpr double kFalseAlarms = .05;  // of the first stage
+constexpr double kCertain = 1e-6;     // in the second stage
+constexpr int kMorePhotons = 16;      // in the third stage
+constexpr double kStillThere = 1e-4;  // while shrinking, with the effort of the first stage
 
 const std::string kInvariances = "invariances", kEnergy = "energy", kAgreement = "agreement";
 
@@ -28,7 +28,7 @@ std::vector<Comparison> Compared(const std::string& property, const SceneModel& 
                              : IntegratorLook(scene, effort).Compare(only);
 }
 
-// The comparison of that name; a chance of 1 where there is none.
+// Returns the comparison of that name, or one with a p-value of 1 if there is none.
 Comparison Named(const std::vector<Comparison>& comparisons, const std::string& what) {
   for (const Comparison& comparison : comparisons)
     if (comparison.what == what) return comparison;
@@ -92,7 +92,7 @@ std::vector<Comparison> SceneRun::LookAgain(const SceneModel& scene, const Recor
 void SceneRun::Judge(Record* record) {
   if (record->isJudged) return;
   record->isJudged = true;
-  for (const Failure& failure : failures_)  // one failure a scene and property is enough
+  for (const Failure& failure : failures_)  // one failure per scene and property is enough
     if (failure.seed == record->seed && failure.property == record->property) return;
   ++repeated_;
   const auto drawn = SceneOfSeed(record->seed);

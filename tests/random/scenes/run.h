@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A run over random scenes: checks the properties of each, repeats alarms of the statistical ones,
-// shrinks what fails, and counts.
+// SceneRun tests random scenes: it checks the properties of each, repeats alarms of the statistical
+// ones, shrinks failing scenes, and counts.
 //
-// The blur of a photon map is a stated bias, but it has no bound: a lamp in a closed body lights
-// the outside of that body through its edges, which is much beside a dark room. Blur goes to 0 as
-// the number of photons grows, and errors of the light transport do not. So an alarm that repeats
-// is looked at a third time with 16 times the photons. It is blur if the difference has fallen
-// below kBlurFalls of what it was, and is then counted, but no failure. A radius falls to 1/4 then.
-// A lasting error escapes that only where blur is more than about twice as large.
+// The blur of a photon map is a documented bias, but it has no bound. An emitter in a closed body
+// lights the outside of the body through its edges, which is a large error in a dark room. Blur
+// goes to 0 as the number of photons grows; errors of light transport do not. A repeated alarm is
+// therefore tested in a third stage with 16 times the photons, which reduces the radius to 1/4. If
+// the difference falls below kBlurFalls of its former value, it is counted as blur and not as a
+// failure. This misses a lasting error only if blur is more than about twice as large.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Failure {
   std::string text;  // the scene file, after shrinking
 };
 
-// How often a property was checked, and how often it failed.
+// Tally counts how often a property was checked and how often it failed.
 struct Tally {
   int scenes = 0, failures = 0;
 };
@@ -34,8 +34,8 @@ struct Tally {
 inline constexpr double kBlurFalls = .6;
 
 struct RunSettings {
-  int maxTries = 300;            // of shrinking by exact properties; 0: none
-  int maxStatisticalTries = 60;  // of shrinking by a comparison of means
+  int maxTries = 300;            // for shrinking by exact properties; 0: none
+  int maxStatisticalTries = 60;  // for shrinking by a comparison of means
 };
 
 class SceneRun {
@@ -45,17 +45,18 @@ class SceneRun {
   void CheckInvariances(std::uint64_t seed);
   void CompareEnergy(std::uint64_t seed);
   void CompareAgreement(std::uint64_t seed);
-  // Repeats what Benjamini and Hochberg's rule rejects of all comparisons so far, with fresh seeds
-  // and 16 times the samples: a failure where its p-value is then below 1e-6. To be called at the
-  // end, and now and then before.
+  // Repeats each comparison so far that the Benjamini-Hochberg rule rejects, with fresh seeds and
+  // 16 times the samples. The comparison is a failure if its p-value is then below 1e-6. Call this
+  // now and then, and at the end.
   void JudgeComparisons();
 
   const std::vector<Failure>& Failures() const { return failures_; }
   const std::map<std::string, Tally>& Tallies() const { return tallies_; }
   int Repeated() const { return repeated_; }
-  // Of those, the alarms that more photons explained as blur.
+  // Repeated alarms that fell with more photons and so were blur.
   const std::vector<Failure>& Blurred() const { return blurred_; }
-  // "invariances: 200 scenes, 0 failures; rate at most 1.5 % (95 %)", a line for each property.
+  // Returns a line for each property: "invariances: 200 scenes, 0 failures; rate at most 1.5 %
+  // (95 %)".
   std::string Summary() const;
 
  private:
@@ -68,7 +69,7 @@ class SceneRun {
   };
   void Add(const std::string& property, std::uint64_t seed);
   void Judge(Record* record);
-  // The comparisons with 16 times the samples; a scene is rendered once for all that it alarms.
+  // Compares with 16 times the samples. The pictures of a scene are kept for all of its alarms.
   std::vector<Comparison> LookAgain(const SceneModel& scene, const Record& record,
                                     int photonFactor);
 
@@ -76,7 +77,7 @@ class SceneRun {
   std::vector<Record> records_;
   std::vector<Failure> failures_, blurred_;
   std::map<std::string, Tally> tallies_;
-  std::map<int, IntegratorLook> looks_;  // by photonFactor, at lookedSeed_
+  std::map<int, IntegratorLook> looks_;  // by photonFactor, for lookedSeed_
   std::uint64_t lookedSeed_ = 0;
   int repeated_ = 0;
 };

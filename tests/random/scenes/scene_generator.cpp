@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The generators of the parts of a scene. Shrinking drops elements of lists and leads each number
-// to the first value of its table.
+// SceneGenerator combines generators of the parts of a scene. Shrinking drops elements of lists and
+// moves each number to the first value of its table.
 #include "tests/random/scenes/scene_generator.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 namespace gen = rc::gen;
 
-// One of the values, which may be repeated to make them likelier; shrinks to the first.
+// Draws one of the values; repeated values are more likely. Shrinks to the first value.
 template <class Value>
 rc::Gen<Value> Of(std::initializer_list<Value> values) {
   const std::vector<Value> table(values);
@@ -19,7 +19,8 @@ rc::Gen<Value> Of(std::initializer_list<Value> values) {
                   [table](int i) { return table[std::size_t(i)]; });
 }
 
-// An enumeration's value: the first in every second draw.
+// Draws a value of an enumeration; every second draw is the first value. Shrinks to the first
+// value.
 template <class Value>
 rc::Gen<Value> Kind(int count) {
   return gen::map(gen::inRange(0, 2 * count),
@@ -50,7 +51,7 @@ rc::Gen<TextureModel> AnyTexture() {
                                   gen::set(&TextureModel::second, AnyColour()));
 }
 
-// The middle of each channel is its top: gloss that matters.
+// Replaces medium channel values by the largest, so that glossy lobes are strong.
 rc::Gen<TextureModel> BrightTexture() {
   return gen::map(AnyTexture(), [](TextureModel t) {
     for (Colour* colour : {&t.first, &t.second})
@@ -113,7 +114,7 @@ rc::Gen<CameraModel> AnyCamera() {
       gen::set(&C::times, Of({0, 0, 0, 1, 2})), gen::set(&C::place, Of({0, 0, 1, 2})));
 }
 
-// Up to three elements; `often` of ten lists may have elements.
+// Draws up to three elements. At least 10 - `often` of ten lists are empty.
 template <class Value>
 rc::Gen<std::vector<Value>> List(std::size_t often, rc::Gen<Value> element) {
   const auto some =

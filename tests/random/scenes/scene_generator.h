@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The generator of random scenes, made of rapidcheck's generators.
+// SceneGenerator draws random scenes. It combines rapidcheck's generators.
 #pragma once
 
 #include <rapidcheck.h>
@@ -12,7 +12,7 @@ namespace exphoton::random_scenes {
 
 rc::Gen<SceneModel> SceneGenerator();
 
-// The scene of a seed, and the simpler ones next to it.
+// Returns the scene of a seed with its simpler variants.
 rc::Shrinkable<SceneModel> SceneOfSeed(std::uint64_t seed);
 
 }  // namespace exphoton::random_scenes

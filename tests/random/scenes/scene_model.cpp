@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The tables of the model.
+// kIntegrators is the table of the integrators that SceneModel::integrator indexes.
 #include "tests/random/scenes/scene_model.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Cameras, lights, media and shapes of random scenes as text.
+// SceneText writes the cameras, lights, media and shapes of random scenes as text.
 #include "tests/random/scenes/scene_text.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string Triple(double x, double y, double z) {
 constexpr double kStep = .3;
 std::string PlaceText(const Place& p) { return Triple(kStep * p.x, kStep * p.y, kStep * p.z); }
 
-// The faces of the box from -1 to 1, with their normals inside; the last two triangles are its top.
+// The faces of the box have normals that point inwards. kBoxTop is the top, which open rooms lack.
 const std::string kBoxFaces = "0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 0 2 6 0 6 4 1 5 7 1 7 3";
 const std::string kBoxTop = " 2 3 7 2 7 6";
 std::string BoxMesh(const std::string& indices, double half) {
@@ -117,7 +117,7 @@ std::string EmissionText(const BodyModel& body) {
 std::string BodyText(const BodyModel& body, const TextOptions& options, int* next) {
   std::string text = "AttributeBegin\n" + MaterialText(body.material, !options.isFurnace, next);
   const std::string place = TransformText(body, options.keepsLastElements);
-  // Boxes are made with their normals inside.
+  // The normals of boxes point inwards.
   const bool reverses = (body.kind == BodyKind::Box) != (body.reverse != 0);
   const std::string shape = (reverses ? "  ReverseOrientation\n" : "") + ShapeText(body);
   if (body.isInstance != 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A greedy walk down rapidcheck's tree of simpler scenes.
+// Shrink descends greedily in rapidcheck's tree of simpler scenes.
 #include "tests/random/scenes/shrinking.h"
 
 namespace exphoton::random_scenes {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Shrinking of a scene that breaks a property: the smallest scene on the way that breaks it too.
+// Shrink reduces a scene that breaks a property to a simpler scene that also breaks it.
 #pragma once
 
 #include <functional>
@@ -10,11 +10,11 @@ namespace exphoton::random_scenes {
 
 struct ShrinkResult {
   SceneModel scene;
-  int tries = 0;  // scenes that were tried
+  int tries = 0;  // number of scenes tried
 };
 
-// `fails` says whether a scene breaks the property. Goes to the first simpler scene that does,
-// again and again, until none does or `maxTries` have been tried.
+// `fails` returns whether a scene breaks the property. Shrink moves repeatedly to the first simpler
+// scene that breaks it, until there is none or `maxTries` scenes have been tried.
 ShrinkResult Shrink(const rc::Shrinkable<SceneModel>& failing,
                     const std::function<bool(const SceneModel&)>& fails, int maxTries);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Tails of Student's and the binomial distribution by the incomplete beta function, which is a
-// continued fraction (Abramowitz and Stegun 26.5.8), evaluated by Lentz's method.
+// The tails of Student's and the binomial distribution use the incomplete beta function. Lentz's
+// method evaluates this function as a continued fraction (Abramowitz and Stegun 26.5.8).
 #include "tests/random/scenes/statistics.h"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ std::vector<std::size_t> Rejected(std::span<const double> chances, double rate) 
 
 double LargestFailureRate(int failures, int count) {
   if (failures >= count) return 1;
-  // P(X <= failures) = 1 - I_p(failures + 1, count - failures), which falls as p grows.
+  // P(X <= failures) = 1 - I_p(failures + 1, count - failures) falls as p grows.
   double low = 0, high = 1;
   for (int i = 0; i < 200; ++i) {
     const double middle = .5 * (low + high);

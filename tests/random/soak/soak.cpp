@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The long run over random scenes. Seeds follow each other from a given one, or from the clock.
-// Failing scenes are written to a folder, shrunk. Ends with status 1 where a scene failed, with 2
-// where the command line cannot be read.
+// soak is the long run over random scenes. Seeds are consecutive, from a given one or from the
+// clock. Failing scenes are shrunk and written to a folder. The exit status is 1 if a scene failed
+// and 2 if the command line is wrong.
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -32,7 +32,7 @@ constexpr const char* kUsage =
     "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only agreement] "
     "[--shrink TRIES] [--folder PATH]";
 
-// The whole text as a number of T.
+// Converts the whole text to a number of type T.
 template <class T>
 T ParseNumber(const std::string& text) {
   T value{};
@@ -88,7 +88,7 @@ void Write(const Failure& failure, const std::string& folder) {
 }
 
 int RunSoak(const Options& options) {
-  constexpr int kBatch = 100;  // scenes between two looks at the comparisons
+  constexpr int kBatch = 100;  // scenes between two evaluations of the comparisons
   const auto end = Clock::now() + std::chrono::duration<double>(options.hours * 3600);
   std::printf("seeds from %llu\n", static_cast<unsigned long long>(options.seed));
   SceneRun run({.maxStatisticalTries = options.shrinkTries});

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Density estimates of uniform photons on a plane against the exact truth, for both kernels and
-// both regimes (k photons found, fewer found). Each test repeats over independent maps and asks for
-// |mean - truth| + 4 standard errors <= tolerance: a false alarm rate below 1e-4 a case.
+// These tests compare density estimates of uniform photons on a plane with the exact density, for
+// both kernels and both regimes (k photons found, fewer found). Each test repeats over independent
+// maps and requires |mean - truth| + 4 standard errors <= tolerance. The false-alarm rate is below
+// 1e-4 per case.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,11 +18,12 @@ struct Statistic {
   double mean = 0, standardError = 0;
 };
 
-// A Poisson process of mean density 60 on [-half,half]^2, estimated at the origin.
+// The photons are a Poisson process with a mean density of 60 on [-half, half]^2. The density is
+// estimated at the origin.
 constexpr double kDensity = 60;
 PhotonMap PoissonMap(Real half, std::uint64_t seed) {
   RandomStream random(HashKey({seed, 99}));
-  // A Poisson count by adding exponential waiting times.
+  // The number of exponential waiting times before `expected` has a Poisson distribution.
   PhotonBuffer buffer;
   const double expected = kDensity * 4 * double(half) * double(half);
   for (double t = 0;;) {
@@ -61,7 +63,7 @@ class PlaneEstimate : public testing::TestWithParam<std::tuple<int, DensityKerne
 TEST_P(PlaneEstimate, IsUnbiasedWhetherTheKPhotonsAreFoundOrNot) {
   const auto [k, kernel] = GetParam();
   const int maps = 600000 / k;
-  // A radius that holds half of k, about k, and much more than k photons on average.
+  // On average, the radii hold k / 2, k, and 6 k photons.
   for (double expected : {.5, 1.0, 6.0}) {
     const Real radius = Real(std::sqrt(expected * k / (kDensity * 3.14159265)));
     const Statistic s = OverMaps(
@@ -89,7 +91,7 @@ TEST(DensityKernels, IntegrateToOneOverTheirDisk) {
   }
   EXPECT_NEAR(ofConstant, 1, 1e-4);
   EXPECT_NEAR(ofSimpson, 1, 1e-4);
-  // 3 (1 - 1/4)^2 / (pi r^2) halfway out, nothing beyond.
+  // The weight is 3 (1 - 1/4)^2 / (pi r^2) halfway out, and 0 beyond r.
   EXPECT_NEAR(simpson.Weight(Real(r * r / 4)), 3 * .5625 / (3.14159265358979 * r * r), 1e-6);
   EXPECT_EQ(simpson.Weight(Real(r * r * 1.01)), 0);
 }

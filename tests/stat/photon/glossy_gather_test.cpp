@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light that gather rays read at glossy surfaces. First against a closed form: light from one
-// direction on each material, as it arrives at a small surface that sees nothing else. Then against
-// path tracing: boxes of one material with a lamp inside, block by block. A furnace cannot see
-// errors here, because its light comes from all directions alike. Equivalence by the rule of
-// tests/support/equivalence.h.
+// These tests check the light that gather rays read at glossy surfaces. The first tests use a
+// closed form: each material reflects light from one direction to a small disk that sees nothing
+// else. The other tests compare boxes of one material and a lamp with path tracing, block by block.
+// A furnace hides such errors, because its light comes evenly from all directions. Tolerances:
+// equivalence.h.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,9 +17,9 @@
 namespace exphoton {
 namespace {
 
-// A square of the material at z = 0 under distant light, and above it at (0, 0, 1) a disk that
-// faces down, so small that neither its shadow nor its own light on the square matters (.1 %). The
-// rim of the square, where density estimates lose light, is far away.
+// A square of the material at z = 0 lies under distant light. A disk at (0, 0, 1) faces down. The
+// disk is so small that its shadow and its light on the square do not matter (.1 %). The rim of the
+// square, where density estimates lose light, is far away.
 constexpr double kHalf = 4, kDiskAlbedo = .2;
 
 std::string SquareUnderOneDirection(const std::string& material, double degrees) {
@@ -41,7 +41,7 @@ std::string SquareUnderOneDirection(const std::string& material, double degrees)
          "[-4 -4 0  4 -4 0  4 4 0  -4 4 0] \"float uv\" [0 0 1 0 1 1 0 1]\nWorldEnd\n";
 }
 
-// The square's BSDF, as the scene's own material makes it.
+// SquareBsdf is the square's BSDF, made by the material of the scene.
 class SquareBsdf {
  public:
   explicit SquareBsdf(const std::string& scene) : loaded_(LoadSceneText(scene)) {
@@ -58,7 +58,7 @@ class SquareBsdf {
   std::optional<Bsdf> bsdf_;
 };
 
-// Radiance that the disk reflects: albedo / pi times the irradiance that the square sends to it, by
+// Returns the radiance that the disk reflects: albedo / pi times the irradiance from the square, by
 // the midpoint rule over the square.
 double DiskRadiance(const std::string& scene, double degrees) {
   constexpr int kSteps = 800;
@@ -103,7 +103,7 @@ std::string NameOf(const testing::TestParamInfo<MaterialCase>& info) { return in
 
 class OneDirection : public testing::TestWithParam<MaterialCase> {};
 
-// The highlight lies on the square.
+// The highlight lies within the square.
 TEST_P(OneDirection, IsReflectedWithTheRightEnergyInTheRightDirection) {
   for (const double degrees : {40., 65.}) {
     const std::string scene = SquareUnderOneDirection(GetParam().text, degrees);
@@ -135,7 +135,7 @@ std::string BoxOf(const std::string& material, const std::string& integrator, in
          "-1 1 1 1 1 1]\nWorldEnd\n";
 }
 
-// Means of the picture's blocks, and of all of it, over seeds.
+// Returns the means over seeds of the picture's blocks and of the whole picture.
 std::vector<SeedEstimate> BlockMeans(const std::string& scene, int seeds) {
   LoadedScene loaded = LoadSceneText(scene);
   std::vector<std::vector<double>> means;
@@ -156,7 +156,7 @@ std::vector<SeedEstimate> BlockMeans(const std::string& scene, int seeds) {
 }
 
 constexpr const char* kPoint = R"(LightSource "point" "color I" [3 3 3] "point from" [.3 .5 .2])";
-// Small enough that BSDF samples rarely meet it, large enough that they do.
+// The ball is so small that BSDF samples rarely hit it, but large enough that some do.
 constexpr const char* kBall =
     R"(AttributeBegin AreaLightSource "area" "color L" [20 20 20] Material "matte" "color Kd" [0 0 0]
        Translate .3 .5 .2 Shape "sphere" "float radius" .15 AttributeEnd)";
@@ -184,7 +184,7 @@ TEST_P(GlossyBox, UnderAPointLightIsAsBrightAsByPathTracing) {
 
 INSTANTIATE_TEST_SUITE_P(Materials, GlossyBox, testing::ValuesIn(kMaterials), NameOf);
 
-// Light samples and BSDF samples share a lamp that rays can meet.
+// Rays can hit this lamp, so light samples and BSDF samples share its light.
 TEST(GlossyGather, BoxesUnderALampAreAsBrightAsByPathTracing) {
   for (const char* name : {"Plastic", "SubstrateStrong", "Metal"}) {
     SCOPED_TRACE(name);
@@ -193,7 +193,7 @@ TEST(GlossyGather, BoxesUnderALampAreAsBrightAsByPathTracing) {
   }
 }
 
-// --- symptoms ----------------------------------------------------------------
+// --- single cases ------------------------------------------------------------
 
 TEST(GlossyGather, APlasticSphereWithALightInItsMiddleIsNotTooBright) {
   const auto mean = [](const std::string& integrator, int samples) {
@@ -217,7 +217,7 @@ TEST(GlossyGather, APlasticSphereWithALightInItsMiddleIsNotTooBright) {
   EXPECT_TRUE(IsWithin(.01, found, truth.mean));
 }
 
-// Metal has no diffuse lobe, so no radiance photon is on it.
+// Metal has no diffuse lobe, so no radiance photon lies on it.
 TEST(GlossyGather, WithoutTheEffectGlossyLobesSendNothingToGatherRays) {
   const auto indirect = [](const char* effects) {
     TestRenderOptions options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light that media send to surfaces: the photon integrators against path tracing, in a closed box
-// that fog or a glowing medium lights, and the power of the photons against its closed form.
+// These tests check the light that media send to surfaces. They compare the photon integrators with
+// path tracing in a closed box that fog or a glowing medium lights. They also compare the power of
+// the photons with its closed form.
 #include "integrators/photon/shooting/media_photons.h"
 
 #include <gtest/gtest.h>
@@ -29,12 +30,13 @@ double Mean(const std::string& text, std::uint64_t seed) {
   return MeanRadiance(RenderSceneText(text, options).image);
 }
 
-// In a closed sphere of radius R and albedo a, a small source of power P in the middle gives every
-// point the irradiance P / (4 pi R^2), and all bounces together the radiance
-// a / pi P / (4 pi R^2) / (1 - a). The camera lies between the source and the part that it sees.
+// A small source of power P lies at the centre of a closed sphere of radius R and albedo a. It
+// gives every point the irradiance P / (4 pi R^2), and all bounces together give the radiance
+// a / pi P / (4 pi R^2) / (1 - a). The camera lies between the source and the part of the sphere
+// that it sees.
 TEST(MediaPhotons, OfAGlowingMediumLightASphereAsItsPowerSays) {
   const double albedo = .5, glow = 4 * M_PI * 20 * .008, lamp = 4 * M_PI * .02;
-  // photonmap's gather rays do not know where media glow: its noise is larger.
+  // Gather rays of photonmap are not guided to glowing media, so its noise is larger.
   for (const auto& [integrator, tolerance] :
        {std::pair<std::string, double>{"\"exphotonmap\"", .01}, {"\"photonmap\"", .025}}) {
     for (const bool hasLamp : {false, true}) {
@@ -53,8 +55,8 @@ TEST(MediaPhotons, OfAGlowingMediumLightASphereAsItsPowerSays) {
   }
 }
 
-// Fog behind the camera, lit by a lamp outside it: all that the camera sees of the fog is its light
-// on the walls. The truth is path tracing, which sees the fog along every ray.
+// The fog is behind the camera, and a lamp outside the fog lights it. The camera sees only the
+// fog's light on the walls. The expected value is path-traced, with fog along every ray.
 TEST(MediaPhotons, OfFogThatScattersOnceLightSurfacesAsPathTracingSays) {
   const auto scene = [](const std::string& integrator, int samples) {
     return "VolumeIntegrator \"single\" \"float stepsize\" .25\n" +
@@ -75,7 +77,8 @@ TEST(MediaPhotons, OfFogThatScattersOnceLightSurfacesAsPathTracingSays) {
   }
 }
 
-// 4 pi times the emission times the volume, in a medium turned and scaled by 2, 1 and .5.
+// The power is 4 pi times the emission times the volume, for a medium that is rotated and scaled
+// by 2, 1 and .5.
 TEST(MediaPhotons, CarryThePowerThatTheMediumEmits) {
   const LoadedScene scene = LoadSceneText(
       "SurfaceIntegrator \"path\"\nVolumeIntegrator \"emission\"\nCamera \"perspective\"\n"
@@ -105,7 +108,7 @@ TEST(MediaPhotons, AreNoneWhereMediaOnlyAbsorb) {
   EXPECT_FALSE(photons.Scatter());
 }
 
-// The plan counts an emitting medium as a light.
+// Feature culling must count an emitting medium as a light.
 TEST(MediaPhotons, OfAGlowingMediumAloneAreTheSameWithEveryEffectOn) {
   for (const char* integrator : {"\"exphotonmap\"", "\"photonmap\"", "\"path\""}) {
     const std::string scene = "VolumeIntegrator \"emission\"\n" + TestHeader(integrator, 4, 4, 4) +

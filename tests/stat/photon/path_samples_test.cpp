@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The numbers of photon paths: every pair of coordinates fills the square evenly, within a request
-// as a (0,2)-sequence does and between requests at least as independent numbers do. Requests that
-// keep the same order give a wrong mean for each seed, however many the photons.
+// These tests check the random numbers of photon paths. Every pair of coordinates must fill the
+// unit square evenly: within a request like a (0,2)-sequence, and between requests at least like
+// independent numbers. Requests with the same order would give each seed a wrong mean, with any
+// number of photons.
 #include "integrators/photon/shooting/photon_path_sampler.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ std::vector<Path> MakePaths(std::uint64_t seed) {
   return paths;
 }
 
-// Pearson's statistic over kCells x kCells; 255 is its mean for independent numbers.
+// Returns Pearson's statistic over kCells x kCells cells. Its mean is 255 for independent numbers.
 double Statistic(const std::vector<Path>& paths, std::size_t a, std::size_t b) {
   std::array<int, kCells * kCells> counts{};
   for (const Path& path : paths)
@@ -47,7 +48,7 @@ double Statistic(const std::vector<Path>& paths, std::size_t a, std::size_t b) {
   return statistic;
 }
 
-// Of 91 pairs for each of four seeds, at a false-alarm rate of 1 % together.
+// The 91 pairs for each of four seeds have a false-alarm rate of 1 % together.
 TEST(PhotonPathSampler, FillsTheSquareOfAnyTwoCoordinates) {
   constexpr int kSeeds = 4;
   const double rate = 1 - std::pow(.99, 1.0 / (kSeeds * kCoordinates * (kCoordinates - 1) / 2));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Pictures of the photon integrators that must be equal bit for bit: plain switches, threads,
-// tiles, crops, scale of the scene and of its lights, twice in one process.
+// These tests compare pictures of the photon integrators that must be equal bit for bit: plain
+// switches, threads, tiles, crops, scale of the scene, power of the lights, and a second render
+// in one process.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +12,8 @@
 namespace exphoton {
 namespace {
 
-// A room with a glass ball, a mirror and a coloured wall, all lengths times `scale`, all radiances
-// times `power`.
+// Returns a room with a glass ball, a mirror and a coloured wall. All lengths are multiplied by
+// `scale` and all radiances by `power`.
 std::string Room(const std::string& integrator, double scale, double power, bool scalesRadius) {
   const std::string L = std::to_string(4 * power);
   std::string radius;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons that leave a plate whose shading normals are tilted. Cameras see a constant radiance on
-// the plate, and the photons must bring the irradiance of this radiance to a floor.
+// This test shoots photons that leave a plate with tilted shading normals. Cameras see a constant
+// radiance on the plate, and the photons must carry the irradiance of this radiance to a floor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,9 @@ constexpr double kPi64 = 3.14159265358979;
 constexpr double kAlbedo = .8;
 constexpr double kView = .6;  // the picture covers [-kView, kView]^2 of the floor
 
-// The plate x = 1 over the floor z = 0, both 2 x 2. Light of irradiance 1 comes along x: it meets
-// the plate at right angles and the floor not at all. Shading normals are turned by `degrees`
-// downwards.
+// The plate x = 1 meets the floor z = 0, and both measure 2 x 2. Light of irradiance 1 travels
+// along x: it hits the plate at right angles and misses the floor. The shading normals are tilted
+// downwards by `degrees`.
 std::string Corner(double degrees) {
   const double angle = degrees * kPi64 / 180;
   char n[64];
@@ -39,7 +39,7 @@ std::string Corner(double degrees) {
          normal + normal + normal + normal + "]\nWorldEnd\n";
 }
 
-// Mean irradiance on the part of the floor that is seen, per radiance of the plate.
+// Returns the mean irradiance on the visible part of the floor, per radiance of the plate.
 double FormFactor() {
   constexpr int kPlate = 60, kFloor = 24;
   double sum = 0;
@@ -56,7 +56,8 @@ double FormFactor() {
   return sum / (kFloor * kFloor);
 }
 
-// Not upwards: the BSDF would sample towards the floor less often than photons go there.
+// Normals are not tilted upwards. The BSDF would then sample the floor less often than
+// photons go there.
 TEST(PhotonShading, PhotonsLeaveTiltedNormalsAsTheRadianceThatCamerasSee) {
   for (const double degrees : {0.0, 50.0}) {
     const std::string scene = Corner(degrees);

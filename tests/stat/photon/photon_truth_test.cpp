@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photon integrators against closed forms: furnaces, a light in a sphere, caustics of a slab and a
-// mirror, one light split into many. Equivalence rule over independent seeds (equivalence.h): each
-// case has a false-alarm rate below 1 %, and noise can never make it pass.
+// These tests compare photon integrators with closed forms: furnaces, a light in a sphere, caustics
+// of a slab and a mirror, and one light split into many. They use the equivalence rule over
+// independent seeds (equivalence.h). Each case has a false-alarm rate below 1 %, and noise can
+// never make it pass.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -23,17 +24,18 @@ double Mean(const std::string& scene, std::uint64_t seed) {
   return MeanRadiance(RenderSceneText(scene, options).image);
 }
 
-// Radiance e / (1 - a) everywhere in a closed sphere that emits e and reflects a. The plain
-// roulette (survival 1/2 after three bounces) multiplies a photon's weight by 2a: beyond a =
-// 1/sqrt(2) its variance is infinite, so brighter furnaces need the roulette that keeps weights
-// constant.
+// A closed sphere that emits e and reflects a has the radiance e / (1 - a) everywhere. Plain
+// Russian roulette (survival 1/2 after three bounces) multiplies a photon's weight by 2a, so
+// its variance is infinite for a > 1/sqrt(2). Brighter furnaces need the roulette that keeps
+// weights constant.
 class Furnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
 
 TEST_P(Furnace, ShowsEmissionOverOneMinusAlbedo) {
   const auto [integrator, albedo] = GetParam();
   const std::string scene =
       TestHeader(std::string("\"") + integrator +
-                     // A path leaves a geometric number of photons: paths are what counts.
+                     // A path stores a geometrically distributed number of photons, so accuracy
+                     // depends on the number of paths.
                      "\" \"integer indirectphotons\" [" +
                      (albedo > .85  ? "500000"
                       : albedo > .7 ? "100000"
@@ -60,15 +62,16 @@ TEST_P(GatherFurnace, IsRightAtEveryGatherAngle) {
                  8, 8, 4) +
       FurnaceWorld(1, "\"matte\" \"color Kd\" " + Grey(.5));
   const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
-  // Emission 1 and direct light .5 are exact here; .5 is gathered: .4 % of the whole is .8 % of it.
+  // The total of 2 is the emission 1, direct light .5 and gathered light .5. The first two are
+  // exact here, so .4 % of the total is 1.6 % of the gathered light.
   EXPECT_TRUE(IsWithin(.004, estimate, 2));
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, GatherFurnace,
                          testing::Values(.001, .05, .1, 1.0, 5.0, 10.0, 45.0, 90.0));
 
-// A point light anywhere in a sphere of radius R and albedo a: the indirect radiance is the same
-// all over the sphere, a^2 Phi / (4 pi^2 R^2 (1 - a)).
+// For a point light anywhere in a sphere of radius R and albedo a, the indirect radiance is the
+// same all over the sphere: a^2 Phi / (4 pi^2 R^2 (1 - a)).
 class LightInSphere : public testing::TestWithParam<const char*> {};
 
 TEST_P(LightInSphere, GivesConstantIndirectLightWhereverItIs) {
@@ -91,9 +94,10 @@ TEST_P(LightInSphere, GivesConstantIndirectLightWhereverItIs) {
 INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, LightInSphere,
                          testing::Values("photonmap", "exphotonmap"));
 
-// Kd .01 keeps interreflection below 1e-4; the camera looks at the floor from the side. The beam's
-// photons lie more evenly than Poisson's, as low-discrepancy points do; of such points the k-th
-// nearest is about half a place farther, so that an estimate of k reads up to 1/(2k) low: k is 200.
+// Kd .01 keeps interreflection below 1e-4, and the camera looks at the floor from the side. The
+// photons of the beam are low-discrepancy points, which lie more evenly than a Poisson process.
+// Their k-th nearest point is about half a place farther away, so an estimate from k photons reads
+// up to 1/(2k) too low. Therefore k is 200.
 std::string CausticScene(const std::string& integrator, const std::string& optics) {
   return "SurfaceIntegrator " + integrator +
          "\nFilm \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
@@ -118,7 +122,7 @@ class Caustic : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Caustic, ThroughAGlassSlabLosesWhatFresnelTakes) {
-  // All internal bounces included a slab transmits 2 n / (n^2 + 1).
+  // With all internal bounces, a slab transmits 2 n / (n^2 + 1).
   for (const double index : {1.5, 1.33}) {
     const std::string slab =
         "Material \"glass\" \"float index\" [" + std::to_string(index) +
@@ -134,7 +138,8 @@ TEST_P(Caustic, ThroughAGlassSlabLosesWhatFresnelTakes) {
 INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, Caustic, testing::Values("photonmap", "exphotonmap"));
 
 TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
-  // A horizontal beam meets a 45 degree mirror above the floor and turns down on to it.
+  // A horizontal beam meets a 45 degree mirror above the floor, which turns the beam down
+  // to the floor.
   const std::string scene =
       "SurfaceIntegrator \"exphotonmap\" \"integer causticphotons\" [60000] \"integer "
       "indirectphotons\" [0] \"integer nused\" [200] \"float maxdist\" [.1] \"bool finalgather\" "
@@ -153,7 +158,7 @@ TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
   EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979));
 }
 
-// n lights of power 1/n light the room as one does.
+// n lights of power 1/n must light the room like one light of power 1.
 class SplitLight : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
 TEST_P(SplitLight, LightsAsOneDoes) {
@@ -172,7 +177,7 @@ TEST_P(SplitLight, LightsAsOneDoes) {
       "WorldBegin\n" + lights + "Material \"matte\" \"color Kd\" " + Grey(albedo) +
       "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
   const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
-  // The light is in the centre: a I / (pi R^2 (1 - a)).
+  // The light is at the centre, so the radiance is a I / (pi R^2 (1 - a)).
   EXPECT_TRUE(IsWithin(.01, estimate, albedo / (3.14159265358979 * (1 - albedo))));
 }
 
@@ -180,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Counts, SplitLight,
                          testing::Combine(testing::Values("power", "uniform"),
                                           testing::Values(1, 2, 7, 100)));
 
-// A closed box around (x, 0, 0) with half-width 1.
+// Returns a closed box around (x, 0, 0) with half-width 1.
 std::string Box(double x) {
   std::string p;
   for (int i = 0; i < 8; ++i)

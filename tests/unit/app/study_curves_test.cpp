@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Fronts, times to an error and prices of knobs, on points made by hand.
+// These tests check Pareto fronts, times to an error and costs of knobs, on points made by hand.
 #include "core/app/analysis/curves.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(StudyCurves, AFrontLeavesOutWhatIsNotKnown) {
 }
 
 TEST(StudyCurves, TimeToAnErrorIsInterpolatedInLogLog) {
-  // error = 1 / seconds: exact in between.
+  // The points lie on error = 1 / seconds, where the interpolation is exact.
   const TimeToError t = FindTimeToError({At(1, 1), At(100, .01)}, .1);
   EXPECT_EQ(t.kind, Kind::Reached);
   EXPECT_NEAR(t.seconds.value, 10, 1e-9);
@@ -50,8 +50,8 @@ TEST(StudyCurves, TimeToAnErrorIsNeverExtrapolated) {
 }
 
 TEST(StudyCurves, TheErrorOfATimeComesFromThoseOfItsPoints) {
-  // Half way between points with 10 % each in time and error 1/seconds: by hand,
-  // sqrt(2 (0.5^2 (0.1^2 + 0.1^2))) = 0.1.
+  // The time lies halfway between points on error = 1/seconds, each with 10 % uncertainty in time
+  // and in error. By hand, the relative uncertainty is sqrt(2 (0.5^2 (0.1^2 + 0.1^2))) = 0.1.
   const TimeToError t = FindTimeToError({At(1, 1, .1, .1), At(100, .01, 10, .001)}, .1);
   EXPECT_NEAR(t.seconds.error, .1 * t.seconds.value, 1e-9);
 }
@@ -66,7 +66,8 @@ TEST(StudyCurves, AKnobsPriceIsThatOfOneDoubling) {
   const auto setting = [](const char* rays, const char* photons) {
     return Setting{"x", "x", {{"rays", rays}, {"photons", photons}, {"kernel", "simpson"}}};
   };
-  // seconds = rays / 8, error = 8 / rays whatever the photons: four times is two doublings.
+  // The points have seconds = rays / 8 and error = 8 / rays, with any number of photons. A factor
+  // of four is two doublings.
   const std::vector<Setting> settings{setting("8", "100"), setting("32", "100"),
                                       setting("8", "200"), setting("32", "200")};
   const std::vector<CostPoint> points{At(1, 1), At(4, .25), At(1, 1), At(4, .25)};
@@ -123,7 +124,7 @@ TEST(StudyHeadline, SaysWhereALineNeverGotThere) {
 
 TEST(StudyHeadline, RefusesRatiosThatTheReferencesNoiseDoesNotAllow) {
   Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
-  analysis.reference.variance = {.004, .0001};  // a tenth of .04: .05 may be compared, .03 not
+  analysis.reference.variance = {.004, .0001};  // 10 % of .04: .05 is comparable, .03 is not
   WriteHeadline(Titled(), &analysis);
   ASSERT_TRUE(analysis.target);
   EXPECT_DOUBLE_EQ(*analysis.target, .05);
@@ -141,7 +142,7 @@ TEST(StudyHeadline, OfSingleSettingsNamesTheMostEfficient) {
   WriteHeadline(Titled(), &analysis);
   EXPECT_EQ(analysis.headline,
             "On room, “slow” is 5.0 ± 0.0 times as efficient (1 / (error × seconds)) as fast.");
-  analysis.reference.variance = {.002, .0001};  // a fifth of the second error
+  analysis.reference.variance = {.002, .0001};  // 20 % of the second error
   WriteHeadline(Titled(), &analysis);
   EXPECT_EQ(analysis.headline.find("efficient"), std::string::npos) << analysis.headline;
 }

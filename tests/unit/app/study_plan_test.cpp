@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What a study's words mean, and its data written and read again.
+// These tests check the meaning of a study's words, and that a study's data is the same after
+// writing and reading.
 #include "core/app/analysis/plan.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ TEST(StudyPlan, GivesEveryHalfOfEveryRoundOfAReferenceASeedOfItsOwn) {
   for (int round = 0; round < 100; ++round)
     for (int half = 0; half < 2; ++half) seeds.insert(ReferenceSeed(round, half));
   EXPECT_EQ(seeds.size(), 200u);
-  EXPECT_GT(*seeds.begin(), 1000000u);  // runs have 1, 2, ...
+  EXPECT_GT(*seeds.begin(), 1000000u);  // the runs have the seeds 1, 2, ...
 }
 
 TEST(StudyPlan, ReadsKnobsAndBudgets) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Noise and bias of synthetic pictures whose variance and bias are known.
+// These tests separate the noise and the bias of synthetic pictures with known variance and bias.
 #include "core/app/analysis/separation.h"
 
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-// A normal variate from two uniform ones (Box and Muller).
+// Returns a normal variate from two uniform variates (Box and Muller).
 double Normal(RandomStream* random) {
   const double u = 1 - double(random->Uniform()), v = double(random->Uniform());
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * 3.14159265358979 * v);
 }
 
-// The truth 1 everywhere, plus bias, plus independent noise in each value.
+// Returns a picture whose values are the truth 1 plus the bias plus independent noise.
 Image Noisy(double bias, double deviation, std::uint64_t seed) {
   Image image(kWidth, kHeight, {"R", "G", "B"});
   RandomStream random(HashKey({seed, 77}));
@@ -33,7 +33,7 @@ std::vector<Image> Pictures(int count, double bias, double deviation) {
   return pictures;
 }
 
-constexpr double kWeight = 1 / 1.01;  // of relMSE at r = 1
+constexpr double kWeight = 1 / 1.01;  // weight of relMSE at r = 1
 
 TEST(StudySeparation, FindsTheKnownVarianceAndBias) {
   const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
@@ -48,7 +48,7 @@ TEST(StudySeparation, FindsTheKnownVarianceAndBias) {
 
 TEST(StudySeparation, TakesTheReferencesNoiseOff) {
   const Reference reference = MakeReference(Noisy(0, .3, 101), Noisy(0, .3, 102));
-  EXPECT_NEAR(reference.variance.value, .045, .01);  // .3^2 / 2, with weights that scatter
+  EXPECT_NEAR(reference.variance.value, .045, .01);  // .3^2 / 2, but the weights are noisy
   const Separation s = Separate(Pictures(4, .1, .2), reference);
   EXPECT_NEAR(s.relMse.value, s.error.value + reference.variance.value, 1e-12);
   EXPECT_NEAR(s.error.value, s.variance.value + s.bias2.value, 1e-12);
@@ -58,7 +58,7 @@ TEST(StudySeparation, OfSmallReferenceNoiseLeavesTheBias) {
   const Reference reference = MakeReference(Noisy(0, .05, 101), Noisy(0, .05, 102));
   EXPECT_NEAR(reference.variance.value, .00125 * kWeight, 2e-5);
   const Separation s = Separate(Pictures(6, .1, .2), reference);
-  // The weights come from the noisy reference too: 2 x bias x its variance / r.
+  // The weights come from the noisy reference, too. This adds 4 x bias x its variance / r.
   const double fromWeights = 2 * .1 * 2 * reference.variance.value;
   EXPECT_NEAR(s.bias2.value, .01 * kWeight + fromWeights, 4 * s.bias2.error);
   EXPECT_LT(s.bias2.error, .001);
@@ -70,8 +70,8 @@ TEST(StudySeparation, WithoutBiasFindsNone) {
   EXPECT_LT(std::abs(s.bias2.value), 4 * s.bias2.error);
 }
 
-// Noise that all pixels of a picture share, as photons are shared: errors between pixels do not
-// average out, and the standard errors must show it.
+// All pixels of a picture share this noise, as they share photons. Errors do not average out
+// between pixels, and the standard errors must show it.
 TEST(StudySeparation, StandardErrorsSeeNoiseThatPixelsShare) {
   std::vector<Image> pictures;
   RandomStream random(HashKey({5, 5}));
@@ -103,7 +103,7 @@ TEST(StudySeparation, LeavesNonFinitePixelsOut) {
 TEST(StudySeparation, AReferenceThatIsTooNoisyIsToldByItsShareOfTheError) {
   const Reference reference = MakeReference(Noisy(0, .1, 101), Noisy(0, .1, 102));  // noise .005
   EXPECT_LT(ReferenceShortfall(reference, .1), 1);
-  EXPECT_NEAR(ReferenceShortfall(reference, .005), 10, .5);  // ten times as long would do
+  EXPECT_NEAR(ReferenceShortfall(reference, .005), 10, .5);  // ten times the render time is enough
   const Reference unknown = MakeReference(Noisy(0, 0, 1));
   EXPECT_FALSE(unknown.variance.IsKnown());
   EXPECT_EQ(ReferenceShortfall(unknown, 1e-9), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which exit status each kind of exception leads to. The numbers are written out: scripts rely on
-// them.
+// These tests check the exit status for each kind of exception. The numbers are written out,
+// because scripts rely on them.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -84,7 +84,7 @@ TEST(ExitStatus, OfHelpIsZeroAndOfAnInterruptNamesTheSignal) {
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.out, "usage\n");
   EXPECT_EQ(help.message, "");
-  ExpectStatus(128, LoadingStopped(), "interrupted");  // 128 + 0: no signal came
+  ExpectStatus(128, LoadingStopped(), "interrupted");  // 128 + 0, because no signal came
 }
 
 }  // namespace

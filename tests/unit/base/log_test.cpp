@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Diagnostics, the log, progress lines and statistics.
+// These tests check diagnostics, the log, progress lines and statistics.
 #include "core/base/log.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
+// These tests check ThreadPool: every piece of work runs once, exceptions stop the work, and the
+// pool works with fewer threads than requested.
 #include "core/base/parallel.h"
 
 #include <gtest/gtest.h>
@@ -72,8 +74,8 @@ TEST(ThreadPool, RefusesToBeCalledFromWithin) {
                std::logic_error);
 }
 
-// In a child process, whose limit of processes lets no thread be made. The limit does not bind
-// root, so there the limit of memory takes its place: no stack of a thread fits.
+// The test runs in a child process whose process limit permits no new thread. The limit does not
+// apply to root. For root, a memory limit leaves no room for a thread's stack.
 TEST(ThreadPool, MakesDoWithFewerThreads) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer's own memory does not fit under the limit";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Writing files in one step, temporaries, and which file a path names.
+// These tests check the atomic writing of files, temporary files, and the identity of the file that
+// a path names.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -142,7 +143,7 @@ TEST_F(Files, OtherNamesOfAFileKeepItsOlderContent) {
   EXPECT_EQ(Get("b"), "old");
 }
 
-// As if another process with the same number were writing.
+// The existing file has the name that another process with the same process id would use.
 TEST_F(Files, TemporariesOfOthersAreNeverRemoved) {
   Put("a." + std::to_string(getpid()) + ".partial", "of another process");
   Write(Path("a"), "new");
@@ -188,7 +189,7 @@ TEST_F(Files, OneFileHasOneIdentityHoweverItIsSpelt) {
   for (const char* name : {"./a", "sub/../a", "folder/../a", "link", "hard"})
     EXPECT_EQ(IdentifyFile(Path(name)), a) << name;
   EXPECT_NE(IdentifyFile(Path("b")), a);
-  // Of files that are not there yet.
+  // These paths name files that do not exist yet.
   Link("new", "dangling");
   const auto fresh = IdentifyFile(Path("new"));
   ASSERT_TRUE(fresh);

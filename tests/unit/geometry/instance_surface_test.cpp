@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// An instance has the surface that its shape has where it is made under the instance's own
-// transformation: under uneven scales normals turn otherwise than vectors do.
+// These tests compare the surface of an instance with the surface of a shape that is created
+// under the instance's transformation. Under non-uniform scales, normals transform differently
+// from vectors.
 #include <gtest/gtest.h>
 
 #include "core/geometry/placement.h"
@@ -22,7 +23,8 @@ void Add(PrimitiveSet* set, ShapeGeometry geometry) {
   set->Finish();
 }
 
-// A shape as an instance, and made under the instance's transformation.
+// Both holds a shape as an instance, and the same shape created under the instance's
+// transformation.
 class Both {
  public:
   explicit Both(const std::string& text) {
@@ -40,7 +42,8 @@ class Both {
   struct Surfaces {
     SurfaceInteraction found, expected;
   };
-  // Where the ray from o to `target`, both in the shape's space, meets the two.
+  // Returns both surfaces where the ray from o to `target` hits them. The points are in the
+  // shape's space.
   std::optional<Surfaces> Meet(const Point3& o, const Point3& target) const {
     Ray ray;
     ray.o = kPlace.ApplyPoint(o);
@@ -85,7 +88,7 @@ TEST(InstanceSurface, OfASphereIsTheSurfaceOfTheScaledSphere) {
   EXPECT_GT(hits, 100);
 }
 
-// A transformation takes the parallelogram of two tangents to another one.
+// A transformation maps the parallelogram of two tangents to another parallelogram.
 TEST(AreaScale, IsTheRatioOfTheAreasOfAParallelogram) {
   RandomStream random(5);
   for (int i = 0; i < 100; ++i) {
@@ -95,7 +98,7 @@ TEST(AreaScale, IsTheRatioOfTheAreasOfAParallelogram) {
   }
 }
 
-// Two small steps across a direction span its solid angle: det(w, a, b) / |w|^3.
+// Two small steps a and b across a direction w span the solid angle det(w, a, b) / |w|^3.
 TEST(SolidAngleScale, IsTheRatioOfSmallSolidAngles) {
   RandomStream random(6);
   const Transform toLocal = kPlace.Inverted();
@@ -109,7 +112,8 @@ TEST(SolidAngleScale, IsTheRatioOfSmallSolidAngles) {
   }
 }
 
-// Between vertices the two interpolate normals of other lengths.
+// The surfaces are compared at vertices. Between vertices, they interpolate normals of
+// different lengths.
 TEST(InstanceSurface, OfAMeshHasTheScaledNormalsAtItsVertices) {
   const Both mesh(
       R"("trianglemesh" "integer indices" [0 1 2] "point P" [-1 -1 0 1 -1 0 1 1 .3]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Shapes that make meshes: checks of trianglemesh, every form of PLY file and what is wrong with
-// some, and Loop subdivision against limits known in closed form.
+// These tests check shapes that make meshes: the checks of trianglemesh, every form of PLY file,
+// faulty PLY files, and Loop subdivision against limits known in closed form.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <zlib.h>
@@ -223,7 +223,8 @@ TEST(LoopSubdivision, TetrahedronHasItsKnownLimitAtEveryLevel) {
     const LimitMesh limit = LoopSubdivide(Tetrahedron(), level);
     EXPECT_EQ(limit.mesh.faces.size(), 4u << (2 * level));
     for (std::size_t i = 0; i < 4; ++i) {
-      // Valence 3: 2/5 of the vertex and 1/5 of each of the others, which sum to its negative.
+      // For valence 3, the limit is 2/5 of the vertex plus 1/5 of each neighbour. The neighbours
+      // sum to the negative of the vertex.
       const Vec3d expected = Tetrahedron().positions[i] * 0.2;
       EXPECT_LT(Length(limit.mesh.positions[i] - expected), 1e-14);
       EXPECT_NEAR(std::abs(Dot(limit.normals[i], NormalizeOrZero(expected))), 1, 1e-12);
@@ -242,7 +243,8 @@ TEST(LoopSubdivision, NormalsAreThoseOfTheFineMesh) {
   EXPECT_GT(worst, 0.98);
 }
 
-// A limit is a limit: refining further changes neither the vertices nor their normals.
+// Limits do not depend on the level: refining further changes neither the vertices nor
+// their normals.
 TEST(LoopSubdivision, NormalsDoNotDependOnTheLevel) {
   SubdivisionMesh bent = Tetrahedron();
   bent.positions[0] = {3, 1, 0.5};
@@ -256,7 +258,8 @@ TEST(LoopSubdivision, NormalsDoNotDependOnTheLevel) {
   }
 }
 
-// A square of 3 x 3 vertices, bent; corners have valence 2 and 3, sides 4.
+// Returns a bent square of 3 x 3 vertices. Its corners have valence 2 and 3, and its
+// sides valence 4.
 SubdivisionMesh Patch(double bend) {
   SubdivisionMesh mesh;
   for (int y = 0; y < 3; ++y)
@@ -280,7 +283,7 @@ TEST(LoopSubdivision, LimitsOfABoundaryDoNotDependOnTheLevel) {
       EXPECT_GT(Length(fine.normals[i]), 0.99);
     }
   }
-  // A side of the boundary is the cubic B-spline of its own vertices.
+  // A boundary is the cubic B-spline of the boundary vertices alone.
   EXPECT_LT(Length(coarse.mesh.positions[1] - Vec3d(1, 0, 0)), 1e-14);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Sphere, disk and cylinder: accurate from afar and at grazing incidence, never met by a ray that
-// leaves them, and refused where nothing of them is left.
+// These tests check spheres, disks and cylinders. Hits must be accurate from afar and at grazing
+// incidence, a ray must not hit the surface that it leaves, and shapes must be refused if nothing
+// of them is left.
 #include <gtest/gtest.h>
 
 #include "core/geometry/vec3d.h"
@@ -50,7 +51,8 @@ TEST_F(Quadrics, AreNeverHitAgainByARayThatLeavesThem) {
       const SurfaceInteraction surface = shape->Surface(in, *hit);
       Vector3 w = RandomVector(random);
       if (k % 4 == 0) w = w - surface.ng * Dot(surface.ng, w) * Real(.9999);
-      // Leaving a convex body for good; or through it, so that the next hit is far off.
+      // A ray that leaves a convex body outwards must not hit it again. A ray through the body must
+      // have its next hit far away.
       const auto again = shape->Intersect(SpawnRay(surface, w));
       if (!again) continue;
       const SurfaceInteraction next = shape->Surface(SpawnRay(surface, w), *again);
@@ -229,7 +231,8 @@ TEST_F(Quadrics, UnevenlyScaledOnesHaveAnAreaAndAreNotSwitchedOff) {
   EXPECT_NEAR(Make(R"("disk" "float innerradius" .5 "float phimax" 90)", *Transform::Scale(1, 2, 1))
                   ->Area(),
               kPi * Real(.75) / 4 * 2, 1e-5);
-  // A prolate spheroid; half of it; an elliptic tube, by the circumference of the ellipse 1, 2.
+  // The cases are a prolate spheroid, half of it, and elliptic tubes, whose area follows from the
+  // circumference of the ellipse with the semi-axes 1 and 2.
   const double e = std::sqrt(.75), spheroid = 2 * M_PI * (1 + 2 / e * std::asin(e));
   const struct {
     const char* shape;
@@ -244,7 +247,7 @@ TEST_F(Quadrics, UnevenlyScaledOnesHaveAnAreaAndAreNotSwitchedOff) {
     const auto shape = Make(text, toWorld);
     EXPECT_EQ(shape->EmitterProblem(), nullptr);
     EXPECT_NEAR(double(shape->Area()) / area, 1, 1e-3) << text;
-    // Light that leaves it, sampled: the mean of 1 / pdf is the area.
+    // For emission samples, the mean of 1 / pdf is the area.
     RandomStream random(5);
     double sum = 0;
     constexpr int kSamples = 40000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// HitInSingle against DecideTriangle: what it tells is a hit, and where it says within its bound,
-// for triangles of any size, shape and distance, also by rays that start on them.
+// These tests compare HitInSingle with DecideTriangle. Each hit of HitInSingle must be a hit of
+// DecideTriangle, with values within the error bound, for triangles of any size, shape and
+// distance. Some rays start on the triangle.
 #include <gtest/gtest.h>
 
 #include "core/geometry/triangle_single.h"
@@ -11,11 +12,12 @@ namespace {
 
 struct Tally {
   int sure = 0, decided = 0;
-  Real largest = 0;  // relative difference of t
+  Real largest = 0;  // largest relative difference of t
 };
 
-// A ray from a distance of about `away` through a triangle of about `size`, elongated by `aspect`,
-// near the place `center`; where `away` is 0 from the triangle itself.
+// Tests a ray that starts at a distance of about `away` and goes through a triangle near `center`.
+// The triangle has a size of about `size` and an elongation of `aspect`. If `away` is 0, the ray
+// starts on the triangle.
 void TestOne(RandomStream& random, const Point3& center, Real size, Real aspect, Real away,
              Tally* tally) {
   const Vector3 along = RandomVector(random) * size,
@@ -61,7 +63,7 @@ TEST(TriangleSingle, TellsHitsWithinItsBound) {
   EXPECT_GT(tally.largest, 0);
 }
 
-// As most are, in pictures.
+// Most triangles in pictures are of this kind.
 TEST(TriangleSingle, TellsMostHitsOfPlainTriangles) {
   RandomStream random(2);
   Tally tally;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Triangles: watertight, never met by a ray that leaves them, alike at every scale, and plain
-// geometry where texture coordinates, normals or tangents are degenerate.
+// These tests check triangles. They must be watertight, must not be hit by a ray that leaves them,
+// and must behave equally at every scale. Degenerate texture coordinates, normals or tangents must
+// give plain geometry.
 #include <gtest/gtest.h>
 
 #include "tests/support/geometry_scenes.h"
@@ -164,7 +165,7 @@ TEST(Triangle, OutsideFollowsTheWindingAlsoWithVertexNormals) {
   EXPECT_NEAR(surface.shading.n.x, -.0995, 1e-3);
 }
 
-// Whether the vertex normals point outwards or inwards, and whether the outside is turned.
+// The vertex normals point outwards or inwards, with and without a flipped orientation.
 TEST(Triangle, DerivativesOfTheNormalAgreeWithDifferences) {
   const auto mesh = MeshOf({{Point3(0, 0, 0), Point3(2, 0, 0), Point3(0, 1, 0)}});
   mesh->uv = {{0, 0}, {1, Real(.2)}, {Real(.1), 1}};
@@ -217,7 +218,7 @@ TEST(Triangle, UselessTextureCoordinatesGiveAFrameRoundTheNormal) {
     EXPECT_NEAR(Dot(surface.dpdu, surface.ng), 0, 1e-6);
     EXPECT_GT(Length(Cross(surface.dpdu, surface.dpdv)), Real(.1));
   }
-  // Small ones are useful all the same.
+  // Small texture coordinates are still valid.
   mesh->uv = {{0, 0}, {Real(1e-8), 0}, {0, Real(1e-8)}};
   EXPECT_NEAR(TriangleSurface(*mesh, 0, Real(.2), Real(.2)).dpdu.x, 1e8, 1e2);
 }
@@ -231,7 +232,7 @@ TEST(Triangle, DegenerateOnesAreDroppedAtAnyScale) {
     EXPECT_EQ(mesh.DropDegenerate(), 3u);
     EXPECT_EQ(mesh.TriangleCount(), 1u);
     const Normal3 n = TriangleSurface(mesh, 0, 0, 0).ng;
-#ifdef EXPHOTON_DOUBLE  // an ulp: the length of a normal is rounded as it is computed
+#ifdef EXPHOTON_DOUBLE  // rounding of the normal's length costs one ulp
     EXPECT_EQ(n.x, 0);
     EXPECT_EQ(n.y, 0);
     EXPECT_NEAR(n.z, 1, kMachineEpsilon);
@@ -258,7 +259,7 @@ TEST(SurfaceInteraction, DifferentialsAreThoseOfTheTangentPlane) {
   EXPECT_NEAR(surface.dvdx, 0, 1e-6);
   EXPECT_NEAR(surface.dvdy, .04, 1e-6);
 
-  ray.xDirection = {1, 0, 0};  // within the plane: unknown
+  ray.xDirection = {1, 0, 0};  // parallel to the plane, so the footprint is unknown
   surface.ComputeDifferentials(ray);
   EXPECT_FALSE(surface.hasDifferentials);
   EXPECT_EQ(surface.dpdy, Vector3());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Aovs: names, sums, and what the five integrators say of their light.
+// These tests check AOVs: their names, their sums, and the light that the five integrators
+// write to them.
 #include "core/imaging/film/aovs.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ TEST(AovFilm, AveragesAsTheFilmDoesAndCountsSamples) {
   EXPECT_EQ(image.At(0, 0, 8), 1.5f);
 }
 
-// The layer's channel is time.ms.
+// The AOV's channel is time.ms.
 TEST(AovFilm, ShowsTheSumOfAPixelsTimesInMilliseconds) {
   Film film(kOnePixel, kOnePixel);
   AovFilm aovs(kOnePixel, {Aov::Time});
@@ -64,7 +65,7 @@ TEST(AovFilm, ShowsTheSumOfAPixelsTimesInMilliseconds) {
   EXPECT_EQ(image.At(0, 0, image.FindChannel("time.ms")), 750);
 }
 
-// Of n values of variance 1/12: the mean has 1/12 n.
+// The n samples have the variance 1/12, so their mean has the variance 1/(12 n).
 TEST(AovFilm, EstimatesTheVarianceOfAPixel) {
   constexpr int kPixels = 4000, kSamples = 16;
   const PixelBounds row{0, 0, kPixels, 1};
@@ -80,14 +81,14 @@ TEST(AovFilm, EstimatesTheVarianceOfAPixel) {
   }
   Image image = film.ToImage(true);
   aovs.AppendTo(film, true, &image);
-  // Each is the mean of 4000 estimates, known to 0.5 %.
+  // Each channel is the mean of 4000 estimates, which is accurate to 0.5 %.
   EXPECT_NEAR(MeanChannel(image, "Variance.R") * kSamples * 12, 1, .03);
   EXPECT_NEAR(MeanChannel(image, "Variance.G") * kSamples * 3, 1, .03);
   EXPECT_NEAR(MeanChannel(image, "Variance.B"), 0, 1e-12);
 }
 
-// Values of which half are covered by alpha 1 and half by 0: premultiplied, they are scaled by 1/2
-// and their variance by 1/4.
+// Half of the samples have alpha 1 and half have alpha 0. Premultiplied, the values are scaled by
+// 1/2 and their variance by 1/4.
 TEST(AovFilm, ScalesTheVarianceByTheSquareOfAlpha) {
   Film film(kOnePixel, kOnePixel);
   AovFilm aovs(kOnePixel, {Aov::Variance});
@@ -101,11 +102,12 @@ TEST(AovFilm, ScalesTheVarianceByTheSquareOfAlpha) {
     aovs.AppendTo(film, premultiplyAlpha, &image);
     return MeanChannel(image, "Variance.G");
   };
-  EXPECT_NEAR(variance(false), 6. / 8, 1e-5);  // of 0 to 7: 42 / 7, over their number
+  EXPECT_NEAR(variance(false), 6. / 8, 1e-5);  // values 0 to 7: 42 / 7 over 8 samples
   EXPECT_NEAR(variance(true), 6. / 8 / 4, 1e-5);
 }
 
-// Everything that light can do: lamp, sky, glass, mirror, glossy, matte.
+// The world has every kind of light path: a lamp, a sky, glass, a mirror, glossy and
+// matte surfaces.
 std::string World(bool isOpen = true) {
   const std::string around =
       isOpen ? "LightSource \"infinite\" \"color L\" [.2 .3 .4] \"integer nsamples\" 1\n"
@@ -181,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, LightLayersTest,
                                          "\"exphotonmap\" \"integer causticphotons\" 2000 "
                                          "\"integer indirectphotons\" 2000"));
 
-// Path tracing and photon mapping agree on what is a caustic and what is indirect.
+// Path tracing and photon mapping must agree on which light is caustic and which is indirect.
 TEST(LightLayers, AgreeBetweenPathTracingAndPhotonMapping) {
   TestRenderOptions options;
   options.aovs = kLightAovs;
@@ -193,7 +195,7 @@ TEST(LightLayers, AgreeBetweenPathTracingAndPhotonMapping) {
       "\"exphotonmap\" \"integer causticphotons\" 20000 \"integer maxdepth\" 12 "
       "\"integer indirectphotons\" 10000 \"integer finalgathersamples\" 8",
       32);
-  // The caustic of a small lamp and what shines in mirrors are found worst: noise is 10 % there.
+  // The caustic of a small lamp and the light in mirrors have the most noise, about 10 %.
   for (const auto& [aov, tolerance] : {std::pair<const char*, double>{"emission.G", .1},
                                        {"direct.G", .06},
                                        {"caustic.G", .3},
@@ -219,7 +221,7 @@ TEST(SurfaceLayers, HaveTheInterpolatedNormal) {
   EXPECT_NEAR(image.At(1, 1, image.FindChannel("N.Z")), -.8, 1e-5);
 }
 
-// A mirror has no photons, and the layer does not look for them in what it shows.
+// A mirror has no photons. The AOV must not show the photon density of the reflected surface.
 TEST(SurfaceLayers, HaveNoPhotonDensityOfWhatAMirrorShows) {
   TestRenderOptions options;
   options.aovs = {Aov::PhotonDensity};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Cameras: rays found by hand, lens, clipping, time, scaled cameras, ranges.
+// These tests check cameras: rays computed by hand, lens, clipping, time, scaled cameras and
+// parameter ranges.
 #include "core/imaging/film/camera.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ void ExpectNear(const Vec3& a, const Vec3& b, double tolerance = 1e-6) {
   EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-// Where the ray is at depth z in camera space, for a camera at the origin.
+// Returns the ray's point at depth z in camera space, for a camera at the origin.
 Point3 AtDepth(const Ray& ray, Real z) { return ray((z - ray.o.z) / ray.d.z); }
 
 TEST(PerspectiveCamera, LooksAlongZWithXRightAndFilmYDown) {
@@ -135,7 +136,8 @@ TEST(PerspectiveCamera, DifferentialsAreTheNeighboursRays) {
   }
 }
 
-// v1 has no other convention to compare with: -1..1 over the window, y up; 0..1 over the depth.
+// Version 1 has no other convention to compare with. NDC is -1..1 over the window with y up, and
+// 0..1 over the depth.
 TEST(PerspectiveCamera, NdcPutsTheFilmInTheUnitSquare) {
   TestPlugins plugins;
   for (const char* name : {R"("perspective" "float hither" 1 "float yon" 5)",
@@ -156,7 +158,7 @@ TEST(PerspectiveCamera, NdcPutsTheFilmInTheUnitSquare) {
   }
 }
 
-// Under a window that is off centre, by unlike amounts along x and y.
+// The window is off centre by different amounts along x and y.
 TEST(PerspectiveCamera, NdcFollowsTheWindow) {
   TestPlugins plugins;
   for (const std::string name : {"perspective", "orthographic"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// OpenEXR files: round trips, windows, layers, attributes, atomic writing, refusal of bad files.
+// These tests check OpenEXR files: round trips, windows, AOV channels, attributes, atomic writing,
+// and refusal of bad files.
 #include "core/imaging/files/exr.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder that is gone after the test.
+// ExrTest provides a folder that is removed after the test.
 class ExrTest : public testing::Test {
  protected:
   ExrTest() {
@@ -223,7 +224,8 @@ TEST_F(ExrTest, AHugeDataWindowIsRefusedBeforeAllocating) {
   }
 }
 
-// A size of 2 GB in a file of a few hundred bytes, and as many pixels as only a larger file holds.
+// The files state a size of 2 GB in a few hundred bytes, or a number of pixels that only a larger
+// file can hold.
 TEST_F(ExrTest, SizesThatTheFileCannotHoldAreRefusedBeforeAllocating) {
   Image image(16, 16, {"R"});
   image.attributes["comments"] = std::string("words");
@@ -244,7 +246,7 @@ TEST_F(ExrTest, SizesThatTheFileCannotHoldAreRefusedBeforeAllocating) {
   EXPECT_THROW(read(window, 4 + 8, (1u << 28) - 1), ImageError);
 }
 
-// Flipped bits anywhere: an error or a picture, never a crash.
+// Bits are flipped anywhere. The result must be an error or a picture, never a crash.
 TEST_F(ExrTest, DamagedFilesAreRefusedOrReadAsWhole) {
   WriteExr(Path("good.exr"), RandomImage({0, 0, 16, 16}, {0, 0, 16, 16}, {"R", "G", "B"}), true);
   const std::string good = Bytes(Path("good.exr"));
@@ -265,7 +267,7 @@ TEST_F(ExrTest, DamagedFilesAreRefusedOrReadAsWhole) {
   }
   EXPECT_GT(read, 0);
   EXPECT_LT(read, 300);
-  EXPECT_GE(sameSize, read - 3) << "of " << read;  // few of the bits are those of the window
+  EXPECT_GE(sameSize, read - 3) << "of " << read;  // few of the flipped bits belong to the window
 }
 
 }  // namespace

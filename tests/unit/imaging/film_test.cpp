@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The film: means, weights, windows, precision and refusal of impossible sizes.
+// These tests check the film: means, weights, windows, precision, and refusal of impossible sizes.
 #include "core/imaging/film/film.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(Film, WeightsThatCancelGiveTheSamePixelInASumOfFilms) {
   EXPECT_EQ(sum.SampleCount({0, 0}), 4);
 }
 
-// Where less than half of the weight is left, the mean is by the weights' absolute values.
+// If less than half of the total weight remains, the mean uses the weights' absolute values.
 TEST(Film, WeightsThatNearlyCancelDoNotScaleThePixel) {
   const auto pixel = [](int positive, int negative) {
     Film film(kOnePixel, kOnePixel);
@@ -74,7 +74,7 @@ TEST(Film, WeightsThatNearlyCancelDoNotScaleThePixel) {
     return film.ToImage(true).At(0, 0, 0);
   };
   EXPECT_FLOAT_EQ(pixel(6, 4), .6f);      // not 6 / (6 - 4)
-  EXPECT_FLOAT_EQ(pixel(8, 2), 8.f / 6);  // the filter's own weights, as long as they suffice
+  EXPECT_FLOAT_EQ(pixel(8, 2), 8.f / 6);  // signed weights, because enough weight remains
 }
 
 TEST(Film, APixelIsNeverNegative) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Image differences against values found by hand.
+// These tests compare image differences with values computed by hand.
 #include "core/imaging/metrics/metrics.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(Metrics, TrimTheWorstThousandthAndFindThe99thPercentile) {
   }
   const ImageDifference d = CompareImages(reference, image);
   EXPECT_NEAR(d.relMse, (19 + 200) / 1.01 / 2000, 1e-12);
-  EXPECT_NEAR(d.trimmedRelMse, 19 / 1.01 / 1998, 1e-12);  // two pixels are a thousandth
+  EXPECT_NEAR(d.trimmedRelMse, 19 / 1.01 / 1998, 1e-12);  // the worst .1 % are two pixels
   EXPECT_NEAR(d.p99, 1 / std::sqrt(1.01), 1e-12);         // the 1980th smallest
 }
 
@@ -107,8 +107,9 @@ TEST(Metrics, SignedErrorIsRedWhereTooBrightAndBlueWhereTooDark) {
 }
 
 TEST(Flip, OfUniformGreysIsTheirLightnessDifferenceRedistributed) {
-  // Blurring and edges do nothing: |L1 - L2|^0.7, linear up to 0.4 of the largest, which is that of
-  // the Hunt-adjusted primaries green and blue (203.3 by hand).
+  // Blurring and edges have no effect on uniform images. The difference |L1 - L2|^0.7 is mapped
+  // linearly up to 0.4 of the largest difference, which is 203.3^0.7 (computed by hand) for the
+  // Hunt-adjusted primaries green and blue.
   const Image dark = Constant(32, 24, .2f, .2f, .2f), light = Constant(32, 24, .3f, .3f, .3f);
   const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };
   const double largest = std::pow(203.30, .7);

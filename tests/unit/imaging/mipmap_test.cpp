@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The MIP map: means kept at any size, constant images constant under any filter, bounded cost.
+// These tests check the MIP map: it keeps the mean at any size, keeps constant images constant
+// under any filter, and has a bounded cost.
 #include "core/imaging/mipmap.h"
 
 #include <chrono>
@@ -51,7 +52,7 @@ TEST(MipMap, OfOneColorIsThatColorUnderEveryFootprint) {
   }
 }
 
-// Filtering moves light about but makes none: the mean over the image stays.
+// Filtering moves light but creates none, so the mean over the image stays the same.
 TEST(MipMap, FilteringKeepsTheMean) {
   const int n = 32;
   const std::vector<Real> texels = Noise(n * n);
@@ -91,10 +92,11 @@ TEST(MipMap, WrapsAsAsked) {
   EXPECT_EQ(repeat.Lookup({Real(50.125), Real(.5)}), 1);
 }
 
-// Ewa's answer over st to one bright texel is its filter. A round footprint of a texels is filtered
-// on the level 2^L = a by a Gaussian that is widened by one texel of the level. Its variance on
-// each axis, about the middle of the level's texel, is 4^L ((a / 2^L)^2 + 1) m texels^2, where m =
-// .1361 is the variance of exp(-2 r^2) - exp(-2) on the unit disk.
+// For a single bright texel, Ewa as a function of st is the filter itself. A round footprint of a
+// texels is filtered on the level L with 2^L = a, by a Gaussian that is widened by one texel of the
+// level. Its variance on each axis, about the centre of the level's texel, is
+// 4^L ((a / 2^L)^2 + 1) m texels^2. The constant m = .1361 is the variance of exp(-2 r^2) - exp(-2)
+// on the unit disk.
 TEST(MipMap, EllipticalFilterIsAsWideAsItsFootprint) {
   constexpr int n = 256, kAt = 128, kReach = 24, kSteps = 4;
   std::vector<Real> texels(n * n, Real(0));
@@ -120,9 +122,9 @@ TEST(MipMap, EllipticalFilterIsAsWideAsItsFootprint) {
   }
 }
 
-// A long footprint along a diagonal: the axes of the ellipse keep their lengths and directions.
-// With axes of a and b texels on the finest level, the variances along them are (a^2 + 1) m and
-// (b^2 + 1) m.
+// The footprint is long and diagonal, and the ellipse must keep the lengths and directions of its
+// axes. With axes of a and b texels on the finest level, the variances along them are (a^2 + 1) m
+// and (b^2 + 1) m.
 TEST(MipMap, EllipticalFilterIsAsLongAndAsTurnedAsItsFootprint) {
   constexpr int n = 128, kAt = 64, kReach = 12, kSteps = 4;
   std::vector<Real> texels(n * n, Real(0));
@@ -142,7 +144,8 @@ TEST(MipMap, EllipticalFilterIsAsLongAndAsTurnedAsItsFootprint) {
   EXPECT_NEAR(along / sum / (17 * .1361), 1, .05);
   EXPECT_NEAR(across / sum / (2 * .1361), 1, .05);
   EXPECT_NEAR(mixed / sum, 0, .02);
-  // Limited to an anisotropy of 2 the short axis grows to half the long one, on the level of that.
+  // With an anisotropy limit of 2, the short axis grows to half of the long axis. The lookup uses
+  // the level of the new short axis.
   double limited = 0, limitedSum = 0;
   for (int i = -kReach * kSteps; i < kReach * kSteps; ++i) {
     const double v = (i + .5) / kSteps, d = v / std::sqrt(2.);
@@ -153,8 +156,9 @@ TEST(MipMap, EllipticalFilterIsAsLongAndAsTurnedAsItsFootprint) {
   EXPECT_GT(limited / limitedSum, 2 * across / sum);
 }
 
-// Limited to an anisotropy of 2, the same footprint's short axis grows to 2 texels and the long one
-// stays; on the level of 2 texels the variances along them are 4 (2^2 + 1) m and 4 (1 + 1) m.
+// With an anisotropy limit of 2, the short axis of this footprint grows to 2 texels, and the
+// long axis stays. On the level of 2 texels, the variances along the axes are 4 (2^2 + 1) m
+// and 4 (1 + 1) m.
 TEST(MipMap, EllipticalFilterThatIsLimitedGrowsAcrossOnly) {
   constexpr int n = 128, kAt = 64, kReach = 16, kSteps = 4;
   std::vector<Real> texels(n * n, Real(0));
@@ -179,7 +183,7 @@ TEST(MipMap, EllipticalFilterThatIsLimitedGrowsAcrossOnly) {
   }
 }
 
-// A long thin footprint across stripes averages them; along them it does not.
+// A long thin footprint across stripes averages them. A footprint along stripes does not.
 TEST(MipMap, EllipticalFilterIsSharpAcrossItsShortAxis) {
   const int n = 64;
   std::vector<Real> stripes;
@@ -226,8 +230,8 @@ TEST(MipMap, SurvivesFootprintsThatAreNoNumbersOrHuge) {
       }
     }
   }
-  // 9216 lookups of at most some 10^4 texels each; scanning ellipses at the finest level would
-  // take minutes.
+  // There are 9216 lookups of at most about 10^4 texels each. Scanning ellipses at the finest level
+  // would take minutes.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The noise between passes against synthetic passes of known variance.
+// These tests compare the noise between passes with synthetic passes of known variance.
 #include "core/imaging/film/pass_noise.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 constexpr PixelBounds kBounds{0, 0, 64, 48};
 constexpr double kMean = .5, kOffset = .01;
 
-// A pass of `samples` a pixel: uniform noise of standard deviation `noise` a sample, and a common
-// error of the pass of deviation `common` in blotches of 4 x 4 pixels.
+// Returns a pass with `samples` per pixel. Each sample has uniform noise of standard deviation
+// `noise`. The pass has a common error of deviation `common` in blotches of 4 x 4 pixels.
 Film MakePass(std::uint64_t seed, int samples, double noise, double common) {
   Film film(kBounds, kBounds);
   const auto uniform = [](RandomStream& random) {
@@ -55,7 +55,7 @@ TEST(PassNoise, IsTheVarianceOfTheMeanOfAllPasses) {
       noise.Add(i % 8, MakePass(std::uint64_t(i), 1, .1, .05), 1);
     }
     const double variance = (.1 * .1 + .05 * .05) / passes;
-    // 192 blotches: known to 8 % or better even of two passes.
+    // There are 192 blotches, so even two passes give the variance to 8 % or better.
     EXPECT_NEAR(noise.RelativeVariance() * (kMean * kMean + kOffset) / variance, 1, .15) << passes;
   }
 }
@@ -74,8 +74,8 @@ TEST(PassNoise, CountsGroupsOfUnequalSizeRightly) {
   EXPECT_NEAR(double(noise.Variances()[0] + noise.Variances()[3]) / 2 * total / (.2 * .2), 1, .95);
 }
 
-// A light's edge: one pass of two meets it. A pixel divided by its own square, or by that of the
-// other pass, would count as 1 or as a million.
+// A pixel at a light's edge is lit in only one of two passes. Divided by the pixel's square, its
+// error would count as 1. Divided by the other pass's square, it would count as a million.
 TEST(PassNoise, DoesNotDivergeWhereOnePassMeetsALight) {
   PassNoise noise(kBounds, 2);
   for (int pass = 0; pass < 2; ++pass) {

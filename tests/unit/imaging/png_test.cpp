@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PNG files: encoding and decoding of sRGB, exposure, alpha, 16 bits, bad files.
+// These tests check PNG files: sRGB encoding and decoding, exposure, alpha, 16 bits, and bad files.
 #include "core/imaging/files/png.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light "infinite" with an environment map, which is written to a file for each test: its place in
-// the sky, its power, and texels that are no radiance.
+// These tests check light "infinite" with an environment map, which each test writes to a file: its
+// orientation, its power, and texels that are not valid radiance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,16 +62,17 @@ TEST_F(EnvironmentMap, ThatIsBlackIsOffWithAWarning) {
 }
 
 TEST_F(EnvironmentMap, HasItsTopRowAtPlusZAndTurnsAboutZ) {
-  // 4 columns of a quarter turn; top row 1..4, bottom row 5..8.
+  // The map has 4 columns of a quarter turn. Its top row is 1..4 and its bottom row is 5..8.
   const auto light = plugins_.MakeLight(Write(4, 2, {1, 2, 3, 4, 5, 6, 7, 8}));
-  // Centres of the texels: azimuth 45 degrees, 45 degrees above and below the horizon.
+  // The directions are texel centres: azimuths of 45, 135 and 315 degrees, 45 degrees above and
+  // below the horizon.
   const Real h = std::sqrt(Real(.5)), q = Real(.5);
   EXPECT_NEAR(double(light->Le({q, q, h}).g), 1, 1e-5);
   EXPECT_NEAR(double(light->Le({-q, q, h}).g), 2, 1e-5);
   EXPECT_NEAR(double(light->Le({q, -q, -h}).g), 8, 1e-5);
 }
 
-// Beyond a pole the map goes on half a turn away, so that it has no seam there.
+// Beyond a pole the map continues half a turn away, so there is no seam at the pole.
 TEST_F(EnvironmentMap, IsTheMeanOfOppositeColumnsAtThePoles) {
   const auto light = plugins_.MakeLight(Write(4, 2, {1, 2, 3, 4, 5, 6, 8, 9}));
   const Real e = Real(1e-4);
@@ -87,7 +88,7 @@ TEST_F(EnvironmentMap, PowerIsItsIntegralTimesTheDisk) {
     return grey;
   }()));
   light->Prepare({{0, 0, 0}, 1});
-  // Midpoint rule in (cos theta, phi).
+  // The midpoint rule is applied in (cos theta, phi).
   double integral = 0;
   constexpr int kSteps = 400;
   for (int i = 0; i < kSteps; ++i) {
@@ -97,7 +98,8 @@ TEST_F(EnvironmentMap, PowerIsItsIntegralTimesTheDisk) {
     }
   }
   integral *= 4 * M_PI / kSteps / kSteps;
-  // Cells weigh their mean by their solid angle: an estimate, good to a few per cent when coarse.
+  // Power weights the mean of each cell by the cell's solid angle. This estimate is accurate to a
+  // few per cent for coarse maps.
   EXPECT_NEAR(double(light->Power().g), M_PI * integral, 0.05 * M_PI * integral);
 }
 

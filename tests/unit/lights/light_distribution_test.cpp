@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightDistribution: true probabilities, and no emitter starved.
+// These tests check that LightDistribution returns true probabilities and gives every light that
+// may emit a minimum probability.
 #include <gtest/gtest.h>
 
 #include "core/lights/light_distribution.h"
@@ -10,7 +11,7 @@ namespace {
 
 std::vector<std::unique_ptr<Light>> Lights(std::initializer_list<Real> powers) {
   std::vector<std::unique_ptr<Light>> lights;
-  // A negative number stands for a light that is provably black.
+  // A negative number makes a light that is provably black.
   for (const Real p : powers)
     lights.push_back(std::make_unique<PlacedLight>(std::nullopt, std::max(p, Real(0)), p < 0));
   return lights;

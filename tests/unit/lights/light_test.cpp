@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Single lights: radiometric units, closed forms of their power, limits of their parameters.
-// Environment maps are in environment_map_test.cpp.
+// These tests check single lights: radiometric units, closed forms of their power, and limits of
+// their parameters. environment_map_test.cpp checks environment maps.
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-constexpr Real kRelative = Real(2e-6);  // a few roundings
+constexpr Real kRelative = Real(2e-6);  // a few rounding errors
 
 void ExpectNear(Real actual, Real expected) {
   EXPECT_NEAR(double(actual), double(expected), double(kRelative) * std::abs(double(expected)));
@@ -23,7 +23,7 @@ std::optional<LightLiSample> Direct(const Light& light, const Point3& p) {
   return light.SampleDirect(Floor(p), {Real(.3), Real(.6)}, Real(.5));
 }
 
-// Emission of many rays: all of the weight that Power() says.
+// Expects every emitted ray to have the weight Power().
 void ExpectConstantWeights(const Light& light) {
   RandomStream random(17);
   const Real power = light.Power().g;
@@ -144,13 +144,14 @@ TEST(SpotLight, EmitsWhereItLights) {
       EXPECT_LT(sample->pdfDirection, 1e-4);
       continue;
     }
-    // pdf = falloff / power for unit intensity.
+    // For unit intensity, pdf = falloff / power.
     EXPECT_NEAR(double(sample->pdfDirection * light->Power().g), double(direct->Li.g), 1e-3);
   }
 }
 
-// The part of the photons within a cone is the part of the power there. With d = (cos - cos total)
-// / (cos inner - cos total), the rim beyond d has the part d^5 of what the rim has.
+// The fraction of the photons within a cone must be the fraction of the power in the cone.
+// With d = (cos - cos total) / (cos inner - cos total), the part of the rim outside d has d^5
+// of the rim's power.
 TEST(SpotLight, EmitsIntoEachConeWhatItLightsThere) {
   TestPlugins plugins;
   const auto light = plugins.MakeLight(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightTree: its probabilities are those of its choices, sum to 1, and starve no light; pictures
-// with many lights have the mean that they have with every light sampled.
+// These tests check LightTree. Its probabilities must match its choices, sum to 1, and be positive
+// for every light that may emit. Pictures with many lights must have the same mean as with every
+// light sampled.
 #include "core/lights/light_tree.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ Lights Scattered(int count) {
   return lights;
 }
 
-// Every u belongs to the light that it chooses, so each is chosen as often as its probability says.
+// Each light has an interval of u, so the light is chosen as often as its probability states.
 TEST(LightTree, ChoosesWithTheProbabilitiesThatItGives) {
   Lights lights = Scattered(37);
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(500)));
@@ -66,7 +67,7 @@ TEST(LightTree, PrefersWhatIsNear) {
 
 TEST(LightTree, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
   Lights lights;
-  for (int i = 0; i < 5; ++i)  // on one spot
+  for (int i = 0; i < 5; ++i)  // all at the same point
     lights.push_back(std::make_unique<PlacedLight>(Point3{1, 1, 1}, i == 0 ? Real(0) : Real(1e30)));
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(0)));
   const LightTree tree(lights, kWorld);
@@ -81,7 +82,7 @@ TEST(LightTree, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
   EXPECT_TRUE(LightTree(Lights(), kWorld).IsEmpty());
 }
 
-// A floor under 81 small lamps behind the camera, 8 point lights and a sky.
+// Returns a floor with 81 small lamps behind the camera, 8 point lights and a sky.
 std::string ManyLamps(const std::string& integrator) {
   std::string text = TestHeader(integrator, 12, 12, 16) +
                      "WorldBegin\nLightSource \"infinite\" \"color L\" [.1 .1 .1]\n";
@@ -98,7 +99,7 @@ std::string ManyLamps(const std::string& integrator) {
          "1 -4 2 1]\nWorldEnd\n";
 }
 
-// Means over independent seeds of pictures by another way of choosing lights, against all lights.
+// Compares the mean over seeds for another way of choosing lights with the mean for all lights.
 void ExpectTheMeanOfAllLights(const std::string& integrator) {
   TestRenderOptions options;
   options.load.samplesPerPixel = 64;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AnimatedTransform: ends, ways between them, boxes that hold everything, and what has no way.
+// These tests check AnimatedTransform: its ends, the interpolation between them, boxes that contain
+// all positions, and pairs of ends that cannot be interpolated.
 #include <gtest/gtest.h>
 
 #include "core/math/motion.h"
@@ -34,7 +35,8 @@ double DistanceFromIdentity(const Matrix4& a) {
   return largest;
 }
 
-// Translation, rotation by up to half a turn, stretches and shears between 1/8 and 8.
+// Returns a random translation, a rotation by up to half a turn, and stretches and shears
+// between 1/8 and 8.
 Transform RandomTransform(RandomStream& random) {
   const auto factor = [&] { return std::exp2(3 * double(Signed(random))); };
   const Transform rotation = *Transform::Rotate(180 * double(Signed(random)), RandomVector(random));
@@ -127,7 +129,7 @@ TEST(AnimatedTransform, RotationsTurnEvenlyAndTheShortestWay) {
   EXPECT_NEAR(double(p.y), std::sin(3.14159265358979 / 6), 1e-6);
   const AnimatedTransform back = Between(Transform(), *Transform::Rotate(270, {0, 0, 1}));
   const Point3 q = back.At(Real(.5)).ApplyPoint({1, 0, 0});
-  EXPECT_NEAR(double(q.y), -std::sqrt(.5), 1e-6);  // a quarter backwards, half of it done
+  EXPECT_NEAR(double(q.y), -std::sqrt(.5), 1e-6);  // half of a quarter turn backwards
   EXPECT_FALSE(back.IsHalfTurn());
   EXPECT_TRUE(Between(Transform(), *Transform::Rotate(180, {1, 2, 3})).IsHalfTurn());
 }
@@ -161,7 +163,7 @@ TEST(AnimatedTransform, RefusesWhatWouldBeFlatInBetween) {
             std::string::npos);
   EXPECT_NE(ProblemOf(Transform(), *Transform::Scale(-1, -1, -1)).find("mirrored"),
             std::string::npos);
-  // Through zero on two axes is half a turn.
+  // Scaling through zero on two axes is half a turn.
   EXPECT_EQ(ProblemOf(Transform(), *Transform::Scale(-1, -1, 1)), "");
   EXPECT_TRUE(Between(Transform(), *Transform::Scale(-1, -1, 1)).IsHalfTurn());
 }
@@ -199,7 +201,7 @@ TEST(AnimatedTransform, StaysRegularBetweenExtremeScales) {
   }
 }
 
-// Points of the box, most of them on its edges, at many times.
+// Checks points of the box at many times. Most of the points lie on the box's faces and edges.
 void ExpectHolds(const Bounds3& bounds, const Bounds3& box, const Motion& motion,
                  RandomStream& random) {
   for (int k = 0; k < 400; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Runs of scrambled points are those of one point after the other, with every width of vectors.
+// These tests compare batched Owen scrambling with scrambling one point at a time, for
+// every SIMD target.
 #include "core/math/sampling/batched_owen_scrambling.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Shortcuts of the low-discrepancy points against what they stand for.
+// These tests compare optimised functions for low-discrepancy points with their definitions.
 #include "core/math/sampling/low_discrepancy.h"
 
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 namespace exphoton {
 namespace {
 
-// Direction numbers of the second Sobol' dimension by their recurrence: v_1 = 1/2,
-// v_{k+1} = v_k xor v_k / 2 (primitive polynomial x + 1).
+// Returns a number of the second Sobol' dimension from its direction numbers, by their recurrence
+// v_1 = 1/2, v_{k+1} = v_k xor v_k / 2 (primitive polynomial x + 1).
 std::uint32_t SecondByRecurrence(std::uint32_t index) {
   std::uint32_t sum = 0;
   for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1)
@@ -26,8 +26,8 @@ TEST(LowDiscrepancy, SecondSobolDimensionIsThatOfItsDirectionNumbers) {
   }
 }
 
-// The first two points lie in different halves along each axis. Whether they lie in like halves of
-// these along x says nothing of whether they do so along y.
+// The first two points lie in different halves along each axis. Whether they have matching places
+// within these halves along x must be independent of whether they do along y.
 TEST(LowDiscrepancy, ScramblesBothDimensionsIndependently) {
   constexpr int kKeys = 4000;
   const auto quarter = [](Real u) { return int(4 * u) % 2; };

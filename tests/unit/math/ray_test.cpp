@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Rays that leave surfaces.
+// These tests check rays that leave surfaces: RayFan must make the same rays as SpawnRay.
 #include "core/geometry/ray.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(RayFan, MakesTheRaysThatAreSpawnedOneByOne) {
     SurfacePoint point;
     point.p = Point3(0, 0, 0) + direction() * Real(10);
     point.pError = Abs(direction()) * Real(1e-6);
-    if (i % 10) point.ng = direction();  // else on no surface
+    if (i % 10) point.ng = direction();  // otherwise the point is on no surface
     point.time = random.Uniform();
     const RayFan fan(point);
     for (int j = 0; j < 10; ++j) {

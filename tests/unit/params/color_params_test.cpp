@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Colours from CIE XYZ, spectra and black bodies. Tolerances are those of the analytic fit to the
-// observer (about 1 % of the luminance).
+// These tests check colours from CIE XYZ, spectra and black bodies. The tolerances are the errors
+// of the analytic fit to the observer (about 1 % of the luminance).
 #include <gtest/gtest.h>
 
 #include <cstdio>

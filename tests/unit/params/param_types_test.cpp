@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which written types each type of parameter takes. The lists are written out here: what they do
-// not hold must be refused.
+// These tests check which written types each type of parameter accepts. The accepted types are
+// listed here, and all other types must be refused.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -66,7 +66,8 @@ TEST_P(ParamTypes, TakeTheirWrittenTypesAndNoOther) {
     } catch (const Error& error) {
       complaint = error.what();
     }
-    // Without values it fails in any case, but for other reasons where the type is right.
+    // Without values a parameter fails in any case. If its type is accepted, it fails for
+    // another reason.
     EXPECT_EQ(complaint.find("must be of type") == std::string::npos, accepted.contains(written))
         << written << ": " << complaint;
   }

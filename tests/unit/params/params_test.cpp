@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Binding of parameters: values, and every message word for word.
+// These tests check the binding of parameters: the values, and the exact wording of every message.
 #include <gtest/gtest.h>
 
 #include "core/base/log.h"
@@ -97,7 +97,7 @@ class Params : public ::testing::Test {
     return context;
   }
   Settings Bind(const std::string& text) { return Table().Bind(Parse(text), Context()); }
-  // The message of the error that binding throws, as a person reads it.
+  // Returns the message of the error that binding throws, as a user reads it.
   std::string Fails(const std::string& text, bool isStrict = false) {
     try {
       BindContext context = Context();
@@ -109,7 +109,7 @@ class Params : public ::testing::Test {
     }
     return "no error";
   }
-  // Only the first line, without the place.
+  // Returns only the first line of the message, without the location.
   std::string Complaint(const std::string& text) {
     const std::string all = Fails(text);
     const std::string mark = ": error: parameter ";
@@ -247,8 +247,8 @@ TEST_F(Params, NumbersThatAreNotFiniteAreErrors) {
             "parameter \"many\" of shape \"x\" must be between -9007199254740992 and "
             "9007199254740992, not 1e+300");
 #ifndef EXPHOTON_DOUBLE
-  EXPECT_NE(numbers("size", "float", 1e300), "");  // no such float
-  EXPECT_NE(numbers("size", "float", 1e-60), "");  // 0 once it is a float
+  EXPECT_NE(numbers("size", "float", 1e300), "");  // overflows float
+  EXPECT_NE(numbers("size", "float", 1e-60), "");  // underflows to 0 as a float
 #endif
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Directions near another one: counted by every width of vectors as one by one.
+// These tests check ConeDirections: every SIMD target must count and choose the same directions as
+// a test of each direction by itself.
 #include "integrators/photon/gather/cone_directions.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +58,8 @@ TEST(ConeDirections, AreAsManyForEveryWidthOfVectors) {
   }
   for (int i = 0; i < 1000; ++i) {
     const Vector3 w = AnyDirection(&random);
-    // Right at an axis' own distance, so that one rounding more or less would tell.
+    // The limit is exactly the distance of one axis, so a different rounding would
+    // change the count.
     const Real chord2 = Square(x[0] - w.x) + Square(y[0] - w.y) + Square(z[0] - w.z);
     const auto count = [&](const ConeLoops& loops) {
       return loops.count(x.data(), y.data(), z.data(), x.size(), w, chord2);
@@ -76,7 +78,7 @@ TEST(ConeDirections, ChooseTheSameForEveryWidthOfVectors) {
     for (std::size_t row = 0; row < 5; ++row) x[row * kRoom + i] = random.Uniform();
   const DirectionRows from{x, x + kRoom, x + 2 * kRoom, x + 3 * kRoom, x + 4 * kRoom, kCount};
   for (const Real scale : {Real(0), Real(.5), Real(1), Real(3)}) {
-    std::vector<Real> expected;  // x, y and z of one after the other
+    std::vector<Real> expected;  // x, y and z of each chosen direction in turn
     for (std::size_t i = 0; i < kCount; ++i)
       if (from.value[i] * scale < from.limit[i])
         expected.insert(expected.end(), {from.x[i], from.y[i], from.z[i]});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The cone mixture: sampling and density agree at every angle, however small.
+// These tests check that sampling and density of the cone mixture agree at every angle,
+// however small.
 #include "integrators/photon/gather/cone_mixture.h"
 
 #include <gtest/gtest.h>
@@ -33,8 +34,9 @@ TEST(ConeMixture, NeverDrawsADirectionOfZeroDensity) {
   }
 }
 
-// The mean of 1 / (density * 4 pi) over drawn directions is the share of the sphere that the cones
-// cover; counted independently by uniform directions. 4 standard errors: false alarms below 1e-4.
+// The mean of 1 / (density * 4 pi) over drawn directions is the fraction of the sphere that the
+// cones cover. Uniform directions give this fraction independently. The tolerance is 4 standard
+// errors, so false alarms are below 1e-4.
 TEST(ConeMixture, CoversTheSolidAngleThatItsDensityClaims) {
   RandomStream random(5);
   Arena arena;
@@ -74,7 +76,7 @@ TEST(ConeMixture, DrawsEvenlyFromACone) {
       depth += t / n, depth2 += t * t / n;
       x += double(s.w.x) / across / n, y += double(s.w.y) / across / n;
     }
-    // 4 standard errors.
+    // The tolerances are 4 standard errors.
     EXPECT_NEAR(depth, .5, 4 * std::sqrt(1. / 12 / n)) << degrees;
     EXPECT_NEAR(depth2, 1. / 3, 4 * std::sqrt(4. / 45 / n)) << degrees;
     EXPECT_NEAR(x, 0, 4 * std::sqrt(.5 / n)) << degrees;
@@ -106,7 +108,7 @@ TEST(PowerHeuristic, WeightsOfTwoTechniquesAddUpToOne) {
   EXPECT_EQ(PowerHeuristic(1, 0, 1, 0), 0);
 }
 
-// Samples that are drawn four times count as samples of four times the density.
+// Four samples of a density must count like one sample of four times the density.
 TEST(PowerHeuristic, CountsMultiplyDensities) {
   EXPECT_FLOAT_EQ(float(PowerHeuristic(4, Real(.5), 1, 3)), 4.f / 13);
   EXPECT_FLOAT_EQ(float(PowerHeuristic(1, 3, 4, Real(.5))), 9.f / 13);

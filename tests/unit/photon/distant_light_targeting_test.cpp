@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons of far lights that start towards what the camera sees: the density is one, nothing is
-// lost, and a small thing in a wide world gets its photons.
+// These tests check photons of distant lights that start towards the points that the camera sees.
+// Power times density must be one, no power may be lost, and a small object in a wide world must
+// receive photons.
 #include "integrators/photon/shooting/distant_light_targeting.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ const Sphere3 kWorld{{100, -50, 3}, 1000};
 constexpr double kShare = .02;
 const Vector3 kDown = NormalizeOr(Vector3{1, 2, -3}, {});
 
-// Points on a square of this side about p.
+// Returns points on a square about p with this side.
 std::vector<Point3> Square(const Point3& p, Real side, std::uint32_t count) {
   std::vector<Point3> points;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -36,8 +37,9 @@ TEST(DistantLightTargeting, OfTooFewPointsIsNone) {
   EXPECT_TRUE(DistantLightTargeting(Square({0, 0, 0}, 1, 100), Sphere3{}, kShare).IsEmpty());
 }
 
-// E[power] over places within a disk is the disk's area (radiance is 1): for the whole world, and
-// for parts near and far from the wanted points. Error of 2^18 points: some .2 %, far parts 1 %.
+// The mean power of photons that start within a disk must be the disk's area, because the radiance
+// is 1. The test covers the whole world and parts near and far from the wanted points. With 2^18
+// points the error is about .2 %, and 1 % in far parts.
 TEST(DistantLightTargeting, LosesNoPowerAnywhere) {
   const Point3 wanted = kWorld.center + Vector3{300, 200, 0};
   const DistantLightTargeting aim(Square(wanted, 4, 500), kWorld, kShare);
@@ -70,7 +72,8 @@ TEST(DistantLightTargeting, LosesNoPowerAnywhere) {
   }
 }
 
-// The gain is a median; what starts over the whole square gives the mean, which lies near it.
+// The gain is a median. The photons that start over the whole square give the mean gain, which
+// is close to it.
 TEST(DistantLightTargeting, GainsWhatPhotonsThatStartOverTheWantedPointsAreDenser) {
   for (const Real side : {Real(2), Real(20), Real(200)}) {
     const DistantLightTargeting aim(Square(kWorld.center, side, 1000), kWorld, kShare);
@@ -85,7 +88,7 @@ TEST(DistantLightTargeting, GainsWhatPhotonsThatStartOverTheWantedPointsAreDense
     }
     const double share = double(side) * double(side) / (double(kPi) * 1e6);
     EXPECT_NEAR(over / (kCount * share) / aim.Gain(), 1, .15) << side;
-    EXPECT_GT(aim.Gain(), 1 / (20 * share)) << side;  // a twentieth of all that could be gained
+    EXPECT_GT(aim.Gain(), 1 / (20 * share)) << side;  // a twentieth of the largest possible gain
   }
   EXPECT_LT(DistantLightTargeting(Square(kWorld.center, 1800, 1000), kWorld, kShare).Gain(), 4);
 }
@@ -100,7 +103,7 @@ TEST(DistantLightTargeting, OfPointsOnOneSpotIsFinite) {
   }
 }
 
-// A plate of 2 x 2 at the middle of a plain of 2000 x 2000, seen from above.
+// Returns a plate of 2 x 2 at the middle of a plain of 2000 x 2000, seen from above.
 std::string Plain(const std::string& light, const std::string& integrator) {
   return "LookAt 0 0 3  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 20\nFilm \"image\" "
          "\"integer xresolution\" 16 \"integer yresolution\" 16\nPixelFilter \"box\"\nSampler "
@@ -113,8 +116,9 @@ std::string Plain(const std::string& light, const std::string& integrator) {
          "[-1 -1 1 1 -1 1 1 1 1 -1 1 1]\nWorldEnd\n";
 }
 
-// Irradiance L cos(theta) of the sun, pi L of the sky, over pi times the reflectance .5. Some 10^4
-// photons on the plate, 50 in an estimate: the mean over the picture is within 1 %.
+// The irradiance is L cos(theta) for the sun and pi L for the sky, and the radiance is the
+// irradiance times the reflectance .5 over pi. With about 10^4 photons on the plate and 50 per
+// estimate, the mean over the picture is within 1 %.
 TEST(DistantLightTargeting, ServesASmallThingInAWideWorld) {
   const std::string sun =
       "LightSource \"distant\" \"color L\" [4 4 4] \"point from\" [3 0 4] \"point to\" [0 0 0]";

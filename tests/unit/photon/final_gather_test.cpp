@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The final gather of a constant environment: f integrates to the reflectance of the non-specular
-// lobes, whatever specular lobes stand beside them and wherever the guide points.
+// These tests check the final gather of a constant environment. The result must be the reflectance
+// of the non-specular lobes, with any specular lobes beside them and with any guiding photons.
 #include "integrators/photon/gather/final_gather.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace exphoton {
 namespace {
 
-// Radiance by direction.
+// Sky gives the radiance of each direction.
 class Sky {
  public:
   explicit Sky(std::function<Real(const Vector3&)> radiance) : radiance_(std::move(radiance)) {}
@@ -39,8 +39,8 @@ struct Gathered {
   double error;  // 4 standard errors of the mean
 };
 
-// Gathers what comes from the sky, guided by photons from the given directions, over `count`
-// independent sets of gather samples.
+// Gathers the light of the sky over `count` independent sets of gather samples. Photons from the
+// given directions guide the gather.
 template <class AddLobes>
 Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, Real angleDegrees,
                    Real rrThreshold, int count, const AddLobes& addLobes) {
@@ -86,7 +86,7 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, 
   return {mean, variance, 4 * std::sqrt(variance / count)};
 }
 
-// Radiance 1 from everywhere.
+// Gathers radiance 1 from every direction.
 template <class AddLobes>
 Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleDegrees, int count,
                         const AddLobes& addLobes) {
@@ -102,9 +102,9 @@ std::vector<Vector3> UpperDirections(int count) {
   return directions;
 }
 
-// Fifty photons by fives from the same direction, so that cones of every angle are followed: as
-// light from over there is dense, or because widest cones hold more than the BSDF sends to the
-// horizon.
+// Returns fifty photons in groups of five from the same direction, so that cones of every angle are
+// followed. Narrow cones are followed because light is dense in them. The widest cones are followed
+// because they hold more light than the BSDF samples near the horizon.
 std::vector<Vector3> Clusters() {
   std::vector<Vector3> directions;
   const std::vector<Vector3> upper = UpperDirections(10);
@@ -124,7 +124,7 @@ TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
       bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
     });
     EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * kTolerance) << angle << " degrees";
-    const double least = angle < 1 ? 0 : 1e-5;  // narrow cones are too small a part of the sky
+    const double least = angle < 1 ? 0 : 1e-5;  // narrow cones cover too small a part of the sky
     EXPECT_GT(g.variance, least) << "rays follow the BSDF alone at " << angle << " degrees";
   }
 }
@@ -150,11 +150,11 @@ TEST(FinalGather, WithEveryPhotonBelowTheHorizonFollowsTheBsdfAlone) {
   const Gathered g = GatherConstant(below, 10, 200, [](Bsdf* bsdf, Arena* arena) {
     bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
   });
-  EXPECT_NEAR(g.mean, .8, 1e-4);  // every cosine-sampled ray brings exactly rho
+  EXPECT_NEAR(g.mean, .8, 1e-4);  // every cosine-sampled ray returns exactly rho
 }
 
-// Fifty photons, so many of them from one direction, the others far apart; how many of 32 rays go
-// there on average.
+// Returns how many of 32 gather rays go towards the patch on average. Of fifty photons,
+// photonsFromThere come from the patch, and the others come from directions far apart.
 double RaysTowards(const Vector3& patch, int photonsFromThere) {
   std::vector<Vector3> guide(std::size_t(photonsFromThere), patch);
   for (int i = 0; int(guide.size()) < 50; ++i)
@@ -172,7 +172,7 @@ double RaysTowards(const Vector3& patch, int photonsFromThere) {
 
 TEST(FinalGather, AsManyRaysFollowPhotonsAsThereIsLightWhereTheyLead) {
   const Vector3 patch = Normalize(Vector3(1, Real(.1), 1));
-  const double byBsdf = .1;  // at most
+  const double byBsdf = .1;  // upper bound
   for (const auto& [photons, rays] :
        {std::pair{1, 0}, {2, 2}, {3, 2}, {4, 4}, {10, 8}, {13, 16}, {25, 16}, {50, 16}}) {
     const double towards = RaysTowards(patch, photons);
@@ -181,8 +181,8 @@ TEST(FinalGather, AsManyRaysFollowPhotonsAsThereIsLightWhereTheyLead) {
   }
 }
 
-// A small bright patch, which nearly all photons come from: a ray that the BSDF sends there has
-// hardly any weight, but brings much.
+// Nearly all photons come from a small bright patch. A BSDF-sampled ray to the patch has a very
+// small weight, but carries much radiance.
 TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
   const Vector3 patch = Normalize(Vector3(1, 0, 1));
   const Sky sky([&](const Vector3& d) { return Dot(d, patch) > Real(.99) ? Real(100) : Real(.1); });

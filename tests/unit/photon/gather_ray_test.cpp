@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What gather rays read off a surface that reflects and transmits unlike parts, and from which
-// length on: photons of known density arrive on both sides of a pane.
+// These tests check the radiance that gather rays read at a surface with different reflectance and
+// transmittance, and the ray length from which radiance photons are used. Photons of known density
+// arrive on both sides of a pane.
 #include "integrators/photon/gather/gather_ray.h"
 
 #include <gtest/gtest.h>
@@ -15,9 +16,9 @@ namespace {
 
 constexpr double kPi64 = 3.14159265358979;
 constexpr double kReflected = .3, kTransmitted = .6;
-// Powers of photons above the pane and below. The irradiance on each side is the power times the
-// density of the lattice: around a lattice point, 49 points lie nearer than the 50th, which has a
-// squared distance of .17.
+// Photons above and below the pane have these powers. The irradiance on each side is the power
+// times the density of the lattice. Around a lattice point, 49 points are nearer than the 50th,
+// whose squared distance is .17.
 constexpr double kAbove = 1, kBelow = 3;
 constexpr double kLattice = 49 / (.17 * kPi64) / 100;
 
@@ -36,7 +37,7 @@ class PaneTest : public testing::Test {
     settings_.nUsed = 50;
   }
 
-  // A lattice of 100 photons per unit of area; 100 paths.
+  // Fills the maps from a lattice of 100 photons per unit area and 100 paths.
   void Fill() {
     PhotonPassResult result;
     std::vector<RadiancePhotonSite> sites;
@@ -56,7 +57,7 @@ class PaneTest : public testing::Test {
 
   struct Read {
     double radiance;
-    double radius;  // of the radiance photon's estimate
+    double radius;  // radius of the radiance photon's density estimate
     std::int64_t radiancePhotonsRead;
   };
   Read ReadFrom(const Point3& o, const Vector3& d, const RadiancePhotonMap* radianceMap) {
@@ -105,7 +106,7 @@ TEST_F(PaneTest, SendsGatherRaysTheSameByDensityEstimates) {
   const Read above = ReadFrom({Real(.03), Real(.02), 2}, {0, 0, -1}, nullptr);
   const Read below = ReadFrom({Real(.03), Real(.02), -2}, {0, 0, 1}, nullptr);
   EXPECT_EQ(above.radiancePhotonsRead, 0);
-  // Both sides share the 50 photons.
+  // The 50 nearest photons are divided between both sides.
   EXPECT_NEAR(above.radiance * kPi64, kReflected * kAbove + kTransmitted * kBelow, .2);
   EXPECT_NEAR(below.radiance * kPi64, kReflected * kBelow + kTransmitted * kAbove, .2);
 }
@@ -125,7 +126,7 @@ TEST_F(PaneTest, IsReadFromRadiancePhotonsOnlyBeyondShortRays) {
   }
 }
 
-// A sheet of glass over a matte surface.
+// SheetTest places a sheet of glass over a matte surface.
 class SheetTest : public PaneTest {
  protected:
   SheetTest()
@@ -135,9 +136,8 @@ class SheetTest : public PaneTest {
             "Translate 0 0 .5 ReverseOrientation Shape \"disk\" \"float radius\" 5\n") {}
 };
 
-// A gather ray follows one of reflection and refraction at each side of the sheet. Each side
-// reflects the part F = .04, so the sheet transmits (1 - F) / (1 + F), and the sheet with the
-// surface behind it is as bright as that.
+// A gather ray follows either reflection or refraction at each side of the sheet. Each side
+// reflects F = .04, so the sheet transmits (1 - F) / (1 + F) of the light of the surface behind it.
 TEST_F(SheetTest, DimsGatherRaysByWhatItReflects) {
   Fill();
   const double bare = ReadFrom({0, 0, Real(.5)}, {0, 0, -1}, nullptr).radiance;

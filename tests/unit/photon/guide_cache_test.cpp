@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What a cell says of where light comes from follows from the cell alone, and is seen from any
-// point in it.
+// These tests check that the contents of a cache cell depend on the cell alone, and that a cell can
+// be reprojected to any shading point within it.
 #include "integrators/photon/gather/guide_cache.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +21,11 @@ constexpr Real kWidth = Real(.25);
 constexpr int kCount = 40;
 constexpr Real kFarthest = 20;
 
-// By how many others it is said: n = 2 e + sqrt(e).
+// Returns the neighbour count n = 2 e + sqrt(e) for which e is the largest expected count that is
+// significantly exceeded. This inverts DenserThan.
 Real Others(Real denserThan) { return 2 * denserThan + std::sqrt(denserThan); }
 
-// Photons on the square (0, 0)-(1, 1) of the plane z = 0, all of them from the lamp.
+// Returns photons from the lamp on the square (0, 0)-(1, 1) of the plane z = 0.
 PhotonMap LampMap(int count = 1000) {
   RandomStream random(3);
   PhotonBuffer buffer;
@@ -48,7 +49,7 @@ TEST(GuideCache, SayTheSameWhicheverWasAskedBefore) {
   const PhotonMap map = LampMap();
   RandomStream random(11);
   std::vector<Point3> points;
-  for (int i = 0; i < 3000; ++i)  // more cells than are kept
+  for (int i = 0; i < 3000; ++i)  // more cells than the cache can store
     points.emplace_back(2 * random.Uniform() - Real(.5), 2 * random.Uniform() - Real(.5),
                         2 * random.Uniform() - 1);
   GuideCache cells(map, kCount, kCone, kWidth / 2);
@@ -92,7 +93,8 @@ TEST(GuideCache, OfVeryManyPhotonsEstimateHowManyComeFromThere) {
     EXPECT_NEAR(Others(cell.DenserThan()[i]), kMany, 10);
 }
 
-// The photons came to other points of the cell, from up to 20 degrees beside the lamp.
+// The photons arrived at other points of the cell, with directions up to 20 degrees away from the
+// direction to the lamp.
 TEST(ReprojectedCell, PointsToTheLampFromAnywhereInTheCell) {
   const PhotonMap map = LampMap();
   GuideCache cells(map, kCount, kCone, kWidth);
@@ -142,7 +144,7 @@ TEST(ReprojectedCell, IsTheSameWithEveryWidthOfVectors) {
   }
 }
 
-// A surface in the photon's own place: any direction, but one.
+// The shading point is the photon's origin, so every unit direction is valid.
 TEST(ReprojectedCell, HasUnitDirectionsFromWhereThePhotonsComeFrom) {
   PhotonBuffer buffer;
   buffer.Add({{0, 0, 0}, {0, 0, 1}, Spectrum(1), 0});

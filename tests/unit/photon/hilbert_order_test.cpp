@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Photons in the order of their directions: all of them, like directions together.
+// These tests check the Hilbert-curve order of photons by direction: it contains every photon, and
+// similar directions are adjacent.
 #include "integrators/photon/gather/hilbert_order.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 namespace exphoton {
 namespace {
 
-// Photons from all over the sphere, at places that say nothing of it.
+// Returns photons from all over the sphere, at positions that are independent of their directions.
 PhotonMap ScatteredMap(int count) {
   RandomStream random(5);
   std::vector<Photon> photons;
@@ -32,7 +33,7 @@ std::vector<std::uint32_t> AllOf(const PhotonMap& map) {
   return photons;
 }
 
-// Between each direction and the next.
+// Returns the mean angle between each direction and the next direction, in radians.
 double MeanAngle(const PhotonMap& map, std::span<const std::uint32_t> photons) {
   double sum = 0;
   for (std::size_t i = 1; i < photons.size(); ++i) {
@@ -54,8 +55,9 @@ TEST(DirectionOrder, KeepsLikeDirectionsTogether) {
   const PhotonMap map = ScatteredMap(4096);
   const std::vector<std::uint32_t> photons = AllOf(map);
   Arena arena;
-  EXPECT_GT(MeanAngle(map, photons), Radians(Real(60)));  // as they lie
-  // Sixteen lie in each cell: mostly one follows another of the same cell, or of the next.
+  EXPECT_GT(MeanAngle(map, photons), Radians(Real(60)));  // in storage order
+  // Each cell of the curve holds about sixteen photons. Most photons follow a photon of the same
+  // cell or of the cell before.
   EXPECT_LT(MeanAngle(map, HilbertOrder(map, photons, &arena)), Radians(Real(9)));
 }
 

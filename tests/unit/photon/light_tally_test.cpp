@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The table of photons by light, and the notices of lights that shoot in vain.
+// These tests check the table of photons by light, and the notices about lights whose photons are
+// never stored.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +19,7 @@ const std::string kFloor =
     "\"float radius\" 9 AttributeEnd\n";
 const std::string kLamp = "LightSource \"point\" \"color I\" [9 9 9] \"point from\" [0 2 3]\n";
 const std::string kBlackLamp = "LightSource \"point\" \"color I\" [0 0 0]\n";
-// From behind the camera, away from everything.
+// This spot light is behind the camera and points away from all surfaces.
 const std::string kAway =
     "LightSource \"spot\" \"color I\" [90 90 90] \"point from\" [0 2 -20] \"point to\" [0 2 -30]\n";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PackedRadiance: what is put in comes out, black included.
+// These tests check that PackedRadiance returns the values that were packed, including black.
 #include "integrators/photon/maps/packed_radiance.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(PackedRadiance, KeepsRadianceCoatAndShareApart) {
   }
 }
 
-// Rounding down could leave light out for ever: a share of 0 is never looked at.
+// Rounding down could lose light for good, because a glossy share of 0 is never evaluated.
 TEST(PackedRadiance, RoundsTheGlossyShareUp) {
   EXPECT_EQ(PackedRadiance(Spectrum(1), 0, false).GlossyShare(), Real(1) / 16);
   EXPECT_EQ(PackedRadiance(Spectrum(1), Real(.07), false).GlossyShare(), Real(1) / 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A photon's distance in eight bits.
+// These tests check the 8-bit code of a photon's distance.
 #include "integrators/photon/maps/photon_distance.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the classic photon mapper hangs, crashes or loses energy on: missing photons, missing
-// lights, surfaces that are all specular, tiny counts, colours that cancel.
+// These tests check cases in which the classic photon mapper hangs, crashes or loses
+// energy: missing photons, missing lights, surfaces that are all specular, tiny counts, and
+// colours that cancel.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -30,7 +31,7 @@ TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
                                      "]";
         const TestRender render = RenderSceneText(Sphere(settings, kPoint, kMatte));
         EXPECT_EQ(render.result.nonFiniteSamples, 0);
-        // Direct light, .5 / pi, is there in any case; all light together is twice that.
+        // Direct light of .5 / pi is always present. All light together is twice this value.
         EXPECT_GT(MeanRadiance(render.image), .159) << settings;
         EXPECT_LT(MeanRadiance(render.image), indirect < 49 ? 5 : .5) << settings;
       }
@@ -43,7 +44,7 @@ TEST(PhotonEdgeCases, WithoutIndirectPhotonsTheGatherStillReadsDirectAndCausticL
   const double direct =
       MeanRadiance(RenderSceneText(Sphere("\"directlighting\"", kPoint, kMatte)).image);
   const double once = render("\"integer indirectphotons\" [0] \"integer directphotons\" [20000]");
-  // One bounce more than direct light: the indirect map would add the further ones.
+  // The picture has one bounce more than direct light. The indirect map would add further bounces.
   EXPECT_NEAR(once / direct, 1.5, .05);
 }
 
@@ -119,7 +120,7 @@ TEST(PhotonEdgeCases, TheCamerasDepthLimitWarnsWhereItCuts) {
   EXPECT_FALSE(render(10).Says("the depth limit cut specular paths"));
 }
 
-// The lamp lights the whole sphere alike: the irradiance is 1 of direct light, and as much of the
+// The lamp lights the whole sphere evenly. The irradiance is 1 from direct light, and 1 from all
 // further bounces of albedo 1/2 together.
 TEST(PhotonEdgeCases, EveryShownMapHasItsShareOfTheLight) {
   for (const char* integrator : {"photonmap", "exphotonmap"})
@@ -158,7 +159,7 @@ TEST(PhotonEdgeCases, LightThatHitsNothingEndsWithinItsBudget) {
   EXPECT_EQ(MeanRadiance(render.image), 0);
 }
 
-// 4 pi times this is more than a Real holds.
+// The power is 4 pi times this intensity, which overflows Real.
 constexpr const char* kTooBright = sizeof(Real) == 4
                                        ? "LightSource \"point\" \"color I\" [3e38 3e38 3e38]"
                                        : "LightSource \"point\" \"color I\" [1e308 1e308 1e308]";
@@ -184,7 +185,7 @@ TEST(PhotonEdgeCases, PhotonsWithoutFinitePowerAreCountedAndUnderStrictAnError) 
   }
 }
 
-// Each shows one map, so no other is worth shooting.
+// Each setting shows one map, so photons for the other maps are not needed.
 TEST(PhotonEdgeCases, ShowingAMapShootsThatMapAlone) {
   const std::string world =
       "WorldBegin\n" + std::string(kPoint) +

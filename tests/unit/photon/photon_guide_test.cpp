@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// A guide follows the photons that come from where light is dense; it serves the camera samples of
-// a pixel that see nearly the same, and no others.
+// These tests check PhotonGuide. It must follow photons from directions where light is dense.
+// A pixel's camera samples must share guiding directions if they see nearly the same place,
+// and only then.
 #include "integrators/photon/gather/photon_guide.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +23,8 @@ const Vector3 kPatch = Normalize(Vector3(1, 0, 1));
 
 enum class Light { OfAPatch, OfTheSky, OfBoth };
 
-// Photons on the square (0, 0)-(1, 1) of the plane z = 0, from above and from below; those of a
-// patch within 6 degrees of it or of its mirror image.
+// Returns photons on the square (0, 0)-(1, 1) of the plane z = 0, from above and from below.
+// Photons of a patch come from within 6 degrees of kPatch or of its mirror image.
 PhotonMap Photons(Light light) {
   RandomStream random(7);
   PhotonBuffer buffer;
@@ -45,7 +46,7 @@ class GatherGuideTest : public testing::Test {
 
   ThreadState* passNotes_ = nullptr;
 
-  // At (x, .5, 0), seen from the side of `wo`.
+  // Returns the guiding directions at (x, .5, 0), seen from the side of `wo`.
   Directions At(Real x, const Vector3& wo, PixelState* notes) {
     Arena arena;
     return Listed(Guide(x, wo, photons_, kPhotons, notes, &arena));
@@ -77,7 +78,7 @@ class GatherGuideTest : public testing::Test {
   }
 
   const Vector3 above_{0, 0, 1}, below_{0, 0, -1};
-  const Real step_ = Real(.01), far_ = Real(.3);  // a search reaches about .05
+  const Real step_ = Real(.01), far_ = Real(.3);  // the k-NN radius is about .05
 
  private:
   LoadedScene scene_ = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
@@ -101,7 +102,7 @@ TEST_F(GatherGuideTest, FollowsPhotonsOfAPatchAndLeavesThoseOfTheSkyToTheBsdf) {
   const Directions followed = Listed(guide);
   ASSERT_FALSE(followed.empty());
   for (const Vector3& w : followed) EXPECT_GT(Dot(w, kPatch), std::cos(Radians(30)));
-  EXPECT_NEAR(guide.share, .5, .15);  // the patch's photons, and of the sky's those round it
+  EXPECT_NEAR(guide.share, .5, .15);  // photons of the patch, and photons of the sky near it
 }
 
 TEST_F(GatherGuideTest, LeavesASurfaceThatIsLitFromEverywhereToTheBsdf) {
@@ -126,7 +127,7 @@ TEST_F(GatherGuideTest, IsFoundAnewWhereASampleSeesAnotherPlaceOrTheOtherSide) {
   const Real place = Real(.4) + far_;
   EXPECT_EQ(At(place, above_, &notes), At(place, above_, nullptr));
   EXPECT_EQ(At(place, below_, &notes), At(place, below_, nullptr));
-  // And that one then serves in its turn.
+  // The next sample must reuse the new directions.
   EXPECT_EQ(At(place + step_, below_, &notes), At(place, below_, nullptr));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The photon map's search: which photons count, and what their radius is.
+// These tests check the searches of the photon map: the photons that count, and the
+// radius of a search.
 #include "integrators/photon/maps/photon_map.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ TEST(PhotonMap, WithoutPhotonsAnswersZero) {
   EXPECT_EQ(map.TypicalRadius(50, &arena), 0);
 }
 
-// A photon at height h over the plane counts as h / kFlatness away.
+// A photon at height h over the plane counts as if it were h / kFlatness away.
 TEST(PhotonMap, LooksLessFarAlongTheNormalThanAcross) {
   const auto found = [](Real height, Real across) {
     Arena arena;
@@ -39,7 +40,8 @@ TEST(PhotonMap, LooksLessFarAlongTheNormalThanAcross) {
   EXPECT_EQ(found(Real(-1.02) * limit, 0), 0u);
 }
 
-// Four neighbours at distance 1 and four at the diagonal; the photon itself is none of them.
+// Each photon has four neighbours at distance 1 and four on the diagonals. It does not
+// count itself.
 TEST(PhotonMap, OnAUnitLatticeHasTheRadiusOfItsNeighbours) {
   std::vector<Photon> photons;
   for (int y = 0; y < 80; ++y)
@@ -79,7 +81,7 @@ TEST(PhotonMap, IgnoresPhotonsThatArrivedOnTheOtherSide) {
 
 TEST(PhotonMap, CountsPhotonsOfAFlattenedRegionOnly) {
   Arena arena;
-  // One photon straight above at a height, one on the plane at the same distance.
+  // One photon is straight above the point, and one is on the plane at the same distance.
   const std::vector<Photon> photons{{{0, 0, Real(.9)}, {0, 0, 1}, Spectrum(1)},
                                     {{Real(.9), 0, 0}, {0, 0, 1}, Spectrum(1)}};
   const PhotonMap map = MapOf(photons, 1);

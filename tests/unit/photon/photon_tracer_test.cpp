@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the photon tracer stores: which side radiance photons speak for, and that other seeds shoot
-// other photons.
+// These tests check the photons that the photon tracer stores: the side of the surface for radiance
+// photons, the rule for caustic photons, and different photons for different seeds.
 #include "integrators/photon/shooting/photon_tracer.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-// A sphere about a lamp, with its normals outwards or inwards.
+// The scene is a sphere around a lamp, with normals outwards or inwards.
 TEST(PhotonTracer, GivesRadiancePhotonsTheNormalOnTheSideOfTheLight) {
   for (const std::string orientation : {"", "ReverseOrientation "}) {
     const LoadedScene loaded = LoadSceneText("WorldBegin\nLightSource \"point\"\n" + orientation +
@@ -29,8 +29,8 @@ TEST(PhotonTracer, GivesRadiancePhotonsTheNormalOnTheSideOfTheLight) {
   }
 }
 
-// A spot light over a matte floor, and a mirror behind the light: what comes over the mirror has
-// met the floor before.
+// The scene is a spot light over a matte floor, with a mirror behind the light. If the light points
+// down, photons from the mirror have met the floor before.
 TEST(PhotonTracer, StoresNoCausticPhotonAfterADiffuseBounce) {
   const auto shoot = [](const std::string& light) {
     const LoadedScene loaded =
@@ -57,7 +57,8 @@ const char* const kIntegrator =
     " \"integer indirectphotons\" 2000 \"integer directphotons\" 2000 \"bool finalgather\" "
     "\"false\" \"string show\" \"directphotons\" \"float maxdist\" .2";
 
-// The direct map is full long before the indirect one, and counts the paths up to then only.
+// The direct map is full long before the indirect map. Its path count must contain only the paths
+// up to that time.
 TEST(PhotonReport, CountsThePathsOfEachMap) {
   LoadedScene loaded = LoadSceneText(
       TestHeader("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 100 "
@@ -90,8 +91,8 @@ TEST_P(PhotonSeeds, ShootOtherPhotons) {
   }
 }
 
-// Each half has maps of its own: what the two differ by does not fall with the number of camera
-// samples.
+// Each half has separate photon maps, so the difference between the halves does not fall with the
+// number of camera samples.
 TEST_P(PhotonSeeds, MakeTheNoiseOfTwoHalvesThatOfMaps) {
   const auto noise = [](int samples) {
     LoadedScene loaded = LoadSceneText(
@@ -108,7 +109,7 @@ TEST_P(PhotonSeeds, MakeTheNoiseOfTwoHalvesThatOfMaps) {
   };
   const double ofFew = noise(16);
   EXPECT_GT(ofFew, 0);
-  EXPECT_GT(noise(256), .25 * ofFew);  // of camera samples alone: 1/16 or less
+  EXPECT_GT(noise(256), .25 * ofFew);  // noise of camera samples alone would fall to 1/16
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, PhotonSeeds, testing::Values("photonmap", "exphotonmap"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Boxes about specular surfaces: no ray that hits one passes them by, and photons of the caustic
-// map are the same where paths that pass by are left out.
+// These tests check the bounding boxes of specular surfaces. No ray that hits such a surface may
+// miss the boxes. The caustic map must be the same if paths that miss the boxes are skipped.
 #include "integrators/photon/shooting/specular_boxes.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-// Matte walls; a mirror, a glass sphere, a mesh, and an instance that moves.
+// The room has matte walls, a mirror sphere, a glass disk, a mesh, and a moving instance.
 const char* const kRoom = R"(
 WorldBegin
 LightSource "point" "point from" [0 3 0]
@@ -71,7 +71,7 @@ TEST(SpecularBoxes, OfASceneWithoutSpecularSurfacesLetEveryRayPass) {
   EXPECT_TRUE(boxes.PassesBy(Ray(Point3(0, 0, -3), Vector3(0, 0, 1))));
 }
 
-// A map that is still open for direct light keeps all paths from being left out.
+// No path can be skipped while the direct map still needs photons.
 TEST(SpecularBoxes, DoNotChangeThePhotonsOfTheCausticMap) {
   const LoadedScene loaded = LoadSceneText(kRoom);
   PhotonSettings settings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Pixel filters: values by hand, the mean of their weights, ranges. Their distribution is tested in
-// tests/stat.
+// These tests check pixel filters: values computed by hand, the mean of their weights, and
+// parameter ranges. The chi-square tests of their distribution are in tests/stat.
 #include "core/sampling/filter.h"
 
 #include <gtest/gtest.h>
@@ -54,8 +54,8 @@ TEST(Filter, TheMeanOfTheWeightsIsOne) {
   TestPlugins plugins;
   for (const char* text : kFilters) {
     const auto filter = plugins.MakeFilter(text);
-    // Filters are separable: the mean over the square is that of a row times that of a column,
-    // over the value where they cross.
+    // Filters are separable. The mean over the square is the mean of a row times the mean of a
+    // column, divided by the value at their crossing.
     constexpr int kSteps = 100000;
     const Real v = Real(.51);
     double row = 0, column = 0;
@@ -81,7 +81,7 @@ TEST(Filter, WeightsHaveTheSignOfTheFilterAndOneMagnitude) {
         odd += std::abs(std::abs(s.weight) - magnitude) > Real(.01) * magnitude;
       }
     }
-    EXPECT_LE(odd, 300) << text;  // at the edge and where the sign changes
+    EXPECT_LE(odd, 300) << text;  // at the edge and at sign changes
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What the stratified and the low-discrepancy sampler promise of their points: strata and nets, and
-// independence beyond these.
+// These tests check the strata and nets of the stratified and the low-discrepancy sampler, and the
+// independence of points beyond these properties.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,8 +85,8 @@ TEST(LowDiscrepancySampler, FewSamplesAreANetToo) {
   }
 }
 
-// Whether film and lens fall into like halves: independent of one another from sample to sample, so
-// that the mean over a pixel's 64 samples has the variance 1/4 / 64.
+// The test counts how often film and lens fall into matching halves. If this is independent from
+// sample to sample, the mean over a pixel's 64 samples has the variance 1/4 / 64.
 TEST(LowDiscrepancySampler, RequestsAreIndependentWithinAPixel) {
   TestPlugins plugins;
   const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 64)");
@@ -101,13 +101,14 @@ TEST(LowDiscrepancySampler, RequestsAreIndependentWithinAPixel) {
     }
     squares += (same / 64. - .5) * (same / 64. - .5);
   }
-  // The variance of an estimated variance is about 2/n of its square; 5 deviations.
+  // The variance of an estimated variance is about 2/n of its square. The tolerance is 5 standard
+  // deviations plus 7 %.
   EXPECT_NEAR(squares / kPixels * 4 * 64, 1, .07 + 5 * std::sqrt(2. / kPixels));
 }
 
-// The keys that scramble x and y are independent. Any two samples of a pixel that has two lie in
-// different halves along each axis; whether they lie in like halves of these along x says nothing
-// of whether they do so along y.
+// The keys that scramble x and y are independent. The two samples of a pixel lie in different
+// halves along each axis. Whether they have matching places within these halves along x must be
+// independent of whether they do along y.
 TEST(LowDiscrepancySampler, ScramblesItsTwoAxesIndependently) {
   TestPlugins plugins;
   const auto sampler = plugins.MakeSampler(kSamplers[3])->WithSamplesPerPixel(2);

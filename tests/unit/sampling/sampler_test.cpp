@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Samplers of every kind: independence of seeds and requests, keys, ranges. Strata and nets are
-// tested in sampler_strata_test.cpp.
+// These tests check samplers of every kind: independence of seeds and requests, keys, and ranges.
+// sampler_strata_test.cpp checks strata and nets.
 #include "core/sampling/sampler.h"
 
 #include <gtest/gtest.h>
@@ -121,33 +121,34 @@ TEST(Sampler, SeedsPixelsAndSamplesDiffer) {
                                  SampleKey{0, {3, 4}, 2}, SampleKey{0, {3, 4}, 1ll << 40}}) {
       const std::vector<Real> other = MakeSamples(*sampler, key);
       std::size_t equal = 0;
-      // Without jitter, film, lens and time have few values.
+      // Without jitter, film, lens and time have few different values, so they are skipped.
       for (std::size_t i = 5; i < base.size(); ++i) equal += base[i] == other[i];
       EXPECT_LE(equal, 1u) << text;
     }
   }
 }
 
-// Correlation of each pair of requests over many pixels: nothing may repeat.
+// The test correlates each pair of requests over many pixels. No request may repeat another.
 TEST(Sampler, RequestsAreUncorrelated) {
   TestPlugins plugins;
   for (const char* text : kSamplers) {
     const auto sampler = plugins.MakeSampler(text);
     const auto columns = Columns(*sampler, 4000, [](double value) { return value - .5; });
-    // film, lens, time, the single 1D point, the first of eight, the single 2D point.
+    // The columns are film, lens, time, the single 1D point, the first of eight, and the
+    // single 2D point.
     EXPECT_TRUE(AreUncorrelated(columns, {0, 1, 2, 3, 4, 5, 6, 21, 22})) << text;
   }
 }
 
-// Within a stratum, too: where a sample lies in its cell says nothing of where it lies there along
-// the other axis, nor in another request.
+// The position of a sample within its stratum must be uncorrelated with its position along the
+// other axis and in other requests.
 TEST(Sampler, PlacesWithinStrataAreUncorrelated) {
   TestPlugins plugins;
   for (const char* text : {kSamplers[0], kSamplers[1], kSamplers[3]}) {
     const auto sampler = plugins.MakeSampler(text);
     const auto columns = Columns(
         *sampler, 4000, [](double value) { return 4 * value - std::floor(4 * value) - .5; });
-    // film, lens, the single 2D point.
+    // The columns are film, lens, and the single 2D point.
     EXPECT_TRUE(AreUncorrelated(columns, {0, 1, 2, 3, 21, 22})) << text;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The BSDF of a point: masks, weights, sides and frames.
+// These tests check the BSDF at a point: masks, weights, sides and frames.
 #include "core/scattering/bsdf.h"
 
 #include "core/base/arena.h"
@@ -55,7 +55,7 @@ TEST(Bsdf, CountsLobesUnderAMask) {
   EXPECT_FALSE(bsdf.Has(LobeSet::SpecularTransmission));
 }
 
-// What a gather over smooth lobes must see of a surface that is a mirror too.
+// A gather over smooth lobes must ignore the mirror lobe of a surface.
 TEST(Bsdf, UnderASmoothMaskAMirrorChangesNothing) {
   const Bsdf both = Make({&kDiffuse, &kMirror}), plain = Make({&kDiffuse});
   const LobeSet mask = LobeSet::NonSpecular;
@@ -124,7 +124,8 @@ TEST(Bsdf, EvaluatesValueAndDensityTogetherAsApart) {
   }
 }
 
-// Photons in glass split by Fresnel's share, each with its whole power.
+// Photons in glass are reflected with the probability of Fresnel's reflectance. Each keeps
+// its full power.
 TEST(Bsdf, ChoosesAmongSpecularLobesByWhatTheyCarry) {
   const SpecularReflection reflection(Spectrum(1), Fresnel::Dielectric(1, Real(1.5)));
   const SpecularTransmission transmission(Spectrum(1), 1, Real(1.5), TransportMode::Importance);
@@ -161,7 +162,7 @@ TEST(Bsdf, InTheSurfaceScattersNothing) {
   EXPECT_FALSE(bsdf.Sample(flat, {Real(.5), Real(.5)}, Real(.1)));
 }
 
-// Light that is in front of the true surface is never let through it, whatever the shading normal.
+// Light in front of the geometric surface must never be transmitted, with any shading normal.
 TEST(Bsdf, SidesAreThoseOfTheGeometricNormal) {
   const Bsdf bsdf = Make({&kDiffuse, &kGloss, &kMirror}, TiltedSurface(1));
   RandomStream random(3);

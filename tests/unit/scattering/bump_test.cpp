@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bump mapping: slopes tilt the normal as geometry would, and nothing awkward breaks it.
+// These tests check bump mapping: slopes tilt the normal like real geometry, and unusual input
+// does no harm.
 #include "core/scattering/bump.h"
 
 #include <array>
@@ -21,7 +22,7 @@ class Height final : public Texture<Real> {
   std::function<Real(const SurfaceInteraction&)> height_;
 };
 
-// z = x / 2 has the normal (-1/2, 0, 1), normalised.
+// The surface z = x / 2 has the normal (-1/2, 0, 1), normalised.
 TEST(Bump, ASlopeTiltsTheNormal) {
   const Vector3 expected = Normalize(Vector3(Real(-.5), 0, 1));
   for (bool byPoint : {false, true}) {
@@ -32,7 +33,7 @@ TEST(Bump, ASlopeTiltsTheNormal) {
   }
 }
 
-// z = x / 2 + y / 4 under footprints that are longer one way.
+// The surface is z = x / 2 + y / 4, with footprints that are longer along one axis.
 TEST(Bump, SlopesDoNotDependOnTheFootprint) {
   const Vector3 expected = Normalize(Vector3(Real(-.5), Real(-.25), 1));
   for (const auto& [dudx, dvdy] : {std::pair<Real, Real>{.01, .08}, {.08, .01}}) {
@@ -44,8 +45,9 @@ TEST(Bump, SlopesDoNotDependOnTheFootprint) {
   }
 }
 
-// A unit sphere with u once round the axis and v from pole to pole, displaced by d = .3 sin(4 u):
-// the normal of the surface p + d n, by central differences in double.
+// A unit sphere has u once around the axis and v from pole to pole. It is displaced by
+// d = .3 sin(4 u) sin(3 v). The expected normal of the surface p + d n comes from central
+// differences in double precision.
 TEST(Bump, OnACurvedSurfaceIsTheNormalOfTheDisplacedOne) {
   using Triple = std::array<double, 3>;
   const auto onSphere = [](double u, double v) {
@@ -71,7 +73,7 @@ TEST(Bump, OnACurvedSurfaceIsTheNormalOfTheDisplacedOne) {
     si.dpdu = si.shading.dpdu = slope(onSphere, u, v, 1e-5, 0);
     si.dpdv = si.shading.dpdv = slope(onSphere, u, v, 0, 1e-5);
     si.ng = si.shading.n = Normalize(Cross(si.dpdu, si.dpdv));
-    const Real sign = Dot(si.ng, si.p - Point3()) > 0 ? 1 : -1;  // the normal's derivatives
+    const Real sign = Dot(si.ng, si.p - Point3()) > 0 ? 1 : -1;  // sign of the normal's derivatives
     si.dndu = si.shading.dndu = si.dpdu * sign;
     si.dndv = si.shading.dndv = si.dpdv * sign;
     si.hasDifferentials = true;
@@ -119,11 +121,11 @@ TEST(Bump, StepsOverHalfTheFootprint) {
 
 TEST(Bump, KeepsTheGeometricSide) {
   SurfaceInteraction si = FlatSurface();
-  si.ng = {0, 0, -1};  // as with ReverseOrientation: tangents say the other side
+  si.ng = {0, 0, -1};  // as with ReverseOrientation: the tangents give the other side
   si.shading.n = si.ng;
   ApplyBump(Height([](const auto& at) { return at.uv.x / 2; }), &si);
   EXPECT_GT(Dot(si.shading.n, si.ng), 0);
-  // Displaced towards -z: the point moves down as u grows.
+  // The surface is displaced towards -z: the point moves down as u grows.
   EXPECT_LT(Distance(si.shading.n, Normalize(Vector3(Real(-.5), 0, -1))), Real(1e-4));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Lobes one by one: reciprocity, energy, awkward directions, and the stated reflectances.
+// These tests check single BSDF lobes: reciprocity, energy, awkward directions, and the stated
+// reflectances.
 #include "core/math/sampling/random.h"
 #include "core/math/sampling/sampling.h"
 #include "core/scattering/lobes/albedo_tables.h"
@@ -52,7 +53,7 @@ TEST_P(SmoothLobe, NeverReflectsMoreThanItReceives) {
   }
 }
 
-// f, Pdf and Sample tell the same story.
+// The throughput and density of Sample must agree with f and Pdf.
 TEST_P(SmoothLobe, CarriesTheThroughputOfItsValueAndDensity) {
   RandomStream random(3);
   for (const Vector3& wo : Directions({1, Real(.5), Real(.1), Real(1e-3), Real(-.5)})) {
@@ -117,7 +118,7 @@ TEST(OrenNayar, WithoutRoughnessIsLambert) {
   EXPECT_FLOAT_EQ(float(rough.f({0, 0, 1}, {Real(.6), 0, Real(.8)}).r), float(Real(.5) / kPi));
 }
 
-// Back towards the light it is brighter than away from it.
+// The lobe is brighter back towards the light than away from it.
 TEST(OrenNayar, ScattersBackwards) {
   const OrenNayar rough(Spectrum(1), Radians(30));
   const Vector3 w(Real(.8), 0, Real(.6));
@@ -129,7 +130,7 @@ TEST(Microfacet, AtThePeakIsTheFormula) {
   EXPECT_NEAR(gloss.f({0, 0, 1}, {0, 0, 1}).r, 12 / (2 * kPi) / 4, 1e-5);
 }
 
-// At normal incidence no facet reflects totally; at 60 degrees all that matter do.
+// At normal incidence no microfacet reflects totally. At 60 degrees all relevant microfacets do.
 TEST(Microfacet, KeepsTheInvertedFresnelTerm) {
   const Microfacet gloss(Spectrum(1), Fresnel::Dielectric(Real(1.5), 1), 1000);
   const Microfacet white(Spectrum(1), Fresnel::None(), 1000);
@@ -147,7 +148,7 @@ TEST(Microfacet, RoughnessOutOfRangeIsTheSharpest) {
   EXPECT_FLOAT_EQ(float(BlinnExponent(10)), .1f);
 }
 
-// The centre of the highlight is its brightest place, not a hole.
+// The centre of the highlight must be its brightest place.
 TEST(FresnelBlend, HasNoHoleAtThePeak) {
   const BlendedGloss blend(Spectrum(1), 50, 200);
   const Vector3 up(0, 0, 1);
@@ -172,7 +173,8 @@ TEST(FresnelBlend, CoatAboveOneTakesNoLightFromTheBase) {
   }
 }
 
-// The hemispherical mean of the facets' cosines by another rule than the one that made the table.
+// The table's hemispherical albedo must agree with another quadrature rule than the one that
+// made the table.
 TEST(AlbedoTables, AgreeWithAnIndependentQuadrature) {
   for (Real exponent : {Real(.5), Real(7), Real(90), Real(1000)}) {
     const Microfacet white(Spectrum(1), Fresnel::None(), exponent);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Materials through their plugins: the lobes they announce and make, what their parameters mean,
-// and textures that misbehave.
+// These tests check materials through their plugins: the lobes that they announce and make, the
+// meaning of their parameters, and textures with bad values.
 #include "core/base/arena.h"
 #include "core/base/error.h"
 #include "core/math/sampling/sampling.h"
@@ -30,7 +30,7 @@ class Materials : public testing::Test {
   Arena arena_;
 };
 
-// A texture whose values vary, as far as a material can know.
+// Opaque returns a constant, but a material must treat it as a texture with varying values.
 template <class T>
 class Opaque : public Texture<T> {
  public:
@@ -110,7 +110,8 @@ TEST_F(Materials, UseColorsAboveOneAndWarn) {
   EXPECT_EQ(plugins_.GetLog().WarningCount(), 2);
 }
 
-// f(z, z) of Oren and Nayar is Kd / pi times A = 1 - s^2 / (2 (s^2 + .33)), s in radians.
+// The value f(z, z) of Oren and Nayar is Kd / pi times A = 1 - s^2 / (2 (s^2 + .33)), with
+// s in radians.
 TEST_F(Materials, MatteTakesSigmaInDegrees) {
   const double s = 20 * 3.14159265358979 / 180;
   const Bsdf matte = Evaluate(R"("matte" "color Kd" [.6 .6 .6] "float sigma" 20)");
@@ -151,7 +152,8 @@ TEST_F(Materials, NeedDifferentialsOnlyForFilteredTexturesAndBumps) {
   EXPECT_FALSE(needs(R"("mirror" "float bumpmap" 3)"));
 }
 
-// Between index 1.5 and 1 as in pbrt 1 to 3, everything reflects totally beyond 41.8 degrees.
+// The boundary is between the indices 1.5 and 1, as in pbrt 1 to 3, so everything beyond 41.8
+// degrees is reflected totally.
 TEST_F(Materials, PlasticIsInvertedUnlessToldPhysical) {
   const std::string gloss = R"("plastic" "color Kd" [0 0 0] "float roughness" .001)";
   const Vector3 a = SphericalDirection(std::sin(Radians(50)), std::cos(Radians(50)), 0);
@@ -190,7 +192,7 @@ TEST_F(Materials, UberMirrorsWithTheInvertedFresnelTerm) {
   EXPECT_NEAR(bsdf.Sample(slant, {}, 0, LobeSet::Specular)->throughput.r, .5, 1e-6);
 }
 
-// Every lobe but the one that lets light through is scaled by the opacity.
+// The opacity scales every lobe except the lobe that lets light through.
 TEST_F(Materials, UberScalesEveryLobeByItsOpacity) {
   const std::string lobes =
       R"("uber" "color Kd" [.3 .3 .3] "color Ks" [.4 .4 .4] "color Kr" [.5 .5 .5] )";
@@ -206,7 +208,7 @@ TEST_F(Materials, UberScalesEveryLobeByItsOpacity) {
   EXPECT_NEAR(mirrored->throughput.g, .25 * .02, 1e-6);
 }
 
-// A coat that reflects all of one color leaves the base its other colors.
+// A coat that reflects all light of one colour leaves only the other colours to the base.
 TEST_F(Materials, SubstrateHasItsBaseWhereTheCoatLeavesLight) {
   const std::string base = R"("substrate" "color Kd" [.5 .5 .5] "color Ks" )";
   EXPECT_TRUE(Evaluate(base + "[1 .1 .1]").Has(LobeSet::DiffuseReflection));
@@ -230,8 +232,8 @@ TEST_F(Materials, MetalIsCopperUnlessToldOtherwise) {
   EXPECT_GT(rho.g, rho.b);
 }
 
-// At normal incidence F = ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2), G = 1 and, with the exponent
-// e = 1 / roughness, D = (e + 2) / 2 pi.
+// At normal incidence F = ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2) and G = 1. With the exponent
+// e = 1 / roughness, D = (e + 2) / (2 pi).
 TEST_F(Materials, MetalTakesItsIndexAbsorptionAndRoughness) {
   const Bsdf bsdf =
       Evaluate(R"("metal" "color eta" [1.5 .2 1] "color k" [0 3 2] "float roughness" .05)");
@@ -240,7 +242,7 @@ TEST_F(Materials, MetalTakesItsIndexAbsorptionAndRoughness) {
   EXPECT_NEAR(double(f.r) / d, .04, 1e-4);
   EXPECT_NEAR(double(f.g) / d, (.64 + 9) / (1.44 + 9), 1e-4);
   EXPECT_NEAR(double(f.b) / d, .5, 1e-4);
-  // Off the peak: D falls by the power e of the cosine of the half vector, and G stays 1.
+  // Off the peak, D falls with the power e of the cosine of the half vector, and G stays 1.
   const Real angle = Radians(Real(20));
   const Vector3 wi(std::sin(angle), 0, std::cos(angle));
   const double half = std::cos(double(angle) / 2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Media alone: densities at points, and optical depths along rays of any length of direction.
+// These tests check media by themselves: densities at points, and optical depths along rays whose
+// directions have any length.
 #include "core/scattering/medium.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ LoadedScene SceneOf(const std::string& medium) {
                        "LightSource \"point\"\nWorldEnd\n");
 }
 
-// The integral of the coefficient over the length, by the midpoint rule.
+// The expected value is the integral of the coefficient over the length, by the midpoint rule.
 TEST(Medium, OpticalDepthIsTheIntegralOfItsDensityOverLength) {
   for (const char* text : kMedia) {
     const LoadedScene loaded = SceneOf(text);
@@ -52,7 +53,7 @@ TEST(Medium, OpticalDepthIsTheIntegralOfItsDensityOverLength) {
   }
 }
 
-// The cells of a grid are given x first; each has its density at its middle.
+// A grid lists its cells with x fastest, and each cell has its density at its centre.
 TEST(VolumeGrid, HasTheDensityOfEachCellAtItsMiddle) {
   std::string densities;
   for (int i = 0; i < 24; ++i) densities += std::to_string(i + 1) + " ";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Fresnel's equations, mirrors and refraction, at their edges: grazing, the critical angle, equal
-// indices, and how radiance and photons differ.
+// These tests check Fresnel's equations, mirrors and refraction at their limits: grazing incidence,
+// the critical angle and equal indices. They also check how radiance and photons differ.
 #include "core/scattering/lobes/specular.h"
 #include "gtest/gtest.h"
 #include "tests/support/scattering.h"
@@ -122,7 +122,8 @@ TEST(SpecularTransmission, ExtremeIndicesStayFinite) {
   }
 }
 
-// L / eta^2 is constant: seen from outside, radiance inside counts 1 / 1.5^2 of itself.
+// Refraction keeps L / eta^2 constant: seen from outside, radiance inside counts 1 / 1.5^2
+// of its value.
 TEST(SpecularTransmission, ScalesRadianceByTheIndexSquaredAndPhotonsNot) {
   const Real passed = 1 - Real(.04);
   const auto entering = Refract({0, 0, 1}, kIndex, TransportMode::Radiance);
@@ -137,7 +138,7 @@ TEST(SpecularLobes, OfClearGlassShareAllTheLight) {
   const SpecularReflection reflection(Spectrum(1), Fresnel::Dielectric(1, kIndex));
   const SpecularTransmission transmission(Spectrum(1), 1, kIndex, TransportMode::Importance);
   EXPECT_NEAR(reflection.Rho().r + transmission.Rho().r, 1, 1e-5);
-  EXPECT_NEAR(reflection.Rho().r, .0918, 2e-4);  // Walsh 1926, diffuse reflection of glass 1.5
+  EXPECT_NEAR(reflection.Rho().r, .0918, 2e-4);  // Walsh 1926: diffuse reflection of glass 1.5
 }
 
 }  // namespace

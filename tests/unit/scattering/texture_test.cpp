@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Textures through their plugins: values, means under filtering, mappings and their footprints.
+// These tests check textures through their plugins: values, means under filtering, mappings and
+// their footprints.
 #include <unistd.h>
 
 #include <cstdio>
@@ -115,10 +116,11 @@ TEST_F(Textures, CheckerboardInSpaceAlternatesAlongEveryAxis) {
 TEST_F(Textures, FilteredCheckerboardIsTheMeanOverItsBox) {
   const auto t = Float(R"("checkerboard")");
   EXPECT_TRUE(t->IsFiltered());
-  // The box [.5, 1.5] x [.4, .6] lies half in each cell; with [.75, 1.05] a sixth is odd.
+  // Half of the box [.5, 1.5] x [.4, .6] lies in each cell. With [.75, 1.05], a sixth lies in
+  // the odd cell.
   EXPECT_NEAR(t->Evaluate(WithFootprint(1, Real(.5), Real(.5), Real(.1))), .5, 1e-6);
   EXPECT_NEAR(t->Evaluate(WithFootprint(Real(.9), Real(.5), Real(.15), Real(.1))), 5. / 6, 1e-6);
-  // Against points, over boxes of every size and place.
+  // The filtered values are compared with point samples, over boxes of every size and position.
   const auto points = Float(R"("checkerboard" "string aamode" "none")");
   RandomStream random(1);
   for (int i = 0; i < 20; ++i) {
@@ -148,7 +150,7 @@ TEST_F(Textures, HugeFootprintsOfACheckerboardAreGrey) {
   }
 }
 
-// Every mapping's derivatives are the differences of its coordinates.
+// The derivatives of every mapping must match differences of its coordinates.
 TEST(TextureMapping, DerivativesAreThoseOfTheCoordinates) {
   using Kind = TextureMapping2D::Kind;
   const Transform toWorld = Transform::Translate({1, 2, 3}) * *Transform::Rotate(30, {1, 1, 0}) *
@@ -177,7 +179,8 @@ TEST(TextureMapping, DerivativesAreThoseOfTheCoordinates) {
         next.uv = si.uv + duv * step;
         const Point2 change = (mapping.Map(next).st - here.st) * (1 / step);
         const bool isCurved = kind == Kind::Spherical || kind == Kind::Cylindrical;
-        // Across a seam, or beyond half a turn, to which a footprint is limited.
+        // The test skips seams and changes near half a turn, because a footprint is limited
+        // to half a turn.
         if (isCurved && std::max(std::abs(change.x), std::abs(change.y)) > Real(.45)) return;
         const double tolerance = isCurved ? .03 : 2e-3;
         EXPECT_NEAR(derivative.x, change.x, tolerance) << int(kind);
@@ -238,7 +241,7 @@ class ImageTextures : public Textures {
   std::filesystem::path folder_;
 };
 
-// 2 x 2: red, green above blue, white.
+// Returns a 2 x 2 image: red and green above blue and white.
 Image FourColors() {
   Image image(2, 2, {"R", "G", "B"});
   image.At(0, 0, 0) = 1;
@@ -291,7 +294,7 @@ TEST_F(ImageTextures, OfOneFileReadItOnce) {
   std::filesystem::remove(File("a.exr"));
   const auto second = Color(Quoted("a.exr") + R"("float maxanisotropy" 2)");
   EXPECT_EQ(second->Evaluate(At(Real(.25), Real(.25))), Spectrum(1, 0, 0));
-  // What differs in its pixels does not share them.
+  // Settings that change the pixels must not share the pixels of the loaded file.
   EXPECT_THROW(Color(Quoted("a.exr") + R"("string wrap" "clamp")"), Error);
   EXPECT_THROW(Float(Quoted("a.exr")), Error);
 }

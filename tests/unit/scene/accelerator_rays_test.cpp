@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Rays at the limits of their numbers (from afar, along axes, of any length, or no rays at all):
-// every accelerator answers them as brute force does, or in closed form.
+// These tests trace rays with extreme numbers: from afar, along axes, of any length, or invalid.
+// Every accelerator must give the answers of brute force, or of a closed form.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,7 +15,8 @@ namespace {
 
 class AcceleratorRays : public testing::TestWithParam<const char*> {};
 
-// Products of what a ray is made of overflow, with infinite bounds of children that there are not.
+// Products of the ray's numbers overflow, and unused child slots of a node have infinite bounds.
+// The traversal must still end with the right answer.
 TEST_P(AcceleratorRays, EndForRaysFromFarAwayWithShortDirections) {
   TestPlugins plugins;
   const Real tiny = std::ldexp(Real(1), -117), far = std::ldexp(Real(1), 102);
@@ -38,7 +39,7 @@ TEST_P(AcceleratorRays, EndForRaysFromFarAwayWithShortDirections) {
   }
 }
 
-// Down to subnormal numbers, of which there are few.
+// The lengths go down to subnormal numbers, which are few.
 TEST_P(AcceleratorRays, AgreeForDirectionsOfAnyLength) {
   TestPlugins plugins;
   for (const int exponent : {-148, -142, -137, -130, -126, -110, -99, -60, 60, 100, 126}) {
@@ -76,7 +77,8 @@ TEST_P(AcceleratorRays, MeetTheBoxAlongEveryAxisWithBothZeros) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       for (int zeros = 0; zeros < 4; ++zeros) {
-        // From the middle of a face inwards, and from outside along a face's own plane.
+        // One ray goes inwards from the middle of a face. The other ray starts outside and runs in
+        // the plane of a face.
         Ray ray;
         ray.o = Point3(Real(.5), Real(.5), Real(.5));
         ray.o[axis] = Real(side);
@@ -125,8 +127,9 @@ TEST_P(AcceleratorRays, AnswerNothingToRaysThatAreNone) {
   }
 }
 
-// A ray's numbers are rounded to far more than the gaps between cells: it meets what the planes
-// between them seem to part it from. Vertices lie where the kd-tree splits.
+// The rounding of a ray's numbers is far larger than the gaps between cells. A ray may hit a
+// triangle although the split planes seem to separate them. Vertices lie on the kd-tree's
+// split planes.
 TEST_P(AcceleratorRays, AgreeThroughVerticesSeenFromAfar) {
   TestPlugins plugins;
   constexpr int kSide = 12;

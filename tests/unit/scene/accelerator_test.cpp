@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Every accelerator answers exactly as brute force does, on random scenes with everything that is
-// awkward: flat boxes, equal and coplanar triangles, slivers, mixed scales, shapes and instances.
-// Rays at the limits of their numbers are in accelerator_rays_test.cpp.
+// These tests require the exact answers of brute force from every accelerator, on random scenes
+// with awkward content: flat boxes, equal and coplanar triangles, slivers, mixed scales, shapes and
+// instances. accelerator_rays_test.cpp tests rays with extreme numbers.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -14,8 +14,8 @@
 namespace exphoton {
 namespace {
 
-// Compares with brute force for many rays; returns the number of hits, so that a test can ask for
-// some.
+// Compares with brute force for many rays. Returns the number of hits, so that a test can
+// require a minimum.
 int CompareWithBruteForce(const PrimitiveSet& set, const std::string& accelerator, int rays,
                           std::uint64_t seed) {
   TestPlugins plugins;
@@ -32,7 +32,7 @@ int CompareWithBruteForce(const PrimitiveSet& set, const std::string& accelerato
     EXPECT_EQ(expected.instance, found.instance) << accelerator << " ray " << i;
     EXPECT_EQ(expected.uv, found.uv);
     EXPECT_EQ(oracle->Occluded(ray), tested->Occluded(ray)) << accelerator << " ray " << i;
-    // Rays that end at the surface, or by rounding alone before or behind it.
+    // These rays end at the surface, or one rounding step before or behind it.
     for (const Real end : {NextDown(expected.t), expected.t, NextUp(expected.t)}) {
       Ray ending = ray;
       ending.tMax = std::min(end, ray.tMax);
@@ -67,8 +67,8 @@ TEST_P(Accelerators, AgreeWithBruteForceOnShapesAndInstances) {
   }
 }
 
-// Rays from points on triangles, whose own plane is ahead or behind by rounding alone, with
-// coordinates from those whose products are subnormal to those whose products overflow.
+// Rays start on triangles whose plane is in front or behind by rounding alone. The coordinates
+// range from values whose products are subnormal to values whose products overflow.
 TEST_P(Accelerators, AgreeOnRaysFromSurfacesAtEveryScale) {
   TestPlugins plugins;
   for (const int exponent : {-120, -70, -45, -20, 0, 20, 41, 60, 62}) {
@@ -101,7 +101,7 @@ TEST_P(Accelerators, AgreeOnRaysFromSurfacesAtEveryScale) {
   }
 }
 
-// Aovs that single precision does not tell apart, in any order of their ids.
+// The layers of triangles are too close for single precision, and their ids are in no order.
 TEST_P(Accelerators, AgreeOnLayersCloserThanSinglePrecisionTells) {
   TestPlugins plugins;
   for (const Real gap : {Real(1e-4), Real(1e-5), Real(1e-6), Real(1e-7), Real(0)}) {
@@ -184,7 +184,7 @@ TEST_P(Accelerators, BuildOverManyEqualOrCoplanarTrianglesInTime) {
   EXPECT_LT(seconds.count(), 10);
 }
 
-// A room of size 1 within a world of size 1e12.
+// The scene is a room of size 1 within a world of size 1e12.
 TEST_P(Accelerators, FindTheRoomInAHugeWorld) {
   auto triangles = BoxTriangles({0, 0, 0}, {1, 1, 1});
   const Real far = Real(1e12);

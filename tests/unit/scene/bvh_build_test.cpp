@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The hierarchy of a large set: made in pieces by threads, the same whatever their number, and with
-// the hits of brute force.
+// These tests build the BVH of a large set in pieces by threads. The result must not depend on the
+// number of threads, and it must give the hits of brute force.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -32,15 +32,15 @@ TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
   ExpectHitsOfBruteForce(*plugins.MakeAccelerator(R"("bvh")", *set, 2), *set, plugins);
 }
 
-// Nodes on the longest way down the binary tree: nodes of eight are some of them.
+// Returns the depth of the binary tree. The eight-wide nodes are made from some of its nodes.
 int DepthOf(std::span<const BvhPlanNode> plan, std::size_t node) {
   const BvhPlanNode& at = plan[node];
   if (at.lower == 0) return 0;
   return 1 + std::max(DepthOf(plan, node + at.lower), DepthOf(plan, node + at.upper));
 }
 
-// Each triangle is three quarters as large as the one before, about the same corner: splits by
-// surface take off a few of the largest, again and again.
+// Each triangle is three quarters as large as the one before, about the same corner. SAH splits
+// repeatedly separate only a few of the largest triangles.
 TEST(BvhBuild, HalvesRunsBelowADepth) {
   TriangleList triangles;
   Real size = Real(1e36);
@@ -51,7 +51,7 @@ TEST(BvhBuild, HalvesRunsBelowADepth) {
   for (std::uint32_t id = 0; id < set->Count(); ++id) items.emplace_back(set->Bounds(id), id);
   ThreadPool threads(1);
   EXPECT_GT(DepthOf(PlanBvh(*set, 1, items, threads), 0), 60);
-  EXPECT_LE(DepthOf(PlanBvh(*set, 1, items, threads, 10), 0), 10 + 9);  // of 512 and fewer
+  EXPECT_LE(DepthOf(PlanBvh(*set, 1, items, threads, 10), 0), 10 + 9);  // 2^9 > 500
 }
 
 }  // namespace

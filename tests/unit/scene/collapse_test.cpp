@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The choice of nodes of eight against every choice there is, on small random trees.
+// These tests compare the collapse of a binary tree into eight-wide nodes with every possible
+// choice, on small random trees.
 #include "accelerators/bvh/build/collapse.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +15,13 @@ namespace {
 
 struct TreeNode {
   double area = 1;
-  std::size_t lower = 0, upper = 0;  // of a leaf 0
+  std::size_t lower = 0, upper = 0;  // 0 for a leaf
   Collapse collapse;
 };
 using Tree = std::vector<TreeNode>;
 
-// Splits leaves at random until there are so many; areas are random, smaller below.
+// Splits random leaves until the tree has the given number of leaves. Areas are random and smaller
+// at lower levels.
 Tree RandomTree(std::size_t leaves, RandomStream* random) {
   Tree tree(1);
   for (std::size_t count = 1; count < leaves; ++count) {
@@ -41,8 +43,8 @@ Tree RandomTree(std::size_t leaves, RandomStream* random) {
   return tree;
 }
 
-// The work below a node whose children are down to leaves and to those of the set; infinite where
-// they are more than eight.
+// Returns the work below a node whose children are the nearest leaves and wide nodes. The work is
+// infinite for more than eight children.
 double WorkBelow(const Tree& tree, std::size_t node, const std::vector<bool>& isWide) {
   double work = 0;
   int children = 0;
@@ -72,7 +74,7 @@ double LeastWork(const Tree& tree) {
   return least;
 }
 
-// The work of the choice that the shares tell.
+// Returns the work of the choice that the stored shares describe.
 double WorkTold(const Tree& tree, std::size_t node) {
   double work = tree[node].area;
   int children = 0;
@@ -107,7 +109,8 @@ TEST(Collapse, MakesALeafOfHalvesThatSaveLess) {
   const ForestCost small = CollapseLeaf(.1).least, large = CollapseLeaf(.9).least;
   EXPECT_TRUE(CollapseHalves(1, true, large, large).isLeaf);
   EXPECT_FALSE(CollapseHalves(1, false, large, large).isLeaf);
-  // As one child; where there is room for two, halves that cost less are two.
+  // Taken as one child, the node is a leaf. If there is room for two children, cheap
+  // halves become two.
   const Collapse cheap = CollapseHalves(1, true, small, small);
   EXPECT_TRUE(cheap.isLeaf);
   EXPECT_EQ(cheap.shares.Of(2), 1);

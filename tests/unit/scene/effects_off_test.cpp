@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// --effects X=off, row by row: in a scene that needs the effect it removes that light and nothing
-// else. These are the scenes that a wrong row of the plan would show up in, too.
+// These tests check --effects X=off, one effect at a time. In a scene that needs the effect, the
+// option must remove the light of the effect and nothing else. A wrong rule of feature culling
+// would also show in these scenes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -98,7 +99,7 @@ TEST(EffectsOff, SpecularMakesMirrorsBlackForEveryKindOfRay) {
     EXPECT_EQ(MeanChannel(off.image, "specular.G"), 0) << integrator;
     EXPECT_EQ(off.rays.counts[std::size_t(RayKind::Specular)], 0u) << integrator;
   }
-  // Neither photons nor gather rays leave a mirror: as if it were black.
+  // Neither photons nor gather rays leave a mirror, as if the mirror were black.
   std::string black = world;
   for (const auto& [material, replacement] :
        {std::pair<std::string, std::string>{"\"mirror\"", "\"mirror\" \"color Kr\" [0 0 0]"},
@@ -142,7 +143,7 @@ TEST(EffectsOff, LensMakesAPinhole) {
             Render(kPath, world, "lens=off", {}, wide).image.pixels);
 }
 
-// Nothing in this scene moves or scatters between surfaces: these rows change nothing.
+// Nothing in this scene moves, and there are no media, so these settings change nothing.
 TEST(EffectsOff, MediaAndMotionHaveNothingToLeaveOut) {
   const std::string world = kLamp + kFloor + kWall;
   const std::vector<float> expected = Render(kPath, world, "auto").image.pixels;

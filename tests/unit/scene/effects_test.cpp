@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The plan of effects: each is on exactly where the scene calls for it.
+// These tests check feature culling: each effect is on exactly where the scene requires it.
 #include <gtest/gtest.h>
 
 #include "tests/support/test_scene.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Accelerator "embree" gives the hits of the other accelerators but for the few rays that touch an
-// edge, and says what to do where the program was built without the library.
+// These tests compare accelerator "embree" with brute force: the hits are the same, except for
+// the few rays that touch an edge. If the program was built without Embree, the error message
+// must give advice.
 #include <gtest/gtest.h>
 
 #include "core/scene/aggregate.h"
@@ -12,7 +13,7 @@ namespace {
 
 #if defined(EXPHOTON_EMBREE)
 
-// Compares with brute force for rays between random places, which rarely touch an edge.
+// Compares with brute force for rays between random points, which rarely touch an edge.
 void ExpectTheSameHits(const PrimitiveSet& set, std::uint64_t seed) {
   TestPlugins plugins;
   const auto oracle = plugins.MakeAccelerator(R"("bruteforce")", set);
@@ -37,7 +38,8 @@ void ExpectTheSameHits(const PrimitiveSet& set, std::uint64_t seed) {
         expected.IsHit() != found.IsHit() || oracle->Occluded(ray) != tested->Occluded(ray);
     if (!expected.IsHit() || !found.IsHit()) continue;
     differing += !(std::abs(found.t - expected.t) <= Real(1e-5) * expected.t);
-    // Of two surfaces at one distance either may be found; of one its parameters are the same.
+    // If two surfaces have the same distance, either may be found. On the same surface, the
+    // parameters must be equal.
     if (found.primitive == expected.primitive && found.instance == expected.instance) {
       EXPECT_EQ(found.uv, expected.uv);
     }
@@ -63,7 +65,8 @@ TEST(Embree, FindsTheHitsOfBruteForceOnShapesAndInstances) {
   }
 }
 
-// From the smallest worlds whose volume is a number to the largest whose squares are.
+// The worlds lie on both sides of the sizes at which volumes underflow and squares overflow in
+// single precision.
 TEST(Embree, DoesNotMissEverythingInHugeAndTinyWorlds) {
   TestPlugins plugins;
   for (const int exponent : {-100, -60, -40, 40, 62, 64, 80, 100}) {
@@ -114,7 +117,8 @@ TEST(Embree, NeverMeetsTheSurfaceThatARayLeaves) {
     const Hit hit = tested->Intersect(ray);
     ASSERT_TRUE(hit.IsHit());
     const SurfacePoint point = set->Point(ray, hit);
-    // Away from a convex body there is nothing; whatever slips back in is on the first surface.
+    // A ray that leaves a convex body outwards hits nothing. A hit would be on the surface that
+    // the ray leaves.
     EXPECT_FALSE(tested->Occluded(SpawnRay(point, ray.d)));
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Which of two hits wins: the rule itself, and each accelerator with two equal surfaces. The rule
-// is written out here, because every accelerator, brute force too, takes it from the same header.
+// These tests check which of two hits wins: the rule itself, and each accelerator with two equal
+// surfaces. The rule is written out here, because every accelerator, including brute force, takes
+// it from the same header.
 #include "core/scene/hit_order.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ TEST(HitOrder, WithoutAHitAsksForLessThanTheEndOfTheRay) {
   EXPECT_FALSE(Wins(1, kNoId, 0, none));
 }
 
-// A surface given twice shows the material that was given first.
+// A surface that is given twice must show the material that was given first.
 class EqualSurfaces : public testing::TestWithParam<const char*> {};
 
 TEST_P(EqualSurfaces, ShowTheFirstMaterial) {
@@ -53,7 +54,7 @@ TEST_P(EqualSurfaces, ShowTheFirstMaterial) {
   }
 }
 
-// Shapes and instances of them, too.
+// The same rule applies to shapes and their instances.
 TEST_P(EqualSurfaces, ShowTheFirstMaterialOfShapes) {
   TestPlugins plugins;
   const auto first = plugins.MakeMaterial(R"("matte")"),
@@ -76,7 +77,7 @@ TEST_P(EqualSurfaces, ShowTheFirstMaterialOfShapes) {
   }
 }
 
-// A shape that is met at the distance of the hit that is known so far wins where its id is lower.
+// If a shape is hit at the distance of the nearest hit so far, it wins if its id is lower.
 TEST(PrimitiveSet, DecidesTiesOfShapesByTheirIdsInAnyOrder) {
   TestPlugins plugins;
   PrimitiveSet set;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The kd-tree of a large set: made in pieces by threads, the same whatever their number, and with
-// the hits of brute force.
+// These tests build the kd-tree of a large set in pieces by threads. The result must not depend on
+// the number of threads, and it must give the hits of brute force.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -53,7 +53,8 @@ TEST(KdBuild, OfManyPiecesAgreesWithBruteForce) {
   ExpectHitsOfBruteForce(*two, *set, plugins);
 }
 
-// Triangles in one place cannot be parted: a leaf of more than a piece has.
+// Coincident triangles cannot be separated, so they form a leaf that is larger than a piece
+// of the build.
 TEST(KdBuild, PutsManyCoincidentTrianglesIntoOneLeaf) {
   const TriangleList triangles(20000, {Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, 1, 0)});
   const auto set = TriangleSet(triangles);

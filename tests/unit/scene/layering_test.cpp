@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The core's layers: a folder of core/ includes only what stands below it, and no plugin; no source
-// file is too long to be read at once.
+// These tests check the layers of the core. A folder of core/ may include only folders below it,
+// and no plugin. No source file may be too long to read at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::vector<std::string> Lines(const fs::path& path) {
   return lines;
 }
 
-// "core/math/vec.h" of a line #include "core/math/vec.h"; empty for other lines.
+// Returns "core/math/vec.h" for the line #include "core/math/vec.h", and "" for other lines.
 std::string Included(const std::string& line) {
   const std::string start = "#include \"";
   if (line.compare(0, start.size(), start) != 0) return "";
@@ -49,7 +49,7 @@ TEST(Layering, AFolderOfTheCoreIncludesOnlyWhatStandsBelowIt) {
     if (!entry.is_regular_file() || !IsSource(entry.path())) continue;
     const fs::path relative = fs::relative(entry.path(), core);
     const std::string folder = relative.begin()->string();
-    // The header for plugin authors stands above all; cameras are plugins.
+    // The header for plugin authors is above all layers, and cameras are plugins.
     if (relative == "plugin.h" || folder == "cameras") continue;
     ASSERT_GE(LayerOf(folder), 0) << relative << " is in no known layer";
     for (const std::string& line : Lines(entry.path())) {

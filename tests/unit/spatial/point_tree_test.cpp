@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Searches among points against looking at every one, for every width of vectors.
+// These tests compare searches in a point BVH with brute force, for every SIMD target.
 #include "core/spatial/point_tree.h"
 
 #include <gtest/gtest.h>
@@ -126,7 +126,7 @@ TEST(PointTree, FindsTheDiskThatBruteForceFinds) {
         const ClosestPoint expected = tree->ClosestByBruteForce(query, limits);
         found += expected.index != ClosestPoint::kNone;
         for (const NearestSearch* search : AvailableNearestSearches()) {
-          // Alone, and among others.
+          // The query runs by itself and in a batch.
           for (const std::size_t queries : {1, 7}) {
             std::vector<ClosestQuery> all(queries, ClosestQuery{{1, 2, 3}, {0, 0, 1}});
             all.back() = query;
@@ -173,7 +173,8 @@ TEST(PointTree, FindsTheDisksThatBruteForceFindsManyAtOnce) {
   EXPECT_GT(found, 400);
 }
 
-// From the middle of a sphere everything is as near: more boxes than a list holds.
+// From the centre of a sphere all points are about equally near, so more boxes remain than the
+// traversal's list can hold.
 TEST(PointTree, FindsTheDiskThatBruteForceFindsWhereAllAreAsNear) {
   RandomStream random(14);
   std::vector<TestDisk> disks = MakeDisks(Layout::Random, 20000, &random);
@@ -260,7 +261,7 @@ TEST(PointTree, WithoutPointsOrWithANanQueryFindsNothing) {
   }
 }
 
-// Looking at every one of the equals would take minutes.
+// Visiting every one of the coincident points would take minutes.
 TEST(PointTree, OfManyCoincidentPointsFindsTheFirstAtOnce) {
   const TestPointTree tree(std::vector<Point3>(300000, Point3(1, 2, 3)));
   NearestQuery query;
@@ -300,7 +301,7 @@ TEST(Octahedral, WithANoteKeepsItAndStaysClose) {
   for (int i = 0; i < 100000; ++i) {
     const auto u = [&] { return 2 * random.Uniform() - 1; };
     Vector3 v(u(), u(), u());
-    if (i % 4 == 0) v[i / 4 % 3] = 0;  // along the folds and edges of the square
+    if (i % 4 == 0) v[i / 4 % 3] = 0;  // on the folds and edges of the octahedral map
     if (i % 8 == 0) v[i / 8 % 3] = 0;
     v = NormalizeOr(v, {0, 0, -1});
     const auto note = std::uint8_t(i);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Rendering in passes with an integrator whose noise is known: one part of each camera sample, one
-// of each pass, as photons have it.
+// These tests render in passes with an integrator of known noise. One part of the noise belongs to
+// each camera sample, and one part to each pass, as with photons.
 #include "core/render/render_passes.h"
 
 #include <gtest/gtest.h>
@@ -37,9 +37,9 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   }
 
   Real sampleNoise = 1, passNoise = Real(.5);
-  int sleep = 0;  // milliseconds of each preprocessing
+  int sleep = 0;  // milliseconds per preprocessing
   bool keepsRays = false;
-  mutable std::vector<std::pair<Real, Real>> rays;  // of one thread
+  mutable std::vector<std::pair<Real, Real>> rays;  // recorded with one thread only
   std::set<std::uint64_t> seeds;
 
  private:
@@ -100,7 +100,7 @@ TEST_F(RenderPassesTest, ReachesTheTargetWithoutGoingMuchBeyond) {
       EXPECT_GT(*result.noise, target / 1.5);
       images.push_back(image_);
     }
-    // The noise between seeds, as somebody would measure it afterwards.
+    // The noise between seeds is measured from the finished pictures.
     double sum = 0;
     for (std::size_t i = 0; i < image_.pixels.size(); i += 4) {
       double mean = 0, square = 0;
@@ -148,7 +148,7 @@ TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   EXPECT_TRUE(result.render.isComplete);
 }
 
-// Each pass goes on in the sampler's sequence where the last one of its group ended.
+// Each pass continues the sampler's sequence where the last pass of its group ended.
 TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
   StoppingRule rule;
   rule.targetError = 1e-9;
@@ -160,7 +160,7 @@ TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
   ASSERT_EQ(rays.size(), 48u * 36 * 64);
   std::sort(rays.begin(), rays.end());
   const auto repeated = rays.end() - std::unique(rays.begin(), rays.end());
-  EXPECT_LT(repeated, 100);  // by rounding
+  EXPECT_LT(repeated, 100);  // equal by rounding
 }
 
 TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
@@ -171,9 +171,9 @@ TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
   const PassesResult result = Run(rule);
   EXPECT_EQ(result.reason, StopReason::TimeLimit);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - rule.start;
-  EXPECT_LE(result.passes, 25);  // of 20 ms of preprocessing each
+  EXPECT_LE(result.passes, 25);  // each has 20 ms of preprocessing
   EXPECT_GE(result.passes, 1);
-  EXPECT_LT(taken.count(), 2);  // machines are busy
+  EXPECT_LT(taken.count(), 2);  // allows for a busy machine
 }
 
 // At .9 s or later there is no time for a fourth preprocessing of .3 s.
@@ -209,7 +209,7 @@ TEST_F(RenderPassesTest, TwoHalvesAreIndependentAndMeetInThePicture) {
   EXPECT_NE(a.pixels, b.pixels);
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
     ASSERT_NEAR(image_.pixels[i], (a.pixels[i] + b.pixels[i]) / 2, 1e-5);
-  // 1/12 a sample; 1728 pixels know it to 6 % or better.
+  // A sample has the variance 1/12, and 1728 pixels give it to 6 % or better.
   EXPECT_NEAR(*result.noise * 1.01 * 12 * 16, 1, .2);
 }
 

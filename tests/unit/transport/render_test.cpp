@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The tile loop with an integrator that makes radiance up: independence of threads, tiles and crop,
-// non-finite samples, stopping.
+// These tests check the tile loop with a synthetic integrator: independence of threads, tiles and
+// crop, non-finite samples, and stopping.
 #include "core/render/render.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@
 namespace exphoton {
 namespace {
 
-// Radiance from the ray, the sample arrays and the stream: whatever differs shows.
+// MadeUpIntegrator computes radiance from the ray, the sample arrays and the random stream, so that
+// every difference shows.
 class MadeUpIntegrator final : public SurfaceIntegrator {
  public:
   void RequestSamples(const Scene&, const Sampler& sampler, SampleLayout* layout) override {
@@ -203,7 +204,7 @@ TEST_F(RenderTest, AOnePixelPictureIsFiniteUnderEveryFilter) {
   }
 }
 
-// A checkerboard that is filtered: its colours depend on the footprint of a pixel.
+// The checkerboard is filtered, so its colours depend on the footprint of a pixel.
 constexpr char kCheckerboard[] = R"(
   Camera "perspective" Film "image" "integer xresolution" 16 "integer yresolution" 12
   SurfaceIntegrator "directlighting" WorldBegin

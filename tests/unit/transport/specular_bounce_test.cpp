@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Footprints over specular bounces: the neighbours that a bounce predicts, against neighbours that
-// were traced, reflected and refracted themselves; and none where they would not be finite.
+// These tests check ray differentials over specular bounces. The predicted neighbour rays must
+// match neighbours that are traced, reflected and refracted themselves. No differentials may be set
+// where they would not be finite.
 #include <gtest/gtest.h>
 
 #include "core/transport/specular_bounce.h"
@@ -9,16 +10,16 @@
 namespace exphoton {
 namespace {
 
-constexpr Real kStep = Real(1e-3);  // between neighbours, in radians or lengths
+constexpr Real kStep = Real(1e-3);  // distance between neighbours, in radians or scene units
 
 class SpecularFootprint : public testing::TestWithParam<LobeSet> {
  protected:
-  // What becomes of a ray that meets the world; the first and the neighbour beside it.
+  // Pair holds the specular rays of a ray and of its neighbour.
   struct Pair {
     SpecularRay first, neighbour;
   };
 
-  // A ray from `origin` in direction d with a neighbour turned about by `step` to the side.
+  // Traces a ray from `origin` in direction d, and a neighbour whose direction is turned by `step`.
   std::optional<Pair> Bounce(const std::string& world, const Point3& origin, const Vector3& d,
                              const Vector3& step) {
     scene_ = LoadSceneText("WorldBegin\nMaterial \"glass\"\n" + world + "WorldEnd\n");
@@ -38,7 +39,7 @@ class SpecularFootprint : public testing::TestWithParam<LobeSet> {
     return SampleSpecularRay(point, GetParam(), {}, 0);
   }
 
-  // The prediction is of first order: it must leave an error of second order in the step.
+  // The prediction is of first order, so its error must be of second order in the step.
   void ExpectPredicts(const std::string& world, const Point3& origin, const Vector3& d) {
     const auto pair = Bounce(world, origin, d, Vector3(Real(.3), Real(.9), Real(-.2)) * kStep);
     ASSERT_TRUE(pair);
