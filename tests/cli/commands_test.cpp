@@ -107,6 +107,19 @@ TEST_F(CommandTest, CompareWithStatusesOfDiff) {
   EXPECT_EQ(Run({"compare", "a.exr"}).status, 2);
 }
 
+TEST_F(CommandTest, CompareCallsEqualPixelsAtAnotherPlaceNotIdentical) {
+  const PixelBounds display{0, 0, 5, 4};
+  for (const int x : {0, 2}) {
+    Image image(PixelBounds{x, 1, x + 3, 3}, display, {"R", "G", "B"});
+    for (float& pixel : image.pixels) pixel = .5f;
+    WriteExr(Path(x == 0 ? "left.exr" : "right.exr"), image, false);
+  }
+  EXPECT_EQ(Run({"compare", "left.exr", "left.exr"}).status, 0);
+  const ProgramResult moved = Run({"compare", "left.exr", "right.exr"});
+  EXPECT_EQ(moved.status, 1);
+  EXPECT_NE(moved.out.find("identical           no"), std::string::npos) << moved.out;
+}
+
 TEST_F(CommandTest, CompareSeveralPicturesAndWriteDifferenceImages) {
   WriteGrey("a.exr", .5f);
   WriteGrey("b.exr", .5f);

@@ -1,14 +1,14 @@
 # All that ./dev test runs, with each defect of a table until a test fails: run.sh --everything. This
-# file is read by run.sh and is no program of its own. Two rounds, because the dear tests take a
-# quarter of an hour:
-# 1. Each defect alone, with the quick programs, the tests of at most a tenth of a second first.
-# 2. All defects that passed, in one build, with everything else, to the end. Each test that fails
+# file is read by run.sh and is no program of its own. Two rounds, because all tests together take
+# more than a quarter of an hour:
+# 1. Each defect alone, with the tests of the quick programs that take at most a tenth of a second.
+# 2. All defects that passed, in one build, with all other tests, to the end. Each test that fails
 #    there is repeated without a defect, and then with each of the defects alone. A defect that no
 #    failure repeats with is not noticed; together, two defects can only hide each other.
 
 quick_programs=(parser plugin unit cli)
-dear_programs=(stat random images)
-dear_ctests='^(BadInputs|CommandLines|Signals|Replay)'
+programs_of_tests=("${quick_programs[@]}" stat random images)
+other_tests='^(BadInputs|CommandLines|Signals|Replay)'
 
 # Runs tests of a program in as many parts at once as there are jobs; a time-out is a failure.
 run_gtest() {  # PROGRAM FILTER SECONDS [flags of gtest]
@@ -24,10 +24,12 @@ run_gtest() {  # PROGRAM FILTER SECONDS [flags of gtest]
   return $status
 }
 
-# Without a defect: all quick programs must pass; notes which of their tests take long.
+# Without a defect: the quick programs must pass; notes which of their tests take long.
 check_quick_programs() {
   local program output
   for program in "${quick_programs[@]}"; do
+    # Done before, and nothing was built since.
+    if [ "$folder/slow.$program" -nt "$build/.ninja_log" ]; then continue; fi
     output=$(run_gtest "$program" '*' 900) ||
       { echo "$program fails without a defect: $(noticed_by "$output")"; exit 1; }
     printf '%s\n' "$output" | sed -nE 's/^\[       OK \] ([^ ,]+).* \(([0-9]+) ms\)$/\2 \1/p' |
@@ -35,17 +37,12 @@ check_quick_programs() {
   done
 }
 
-# The quick programs, until a test fails; prints what that says.
-run_quick_programs() {
-  local program part slow output
-  for part in quick slow; do
-    for program in "${quick_programs[@]}"; do
-      slow=$(cat "$folder/slow.$program")
-      [ "$part" = quick ] || [ "$slow" ] || continue
-      [ "$part" = slow ] || slow="*-$slow"
-      output=$(run_gtest "$program" "$slow" 300 --gtest_brief=1 --gtest_fail_fast) ||
-        { printf '%s\n' "$output"; return 1; }
-    done
+# The quick tests, until one fails; prints what that says.
+run_quick_tests() {
+  local program output
+  for program in "${quick_programs[@]}"; do
+    output=$(run_gtest "$program" "*-$(cat "$folder/slow.$program")" 300 --gtest_brief=1 \
+      --gtest_fail_fast) || { printf '%s\n' "$output"; return 1; }
   done
 }
 
@@ -58,24 +55,27 @@ failures_of() {  # OUTPUT
   fi
 }
 
-# The dear tests to their end; fills failures, by program.
+# All other tests to their end; fills failures, by program.
 declare -A failures
-run_dear_programs() {
-  local program output
+run_other_tests() {
+  local program output slow
   failures=()
-  for program in "${dear_programs[@]}"; do
-    output=$(run_gtest "$program" '*' 3600 --gtest_brief=1) ||
+  for program in "${programs_of_tests[@]}"; do
+    slow='*'
+    if [ -f "$folder/slow.$program" ]; then slow=$(cat "$folder/slow.$program"); fi
+    [ "$slow" ] || continue
+    output=$(run_gtest "$program" "$slow" 3600 --gtest_brief=1) ||
       failures[$program]=$(failures_of "$output")
   done
   output=$(cd "$build" && timeout 3600 bin/hardcases --quiet --jobs "$jobs" 2>&1) ||
     failures[hardcases]=$(awk '$2 == "FAIL" { print $1 }' <<<"$output" | paste -s -d ,)
-  output=$(ctest --test-dir "$build" -R "$dear_ctests" -LE long 2>&1) || failures[ctest]=yes
+  output=$(ctest --test-dir "$build" -R "$other_tests" -LE long 2>&1) || failures[ctest]=yes
 }
 
-# Those of the dear tests that failed before, until one fails again; prints what it says.
+# Those that failed before, until one fails again; prints what it says.
 repeat_failures() {
   local program output
-  for program in "${dear_programs[@]}"; do
+  for program in "${programs_of_tests[@]}"; do
     [ "${failures[$program]:-}" ] || continue
     output=$(run_gtest "$program" "${failures[$program]}" 900 --gtest_brief=1 --gtest_fail_fast) ||
       { printf '%s\n' "$output"; return 1; }
@@ -85,7 +85,7 @@ repeat_failures() {
       --only "${failures[hardcases]}" 2>&1) || { printf '%s\n' "$output"; return 1; }
   fi
   if [ "${failures[ctest]:-}" ]; then
-    output=$(ctest --test-dir "$build" -R "$dear_ctests" -LE long 2>&1) ||
+    output=$(ctest --test-dir "$build" -R "$other_tests" -LE long 2>&1) ||
       { printf '%s\n' "$output"; return 1; }
   fi
 }
@@ -96,14 +96,14 @@ build_all() { ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1; }
 try_together() {  # INDEX ...
   local i output program
   [ $# -gt 0 ] || return 0
-  echo "$# passed the quick programs; all of them together with the others"
+  echo "$# passed the quick tests; all of them together with the others"
   for i in "$@"; do put_in "$i" || echo "${names[i]}: cannot be put in with the others"; done
   if ! build_all; then
     echo "together they do not compile: $(grep -m 1 error "$folder/build.log")"; missed=1
     take_out
     return
   fi
-  run_dear_programs
+  run_other_tests
   take_out
   for program in "${!failures[@]}"; do echo "  $program: ${failures[$program]}"; done
   output=$(repeat_failures) ||

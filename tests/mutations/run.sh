@@ -19,7 +19,7 @@ jobs=${JOBS:-$(nproc)}
 . "$here/everything.sh"
 
 everything=
-tables=("$here/defects.txt" "$here/blind.txt")
+tables=("$here"/*.txt)
 if [ "${1:-}" = --everything ]; then
   everything=yes tables=("${2:?run.sh --everything TABLE}")
   shift 2
@@ -136,7 +136,7 @@ take_out() {
 }
 
 run_for() {  # INDEX
-  if [ "$everything" ]; then run_quick_programs; else run_tests "${programs[$1]}" "${filters[$1]}"; fi
+  if [ "$everything" ]; then run_quick_tests; else run_tests "${programs[$1]}" "${filters[$1]}"; fi
 }
 build_with() {  # INDEX: what its tests need
   if [ "$everything" ]; then
@@ -161,6 +161,7 @@ check_tests() {  # INDEX
   fi
 }
 prepare() {
+  rm -rf "$folder/originals"
   copy_sources
   configure
   echo "building without a defect"

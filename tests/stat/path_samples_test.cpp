@@ -78,5 +78,21 @@ TEST(PathSamples, DependsOnSeedAndPathAlone) {
   EXPECT_NE(u, next.Next2D());
 }
 
+// What follows the pairs of the sequences, and what roulette asks for beside them.
+TEST(PathSamples, HasANewStreamWithEachSeedAndPath) {
+  const PathSequences three(3, 5), four(4, 5);
+  PathSamples a(three, 5), b(three, 5), other(four, 5), next(three, 6);
+  for (PathSamples* path : {&a, &b, &other, &next})
+    for (int pair = 0; pair < PathSequences::kPairs; ++pair) path->Next2D();
+  const Point2 u = a.Next2D();
+  EXPECT_EQ(u, b.Next2D());
+  EXPECT_NE(u, other.Next2D());
+  EXPECT_NE(u, next.Next2D());
+  const Real v = a.Independent();
+  EXPECT_EQ(v, b.Independent());
+  EXPECT_NE(v, other.Independent());
+  EXPECT_NE(v, next.Independent());
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -109,6 +109,24 @@ TEST(SolidAngleScale, IsTheRatioOfSmallSolidAngles) {
   }
 }
 
+// A tangent of the file on one diagonal, the other tangent on the other diagonal; both turned by a
+// quarter and doubled.
+TEST(InstanceSurface, OfAMeshHasTheTangentsOfTheFile) {
+  TriangleMesh mesh;
+  mesh.p = {Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, 1, 0)};
+  mesh.uv = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.indices = {{0, 1, 2}};
+  mesh.s.assign(3, Vector3(1, 1, 0));
+  const Transform place = *Transform::Scale(2, 2, 2) * *Transform::Rotate(90, {0, 0, 1});
+  const SurfaceInteraction surface =
+      SurfaceToWorld(place, TriangleSurface(mesh, 0, Real(.25), Real(.25)));
+  const Real side = std::sqrt(Real(2));
+  ExpectNear(surface.shading.dpdu, {-side, side, 0}, "shading.dpdu");
+  ExpectNear(surface.shading.dpdv, {-side, -side, 0}, "shading.dpdv");
+  ExpectNear(surface.dpdu, {0, 2, 0}, "dpdu");
+  ExpectNear(surface.dpdv, {-2, 0, 0}, "dpdv");
+}
+
 // Between vertices the two interpolate normals of other lengths.
 TEST(InstanceSurface, OfAMeshHasTheScaledNormalsAtItsVertices) {
   const Both mesh(

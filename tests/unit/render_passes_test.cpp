@@ -147,6 +147,16 @@ TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   EXPECT_TRUE(result.render.isComplete);
 }
 
+// Whatever is left for the last pass.
+TEST_F(RenderPassesTest, TakesNoSampleBeyondTheLimit) {
+  for (const std::int64_t limit : {7, 21, 37}) {
+    StoppingRule rule;
+    rule.targetError = 1e-9;
+    rule.maxSamples = limit;
+    EXPECT_EQ(Run(rule).samplesPerPixel, limit);
+  }
+}
+
 // Each pass goes on in the sampler's sequence where the last one of its group ended.
 TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
   StoppingRule rule;
