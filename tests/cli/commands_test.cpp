@@ -2,6 +2,7 @@
 // The commands that do not render: help, version, plugins, info, convert, compare.
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "core/imaging/exr.h"
 #include "tests/cli/program.h"
@@ -78,6 +79,23 @@ TEST_F(CommandTest, ShowThePhotonsAroundWhatAPixelShows) {
   EXPECT_NE(none.err.find("has no indirect photons"), std::string::npos) << none.err;
   EXPECT_EQ(Run({"info", "--photons-at", "8,3", "room.pbrt"}).status, 1);
   EXPECT_EQ(Run({"info", "--photons-at", "4", "room.pbrt"}).status, 1);
+}
+
+// Two places in a room of radius 3 are at most 6 apart, and some photon is nearly that far away.
+TEST_F(CommandTest, ShowHowFarAwayPhotonsAre) {
+  Write("room.pbrt",
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 6\nCamera "
+        "\"perspective\"\nSurfaceIntegrator \"photonmap\" \"integer indirectphotons\" 500\n"
+        "WorldBegin\nLightSource \"point\"\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\n"
+        "ReverseOrientation\nShape \"sphere\" \"float radius\" 3\nWorldEnd\n");
+  const ProgramResult all = Run({"info", "--photons-at", "4,3", "room.pbrt", "--count", "50000"});
+  ASSERT_EQ(all.status, 0) << all.err;
+  std::istringstream lines(all.out);
+  double farthest = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line[0] != '#') farthest = std::max(farthest, std::stod(line));
+  EXPECT_GT(farthest, 5);
+  EXPECT_LT(farthest, 6.001);
 }
 
 TEST_F(CommandTest, ConvertToPngAndBack) {

@@ -154,19 +154,6 @@ TEST(SceneBuilder, MakesOneSetupForEachWorldAndResetsBetween) {
   EXPECT_TRUE(built.setups[1]->camera->CameraToWorld().IsIdentity());
 }
 
-TEST(SceneBuilder, ForgetsTheCoordinateSystemsOfTheWorldBefore) {
-  const BuiltScene named =
-      BuildText("CoordinateSystem \"mine\"\n" + kBegin + "WorldEnd\n" + kBegin +
-                "CoordSysTransform \"mine\"\nWorldEnd\n");
-  EXPECT_NE(named.error.find("no coordinate system \"mine\" has been named"), std::string::npos)
-      << named.error;
-  const BuiltScene cameras =
-      BuildText("Translate 7 0 0 Camera \"perspective\"\n" + kBegin + "WorldEnd\n" + kBegin +
-                "CoordSysTransform \"camera\" Shape \"sphere\"\nWorldEnd\n");
-  ASSERT_EQ(cameras.error, "");
-  EXPECT_NEAR(double(cameras.setups[1]->scene->WorldBounds().Center().x), 0, 1e-3);
-}
-
 TEST(SceneBuilder, TakesTheMatrixAtCameraForWorldToCamera) {
   const BuiltScene built =
       BuildText("Translate 1 2 3\nCamera \"perspective\"\nTranslate 9 9 9\n" + kBegin +
@@ -189,20 +176,6 @@ TEST(SceneBuilder, MirrorsLookAtInTheDialectOfVersion2) {
   EXPECT_EQ(x1, -x2);
   EXPECT_EQ(one.setups[0]->camera->CameraToWorld().ApplyPoint({0, 0, 5}), Point3(0, 0, 0));
   EXPECT_EQ(two.setups[0]->camera->CameraToWorld().ApplyPoint({0, 0, 5}), Point3(0, 0, 0));
-}
-
-TEST(SceneBuilder, MirrorsWhatTheCameraSeesAndNotTheWorldInTheDialectOfVersion2) {
-  LoadOptions v2;
-  v2.dialect = Dialect::V2;
-  // Off the axes: mirroring x of the world would give another place than mirroring x of the camera.
-  const std::string text =
-      "LookAt 3 1 -5 1 2 4 .2 1 .1\nCamera \"perspective\"\n" + kBegin + "WorldEnd";
-  const BuiltScene one = BuildText(text), two = BuildText(text, v2);
-  ASSERT_EQ(one.error + two.error, "");
-  const Point3 p(-2, 6, 9);
-  const Point3 seen = one.setups[0]->camera->CameraToWorld().Inverted().ApplyPoint(p);
-  const Point3 mirrored = two.setups[0]->camera->CameraToWorld().Inverted().ApplyPoint(p);
-  EXPECT_LT(Distance(mirrored, Point3(-seen.x, seen.y, seen.z)), 1e-5);
 }
 
 TEST(SceneBuilder, BringsBackTheStateAtTheEndOfABlock) {
@@ -355,17 +328,6 @@ TEST(SceneBuilder, HashesWhatTheSceneSaysAndNotHowItIsLaidOut) {
   EXPECT_EQ(plain, hash("# comment\n" + InWorld("Shape   \"sphere\"\n\"float radius\" [2.0]")));
   EXPECT_NE(plain, hash(InWorld("Shape \"sphere\" \"float radius\" 2.5")));
   EXPECT_NE(plain, hash(InWorld("Shape \"disk\" \"float radius\" 2")));
-}
-
-TEST(SceneBuilder, HashesTheStringsOfParameters) {
-  const auto hash = [](const std::string& name) {
-    const BuiltScene built = BuildText("Film \"image\" \"string filename\" \"" + name +
-                                       "\"\n" + kBegin + "WorldEnd");
-    EXPECT_EQ(built.error, "");
-    return built.setups.at(0)->sceneHash;
-  };
-  EXPECT_EQ(hash("one.exr"), hash("one.exr"));
-  EXPECT_NE(hash("one.exr"), hash("two.exr"));
 }
 
 TEST(SceneBuilder, RefusesCropWindowsWithoutPixels) {

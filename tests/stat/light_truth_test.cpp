@@ -132,8 +132,7 @@ Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [-2 -1 1 -2 2 1 -
 Shape "trianglemesh" "integer indices" [0 2 1 0 3 2] "point P" [1 0 2 4 0 2 4 1 2 1 1 2]
 AttributeEnd)",
                                    1024);
-  EXPECT_TRUE(
-      IsWithin(.005, estimate, PolygonIrradiance(left, 3) + PolygonIrradiance(right, 3)));
+  EXPECT_TRUE(IsWithin(.005, estimate, PolygonIrradiance(left, 3) + PolygonIrradiance(right, 3)));
 }
 
 // "nsamples" 3 is rounded up to a power of two by this sampler: to the last bit the same as 4.

@@ -109,6 +109,16 @@ TEST(SolidAngleScale, IsTheRatioOfSmallSolidAngles) {
   }
 }
 
+TEST(Trianglemesh, TangentsAreStretchedAsTheSurfaceIs) {
+  TestPlugins plugins;
+  ShapeGeometry geometry = plugins.MakeShape(R"("trianglemesh" "integer indices" [0 1 2]
+      "point P" [0 0 0 1 0 0 0 1 0] "vector S" [1 1 0 1 1 0 1 1 0])",
+                                             *Transform::Scale(1, 3, 1));
+  const auto& mesh = *std::get<std::unique_ptr<TriangleMesh>>(geometry);
+  const Vector3 tangent = Normalize(TriangleSurface(mesh, 0, 0, 0).shading.dpdu);
+  EXPECT_LT(Distance(tangent, Normalize(Vector3(1, 3, 0))), Real(1e-6));
+}
+
 // A tangent of the file on one diagonal, the other tangent on the other diagonal; both turned by a
 // quarter and doubled.
 TEST(InstanceSurface, OfAMeshHasTheTangentsOfTheFile) {

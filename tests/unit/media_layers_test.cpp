@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Light layers of a mirror beside media, in closed form: what a mirror shows is specular light, with
-// what media take from it and add to it on both stretches of the way.
+// Light layers of a mirror beside media, in closed form: what a mirror shows is specular light,
+// with what media take from it and add to it on both stretches of the way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,10 +41,10 @@ void ExpectSpecularOnly(const Image& image, double expected, double tolerance) {
 
 // A slab of 3 that rays cross twice, at most 20 degrees off the axis in the middle pixel.
 TEST(MediaLayers, OfAMirrorBehindFogAreAbsorbedAsThePictureIs) {
-  const std::string world =
-      Slab(1, 4, "\"color sigma_a\" [.2 .2 .2]") +
-      "AttributeBegin AreaLightSource \"area\" \"color L\" [2 2 2] Translate 0 0 -1 "
-      "Shape \"disk\" \"float radius\" 80 AttributeEnd\n";
+  const std::string world = Slab(1, 4, "\"color sigma_a\" [.2 .2 .2]") +
+                            "AttributeBegin Material \"matte\" \"color Kd\" [0 0 0] "
+                            "AreaLightSource \"area\" \"color L\" [2 2 2] Translate 0 0 -1 "
+                            "Shape \"disk\" \"float radius\" 80 AttributeEnd\n";
   for (const char* integrator : kIntegrators) {
     SCOPED_TRACE(integrator);
     const Image image = LayersOf(integrator, world);

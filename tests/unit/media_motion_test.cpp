@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Fog beside something that moves: a plate is far away as the exposure may begin, and in place as it
-// may end. Behind the plate no light may be left, to the last bit; without it there must be some.
+// Fog beside something that moves: a plate is far away as the exposure may begin, and in place as
+// it may end. Behind the plate no light may be left, to the last bit; without it there must be
+// some.
 #include <gtest/gtest.h>
 
 #include "tests/support/test_scene.h"
@@ -14,8 +15,7 @@ std::string Plate(const std::string& place) {
          "ActiveTransform All " +
          place + " Shape \"disk\" \"float radius\" 50 AttributeEnd\n";
 }
-const std::string kFog =
-    "\"color sigma_s\" [.5 .5 .5] \"color sigma_a\" [0 0 0]\n";
+const std::string kFog = "\"color sigma_s\" [.5 .5 .5] \"color sigma_a\" [0 0 0]\n";
 
 // The picture of a camera whose shutter is open at this moment only.
 double MeanAt(int time, const std::string& view, const std::string& integrator,
@@ -34,7 +34,8 @@ double MeanAt(int time, const std::string& view, const std::string& integrator,
           .image);
 }
 
-// Sun from above, and a plate that covers the fog: what the camera sees of the fog is in its shadow.
+// Sun from above, and a plate that covers the fog: what the camera sees of the fog is in its
+// shadow.
 TEST(MediaMotion, FogIsInTheShadowThatAMovingPlateThrowsAtTheTimeOfTheRay) {
   const std::string world =
       "LightSource \"distant\" \"point from\" [0 9 0] \"point to\" [0 0 0]\n"

@@ -63,16 +63,6 @@ TEST(Trianglemesh, MirroringKeepsTheOutside) {
   EXPECT_EQ(TriangleSurface(*turned, 0, 0, 0).ng, Normal3(0, 0, -1));
 }
 
-TEST(Trianglemesh, TangentsAreStretchedAsTheSurfaceIs) {
-  TestPlugins plugins;
-  const auto mesh = MakeMesh(plugins,
-                             R"("trianglemesh" "integer indices" [0 1 2]
-      "point P" [0 0 0 1 0 0 0 1 0] "vector S" [1 1 0 1 1 0 1 1 0])",
-                             *Transform::Scale(1, 3, 1));
-  const Vector3 tangent = Normalize(TriangleSurface(*mesh, 0, 0, 0).shading.dpdu);
-  EXPECT_LT(Distance(tangent, Normalize(Vector3(1, 3, 0))), Real(1e-6));
-}
-
 // --- PLY -----------------------------------------------------------------------------------------
 
 const char* const kAsciiPly =

@@ -221,9 +221,9 @@ TEST_F(RenderTest, FootprintsShrinkByTheRootOfTheSamples) {
   for (const int root : {1, 2, 4}) {
     const auto sampler = sampler_->WithSamplesPerPixel(root * root);
     Film film({0, 0, 37, 29}, {0, 0, 4, 4});
-    exphoton::Render(RenderJob{scene_, integrator, *sampler, *filter_, *camera, film, threads, log_, progress,
-                     statistics},
-           RenderOptions());
+    exphoton::Render(RenderJob{scene_, integrator, *sampler, *filter_, *camera, film, threads, log_,
+                               progress, statistics},
+                     RenderOptions());
     const Image image = film.ToImage(true);
     EXPECT_NEAR(MeanChannel(image, "R") * root * 29 / 2, 1, 1e-5) << root;
     EXPECT_NEAR(MeanChannel(image, "G") * root * 29 / 2, 1, 1e-5) << root;
