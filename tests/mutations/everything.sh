@@ -7,8 +7,8 @@
 #    failure repeats with is not noticed; together, two defects can only hide each other.
 
 quick_programs=(parser plugin unit cli)
-programs_of_tests=("${quick_programs[@]}" stat random images)
-other_tests='^(BadInputs|CommandLines|Signals|Replay)'
+all_programs=("${quick_programs[@]}" stat random images hardcases ctest)
+other_ctests='BadInputs CommandLines Signals Replay[.].*'
 
 # Runs tests of a program in as many parts at once as there are jobs; a time-out is a failure.
 run_gtest() {  # PROGRAM FILTER SECONDS [flags of gtest]
@@ -46,48 +46,72 @@ run_quick_tests() {
   done
 }
 
-# What failed, of the output of a program of gtest: a filter. All, where it did not reach its end.
-failures_of() {  # OUTPUT
-  if [ "$(grep -cE '^\[=+\] .* ran[.]' <<<"$1")" != "$jobs" ]; then
-    echo '*'
-  else
-    { grep -oE '^\[  FAILED  \] [^ ,]+[.][^ ,]+' <<<"$1" || true; } | cut -c 14- | sort -u | paste -s -d :
-  fi
+# Runs tests of a program, named with blanks between them; none named: all.
+run_some() {  # PROGRAM TESTS [flags of gtest]
+  local program=$1 tests=$2
+  shift 2
+  case "$program" in
+    hardcases) (cd "$build" && timeout 3600 bin/hardcases --quiet --jobs "$jobs" \
+      ${tests:+--only "${tests// /,}"} 2>&1) ;;
+    ctest)
+      tests=${tests:-$other_ctests}
+      ctest --test-dir "$build" -LE long -R "^(${tests// /|})\$" 2>&1 ;;
+    *)
+      tests=${tests:-*}
+      run_gtest "$program" "${tests// /:}" 3600 --gtest_brief=1 "$@" ;;
+  esac
+}
+# What failed, of what run_some printed; all of a program of gtest that did not reach its end.
+failed_in() {  # PROGRAM OUTPUT
+  case "$1" in
+    hardcases) awk '$2 == "FAIL" { print $1 }' <<<"$2" ;;
+    ctest) sed -nE 's/.*: ([^ ]+) [.]+ *[*]{3}.*/\1/p' <<<"$2" ;;
+    *)
+      if [ "$(grep -cE '^\[=+\] .* ran[.]' <<<"$2")" != "$jobs" ]; then
+        echo '*'
+      else
+        { grep -oE '^\[  FAILED  \] [^ ,]+[.][^ ,]+' <<<"$2" || true; } | cut -c 14-
+      fi ;;
+  esac | sort -u | paste -s -d ' '
 }
 
-# All other tests to their end; fills failures, by program.
+# All tests that are not quick, to their end; fills failures, by program.
 declare -A failures
 run_other_tests() {
-  local program output slow
+  local program output tests
   failures=()
-  for program in "${programs_of_tests[@]}"; do
-    slow='*'
-    if [ -f "$folder/slow.$program" ]; then slow=$(cat "$folder/slow.$program"); fi
-    [ "$slow" ] || continue
-    output=$(run_gtest "$program" "$slow" 3600 --gtest_brief=1) ||
-      failures[$program]=$(failures_of "$output")
+  for program in "${all_programs[@]}"; do
+    tests=
+    if [ -f "$folder/slow.$program" ]; then
+      tests=$(tr : ' ' <"$folder/slow.$program")
+      [ "$tests" ] || continue
+    fi
+    output=$(run_some "$program" "$tests") || failures[$program]=$(failed_in "$program" "$output")
   done
-  output=$(cd "$build" && timeout 3600 bin/hardcases --quiet --jobs "$jobs" 2>&1) ||
-    failures[hardcases]=$(awk '$2 == "FAIL" { print $1 }' <<<"$output" | paste -s -d ,)
-  output=$(ctest --test-dir "$build" -R "$other_tests" -LE long 2>&1) || failures[ctest]=yes
+}
+
+# Without a defect: leaves out of the failures what fails all the same, and says so.
+keep_failures_of_defects() {
+  local program output bad
+  for program in "${!failures[@]}"; do
+    output=$(run_some "$program" "${failures[$program]}") && continue
+    bad=$(failed_in "$program" "$output")
+    echo "$program fails without a defect: $bad"
+    missed=1
+    [ "$bad" != '*' ] || bad=${failures[$program]}
+    failures[$program]=$(tr ' ' '\n' <<<"${failures[$program]}" |
+      { grep -vxF "$(tr ' ' '\n' <<<"$bad")" || true; } | paste -s -d ' ')
+  done
 }
 
 # Those that failed before, until one fails again; prints what it says.
 repeat_failures() {
   local program output
-  for program in "${programs_of_tests[@]}"; do
+  for program in "${all_programs[@]}"; do
     [ "${failures[$program]:-}" ] || continue
-    output=$(run_gtest "$program" "${failures[$program]}" 900 --gtest_brief=1 --gtest_fail_fast) ||
+    output=$(run_some "$program" "${failures[$program]}" --gtest_fail_fast) ||
       { printf '%s\n' "$output"; return 1; }
   done
-  if [ "${failures[hardcases]:-}" ]; then
-    output=$(cd "$build" && timeout 900 bin/hardcases --quiet --jobs "$jobs" \
-      --only "${failures[hardcases]}" 2>&1) || { printf '%s\n' "$output"; return 1; }
-  fi
-  if [ "${failures[ctest]:-}" ]; then
-    output=$(ctest --test-dir "$build" -R "$other_tests" -LE long 2>&1) ||
-      { printf '%s\n' "$output"; return 1; }
-  fi
 }
 
 build_all() { ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1; }
@@ -106,8 +130,7 @@ try_together() {  # INDEX ...
   run_other_tests
   take_out
   for program in "${!failures[@]}"; do echo "  $program: ${failures[$program]}"; done
-  output=$(repeat_failures) ||
-    { echo "fails without a defect: $(noticed_by "$output")"; missed=1; return; }
+  keep_failures_of_defects
   for i in "$@"; do
     if ! { put_in "$i" && build_all; }; then
       echo "${names[i]}: cannot be built"; missed=1

@@ -137,6 +137,16 @@ TEST_F(RenderPassesTest, EveryPassHasItsOwnSeed) {
   EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
 }
 
+// More passes than there are replicates, and an end that does not depend on the noise.
+TEST_F(RenderPassesTest, EveryPassUpToALimitHasItsOwnSeed) {
+  StoppingRule rule;
+  rule.targetError = 1e-9;
+  rule.maxSamples = 16;
+  const PassesResult result = Run(rule);
+  EXPECT_GE(result.passes, 16);
+  EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
+}
+
 TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   StoppingRule rule;
   rule.targetError = 1e-9;
