@@ -267,7 +267,7 @@ TEST(SurfaceLayers, TellWhatTheCameraSees) {
   EXPECT_EQ(image.At(0, 0, image.FindChannel("Albedo.R")), 0);
 }
 
-// Parallel light lays photons evenly on a disk of radius 2: so many per area.
+// Parallel light spreads photons evenly over a disk of radius 2.
 TEST(SurfaceLayers, HaveThePhotonDensityOfADiskUnderParallelLight) {
   TestRenderOptions options;
   options.layers = {Layer::PhotonDensity};

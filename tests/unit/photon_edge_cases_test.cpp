@@ -49,7 +49,7 @@ TEST(PhotonEdgeCases, WithoutIndirectPhotonsTheGatherStillReadsDirectAndCausticL
 
 // In a white sphere no path ends before the limit: the first surface holds a direct photon, each of
 // the others an indirect one.
-TEST(PhotonEdgeCases, ThePathsOfAWhiteBoxHaveAsManyBouncesAsTheLimitAllows) {
+TEST(PhotonEdgeCases, ThePathsOfAWhiteBoxEndAtTheLimit) {
   for (const int limit : {1, 2, 5}) {
     const TestRender render = RenderSceneText(
         Sphere("\"photonmap\" \"integer indirectphotons\" 1000 \"integer maxphotonpaths\" 500 "
