@@ -3,6 +3,7 @@
 // convert and compare.
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
@@ -81,6 +82,23 @@ TEST_F(CommandTest, ShowThePhotonsAroundWhatAPixelShows) {
   EXPECT_EQ(Run({"info", "--photons-at", "4", "room.pbrt"}).status, 1);
 }
 
+// Two places in a room of radius 3 are at most 6 apart, and some photon is nearly that far away.
+TEST_F(CommandTest, ShowHowFarAwayPhotonsAre) {
+  Write("room.pbrt",
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 6\nCamera "
+        "\"perspective\"\nSurfaceIntegrator \"photonmap\" \"integer indirectphotons\" 500\n"
+        "WorldBegin\nLightSource \"point\"\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\n"
+        "ReverseOrientation\nShape \"sphere\" \"float radius\" 3\nWorldEnd\n");
+  const ProgramResult all = Run({"info", "--photons-at", "4,3", "room.pbrt", "--count", "50000"});
+  ASSERT_EQ(all.status, 0) << all.err;
+  std::istringstream lines(all.out);
+  double farthest = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line[0] != '#') farthest = std::max(farthest, std::stod(line));
+  EXPECT_GT(farthest, 5);
+  EXPECT_LT(farthest, 6.001);
+}
+
 TEST_F(CommandTest, ConvertToPngAndBack) {
   WriteGrey("a.exr", .25f);
   EXPECT_EQ(Run({"convert", "a.exr", "a.png", "--exposure", "1"}).status, 0);
@@ -106,6 +124,19 @@ TEST_F(CommandTest, CompareWithStatusesOfDiff) {
   EXPECT_EQ(Run({"compare", "c.exr", "a.exr", "--max-mean", "0.01"}).status, 1);  // too dark
   EXPECT_EQ(Run({"compare", "a.exr", "none.exr"}).status, 2);
   EXPECT_EQ(Run({"compare", "a.exr"}).status, 2);
+}
+
+TEST_F(CommandTest, CompareCallsEqualPixelsAtAnotherPlaceNotIdentical) {
+  const PixelBounds display{0, 0, 5, 4};
+  for (const int x : {0, 2}) {
+    Image image(PixelBounds{x, 1, x + 3, 3}, display, {"R", "G", "B"});
+    for (float& pixel : image.pixels) pixel = .5f;
+    WriteExr(Path(x == 0 ? "left.exr" : "right.exr"), image, false);
+  }
+  EXPECT_EQ(Run({"compare", "left.exr", "left.exr"}).status, 0);
+  const ProgramResult moved = Run({"compare", "left.exr", "right.exr"});
+  EXPECT_EQ(moved.status, 1);
+  EXPECT_NE(moved.out.find("identical           no"), std::string::npos) << moved.out;
 }
 
 TEST_F(CommandTest, CompareSeveralPicturesAndWriteDifferenceImages) {

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Puts deliberate defects, one at a time, into a copy of the sources and runs the tests that must
-# notice each: a suite that stays green with a defect in is no suite. The defects are in defects.txt
-# and blind.txt beside this file.
+# notice each: a suite that stays green with a defect in is no suite. The defects are in the tables
+# beside this file: defects.txt, blind.txt and blind_second.txt.
 #   run.sh                            all of them
 #   run.sh NAME ...                   these alone
 #   run.sh --everything TABLE [NAME ...]  defects of another table, each with all that ./dev test runs
-#                                     until something fails; the table's ! line is then a remark
+#                                     until something fails (everything.sh); the table's ! line is
+#                                     then a remark
 #   run.sh --texts                    only looks whether the texts to replace are still there
 #   run.sh --list                     prints name, file and tests of each
 # Works in build-mutations/, a copy with its own build; the sources here are not touched.
@@ -15,9 +16,10 @@ top=$(cd "$here/../.." && pwd)
 folder=${MUTATION_FOLDER:-$top/build-mutations}
 copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
+. "$here/everything.sh"
 
 everything=
-tables=("$here/defects.txt" "$here/blind.txt")
+tables=("$here"/*.txt)
 if [ "${1:-}" = --everything ]; then
   everything=yes tables=("${2:?run.sh --everything TABLE}")
   shift 2
@@ -104,13 +106,16 @@ noticed_by() {
 }
 
 put_in() {  # INDEX; the sources here may change meanwhile
-  cp -p "$copy/${files[$1]}" "$folder/original"
+  local original=$folder/originals/${files[$1]}
+  mkdir -p "$(dirname "$original")"
+  [ -f "$original" ] || cp -p "$copy/${files[$1]}" "$original"
+  cp "$copy/${files[$1]}" "$folder/before"
   TEXT=${texts[$1]} INSTEAD=${insteads[$1]} awk '
     BEGIN { text = ENVIRON["TEXT"]; instead = ENVIRON["INSTEAD"] }
     { at = index($0, text)
       if (at && !done) { $0 = substr($0, 1, at - 1) instead substr($0, at + length(text)); done = 1 }
       print }
-    END { exit !done }' "$folder/original" >"$copy/${files[$1]}"
+    END { exit !done }' "$folder/before" >"$copy/${files[$1]}"
 }
 # Takes the build without a defect for what take_out restores.
 remember() {
@@ -120,49 +125,29 @@ remember() {
   touch "$folder/stamp"
   sleep .1
 }
-# Restores source and build, with their times: nothing is compiled for it.
+# Restores sources and build, with their times: nothing is compiled for it.
 take_out() {
-  cp -p "$folder/original" "$copy/${files[$1]}"
+  cp -a "$folder/originals/." "$copy"
+  rm -rf "$folder/originals"
   (cd "$build" && find . -type f -newer "$folder/stamp" -print0) |
     while IFS= read -r -d '' file; do
       if [ -f "$clean/$file" ]; then cp -p "$clean/$file" "$build/$file"; else rm "$build/$file"; fi
     done
 }
 
-# Runs a test program in as many parts at once as there are jobs, each until one of its tests fails.
-run_whole() {  # PROGRAM
-  local part parts=() status=0
-  for ((part = 0; part < jobs; ++part)); do
-    (cd "$build" && GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$part exec timeout 900 \
-      "bin/test_$1" --gtest_brief=1 --gtest_fail_fast >"$folder/part.$part" 2>&1) &
-    parts+=($!)
-  done
-  for part in "${parts[@]}"; do wait "$part" || status=1; done
-  cat "$folder"/part.*
-  return $status
-}
-# All that ./dev test runs, the quick programs first; prints what the first that fails says.
-run_everything() {
-  local program output
-  for program in unit parser plugin cli stat images; do
-    output=$(run_whole "$program") || { printf '%s\n' "$output"; return 1; }
-  done
-  output=$(cd "$build" && bin/hardcases --quiet 2>&1) || { printf '%s\n' "$output"; return 1; }
-  output=$(ctest --test-dir "$build" -LE long -R '^(CommandLines|Signals|Replay)' 2>&1) ||
-    { printf '%s\n' "$output"; return 1; }
-}
 run_for() {  # INDEX
-  if [ "$everything" ]; then run_everything; else run_tests "${programs[$1]}" "${filters[$1]}"; fi
+  if [ "$everything" ]; then run_quick_tests; else run_tests "${programs[$1]}" "${filters[$1]}"; fi
 }
 build_with() {  # INDEX: what its tests need
   if [ "$everything" ]; then
-    ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1
+    build_for "${quick_programs[@]/#/test_}"
   else
     build_for "$(target_of "${programs[$1]}")"
   fi
 }
 
 missed=0 noticed=0
+left=()  # indices of defects for the second round
 declare -A passes targets
 # What is tested must pass without a defect, and be there.
 check_tests() {  # INDEX
@@ -176,18 +161,18 @@ check_tests() {  # INDEX
   fi
 }
 prepare() {
+  rm -rf "$folder/originals"
   copy_sources
   configure
   echo "building without a defect"
   for i in "${chosen[@]}"; do targets[$(target_of "${programs[i]}")]=yes; done
   if [ "$everything" ]; then
-    ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1
+    build_all
   else
     build_for "${!targets[@]}"
   fi || { tail -20 "$folder/build.log"; exit 1; }
-  local output
   if [ "$everything" ]; then
-    output=$(run_everything) || { echo "fails without a defect: $(noticed_by "$output")"; exit 1; }
+    check_quick_programs
   else
     for i in "${chosen[@]}"; do check_tests "$i"; done
   fi
@@ -202,18 +187,23 @@ try() {  # INDEX
   elif ! build_with "$1"; then
     echo "$name: does not compile: $(grep -m 1 error "$folder/build.log")"; missed=1
   elif output=$(run_for "$1"); then
-    echo "$name: NOT NOTICED${everything:+ by anything}"; missed=1
-    [ "$everything" ] || echo "    by ${programs[$1]} ${filters[$1]}"
+    if [ "$everything" ]; then
+      left+=("$1")
+    else
+      echo "$name: NOT NOTICED"; missed=1
+      echo "    by ${programs[$1]} ${filters[$1]}"
+    fi
   else
     echo "$name: $(noticed_by "$output")"; noticed=$((noticed + 1))
   fi
-  take_out "$1"
+  take_out
 }
 
 prepare
 for i in "${chosen[@]}"; do
   [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ] || try "$i"
 done
+if [ "$everything" ]; then try_together "${left[@]}"; fi
 times >"$folder/times"
 read -r user system < <(tail -n 1 "$folder/times")
 echo "$noticed noticed, of ${#chosen[@]}; $((SECONDS / 60)) min $((SECONDS % 60)) s," \

@@ -65,6 +65,17 @@ TEST(AttributeEnd, BringsBackTexturesAndNamedMaterials) {
   EXPECT_EQ(coated->material->PossibleLobes(), LobeSet::DiffuseReflection);
 }
 
+TEST(NamedMaterial, HasTheTexturesOfThePlaceWhereItWasMade) {
+  const BuiltScene built = BuildText(
+      InWorld("Texture \"paint\" \"color\" \"constant\" \"color value\" [.5 .5 .5]\n"
+              "MakeNamedMaterial \"coat\" \"string type\" \"matte\" \"texture Kd\" \"paint\"\n"
+              "Texture \"paint\" \"color\" \"constant\" \"color value\" [0 0 0]\n"
+              "NamedMaterial \"coat\" Shape \"disk\""));
+  const auto coated = SeenAt(built, 0);
+  ASSERT_TRUE(coated);
+  EXPECT_EQ(coated->material->PossibleLobes(), LobeSet::DiffuseReflection);
+}
+
 TEST(AttributeEnd, BringsBackWhichTimesDirectivesChange) {
   const BuiltScene built =
       BuildText(InWorld("AttributeBegin ActiveTransform EndTime AttributeEnd Translate 3 0 0 "

@@ -97,25 +97,58 @@ AttributeEnd)",
   EXPECT_TRUE(IsWithin(.002, estimate, M_PI * 7 * (1.0 / 25) * .8));
 }
 
-// Lambert's formula is E = L/2 times a sum over the edges. Each term is the edge's angle times the
-// z component of the edge's unit normal.
-TEST_P(FloorLight, OfATriangleIsLambertsFormula) {
-  const double v[3][3] = {{-1, -.5, 2}, {2, 0, 1.5}, {.5, 1.5, 3}};
+// Lambert's formula: E = L/2 sum over edges of angle times the z of the edge's unit normal.
+template <std::size_t kCorners>
+double PolygonIrradiance(const double (&v)[kCorners][3], double radiance) {
   double irradiance = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double *a = v[i], *b = v[(i + 1) % 3];
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const double *a = v[i], *b = v[(i + 1) % kCorners];
     const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
                              a[0] * b[1] - a[1] * b[0]};
     const double length = std::hypot(cross[0], cross[1], cross[2]);
     const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    irradiance += 3.0 / 2 * std::atan2(length, dot) * cross[2] / length;
+    irradiance += radiance / 2 * std::atan2(length, dot) * cross[2] / length;
   }
+  return std::abs(irradiance);
+}
+
+TEST_P(FloorLight, OfATriangleIsLambertsFormula) {
+  const double v[3][3] = {{-1, -.5, 2}, {2, 0, 1.5}, {.5, 1.5, 3}};
   const auto estimate = Irradiance(R"(AttributeBegin
 AreaLightSource "area" "color L" [3 3 3]
 Shape "trianglemesh" "integer indices" [0 2 1] "point P" [-1 -.5 2  2 0 1.5  .5 1.5 3]
 AttributeEnd)",
                                    1024);
-  EXPECT_TRUE(IsWithin(.005, estimate, std::abs(irradiance)));
+  EXPECT_TRUE(IsWithin(.005, estimate, PolygonIrradiance(v, 3)));
+}
+
+// Two lamps of two triangles each: which lamp is sampled must not say which of its triangles.
+TEST_P(FloorLight, OfTwoLampsOfTwoTrianglesIsTheirSum) {
+  const double left[4][3] = {{-2, -1, 1}, {-2, 2, 1}, {-1, 2, 2}, {-1, -1, 2}};
+  const double right[4][3] = {{1, 0, 2}, {4, 0, 2}, {4, 1, 2}, {1, 1, 2}};
+  const auto estimate = Irradiance(R"(AttributeBegin
+AreaLightSource "area" "color L" [3 3 3]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [-2 -1 1 -2 2 1 -1 2 2 -1 -1 2]
+Shape "trianglemesh" "integer indices" [0 2 1 0 3 2] "point P" [1 0 2 4 0 2 4 1 2 1 1 2]
+AttributeEnd)",
+                                   1024);
+  EXPECT_TRUE(IsWithin(.005, estimate, PolygonIrradiance(left, 3) + PolygonIrradiance(right, 3)));
+}
+
+// "nsamples" 3 is rounded up to a power of two by this sampler: to the last bit the same as 4.
+TEST(DirectLighting, OfARoundedNumberOfSamplesIsTheirMean) {
+  const auto pixels = [](const std::string& count) {
+    return RenderSceneText(
+               FloorUnder("\"directlighting\"",
+                          "AttributeBegin AreaLightSource \"area\" \"color L\" [3 3 3] \"integer "
+                          "nsamples\" " +
+                              count +
+                              " Translate 0 0 2 ReverseOrientation Shape \"disk\" AttributeEnd",
+                          4))
+        .image.pixels;
+  };
+  EXPECT_GT(pixels("4")[0], 0);
+  EXPECT_EQ(pixels("3"), pixels("4"));
 }
 
 TEST_P(FloorLight, BehindTheFloorOrEdgeOnIsExactlyNone) {

@@ -193,6 +193,68 @@ TEST(GlossyGather, BoxesUnderALampAreAsBrightAsByPathTracing) {
   }
 }
 
+// Gather rays that are too short for radiance photons read the maps, of a coat as of all else.
+TEST(GlossyGather, ShortRaysReadASurfaceUnderItsCoat) {
+  const double degrees = 70;
+  std::string scene = SquareUnderOneDirection(
+      R"("substrate" "color Kd" [.5 .5 .5] "color Ks" [.05 .05 .05])", degrees);
+  const std::string aim = "\"string photonaim\"";
+  scene.insert(scene.find(aim), "\"float shortrays\" 1000 ");
+  const std::string samples = "\"integer pixelsamples\" 64";  // density estimates take long
+  scene.replace(scene.find(samples), samples.size(), "\"integer pixelsamples\" 4");
+  const SeedEstimate mean = EstimateOverSeeds([&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    return MeanRadiance(RenderSceneText(scene, options).image);
+  });
+  EXPECT_TRUE(IsWithin(.02, mean, DiskRadiance(scene, degrees)));
+}
+
+// Where gather rays choose between a mirror and its gloss, both keep their share of the light.
+TEST(GlossyGather, AMirrorWithAGlossIsAsBrightAsByPathTracing) {
+  const auto mean = [](const std::string& integrator, int samples) {
+    const std::string scene =
+        TestHeader(integrator, 4, 4, samples) +
+        FurnaceWorld(1, R"("shinymetal" "color Kr" [.4 .4 .4] "color Ks" [.3 .3 .3])");
+    return EstimateOverSeeds([&](std::uint64_t seed) {
+      TestRenderOptions options;
+      options.seed = seed;
+      return MeanRadiance(RenderSceneText(scene, options).image);
+    });
+  };
+  const double truth = mean(R"("path" "integer maxdepth" 60)", 256).mean;
+  EXPECT_TRUE(IsWithin(.02, mean(R"("exphotonmap" "integer maxdepth" 60)", 16), truth));
+}
+
+// A glossy plate over a small floor is lit over a mirror alone: by a lamp that faces the mirror.
+// What gather rays from the floor see of this light is what the caustic map holds, and nothing
+// besides.
+TEST(GlossyGather, LightOverAMirrorIsLeftToTheCausticMap) {
+  const auto indirect = [](const std::string& causticPhotons) {
+    TestRenderOptions options;
+    options.aovs = kLightAovs;
+    const std::string scene = R"(LookAt 0 0 .5  0 0 0  0 1 0
+Camera "perspective" "float fov" 20
+Film "image" "integer xresolution" 4 "integer yresolution" 4
+PixelFilter "box" Sampler "lowdiscrepancy" "integer pixelsamples" 64
+SurfaceIntegrator "exphotonmap" "integer directphotons" 2000 "integer indirectphotons" 100
+  "integer maxphotonpaths" 300000 "integer finalgathersamples" 64 "integer causticphotons" )" +
+                              causticPhotons + R"(
+WorldBegin
+Material "matte" "color Kd" [.01 .01 .01] Shape "disk" "float radius" .5
+Material "mirror" "color Kr" [1 1 1] Shape "disk" "float radius" 4 "float innerradius" .6
+Material "metal" "float roughness" .005 Shape "disk" "float height" 2 "float radius" 2
+Material "matte" "color Kd" [0 0 0] Translate 1.5 0 1 ReverseOrientation
+AreaLightSource "area" "color L" [30 30 30] Shape "disk" "float radius" .4
+WorldEnd
+)";
+    return MeanChannel(RenderSceneText(scene, options).image, "indirect.G");
+  };
+  const double with = indirect("20000");
+  EXPECT_GT(with, 0);
+  EXPECT_LT(indirect("0"), .1 * with);
+}
+
 // --- single cases ------------------------------------------------------------
 
 TEST(GlossyGather, APlasticSphereWithALightInItsMiddleIsNotTooBright) {

@@ -58,22 +58,29 @@ TEST(MediaPhotons, OfAGlowingMediumLightASphereAsItsPowerSays) {
 // The fog is behind the camera, and a lamp outside the fog lights it. The camera sees only the
 // fog's light on the walls. The expected value is path-traced, with fog along every ray.
 TEST(MediaPhotons, OfFogThatScattersOnceLightSurfacesAsPathTracingSays) {
-  const auto scene = [](const std::string& integrator, int samples) {
+  const auto fog = [](double z0, double z1) {
+    return "Volume \"homogeneous\" \"color sigma_a\" [.1 .1 .1] \"color sigma_s\" [3 2 1] "
+           "\"float g\" -.3 \"point p0\" [-1 -1 " +
+           std::to_string(z0) + "] \"point p1\" [1 1 " + std::to_string(z1) + "]\n";
+  };
+  const std::string whole = fog(-1, -.5), parts = fog(-1, -.75) + fog(-.75, -.5);
+  const auto scene = [](const std::string& integrator, int samples, const std::string& media) {
     return "VolumeIntegrator \"single\" \"float stepsize\" .25\n" +
-           TestHeader(integrator, 6, 6, samples) + "WorldBegin\n" + kBox +
-           "Volume \"homogeneous\" \"color sigma_a\" [.1 .1 .1] \"color sigma_s\" [3 2 1] "
-           "\"float g\" -.3 \"point p0\" [-1 -1 -1] \"point p1\" [1 1 -.5]\n"
+           TestHeader(integrator, 6, 6, samples) + "WorldBegin\n" + kBox + media +
            "LightSource \"spot\" \"color I\" [5 5 5] \"point from\" [0 0 .3] "
            "\"point to\" [0 0 -1] \"float coneangle\" 25\nWorldEnd\n";
   };
   const double truth = EstimateOverSeeds([&](std::uint64_t seed) {
-                         return Mean(scene("\"path\" \"integer maxdepth\" 30", 1024), seed);
+                         return Mean(scene("\"path\" \"integer maxdepth\" 30", 1024, whole), seed);
                        }).mean;
-  for (const std::string integrator : {"\"exphotonmap\"", "\"photonmap\""}) {
+  for (const auto& [integrator, media] :
+       {std::pair<std::string, std::string>{"\"exphotonmap\"", whole},
+        {"\"exphotonmap\"", parts},
+        {"\"photonmap\"", whole}}) {
     const auto ratio = [&](std::uint64_t seed) {
-      return Mean(scene(integrator + kPhotons, 64), seed) / truth;
+      return Mean(scene(integrator + kPhotons, 64, media), seed) / truth;
     };
-    EXPECT_TRUE(IsWithin(.02, EstimateOverSeeds(ratio), 1)) << integrator;
+    EXPECT_TRUE(IsWithin(.02, EstimateOverSeeds(ratio), 1)) << integrator << " " << media;
   }
 }
 

@@ -79,5 +79,21 @@ TEST(PhotonPathSampler, DependsOnSeedAndPathAlone) {
   EXPECT_NE(u, next.Next2D());
 }
 
+// What follows the pairs of the sequences, and what roulette asks for beside them.
+TEST(PhotonPathSampler, HasANewStreamWithEachSeedAndPath) {
+  const PhotonPathSequences three(3, 5), four(4, 5);
+  PhotonPathSampler a(three, 5), b(three, 5), other(four, 5), next(three, 6);
+  for (PhotonPathSampler* path : {&a, &b, &other, &next})
+    for (int pair = 0; pair < PhotonPathSequences::kPairs; ++pair) path->Next2D();
+  const Point2 u = a.Next2D();
+  EXPECT_EQ(u, b.Next2D());
+  EXPECT_NE(u, other.Next2D());
+  EXPECT_NE(u, next.Next2D());
+  const Real v = a.Independent();
+  EXPECT_EQ(v, b.Independent());
+  EXPECT_NE(v, other.Independent());
+  EXPECT_NE(v, next.Independent());
+}
+
 }  // namespace
 }  // namespace exphoton

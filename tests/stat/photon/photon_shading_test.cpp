@@ -72,5 +72,39 @@ TEST(PhotonShading, PhotonsLeaveTiltedNormalsAsTheRadianceThatCamerasSee) {
   }
 }
 
+// A floor whose shading normals lean by 40 degrees along x, under sunlight that comes from
+// `degrees` off the vertical. Direct light from photons, without shadow rays.
+std::string LeaningFloor(double degrees) {
+  const double angle = degrees * kPi64 / 180;
+  const std::string n = " .642788 0 .766044";
+  char from[64];
+  std::snprintf(from, sizeof from, "%.6f 0 %.6f", std::sin(angle), std::cos(angle));
+  return "LookAt 0 0 1  0 0 0  0 1 0\nCamera \"orthographic\" \"float screenwindow\" [-.6 .6 -.6 "
+         ".6]\nFilm \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\nPixelFilter "
+         "\"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" 2\nSurfaceIntegrator "
+         "\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 20000 "
+         "\"integer indirectphotons\" 0 \"integer nused\" 400 \"bool finalgather\" \"false\"\n"
+         "WorldBegin\nLightSource \"distant\" \"color L\" [1 1 1] \"point from\" [" +
+         std::string(from) +
+         "] \"point to\" [0 0 0]\nMaterial \"matte\" \"color Kd\" [.5 .5 .5]\nShape "
+         "\"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0 1 -1 0 1 1 0 "
+         "-1 1 0] \"normal N\" [" +
+         n + n + n + n + "]\nWorldEnd\n";
+}
+
+TEST(PhotonShading, AnEstimateOnALeaningNormalIsTheLightOnThatNormal) {
+  for (const double degrees : {60.0, 0.0, -30.0}) {
+    const auto measure = [&](std::uint64_t seed) {
+      TestRenderOptions options;
+      options.seed = seed;
+      return MeanRadiance(RenderSceneText(LeaningFloor(degrees), options).image);
+    };
+    const double expected = .5 / kPi64 * std::cos((degrees - 40) * kPi64 / 180);
+    EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected)) << degrees << " degrees";
+  }
+  // In front of the surface and behind its shading normal.
+  EXPECT_EQ(MeanRadiance(RenderSceneText(LeaningFloor(-60)).image), 0);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -70,6 +70,17 @@ TEST(StudyPlan, MultipliesKnobsWhereTheyApply) {
                                       "photonmap: spp=4 indirectphotons=20", "path: spp=64"}));
 }
 
+TEST(StudyPlan, AKnobOfOneIntegratorWinsOverThatOfAllInAnyOrder) {
+  const std::vector<std::string> expected{"path: spp=64", "photonmap: spp=1"};
+  for (const bool isSpecialFirst : {false, true}) {
+    StudyPlan plan;
+    plan.bases = {ParseSetting("path"), ParseSetting("photonmap")};
+    plan.knobs = {ParseKnob("spp=1"), ParseKnob("path:spp=64")};
+    if (isSpecialFirst) std::swap(plan.knobs[0], plan.knobs[1]);
+    EXPECT_EQ(Texts(ExpandPlan(plan, Oracle())), expected) << isSpecialFirst;
+  }
+}
+
 TEST(StudyPlan, AWordOfASettingWinsOverKnobs) {
   StudyPlan plan;
   plan.bases = {ParseSetting("path spp=2")};

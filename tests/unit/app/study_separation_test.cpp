@@ -82,6 +82,30 @@ TEST(StudySeparation, StandardErrorsSeeNoiseThatPixelsShare) {
   EXPECT_LT(std::abs(s.variance.value - .04 * kWeight), 4 * s.variance.error);
 }
 
+// Of one value a picture, normal with variance 1, the estimate of the variance from K pictures has
+// the standard deviation sqrt(2 / (K - 1)).
+TEST(StudySeparation, TheStandardErrorOfTheVarianceIsItsSpread) {
+  constexpr int kRounds = 2000, kSeeds = 8;
+  const auto grey = [](double value) {
+    Image image(1, 1, {"R", "G", "B"});
+    for (float& each : image.pixels) each = float(value);
+    return image;
+  };
+  const Reference reference = MakeReference(grey(1), grey(1));
+  RandomStream random(HashKey({6, 6}));
+  double squares = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Image> pictures;
+    for (int k = 0; k < kSeeds; ++k) pictures.push_back(grey(1 + Normal(&random)));
+    const double error = Separate(pictures, reference).variance.error / kWeight;
+    squares += error * error / kRounds;
+  }
+  // A jackknife errs on the side of too much, here by less than a fifth.
+  const double spread = std::sqrt(2. / (kSeeds - 1));
+  EXPECT_GT(std::sqrt(squares), .95 * spread);
+  EXPECT_LT(std::sqrt(squares), 1.25 * spread);
+}
+
 TEST(StudySeparation, OfFewSeedsSaysWhatItCannotKnow) {
   const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
   const Separation one = Separate(Pictures(1, .1, .2), reference);

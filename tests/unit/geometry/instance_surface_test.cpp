@@ -112,6 +112,34 @@ TEST(SolidAngleScale, IsTheRatioOfSmallSolidAngles) {
   }
 }
 
+TEST(Trianglemesh, TangentsAreStretchedAsTheSurfaceIs) {
+  TestPlugins plugins;
+  ShapeGeometry geometry = plugins.MakeShape(R"("trianglemesh" "integer indices" [0 1 2]
+      "point P" [0 0 0 1 0 0 0 1 0] "vector S" [1 1 0 1 1 0 1 1 0])",
+                                             *Transform::Scale(1, 3, 1));
+  const auto& mesh = *std::get<std::unique_ptr<TriangleMesh>>(geometry);
+  const Vector3 tangent = Normalize(TriangleSurface(mesh, 0, 0, 0).shading.dpdu);
+  EXPECT_LT(Distance(tangent, Normalize(Vector3(1, 3, 0))), Real(1e-6));
+}
+
+// A tangent of the file on one diagonal, the other tangent on the other diagonal; both turned by a
+// quarter and doubled.
+TEST(InstanceSurface, OfAMeshHasTheTangentsOfTheFile) {
+  TriangleMesh mesh;
+  mesh.p = {Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, 1, 0)};
+  mesh.uv = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.indices = {{0, 1, 2}};
+  mesh.s.assign(3, Vector3(1, 1, 0));
+  const Transform place = *Transform::Scale(2, 2, 2) * *Transform::Rotate(90, {0, 0, 1});
+  const SurfaceInteraction surface =
+      SurfaceToWorld(place, TriangleSurface(mesh, 0, Real(.25), Real(.25)));
+  const Real side = std::sqrt(Real(2));
+  ExpectNear(surface.shading.dpdu, {-side, side, 0}, "shading.dpdu");
+  ExpectNear(surface.shading.dpdv, {-side, -side, 0}, "shading.dpdv");
+  ExpectNear(surface.dpdu, {0, 2, 0}, "dpdu");
+  ExpectNear(surface.dpdv, {-2, 0, 0}, "dpdv");
+}
+
 // The surfaces are compared at vertices. Between vertices, they interpolate normals of
 // different lengths.
 TEST(InstanceSurface, OfAMeshHasTheScaledNormalsAtItsVertices) {

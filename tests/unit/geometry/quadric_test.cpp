@@ -142,11 +142,13 @@ TEST_F(Quadrics, DiskHitAtItsCentreHasAFiniteFrame) {
 
 TEST_F(Quadrics, DerivativesAgreeWithDifferences) {
   const char* const kinds[] = {R"("sphere" "float zmin" -.9 "float zmax" .8 "float phimax" 300)",
+                               R"("sphere" "float radius" 2 "float zmin" -1.8 "float phimax" 300)",
                                R"("disk" "float innerradius" .1)",
-                               R"("cylinder" "float phimax" 300)"};
-  for (int i = 0; i < 12; ++i) {
-    const std::string text = kinds[i % 3];
-    const bool reverse = i / 3 % 2 == 1, mirrored = i / 6 == 1;
+                               R"("cylinder" "float phimax" 300)",
+                               R"("cylinder" "float radius" 2 "float phimax" 300)"};
+  for (int i = 0; i < 20; ++i) {
+    const std::string text = kinds[i % 5];
+    const bool reverse = i / 5 % 2 == 1, mirrored = i / 10 == 1;
     SCOPED_TRACE(text + (reverse ? ", reversed" : "") + (mirrored ? ", mirrored" : ""));
     const auto shape = Make(text, *Transform::Scale(2, mirrored ? -1 : 1, Real(.5)), reverse);
     const bool isDisk = text.find("disk") != std::string::npos;

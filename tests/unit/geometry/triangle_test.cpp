@@ -189,6 +189,18 @@ TEST(Triangle, DerivativesOfTheNormalAgreeWithDifferences) {
   }
 }
 
+// With a tangent of the file, too, the second one goes where v grows.
+TEST(Triangle, ShadingTangentsKeepTheSideOfTheTextureCoordinates) {
+  const auto mesh = MeshOf({{Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, 1, 0)}});
+  mesh->s.assign(3, Vector3(1, 0, 0));
+  for (const Real side : {Real(1), Real(-1)}) {
+    mesh->uv = {{0, 0}, {1, 0}, {0, side}};
+    const SurfaceInteraction surface = TriangleSurface(*mesh, 0, Real(.25), Real(.5));
+    EXPECT_EQ(surface.shading.dpdu, Vector3(1, 0, 0));
+    EXPECT_EQ(surface.shading.dpdv, Vector3(0, side, 0));
+  }
+}
+
 TEST(Triangle, DefaultTextureCoordinatesAreThoseOfVersion1) {
   const auto mesh = MeshOf({{Point3(0, 0, 0), Point3(1, 0, 0), Point3(1, 1, 0)}});
   const SurfaceInteraction surface = TriangleSurface(*mesh, 0, Real(.25), Real(.5));

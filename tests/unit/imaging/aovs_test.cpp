@@ -87,6 +87,18 @@ TEST(AovFilm, EstimatesTheVarianceOfAPixel) {
   EXPECT_NEAR(MeanChannel(image, "Variance.B"), 0, 1e-12);
 }
 
+TEST(AovFilm, SeesNoVarianceInEqualSamplesOfUnequalWeights) {
+  Film film(kOnePixel, kOnePixel);
+  AovFilm aovs(kOnePixel, {Aov::Variance});
+  for (const Real weight : {Real(.625), Real(.75), Real(.875)}) {
+    film.AddSample({0, 0}, Spectrum(3), 1, weight);
+    aovs.AddSample({0, 0}, {}, Spectrum(3), weight);
+  }
+  Image image = film.ToImage(true);
+  aovs.AppendTo(film, true, &image);
+  EXPECT_NEAR(MeanChannel(image, "Variance.G"), 0, 1e-12);
+}
+
 // Half of the samples have alpha 1 and half have alpha 0. Premultiplied, the values are scaled by
 // 1/2 and their variance by 1/4.
 TEST(AovFilm, ScalesTheVarianceByTheSquareOfAlpha) {
@@ -254,6 +266,41 @@ TEST(SurfaceLayers, TellWhatTheCameraSees) {
   EXPECT_NEAR(image.At(4, 4, image.FindChannel("P.Z")), 4, 1e-5);
   EXPECT_GT(image.At(4, 4, image.FindChannel("photondensity.Y")), 0);
   EXPECT_EQ(image.At(0, 0, image.FindChannel("Albedo.R")), 0);
+}
+
+// Parallel light spreads photons evenly over a disk of radius 2.
+TEST(SurfaceLayers, HaveThePhotonDensityOfADiskUnderParallelLight) {
+  TestRenderOptions options;
+  options.aovs = {Aov::PhotonDensity};
+  const TestRender render = RenderSceneText(
+      TestHeader("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" "
+                 "20000 \"integer indirectphotons\" 0 \"bool finalgather\" \"false\" \"integer "
+                 "nused\" 1000 \"float maxdist\" 1",
+                 9, 9, 1) +
+          "WorldBegin LightSource \"distant\" \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+          "Material \"matte\" Translate 0 0 4 Shape \"disk\" \"float radius\" 2\nWorldEnd\n",
+      options);
+  const double expected = render.Counter("photons/direct stored") / (4 * 3.14159265358979);
+  const int channel = render.image.FindChannel("photondensity.Y");
+  double mean = 0;
+  for (int y = 3; y < 6; ++y)
+    for (int x = 3; x < 6; ++x) mean += double(render.image.At(x, y, channel)) / 9;
+  EXPECT_NEAR(mean / expected, 1, .08);
+}
+
+// A mirror covers what is behind it, whatever it shows.
+TEST(Alpha, OfAMirrorThatShowsNothingIsOne) {
+  for (const char* integrator :
+       {"\"whitted\"", "\"directlighting\"", "\"path\"", "\"exphotonmap\""}) {
+    const Image image =
+        RenderSceneText(TestHeader(integrator, 5, 5, 4) +
+                        "WorldBegin LightSource \"point\" \"point from\" [0 0 9]\nMaterial "
+                        "\"mirror\" Translate 0 0 4 Shape \"disk\" \"float radius\" 2\nWorldEnd\n")
+            .image;
+    EXPECT_EQ(image.At(2, 2, image.FindChannel("A")), 1) << integrator;
+    EXPECT_EQ(image.At(0, 0, image.FindChannel("A")), 0) << integrator;
+    EXPECT_EQ(image.At(2, 2, image.FindChannel("G")), 0) << integrator;
+  }
 }
 
 }  // namespace

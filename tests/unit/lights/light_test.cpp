@@ -257,6 +257,21 @@ TEST(AreaLight, PowerIsPiTimesAreaTimesRadiance) {
   ExpectConstantWeights(*light);
 }
 
+// Where a stretched sphere is sampled less densely, its photons carry more: each pi L / density.
+TEST(AreaLight, PhotonsOfAStretchedSphereBalanceItsDensity) {
+  TestPlugins plugins;
+  const auto surface = plugins.MakeEmitter(R"("sphere")", *Transform::Scale(1, 1, 4));
+  const auto light = plugins.MakeAreaLight(R"("area" "color L" [5 5 5])", surface);
+  RandomStream random(17);
+  for (int i = 0; i < 200; ++i) {
+    const auto sample =
+        light->SampleEmission({random.Uniform(), random.Uniform()},
+                              {random.Uniform(), random.Uniform()}, random.Uniform(), 0);
+    ASSERT_TRUE(sample);
+    ExpectNear(sample->power.g * sample->pdfPosition, kPi * 5);
+  }
+}
+
 TEST(InfiniteLight, UniformSkyHasPowerFourPiSquaredRadiusSquared) {
   TestPlugins plugins;
   const auto light = plugins.MakeLight(R"("infinite" "color L" [2 2 2])");

@@ -93,5 +93,14 @@ TEST(LightTally, ListsTheFirstLightsOfManyAndSumsUpTheRest) {
   EXPECT_TRUE(std::isnan(render.Counter("lights/65 point shot")));
 }
 
+// Of a point light every path carries all of its power, 4 pi I.
+TEST(LightTally, SaysThePowerThatTheLightsEmit) {
+  const TestRender render =
+      RenderSceneText(TestHeader("\"exphotonmap\" \"integer indirectphotons\" 1000", 2, 2, 1) +
+                      "WorldBegin LightSource \"point\" \"color I\" [2 2 2]\nMaterial \"matte\" "
+                      "ReverseOrientation Shape \"sphere\" \"float radius\" 1\nWorldEnd\n");
+  EXPECT_NEAR(render.Counter("photons/emitted power"), 8 * 3.14159265358979, 1e-3);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -48,6 +48,21 @@ TEST(PhotonEdgeCases, WithoutIndirectPhotonsTheGatherStillReadsDirectAndCausticL
   EXPECT_NEAR(once / direct, 1.5, .05);
 }
 
+// In a white sphere no path ends before the limit: the first surface holds a direct photon, each of
+// the others an indirect one.
+TEST(PhotonEdgeCases, ThePathsOfAWhiteBoxEndAtTheLimit) {
+  for (const int limit : {1, 2, 5}) {
+    const TestRender render = RenderSceneText(
+        Sphere("\"photonmap\" \"integer indirectphotons\" 1000 \"integer maxphotonpaths\" 500 "
+               "\"string photonroulette\" \"luminance\" \"integer maxphotondepth\" " +
+                   std::to_string(limit),
+               kPoint, "\"matte\" \"color Kd\" [1 1 1]"));
+    EXPECT_EQ(render.Counter("photons/indirect stored"),
+              (limit - 1) * render.Counter("photons/indirect paths"))
+        << limit;
+  }
+}
+
 TEST(PhotonEdgeCases, BlackLightsGiveEmissionOnly) {
   const TestRender render = RenderSceneText(
       Sphere("\"exphotonmap\"", "LightSource \"point\" \"color I\" [0 0 0]", kMatte));

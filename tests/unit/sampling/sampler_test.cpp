@@ -117,8 +117,9 @@ TEST(Sampler, SeedsPixelsAndSamplesDiffer) {
   for (const char* text : kSamplers) {
     const auto sampler = plugins.MakeSampler(text);
     const std::vector<Real> base = MakeSamples(*sampler, {0, {3, 4}, 1});
-    for (const SampleKey& key : {SampleKey{1, {3, 4}, 1}, SampleKey{0, {4, 3}, 1},
-                                 SampleKey{0, {3, 4}, 2}, SampleKey{0, {3, 4}, 1ll << 40}}) {
+    for (const SampleKey& key :
+         {SampleKey{1, {3, 4}, 1}, SampleKey{0, {4, 3}, 1}, SampleKey{0, {4, 4}, 1},
+          SampleKey{0, {3, 5}, 1}, SampleKey{0, {3, 4}, 2}, SampleKey{0, {3, 4}, 1ll << 40}}) {
       const std::vector<Real> other = MakeSamples(*sampler, key);
       std::size_t equal = 0;
       // Without jitter, film, lens and time have few different values, so they are skipped.

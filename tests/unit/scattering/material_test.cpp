@@ -9,6 +9,7 @@
 #include "gtest/gtest.h"
 #include "tests/support/scattering.h"
 #include "tests/support/test_plugin.h"
+#include "tests/support/test_scene.h"
 
 namespace exphoton {
 namespace {
@@ -206,6 +207,15 @@ TEST_F(Materials, UberScalesEveryLobeByItsOpacity) {
   const auto mirrored = quarter.Sample(z, {}, 0, LobeSet::SpecularReflection);
   ASSERT_TRUE(mirrored);
   EXPECT_NEAR(mirrored->throughput.g, .25 * .02, 1e-6);
+}
+
+// A texture may be transparent somewhere, whatever it is elsewhere.
+TEST_F(Materials, UberOfTexturedOpacityMayLetLightThrough) {
+  const LoadedScene scene = LoadSceneText(
+      "WorldBegin LightSource \"point\"\nTexture \"holes\" \"color\" \"checkerboard\" \"color "
+      "tex1\" [0 0 0] \"color tex2\" [1 1 1]\nMaterial \"uber\" \"texture opacity\" \"holes\"\n"
+      "Shape \"sphere\"\nWorldEnd\n");
+  EXPECT_TRUE(scene.setup->scene->Features().Needs(Feature::Specular));
 }
 
 // A coat that reflects all light of one colour leaves only the other colours to the base.

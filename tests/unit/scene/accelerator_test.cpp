@@ -109,8 +109,8 @@ TEST_P(Accelerators, AgreeOnLayersCloserThanSinglePrecisionTells) {
     const Vector3 n = NormalizeOr({Real(.3), Real(-.5), Real(.8)}, {0, 0, 1});
     const Vector3 u = NormalizeOr(Cross(n, {1, 0, 0}), {}), v = Cross(n, u);
     std::vector<std::array<Point3, 3>> triangles;
-    for (const int aov : {3, 0, 4, 1, 2}) {
-      const Point3 o = n * (gap * Real(aov));
+    for (const int layer : {3, 0, 4, 1, 2}) {
+      const Point3 o = n * (gap * Real(layer));
       for (int i = 0; i < 4; ++i) {
         const auto corner = [&](int k) { return o + (k % 2 ? u : -u) + (k / 2 % 2 ? v : -v) * 2; };
         triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});

@@ -138,6 +138,16 @@ TEST_F(RenderPassesTest, EveryPassHasItsOwnSeed) {
   EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
 }
 
+// More passes than there are replicates, and an end that does not depend on the noise.
+TEST_F(RenderPassesTest, EveryPassUpToALimitHasItsOwnSeed) {
+  StoppingRule rule;
+  rule.targetError = 1e-9;
+  rule.maxSamples = 16;
+  const PassesResult result = Run(rule);
+  EXPECT_GE(result.passes, 16);
+  EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
+}
+
 TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   StoppingRule rule;
   rule.targetError = 1e-9;
@@ -146,6 +156,16 @@ TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   EXPECT_EQ(result.reason, StopReason::Samples);
   EXPECT_EQ(result.samplesPerPixel, 20);
   EXPECT_TRUE(result.render.isComplete);
+}
+
+// Whatever is left for the last pass.
+TEST_F(RenderPassesTest, TakesNoSampleBeyondTheLimit) {
+  for (const std::int64_t limit : {7, 21, 37}) {
+    StoppingRule rule;
+    rule.targetError = 1e-9;
+    rule.maxSamples = limit;
+    EXPECT_EQ(Run(rule).samplesPerPixel, limit);
+  }
 }
 
 // Each pass continues the sampler's sequence where the last pass of its group ended.

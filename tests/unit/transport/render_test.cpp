@@ -204,6 +204,33 @@ TEST_F(RenderTest, AOnePixelPictureIsFiniteUnderEveryFilter) {
   }
 }
 
+// Writes down how far the neighbouring rays begin.
+class FootprintIntegrator final : public SurfaceIntegrator {
+ public:
+  Spectrum Li(const RayDifferential& ray, LiContext&) const override {
+    return {Length(ray.xOrigin - ray.o), Length(ray.yOrigin - ray.o), 0};
+  }
+};
+
+// Orthographic, the shorter side 2: a pixel is 2/29 wide, and N samples share it as a grid would.
+TEST_F(RenderTest, FootprintsShrinkByTheRootOfTheSamples) {
+  const auto camera = plugins_.MakeCamera(R"("orthographic")", {}, 37, 29);
+  FootprintIntegrator integrator;
+  ThreadPool threads(1);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  for (const int root : {1, 2, 4}) {
+    const auto sampler = sampler_->WithSamplesPerPixel(root * root);
+    Film film({0, 0, 37, 29}, {0, 0, 4, 4});
+    exphoton::Render(RenderJob{scene_, integrator, *sampler, *filter_, *camera, film, threads, log_,
+                               progress, statistics},
+                     RenderOptions());
+    const Image image = film.ToImage(true);
+    EXPECT_NEAR(MeanChannel(image, "R") * root * 29 / 2, 1, 1e-5) << root;
+    EXPECT_NEAR(MeanChannel(image, "G") * root * 29 / 2, 1, 1e-5) << root;
+  }
+}
+
 // The checkerboard is filtered, so its colours depend on the footprint of a pixel.
 constexpr char kCheckerboard[] = R"(
   Camera "perspective" Film "image" "integer xresolution" 16 "integer yresolution" 12

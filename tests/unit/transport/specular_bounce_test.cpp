@@ -14,23 +14,24 @@ constexpr Real kStep = Real(1e-3);  // distance between neighbours, in radians o
 
 class SpecularFootprint : public testing::TestWithParam<LobeSet> {
  protected:
-  // Pair holds the specular rays of a ray and of its neighbour.
-  struct Pair {
-    SpecularRay first, neighbour;
+  // What becomes of a ray that meets the world, and of the neighbours beside it in x and in y.
+  struct Rays {
+    SpecularRay first, besideX, besideY;
   };
 
-  // Traces a ray from `origin` in direction d, and a neighbour whose direction is turned by `step`.
-  std::optional<Pair> Bounce(const std::string& world, const Point3& origin, const Vector3& d,
-                             const Vector3& step) {
+  // A ray from `origin` in direction d with neighbours turned about by these steps.
+  std::optional<Rays> Bounce(const std::string& world, const Point3& origin, const Vector3& d,
+                             const Vector3& stepX, const Vector3& stepY) {
     scene_ = LoadSceneText("WorldBegin\nMaterial \"glass\"\n" + world + "WorldEnd\n");
-    const Vector3 turned = Normalize(Normalize(d) + step);
-    RayDifferential ray(Ray{origin, Normalize(d)}), beside(Ray{origin, turned});
+    RayDifferential ray(Ray{origin, Normalize(d)});
     ray.hasDifferentials = true;
     ray.xOrigin = ray.yOrigin = origin;
-    ray.xDirection = ray.yDirection = turned;
-    const auto a = Follow(ray), b = Follow(beside);
-    if (!a || !b) return std::nullopt;
-    return Pair{*a, *b};
+    ray.xDirection = Normalize(ray.d + stepX);
+    ray.yDirection = Normalize(ray.d + stepY);
+    const auto first = Follow(ray), x = Follow(RayDifferential(Ray{origin, ray.xDirection})),
+               y = Follow(RayDifferential(Ray{origin, ray.yDirection}));
+    if (!first || !x || !y) return std::nullopt;
+    return Rays{*first, *x, *y};
   }
   std::optional<SpecularRay> Follow(const RayDifferential& ray) {
     const auto hit = scene_.setup->scene->Intersect(ray);
@@ -39,17 +40,21 @@ class SpecularFootprint : public testing::TestWithParam<LobeSet> {
     return SampleSpecularRay(point, GetParam(), {}, 0);
   }
 
-  // The prediction is of first order, so its error must be of second order in the step.
+  // The prediction is of first order: it must leave an error of second order in the step.
+  static void ExpectNear(const Ray& first, const Ray& beside, const Point3& origin,
+                         const Vector3& direction) {
+    const Vector3 turn = beside.d - first.d, move = beside.o - first.o;
+    EXPECT_LT(Length(direction - first.d - turn), Real(.02) * Length(turn));
+    EXPECT_LT(Length(origin - first.o - move), Real(.02) * Length(move));
+  }
   void ExpectPredicts(const std::string& world, const Point3& origin, const Vector3& d) {
-    const auto pair = Bounce(world, origin, d, Vector3(Real(.3), Real(.9), Real(-.2)) * kStep);
-    ASSERT_TRUE(pair);
-    ASSERT_TRUE(pair->first.ray.hasDifferentials);
-    const Vector3 direction = pair->neighbour.ray.d - pair->first.ray.d;
-    const Vector3 predicted = pair->first.ray.xDirection - pair->first.ray.d;
-    EXPECT_LT(Length(predicted - direction), Real(.02) * Length(direction));
-    const Vector3 place = pair->neighbour.ray.o - pair->first.ray.o;
-    const Vector3 predictedPlace = pair->first.ray.xOrigin - pair->first.ray.o;
-    EXPECT_LT(Length(predictedPlace - place), Real(.02) * Length(place));
+    const auto rays = Bounce(world, origin, d, Vector3(Real(.3), Real(.9), Real(-.2)) * kStep,
+                             Vector3(Real(-.8), Real(.4), Real(.5)) * kStep);
+    ASSERT_TRUE(rays);
+    const RayDifferential& first = rays->first.ray;
+    ASSERT_TRUE(first.hasDifferentials);
+    ExpectNear(first, rays->besideX.ray, first.xOrigin, first.xDirection);
+    ExpectNear(first, rays->besideY.ray, first.yOrigin, first.yDirection);
   }
 
   LoadedScene scene_;
@@ -73,11 +78,12 @@ TEST_P(SpecularFootprint, OnASphereIsThatOfTheTracedNeighbour) {
 TEST_P(SpecularFootprint, IsFiniteOrNoneAtGrazingRays) {
   for (const Real slope : {Real(1e-3), Real(1e-5), Real(1e-7), Real(1e-20)}) {
     for (const Real side : {Real(1), Real(-1)}) {
-      const auto pair =
-          Bounce(kPane, {-8, -8, side * slope}, {1, Real(.5), -side * slope}, Vector3(0, 0, kStep));
-      if (!pair || !pair->first.ray.hasDifferentials) continue;
-      EXPECT_TRUE(IsFinite(pair->first.ray.xDirection));
-      EXPECT_TRUE(IsFinite(pair->first.ray.xOrigin));
+      const Vector3 step(0, 0, kStep);
+      const auto rays =
+          Bounce(kPane, {-8, -8, side * slope}, {1, Real(.5), -side * slope}, step, step);
+      if (!rays || !rays->first.ray.hasDifferentials) continue;
+      EXPECT_TRUE(IsFinite(rays->first.ray.xDirection));
+      EXPECT_TRUE(IsFinite(rays->first.ray.xOrigin));
     }
   }
 }

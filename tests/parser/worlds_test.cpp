@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Worlds one after the other, the camera of the second dialect, and what a scene's hash is made of.
+#include <gtest/gtest.h>
+
+#include "tests/parser/parse_support.h"
+
+namespace exphoton {
+namespace {
+
+const std::string kBegin = "Accelerator \"bruteforce\" WorldBegin\n";
+
+TEST(SceneBuilder, ForgetsTheCoordinateSystemsOfTheWorldBefore) {
+  const BuiltScene named = BuildText("CoordinateSystem \"mine\"\n" + kBegin + "WorldEnd\n" +
+                                     kBegin + "CoordSysTransform \"mine\"\nWorldEnd\n");
+  EXPECT_NE(named.error.find("no coordinate system \"mine\" has been named"), std::string::npos)
+      << named.error;
+  const BuiltScene cameras =
+      BuildText("Translate 7 0 0 Camera \"perspective\"\n" + kBegin + "WorldEnd\n" + kBegin +
+                "CoordSysTransform \"camera\" Shape \"sphere\"\nWorldEnd\n");
+  ASSERT_EQ(cameras.error, "");
+  EXPECT_NEAR(double(cameras.setups[1]->scene->WorldBounds().Center().x), 0, 1e-3);
+}
+
+TEST(SceneBuilder, MirrorsWhatTheCameraSeesAndNotTheWorldInTheDialectOfVersion2) {
+  LoadOptions v2;
+  v2.dialect = Dialect::V2;
+  // Off the axes: mirroring x of the world would give another place than mirroring x of the camera.
+  const std::string text =
+      "LookAt 3 1 -5 1 2 4 .2 1 .1\nCamera \"perspective\"\n" + kBegin + "WorldEnd";
+  const BuiltScene one = BuildText(text), two = BuildText(text, v2);
+  ASSERT_EQ(one.error + two.error, "");
+  const Point3 p(-2, 6, 9);
+  const Point3 seen = one.setups[0]->camera->CameraToWorld().Inverted().ApplyPoint(p);
+  const Point3 mirrored = two.setups[0]->camera->CameraToWorld().Inverted().ApplyPoint(p);
+  EXPECT_LT(Distance(mirrored, Point3(-seen.x, seen.y, seen.z)), 1e-5);
+}
+
+TEST(SceneBuilder, HashesTheStringsOfParameters) {
+  const auto hash = [](const std::string& name) {
+    const BuiltScene built =
+        BuildText("Film \"image\" \"string filename\" \"" + name + "\"\n" + kBegin + "WorldEnd");
+    EXPECT_EQ(built.error, "");
+    return built.setups.at(0)->sceneHash;
+  };
+  EXPECT_EQ(hash("one.exr"), hash("one.exr"));
+  EXPECT_NE(hash("one.exr"), hash("two.exr"));
+}
+
+}  // namespace
+}  // namespace exphoton
