@@ -35,7 +35,7 @@ class DistantLight final : public Light {
 
   void Prepare(const Sphere3& world) override { world_ = world; }
   bool IsDelta() const override { return true; }
-  bool IsFar() const override { return true; }
+  bool IsDistant() const override { return true; }
   bool IsProvablyBlack() const override { return radiance_.IsBlack(); }
   Spectrum Power() const override { return radiance_ * (kPi * world_.radius * world_.radius); }
 

@@ -36,9 +36,9 @@ const ParamTable<Settings>& Parameters() {
 // This class stores the radiance over the sphere in light space, bilinear between texels. It
 // samples directions by the mean radiance in each cell, so the density is positive wherever the
 // radiance is.
-class RadiancePhotonMap {
+class EnvironmentMap {
  public:
-  RadiancePhotonMap(std::vector<Spectrum> texels, int width, int height)
+  EnvironmentMap(std::vector<Spectrum> texels, int width, int height)
       : texels_(std::move(texels)), width_(width), height_(height) {
     std::vector<double> weights;
     weights.reserve(texels_.size());
@@ -139,7 +139,7 @@ class InfiniteLight final : public Light {
  public:
   // If map is null, the radiance is uniform.
   InfiniteLight(const Transform& lightToWorld, const Spectrum& radiance,
-                std::unique_ptr<RadiancePhotonMap> map, int sampleCount)
+                std::unique_ptr<EnvironmentMap> map, int sampleCount)
       : toWorld_(lightToWorld),
         toLight_(lightToWorld.Inverted()),
         radiance_(radiance),
@@ -151,7 +151,7 @@ class InfiniteLight final : public Light {
 
   void Prepare(const Sphere3& world) override { world_ = world; }
   bool IsInfinite() const override { return true; }
-  bool IsFar() const override { return true; }
+  bool IsDistant() const override { return true; }
   bool IsProvablyBlack() const override {
     return radiance_.IsBlack() || (map_ && (radiance_ * map_->Largest()).IsBlack());
   }
@@ -217,7 +217,7 @@ class InfiniteLight final : public Light {
 
   Transform toWorld_, toLight_;
   Spectrum radiance_;
-  std::unique_ptr<RadiancePhotonMap> map_;
+  std::unique_ptr<EnvironmentMap> map_;
   int sampleCount_;
   Real determinant_;
   Sphere3 world_;
@@ -249,7 +249,7 @@ std::vector<Spectrum> ReadTexels(const Image& image, const std::string& name,
 
 std::unique_ptr<Light> Create(const Settings& settings, const LightContext& context) {
   Spectrum radiance = settings.radiance * settings.scale;
-  std::unique_ptr<RadiancePhotonMap> map;
+  std::unique_ptr<EnvironmentMap> map;
   if (!settings.mapName.empty()) {
     Image image;
     try {
@@ -266,7 +266,7 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
         context.log.Warning("\"" + settings.mapName + "\" is black: the light is off",
                             context.where);
     } else {
-      map = std::make_unique<RadiancePhotonMap>(std::move(texels), image.Width(), image.Height());
+      map = std::make_unique<EnvironmentMap>(std::move(texels), image.Width(), image.Height());
     }
     if (!context.lightToWorld.SimilarityScale())
       context.log.Warning(

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/large_pages.h"
+#include "core/base/huge_pages.h"
 #include "core/scene/primitive.h"
 
 namespace exphoton {
@@ -94,7 +94,7 @@ inline constexpr std::uint32_t kBvhNodeLines = sizeof(BvhNode) / kBvhLine;
 inline constexpr std::uint32_t kBvhBlockLines = sizeof(BvhBlock) / kBvhLine;
 
 struct BvhArrays {
-  LargeVector<BvhLine> lines;  // the root first; empty for an empty set
+  HugePageVector<BvhLine> lines;  // the root first; empty for an empty set
   // Lists of the shapes and instances in each leaf: a count, then that number of primitive ids. The
   // first list is empty and belongs to kMissingChild.
   std::vector<std::uint32_t> others;

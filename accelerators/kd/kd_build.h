@@ -73,8 +73,8 @@ inline constexpr int kKdMaxDepth = 60;  // limits the traversal's stack
 inline constexpr Real kKdMargin = Gamma(16);
 
 struct KdArrays {
-  RawLargeVector<KdNode> nodes;     // [0] is the root; empty for an empty set
-  RawLargeVector<BvhBlock> blocks;  // the triangles of leaves, eight at a time
+  UninitializedHugePageVector<KdNode> nodes;     // [0] is the root; empty for an empty set
+  UninitializedHugePageVector<BvhBlock> blocks;  // the triangles of leaves, eight at a time
   // Each leaf with shapes or instances has a list in `entries`: a count, then that number of ids.
   // `others` maps the node's index to the position of its list.
   std::vector<std::uint32_t> entries;

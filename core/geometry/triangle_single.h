@@ -48,16 +48,17 @@ inline bool MayHitInSingle(const TriangleRay& ray) {
 inline constexpr Real kSingleError = Gamma(1024);
 
 #if defined(EXPHOTON_TRAPS)
-inline constexpr bool kTellsInSingle = false;  // rejects an overflow only after it would trap
+inline constexpr bool kAcceptsSinglePrecision =
+    false;  // rejects an overflow only after it would trap
 #else
-inline constexpr bool kTellsInSingle = true;
+inline constexpr bool kAcceptsSinglePrecision = true;
 #endif
 
 // Returns nullopt if double precision is needed to decide whether and where the triangle is hit.
 template <class Corner>
 [[gnu::always_inline]] inline std::optional<TriangleHit> HitInSingle(const TriangleRay& ray,
                                                                      const Corner& corner) {
-  if (!kTellsInSingle || !MayHitInSingle(ray)) return std::nullopt;
+  if (!kAcceptsSinglePrecision || !MayHitInSingle(ray)) return std::nullopt;
   Real x[3], y[3], z[3], e[3];
   for (int v = 0; v < 3; ++v) {
     z[v] = corner(v, ray.kz) - ray.oz;

@@ -44,7 +44,7 @@ class Light {
   virtual std::optional<Bounds3> Bounds() const { return std::nullopt; }
   // Returns whether this is a distant light. Its photons start on a disk that covers the scene,
   // with the same distribution at all points of the disk.
-  virtual bool IsFar() const { return false; }
+  virtual bool IsDistant() const { return false; }
   virtual bool IsProvablyBlack() const = 0;      // emits nothing at all
   virtual int SampleCount() const { return 1; }  // shadow rays per shading point ("nsamples")
 

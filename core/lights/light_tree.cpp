@@ -33,13 +33,13 @@ LightTree::LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sp
       leaves.push_back({bounds->Center(), *bounds, power, int(i)});
       sum += power;
     } else {
-      places_[i].far = int(farLights_.size());
-      farLights_.push_back(int(i));
+      places_[i].far = int(distantLights_.size());
+      distantLights_.push_back(int(i));
       const double disk = double(kPi) * double(world.radius) * double(world.radius);
       irradiances.push_back(disk > 0 ? power / disk : 0);
     }
   }
-  if (leaves.empty() && farLights_.empty()) return;
+  if (leaves.empty() && distantLights_.empty()) return;
   for (const auto& light : lights) lights_.push_back(light.get());
   for (Leaf& leaf : leaves) {
     const double mean = sum > 0 ? sum / double(leaves.size()) : 1;
@@ -102,8 +102,8 @@ double LightTree::LeftProbability(int node, const Point3& p) const {
   return a + b > 0 ? std::clamp(a / (a + b), kLeastChildShare, 1 - kLeastChildShare) : .5;
 }
 
-double LightTree::FarProbability(const Point3& p) const {
-  if (farLights_.empty()) return 0;
+double LightTree::DistantProbability(const Point3& p) const {
+  if (distantLights_.empty()) return 0;
   if (nodes_.empty()) return 1;
   const double distance2 = Distance2(nodes_[0], p);  // 0 if p and all lights are at one point
   const double near = distance2 > 0 ? nodes_[0].power / (4 * double(kPi) * distance2)
@@ -112,12 +112,12 @@ double LightTree::FarProbability(const Point3& p) const {
 }
 
 LightTree::Choice LightTree::Sample(const Point3& p, Real u) const {
-  const double farProbability = FarProbability(p);
+  const double farProbability = DistantProbability(p);
   double rest = double(u);
   if (rest < farProbability) {
     const auto choice =
         far_.Sample(Real(std::min(rest / farProbability, double(kOneMinusEpsilon))));
-    const int index = farLights_[std::size_t(choice.index)];
+    const int index = distantLights_[std::size_t(choice.index)];
     return {lights_[std::size_t(index)], index, Real(farProbability) * choice.probability};
   }
   double probability = 1 - farProbability;
@@ -139,7 +139,7 @@ LightTree::Choice LightTree::Sample(const Point3& p, Real u) const {
 Real LightTree::Probability(const Point3& p, int index) const {
   if (IsEmpty()) return 0;
   const Place& place = places_[std::size_t(index)];
-  const double farProbability = FarProbability(p);
+  const double farProbability = DistantProbability(p);
   if (place.far >= 0) return Real(farProbability) * far_.Probability(place.far);
   if (place.depth < 0) return 0;
   double probability = 1 - farProbability;

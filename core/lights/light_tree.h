@@ -61,12 +61,12 @@ class LightTree {
   int Build(std::span<Leaf> leaves, Place place);
   static double Distance2(const Node& node, const Point3& p);
   double LeftProbability(int node, const Point3& p) const;
-  double FarProbability(const Point3& p) const;
+  double DistantProbability(const Point3& p) const;
 
   std::vector<const Light*> lights_;  // all lights of the constructor
   std::vector<Place> places_;         // one per light
   std::vector<Node> nodes_;           // the root first
-  std::vector<int> farLights_;
+  std::vector<int> distantLights_;
   DiscreteDistribution far_;  // by irradiance
 };
 

@@ -47,13 +47,13 @@ inline std::uint32_t EncodeOctahedral(const Vector3& v, std::uint8_t note) {
   const Point2 place = OctahedralPlace(v);
   return half(place.x, note % kStep) | half(place.y, note / kStep) << 16;
 }
-inline std::uint8_t OctahedralNote(std::uint32_t bits) {
+inline std::uint8_t OctahedralPayload(std::uint32_t bits) {
   return std::uint8_t((bits & 15) | (bits >> 12 & 0xf0));
 }
 
 // Decodes to a vector that is not normalised, for uses that need only a sign. Components are whole
 // numbers, so every step is exact.
-inline Vector3 DecodeOctahedralLong(std::uint32_t bits) {
+inline Vector3 DecodeOctahedralUnnormalized(std::uint32_t bits) {
   const Real a = Real(std::int16_t(bits & 0xffff)), b = Real(std::int16_t(bits >> 16));
   const Real z = kOctahedralOne - std::abs(a) - std::abs(b);
   const Real fold = z < 0 ? -z : Real(0);
@@ -61,7 +61,7 @@ inline Vector3 DecodeOctahedralLong(std::uint32_t bits) {
 }
 
 inline Vector3 DecodeOctahedral(std::uint32_t bits) {
-  return Normalize(DecodeOctahedralLong(bits));
+  return Normalize(DecodeOctahedralUnnormalized(bits));
 }
 
 }  // namespace exphoton

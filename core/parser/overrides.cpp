@@ -87,9 +87,9 @@ std::optional<std::vector<double>> ParseNumbers(std::string_view text) {
   return numbers;
 }
 
-SourceLocation PlaceOf(const ParameterOverride& override) {
+SourceLocation LocationOf(const ParameterOverride& override) {
   SourceLocation where;
-  where.file = kCommandLinePlace;
+  where.file = kCommandLineLocation;
   where.line = 1;
   where.lineText = "--set " + override.directive + "." + override.parameter + "=" + override.value;
   where.column = int(where.lineText.size() - override.value.size()) + 1;
@@ -101,7 +101,7 @@ ParsedParam ParamOf(const ParameterOverride& override, ParamType type) {
   ParsedParam param;
   param.name = override.parameter;
   param.type = FileType(type, numbers.has_value());
-  param.where = PlaceOf(override);
+  param.where = LocationOf(override);
   const bool takesText = param.type == "string" || param.type == "bool" || param.type == "texture";
   if (takesText) {
     param.strings.push_back(override.value);
@@ -127,7 +127,7 @@ void CheckOverrides(const std::vector<ParameterOverride>& overrides) {
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
     throw Error(ExitStatus::CommandLine,
                 "--set: \"" + override.directive + "\" cannot be set; these can: " + list,
-                PlaceOf(override), DidYouMean(override.directive, known));
+                LocationOf(override), DidYouMean(override.directive, known));
   }
 }
 
@@ -142,7 +142,7 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
       for (const ParamDecl& decl : declared) known.push_back(decl.name);
       throw Error(ExitStatus::CommandLine,
                   "--set: unknown parameter \"" + override.parameter + "\" of " + what,
-                  PlaceOf(override), DidYouMean(override.parameter, known));
+                  LocationOf(override), DidYouMean(override.parameter, known));
     }
     params->Add(ParamOf(override, declaration->type));
   }

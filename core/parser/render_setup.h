@@ -73,7 +73,7 @@ struct RenderSetup {
 };
 
 // SourceLocation::file of errors in command-line values.
-inline constexpr const char* kCommandLinePlace = "<command line>";
+inline constexpr const char* kCommandLineLocation = "<command line>";
 
 // Throws Error. Does not render. The returned objects refer to `log`, which must outlive them.
 std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,

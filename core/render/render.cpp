@@ -21,7 +21,7 @@ struct Worker {
 
   CameraSamples samples;
   Arena arena;
-  PixelState notes;
+  PixelState pixelState;
   ThreadState threadState;
   RayCounters rays;
   std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
@@ -119,7 +119,7 @@ class TileRenderer {
   }
 
   bool RenderSamples(Point2i pixel, Worker* worker) const {
-    worker->notes.Reset();
+    worker->pixelState.Reset();
     const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
     for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
       if (IsStopped()) {
@@ -147,7 +147,7 @@ class TileRenderer {
     LiContext context{job_.scene, samples, worker->arena, worker->rays,
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
-    context.notes = &worker->notes;
+    context.pixelState = &worker->pixelState;
     context.threadState = &worker->threadState;
     context.volume = job_.volume;
     AovSample aovs;
@@ -239,7 +239,7 @@ struct PassRenderer::State {
       : job(aJob), options(someOptions) {}
 
   void Preprocess(std::uint64_t seed, ProgressReporter& progress) {
-    Log& log = passes == 0 ? job.log : unheard;
+    Log& log = passes == 0 ? job.log : mutedLog;
     const PixelBounds& full = job.film.Full();
     PreprocessContext context{job.threads,
                               seed,
@@ -266,7 +266,7 @@ struct PassRenderer::State {
   std::deque<Worker> workers;
   bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;
-  Log unheard{Log::Level::Quiet, Log::Sink::Memory};
+  Log mutedLog{Log::Level::Quiet, Log::Sink::Memory};
   int passes = 0;
   double preprocessSeconds = 0, renderSeconds = 0;
 };

@@ -37,7 +37,8 @@ class Passes {
         passFilm_(job.film.Full(), job.film.Crop()),
         noise_(job.film.Crop(), kReplicates),
         largestPass_(std::clamp<std::int64_t>(job.sampler.SamplesPerPixel(), 1, kLargestPass)) {
-    if (job.sampler.IsProgressive()) endless_ = job.sampler.WithSamplesPerPixel(rule.maxSamples);
+    if (job.sampler.IsProgressive())
+      progressiveSampler_ = job.sampler.WithSamplesPerPixel(rule.maxSamples);
   }
 
   PassesResult Run() {
@@ -78,7 +79,7 @@ class Passes {
     pass.preprocessSeed = HashKey({options_.seed, kPassSeed, std::uint64_t(result_.passes)});
     pass.sampleCount = size;
     std::unique_ptr<Sampler> pattern;
-    if (endless_) {
+    if (progressiveSampler_) {
       pass.sampleSeed = HashKey({options_.seed, kReplicateSeed, std::uint64_t(replicate)});
       pass.firstSample = noise_.SamplesOf(replicate);
     } else {
@@ -87,7 +88,8 @@ class Passes {
       pattern = job_.sampler.WithSamplesPerPixel(size);
     }
     passFilm_.Clear();
-    const bool isWhole = renderer_.Run(pass, endless_ ? *endless_ : *pattern, &passFilm_);
+    const bool isWhole =
+        renderer_.Run(pass, progressiveSampler_ ? *progressiveSampler_ : *pattern, &passFilm_);
     job_.film.Add(passFilm_);
     if (!isWhole) return false;
     noise_.Add(replicate, passFilm_, size);
@@ -139,7 +141,7 @@ class Passes {
   Film passFilm_;
   PassNoise noise_;
   std::int64_t largestPass_, lastSize_ = 1;
-  std::unique_ptr<Sampler> endless_;  // null if the sampler is not progressive
+  std::unique_ptr<Sampler> progressiveSampler_;  // null if the sampler is not progressive
   PassesResult result_;
   std::optional<StopReason> reasonMet_;
 };

@@ -44,7 +44,7 @@ LocalOut ToLocalOut(const Frame& frame, const Normal3& ng, const Vector3& wo) {
 
 // Returns the lobe kinds that scatter between two directions with these cosines to the geometric
 // normal.
-LobeSet Served(Real woSide, Real wiSide) {
+LobeSet ScatteringSides(Real woSide, Real wiSide) {
   if (woSide == 0 || wiSide == 0) return LobeSet::None;
   return (woSide > 0) == (wiSide > 0) ? LobeSet::Reflection : LobeSet::Transmission;
 }
@@ -142,10 +142,10 @@ int Bsdf::Count(LobeSet mask) const {
 // Calls visit(lobe, wo, wi) for each masked smooth lobe that scatters between these sides, in the
 // local frame.
 template <class Visit>
-void Bsdf::VisitServing(const Vector3& wo, const Vector3& wi, LobeSet mask,
-                        const Visit& visit) const {
+void Bsdf::VisitMatching(const Vector3& wo, const Vector3& wi, LobeSet mask,
+                         const Visit& visit) const {
   const LocalOut out = ToLocalOut(frame_, ng_, wo);
-  const LobeSet served = mask & Served(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
+  const LobeSet served = mask & ScatteringSides(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
   if (!Has(served)) return;
   const Vector3 localWi = frame_.ToLocal(wi);
   for (int i = 0; i < count_; ++i) {
@@ -156,14 +156,14 @@ void Bsdf::VisitServing(const Vector3& wo, const Vector3& wi, LobeSet mask,
 
 Spectrum Bsdf::f(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   Spectrum sum;
-  VisitServing(wo, wi, mask,
-               [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) { sum += lobe.f(o, i); });
+  VisitMatching(wo, wi, mask,
+                [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) { sum += lobe.f(o, i); });
   return sum;
 }
 
 Real Bsdf::Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   Real sum = 0;
-  VisitServing(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
+  VisitMatching(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
     sum += lobe.Pdf(o, i);
   });
   return sum == 0 ? 0 : sum / Real(Count(mask));
@@ -171,7 +171,7 @@ Real Bsdf::Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
 
 BsdfValue Bsdf::Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   BsdfValue value;
-  VisitServing(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
+  VisitMatching(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
     value.f += lobe.f(o, i);
     value.pdf += lobe.Pdf(o, i);
   });
@@ -194,7 +194,8 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
     // Undo the flip of wo's cosine for transmission, so that an invisible boundary bends no ray.
     const bool isUndone = out.isMirrored && sample->IsTransmission();
     sample->wi = frame_.ToWorld(isUndone ? MirrorZ(sample->wi) : sample->wi);
-    if (!Intersects(sample->lobe, Served(out.side, Dot(sample->wi, ng_)))) return std::nullopt;
+    if (!Intersects(sample->lobe, ScatteringSides(out.side, Dot(sample->wi, ng_))))
+      return std::nullopt;
     const Real share = Real(chosen.sharpCount) / Real(count);
     sample->pdf *= share;
     sample->throughput /= share;
@@ -212,13 +213,13 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   if (!local) return std::nullopt;
   BsdfSample sample{frame_.ToWorld(local->wi), local->throughput, local->pdf, lobe.Lobe()};
   Drawn drawn{local->wi, local->wi};
-  const bool isTurned = !Intersects(sample.lobe, Served(out.side, Dot(sample.wi, ng_)));
+  const bool isTurned = !Intersects(sample.lobe, ScatteringSides(out.side, Dot(sample.wi, ng_)));
   if (isTurned) {
     if (mode == TransportMode::Radiance) return std::nullopt;
     sample.wi = -sample.wi;
     drawn.seen = {-local->wi.x, -local->wi.y, local->wi.z};
   }
-  const LobeSet served = Served(out.side, Dot(sample.wi, ng_));
+  const LobeSet served = ScatteringSides(out.side, Dot(sample.wi, ng_));
   if (!Intersects(sample.lobe, served)) return std::nullopt;
   if (count > 1 || isTurned) CombineSmooth(chosen, picked, served, out.wo, drawn, &sample);
   if (!(sample.pdf > 0) || !sample.throughput.IsFinite()) return std::nullopt;

@@ -66,7 +66,7 @@ class Bsdf {
 
  private:
   template <class Visit>
-  void VisitServing(const Vector3& wo, const Vector3& wi, LobeSet mask, const Visit& visit) const;
+  void VisitMatching(const Vector3& wo, const Vector3& wi, LobeSet mask, const Visit& visit) const;
 
   Frame frame_;
   Normal3 ng_;

@@ -27,7 +27,7 @@ struct SceneTraits {
   bool mediaEmit = false;  // true if any medium emits or may emit
 
   explicit SceneTraits(const Scene& scene)
-      : lights(int(scene.Lights().size())), shiningLights(scene.ShiningLights()) {
+      : lights(int(scene.Lights().size())), shiningLights(scene.NonBlackLightCount()) {
     for (const auto& material : scene.Materials()) {
       lobes = lobes | material->PossibleLobes();
       needsDifferentials = needsDifferentials || material->NeedsDifferentials();

@@ -20,7 +20,7 @@ Scene::Scene(SceneParts parts)
 
 Scene::~Scene() = default;
 
-int Scene::ShiningLights() const {
+int Scene::NonBlackLightCount() const {
   return int(std::count_if(Lights().begin(), Lights().end(),
                            [](const auto& light) { return !light->IsProvablyBlack(); }));
 }

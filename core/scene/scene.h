@@ -62,7 +62,7 @@ class Scene {
   // All lights, in the order of the file. Black lights are kept so that indices are stable. Callers
   // must skip them.
   const std::vector<std::unique_ptr<Light>>& Lights() const { return parts_.lights; }
-  int ShiningLights() const;  // number of lights that are not black
+  int NonBlackLightCount() const;  // number of lights that are not black
   const LightOrigin& OriginOfLight(std::size_t i) const { return parts_.lightOrigins[i]; }
   const std::vector<const Light*>& InfiniteLights() const { return infiniteLights_; }
   const std::vector<std::shared_ptr<const Material>>& Materials() const { return parts_.materials; }

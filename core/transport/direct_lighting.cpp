@@ -52,7 +52,7 @@ void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
   arrays_.clear();
   many_.reset();
   const auto& lights = scene.Lights();
-  if (scene.ShiningLights() > mostLights_) {
+  if (scene.NonBlackLightCount() > mostLights_) {
     many_.emplace().RequestSamples(scene, sampler, mostLights_, layout);
     return;
   }

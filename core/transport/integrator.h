@@ -58,7 +58,7 @@ struct LiContext {
   Real alpha = 1;     // Li sets it to 0 if the camera ray escapes and sees no light
   // Li writes its AOVs here. Null if no AOV is requested.
   AovSample* aovs = nullptr;
-  PixelState* notes = nullptr;               // of the pixel; null: no state is kept
+  PixelState* pixelState = nullptr;          // of the pixel; null: no state is kept
   ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
   const VolumeIntegrator* volume = nullptr;  // light from media; null: none
   std::uint64_t mediaSegments = 0;           // ray segments through media so far
@@ -115,7 +115,7 @@ class SurfaceIntegrator {
     return {};
   }
   // Returns the AOVs that Li fills if LiContext::aovs is not null. The renderer itself fills
-  // kRendererLayers. The light AOVs must sum to the result of Li, up to rounding.
+  // kRendererAovs. The light AOVs must sum to the result of Li, up to rounding.
   virtual AovSet Aovs() const { return {}; }
   // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;

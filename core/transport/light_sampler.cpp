@@ -13,7 +13,7 @@ constexpr int kManyLights = 16;
 
 LightSampler::LightSampler(const Scene& scene)
     : lights_(scene.Lights(), LightSelection::Power, kUniformShare) {
-  if (scene.ShiningLights() >= kManyLights)
+  if (scene.NonBlackLightCount() >= kManyLights)
     tree_ = LightTree(scene.Lights(), BoundingSphere(scene.WorldBounds()));
   for (std::size_t i = 0; i < scene.Lights().size(); ++i)
     indices_.emplace(scene.Lights()[i].get(), int(i));

@@ -11,18 +11,18 @@ namespace exphoton {
 
 class PixelState {
  public:
-  void Reset() { note_ = nullptr, arena_.Reset(); }
+  void Reset() { data_ = nullptr, arena_.Reset(); }
 
   // Returns the integrator's data of this pixel. The first call creates a T(). An integrator uses a
   // single type T, which must be trivially destructible.
   template <class T>
-  T& Note() {
+  T& Get() {
     static_assert(std::is_trivially_destructible_v<T>);
-    if (!note_) {
-      note_ = arena_.Make<T>();
+    if (!data_) {
+      data_ = arena_.Make<T>();
       mark_ = arena_.GetMark();
     }
-    return *static_cast<T*>(note_);
+    return *static_cast<T*>(data_);
   }
   // Returns memory for data that the note points to. It frees the memory of earlier calls.
   Arena& FreshArena() {
@@ -32,7 +32,7 @@ class PixelState {
 
  private:
   Arena arena_;
-  void* note_ = nullptr;
+  void* data_ = nullptr;
   Arena::Mark mark_ = {};
 };
 

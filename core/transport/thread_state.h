@@ -12,18 +12,18 @@ namespace exphoton {
 
 class ThreadState {
  public:
-  void Reset() { note_.reset(); }
+  void Reset() { data_.reset(); }
 
   // Returns the integrator's data of this pass. The first call creates a T(args...). An integrator
   // uses a single type T.
   template <class T, class... Args>
-  T& Note(Args&&... args) {
-    if (!note_) note_ = std::make_shared<T>(std::forward<Args>(args)...);
-    return *static_cast<T*>(note_.get());
+  T& Get(Args&&... args) {
+    if (!data_) data_ = std::make_shared<T>(std::forward<Args>(args)...);
+    return *static_cast<T*>(data_.get());
   }
 
  private:
-  std::shared_ptr<void> note_;
+  std::shared_ptr<void> data_;
 };
 
 }  // namespace exphoton

@@ -41,7 +41,7 @@ PhotonTargets ChooseTargets(const PhotonSettings& settings, const Scene& scene) 
   const bool gathers = GathersIndirectLight(settings, scene);
   const bool showsRadiance = show == ShowMap::Radiance;
   const bool hasIndirect = scene.Features().Needs(Feature::Indirect);
-  const bool hasLight = scene.ShiningLights() > 0;  // media fill only the indirect map
+  const bool hasLight = scene.NonBlackLightCount() > 0;  // media fill only the indirect map
   PhotonTargets targets;
   const bool hasCaustics = hasLight && scene.Features().Needs(Feature::Caustics) &&
                            scene.Features().Needs(Feature::Specular);

@@ -26,7 +26,7 @@ DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scen
   constexpr double kLeastPhotons = 2000;
   const auto& lights = scene.Lights();
   const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
-    return light->IsFar() && !light->IsProvablyBlack();
+    return light->IsDistant() && !light->IsProvablyBlack();
   });
   if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
   DistantLightTargeting targeting(
@@ -83,7 +83,7 @@ PhotonPassResult PhotonIntegrator::ShootPhotons(const Scene& scene, const Photon
                   .Shoot(targets, context);
   }
   context.CheckStop();
-  NoticeVainCaustics(targets, settings_, scene, context.log);
+  NoticeUnusedCaustics(targets, settings_, scene, context.log);
   ReportPhotonPass(photons, targets, settings_, context);
   ReportLights(photons, targets, scene, context);
   return photons;

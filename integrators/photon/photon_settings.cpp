@@ -33,7 +33,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .Range(1e-15, 1e15)
           .Unit("scene units"),
       Param("rrthreshold", &S::rrThreshold,
-            "gather rays whose contribution is below this play roulette; 0 turns it off")
+            "gather rays with a contribution below this end by Russian roulette; 0: none does")
           .Range(0, 1e6),
       Param("gatherangle", &S::gatherAngle, "half-angle of the cone round a photon's direction")
           .Above(0)
@@ -59,10 +59,11 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "share of the stored photons at which radiance is computed")
           .Range(0, 1),
       Param("radiancereach", &S::radianceReach,
-            "a radiance photon serves hits within this many radii of its own estimate")
+            "a radiance photon is valid for hits within this many radii of its density estimate")
           .Range(0, 1000),
       Param("radiancenormal", &S::radianceNormal,
-            "least cosine between the normals of a radiance photon and the hit it serves")
+            "a radiance photon is valid for hits whose normals have at least this cosine with its "
+            "own")
           .Range(-1, 1),
       Param("shortrays", &S::shortRays,
             "gather rays shorter than this many radii do not read a radiance photon; 0: all do")
@@ -72,7 +73,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("maxphotonpaths", &S::maxPhotonPaths, "paths after which a map stays as it is")
           .Range(1, 1e15),
       Param("photonaim", &S::photonAim,
-            "photons of far lights (sun, sky) start towards what the camera sees; auto: where that "
+            "photons of distant lights (sun, sky) start towards visible points; auto: where that "
             "makes them many times denser there")
           .OneOf(
               {{"auto", PhotonAiming::Auto}, {"on", PhotonAiming::On}, {"off", PhotonAiming::Off}}),

@@ -13,12 +13,12 @@ namespace {
 
 // Most lights that get rows in the table of counters, and most notices about lights.
 constexpr std::size_t kMostListedLights = 64;
-constexpr int kMostVainNotices = 5;
+constexpr int kMaxLightNotices = 5;
 // A light with fewer paths than this may miss a small scene by chance.
-constexpr std::int64_t kTellingShots = 1000;
+constexpr std::int64_t kSignificantPaths = 1000;
 
 // Share of the emitted power that the depth limit may cut without a warning.
-constexpr double kSilentCut = 1e-3;
+constexpr double kMaxUnreportedCut = 1e-3;
 
 template <class... Parts>
 std::string Text(const Parts&... parts) {
@@ -33,19 +33,19 @@ std::string LightName(const Scene& scene, std::size_t i) {
   return Text(i + 1, plugin.empty() ? "" : " ", plugin);
 }
 
-bool HasShotInVain(const LightTally& light, const PhotonTargets& targets) {
-  if (light.shot < kTellingShots || light.stored > 0) return false;
+bool HasStoredNothing(const LightTally& light, const PhotonTargets& targets) {
+  if (light.shot < kSignificantPaths || light.stored > 0) return false;
   // If only caustic photons are wanted, a light without caustics is normal.
   return light.hit + light.passedBy == 0 || targets[PhotonKind::Direct] > 0 ||
          targets[PhotonKind::Indirect] > 0;
 }
 
-void NoticeVainLights(const PhotonPassResult& result, const PhotonTargets& targets,
-                      const Scene& scene, Log& log) {
+void NoticeUnstoredLights(const PhotonPassResult& result, const PhotonTargets& targets,
+                          const Scene& scene, Log& log) {
   int found = 0;
   for (std::size_t i = 0; i < result.lights.size(); ++i) {
     const LightTally& light = result.lights[i];
-    if (!HasShotInVain(light, targets) || ++found > kMostVainNotices) continue;
+    if (!HasStoredNothing(light, targets) || ++found > kMaxLightNotices) continue;
     const LightOrigin& origin = scene.OriginOfLight(i);
     log.Notice(Text("light ", i + 1, origin.plugin.empty() ? "" : " (" + origin.plugin + ")",
                     " has shot ", light.shot, " photons and none was stored"),
@@ -54,14 +54,14 @@ void NoticeVainLights(const PhotonPassResult& result, const PhotonTargets& targe
                    ? "they hit nothing: does the light shine at the scene?"
                    : "they met surfaces, but left nothing that the photon maps still wanted");
   }
-  if (found > kMostVainNotices)
-    log.Notice(Text(found - kMostVainNotices, " more lights shot photons and none was stored"));
+  if (found > kMaxLightNotices)
+    log.Notice(Text(found - kMaxLightNotices, " more lights shot photons and none was stored"));
 }
 
 }  // namespace
 
-void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
-                        const Scene& scene, Log& log) {
+void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
+                          const Scene& scene, Log& log) {
   const RequiredFeatures& plan = scene.Features();
   if (plan.Needs(Feature::Caustics) || targets[PhotonKind::Caustic] > 0) return;
   if (settings.causticPhotons.value_or(0) == 0) return;
@@ -70,19 +70,21 @@ void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& sett
 }
 
 void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context) {
-  context.statistics.SetCounter("photons/aim gain", aim.Gain(),
-                                "how much denser photons of far lights start towards what is seen");
-  context.log.Notice(Text("photons of far lights start towards what the camera sees, ",
+  context.statistics.SetCounter(
+      "photons/aim gain", aim.Gain(),
+      "how much denser photons of distant lights start towards visible points");
+  context.log.Notice(Text("photons of distant lights start towards visible points, ",
                           std::llround(aim.Gain()), " times denser than everywhere"),
                      {}, "\"string photonaim\" \"off\" spreads them over the whole scene");
 }
 
 void NoticeUnaimed(const DistantLightTargeting& aim, Log& log) {
-  log.Notice(Text("photons of far lights are spread over the whole scene: where the camera looks "
-                  "they are sparse, and light is missing behind glass and in corners"),
-             {},
-             Text("\"string photonaim\" \"auto\" makes them about ", std::llround(aim.Gain()),
-                  " times as dense there"));
+  log.Notice(
+      Text("photons of distant lights are spread over the whole scene: where the camera looks "
+           "they are sparse, and light is missing behind glass and in corners"),
+      {},
+      Text("\"string photonaim\" \"auto\" makes them about ", std::llround(aim.Gain()),
+           " times as dense there"));
 }
 
 void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
@@ -110,7 +112,7 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
     context.statistics.SetCounter("photons/emitted power",
                                   result.emittedPower / double(result.paths),
                                   "luminance of the power that the lights emit, as shot");
-  if (result.cutPower > kSilentCut * result.emittedPower)
+  if (result.cutPower > kMaxUnreportedCut * result.emittedPower)
     context.log.Warning(
         Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",
              100 * result.cutPower / result.emittedPower, " % of the emitted power"),
@@ -151,7 +153,7 @@ void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, 
     context.statistics.AddToCounter("lights/further stored", double(rest.stored),
                                     "photons that they left, in all maps");
   }
-  NoticeVainLights(result, targets, scene, context.log);
+  NoticeUnstoredLights(result, targets, scene, context.log);
 }
 
 void ReportMaps(const PhotonMapSet& maps, const RadiancePhotonMap* radianceMap,

@@ -10,8 +10,8 @@
 namespace exphoton {
 
 // Logs a notice if the scene file sets causticphotons although feature culling excludes caustics.
-void NoticeVainCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
-                        const Scene& scene, Log& log);
+void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
+                          const Scene& scene, Log& log);
 // Reports that photons of distant lights are targeted, and the gain.
 void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context);
 // Logs a notice that targeting is off although it would be worthwhile.

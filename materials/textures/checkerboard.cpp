@@ -112,7 +112,7 @@ class Checkerboard final : public Texture<T> {
     return a == b ? a : std::nullopt;
   }
   Real OddPart(const SurfaceInteraction& si) const {
-    const Place place = PlaceOf(si);
+    const Place place = LocationOf(si);
     switch (filtering_) {
       case Filtering::ClosedForm:
         return Real(OddByBox(place));
@@ -123,7 +123,7 @@ class Checkerboard final : public Texture<T> {
     }
     return Real(OddAt(place, 0, 0));
   }
-  Place PlaceOf(const SurfaceInteraction& si) const {
+  Place LocationOf(const SurfaceInteraction& si) const {
     if (dimension_ == 3) {
       const TexturePoint3 at = mapping3_.Map(si);
       return {{at.p.x, at.p.y, at.p.z},

@@ -3,7 +3,7 @@
 # scene that needs it, and with the effect switched on for nothing against the plan in a plain
 # diffuse scene. Usage: effects.sh PROGRAM [needed|idle|aimed|carried] (the first two without a name).
 # Everything is measured in one run, in turn, and given as medians of ratios.
-# "aimed": photons of far lights that start towards what is seen, against photons everywhere.
+# "aimed": photons of distant lights that start towards visible points, against photons everywhere.
 # "carried" counts instructions under callgrind instead: PROGRAM against MASKED, the program of a
 # build with -DEXPHOTON_EFFECTS=2 (indirect light is its only effect), see docs/guide/effects.md.
 set -euo pipefail

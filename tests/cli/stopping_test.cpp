@@ -147,15 +147,15 @@ TEST_F(StoppingTest, ScalesTheVarianceBetweenPassesByThePixelsOwnAlpha) {
   EXPECT_GT(sum, 1e-5);
 }
 
-TEST_F(StoppingTest, NamesTheLayersThatThereAre) {
+TEST_F(StoppingTest, NamesTheAvailableAovs) {
   ProgramResult result = RunScene({"--aov", "dirct"});
   EXPECT_EQ(result.status, 1);
-  ExpectIn("unknown layer \"dirct\"", result.err);
+  ExpectIn("unknown AOV \"dirct\"", result.err);
   ExpectIn("radiancedistance", result.err);
   ExpectIn("direct", result.err);
   result = RunScene({"--aov", "photondensity,N"});
   EXPECT_EQ(result.status, 1);
-  ExpectIn("integrator \"path\" with these parameters has no layer photondensity", result.err);
+  ExpectIn("integrator \"path\" with these parameters has no AOV photondensity", result.err);
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
 }
 

@@ -217,7 +217,7 @@ TEST(PlanOfEffects, KeepsASkyWithOneFaintTexel) {
           "\"\nMaterial \"matte\"\n" + kBall,
       Feature::Environment, true};
   const LoadedScene scene = LoadSceneText(TextOf(sky, "\"path\""));
-  EXPECT_EQ(scene.setup->scene->ShiningLights(), 1);
+  EXPECT_EQ(scene.setup->scene->NonBlackLightCount(), 1);
   std::filesystem::remove_all(folder);
 }
 

@@ -202,7 +202,7 @@ TEST(SceneBuilder, PutsAnAreaLightOnEachShapeOfItsBlockOnly) {
   EXPECT_EQ(built.setups[0]->scene->Lights().size(), 2u);  // one light for the whole mesh
 }
 
-TEST(SceneBuilder, MakesOneMaterialForAllTheShapesThatWearIt) {
+TEST(SceneBuilder, MakesOneMaterialForAllTheShapesThatUseIt) {
   const BuiltScene built = BuildText(InWorld(
       "Material \"matte\" Shape \"sphere\" Shape \"disk\" Material \"mirror\" Shape \"sphere\""));
   ASSERT_EQ(built.error, "");

@@ -47,10 +47,10 @@ TEST(RunStatistics, BenjaminiAndHochbergRejectUpToTheLastChanceBelowTheLine) {
 
 TEST(RunStatistics, DifferencesWithinTheMarginAreNoAlarm) {
   const Sample a{1, 1e-4, 6}, b{1.03, 1e-4, 6}, far{1.2, 1e-4, 6};
-  EXPECT_EQ(ChanceBeyond(a, b, .05), 1);
-  EXPECT_LT(ChanceBeyond(a, far, .05), 1e-5);
-  EXPECT_EQ(ChanceAbove(a, 1.01), 1);
-  EXPECT_LT(ChanceAbove(far, 1), 1e-4);
+  EXPECT_EQ(PValueBeyond(a, b, .05), 1);
+  EXPECT_LT(PValueBeyond(a, far, .05), 1e-5);
+  EXPECT_EQ(PValueAbove(a, 1.01), 1);
+  EXPECT_LT(PValueAbove(far, 1), 1e-4);
 }
 
 }  // namespace

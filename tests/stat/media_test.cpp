@@ -225,7 +225,7 @@ TEST(Media, LeftOutOfThePlanLeaveTheSceneAsItIsWithoutThem) {
   EXPECT_TRUE(left.Says("media"));
 }
 
-TEST(Media, LeaveLightLayersThatSumToThePicture) {
+TEST(Media, LeaveLightAovsThatSumToThePicture) {
   TestRenderOptions options;
   options.aovs = kLightAovs;
   for (const char* integrator : kIntegrators) {

@@ -20,7 +20,7 @@ inline Real8 Abs(Real8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(Real(-0.)), 
 inline Real8 Min(Real8 a, Real8 b) { return {_mm256_min_ps(a.v, b.v)}; }  // NaN: the second
 inline Real8 Max(Real8 a, Real8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 
-constexpr bool kHitsInSingle = kTellsInSingle;
+constexpr bool kHitsInSingle = kAcceptsSinglePrecision;
 
 // Tests IsTraceable for the origin and the direction in one register.
 inline bool IsWorthTracing(const Ray& ray) {

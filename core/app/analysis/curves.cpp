@@ -93,8 +93,8 @@ Measured Ratio(const Measured& a, const Measured& b) {
   return {value, value * std::hypot(RelativeError(a), RelativeError(b))};
 }
 
-std::vector<KnobCost> FindKnobCosts(const std::vector<Setting>& settings,
-                                    const std::vector<CostPoint>& points) {
+std::vector<DoublingEffect> FindDoublingEffects(const std::vector<Setting>& settings,
+                                                const std::vector<CostPoint>& points) {
   // Maps (label, parameter) to groups of settings that differ only in the parameter.
   std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<Step>>> all;
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -103,9 +103,9 @@ std::vector<KnobCost> FindKnobCosts(const std::vector<Setting>& settings,
       if (const auto value = ToNumber(text))
         all[{settings[i].label, name}][Others(settings[i], name)].push_back({*value, i});
   }
-  std::vector<KnobCost> costs;
+  std::vector<DoublingEffect> costs;
   for (auto& [knob, groups] : all) {
-    KnobCost cost;
+    DoublingEffect cost;
     cost.label = knob.first;
     cost.parameter = knob.second;
     double logFactors = 0;

@@ -36,15 +36,15 @@ TimeToError FindTimeToError(const std::vector<CostPoint>& points, double error);
 // Returns a / b with its standard error to first order.
 Measured Ratio(const Measured& a, const Measured& b);
 
-// KnobCost is the effect of doubling a numeric parameter. It is averaged over neighbouring pairs of
-// settings that differ only in that parameter.
-struct KnobCost {
+// DoublingEffect is the effect of doubling a numeric parameter. It is averaged over neighbouring
+// pairs of settings that differ only in that parameter.
+struct DoublingEffect {
   std::string label, parameter;
   double secondsPerDoubling = 0;
   double errorFactor = 1;  // factor on the error per doubling (geometric mean)
   int pairs = 0;
 };
-std::vector<KnobCost> FindKnobCosts(const std::vector<Setting>& settings,
-                                    const std::vector<CostPoint>& points);
+std::vector<DoublingEffect> FindDoublingEffects(const std::vector<Setting>& settings,
+                                                const std::vector<CostPoint>& points);
 
 }  // namespace exphoton::study

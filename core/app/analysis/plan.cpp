@@ -38,7 +38,7 @@ std::string BudgetText(double seconds) {
 // Returns the knobs that apply to a base. A knob for its integrator or label overrides a general
 // one.
 std::vector<const Knob*> KnobsOf(const Setting& base, const StudyPlan& plan,
-                                 const ParameterOracle& oracle) {
+                                 const ParameterLookup& oracle) {
   std::vector<const Knob*> chosen;
   for (const Knob& knob : plan.knobs) {
     const bool isSpecial = !knob.integrator.empty();
@@ -154,7 +154,7 @@ std::vector<double> ParseBudgets(const std::string& text) {
   return budgets;
 }
 
-std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterOracle& oracle) {
+std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& oracle) {
   std::vector<Setting> all;
   std::vector<const Knob*> used;
   for (const Setting& base : plan.bases) {

@@ -47,17 +47,17 @@ std::vector<double> ParseBudgets(const std::string& text);
 double ParseSeconds(const std::string& text);
 std::vector<std::string> SplitList(const std::string& text);  // at commas; drops empty parts
 
-// ParameterOracle says which integrators have which parameters.
-class ParameterOracle {
+// ParameterLookup says which integrators have which parameters.
+class ParameterLookup {
  public:
-  virtual ~ParameterOracle() = default;
+  virtual ~ParameterLookup() = default;
   virtual bool Has(const std::string& integrator, const std::string& parameter) const = 0;
 };
 
 // Returns every base in every combination of its knobs and of the budgets. A knob for one
 // integrator overrides a general knob. A parameter given by the base is not varied. Throws
 // std::invalid_argument if a knob applies to no base.
-std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterOracle& oracle);
+std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& oracle);
 
 // Returns the seed of a reference half (0 or 1) in a round. Runs of a setting have the seeds 1, 2
 // and so on, so the halves are independent of each other and of the runs.

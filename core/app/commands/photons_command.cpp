@@ -41,7 +41,7 @@ Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
   app.Add("scene", options.scene, "the scene").Required();
   app.Add("--map", options.map, "indirect (default), direct or caustic")
       .OneOf({"indirect", "direct", "caustic"});
-  app.Add("--count", options.count, "so many photons (default 50)").Between(1, 1000000);
+  app.Add("--count", options.count, "number of photons (default 50)").Between(1, 1000000);
   app.Add("--plot", options.plotFile, "also plot their directions to this file")
       .TypeName("FILE.svg");
   app.Add("--integrator", options.integrator, "as in exphoton render");

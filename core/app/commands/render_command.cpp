@@ -118,7 +118,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
                                              "\" holds " + std::to_string(setups.size()) +
                                              " scenes");
   for (std::size_t i = 0; i < setups.size(); ++i) {
-    CheckLayers(command_, *setups[i]);
+    CheckAovs(command_, *setups[i]);
     run_.files.AddScene(*setups[i]);
     names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
   }
@@ -198,7 +198,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->noise = result.noise;
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
-  run->aovs = LayerNames(command_);
+  run->aovs = AovNames(command_);
   if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
 }
 

@@ -72,15 +72,15 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
       .TypeName("N");
   app.AddFlag("--half", raw.asHalf, "16-bit channels (default)");
   app.AddFlag("--float", raw.asFloat, "32-bit channels");
-  app.Add("--time-limit", raw.timeLimit,
-          "render whole passes until so much time is over: 90, 90s, 2m, 1h")
+  app.Add("--time-limit", raw.timeLimit, "render whole passes for this time: 90, 90s, 2m, 1h")
       .TypeName("TIME");
   app.Add("--target-error", command.targetError,
           "render whole passes until the noise part of relMSE is estimated below this")
       .TypeName("X");
-  app.AddFlag("--two-halves", command.asTwoHalves,
-              "render two independent halves, say how far apart they are, write both as layers");
-  app.Add("--aov", raw.aovs, "also write these layers: " + AllLayerNames()).TypeName("LIST");
+  app.AddFlag(
+      "--two-halves", command.asTwoHalves,
+      "render two independent halves, say how far apart they are, write both into the file");
+  app.Add("--aov", raw.aovs, "also write these AOVs: " + AllAovNames()).TypeName("LIST");
   app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
   app.AddFlag("--reproducible", command.isReproducible,
               "leave times, dates, threads and command line out of the picture's file");
@@ -121,7 +121,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
           "--two-halves and --time-limit or --target-error exclude each other");
   command->limits = ParseLimits(raw.limits);
   load.limits = command->limits.scene;
-  if (!raw.aovs.empty()) command->aovs = ParseLayerList(raw.aovs);
+  if (!raw.aovs.empty()) command->aovs = ParseAovList(raw.aovs);
   command->asHalf = !raw.asFloat;
   command->showsProgress = !raw.hidesProgress && !raw.isQuiet;
   if (raw.isQuiet) command->logLevel = Log::Level::Quiet;

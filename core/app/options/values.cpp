@@ -93,18 +93,18 @@ double ParseDuration(const std::string& option, const std::string& text) {
   return value;
 }
 
-std::string AllLayerNames() {
+std::string AllAovNames() {
   AovSet all;
   for (int i = 0; i < kAovCount; ++i) all.Add(Aov(i));
-  return all.Names() + ", light (all light layers)";
+  return all.Names() + ", light (all light AOVs)";
 }
 
-AovSet ParseLayerList(const std::string& text) {
+AovSet ParseAovList(const std::string& text) {
   std::string unknown;
-  if (const auto aovs = ParseLayers(text, &unknown)) return *aovs;
+  if (const auto aovs = ParseAovs(text, &unknown)) return *aovs;
   std::vector<std::string> names{"light"};
   for (int i = 0; i < kAovCount; ++i) names.emplace_back(GetAovInfo(Aov(i)).name);
-  FailUsage("--aov: unknown layer \"" + unknown + "\"; layers are " + AllLayerNames(),
+  FailUsage("--aov: unknown AOV \"" + unknown + "\"; AOVs are " + AllAovNames(),
             DidYouMean(unknown, names));
 }
 

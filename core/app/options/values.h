@@ -25,8 +25,8 @@ ParameterOverride ParseOverride(const std::string& text);
 // "90", "90s", "1.5m", "1h": positive duration, in seconds.
 double ParseDuration(const std::string& option, const std::string& text);
 // "Albedo,N,direct".
-AovSet ParseLayerList(const std::string& text);
-std::string AllLayerNames();
+AovSet ParseAovList(const std::string& text);
+std::string AllAovNames();
 
 [[noreturn]] void FailUsage(const std::string& text, const std::string& hint = {});
 

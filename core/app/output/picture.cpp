@@ -81,16 +81,16 @@ Image MakeImage(const PictureFilms& films, const PassesResult& result, bool prem
   return image;
 }
 
-void CheckLayers(const RenderCommand& command, const RenderSetup& setup) {
-  const AovSet known = kRendererLayers | setup.integrator->Aovs();
+void CheckAovs(const RenderCommand& command, const RenderSetup& setup) {
+  const AovSet known = kRendererAovs | setup.integrator->Aovs();
   const AovSet lacking = command.aovs.Without(known);
   if (lacking.IsEmpty()) return;
   throw Error(ExitStatus::CommandLine, "--aov: integrator \"" + setup.integratorName +
-                                           "\" with these parameters has no layer " +
+                                           "\" with these parameters has no AOV " +
                                            lacking.Names() + "; it has " + known.Names());
 }
 
-std::string LayerNames(const RenderCommand& command) {
+std::string AovNames(const RenderCommand& command) {
   std::string names = command.aovs.Names();
   if (command.asTwoHalves) names += (names.empty() ? "" : ", ") + std::string("half1, half2");
   return names;

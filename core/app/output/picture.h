@@ -30,9 +30,9 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha);
 
 // Throws Error(CommandLine) for an AOV that the scene's integrator does not provide.
-void CheckLayers(const RenderCommand& command, const RenderSetup& setup);
+void CheckAovs(const RenderCommand& command, const RenderSetup& setup);
 
 // "Albedo, N, half1, half2".
-std::string LayerNames(const RenderCommand& command);
+std::string AovNames(const RenderCommand& command);
 
 }  // namespace exphoton::cli

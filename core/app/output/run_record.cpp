@@ -136,7 +136,7 @@ std::string StoppingText(const RunRecord& run) {
   if (!run.isComplete) text = "stopped by a signal";
   text += Print(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
                 run.passes, run.passes == 1 ? "pass" : "passes");
-  if (!run.noise) return text + ", which tell nothing of the noise";
+  if (!run.noise) return text + ", which give no estimate of the noise";
   return text + Print("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
                       100 * std::sqrt(*run.noise), *run.noise);
 }

@@ -186,15 +186,16 @@ std::string PriceRow(const Results& results, const Analysis& analysis, double ta
   return Row(cells);
 }
 
-std::string KnobRows(const Results& results, const Analysis& analysis) {
+std::string DoublingRows(const Results& results, const Analysis& analysis) {
   std::vector<CostPoint> points(results.settings.size());
   for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
-  std::vector<KnobCost> costs = FindKnobCosts(results.settings, points);
-  std::stable_sort(costs.begin(), costs.end(), [&](const KnobCost& a, const KnobCost& b) {
-    return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
-  });
+  std::vector<DoublingEffect> costs = FindDoublingEffects(results.settings, points);
+  std::stable_sort(costs.begin(), costs.end(),
+                   [&](const DoublingEffect& a, const DoublingEffect& b) {
+                     return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
+                   });
   std::string rows;
-  for (const KnobCost& knob : costs)
+  for (const DoublingEffect& knob : costs)
     rows += Row(Cell(ColorDot(LineNumber(analysis, knob.label)) + Escape(knob.label)) +
                 Cell(Escape(knob.parameter), "t") +
                 Cell((knob.secondsPerDoubling >= 0 ? "+" : "−") +
@@ -328,7 +329,7 @@ std::string PriceSection(const Results& results, const Analysis& analysis) {
       "photons. "
       "–: none of the settings tried.</p>\n" +
       Table(head, rows);
-  if (const std::string knobs = KnobRows(results, analysis); !knobs.empty())
+  if (const std::string knobs = DoublingRows(results, analysis); !knobs.empty())
     text += "<h3>What doubling a parameter does</h3>\n" +
             Table(
                 "<th>line</th><th class=\"t\">doubling</th><th>costs</th><th>changes the error "

@@ -40,9 +40,10 @@ std::string PlaceIn(const std::string& path, int line) {
 }
 
 // Refuses options that only the user may give, because study files can come from untrusted sources.
-void CheckIsTheirs(const std::string& name, const std::string& value, const std::string& place) {
-  const bool isTheirs = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
-  if (isTheirs) return;
+void CheckAllowedInStudyFile(const std::string& name, const std::string& value,
+                             const std::string& place) {
+  const bool isAllowed = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
+  if (isAllowed) return;
   throw Error(ExitStatus::File, place + "\"" + name + "\" is an option of the command line alone",
               SourceLocation(),
               "to choose it yourself: exphoton study ... --" + name +
@@ -82,7 +83,7 @@ std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::strin
       throw Error(ExitStatus::CommandLine, place + "options have no dashes in a study file");
     if (!app.Has("--" + name))
       throw Error(ExitStatus::CommandLine, place + "there is no option \"" + Printable(name) + '"');
-    CheckIsTheirs(name, value, place);
+    CheckAllowedInStudyFile(name, value, place);
     if (name == "out") CheckFolder(value, path, place);
     if (NamesAFile(name) && fs::path(value).is_relative())
       value = (fs::path(path).parent_path() / value).lexically_normal().string();

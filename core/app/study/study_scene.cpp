@@ -67,9 +67,9 @@ std::string ProcessorName() {
 }
 
 // Looks up parameters in the declarations of the plugins.
-class PluginOracle final : public study::ParameterOracle {
+class PluginParameterLookup final : public study::ParameterLookup {
  public:
-  explicit PluginOracle(const StudyOptions& options)
+  explicit PluginParameterLookup(const StudyOptions& options)
       : log_(Log::Level::Quiet),
         registry_(PluginRegistry::DefaultFolders(options.pluginFolders), &log_) {}
 
@@ -147,7 +147,7 @@ ProgramFacts ExamineProgram(const StudyOptions& options) {
 }
 
 std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
-  PluginOracle oracle(options);
+  PluginParameterLookup oracle(options);
   const auto check = [&](const study::Setting& setting) {
     oracle.Check(setting.integrator);
     for (const auto& [name, value] : setting.parameters) {

@@ -129,13 +129,13 @@ long long WriteHalves(const Image& image, Imf::OutputFile* out) {
 
 }  // namespace
 
-void MakeTheLibrarysThreadPool() { IlmThread::ThreadPool::globalThreadPool(); }
+void CreateExrThreadPool() { IlmThread::ThreadPool::globalThreadPool(); }
 
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf) {
   const UntrappedLibraryCall guard;
   ExrWriteReport report;
   try {
-    MakeTheLibrarysThreadPool();
+    CreateExrThreadPool();
     AtomicFile file(path);
     bool isComplete = true;
     {

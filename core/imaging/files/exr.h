@@ -24,6 +24,6 @@ std::string ExrSoftware(const std::string& path);
 // Creates OpenEXR's thread pool, which the library otherwise creates at its first use. If memory is
 // exhausted at that time, the library waits forever for work that it could not start. Must be
 // called before the library's first use of threads.
-void MakeTheLibrarysThreadPool();
+void CreateExrThreadPool();
 
 }  // namespace exphoton

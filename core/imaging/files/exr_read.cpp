@@ -153,7 +153,7 @@ Image Read(const std::string& path) {
                                                       pixelBytes * std::size_t(image.Width())));
   }
   file.setFrameBuffer(buffer);
-  MakeTheLibrarysThreadPool();
+  CreateExrThreadPool();
   file.readPixels(image.data.y0, image.data.y1 - 1);
   return IsLuminance(image) ? ExpandLuminance(image) : image;
 }

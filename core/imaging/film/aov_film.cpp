@@ -9,7 +9,7 @@ namespace exphoton {
 namespace {
 
 // AOVs that are weighted means over the samples.
-constexpr AovSet kAveraged = kSurfaceLayers | kLightAovs | AovSet{Aov::PhotonDensity};
+constexpr AovSet kAveraged = kSurfaceAovs | kLightAovs | AovSet{Aov::PhotonDensity};
 
 // Writes the values of an averaged AOV at one sample to `out`. Returns their number.
 std::size_t ValuesOf(Aov aov, const AovSample& sample, double* out) {

@@ -16,7 +16,7 @@ class AovFilm {
   AovFilm(const PixelBounds& crop, AovSet wanted);
 
   AovSet Wanted() const { return wanted_; }
-  bool NeedsSurface() const { return !(wanted_ & kSurfaceLayers).IsEmpty(); }
+  bool NeedsSurface() const { return !(wanted_ & kSurfaceAovs).IsEmpty(); }
   bool NeedsTime() const { return wanted_.Has(Aov::Time); }
 
   // Adds one camera sample: its AOVs, the radiance L that the Film received, and the filter weight.

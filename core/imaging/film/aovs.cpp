@@ -70,7 +70,7 @@ std::string AovSet::Names() const {
   return names;
 }
 
-std::optional<AovSet> ParseLayers(std::string_view list, std::string* unknown) {
+std::optional<AovSet> ParseAovs(std::string_view list, std::string* unknown) {
   AovSet set;
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t end = std::min(list.find(',', at), list.size());

@@ -65,15 +65,15 @@ class AovSet {
 
 inline constexpr AovSet kLightAovs{Aov::Emission, Aov::Direct, Aov::Caustic, Aov::Indirect,
                                    Aov::Specular};
-inline constexpr AovSet kSurfaceLayers{Aov::Albedo, Aov::Normal, Aov::Position};
+inline constexpr AovSet kSurfaceAovs{Aov::Albedo, Aov::Normal, Aov::Position};
 // The AOVs that the renderer fills for every integrator.
-inline constexpr AovSet kRendererLayers =
-    kSurfaceLayers | AovSet{Aov::Variance, Aov::Time, Aov::Samples};
+inline constexpr AovSet kRendererAovs =
+    kSurfaceAovs | AovSet{Aov::Variance, Aov::Time, Aov::Samples};
 
 // Parses a list such as "Albedo,N,direct". "light" selects all light AOVs. Case is ignored, and
 // "Albedo.RGB" is the same as "Albedo". Returns nullopt if a name is unknown and stores that name
 // in *unknown.
-std::optional<AovSet> ParseLayers(std::string_view list, std::string* unknown);
+std::optional<AovSet> ParseAovs(std::string_view list, std::string* unknown);
 
 // The AOV values of one camera sample. Light AOVs are not yet weighted by the filter; AovFilm does
 // this.

@@ -46,7 +46,7 @@ struct Pair {
 
 // Computes the mean without the worst thousandth, and the square root of the 99 % quantile. Sorts
 // the errors.
-void TakeTail(std::vector<double>* errors, ImageDifference* difference) {
+void ComputeTailStatistics(std::vector<double>* errors, ImageDifference* difference) {
   const std::size_t count = errors->size();
   std::sort(errors->begin(), errors->end());
   const std::size_t kept = count - count / 1000;
@@ -96,7 +96,7 @@ ImageDifference CompareImages(const Image& reference, const Image& image) {
   difference.relMse /= values;
   difference.meanError /= values;
   difference.meanReference /= values;
-  TakeTail(&errors, &difference);
+  ComputeTailStatistics(&errors, &difference);
   if (difference.meanError != 0) {
     difference.relativeMeanError =
         difference.meanReference != 0

@@ -42,7 +42,7 @@ void StateStack::Pop(Block block, const std::string& name, const SourceLocation&
   Entry& entry = entries_.back();
   if (entry.block != block)
     FailAt(where, name + " does not match the " + BlockName(entry.block) + " at " +
-                      PlaceName(entry.where));
+                      LocationText(entry.where));
   if (block == Block::Transform) {
     state->transform = entry.state.transform;
     state->active = entry.state.active;
@@ -54,7 +54,7 @@ void StateStack::Pop(Block block, const std::string& name, const SourceLocation&
 
 const char* StateStack::InnermostName() const { return BlockName(entries_.back().block); }
 
-std::string PlaceName(const SourceLocation& where) {
+std::string LocationText(const SourceLocation& where) {
   return where.file + ":" + std::to_string(where.line);
 }
 

@@ -72,7 +72,7 @@ class StateStack {
 };
 
 // Returns "scene.pbrt:12", for use within a message.
-std::string PlaceName(const SourceLocation& where);
+std::string LocationText(const SourceLocation& where);
 
 [[noreturn]] void FailAt(const SourceLocation& where, const std::string& text,
                          const std::string& hint = {});

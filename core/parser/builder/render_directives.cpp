@@ -37,7 +37,7 @@ void RenderDirectives::OverrideIntegrator() {
   if (!options_.integrator) return;
   integrator_.name = *options_.integrator;
   integrator_.params.where = SourceLocation();
-  integrator_.params.where.file = kCommandLinePlace;
+  integrator_.params.where.file = kCommandLineLocation;
   integrator_.params.where.line = 1;
   integrator_.params.where.lineText = "--integrator " + integrator_.name;
   integrator_.params.where.column = int(std::string("--integrator ").size()) + 1;
@@ -81,7 +81,7 @@ void RenderDirectives::Handle(Directive directive, const MovingTransform& curren
   if (choice == &integrator_) OverrideIntegrator();
 }
 
-void RenderDirectives::SetDefaultPlace(const SourceLocation& where) {
+void RenderDirectives::SetDefaultLocation(const SourceLocation& where) {
   for (Choice* choice : {&filter_, &film_, &sampler_, &accelerator_, &integrator_, &camera_})
     if (choice->params.where.file.empty()) choice->params.where = where;
 }

@@ -24,7 +24,7 @@ class RenderDirectives {
   Interval TransformTimes() const { return transformTimes_; }
 
   // Sets the location that errors report for directives that the file leaves out.
-  void SetDefaultPlace(const SourceLocation& where);
+  void SetDefaultLocation(const SourceLocation& where);
 
   AcceleratorSpec Accelerator(PluginRegistry& registry) const;
 

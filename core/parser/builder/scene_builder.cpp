@@ -43,7 +43,7 @@ void SceneBuilder::CheckScope(const Directive& directive) const {
     FailAt(directive.Where(), "WorldEnd without WorldBegin");
   if (directive.spec->id == DirectiveId::WorldBegin && world_)
     FailAt(directive.Where(),
-           "WorldBegin inside the world that begins at " + PlaceName(*worldBegin_));
+           "WorldBegin inside the world that begins at " + LocationText(*worldBegin_));
   if (directive.spec->scope == DirectiveScope::World && !world_)
     FailAt(directive.Where(), name + " must stand between WorldBegin and WorldEnd");
   if (directive.spec->scope == DirectiveScope::Options && world_)
@@ -213,7 +213,8 @@ void SceneBuilder::UseNamedMaterial(const Directive& directive) {
 // Decides whether a SearchPath folder may supply plugins. Scene files can come from untrusted
 // sources, and plugins are native code. The folder must therefore lie inside a folder that the user
 // chose, unless the user allowed scene plugins.
-PluginFolder SceneBuilder::JudgeFolder(const std::string& path, const SourceLocation& where) {
+PluginFolder SceneBuilder::ClassifyPluginFolder(const std::string& path,
+                                                const SourceLocation& where) {
   for (const std::string& chosen : options_.pluginFolders)
     if (LiesIn(path, chosen)) return {path, PluginTrust::Chosen};
   if (options_.allowsScenePlugins) return {path, PluginTrust::Allowed};
@@ -233,7 +234,7 @@ void SceneBuilder::SetSearchPath(const Directive& directive) {
     if (folder == "&")
       folders.insert(folders.end(), pluginFolders_.begin(), pluginFolders_.end());
     else if (!folder.empty())
-      folders.push_back(JudgeFolder(folder, directive.Where()));
+      folders.push_back(ClassifyPluginFolder(folder, directive.Where()));
     at = end + 1;
   }
   for (const std::string& folder : options_.pluginFolders) folders.push_back({folder});

@@ -39,7 +39,7 @@ class SceneBuilder final : public DirectiveHandler {
   void UseNamedMaterial(const Directive& directive);
   void EndBlock(StateStack::Block block, const Directive& directive);
   void SetSearchPath(const Directive& directive);
-  PluginFolder JudgeFolder(const std::string& path, const SourceLocation& where);
+  PluginFolder ClassifyPluginFolder(const std::string& path, const SourceLocation& where);
   void BeginWorld(const Directive& directive);
   void EndWorld(const Directive& directive);
   void Reset();  // to the state at the beginning of a file

@@ -11,7 +11,7 @@ namespace exphoton {
 
 void SceneBuilder::BeginWorld(const Directive& directive) {
   worldBegin_ = directive.Where();
-  render_->SetDefaultPlace(directive.Where());
+  render_->SetDefaultLocation(directive.Where());
   world_.emplace(*registry_, log_, options_, render_->Accelerator(*registry_),
                  render_->TransformTimes());
   state_.transform = MovingTransform();
@@ -26,7 +26,7 @@ void SceneBuilder::BeginWorld(const Directive& directive) {
 void SceneBuilder::EndWorld(const Directive& directive) {
   if (world_->IsInObject())
     FailAt(directive.Where(),
-           "the object that begins at " + PlaceName(stack_.Innermost()) + " has no ObjectEnd");
+           "the object that begins at " + LocationText(stack_.Innermost()) + " has no ObjectEnd");
   if (!stack_.IsEmpty())
     log_.Warning(std::string(stack_.InnermostName()) + " without its end", stack_.Innermost());
 
@@ -54,7 +54,7 @@ void SceneBuilder::EndWorld(const Directive& directive) {
 }
 
 void SceneBuilder::Finish(const SourceLocation& end) {
-  if (world_) FailAt(end, "WorldEnd is missing: the world begins at " + PlaceName(*worldBegin_));
+  if (world_) FailAt(end, "WorldEnd is missing: the world begins at " + LocationText(*worldBegin_));
   if (setups_.empty()) FailAt(end, "the file has no WorldBegin: there is nothing to render");
 }
 
@@ -78,7 +78,7 @@ std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const 
     for (const auto& setup : setups) AddFilesRead(source, setup.get());
     return setups;
   } catch (const Error& error) {
-    const bool isCommandLine = error.Where() && error.Where()->file == kCommandLinePlace;
+    const bool isCommandLine = error.Where() && error.Where()->file == kCommandLineLocation;
     if (!isCommandLine || error.Status() == ExitStatus::CommandLine) throw;
     throw Error(ExitStatus::CommandLine, error.what(), *error.Where(), error.Hint());
   }

@@ -20,7 +20,7 @@ std::unique_ptr<Aggregate> WorldBuilder::MakeAggregate(PrimitiveSet& set) {
 void WorldBuilder::BeginObject(const Directive& directive) {
   if (object_)
     FailAt(directive.Where(),
-           "ObjectBegin inside the object that begins at " + PlaceName(object_->where));
+           "ObjectBegin inside the object that begins at " + LocationText(object_->where));
   const std::string& name = directive.strings[0];
   // Instances made before a redefinition keep the old object's geometry.
   objects_[name] = ObjectDefinition();

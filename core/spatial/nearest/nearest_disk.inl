@@ -21,7 +21,7 @@ struct Disks {
     return static_cast<const DiskBlock&>(BlockAt(view, number));
   }
 
-  unsigned Agreeing(const PointBlock& block, const Place16& n) const {
+  unsigned NormalsAgreeMask(const PointBlock& block, const Point16& n) const {
     const Real minCosine = limits.minCosine;
     Real16 length2;
     const Real16 along = DotDirection(block, n, &length2);
@@ -33,7 +33,7 @@ struct Disks {
   // Returns the squared distance from p to the farthest point of the block.
   Real Farthest2(std::uint32_t number, const Point3& p) const {
     Real16 dx, dy, dz;
-    return LargestOf(PointDistance2(Block(number), Place16(p), &dx, &dy, &dz));
+    return LargestOf(PointDistance2(Block(number), Point16(p), &dx, &dy, &dz));
   }
 
   // Replaces *best if the block has a closer disk, and returns whether it does. Ties go to the
@@ -41,11 +41,11 @@ struct Disks {
   bool Scan(std::uint32_t number, const ClosestQuery& query, ClosestPoint* best) const {
     const DiskBlock& block = Block(number);
     Real16 dx, dy, dz;
-    const Real16 distance2 = PointDistance2(block, Place16(query.p), &dx, &dy, &dz);
+    const Real16 distance2 = PointDistance2(block, Point16(query.p), &dx, &dy, &dz);
     unsigned lanes = LessEqualMask(distance2, Real16::All(best->distance2));
     if (lanes == 0) return false;
     lanes &=
-        LessEqualMask(distance2, Real16::Load(block.reach2)) & Agreeing(block, Place16(query.n));
+        LessEqualMask(distance2, Real16::Load(block.reach2)) & NormalsAgreeMask(block, Point16(query.n));
     if (lanes == 0) return false;
     const Real nearest2 = LeastOf(distance2, lanes);
     const std::uint32_t index =
@@ -62,9 +62,9 @@ struct Disks {
 };
 
 // Traverses the BVH for a single query and visits the nearest boxes first.
-class ClosestWalk {
+class ClosestTraversal {
  public:
-  ClosestWalk(const Disks& disks, const ClosestQuery& query)
+  ClosestTraversal(const Disks& disks, const ClosestQuery& query)
       : disks_(disks), query_(query), p_(query.p), top_(disks.view.tree->Levels() - 1) {}
 
   // Returns the closest disk of all blocks. `best` must be the closest disk of block `first`.
@@ -114,7 +114,7 @@ class ClosestWalk {
 
   const Disks& disks_;
   const ClosestQuery& query_;
-  Place16 p_;
+  Point16 p_;
   int top_;
   ClosestPoint best_;
   std::uint32_t node_[PointBvh::kMaxLevels];
@@ -127,5 +127,5 @@ inline ClosestPoint ClosestToOne(const Disks& disks, const ClosestQuery& query) 
   if (first == ClosestPoint::kNone) return {};
   ClosestPoint best = disks.None();
   disks.Scan(first, query, &best);
-  return Disks::Answer(ClosestWalk(disks, query).After(first, best));
+  return Disks::Answer(ClosestTraversal(disks, query).After(first, best));
 }

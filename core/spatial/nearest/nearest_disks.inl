@@ -4,7 +4,7 @@
 // Runs up to 16 queries together. Each query first scans its entry block. Then all queries descend
 // the BVH level by level. One list holds pairs of a query and a box no farther than its best disk.
 // Hardly any branch depends on a single query, so the processor can overlap several.
-class ClosestTogether {
+class BatchedClosestSearch {
  public:
   static constexpr std::size_t kMost = 16;
 
@@ -28,7 +28,7 @@ class ClosestTogether {
             std::min(best[i].distance2, kGuess2 * disks.Farthest2(first_[i], queries[i].p));
       lists_[0][open++] = std::uint32_t(i) << kNodeBits;  // at the root
     }
-    alone_ = 0;
+    unbatchedQueries_ = 0;
     std::uint32_t *from = lists_[0], *to = lists_[1];
     for (int level = disks.view.tree->Levels() - 1; level >= 0; --level, std::swap(from, to))
       open = Descend(disks, queries, best, level, {from, open}, to);
@@ -37,11 +37,11 @@ class ClosestTogether {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (best[i].index != ClosestPoint::kNone || first_[i] == ClosestPoint::kNone) continue;
       best[i] = disks.None();
-      alone_ |= 1u << i;
+      unbatchedQueries_ |= 1u << i;
     }
-    for (; alone_ != 0; alone_ &= alone_ - 1) {
-      const auto i = unsigned(__builtin_ctz(alone_));
-      best[i] = ClosestWalk(disks, queries[i]).After(first_[i], best[i]);
+    for (; unbatchedQueries_ != 0; unbatchedQueries_ &= unbatchedQueries_ - 1) {
+      const auto i = unsigned(__builtin_ctz(unbatchedQueries_));
+      best[i] = ClosestTraversal(disks, queries[i]).After(first_[i], best[i]);
     }
     for (std::size_t i = 0; i < queries.size(); ++i) best[i] = Disks::Answer(best[i]);
   }
@@ -61,11 +61,11 @@ class ClosestTogether {
     for (const std::uint32_t item : from) {
       const std::uint32_t q = QueryOf(item), node = NodeOf(item);
       if (count > kRoom) {  // list full: the single-query walk shrinks its radius as it goes
-        alone_ |= 1u << q;
+        unbatchedQueries_ |= 1u << q;
         continue;
       }
       const Real16 distance2 =
-          BoxDistance2(disks.view.tree->Level(level)[node], Place16(queries[q].p));
+          BoxDistance2(disks.view.tree->Level(level)[node], Point16(queries[q].p));
       unsigned children = Present(disks.view, level, node) &
                           LessEqualMask(distance2, Real16::All(best[q].distance2));
       if (level == 0 && first_[q] >> 4 == node) children &= ~(1u << (first_[q] & 15));
@@ -78,7 +78,7 @@ class ClosestTogether {
   static constexpr std::size_t kRoom = 256;
   static constexpr Real kGuess2 = Real(1) / 16;  // a factor of two changes little
   std::uint32_t first_[kMost];
-  unsigned alone_;  // bit i: query i needs a single-query walk
+  unsigned unbatchedQueries_;  // bit i: query i needs a single-query walk
   std::uint32_t lists_[2][kRoom + 2 * kBlockPoints];
   Real distance2_[kBlockPoints];  // scratch output of AppendLanes, never read
 };
@@ -90,10 +90,10 @@ void Closest(const PointTreeView& view, const ClosestLimits& limits,
     *found = ClosestToOne(disks, queries[0]);
     return;
   }
-  ClosestTogether together;
+  BatchedClosestSearch together;
   for (; !queries.empty();
-       queries = queries.subspan(std::min(ClosestTogether::kMost, queries.size()))) {
-    const auto some = queries.first(std::min(ClosestTogether::kMost, queries.size()));
+       queries = queries.subspan(std::min(BatchedClosestSearch::kMost, queries.size()))) {
+    const auto some = queries.first(std::min(BatchedClosestSearch::kMost, queries.size()));
     together.Find(disks, some, found);
     found += some.size();
   }

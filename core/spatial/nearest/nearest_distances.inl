@@ -6,14 +6,14 @@
 
 constexpr Real kLargest = std::numeric_limits<Real>::max();
 
-struct Place16 {
+struct Point16 {
   Real16 x, y, z;
-  Place16() = default;
-  explicit Place16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
+  Point16() = default;
+  explicit Point16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
 };
 
 // Returns the squared distances from p to the children's boxes.
-inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
+inline Real16 BoxDistance2(const BoxNode& node, const Point16& p) {
   const Real16 zero = Real16::All(0);
   const auto along = [&](int axis, Real16 at) {
     return Max(Max(Real16::Load(node.low[axis]) - at, at - Real16::Load(node.high[axis])), zero);
@@ -24,7 +24,7 @@ inline Real16 BoxDistance2(const BoxNode& node, const Place16& p) {
 
 // Returns the flattened squared distances (NearestQuery) from p to the children's boxes. n is the
 // normal of the plane through p.
-inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Place16& p, const Place16& n,
+inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Point16& p, const Point16& n,
                                     Real16 steepness) {
   const auto products = [&](int axis, Real16 at, Real16 normal, Real16* least, Real16* most) {
     const Real16 a = (Real16::Load(node.low[axis]) - at) * normal;
@@ -45,7 +45,7 @@ inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Place16& p, const
 
 // Returns the dot product of n and each point's direction. The directions are not normalised;
 // *length2 receives their squared lengths.
-inline Real16 DotDirection(const PointBlock& block, const Place16& n, Real16* length2) {
+inline Real16 DotDirection(const PointBlock& block, const Point16& n, Real16* length2) {
   Real16 a, b;
   LoadOctahedral(block.direction, &a, &b);
   const Real16 z = Real16::All(kOctahedralOne) - Abs(a) - Abs(b);
@@ -55,7 +55,7 @@ inline Real16 DotDirection(const PointBlock& block, const Place16& n, Real16* le
   return x * n.x + y * n.y + z * n.z;
 }
 
-inline Real16 PointDistance2(const PointBlock& block, const Place16& p, Real16* dx, Real16* dy,
+inline Real16 PointDistance2(const PointBlock& block, const Point16& p, Real16* dx, Real16* dy,
                              Real16* dz) {
   *dx = Real16::Load(block.x) - p.x;
   *dy = Real16::Load(block.y) - p.y;
@@ -83,7 +83,7 @@ inline void PrefetchBlock(const PointBlock& block, std::size_t bytes) {
 // Descends to the nearest box at each level. The block found is near p but not always the nearest,
 // and its users need no more. Ties go to the lowest lane, so padding lanes, which repeat the last
 // child, are never chosen.
-inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
+inline std::uint32_t BlockNear(const PointTreeView& view, const Point16& p) {
   std::uint32_t node = 0;
   for (int level = view.tree->Levels() - 1; level >= 0; --level)
     node =
@@ -92,5 +92,5 @@ inline std::uint32_t BlockNear(const PointTreeView& view, const Place16& p) {
 }
 
 inline std::uint32_t FindBlockNear(const PointTreeView& view, const Point3& p) {
-  return BlockNear(view, Place16(p));
+  return BlockNear(view, Point16(p));
 }

@@ -45,7 +45,7 @@ inline void Collect(const PointTreeView& view, Candidates* candidates, MeasureBo
 }
 
 // Runs one search with a fixed radius.
-inline void CollectFor(const PointTreeView& view, const NearestQuery& query, const Place16& p,
+inline void CollectFor(const PointTreeView& view, const NearestQuery& query, const Point16& p,
                        Candidates* candidates) {
   if (!query.isFlattened) {
     Collect(
@@ -57,7 +57,7 @@ inline void CollectFor(const PointTreeView& view, const NearestQuery& query, con
         });
     return;
   }
-  const Place16 n(query.n);
+  const Point16 n(query.n);
   const Real16 steepness = Real16::All(query.steepness);
   const unsigned always = query.isOneSided ? 0 : 0xffff;
   Collect(
@@ -77,7 +77,7 @@ inline void CollectFor(const PointTreeView& view, const NearestQuery& query, con
 NearPoints Nearest(const PointTreeView& view, const NearestQuery& query, const NearBuffer& buffer) {
   if (view.count == 0 || !IsFinite(query.p)) return {};
   constexpr Real kFirst = Real(1.5), kGrowth = 4;
-  const Place16 p(query.p);
+  const Point16 p(query.p);
   const Real max2 = std::min(query.maxRadius2, kLargest);
   Real radius2 = max2;
   if (view.spacing2 && query.k < view.count) {

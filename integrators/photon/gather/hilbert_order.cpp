@@ -36,7 +36,7 @@ constexpr auto kPlaces = HilbertPlaces();
 
 // Returns the curve position of an EncodeOctahedral code. The code has two signed 16-bit numbers,
 // whose upper bits give the cell.
-std::uint8_t PlaceOf(std::uint32_t octahedral) {
+std::uint8_t LocationOf(std::uint32_t octahedral) {
   const std::uint32_t shifted = octahedral ^ 0x80008000u;  // makes both numbers unsigned
   return kPlaces[(shifted >> (32 - kBits)) * kSide + (shifted >> (16 - kBits) & (kSide - 1))];
 }
@@ -61,7 +61,7 @@ std::span<const std::uint32_t> HilbertOrder(const PhotonMap& map,
   const std::size_t count = photons.size();
   Placed *const given = arena->Room<Placed>(count), *const sorted = arena->Room<Placed>(count);
   for (std::size_t i = 0; i < count; ++i)
-    given[i] = {photons[i], PlaceOf(map.DirectionCode(photons[i]))};
+    given[i] = {photons[i], LocationOf(map.DirectionCode(photons[i]))};
   SortByDigit({given, count}, 0, sorted);
   SortByDigit({sorted, count}, kBits, given);
   std::uint32_t* const ordered = arena->Room<std::uint32_t>(count);

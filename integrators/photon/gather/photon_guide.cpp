@@ -57,11 +57,11 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
   if (count_ == 0 || map.IsEmpty()) return {};
   const Point3& p = point.surface.p;
   const LitSide side(point);
-  LastGuide* const last = context.notes ? &context.notes->Note<LastGuide>() : nullptr;
+  LastGuide* const last = context.pixelState ? &context.pixelState->Get<LastGuide>() : nullptr;
   if (last && last->Serves(p, side)) return last->directions;
 
   const RestPose rest(point.surface);
-  Arena& arena = context.notes ? context.notes->FreshArena() : context.arena;
+  Arena& arena = context.pixelState ? context.pixelState->FreshArena() : context.arena;
   const auto follow = [&](const GuideCacheCell& cell) {
     const GuidedDirections directions = WorthFollowing(cell, rest, p, side, cone_, &arena);
     if (last) *last = {directions, cell.Radius2(), p, side};
@@ -69,7 +69,7 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
   };
   if (!context.threadState)
     return follow(GuideCacheCell(map, rest.Point(p), count_, cone_, &context.arena));
-  GuideCache& cells = context.threadState->Note<GuideCache>(map, count_, cone_, cellWidth_);
+  GuideCache& cells = context.threadState->Get<GuideCache>(map, count_, cone_, cellWidth_);
   return follow(cells.At(rest.Point(p)));
 }
 

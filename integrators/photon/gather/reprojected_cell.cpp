@@ -33,25 +33,25 @@ namespace {
   view->lit = lit;
 }
 
-void LookPortable(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
-                  ReprojectedCell* view) {
+void ReprojectPortable(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
+                       ReprojectedCell* view) {
   Look(cell, p, side, view);
 }
 
-EXPHOTON_FOR_AVX2 void LookAvx2(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
-                                ReprojectedCell* view) {
+EXPHOTON_FOR_AVX2 void ReprojectAvx2(const GuideCacheCell& cell, const Vector3& p,
+                                     const LitSide& side, ReprojectedCell* view) {
   Look(cell, p, side, view);
 }
 
-EXPHOTON_FOR_AVX512 void LookAvx512(const GuideCacheCell& cell, const Vector3& p,
-                                    const LitSide& side, ReprojectedCell* view) {
+EXPHOTON_FOR_AVX512 void ReprojectAvx512(const GuideCacheCell& cell, const Vector3& p,
+                                         const LitSide& side, ReprojectedCell* view) {
   Look(cell, p, side, view);
 }
 
 }  // namespace
 
-std::span<const ReprojectedCell::Looker> ReprojectedCell::Lookers() {
-  static constexpr Looker kAll[] = {LookPortable, LookAvx2, LookAvx512};
+std::span<const ReprojectedCell::Kernel> ReprojectedCell::Kernels() {
+  static constexpr Kernel kAll[] = {ReprojectPortable, ReprojectAvx2, ReprojectAvx512};
   return {kAll, SimdTargets()};
 }
 
@@ -61,7 +61,7 @@ ReprojectedCell::ReprojectedCell(const GuideCacheCell& cell, const Point3& p, co
       y(x + cell.Room()),
       z(y + cell.Room()),
       cosine(z + cell.Room()) {
-  static const Looker look = Lookers().back();
+  static const Kernel look = Kernels().back();
   look(cell, p - cell.Middle(), side, this);
   for (std::size_t i = cell.size(); i < cell.Room(); ++i) x[i] = y[i] = z[i] = cosine[i] = 0;
 }

@@ -37,11 +37,11 @@ struct ReprojectedCell {
 
   ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side, Arena* arena);
 
-  // A Looker computes the arrays as seen from p, which is relative to cell.Middle(). There is one
+  // A Kernel computes the arrays as seen from p, which is relative to cell.Middle(). There is one
   // per SIMD target, for tests.
-  using Looker = void (*)(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
+  using Kernel = void (*)(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
                           ReprojectedCell* view);
-  static std::span<const Looker> Lookers();  // for this machine, widest last
+  static std::span<const Kernel> Kernels();  // for this machine, widest last
 };
 
 }  // namespace exphoton

@@ -61,7 +61,7 @@ class PhotonMap {
   // Returns the apparent origin of the photon: the point along its direction at its path length
   // since the emission or the last non-specular scattering. The distance is within 4.5 %.
   Point3 Origin(std::uint32_t i) const {
-    const Real part = DecodeDistance(OctahedralNote(DirectionCode(i)));
+    const Real part = DecodeDistance(OctahedralPayload(DirectionCode(i)));
     return Position(i) + Direction(i) * (farthest_ * part);
   }
   Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }

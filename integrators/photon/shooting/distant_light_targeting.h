@@ -32,8 +32,8 @@ class DistantLightTargeting {
 
   bool IsEmpty() const { return shares_.IsEmpty(); }
 
-  // Moves the start of a photon of a distant light (Light::IsFar) to a position chosen by u, and
-  // updates its power and density.
+  // Moves the start of a photon of a distant light (Light::IsDistant) to a position chosen by u,
+  // and updates its power and density.
   void Redirect(LightLeSample* emission, Point2 u) const;
 
   // Median over the wanted points of the density of photon starts, relative to uniform starts.

@@ -127,7 +127,7 @@ class PhotonTracer::Path {
     light_ = choice.index;
     auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
     if (!emission) return false;
-    if (!tracer_.aim_.IsEmpty() && choice.light->IsFar())
+    if (!tracer_.aim_.IsEmpty() && choice.light->IsDistant())
       tracer_.aim_.Redirect(&*emission, uPosition);
     *ray = RayDifferential(emission->ray);
     // docs/theory/exphotonmap.md, eq. 3
@@ -265,7 +265,7 @@ std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting
   std::vector<double> factors(scene.Lights().size(), 1.0);
   if (aim.IsEmpty()) return factors;
   for (std::size_t i = 0; i < factors.size(); ++i)
-    if (scene.Lights()[i]->IsFar()) factors[i] = 1 / std::max(aim.Gain(), 1.0);
+    if (scene.Lights()[i]->IsDistant()) factors[i] = 1 / std::max(aim.Gain(), 1.0);
   return factors;
 }
 

@@ -66,13 +66,13 @@ std::vector<Point3> VisiblePoints(const Scene& scene, const Camera& camera, Poin
   Arena arena;
   for (std::uint32_t i = 0; i < kCameraRays; ++i) {
     arena.Reset();
-    VisiblePointTracer seer(scene, &arena, HashKey({seed, kStreamKey, i}));
-    const auto seen = seer.Follow(camera.GenerateRay(SampleOf(i, size, seed, isMoving), false));
+    VisiblePointTracer tracer(scene, &arena, HashKey({seed, kStreamKey, i}));
+    const auto seen = tracer.Follow(camera.GenerateRay(SampleOf(i, size, seed, isMoving), false));
     if (!seen) continue;
     points.push_back(seen->surface.p);
-    const auto onward = seer.Scattered(*seen, LobeSet::NonSpecular);
+    const auto onward = tracer.Scattered(*seen, LobeSet::NonSpecular);
     if (!onward) continue;
-    if (const auto gathered = seer.Follow(*onward)) points.push_back(gathered->surface.p);
+    if (const auto gathered = tracer.Follow(*onward)) points.push_back(gathered->surface.p);
   }
   return points;
 }

@@ -17,4 +17,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 
 }  // namespace
 
-EXPHOTON_PLUGIN("throwing_constructor", "throws while it is loaded", exphoton::StubForm(Create))
+EXPHOTON_PLUGIN("throwing_constructor", "throws while it is loaded", exphoton::StubFactory(Create))

@@ -22,4 +22,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 
 }  // namespace
 
-EXPHOTON_PLUGIN("marking_filter", "leaves a file when it is loaded", exphoton::StubForm(Create))
+EXPHOTON_PLUGIN("marking_filter", "leaves a file when it is loaded", exphoton::StubFactory(Create))

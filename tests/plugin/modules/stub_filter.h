@@ -27,7 +27,7 @@ class StubFilter final : public Filter {
 };
 
 template <class Factory>
-PluginFactory StubForm(Factory factory) {
+PluginFactory StubFactory(Factory factory) {
   return MakeFactory<PluginKind::Filter>(StubParameters(), factory);
 }
 

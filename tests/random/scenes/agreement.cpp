@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// IntegratorLook compares the integrators, and CompareWithEnergy tests the bound on energy.
+// IntegratorComparison compares the integrators, and CompareWithEnergy tests the bound on energy.
 //
 // The comparison of integrators changes the scene to leave out:
 // - delta lights with specular surfaces: path tracing cannot find their caustics;
@@ -129,7 +129,7 @@ void CompareMeans(const std::string& what, const Means& a, const Means& b,
     const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
     const double margin = (i == 0 ? kPictureMargin : kBlockMargin) * scale;
     comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
-                            ChanceBeyond(left, right, margin), left.mean - right.mean,
+                            PValueBeyond(left, right, margin), left.mean - right.mean,
                             Describe(left, right)});
   }
 }
@@ -146,7 +146,7 @@ void ComparePairs(const std::string& what, const Means& a, const Means& b,
     const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
     const double margin = (i == 0 ? kPairPictureMargin : kPairBlockMargin) * scale;
     comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
-                            ChanceBeyond(pairs, {0, 0, pairs.count}, margin), pairs.mean,
+                            PValueBeyond(pairs, {0, 0, pairs.count}, margin), pairs.mean,
                             Describe(left, right)});
   }
 }
@@ -193,7 +193,7 @@ SceneModel WithoutKnownDifferences(const SceneModel& scene) {
   return same;
 }
 
-struct IntegratorLook::Rendered {
+struct IntegratorComparison::Rendered {
   SceneModel scene;
   Effort effort;
   std::map<const Method*, Means> means;
@@ -207,12 +207,12 @@ struct IntegratorLook::Rendered {
   }
 };
 
-IntegratorLook::IntegratorLook(const SceneModel& scene, const Effort& effort)
+IntegratorComparison::IntegratorComparison(const SceneModel& scene, const Effort& effort)
     : rendered_(new Rendered{WithoutKnownDifferences(scene), effort, {}}) {}
-IntegratorLook::IntegratorLook(IntegratorLook&&) noexcept = default;
-IntegratorLook::~IntegratorLook() = default;
+IntegratorComparison::IntegratorComparison(IntegratorComparison&&) noexcept = default;
+IntegratorComparison::~IntegratorComparison() = default;
 
-std::vector<Comparison> IntegratorLook::Compare(const std::string& only) {
+std::vector<Comparison> IntegratorComparison::Compare(const std::string& only) {
   std::vector<Comparison> comparisons;
   const auto compare = [&](const char* what, const Method& a, const Method& b, auto add) {
     if (only.empty() || only.starts_with(what))
@@ -243,7 +243,7 @@ std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort&
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Sample sample = SampleOf(path[i]);
     comparisons.push_back({i == 0 ? "energy, picture" : "energy, block " + std::to_string(i),
-                           ChanceAbove(sample, 1 + kEnergyMargin), sample.mean - 1,
+                           PValueAbove(sample, 1 + kEnergyMargin), sample.mean - 1,
                            Describe(sample, {1, 0, kSeeds})});
   }
   return comparisons;

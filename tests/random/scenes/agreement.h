@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// IntegratorLook and CompareWithEnergy test properties of means: path, photonmap and exphotonmap
-// agree, and no picture is brighter than its scene's energy allows. Each function returns one-sided
-// p-values, which are judged over a whole run (run.h). A single p-value is not a verdict.
+// IntegratorComparison and CompareWithEnergy test properties of means: path, photonmap and
+// exphotonmap agree, and no picture is brighter than its scene's energy allows. Each function
+// returns one-sided p-values, which are judged over a whole run (run.h). A single p-value is not a
+// verdict.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +32,12 @@ struct Effort {
 // with an unbounded bias (agreement.cpp lists these cases).
 SceneModel WithoutKnownDifferences(const SceneModel& scene);
 
-// IntegratorLook renders one scene with each integrator when the picture is first needed.
-class IntegratorLook {
+// IntegratorComparison renders one scene with each integrator when the picture is first needed.
+class IntegratorComparison {
  public:
-  IntegratorLook(const SceneModel& scene, const Effort& effort);
-  IntegratorLook(IntegratorLook&&) noexcept;
-  ~IntegratorLook();
+  IntegratorComparison(const SceneModel& scene, const Effort& effort);
+  IntegratorComparison(IntegratorComparison&&) noexcept;
+  ~IntegratorComparison();
 
   // Returns all comparisons, or with `only` those of the two integrators in the comparison of that
   // name. Without `only`, returns none if the picture is far darker than the emitters.

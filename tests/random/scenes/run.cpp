@@ -25,7 +25,7 @@ const std::string kInvariances = "invariances", kEnergy = "energy", kAgreement =
 std::vector<Comparison> Compared(const std::string& property, const SceneModel& scene,
                                  const Effort& effort, const std::string& only = "") {
   return property == kEnergy ? CompareWithEnergy(scene, effort)
-                             : IntegratorLook(scene, effort).Compare(only);
+                             : IntegratorComparison(scene, effort).Compare(only);
 }
 
 // Returns the comparison of that name, or one with a p-value of 1 if there is none.
@@ -77,15 +77,15 @@ void SceneRun::JudgeComparisons() {
   for (const std::size_t i : Rejected(chances, kFalseAlarms)) Judge(&records_[i]);
 }
 
-std::vector<Comparison> SceneRun::LookAgain(const SceneModel& scene, const Record& record,
-                                            int photonFactor) {
+std::vector<Comparison> SceneRun::CompareAgain(const SceneModel& scene, const Record& record,
+                                               int photonFactor) {
   const Effort effort{.factor = 16,
                       .photonFactor = photonFactor,
                       .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor)};
   if (record.property == kEnergy) return CompareWithEnergy(scene, effort);
-  if (lookedSeed_ != record.seed) looks_.clear();
-  lookedSeed_ = record.seed;
-  return looks_.try_emplace(photonFactor, scene, effort)
+  if (comparedSeed_ != record.seed) comparisons_.clear();
+  comparedSeed_ = record.seed;
+  return comparisons_.try_emplace(photonFactor, scene, effort)
       .first->second.Compare(record.comparison.what);
 }
 
@@ -98,7 +98,7 @@ void SceneRun::Judge(Record* record) {
   const auto drawn = SceneOfSeed(record->seed);
   const std::string what = record->comparison.what;
   const auto look = [&](int photonFactor) {
-    return Named(LookAgain(drawn.value(), *record, photonFactor), what);
+    return Named(CompareAgain(drawn.value(), *record, photonFactor), what);
   };
   const Comparison again = look(1);
   if (!(again.chance < kCertain)) return;

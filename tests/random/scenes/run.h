@@ -70,15 +70,15 @@ class SceneRun {
   void Add(const std::string& property, std::uint64_t seed);
   void Judge(Record* record);
   // Compares with 16 times the samples. The pictures of a scene are kept for all of its alarms.
-  std::vector<Comparison> LookAgain(const SceneModel& scene, const Record& record,
-                                    int photonFactor);
+  std::vector<Comparison> CompareAgain(const SceneModel& scene, const Record& record,
+                                       int photonFactor);
 
   RunSettings settings_;
   std::vector<Record> records_;
   std::vector<Failure> failures_, blurred_;
   std::map<std::string, Tally> tallies_;
-  std::map<int, IntegratorLook> looks_;  // by photonFactor, for lookedSeed_
-  std::uint64_t lookedSeed_ = 0;
+  std::map<int, IntegratorComparison> comparisons_;  // by photonFactor, for comparedSeed_
+  std::uint64_t comparedSeed_ = 0;
   int repeated_ = 0;
 };
 

@@ -55,7 +55,7 @@ Sample SampleOf(std::span<const double> values) {
   return sample;
 }
 
-double ChanceBeyond(const Sample& a, const Sample& b, double margin) {
+double PValueBeyond(const Sample& a, const Sample& b, double margin) {
   const double excess = std::abs(a.mean - b.mean) - margin;
   if (!(excess > 0)) return 1;
   const double variance = a.variance + b.variance;
@@ -66,7 +66,7 @@ double ChanceBeyond(const Sample& a, const Sample& b, double margin) {
   return StudentTail(excess / std::sqrt(variance), degrees);
 }
 
-double ChanceAbove(const Sample& a, double bound) {
+double PValueAbove(const Sample& a, double bound) {
   const double excess = a.mean - bound;
   if (!(excess > 0)) return 1;
   if (!(a.variance > 0)) return 0;

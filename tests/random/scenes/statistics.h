@@ -25,9 +25,9 @@ Sample SampleOf(std::span<const double> values);
 
 // Returns the probability of a difference |a - b| at least this large if the true difference is
 // `margin` (Welch's test), or 1 if the difference is within the margin.
-double ChanceBeyond(const Sample& a, const Sample& b, double margin);
+double PValueBeyond(const Sample& a, const Sample& b, double margin);
 // Returns the same probability for a mean a whose true value is at most `bound`.
-double ChanceAbove(const Sample& a, double bound);
+double PValueAbove(const Sample& a, double bound);
 
 // Returns the hypotheses to reject so that at most the fraction `rate` of the rejections is false:
 // the indices of the smallest p-values.

@@ -71,7 +71,7 @@ TEST(StudyCurves, AKnobsPriceIsThatOfOneDoubling) {
   const std::vector<Setting> settings{setting("8", "100"), setting("32", "100"),
                                       setting("8", "200"), setting("32", "200")};
   const std::vector<CostPoint> points{At(1, 1), At(4, .25), At(1, 1), At(4, .25)};
-  const std::vector<KnobCost> costs = FindKnobCosts(settings, points);
+  const std::vector<DoublingEffect> costs = FindDoublingEffects(settings, points);
   ASSERT_EQ(costs.size(), 2u);
   EXPECT_EQ(costs[0].parameter, "photons");
   EXPECT_DOUBLE_EQ(costs[0].secondsPerDoubling, 0);

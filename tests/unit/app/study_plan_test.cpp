@@ -13,7 +13,7 @@
 namespace exphoton::study {
 namespace {
 
-class Oracle final : public ParameterOracle {
+class Oracle final : public ParameterLookup {
  public:
   bool Has(const std::string& integrator, const std::string& parameter) const override {
     return (integrator == "photonmap" && parameter == "indirectphotons") || parameter == "maxdepth";

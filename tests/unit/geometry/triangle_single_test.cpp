@@ -48,7 +48,7 @@ void TestOne(RandomStream& random, const Point3& center, Real size, Real aspect,
   EXPECT_TRUE(hit->b1 >= 0 && hit->b2 >= 0 && hit->b1 + hit->b2 <= 1 + Gamma(4));
 }
 
-TEST(TriangleSingle, TellsHitsWithinItsBound) {
+TEST(TriangleSingle, AcceptsHitsWithinItsBound) {
   RandomStream random(1);
   Tally tally;
   for (int i = 0; i < 200000; ++i) {
@@ -64,7 +64,7 @@ TEST(TriangleSingle, TellsHitsWithinItsBound) {
 }
 
 // Most triangles in pictures are of this kind.
-TEST(TriangleSingle, TellsMostHitsOfPlainTriangles) {
+TEST(TriangleSingle, AcceptsMostHitsOfPlainTriangles) {
   RandomStream random(2);
   Tally tally;
   for (int i = 0; i < 20000; ++i)

@@ -17,7 +17,7 @@ constexpr PixelBounds kOnePixel{0, 0, 1, 1};
 
 AovSet Parsed(const std::string& text) {
   std::string unknown;
-  return ParseLayers(text, &unknown).value();
+  return ParseAovs(text, &unknown).value();
 }
 
 TEST(Aovs, AreNamedWithOrWithoutTheirChannelsAndInAnyCase) {
@@ -27,7 +27,7 @@ TEST(Aovs, AreNamedWithOrWithoutTheirChannelsAndInAnyCase) {
   EXPECT_EQ(Parsed("time.ms,P"), (AovSet{Aov::Time, Aov::Position}));
   for (const char* wrong : {"albedo.XYZ", "N.", "", "direct,,caustic", "lights"}) {
     std::string unknown = "?";
-    EXPECT_FALSE(ParseLayers(wrong, &unknown)) << wrong;
+    EXPECT_FALSE(ParseAovs(wrong, &unknown)) << wrong;
     EXPECT_NE(unknown, "?");
   }
 }
@@ -139,7 +139,7 @@ WorldEnd
 )";
 }
 
-class LightLayersTest : public testing::TestWithParam<const char*> {
+class LightAovsTest : public testing::TestWithParam<const char*> {
  protected:
   static TestRender Render(AovSet aovs, const std::string& filter = "\"box\"") {
     TestRenderOptions options;
@@ -149,7 +149,7 @@ class LightLayersTest : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(LightLayersTest, SumToThePicture) {
+TEST_P(LightAovsTest, SumToThePicture) {
   for (const char* filter : {"\"box\"", "\"mitchell\""}) {
     const TestRender render = Render(kLightAovs, filter);
     double largest = 0;
@@ -168,9 +168,9 @@ TEST_P(LightLayersTest, SumToThePicture) {
   }
 }
 
-TEST_P(LightLayersTest, LeaveThePictureAlone) {
+TEST_P(LightAovsTest, LeaveThePictureAlone) {
   const TestRender plain = Render({});
-  const TestRender layered = Render(kLightAovs | kRendererLayers);
+  const TestRender layered = Render(kLightAovs | kRendererAovs);
   for (int y = 0; y < plain.image.Height(); ++y)
     for (int x = 0; x < plain.image.Width(); ++x)
       for (int c = 0; c < 4; ++c)
@@ -178,7 +178,7 @@ TEST_P(LightLayersTest, LeaveThePictureAlone) {
   EXPECT_EQ(plain.rays.counts, layered.rays.counts);
 }
 
-TEST_P(LightLayersTest, HoldWhatTheyAreNamedAfter) {
+TEST_P(LightAovsTest, HoldWhatTheyAreNamedAfter) {
   const TestRender render = Render(kLightAovs);
   for (const char* aov : {"emission", "direct", "specular"})
     EXPECT_GT(MeanChannel(render.image, std::string(aov) + ".R"), .001) << aov;
@@ -188,7 +188,7 @@ TEST_P(LightLayersTest, HoldWhatTheyAreNamedAfter) {
     EXPECT_EQ(MeanChannel(render.image, std::string(aov) + ".R") > .0005, isGlobal) << aov;
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, LightLayersTest,
+INSTANTIATE_TEST_SUITE_P(Integrators, LightAovsTest,
                          testing::Values("\"path\"", "\"directlighting\"", "\"whitted\"",
                                          "\"photonmap\" \"integer causticphotons\" 2000 "
                                          "\"integer indirectphotons\" 2000",
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, LightLayersTest,
                                          "\"integer indirectphotons\" 2000"));
 
 // Path tracing and photon mapping must agree on which light is caustic and which is indirect.
-TEST(LightLayers, AgreeBetweenPathTracingAndPhotonMapping) {
+TEST(LightAovs, AgreeBetweenPathTracingAndPhotonMapping) {
   TestRenderOptions options;
   options.aovs = kLightAovs;
   const auto render = [&](const std::string& integrator, int samples) {
@@ -219,7 +219,7 @@ TEST(LightLayers, AgreeBetweenPathTracingAndPhotonMapping) {
   }
 }
 
-TEST(SurfaceLayers, HaveTheInterpolatedNormal) {
+TEST(SurfaceAovs, HaveTheInterpolatedNormal) {
   TestRenderOptions options;
   options.aovs = {Aov::Normal};
   const Image image =
@@ -234,7 +234,7 @@ TEST(SurfaceLayers, HaveTheInterpolatedNormal) {
 }
 
 // A mirror has no photons. The AOV must not show the photon density of the reflected surface.
-TEST(SurfaceLayers, HaveNoPhotonDensityOfWhatAMirrorShows) {
+TEST(SurfaceAovs, HaveNoPhotonDensityOfWhatAMirrorShows) {
   TestRenderOptions options;
   options.aovs = {Aov::PhotonDensity};
   const Image image =
@@ -250,9 +250,9 @@ TEST(SurfaceLayers, HaveNoPhotonDensityOfWhatAMirrorShows) {
   EXPECT_EQ(image.At(2, 2, image.FindChannel("photondensity.Y")), 0);
 }
 
-TEST(SurfaceLayers, TellWhatTheCameraSees) {
+TEST(SurfaceAovs, TellWhatTheCameraSees) {
   TestRenderOptions options;
-  options.aovs = kSurfaceLayers | AovSet{Aov::PhotonDensity};
+  options.aovs = kSurfaceAovs | AovSet{Aov::PhotonDensity};
   const Image image =
       RenderSceneText(TestHeader("\"photonmap\" \"integer indirectphotons\" 4000", 9, 9, 4) +
                           "WorldBegin LightSource \"point\" \"point from\" [0 0 1]\nMaterial "
@@ -269,7 +269,7 @@ TEST(SurfaceLayers, TellWhatTheCameraSees) {
 }
 
 // Parallel light spreads photons evenly over a disk of radius 2.
-TEST(SurfaceLayers, HaveThePhotonDensityOfADiskUnderParallelLight) {
+TEST(SurfaceAovs, HaveThePhotonDensityOfADiskUnderParallelLight) {
   TestRenderOptions options;
   options.aovs = {Aov::PhotonDensity};
   const TestRender render = RenderSceneText(

@@ -138,7 +138,7 @@ TEST(PerspectiveCamera, DifferentialsAreTheNeighboursRays) {
 
 // Version 1 has no other convention to compare with. NDC is -1..1 over the window with y up, and
 // 0..1 over the depth.
-TEST(PerspectiveCamera, NdcPutsTheFilmInTheUnitSquare) {
+TEST(PerspectiveCamera, NdcSpansMinusOneToOne) {
   TestPlugins plugins;
   for (const char* name : {R"("perspective" "float hither" 1 "float yon" 5)",
                            R"("orthographic" "float hither" 1 "float yon" 5)"}) {

@@ -119,7 +119,7 @@ std::string Plain(const std::string& light, const std::string& integrator) {
 // The irradiance is L cos(theta) for the sun and pi L for the sky, and the radiance is the
 // irradiance times the reflectance .5 over pi. With about 10^4 photons on the plate and 50 per
 // estimate, the mean over the picture is within 1 %.
-TEST(DistantLightTargeting, ServesASmallThingInAWideWorld) {
+TEST(DistantLightTargeting, CoversASmallObjectInAWideWorld) {
   const std::string sun =
       "LightSource \"distant\" \"color L\" [4 4 4] \"point from\" [3 0 4] \"point to\" [0 0 0]";
   const TestRender bySun = RenderSceneText(Plain(sun, ""));
@@ -139,7 +139,7 @@ TEST(DistantLightTargeting, IsLeftOutWhereItIsOfNoUse) {
 
 TEST(DistantLightTargeting, IsSuggestedWhereItIsOffAndLightIsMissing) {
   const std::string sun = "LightSource \"distant\" \"point from\" [0 0 3]";
-  const std::string words = "photons of far lights are spread over the whole scene";
+  const std::string words = "photons of distant lights are spread over the whole scene";
   const TestRender off = RenderSceneText(Plain(sun, "\"string photonaim\" \"off\""));
   EXPECT_TRUE(off.Says(words));
   EXPECT_FALSE(RenderSceneText(Plain(sun, "")).Says(words));

@@ -135,8 +135,8 @@ TEST(ReprojectedCell, IsTheSameWithEveryWidthOfVectors) {
     Arena arena;
     const LitSide side(Normalize(Normal3(1, 0, Real(.3))), Normalize(Normal3(1, 1, 0)), false);
     ReprojectedCell first(cell, p, side, &arena), other(cell, p, side, &arena);
-    ReprojectedCell::Lookers().front()(cell, p - cell.Middle(), side, &first);
-    for (const ReprojectedCell::Looker look : ReprojectedCell::Lookers()) {
+    ReprojectedCell::Kernels().front()(cell, p - cell.Middle(), side, &first);
+    for (const ReprojectedCell::Kernel look : ReprojectedCell::Kernels()) {
       look(cell, p - cell.Middle(), side, &other);
       EXPECT_EQ(other.lit, first.lit);
       for (std::size_t i = 0; i < 4 * cell.size(); ++i) ASSERT_EQ(other.x[i], first.x[i]);

@@ -40,19 +40,19 @@ PhotonMap Photons(Light light) {
   return PhotonMap(std::move(buffer), threads);
 }
 
-class GatherGuideTest : public testing::Test {
+class PhotonGuideTest : public testing::Test {
  protected:
   using Directions = std::vector<Vector3>;
 
-  ThreadState* passNotes_ = nullptr;
+  ThreadState* threadState_ = nullptr;
 
   // Returns the guiding directions at (x, .5, 0), seen from the side of `wo`.
-  Directions At(Real x, const Vector3& wo, PixelState* notes) {
+  Directions At(Real x, const Vector3& wo, PixelState* pixelState) {
     Arena arena;
-    return Listed(Guide(x, wo, photons_, kPhotons, notes, &arena));
+    return Listed(Guide(x, wo, photons_, kPhotons, pixelState, &arena));
   }
   GuidedDirections Guide(Real x, const Vector3& wo, const PhotonMap& photons, int count,
-                         PixelState* notes, Arena* arenaPointer) {
+                         PixelState* pixelState, Arena* arenaPointer) {
     Arena& arena = *arenaPointer;
     PhotonGuide guide(count, kCone);
     guide.Prepare(photons);
@@ -67,8 +67,8 @@ class GatherGuideTest : public testing::Test {
     ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
     point.bsdf.Add(arena.Make<Lambert>(Spectrum(Real(.8))));
     LiContext context{*scene_.setup->scene, samples, arena, rays, 0};
-    context.notes = notes;
-    context.threadState = passNotes_;
+    context.pixelState = pixelState;
+    context.threadState = threadState_;
     return guide.Directions(point, photons, context);
   }
   static Directions Listed(const GuidedDirections& guide) {
@@ -85,7 +85,7 @@ class GatherGuideTest : public testing::Test {
   PhotonMap photons_ = Photons(Light::OfAPatch);
 };
 
-TEST_F(GatherGuideTest, HoldsDirectionsThatLightTheSideThatIsSeen) {
+TEST_F(PhotonGuideTest, HoldsDirectionsThatLightTheSideThatIsSeen) {
   for (const Vector3& wo : {above_, below_}) {
     const Directions directions = At(Real(.5), wo, nullptr);
     EXPECT_FALSE(directions.empty());
@@ -94,7 +94,7 @@ TEST_F(GatherGuideTest, HoldsDirectionsThatLightTheSideThatIsSeen) {
   }
 }
 
-TEST_F(GatherGuideTest, FollowsPhotonsOfAPatchAndLeavesThoseOfTheSkyToTheBsdf) {
+TEST_F(PhotonGuideTest, FollowsPhotonsOfAPatchAndLeavesThoseOfTheSkyToTheBsdf) {
   constexpr int kMany = 200;
   const PhotonMap both = Photons(Light::OfBoth);
   Arena arena;
@@ -105,7 +105,7 @@ TEST_F(GatherGuideTest, FollowsPhotonsOfAPatchAndLeavesThoseOfTheSkyToTheBsdf) {
   EXPECT_NEAR(guide.share, .5, .15);  // photons of the patch, and photons of the sky near it
 }
 
-TEST_F(GatherGuideTest, LeavesASurfaceThatIsLitFromEverywhereToTheBsdf) {
+TEST_F(PhotonGuideTest, LeavesASurfaceThatIsLitFromEverywhereToTheBsdf) {
   constexpr int kMany = 400;
   const PhotonMap sky = Photons(Light::OfTheSky);
   Arena arena;
@@ -113,45 +113,45 @@ TEST_F(GatherGuideTest, LeavesASurfaceThatIsLitFromEverywhereToTheBsdf) {
   EXPECT_LT(guide.share, .05);
 }
 
-TEST_F(GatherGuideTest, ServesTheNextSampleOfAPixelCloseBy) {
-  PixelState notes;
-  const Directions first = At(Real(.4), above_, &notes);
+TEST_F(PhotonGuideTest, ServesTheNextSampleOfAPixelCloseBy) {
+  PixelState pixelState;
+  const Directions first = At(Real(.4), above_, &pixelState);
   EXPECT_EQ(first, At(Real(.4), above_, nullptr));
   ASSERT_NE(At(Real(.4) + step_, above_, nullptr), first);
-  EXPECT_EQ(At(Real(.4) + step_, above_, &notes), first);
+  EXPECT_EQ(At(Real(.4) + step_, above_, &pixelState), first);
 }
 
-TEST_F(GatherGuideTest, IsFoundAnewWhereASampleSeesAnotherPlaceOrTheOtherSide) {
-  PixelState notes;
-  At(Real(.4), above_, &notes);
+TEST_F(PhotonGuideTest, IsFoundAnewWhereASampleSeesAnotherPlaceOrTheOtherSide) {
+  PixelState pixelState;
+  At(Real(.4), above_, &pixelState);
   const Real place = Real(.4) + far_;
-  EXPECT_EQ(At(place, above_, &notes), At(place, above_, nullptr));
-  EXPECT_EQ(At(place, below_, &notes), At(place, below_, nullptr));
+  EXPECT_EQ(At(place, above_, &pixelState), At(place, above_, nullptr));
+  EXPECT_EQ(At(place, below_, &pixelState), At(place, below_, nullptr));
   // The next sample must reuse the new directions.
-  EXPECT_EQ(At(place + step_, below_, &notes), At(place, below_, nullptr));
+  EXPECT_EQ(At(place + step_, below_, &pixelState), At(place, below_, nullptr));
 }
 
-TEST_F(GatherGuideTest, OfAPassIsTheSameWhateverWasLookedAtBefore) {
+TEST_F(PhotonGuideTest, OfAPassIsTheSameWhateverWasLookedAtBefore) {
   ThreadState pass, fresh;
   for (int i = 0; i < 40; ++i) {
     const Real x = Real(.1) + far_ * Real(i % 3) + Real(.0011) * Real(i);
     const Vector3& wo = i % 2 ? above_ : below_;
-    passNotes_ = &pass;
+    threadState_ = &pass;
     const Directions found = At(x, wo, nullptr);
-    passNotes_ = &fresh;
+    threadState_ = &fresh;
     fresh.Reset();
     ASSERT_EQ(At(x, wo, nullptr), found);
     ASSERT_FALSE(found.empty());
   }
 }
 
-TEST_F(GatherGuideTest, IsForgottenWithThePixel) {
-  PixelState notes;
+TEST_F(PhotonGuideTest, IsForgottenWithThePixel) {
+  PixelState pixelState;
   const Real next = Real(.4) + step_;
   ASSERT_NE(At(next, above_, nullptr), At(Real(.4), above_, nullptr));
-  At(Real(.4), above_, &notes);
-  notes.Reset();
-  EXPECT_EQ(At(next, above_, &notes), At(next, above_, nullptr));
+  At(Real(.4), above_, &pixelState);
+  pixelState.Reset();
+  EXPECT_EQ(At(next, above_, &pixelState), At(next, above_, nullptr));
 }
 
 }  // namespace

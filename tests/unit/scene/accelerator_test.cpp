@@ -102,7 +102,7 @@ TEST_P(Accelerators, AgreeOnRaysFromSurfacesAtEveryScale) {
 }
 
 // The layers of triangles are too close for single precision, and their ids are in no order.
-TEST_P(Accelerators, AgreeOnLayersCloserThanSinglePrecisionTells) {
+TEST_P(Accelerators, AgreeOnSurfacesCloserThanSinglePrecisionResolves) {
   TestPlugins plugins;
   for (const Real gap : {Real(1e-4), Real(1e-5), Real(1e-6), Real(1e-7), Real(0)}) {
     RandomStream random(21);

@@ -75,13 +75,13 @@ double LeastWork(const Tree& tree) {
 }
 
 // Returns the work of the choice that the stored shares describe.
-double WorkTold(const Tree& tree, std::size_t node) {
+double WorkOfShares(const Tree& tree, std::size_t node) {
   double work = tree[node].area;
   int children = 0;
   const auto open = [&](const auto& self, std::size_t at, int most, int share) -> void {
     if (share == 0) {
       ++children;
-      work += tree[at].collapse.isLeaf ? tree[at].area : WorkTold(tree, at);
+      work += tree[at].collapse.isLeaf ? tree[at].area : WorkOfShares(tree, at);
       return;
     }
     const std::size_t lower = tree[at].lower, upper = tree[at].upper;
@@ -100,7 +100,7 @@ TEST(Collapse, TakesTheLeastWorkOfAllChoices) {
       const Tree tree = RandomTree(leaves, &random);
       const double least = LeastWork(tree);
       EXPECT_NEAR(tree[0].collapse.least[0], least, 1e-12 * least) << leaves << " leaves";
-      EXPECT_NEAR(WorkTold(tree, 0), least, 1e-12 * least) << leaves << " leaves";
+      EXPECT_NEAR(WorkOfShares(tree, 0), least, 1e-12 * least) << leaves << " leaves";
     }
   }
 }

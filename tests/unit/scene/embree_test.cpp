@@ -76,7 +76,7 @@ TEST(Embree, DoesNotMissEverythingInHugeAndTinyWorlds) {
       for (Point3& p : triangle) p = p * size;
     ExpectTheSameHits(*TriangleSet(triangles), 7);
     PrimitiveSet shapes;
-    for (const Real x : {-2, 0, 2}) {
+    for (const Real x : {Real(-2), Real(0), Real(2)}) {
       const auto toWorld = Transform::Translate({x * size, 0, 0}) *
                            *Transform::Scale(double(size), double(size), double(size));
       ShapeGeometry sphere = plugins.MakeShape(R"("sphere")", toWorld);

@@ -306,7 +306,7 @@ TEST(Octahedral, WithANoteKeepsItAndStaysClose) {
     v = NormalizeOr(v, {0, 0, -1});
     const auto note = std::uint8_t(i);
     const std::uint32_t code = EncodeOctahedral(v, note);
-    ASSERT_EQ(OctahedralNote(code), note);
+    ASSERT_EQ(OctahedralPayload(code), note);
     ASSERT_LT(Distance(DecodeOctahedral(code), v), 1.2e-3);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LargeVector is a vector whose memory uses huge pages where the system has them. It is for arrays
-// with random access: with small pages almost every read would miss the TLB.
+// HugePageVector is a vector whose memory uses huge pages where the system has them. It is for
+// arrays with random access: with small pages almost every read would miss the TLB.
 #pragma once
 
 #include <sys/mman.h>
@@ -51,8 +51,8 @@ struct RawLargePageAllocator : LargePageAllocator<T> {
 };
 
 template <class T>
-using RawLargeVector = std::vector<T, RawLargePageAllocator<T>>;
+using UninitializedHugePageVector = std::vector<T, RawLargePageAllocator<T>>;
 template <class T>
-using LargeVector = std::vector<T, LargePageAllocator<T>>;
+using HugePageVector = std::vector<T, LargePageAllocator<T>>;
 
 }  // namespace exphoton
