@@ -76,7 +76,7 @@ photons() {
     echo "$count $(phase shoot) $(phase kd-trees) $(phase radiance) $(phase render) $(memory)"
   done
 }
-# lamps COUNT: so many small lamps of the same power in all, on a square under the ceiling.
+# lamps COUNT: this number of small lamps with the same total power, on a square under the ceiling.
 lamps() {
   awk -v n="$1" 'BEGIN {
     side = int(sqrt(n - 1)) + 1

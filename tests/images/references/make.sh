@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-2-Clause
 # Makes the reference pictures of tests/images/ anew, by path tracing: two halves of each scene with
-# different seeds, whose difference tells the noise of their mean. Writes them and README.md here.
+# different seeds, whose difference measures the noise of their mean. Writes them and README.md here.
 #     tests/images/references/make.sh [path of the program, default build/bin/exphoton]
 # About 7 minutes of one core. The pictures do not depend on the number of threads.
 set -euo pipefail

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check the layers of the core. A folder of core/ may include only folders below it,
-// and no plugin. No source file may be too long to read at once.
+// These tests check the house rules: a folder of core/ includes only folders below it and no plugin,
+// no source file and no folder is too large, and comments and pages avoid the phrases that
+// docs/development/CONTRIBUTING.md names.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -25,7 +27,7 @@ int LayerOf(const std::string& folder) {
 }
 
 bool IsSource(const fs::path& path) {
-  return path.extension() == ".h" || path.extension() == ".cpp";
+  return path.extension() == ".h" || path.extension() == ".cpp" || path.extension() == ".inl";
 }
 
 std::vector<std::string> Lines(const fs::path& path) {
@@ -71,6 +73,59 @@ TEST(Layering, NoSourceFileHasMoreThan500Lines) {
          fs::recursive_directory_iterator(fs::path(EXPHOTON_SOURCE_DIR) / folder)) {
       if (!entry.is_regular_file() || !IsSource(entry.path())) continue;
       EXPECT_LE(Lines(entry.path()).size(), 500u) << entry.path();
+    }
+}
+
+const std::vector<std::string> kPrivatePhrases{
+    "told", "tells", "whom", "in vain", "nobody", "so many", "that of", "as many as", "of those"};
+
+// Returns the comment of a line of C++; for Markdown, the line, unless it is code.
+std::string ProseOf(const std::string& line, bool isMarkdown) {
+  if (isMarkdown) return line.starts_with("    ") ? "" : line;
+  const std::size_t comment = line.find("//");
+  return comment == std::string::npos ? "" : line.substr(comment);
+}
+
+// CONTRIBUTING.md lists the phrases, so it is left out.
+TEST(Language, CommentsAndPagesHaveNoneOfThePhrasesThatContributingNames) {
+  int checked = 0;
+  const fs::path top = EXPHOTON_SOURCE_DIR;
+  std::vector<fs::path> files{top / "README.md"};
+  for (const char* folder : {"core", "integrators", "accelerators", "shapes", "lights", "materials",
+                             "samplers", "tests", "docs", "scenes"})
+    for (const auto& entry : fs::recursive_directory_iterator(top / folder))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  for (const fs::path& path : files) {
+    const bool isMarkdown = path.extension() == ".md";
+    if (!IsSource(path) && !isMarkdown) continue;
+    if (path.filename() == "CONTRIBUTING.md") continue;
+    ++checked;
+    bool isCode = false;
+    for (const std::string& line : Lines(path)) {
+      if (isMarkdown && line.starts_with("```")) isCode = !isCode;
+      const std::string prose = " " + ProseOf(line, isMarkdown) + " ";
+      for (const std::string& phrase : kPrivatePhrases) {
+        const std::size_t at = isCode ? std::string::npos : prose.find(phrase);
+        if (at == std::string::npos) continue;
+        const bool isWord = !std::isalpha(static_cast<unsigned char>(prose[at - 1])) &&
+                            !std::isalpha(static_cast<unsigned char>(prose[at + phrase.size()]));
+        EXPECT_FALSE(isWord) << path << ": \"" << phrase << "\" in: " << line;
+      }
+    }
+  }
+  EXPECT_GT(checked, 600);
+}
+
+TEST(Layering, NoFolderHasMoreThanTwentySources) {
+  const fs::path top = EXPHOTON_SOURCE_DIR;
+  for (const char* folder : {"core", "integrators", "accelerators", "shapes", "lights", "materials",
+                             "samplers", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
+      if (!entry.is_directory()) continue;
+      const auto sources =
+          std::count_if(fs::directory_iterator(entry.path()), fs::directory_iterator(),
+                        [](const auto& file) { return IsSource(file.path()); });
+      EXPECT_LE(sources, 20) << entry.path();
     }
 }
 
