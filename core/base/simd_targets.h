@@ -25,10 +25,14 @@
 
 namespace exphoton {
 
-// Returns the number of usable targets on this machine, in the order {portable, AVX2, AVX-512}.
-inline std::size_t SimdTargets() {
+// Returns the number of usable targets on this machine, in the order {portable, AVX2, AVX-512}. A
+// target counts only if the machine has every feature that any file of that target is compiled for.
+// All run-time choices of a target go by this function.
+inline std::size_t UsableSimdTargets() {
 #if defined(__x86_64__)
-  if (!__builtin_cpu_supports("avx2")) return 1;
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
+      !__builtin_cpu_supports("bmi") || !__builtin_cpu_supports("popcnt"))
+    return 1;
   const bool has512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
   return has512 ? 3 : 2;

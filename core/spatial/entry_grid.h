@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // EntryGrid divides space into cubic cells and stores for each a block of points near its centre. A
-// search for the closest point begins at that block. The grid affects the time of a search only,
-// never its result.
+// closest-disk search scans that block first, to start with a small radius. The grid affects the
+// time of a search only, never its result.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,8 @@ class EntryGrid {
   // Makes at most `cells` cells over the points of the view, but at least one if there are points.
   EntryGrid(const PointTreeView& view, std::size_t cells, ThreadPool& threads);
 
-  // Positions outside the grid are clamped to its border cells. p must be finite.
+  // Positions outside the grid are clamped to its border cells. p must be finite, and the grid must
+  // have cells.
   std::uint32_t BlockNear(const Point3& p) const {
     const auto along = [this](Real offset, std::uint32_t count) {
       const Real at = std::min(std::max(offset * scale_, Real(0)), Real(count - 1));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PointBvh is an implicit 16-wide hierarchy of bounding boxes over blocks of points. Child i of
-// node n is node 16 n + i of the level below, or block 16 n + i at the lowest level. Its shape
-// follows from the number of blocks alone. The searches in nearest_search.h traverse it.
+// node n is node 16 n + i of the level below, or block 16 n + i at the lowest level. It needs no
+// pointers, because its shape depends only on the number of blocks. The searches in
+// nearest_search.h traverse it.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,8 @@ namespace exphoton {
 
 inline constexpr std::uint32_t kBoxChildren = 16;
 
-// The bounds of sixteen children. A node with fewer children repeats the last one (PointBlock).
+// The bounds of sixteen children. A node with fewer children repeats the bounds of the last child,
+// as PointBlock repeats its last point.
 struct alignas(64) BoxNode {
   Real low[3][kBoxChildren], high[3][kBoxChildren];
 

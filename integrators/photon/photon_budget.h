@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The photon budget of a render: how many photons each map wants in this scene, and the memory that
-// they take. A map that nothing reads, or that the scene cannot fill, wants none.
+// This header computes the photon budget of a render: the target count of each map in this scene,
+// and the memory of the finished maps. The target is 0 for a map that no estimate reads or that the
+// scene cannot fill.
 #pragma once
 
 #include <string>
@@ -17,14 +18,15 @@ bool GathersIndirectLight(const PhotonSettings& settings, const Scene& scene);
 
 PhotonTargets ChooseTargets(const PhotonSettings& settings, const Scene& scene);
 
-// "100 direct, 200 indirect"; empty where no map wants a photon.
+// Returns text like "100 direct, 200 indirect". It is empty if all targets are 0.
 std::string TextOf(const PhotonTargets& targets);
-// Bytes of the finished maps.
+// Returns the estimated size of the finished maps, radiance photons included. Building them takes
+// more.
 double BytesOf(const PhotonTargets& targets);
 // Throws an Error of status Resource that names the targets and the memory limit.
 [[noreturn]] void FailByMemory(const PhotonTargets& targets);
 
-// Photons, gather and memory, one line each, for `exphoton explain`.
+// Returns one line each on photons, final gather and memory, for `exphoton explain`.
 std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Scene& scene);
 
 }  // namespace exphoton

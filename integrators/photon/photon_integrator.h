@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PhotonIntegrator: photon mapping in two passes, the surface integrator behind the plugins
-// photonmap and exphotonmap, which differ in their settings only. Preprocess shoots photons, builds
-// the maps and computes the radiance photons; Li adds up the light that leaves the visible surface
-// (docs/theory/exphotonmap.md, eq. 1).
+// photonmap and exphotonmap, with different default settings. Preprocess shoots photons, builds the
+// maps and computes the radiance photons; Li returns the radiance that leaves the visible surface
+// towards the camera (docs/theory/exphotonmap.md, eq. 1).
 #pragma once
 
 #include <memory>
@@ -42,14 +42,14 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   void ComputeRadiancePhotons(const Scene& scene, PhotonPassResult* photons,
                               PreprocessContext& context);
 
-  // The terms of Li: radiance towards wo by the non-specular lobes.
+  // Each function returns one term of Li: radiance that the non-specular lobes scatter towards wo.
   Spectrum Direct(const ShadingPoint& point, LiContext& context) const;
   Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;
   Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
-  // The one map that the parameter "show" names.
+  // Returns the radiance from the one map that the parameter "show" selects; the other terms are 0.
   SurfaceLight Shown(const ShadingPoint& point, LiContext& context) const;
   Spectrum ShownRadiance(const ShadingPoint& point) const;
-  // Fills the AOV of photon density at the surface that the camera sees.
+  // Writes the AOV of photon density. Only the first hit of a camera ray counts.
   void FillDensity(const ShadingPoint& point, LiContext& context) const;
 
   PhotonSettings settings_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// CollapseLeaf and CollapseHalves choose which nodes of a binary tree become 8-wide nodes. Dynamic
-// programming from the leaves up minimises the expected work of a ray.
-// Source: Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs through
-// compressed wide BVHs", section 3.1; the costs are those of MacDonald and Booth 1990.
+// CollapseLeaf and CollapseHalves choose which nodes of a binary BVH become nodes or leaves of the
+// 8-wide BVH. Dynamic programming from the leaves up minimises the expected work of a ray. Source:
+// Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed
+// wide BVHs", section 3.1; the costs are those of MacDonald and Booth 1990.
 #pragma once
 
 #include <array>
@@ -12,19 +12,20 @@
 
 namespace exphoton {
 
-// least[k - 1] is the least expected work (half areas times visits) in a subtree of the binary
-// tree, if the subtree is represented by at most k children of an 8-wide node.
+// A subtree of the binary BVH can occupy up to 8 child slots of one 8-wide node. least[k - 1] is
+// its least cost if it may use k slots. The cost is the sum of half area times visit cost over the
+// nodes and leaves made from it.
 using ForestCost = std::array<double, kBvhWidth>;
 
-// A subtree of the binary tree may be represented by k children of an 8-wide node. ForestShares
-// stores how many of them belong to the lower half, in four bits for each k.
+// If a subtree may use k slots, ForestShares stores how many of them go to its lower half. The
+// upper half may use the others. Each k takes four bits.
 class ForestShares {
  public:
-  // Returns the share of an 8-wide node made from this node itself. 0: impossible, as it has no
-  // halves.
+  // Returns how many of the 8 slots go to the lower half if this node itself becomes an 8-wide
+  // node. 0: the node is a leaf of the binary BVH.
   int OfNode() const { return int(bits_ & 15); }
-  // Returns the share if the subtree gets at most `children` children, 1 to 8. 0: it is a single
-  // child.
+  // Returns how many slots go to the lower half if the subtree may use `children` slots, 1 to 8. 0:
+  // the subtree uses one slot only.
   int Of(int children) const { return children > 1 ? At(children) : 0; }
 
   void SetOfNode(int share) { bits_ |= std::uint32_t(share); }

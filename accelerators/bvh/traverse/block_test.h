@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// BvhTraversal's block functions test a run of triangle blocks against a ray, with the widest SIMD
-// target of the machine. This is the leaf test of the BVH, for other accelerators whose leaves
-// consist of such blocks.
+// MakeBlock packs up to 8 triangles into a BvhBlock, the leaf format of the BVH. Other accelerators
+// may use such blocks too, with the leaf-test functions of BvhTraversal (traverse.h).
 #pragma once
 
 #include <span>

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "accelerators/bvh/traverse/traverse.h"
+#include "core/base/simd_targets.h"
 #include "core/geometry/triangle_single.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
@@ -109,12 +110,9 @@ const BvhTraversal kPortableTraversal{"portable",      Intersect, Occluded,     
 
 const BvhTraversal& FastestTraversal([[maybe_unused]] BvhVectors widest) {
 #if defined(EXPHOTON_BVH_AVX)
-  const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                       __builtin_cpu_supports("bmi");
-  const bool hasAvx512 = hasAvx2 && __builtin_cpu_supports("avx512f") &&
-                         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
-  if (widest >= BvhVectors::Widest && hasAvx512) return kAvx512Traversal;
-  if (widest >= BvhVectors::Avx2 && hasAvx2) return kAvx2Traversal;
+  const std::size_t targets = UsableSimdTargets();
+  if (widest >= BvhVectors::Widest && targets >= 3) return kAvx512Traversal;
+  if (widest >= BvhVectors::Avx2 && targets >= 2) return kAvx2Traversal;
 #endif
   return kPortableTraversal;
 }

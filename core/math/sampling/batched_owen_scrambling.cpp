@@ -32,7 +32,7 @@ EXPHOTON_FOR_AVX512 void RunAvx512(const std::uint32_t* reversed, std::size_t co
 
 std::span<const Scrambler> AvailableScramblers() {
   static constexpr Scrambler kAll[] = {RunPortable, RunAvx2, RunAvx512};
-  return {kAll, SimdTargets()};
+  return {kAll, UsableSimdTargets()};
 }
 
 void BatchedOwenScrambling(const std::uint32_t* reversed, std::size_t count, std::uint32_t key,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// NearestSearch: k-nearest-neighbour and closest-disk queries on blocks of points under a BVH. The
-// implementation (nearest_search.inl) is compiled for several SIMD targets; the widest that the
-// machine supports is chosen at run time. All targets give the same bits as a linear search over
-// all points. Neighbours are ordered by squared distance; ties go to the lower index.
+// NearestSearch runs k-nearest-neighbour and closest-disk queries on blocks of points under a
+// PointBvh. The implementation (nearest_search.inl) is compiled for several SIMD targets; the
+// widest that the machine supports is chosen at run time. All targets give the same bits as a
+// linear search over all points. Points are compared by squared distance. Of equally distant points
+// the one with the lower index counts as nearer.
 #pragma once
 
 #include <span>
@@ -39,11 +40,12 @@ struct NearestQuery {
   Normal3 n;
 };
 
-// The result of a k-nearest-neighbour query, by ascending index.
+// The result of a k-nearest-neighbour query. It is sorted by point index, not by distance.
 struct NearPoints {
   std::span<const Real> distance2;
   std::span<const std::uint32_t> index;
-  std::size_t farthest = 0;  // index of the largest distance, the last one if tied; 0 if empty
+  std::size_t farthest =
+      0;  // position in both arrays of the farthest point, the last of equals; 0 if empty
 
   std::size_t size() const { return index.size(); }
 };

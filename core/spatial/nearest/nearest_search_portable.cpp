@@ -3,8 +3,10 @@
 // also lists the searches that the machine supports and chooses the fastest.
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <limits>
 
+#include "core/base/simd_targets.h"
 #include "core/spatial/nearest/nearest_search.h"
 
 namespace exphoton {
@@ -25,12 +27,7 @@ std::span<const NearestSearch* const> AvailableNearestSearches() {
     &kAvx512NearestSearch,
 #endif
   };
-  std::size_t count = 1;
-#if defined(EXPHOTON_WIDE_VECTORS)
-  if (__builtin_cpu_supports("avx2")) ++count;
-  if (count == 2 && __builtin_cpu_supports("avx512f")) ++count;
-#endif
-  return {all, count};
+  return {all, std::min(std::size(all), UsableSimdTargets())};
 }
 
 const NearestSearch& FastestNearestSearch() {

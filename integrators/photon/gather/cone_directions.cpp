@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/simd_targets.h"
 #include "integrators/photon/gather/cone_directions_wide.h"
 
 namespace exphoton {
@@ -20,8 +21,7 @@ namespace {
 std::span<const ConeLoops> ConeDirections::Loops() {
 #if defined(EXPHOTON_WIDE_VECTORS)
   static const ConeLoops all[] = {kLoops, kConeLoopsAvx2, kConeLoopsAvx512};
-  if (__builtin_cpu_supports("avx512f")) return all;
-  return {all, __builtin_cpu_supports("avx2") ? std::size_t(2) : std::size_t(1)};
+  return {all, UsableSimdTargets()};
 #else
   static const ConeLoops all[] = {kLoops};
   return all;

@@ -22,17 +22,18 @@ class FinalGather {
   FinalGather() = default;
   explicit FinalGather(const PhotonSettings& settings);
 
-  // If `gathers` is false, the requested arrays are empty, and the samples of other requests stay
-  // the same.
+  // If `gathers` is false, it requests empty arrays. The number of requests stays the same, so the
+  // samples of other requests do not change.
   void RequestSamples(bool gathers, SampleLayout* layout);
 
-  // Must be called when the photons are stored. `photons` must outlive the pass.
+  // Must be called after the map is built. `photons` must outlive the pass.
   void Prepare(const PhotonMap& photons) { guide_.Prepare(photons); }
 
   // Integrates f * incident * |cos| over the non-specular lobes, by rays with 0 < t < infinity. All
-  // rays are traced before the first one reads a map, so that the caches hold either the scene or
-  // the maps. incident.Trace(ray) returns an Incident::Segment, incident.Look(segments) looks up
-  // all of them together, and incident.Read(segment) returns the radiance.
+  // rays are traced before the first one reads a map, so that the CPU caches need not hold the
+  // scene and the maps at once. incident.Trace(ray) returns an Incident::Segment,
+  // incident.Look(segments) looks up all of them together, and incident.Read(segment) returns the
+  // radiance.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
                   const Incident& incident) const;
@@ -60,8 +61,8 @@ class FinalGather {
     int cones = -1, radii = -1;       // of the guided rays: 2D, 1D
   };
 
-  // The number of guided rays follows the share of the light that their directions carry: it is the
-  // smallest of S/2, S/4, S/8 ... that is at least guide.share * S, with S rays in total.
+  // Let S be the total number of rays. The number of guided rays is the smallest of S/2, S/4, S/8
+  // ... that is at least guide.share * S, or S/2 if none is. Without guiding directions it is 0.
   const Split& SplitFor(const GuidedDirections& guide) const {
     if (guide.axes.size() == 0) return splits_.back();
     const Split* split = splits_.data();

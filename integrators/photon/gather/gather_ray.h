@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // GatherRay computes the radiance along a gather ray. Diffuse lobes of the hit read the nearest
-// valid radiance photon, or the density estimates of the three maps if there is none. Glossy lobes
-// take a light sample and one ray that reads the radiance at its end. Specular lobes are followed.
-// Emission at a hit counts only after a glossy bounce; elsewhere direct lighting or the caustic map
-// contains it (docs/theory/exphotonmap.md, section 4).
+// valid radiance photon, or the density estimates of the three maps if there is none or the ray is
+// too short (shortrays). Glossy lobes take a light sample and one ray that reads the radiance at
+// its end. Specular lobes are followed. Emission at a hit counts only after a glossy bounce;
+// elsewhere direct lighting or the caustic map contains it (docs/theory/exphotonmap.md, section 4).
 #pragma once
 
 #include "core/transport/light_sampler.h"
@@ -21,8 +21,8 @@ class GatherRay {
   };
 
   // All arguments must outlive this object. Without radiance photons (radianceMap null), all
-  // non-specular lobes of every hit use the three density estimates. `random` belongs to the
-  // shading point that gathers.
+  // non-specular lobes of every hit use the three density estimates. `random` is the random stream
+  // of the shading point where the gather starts.
   GatherRay(const PhotonMapSet& maps, const RadiancePhotonMap* radianceMap,
             const PhotonSettings& settings, const LightSampler& lights, LiContext& context,
             RandomStream* random);
@@ -36,14 +36,14 @@ class GatherRay {
   Spectrum Read(const Segment& segment) const { return Along(segment); }
 
  private:
-  // Walk is the state of a gather ray that is followed from lobe to lobe.
+  // Walk is the state of a gather ray that continues from surface to surface.
   struct Walk {
     Segment segment;
     Spectrum throughput{1};
     Spectrum radiance;  // found so far
     int specularBounces = 0, glossyBounces = 0;
-    // Origin and density, per solid angle, of the glossy bounce that the segment begins with. A
-    // density of 0 means that it begins otherwise.
+    // Origin and density, per solid angle, of the glossy bounce that the segment begins with. The
+    // density is 0 if the segment does not begin with a glossy bounce.
     SurfacePoint from;
     Real glossyPdf = 0;
 
@@ -64,7 +64,7 @@ class GatherRay {
   Spectrum Along(const Segment& segment) const;
   // Replaces the segment by the next one. Returns false if the walk ends.
   bool GoOn(Walk* walk) const;
-  // Extends the walk by one of these lobes at its segment's end.
+  // Continues the walk from its hit along one of these lobes. Returns false if the walk ends.
   bool Bounce(LobeSet lobes, Walk* walk) const;
   bool BounceGlossy(const ShadingPoint& point, Walk* walk) const;
   bool BounceSpecular(const ShadingPoint& point, Walk* walk) const;

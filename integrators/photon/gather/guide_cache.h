@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GuideCache stores, per cell of space, the origins of the light of nearby photons. Each thread
-// keeps cells while it works close by. A cell's content depends only on its position, so no pixel
-// depends on the pixels rendered before it.
+// GuideCache stores, per cell of space, the origins of the light of nearby photons. Each thread has
+// its own direct-mapped cache. A miss overwrites the cell in the same slot. The content of a cell
+// depends only on the map and the cell's position, so no pixel depends on the pixels rendered
+// before it.
 #pragma once
 
 #include <vector>
@@ -26,10 +27,11 @@ class GuideCacheCell {
   const Real* X() const { return rows_.data(); }
   const Real* Y() const { return X() + Room(); }
   const Real* Z() const { return Y() + Room(); }
-  // Per photon: the largest expected neighbour count for which its cone, seen from the middle, is
-  // significantly over-dense.
+  // Per photon: let n be the number of other photons in the cone about its direction, seen from the
+  // middle. The value is the expected count e with n = 2 e + sqrt(e). The cone is over-dense where
+  // fewer than e photons are expected.
   const Real* DenserThan() const { return Z() + Room(); }
-  // Length of a row: whole runs, padded with 0.
+  // Returns the length of a row: the photon count, padded to a whole number of SIMD vectors.
   std::size_t Room() const { return rows_.size() / kRows; }
 
  private:

@@ -52,7 +52,7 @@ EXPHOTON_FOR_AVX512 void ReprojectAvx512(const GuideCacheCell& cell, const Vecto
 
 std::span<const ReprojectedCell::Kernel> ReprojectedCell::Kernels() {
   static constexpr Kernel kAll[] = {ReprojectPortable, ReprojectAvx2, ReprojectAvx512};
-  return {kAll, SimdTargets()};
+  return {kAll, UsableSimdTargets()};
 }
 
 ReprojectedCell::ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side,

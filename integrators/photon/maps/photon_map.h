@@ -19,8 +19,8 @@ struct PhotonQuery {
   Normal3 n;             // unit geometric normal of the receiver
   int k = 50;            // >= 2
   Real maxDistance = 0;  // > 0
-  // Only photons that arrived on n's side count. The test acts during the search, so photons on the
-  // far side of a thin wall neither add light nor shrink the radius.
+  // If true, only photons that arrived on n's side count. The search applies this test, so photons
+  // on the far side of a thin wall neither add light nor shrink the radius.
   bool isOneSided = true;
   // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
@@ -37,8 +37,9 @@ struct PhotonNeighbourhood {
 
 class PhotonMap {
  public:
-  // The search region is flattened along the normal: a photon at height h counts as if it were at
-  // least h / kFlatness away (eq. 11). This separates surfaces at corners and thin walls.
+  // The search region is flattened along the normal. A photon at height h over the tangent plane
+  // counts as if its distance were at least h / kFlatness (eq. 11). This excludes most photons of
+  // other surfaces at corners and thin walls.
   static constexpr Real kFlatness = Real(.5);
 
   static constexpr double kBytesPerPhoton =
@@ -68,8 +69,9 @@ class PhotonMap {
   std::size_t MemoryBytes() const;
 
   // Finds the k nearest photons within maxDistance. If there are k, the farthest is left out and
-  // gives the radius. If there are fewer, all count and the radius is maxDistance. On a plane both
-  // estimates are unbiased, and so is the switch between them (eq. 9).
+  // gives the radius. If there are fewer, all count and the radius is maxDistance. For photons of
+  // constant density on a plane the combined estimate is unbiased (eq. 9). If all k photons
+  // coincide, all of them count and the radius is the rounding error of positions.
   PhotonNeighbourhood Find(const PhotonQuery& query, Arena* arena) const;
 
   // Estimates the irradiance on the side of n with the constant kernel, sum(alpha) / (N pi r^2).
@@ -84,8 +86,8 @@ class PhotonMap {
   // The result is ordered by ascending index.
   NearPoints Nearest(const Point3& p, int k, Arena* arena) const;
 
-  // Returns the distance within which a typical photon has k neighbours: the 0.9 quantile over a
-  // fixed sample of the photons. 0 for an empty map.
+  // Returns the distance within which 90 % of the photons have k neighbours, estimated from a fixed
+  // sample of the photons. 0 for an empty map.
   Real TypicalRadius(int k, Arena* arena) const;
 
  private:

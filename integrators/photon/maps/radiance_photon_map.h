@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RadiancePhotonMap stores exitant radiance (or irradiance), precomputed at a sample of the stored
-// photons, and finds the radiance photon that is valid for a hit of a gather ray. Source:
+// RadiancePhotonMap stores the exitant radiance of diffuse lobes, precomputed at a sample of the
+// stored photons, and finds the radiance photon that is valid for a hit of a gather ray. Source:
 // Christensen 1999, "Faster Photon Map Global Illumination".
 #pragma once
 
@@ -20,8 +20,8 @@ struct RadianceRecord {
   Point3 p;
   std::uint32_t direction = 0;  // EncodeOctahedral of the normal on the valid side
   Real reach2 = 0;              // squared validity radius
-  // Exitant mode: radiance leaving on that side by the diffuse lobes. Irradiance mode: irradiance
-  // on that side. On a coated surface, each photon is weighted by CoatTransmission.
+  // Radiance that the diffuse lobes scatter to that side. On a coated surface it includes the
+  // coat's transmission on the way in. Entry::Value applies the transmission on the way out.
   PackedRadiance value;
 };
 
@@ -44,7 +44,8 @@ class RadiancePhotonMap {
     Real radius2 = 0;    // squared radius of its density estimate
     Real distance2 = 0;  // squared distance from the point
 
-    // Returns the radiance or irradiance. absCos: cosine between normal and viewing direction.
+    // Returns the exitant radiance. absCos: absolute cosine between the normal and the viewing
+    // direction.
     Spectrum Value(Real absCos) const {
       const Spectrum value = packed.Radiance();
       return packed.IsCoated() ? value * CoatTransmission(absCos) : value;
@@ -68,8 +69,8 @@ class RadiancePhotonMap {
   std::size_t MemoryBytes() const { return tree_.MemoryBytes() + grid_.MemoryBytes(); }
 
   // Finds the nearest entry that is valid for a surface point p with unit normal n, turned to the
-  // side that the radiance leaves on: the normals agree, and p lies within the validity radius
-  // (eq. 14). A batch of places takes less time per place.
+  // side that the radiance leaves on: the normals agree, and p lies within the validity radius (eq.
+  // 14). Searching many places in one call takes less time per place.
   using Place = ClosestQuery;
   void Find(std::span<const Place> places, std::optional<Entry>* found) const;
   std::optional<Entry> Find(const Place& place) const {
@@ -88,7 +89,7 @@ class RadiancePhotonMap {
   PointTree<RadianceBlock> tree_;
   EntryGrid grid_;  // entry points of lookups
   Real minCosine_ = 0;
-  Real reach_ = 0;      // validity radius, in radii of an entry's estimate
+  Real reach_ = 0;  // ratio of the validity radius to the radius of the entry's density estimate
   Real maxReach2_ = 0;  // largest squared validity radius
 };
 

@@ -13,21 +13,24 @@
 
 namespace exphoton {
 
-// The wanted points are covered by a hierarchy of bounding spheres; from level to level the sets of
-// points are halved. A photon picks the world sphere (weight 1) or a sphere i (weight share_i, its
-// share of the points), and then a position on the projected disk of that sphere. Let q be the
-// inverse sum of the weights, R the radius of the world sphere and d_i the distance to the centre
-// of disk i. The density of photon starts per area is
+// The wanted points are covered by a hierarchy of bounding spheres; from level to level a set of
+// points is halved. If its sphere is much smaller than the parent sphere, spheres that shrink by a
+// factor of 4 come first. A photon first picks the world sphere with weight 1, or sphere i with
+// weight share_i, its share of the wanted points. The photon then picks a position on the disk of
+// that sphere, projected along the light's direction. Let q be 1 / (sum of all weights), R the
+// radius of the world sphere, r_i the radius of disk i and d_i the distance from x to its centre.
+// The density of photon starts per area is
 //   p(x) = q [1 / (pi R^2) + sum over spheres i of share_i 2 (1 - d_i^2 / r_i^2)+ / (pi r_i^2)].
 // The power of a photon is multiplied by 1 / (pi R^2 p). No light is lost, because p is at least
-// the first term. Outside the wanted region p falls off roughly as 1 / distance^2, which limits the
-// power of photons that bounce in from outside. Within a disk p is smooth, and no disk is so small
-// that p varies noticeably within one density estimate.
+// the first term. The enclosing spheres make p fall off roughly as 1 / distance^2 outside the
+// wanted region, which limits the power of photons that bounce in from outside. Within a disk p is
+// smooth, and leastShare keeps the disks so large that p hardly varies within one density estimate.
 class DistantLightTargeting {
  public:
   DistantLightTargeting() = default;  // empty: no targeting
   // `world` is the bounding sphere that the lights were prepared with. No sphere holds less than
-  // leastShare, in (0,1], of the points, up to rounding. Too few points give an empty object.
+  // leastShare, in (0,1], of the points, up to rounding. With fewer than 16 points the object is
+  // empty.
   DistantLightTargeting(std::vector<Point3> wanted, const Sphere3& world, double leastShare);
 
   bool IsEmpty() const { return shares_.IsEmpty(); }
@@ -36,7 +39,8 @@ class DistantLightTargeting {
   // and updates its power and density.
   void Redirect(LightLeSample* emission, Point2 u) const;
 
-  // Median over the wanted points of the density of photon starts, relative to uniform starts.
+  // Returns the median, over the wanted points, of the density of photon starts divided by the
+  // uniform density.
   double Gain() const { return gain_; }
 
  private:

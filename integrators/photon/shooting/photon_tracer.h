@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PhotonTracer traces photons from the lights in numbered batches, and sorts the stored photons
-// into one buffer per map (Jensen 2001, chapter 5). Path i depends on (seed, i) alone. Batches have
-// 64 to 4096 paths, up to 65536 if the maps need many more; they are traced in parallel and merged
-// in order. A buffer counts the paths of whole batches, because stopping at the n-th photon would
-// bias every estimate.
+// PhotonTracer traces photons from lights and emitting media in numbered batches, and sorts the
+// stored photons into one buffer per map (Jensen 2001, chapter 5). Path i depends on (seed, i)
+// alone. Batches grow from 64 to 4096 paths, or to 65536 while every open map is far from full;
+// they are traced in parallel and merged in order. A map is closed only at the end of a batch, and
+// its N counts whole batches. Closing it at its last wanted photon would bias every estimate.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 
 namespace exphoton {
 
-// PhotonTargets is the number of photons that each map wants; 0: the map is not requested.
+// PhotonTargets holds the target count of each map. A map with target 0 is not requested.
 struct PhotonTargets {
   std::array<std::int64_t, kPhotonKindCount> counts{};
-  Real radianceFraction = 0;  // of the stored photons; 0: no radiance photons
+  Real radianceFraction = 0;  // share of the stored photons that become radiance photon sites
 
   std::int64_t& operator[](PhotonKind kind) { return counts[std::size_t(kind)]; }
   std::int64_t operator[](PhotonKind kind) const { return counts[std::size_t(kind)]; }
@@ -55,10 +55,11 @@ struct PhotonPassResult {
   RecordStore<RadiancePhotonSite> sites;
   std::vector<LightTally> lights;  // in the scene's order
   std::int64_t paths = 0;          // of all lights and media
-  // Paths not traced: only the caustic map was open, and the ray misses all specular surfaces.
+  // Paths that were counted but not traced, because only the caustic map was open and the first ray
+  // missed all specular surfaces.
   std::int64_t passedBy = 0;
   double emittedPower = 0;          // luminance, summed over the paths
-  double cutPower = 0;              // part of it, cut by the depth limit
+  double cutPower = 0;              // luminance of the photons that the depth limit ended
   std::int64_t droppedPhotons = 0;  // their power was not finite
   std::int64_t firstDroppedPath = -1;
   std::int64_t overgrownPaths = 0;  // ended because surfaces kept multiplying their power
@@ -95,8 +96,9 @@ class PhotonTracer {
 
   void TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
                   Real radianceFraction, Worker* worker, PhotonChunk* chunk) const;
-  // Returns the size of the next batch. last: the previous size; paths: traced so far; filled: the
-  // share of its target that the fullest open map holds.
+  // Returns the size of the next batch. last: the previous size; paths: traced so far; filled: how
+  // full the fullest open map is, the larger of its share of the photon target and its share of
+  // maxphotonpaths.
   static std::int64_t NextBatch(std::int64_t last, std::int64_t paths, double filled);
 
   const Scene& scene_;

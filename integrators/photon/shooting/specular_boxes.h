@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SpecularBoxes bounds all specular surfaces of a scene by a few boxes. A photon whose first ray
-// misses all boxes cannot make a caustic, because its path would have to begin with a specular
-// surface. This is not an accelerator: a ray that hits a box may still miss the surface.
+// misses all boxes cannot make a caustic, because a caustic path hits a specular surface first. The
+// test is conservative: a ray that hits a box may still miss the surface.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,8 @@ class SpecularBoxes {
   SpecularBoxes() = default;  // no boxes: every ray passes by
   explicit SpecularBoxes(const Scene& scene);
 
-  // Returns whether the ray certainly misses all specular surfaces during the shutter interval.
+  // Returns true only if the ray misses all boxes. The boxes cover moving surfaces over the whole
+  // shutter interval.
   bool PassesBy(const Ray& ray) const;
 
   const std::vector<Bounds3>& Boxes() const { return boxes_; }
