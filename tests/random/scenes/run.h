@@ -7,7 +7,7 @@
 // goes to 0 as the number of photons grows; errors of light transport do not. A repeated alarm is
 // therefore tested in a third stage with 16 times the photons, which reduces the radius to 1/4. If
 // the difference falls below kBlurFalls of its former value, it is counted as blur and not as a
-// failure. This misses a lasting error only if blur is more than about twice as large.
+// failure. This misses a lasting error e only if blur exceeds 1.14 e.
 #pragma once
 
 #include <cstdint>
