@@ -40,10 +40,12 @@ std::vector<Spectrum> Radiances(bool requestsLast) {
   std::vector<Spectrum> found;
   Arena arena;
   RayCounters rays;
+  ThreadState threadState;  // holds the guide cache, whose cells are as wide as Preprocess chose
   for (int i = 0; i < 8; ++i) {
     CameraSamples samples(layout);
     loaded.setup->sampler->Generate({1, {i, 0}, 0}, &samples);
     LiContext context{scene, samples, arena, rays, std::uint64_t(i)};
+    context.threadState = &threadState;
     const Vector3 d = Normalize(Vector3(-1, Real(i) / 8, Real(.3)));
     found.push_back(integrator.Li(RayDifferential(Ray(Point3(), d)), context));
   }
