@@ -93,6 +93,7 @@ TEST_F(RenderPassesTest, ReachesTheTargetWithoutGoingMuchBeyond) {
     std::vector<Image> images;
     StoppingRule rule;
     rule.targetError = target;
+    rule.maxSamples = 1 << 14;  // ends a run whose noise does not fall
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const PassesResult result = Run(rule, 2, seed);
       EXPECT_EQ(result.reason, StopReason::TargetError);
@@ -121,6 +122,7 @@ TEST_F(RenderPassesTest, ATargetAloneGivesTheSameBitsForAnyNumberOfThreads) {
     sampler_ = plugins_.MakeSampler(sampler);
     StoppingRule rule;
     rule.targetError = .002;
+    rule.maxSamples = 1 << 14;  // ends a run whose noise does not fall
     const PassesResult one = Run(rule, 1);
     const std::vector<float> expected = image_.pixels;
     const PassesResult three = Run(rule, 3);
@@ -134,6 +136,7 @@ TEST_F(RenderPassesTest, ATargetAloneGivesTheSameBitsForAnyNumberOfThreads) {
 TEST_F(RenderPassesTest, EveryPassHasItsOwnSeed) {
   StoppingRule rule;
   rule.targetError = .002;
+  rule.maxSamples = 1 << 14;  // ends a run whose noise does not fall
   const PassesResult result = Run(rule);
   EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
 }
