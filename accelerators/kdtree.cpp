@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// kdtree traverses a kd-tree from front to back. A ray enters a cell wherever rounding might have
-// put a hit. The margin at split planes grows with the distance; the margin of primitives follows
-// from their size. Hits therefore equal those of testing every primitive. Traversal runs in double
+// kdtree is the classic kd-tree: kd_build.cpp builds it by the surface area heuristic, and rays
+// traverse it with a stack of nodes to visit. A ray enters a cell wherever rounding might have put
+// a hit. The margin at split planes grows with the distance; the margin of primitives follows from
+// their size. Hits therefore equal those of testing every primitive. Traversal runs in double
 // precision and divides by no component that may be 0.
 #include <array>
+#include <span>
 
 #include "accelerators/kd/kd_build.h"
 #include "core/plugin.h"
@@ -11,11 +13,7 @@
 namespace exphoton {
 namespace {
 
-struct Settings {
-  int intersectCost = 1, traversalCost = 3;
-  Real emptyBonus = Real(.2);
-  int maxPrimitives = 1, maxDepth = -1;
-};
+using Settings = KdSettings;
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
@@ -45,7 +43,7 @@ struct KdRay {
   Axis axes[3];
 
   explicit KdRay(const Ray& ray) {
-    const double slope = double(kKdMargin) * double(MaxComponent(Abs(ray.d)));
+    const double slope = double(kBvhMargin) * double(MaxComponent(Abs(ray.d)));
     for (int i = 0; i < 3; ++i) {
       Axis& axis = axes[i];
       const double d = double(ray.d[i]), size = std::abs(d);
@@ -66,8 +64,8 @@ struct Span {
   double min, max;
 };
 
-// Returns the interval of t in which the ray may be within the bounds.
-std::optional<Span> RootSpan(const KdRay& ray, const Bounds3& bounds, Real tMax) {
+// Returns the interval of t in which the ray may be within the bounds; min > max if there is none.
+Span RootSpan(const KdRay& ray, const Bounds3& bounds, Real tMax) {
   Span span{0, double(tMax)};
   for (int i = 0; i < 3; ++i) {
     const KdRay::Axis& axis = ray.axes[i];
@@ -81,14 +79,13 @@ std::optional<Span> RootSpan(const KdRay& ray, const Bounds3& bounds, Real tMax)
     span.min = std::max(span.min, enter * axis.first);
     span.max = std::min(span.max, leave * axis.last);
   }
-  if (!(span.min <= span.max)) return std::nullopt;
   return span;
 }
 
 class KdTree final : public Aggregate {
  public:
-  KdTree(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads)
-      : primitives_(primitives), arrays_(BuildKdTree(primitives, costs, threads)) {}
+  KdTree(const PrimitiveSet& primitives, const KdSettings& settings)
+      : primitives_(primitives), arrays_(BuildKdTree(primitives, settings)) {}
 
   Hit Intersect(const Ray& ray) const override {
     if (!IsTraceable(ray)) return {};
@@ -97,12 +94,9 @@ class KdTree final : public Aggregate {
     BlockRayRoom blockRay;
     test_.makeBlockRay(trace.triangle, &blockRay);
     Walk<Order::NearFirst>(ray, [&](const KdNode& leaf) {
-      test_.intersectBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(), blockRay,
-                            trace.triangle, &nearest);
-      if (leaf.HasOthers()) {
-        test_.settle(trace.triangle, &nearest);
-        for (std::uint32_t id : Others(leaf)) IntersectOther(primitives_, id, trace, &nearest);
-      }
+      test_.intersectBlocks(FirstBlock(leaf), leaf.Blocks(), blockRay, trace.triangle, &nearest);
+      if (leaf.HasOthers()) test_.settle(trace.triangle, &nearest);
+      for (std::uint32_t id : Others(leaf)) IntersectOther(primitives_, id, trace, &nearest);
       return double(nearest.high);
     });
     return nearest.hit;
@@ -117,10 +111,9 @@ class KdTree final : public Aggregate {
     // Any hit blocks a shadow ray. The far end comes first, because most blockers lie where rays
     // leave a room or end at a light.
     Walk<Order::FarFirst>(ray, [&](const KdNode& leaf) {
-      isOccluded = test_.occludedByBlocks(arrays_.blocks.data() + leaf.offset, leaf.Blocks(),
-                                          blockRay, trace);
-      if (!isOccluded && leaf.HasOthers())
-        for (std::uint32_t id : Others(leaf)) isOccluded |= primitives_.Occludes(id, trace);
+      isOccluded = test_.occludedByBlocks(FirstBlock(leaf), leaf.Blocks(), blockRay, trace);
+      for (std::uint32_t id : Others(leaf))
+        isOccluded = isOccluded || primitives_.Occludes(id, trace);
       return isOccluded ? -1.0 : double(ray.tMax);
     });
     return isOccluded;
@@ -128,14 +121,17 @@ class KdTree final : public Aggregate {
 
   std::size_t MemoryBytes() const override {
     return arrays_.nodes.size() * sizeof(KdNode) + arrays_.blocks.size() * sizeof(BvhBlock) +
-           arrays_.entries.size() * sizeof(std::uint32_t);
+           arrays_.lists.size() * sizeof(std::uint32_t);
   }
 
  private:
+  const BvhBlock* FirstBlock(const KdNode& leaf) const {
+    return arrays_.blocks.data() + (leaf.HasOthers() ? arrays_.lists[leaf.first] : leaf.first);
+  }
   std::span<const std::uint32_t> Others(const KdNode& leaf) const {
-    const auto number = std::uint32_t(&leaf - arrays_.nodes.data());
-    const std::uint32_t* list = arrays_.entries.data() + arrays_.others.at(number);
-    return {list + 1, list[0]};
+    if (!leaf.HasOthers()) return {};
+    const std::uint32_t* list = arrays_.lists.data() + leaf.first;
+    return {list + 2, list[1]};
   }
 
   enum class Order { NearFirst, FarFirst };
@@ -145,68 +141,55 @@ class KdTree final : public Aggregate {
   // negative t ends the traversal.
   template <Order order, class Visit>
   void Walk(const Ray& worldRay, Visit&& visit) const {
-    if (arrays_.nodes.empty()) return;
     const KdRay ray(worldRay);
-    const auto root = RootSpan(ray, arrays_.bounds, worldRay.tMax);
-    if (!root) return;
-    struct Entry {
+    const KdNode* nodes = arrays_.nodes.data();
+    struct ToVisit {
       std::uint32_t node;
       Span span;
     };
-    std::array<Entry, std::size_t(kKdMaxDepth) + 4> stack;
-    std::size_t depth = 0;
-    std::uint32_t index = 0;
-    Span span = *root;
+    std::array<ToVisit, std::size_t(kKdMaxDepth)> toVisit;
+    std::size_t count = 0;
+    ToVisit now{0, RootSpan(ray, arrays_.bounds, worldRay.tMax)};
+    if (arrays_.nodes.empty() || !(now.span.min <= now.span.max)) return;
     double limit = double(worldRay.tMax);
-    const KdNode* nodes = arrays_.nodes.data();
     for (;;) {
-      const KdNode& node = nodes[index];
+      const KdNode& node = nodes[now.node];
       if (!node.IsLeaf()) {
         const KdRay::Axis& axis = ray.axes[node.Axis()];
         const double toPlane = double(node.split) - axis.o;
-        std::uint32_t near = index + 1, far = node.Above();
+        std::uint32_t near = now.node + 1, far = node.Above();
         double nearEnd = toPlane * axis.last, farBegin = toPlane * axis.first;
         if (axis.isParallel) [[unlikely]] {
           if (toPlane < 0) std::swap(near, far);
-          nearEnd = span.max;
-          farBegin = std::abs(farBegin);
+          nearEnd = now.span.max, farBegin = std::abs(farBegin);
         } else if (axis.isBackward) {
           std::swap(near, far);
         }
         // If the ray meets only one child, it crosses the plane outside the span or never.
-        if (farBegin > span.max) {
-          index = near;
-        } else if (nearEnd < span.min) {
-          index = far;
+        if (farBegin > now.span.max) {
+          now.node = near;
+        } else if (nearEnd < now.span.min) {
+          now.node = far;
         } else {
-          const Span nearSpan{span.min, std::min(span.max, nearEnd)};
-          const Span farSpan{std::max(span.min, farBegin), span.max};
-          // Checking a child for emptiness is cheaper than visiting it.
+          const ToVisit inNear{near, {now.span.min, std::min(now.span.max, nearEnd)}};
+          const ToVisit inFar{far, {std::max(now.span.min, farBegin), now.span.max}};
           if (nodes[near].IsEmpty()) {
-            index = far;
-            span = farSpan;
+            now = inFar;
           } else if (nodes[far].IsEmpty()) {
-            index = near;
-            span = nearSpan;
+            now = inNear;
           } else {
-            constexpr bool isNearFirst = order == Order::NearFirst;
-            stack[depth++] = isNearFirst ? Entry{far, farSpan} : Entry{near, nearSpan};
-            index = isNearFirst ? near : far;
-            span = isNearFirst ? nearSpan : farSpan;
+            toVisit[count++] = order == Order::NearFirst ? inFar : inNear;
+            now = order == Order::NearFirst ? inNear : inFar;
           }
         }
         continue;
       }
-      if (node.Blocks() > 0 || node.HasOthers()) {
-        limit = visit(node);
-        if (limit < 0) return;
-      }
+      if (!node.IsEmpty()) limit = visit(node);
+      if (limit < 0) return;
       do {
-        if (depth == 0) return;
-        --depth;
-      } while (order == Order::NearFirst && stack[depth].span.min > limit);
-      index = stack[depth].node;
-      span = stack[depth].span;
+        if (count == 0) return;
+        now = toVisit[--count];
+      } while (order == Order::NearFirst && now.span.min > limit);
     }
   }
 
@@ -215,21 +198,14 @@ class KdTree final : public Aggregate {
   const BvhTraversal& test_ = FastestTraversal(BvhVectors::Widest);
 };
 
-std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorContext& context) {
-  KdCosts costs;
-  costs.intersect = settings.intersectCost;
-  costs.traverse = settings.traversalCost;
-  costs.emptyBonus = double(settings.emptyBonus);
-  costs.maxPrimitives = std::uint32_t(settings.maxPrimitives);
-  const double count = std::max(double(context.primitives.Count()), 1.0);
-  costs.maxDepth = settings.maxDepth >= 0 ? settings.maxDepth : int(8 + 1.3 * std::log2(count));
-  if (costs.maxDepth > kKdMaxDepth) {
-    if (settings.maxDepth > kKdMaxDepth)
-      context.log.Warning("kdtree: \"maxdepth\" is limited to " + std::to_string(kKdMaxDepth));
-    costs.maxDepth = kKdMaxDepth;
-  }
-  ThreadPool threads(context.primitives.Count() < kKdFewPrimitives ? 1 : context.threads);
-  return std::make_unique<KdTree>(context.primitives, costs, threads);
+std::unique_ptr<Aggregate> Create(const Settings& given, const AcceleratorContext& context) {
+  Settings settings = given;
+  if (settings.maxDepth < 0)
+    settings.maxDepth = int(8 + 1.3 * std::log2(std::max(double(context.primitives.Count()), 1.0)));
+  settings.maxDepth = std::min(settings.maxDepth, kKdMaxDepth);
+  if (given.maxDepth > kKdMaxDepth)
+    context.log.Warning("kdtree: \"maxdepth\" is limited to " + std::to_string(kKdMaxDepth));
+  return std::make_unique<KdTree>(context.primitives, settings);
 }
 
 }  // namespace

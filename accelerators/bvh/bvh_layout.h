@@ -108,6 +108,10 @@ struct BvhArrays {
 // bounds are padded for the second.
 inline constexpr Real kBvhMargin = Gamma(16);
 
+// Pads the bounds of a primitive on every side by at least the margin and at least one
+// floating-point step. The result stays finite, because no hit is infinitely far away.
+Bounds3 PaddedBounds(const Bounds3& bounds);
+
 // No path from the root has more nodes, so the traversal stack has a fixed size.
 inline constexpr int kBvhMaxDepth = 160;
 

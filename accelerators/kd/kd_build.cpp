@@ -1,227 +1,194 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Builder builds the kd-tree in three parallel steps. First, large cells are split level by level,
-// and each chunk of their items is one task. Second, one task builds each small tree below them in
-// separate arrays. Third, the small trees are copied to their final positions, in depth-first
-// order.
+// Builder splits cells from the root downwards. It sorts the ends of the primitives' bounds along
+// each axis and splits a cell at the end with the lowest expected cost. It does not clip primitives
+// to cells.
 #include "accelerators/kd/kd_build.h"
 
-#include <memory>
-#include <utility>
+#include <algorithm>
+#include <cmath>
+#include <span>
 
-#include "accelerators/kd/kd_subtree.h"
+#include "core/base/error.h"
 
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kTreeItems = 4096;   // most items in a cell that one task builds
-constexpr std::size_t kChunkItems = 8192;  // items per task in a larger cell
+// In a cell with more primitives, the bounds of about this number of them represent all.
+constexpr std::size_t kSample = 64;
 
-// The number of item references in all leaves together is limited to
-// kEntriesPerItem * items + kFreeEntries. Without this limit, a soup of large triangles, each in
-// many cells, could fill any memory.
+// The number of references to primitives in all leaves together is limited to
+// kEntriesPerItem * primitives + kFreeEntries. Without this limit, a soup of large triangles, each
+// in many cells, could fill any memory.
 constexpr double kEntriesPerItem = 12, kFreeEntries = 1000;
 
-// Piece is a cell and its result: a split with two further pieces, or a tree.
-struct Piece {
-  using Chunk = std::vector<KdItem>;
+using Ids = std::vector<std::uint32_t>;
 
-  KdCell cell;
-  std::vector<Chunk> chunks;         // the items in order
-  KdSplit split;                     // upper cells only
-  std::size_t below = 0, above = 0;  // upper cells only: indices of the two children
-  std::unique_ptr<KdSubtree> tree;   // all other cells
-
-  std::size_t Items() const {
-    std::size_t count = 0;
-    for (const Chunk& chunk : chunks) count += chunk.size();
-    return count;
-  }
-  // Moves all items into one chunk and frees the others.
-  Chunk Joined() {
-    if (chunks.size() == 1) return std::move(chunks[0]);
-    Chunk items;
-    items.reserve(Items());
-    for (Chunk& chunk : chunks) {
-      items.insert(items.end(), chunk.begin(), chunk.end());
-      chunk = {};
-    }
-    return items;
-  }
+struct Cell {
+  Bounds3 bounds;
+  int depth;       // levels left
+  int badSplits;   // splits above this cell that cost more than a leaf
+  double entries;  // references that all leaves below this cell may have together
 };
+
+struct Split {
+  int axis = -1;  // -1: there is no plane inside the cell
+  float position = 0;
+  double cost = 0;  // expected cost of a ray that enters the cell
+};
+
+// Returns the number of block tests in a leaf: leaves test eight triangles at a time.
+double Blocks(std::size_t count) { return double((count + kBvhWidth - 1) / kBvhWidth); }
 
 class Builder {
  public:
-  Builder(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads)
-      : primitives_(primitives), costs_(costs), threads_(threads) {}
+  Builder(const PrimitiveSet& primitives, const KdSettings& settings)
+      : primitives_(primitives), settings_(settings) {}
 
   KdArrays Build() && {
-    Piece root = Root();
-    const std::size_t items = root.Items();
-    if (items == 0) return {};
-    arrays_.bounds = root.cell.bounds;
-    const double budget = kEntriesPerItem * double(items) + kFreeEntries;
-    root.cell.limits = {costs_.maxDepth, 0, budget};
-    pieces_.push_back(std::move(root));
-    for (std::size_t level = 0; level < pieces_.size();) level = SplitLevel(level);
-    MakeTrees();
-    Place(0);
-    threads_.For(std::int64_t(trees_.size()), [&](std::int64_t i, int) {
-      Piece& piece = pieces_[trees_[std::size_t(i)]];
-      piece.tree->CopyTo(&arrays_);
-      piece.tree.reset();
-    });
+    Ids items;
+    bounds_.reserve(primitives_.Count());
+    for (std::uint32_t id = 0; id < primitives_.Count(); ++id) {
+      bounds_.push_back(primitives_.Bounds(id));
+      if (bounds_[id].IsEmpty()) continue;  // an empty instance
+      bounds_[id] = PaddedBounds(bounds_[id]);
+      arrays_.bounds.Extend(bounds_[id]);
+      items.push_back(id);
+    }
+    if (items.empty()) return {};
+    const double entries = kEntriesPerItem * double(items.size()) + kFreeEntries;
+    AddCell(std::move(items), {arrays_.bounds, settings_.maxDepth, 0, entries});
+    MakeBlocks();
     return std::move(arrays_);
   }
 
  private:
-  Piece Root() {
-    const std::size_t count = primitives_.Count();
-    Piece root;
-    root.chunks.resize((count + kChunkItems - 1) / kChunkItems);
-    std::vector<Bounds3> bounds(root.chunks.size());
-    threads_.For(std::int64_t(root.chunks.size()), [&](std::int64_t i, int) {
-      Piece::Chunk items;
-      const std::size_t begin = std::size_t(i) * kChunkItems;
-      const std::size_t end = std::min(begin + kChunkItems, count);
-      items.reserve(end - begin);
-      for (std::size_t id = begin; id < end; ++id) {
-        const Bounds3 own = primitives_.Bounds(std::uint32_t(id));
-        if (own.IsEmpty()) continue;  // an empty instance
-        items.push_back({std::uint32_t(id), KdItemBounds(own)});
-        bounds[std::size_t(i)].Extend(items.back().bounds);
-      }
-      root.chunks[std::size_t(i)] = std::move(items);
-    });
-    for (const Bounds3& ofChunk : bounds) root.cell.bounds.Extend(ofChunk);
-    return root;
-  }
-
-  // Task is one chunk of a cell to be split, with its bins and its parts.
-  struct Task {
-    std::size_t piece, chunk;
-    KdBins bins;
-    Piece::Chunk below, above;
-  };
-  // The tasks of one cell are adjacent.
-  using Tasks = std::span<Task>;
-
-  // Splits the large cells from index `begin` on. Returns the index of the next level's first cell.
-  std::size_t SplitLevel(std::size_t begin) {
-    const std::size_t end = pieces_.size();
-    threads_.For(std::int64_t(end - begin), [&](std::int64_t i, int) {
-      Piece& piece = pieces_[begin + std::size_t(i)];
-      if (piece.chunks.size() == 1 || piece.Items() > kChunkItems) return;
-      Piece::Chunk joined = piece.Joined();
-      piece.chunks.clear();
-      piece.chunks.push_back(std::move(joined));
-    });
-    std::vector<Task> tasks;
-    for (std::size_t i = begin; i < end; ++i) {
-      Piece& piece = pieces_[i];
-      const std::size_t items = piece.Items();
-      if (items <= kTreeItems || !piece.cell.IsSplittable(items, costs_)) continue;
-      for (std::size_t chunk = 0; chunk < piece.chunks.size(); ++chunk)
-        tasks.push_back({i, chunk, KdBins(piece.cell.bounds), {}, {}});
+  // Appends the nodes of a cell and of everything below it in depth-first order.
+  void AddCell(Ids items, Cell cell) {
+    if (items.size() <= std::size_t(settings_.maxPrimitives) || cell.depth == 0)
+      return AddLeaf(items);
+    const Split split = CheapestSplit(items, cell.bounds, (items.size() + kSample - 1) / kSample);
+    if (!IsWorthwhile(split, items.size(), &cell.badSplits)) return AddLeaf(items);
+    const Real position = Real(split.position);
+    Ids below, above;
+    for (const std::uint32_t id : items) {
+      if (bounds_[id].min[split.axis] < position) below.push_back(id);
+      if (bounds_[id].max[split.axis] > position) above.push_back(id);
     }
-    FindSplits(tasks);
-    threads_.For(std::int64_t(tasks.size()), [&](std::int64_t i, int) {
-      Task& task = tasks[std::size_t(i)];
-      const Piece& piece = pieces_[task.piece];
-      if (piece.split.axis < 0) return;
-      PartKdItems(primitives_, piece.chunks[task.chunk], KdCut(piece.cell, piece.split),
-                  &task.below, &task.above);
-    });
-    ForEachPiece(tasks, [&](Tasks ofPiece) { AddParts(ofPiece); });
-    for (std::size_t i = begin; i < end; ++i)
-      if (pieces_[i].below == 0) trees_.push_back(i);
-    return end;
-  }
-
-  template <class Function>
-  static void ForEachPiece(Tasks tasks, const Function& function) {
-    while (!tasks.empty()) {
-      std::size_t count = 1;
-      while (count < tasks.size() && tasks[count].piece == tasks[0].piece) ++count;
-      function(tasks.first(count));
-      tasks = tasks.subspan(count);
-    }
-  }
-
-  void FindSplits(Tasks tasks) {
-    threads_.For(std::int64_t(tasks.size()), [&](std::int64_t i, int) {
-      Task& task = tasks[std::size_t(i)];
-      task.bins.Add(pieces_[task.piece].chunks[task.chunk]);
-    });
-    ForEachPiece(tasks, [&](Tasks ofPiece) {
-      for (const Task& other : ofPiece.subspan(1)) ofPiece[0].bins.Add(other.bins);
-      Piece& piece = pieces_[ofPiece[0].piece];
-      const KdSplit split = FindKdSplit(ofPiece[0].bins, piece.cell.bounds, costs_);
-      if (piece.cell.Accepts(split, piece.Items(), costs_)) piece.split = split;
-    });
-  }
-
-  // Adds the two parts of a cell as new pieces, unless the cell is to stay whole.
-  void AddParts(Tasks tasks) {
-    const std::size_t index = tasks[0].piece;
-    if (pieces_[index].split.axis < 0) return;
-    KdCut cut(pieces_[index].cell, pieces_[index].split);
-    Piece below, above;
-    for (Task& task : tasks) {
-      below.chunks.push_back(std::move(task.below));
-      above.chunks.push_back(std::move(task.above));
-    }
-    if (!cut.Share(pieces_[index].Items(), below.Items(), above.Items())) return;
-    below.cell = cut.below, above.cell = cut.above;
-    pieces_[index].chunks = {};
-    pieces_[index].below = pieces_.size(), pieces_[index].above = pieces_.size() + 1;
-    pieces_.push_back(std::move(below));
-    pieces_.push_back(std::move(above));
-  }
-
-  void MakeTrees() {
-    threads_.For(std::int64_t(trees_.size()), [&](std::int64_t i, int) {
-      Piece& piece = pieces_[trees_[std::size_t(i)]];
-      piece.tree = std::make_unique<KdSubtree>(primitives_, costs_);
-      Piece::Chunk items = piece.Joined();
-      if (items.size() > kTreeItems) {
-        piece.tree->Leaf(items);  // a large cell that is not to be split
-      } else {
-        piece.tree->Cell(std::move(items), piece.cell);
-      }
-    });
-    std::size_t nodes = pieces_.size(), blocks = 0;
-    for (const std::size_t i : trees_) {
-      nodes += pieces_[i].tree->Nodes();
-      blocks += pieces_[i].tree->Blocks();
-    }
-    arrays_.nodes.reserve(nodes - trees_.size());
-    arrays_.blocks.reserve(blocks);
-  }
-
-  // Assigns positions to a piece and to everything below it, and creates the upper nodes.
-  void Place(std::size_t index) {
-    const Piece& piece = pieces_[index];
-    if (piece.tree) return piece.tree->Place(&arrays_);
+    const double sum = double(below.size() + above.size());
+    if (sum > cell.entries || sum == 2 * double(items.size())) return AddLeaf(items);
+    Cell cellBelow = cell, cellAbove = cell;
+    cellBelow.bounds.max[split.axis] = cellAbove.bounds.min[split.axis] = position;
+    cellBelow.depth = cellAbove.depth = cell.depth - 1;
+    cellBelow.entries *= double(below.size()) / sum;
+    cellAbove.entries *= double(above.size()) / sum;
+    items = {};
     const std::size_t node = arrays_.nodes.size();
     arrays_.nodes.emplace_back();
-    Place(piece.below);
-    const auto above = std::uint32_t(arrays_.nodes.size());
-    Place(piece.above);
-    arrays_.nodes[node] = KdNode::Inner(piece.split.axis, piece.split.position, above);
+    AddCell(std::move(below), cellBelow);
+    arrays_.nodes[node] =
+        KdNode::Inner(split.axis, split.position, std::uint32_t(arrays_.nodes.size()));
+    AddCell(std::move(above), cellAbove);
+  }
+
+  // Counts a split that costs more than a leaf. Such a split may still pay off further down. It is
+  // made only in small cells, if at most 1.5 times as expensive, and twice on a path from the root.
+  bool IsWorthwhile(const Split& split, std::size_t items, int* badSplits) const {
+    if (split.axis < 0) return false;
+    const double leafCost = settings_.intersectCost * Blocks(items);
+    if (split.cost < leafCost) return true;
+    return ++*badSplits <= 2 && items <= 32 && split.cost <= 1.5 * leafCost;
+  }
+
+  // Looks at one of `step` primitives. Looks at all if no split among those pays off.
+  Split CheapestSplit(std::span<const std::uint32_t> items, const Bounds3& cell, std::size_t step) {
+    Split best;
+    for (int axis = 0; axis < 3; ++axis) {
+      begins_.clear(), ends_.clear();
+      for (std::size_t i = 0; i < items.size(); i += step) {
+        begins_.push_back(bounds_[items[i]].min[axis]);
+        ends_.push_back(bounds_[items[i]].max[axis]);
+      }
+      std::sort(begins_.begin(), begins_.end());
+      std::sort(ends_.begin(), ends_.end());
+      TryPlanes(cell, axis, double(items.size()) / double(begins_.size()), &best);
+    }
+    const bool isGood =
+        best.axis >= 0 && best.cost < settings_.intersectCost * Blocks(items.size());
+    return isGood || step == 1 ? best : CheapestSplit(items, cell, 1);
+  }
+
+  // Sweeps a plane over the sorted ends of bounds along one axis. Each of them represents `weight`
+  // primitives. By the surface area heuristic, a ray that enters the cell enters a part with the
+  // ratio of the surface areas as its probability.
+  void TryPlanes(const Bounds3& cell, int axis, double weight, Split* best) const {
+    const auto length = [&](int i) { return double(cell.max[i % 3]) - double(cell.min[i % 3]); };
+    const double end = length(axis + 1) * length(axis + 2);  // half the area of both ends
+    const double perLength = length(axis + 1) + length(axis + 2);
+    const double area = end + perLength * length(axis);
+    if (!(area > 0 && area < double(kInfinity))) return;
+    const std::size_t count = begins_.size();
+    std::size_t begun = 0, ended = 0;  // before the plane; up to and including the plane
+    while (ended < count) {
+      const bool isBegin = begun < count && begins_[begun] < ends_[ended];
+      const Real plane = isBegin ? begins_[begun] : ends_[ended];
+      while (ended < count && ends_[ended] == plane) ++ended;
+      const float position = float(plane);
+      if (Real(position) > cell.min[axis] && Real(position) < cell.max[axis]) {
+        const auto below = std::size_t(double(begun) * weight);
+        const auto above = std::size_t(double(count - ended) * weight);
+        const double toBelow = (end + perLength * (double(plane) - double(cell.min[axis]))) / area;
+        const double toAbove = (end + perLength * (double(cell.max[axis]) - double(plane))) / area;
+        const double bonus = below == 0 || above == 0 ? 1 - double(settings_.emptyBonus) : 1;
+        const double cost =
+            settings_.traversalCost +
+            settings_.intersectCost * bonus * (toBelow * Blocks(below) + toAbove * Blocks(above));
+        if (best->axis < 0 || cost < best->cost) *best = {axis, position, cost};
+      }
+      while (begun < count && begins_[begun] == plane) ++begun;
+    }
+  }
+
+  void AddLeaf(std::span<const std::uint32_t> items) {
+    const std::size_t first = triangles_.size() / kBvhWidth, list = arrays_.lists.size();
+    Ids others;
+    for (const std::uint32_t id : items)
+      (id < primitives_.TriangleCount() ? triangles_ : others).push_back(id);
+    while (triangles_.size() % kBvhWidth != 0) triangles_.push_back(kNoId);
+    const std::size_t blocks = triangles_.size() / kBvhWidth - first;
+    if (!others.empty()) {
+      arrays_.lists.insert(arrays_.lists.end(),
+                           {std::uint32_t(first), std::uint32_t(others.size())});
+      arrays_.lists.insert(arrays_.lists.end(), others.begin(), others.end());
+    }
+    constexpr std::size_t kMost = std::size_t(1) << 29;  // numbers fit into the bits of nodes
+    if (arrays_.nodes.size() >= 2 * kMost || blocks >= kMost || first + blocks >= 8 * kMost ||
+        arrays_.lists.size() >= 8 * kMost)
+      throw Error(ExitStatus::Resource, "the kd-tree is too large for its node format");
+    arrays_.nodes.push_back(KdNode::Leaf(std::uint32_t(others.empty() ? first : list),
+                                         std::uint32_t(blocks), !others.empty()));
+  }
+
+  void MakeBlocks() {
+    arrays_.blocks.reserve(triangles_.size() / kBvhWidth);
+    for (std::size_t i = 0; i < triangles_.size(); i += kBvhWidth) {
+      const auto ids = std::span(triangles_).subspan(i, kBvhWidth);
+      const auto count = std::find(ids.begin(), ids.end(), kNoId) - ids.begin();
+      arrays_.blocks.push_back(MakeBlock(primitives_, ids.first(std::size_t(count))));
+    }
   }
 
   const PrimitiveSet& primitives_;
-  const KdCosts costs_;
-  ThreadPool& threads_;
-  std::vector<Piece> pieces_;       // level by level
-  std::vector<std::size_t> trees_;  // indices of the pieces that are not upper cells
+  const KdSettings& settings_;
+  std::vector<Bounds3> bounds_;      // of each primitive, with margins
+  std::vector<Real> begins_, ends_;  // sorted; reused by every cell
+  Ids triangles_;                    // of all leaves, kBvhWidth per block, padded with kNoId
   KdArrays arrays_;
 };
 
 }  // namespace
 
-KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdCosts& costs, ThreadPool& threads) {
-  return Builder(primitives, costs, threads).Build();
+KdArrays BuildKdTree(const PrimitiveSet& primitives, const KdSettings& settings) {
+  return Builder(primitives, settings).Build();
 }
 
 }  // namespace exphoton

@@ -68,7 +68,7 @@ class PrimitiveSet {
   LobeSet PossibleLobes(std::uint32_t id) const;
   LobeSet PossibleLobes() const { return lobes_; }
 
-  // The vertices of a triangle, for accelerators that clip triangles.
+  // The vertices of a triangle, for accelerators that store triangles in their own layout.
   const std::array<Point3, 3>& TriangleVertices(std::uint32_t id) const { return vertices_[id]; }
 
   // Returns true if the ray certainly misses primitive `id`. The test is cheap and inline. It

@@ -25,7 +25,6 @@ Contest Accelerators(const std::string& size) {
           {{"bvh", [=] { plugins->MakeAccelerator(R"("bvh")", *room); }},
            {"bvh-2-threads", [=] { plugins->MakeAccelerator(R"("bvh")", *room, 2); }},
            {"kdtree", [=] { plugins->MakeAccelerator(R"("kdtree")", *room); }},
-           {"kdtree-2-threads", [=] { plugins->MakeAccelerator(R"("kdtree")", *room, 2); }},
            {"embree-robust", [=] { embree->Build(); }}},
           Clock::Wall};
 }

@@ -9,19 +9,6 @@ namespace {
 
 constexpr std::uint32_t kChunkItems = 8192;  // primitives per task that computes bounds
 
-// Pads the bounds on every side by at least the margin and at least one floating-point step. The
-// result stays finite, because no hit is infinitely far away.
-Bounds3 Grown(const Bounds3& bounds) {
-  constexpr Real kLargest = std::numeric_limits<Real>::max();
-  const Real margin = kBvhMargin * MaxComponent(bounds.Diagonal());
-  Bounds3 grown = bounds;
-  for (int axis = 0; axis < 3; ++axis) {
-    grown.min[axis] = std::max(NextDown(bounds.min[axis] - margin), -kLargest);
-    grown.max[axis] = std::min(NextUp(bounds.max[axis] + margin), kLargest);
-  }
-  return grown;
-}
-
 std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threads) {
   const std::uint32_t count = primitives.Count();
   std::vector<BvhItem> items(count);
@@ -29,7 +16,7 @@ std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threa
     const auto begin = std::uint32_t(chunk) * kChunkItems;
     for (std::uint32_t id = begin; id < std::min(begin + kChunkItems, count); ++id) {
       const Bounds3 bounds = primitives.Bounds(id);
-      items[id] = bounds.IsEmpty() ? BvhItem({}, kNoId) : BvhItem(Grown(bounds), id);
+      items[id] = bounds.IsEmpty() ? BvhItem({}, kNoId) : BvhItem(PaddedBounds(bounds), id);
     }
   });
   std::erase_if(items, [](const BvhItem& item) { return item.id == kNoId; });  // empty
@@ -37,6 +24,17 @@ std::vector<BvhItem> MakeItems(const PrimitiveSet& primitives, ThreadPool& threa
 }
 
 }  // namespace
+
+Bounds3 PaddedBounds(const Bounds3& bounds) {
+  constexpr Real kLargest = std::numeric_limits<Real>::max();
+  const Real margin = kBvhMargin * MaxComponent(bounds.Diagonal());
+  Bounds3 padded = bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    padded.min[axis] = std::max(NextDown(bounds.min[axis] - margin), -kLargest);
+    padded.max[axis] = std::min(NextUp(bounds.max[axis] + margin), kLargest);
+  }
+  return padded;
+}
 
 BvhArrays BuildBvh(const PrimitiveSet& primitives, std::uint32_t maxLeafTriangles,
                    ThreadPool& threads) {
