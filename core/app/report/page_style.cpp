@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PageStyle returns the style sheet of the report, which the build embeds from page.css.
+#include "core/app/report/page_css.h"
 #include "core/app/report/page_sections.h"
-#include "report/page_css.h"
 
 namespace exphoton::study {
 
