@@ -82,7 +82,8 @@ void RenderDirectives::Handle(Directive directive, const MovingTransform& curren
 }
 
 void RenderDirectives::SetDefaultLocation(const SourceLocation& where) {
-  for (Choice* choice : {&filter_, &film_, &sampler_, &accelerator_, &integrator_, &camera_})
+  for (Choice* choice :
+       {&filter_, &film_, &sampler_, &accelerator_, &integrator_, &volumeIntegrator_, &camera_})
     if (choice->params.where.file.empty()) choice->params.where = where;
 }
 
