@@ -15,6 +15,7 @@
 #include "core/app/output/output_files.h"
 #include "core/app/output/run_files.h"
 #include "core/app/process/interrupt_watch.h"
+#include "core/base/format.h"
 #include "core/imaging/files/exr.h"
 #include "core/imaging/files/png.h"
 #include "core/imaging/metrics/flip.h"
@@ -40,12 +41,6 @@ struct Comparison {
   ImageDifference difference;
   double flip = 0;
 };
-
-std::string Format(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string Row(const std::string& label, const std::vector<std::string>& cells) {
   constexpr std::size_t kLabelWidth = 20, kCellWidth = 16;

@@ -16,6 +16,7 @@
 #include "core/app/output/run_files.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/base/error.h"
+#include "core/base/format.h"
 #include "core/base/log.h"
 #include "core/imaging/files/exr.h"
 #include "core/imaging/files/png.h"
@@ -23,16 +24,9 @@
 namespace exphoton::cli {
 namespace {
 
-template <class... Args>
-std::string Print(const char* format, Args... args) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
-
 std::string WindowText(const char* name, const PixelBounds& window) {
-  return Print("%-16s %d x %d at (%d, %d)\n", name, window.Width(), window.Height(), window.x0,
-               window.y0);
+  return Format("%-16s %d x %d at (%d, %d)\n", name, window.Width(), window.Height(), window.x0,
+                window.y0);
 }
 
 // Prints minimum, mean and maximum of the finite values.
@@ -53,11 +47,11 @@ std::string ChannelText(const Image& image, int channel) {
       high = std::max(high, value);
     }
   }
-  std::string text = Print("  %-14s ", image.channels[std::size_t(channel)].c_str());
-  text += finite > 0 ? Print("min %-12.6g mean %-12.6g max %-12.6g", double(low),
-                             sum / double(finite), double(high))
+  std::string text = Format("  %-14s ", image.channels[std::size_t(channel)].c_str());
+  text += finite > 0 ? Format("min %-12.6g mean %-12.6g max %-12.6g", double(low),
+                              sum / double(finite), double(high))
                      : std::string("no finite value");
-  if (nonFinite > 0) text += Print(" (%lld not finite)", nonFinite);
+  if (nonFinite > 0) text += Format(" (%lld not finite)", nonFinite);
   return text + "\n";
 }
 
@@ -70,11 +64,11 @@ std::string AttributeText(const ImageAttribute& attribute) {
       indented += c == '\n' ? std::string("\n") + std::string(17, ' ') : std::string(1, c);
     return indented;
   }
-  if (const auto* number = std::get_if<float>(&attribute)) return Print("%.9g", double(*number));
+  if (const auto* number = std::get_if<float>(&attribute)) return Format("%.9g", double(*number));
   if (const auto* integer = std::get_if<int>(&attribute)) return std::to_string(*integer);
   std::string list;
   for (const float value : std::get<std::vector<float>>(attribute))
-    list += Print(list.empty() ? "%.9g" : " %.9g", double(value));
+    list += Format(list.empty() ? "%.9g" : " %.9g", double(value));
   return list;
 }
 
@@ -84,7 +78,7 @@ std::string InfoText(const std::string& path, const Image& image) {
   for (int c = 0; c < image.ChannelCount(); ++c) text += ChannelText(image, c);
   if (!image.attributes.empty()) text += "attributes\n";
   for (const auto& [name, value] : image.attributes)
-    text += Print("  %-14s ", name.c_str()) + AttributeText(value) + "\n";
+    text += Format("  %-14s ", name.c_str()) + AttributeText(value) + "\n";
   return text;
 }
 

@@ -8,32 +8,27 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/base/format.h"
+
 namespace exphoton::cli {
 namespace {
 
-template <class... Args>
-std::string Print(const char* format, Args... args) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
-
 // Prints integers without decimals and other values with six significant digits.
 std::string Number(double value) {
-  return value == std::floor(value) && std::abs(value) < 1e15 ? Print("%.0f", value)
-                                                              : Print("%.6g", value);
+  return value == std::floor(value) && std::abs(value) < 1e15 ? Format("%.0f", value)
+                                                              : Format("%.6g", value);
 }
 
 std::string Resolution(const RenderSetup& setup) {
   const PixelBounds &full = setup.film.Full(), &crop = setup.crop;
-  std::string text = Print("%d x %d", full.Width(), full.Height());
+  std::string text = Format("%d x %d", full.Width(), full.Height());
   if (!(crop == full))
-    text += Print(", of which x %d to %d, y %d to %d", crop.x0, crop.x1 - 1, crop.y0, crop.y1 - 1);
+    text += Format(", of which x %d to %d, y %d to %d", crop.x0, crop.x1 - 1, crop.y0, crop.y1 - 1);
   return text;
 }
 
 std::string Row(const std::string& label, const std::string& text) {
-  return Print("%-13s ", label.c_str()) + text + "\n";
+  return Format("%-13s ", label.c_str()) + text + "\n";
 }
 
 // Describes a phase of Statistics; "" for phases of plugins, which have descriptive names.
@@ -70,9 +65,9 @@ const char* RayMeaning(RayKind kind) {
 }
 
 std::string PhaseTable(const RunRecord& run) {
-  std::string text = Print("\n%-30s %12s %12s  meaning\n", "phase", "seconds", "CPU seconds");
+  std::string text = Format("\n%-30s %12s %12s  meaning\n", "phase", "seconds", "CPU seconds");
   const auto row = [&text](const char* name, double wall, double cpu, const char* meaning) {
-    text += Print("%-30s %12.3f %12.3f  ", name, wall, cpu) + meaning + "\n";
+    text += Format("%-30s %12.3f %12.3f  ", name, wall, cpu) + meaning + "\n";
   };
   for (const Statistics::Phase& phase : run.statistics.Phases())
     row(phase.name.c_str(), phase.wallSeconds, phase.cpuSeconds, PhaseMeaning(phase.name));
@@ -81,10 +76,10 @@ std::string PhaseTable(const RunRecord& run) {
 }
 
 std::string RayTable(const RayCounters& rays) {
-  std::string text = Print("\n%-30s %12s  meaning\n", "rays", "count");
+  std::string text = Format("\n%-30s %12s  meaning\n", "rays", "count");
   std::uint64_t total = 0;
   const auto row = [&text](const char* name, std::uint64_t count, const char* meaning) {
-    text += Print("%-30s %12llu  ", name, static_cast<unsigned long long>(count)) + meaning + "\n";
+    text += Format("%-30s %12llu  ", name, static_cast<unsigned long long>(count)) + meaning + "\n";
   };
   for (int i = 0; i < kRayKindCount; ++i) {
     total += rays.counts[std::size_t(i)];
@@ -96,9 +91,9 @@ std::string RayTable(const RayCounters& rays) {
 
 std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
   std::string text;
-  if (!counters.empty()) text = Print("\n%-30s %12s  meaning\n", "counter", "value");
+  if (!counters.empty()) text = Format("\n%-30s %12s  meaning\n", "counter", "value");
   for (const Statistics::Counter& counter : counters)
-    text += Print("%-30s %12s  ", counter.name.c_str(), Number(counter.value).c_str()) +
+    text += Format("%-30s %12s  ", counter.name.c_str(), Number(counter.value).c_str()) +
             counter.meaning + "\n";
   return text;
 }
@@ -106,7 +101,7 @@ std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
 }  // namespace
 
 std::string HashText(std::uint64_t hash) {
-  return Print("%016llx", static_cast<unsigned long long>(hash));
+  return Format("%016llx", static_cast<unsigned long long>(hash));
 }
 
 std::string StatisticsTable(const RunRecord& run) {
@@ -117,7 +112,7 @@ std::string StatisticsTable(const RunRecord& run) {
                          std::to_string(run.passes) + (run.passes == 1 ? " pass" : " passes")) +
       Row("threads", std::to_string(run.threads));
   if (run.noise)
-    text += Row("noise", Print("%.3g", *run.noise) +
+    text += Row("noise", Format("%.3g", *run.noise) +
                              " of relMSE, estimated between passes (bias not included)");
   return text + PhaseTable(run) + RayTable(run.statistics.Rays()) +
          CounterTable(run.statistics.Counters());
@@ -126,19 +121,19 @@ std::string StatisticsTable(const RunRecord& run) {
 std::string StoppingText(const RunRecord& run) {
   std::string text;
   if (run.stoppedBy == "target-error")
-    text = Print("reached the target error %.3g", *run.targetError);
+    text = Format("reached the target error %.3g", *run.targetError);
   else if (run.stoppedBy == "time-limit")
-    text = Print("stopped at the last whole pass within %.6g s", *run.timeLimit);
+    text = Format("stopped at the last whole pass within %.6g s", *run.timeLimit);
   else if (run.targetError || run.timeLimit)
     text = "stopped at the limit of samples";
   else
     text = "two independent halves";
   if (!run.isComplete) text = "stopped by a signal";
-  text += Print(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
-                run.passes, run.passes == 1 ? "pass" : "passes");
+  text += Format(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
+                 run.passes, run.passes == 1 ? "pass" : "passes");
   if (!run.noise) return text + ", which give no estimate of the noise";
-  return text + Print("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
-                      100 * std::sqrt(*run.noise), *run.noise);
+  return text + Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
+                       100 * std::sqrt(*run.noise), *run.noise);
 }
 
 std::string ExplainText(const RenderSetup& setup) {

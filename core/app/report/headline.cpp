@@ -8,15 +8,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/format.h"
+
 namespace exphoton::study {
 namespace {
-
-template <class... Args>
-std::string Format(const char* format, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
 
 using Kind = TimeToError::Kind;
 

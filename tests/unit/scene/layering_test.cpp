@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check the house rules: a folder of core/ includes only folders below it and no plugin,
-// no source file and no folder is too large, and comments and pages avoid the phrases that
+// These tests check the house rules: a folder of core/ includes only folders below it and no
+// plugin, no source file and no folder is too large, and comments and pages avoid the phrases that
 // docs/development/CONTRIBUTING.md names.
 #include <gtest/gtest.h>
 
