@@ -50,6 +50,7 @@ struct ParamDecl {
   double lowest = std::numeric_limits<int>::lowest(), highest = std::numeric_limits<int>::max();
   std::vector<std::string> choices;  // Choice only
   std::string defaultText;           // in scene file syntax; "" if automatic
+  int quickDivisor = 1;              // --quick divides the value by this
 };
 // Returns "between 0 and 90", "above 0 and at most 1" ...; "" without limits.
 std::string RangeText(const ParamDecl& decl);
@@ -151,6 +152,12 @@ class Param : public ParamDraft {
   }
   Param& Required() {
     decl.isRequired = true;
+    return *this;
+  }
+  // For the counts of an integrator: --quick divides the value of the file, or the default, by
+  // this.
+  Param& DividedByQuick(int divisor) {
+    decl.quickDivisor = divisor;
     return *this;
   }
   // For a Vec3 member that is a vector or normal, or a string member that names a file.

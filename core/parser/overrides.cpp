@@ -17,15 +17,6 @@ namespace {
 constexpr std::array<std::string_view, 7> kSettableDirectives{
     "Accelerator",       "Camera",          "Film", "PixelFilter", "Sampler",
     "SurfaceIntegrator", "VolumeIntegrator"};
-struct QuickRule {
-  std::string_view parameter;
-  int divisor;
-};
-constexpr std::array<QuickRule, 5> kQuickRules{{{"causticphotons", 10},
-                                                {"directphotons", 10},
-                                                {"indirectphotons", 10},
-                                                {"nused", 10},
-                                                {"finalgathersamples", 4}}};
 
 const ParamDecl* FindDeclaration(const std::vector<ParamDecl>& declared, std::string_view name) {
   const auto found = std::find_if(declared.begin(), declared.end(),
@@ -126,7 +117,7 @@ void CheckOverrides(const std::vector<ParameterOverride>& overrides) {
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
     throw Error(ExitStatus::CommandLine,
-                "--set: \"" + override.directive + "\" cannot be set; these can: " + list,
+                "--set: \"" + override.directive + "\" cannot be set; available: " + list,
                 LocationOf(override), DidYouMean(override.directive, known));
   }
 }
@@ -149,23 +140,22 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
 }
 
 void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params) {
-  for (const auto& [name, divisor] : kQuickRules) {
-    const ParamDecl* declaration = FindDeclaration(declared, name);
-    if (!declaration) continue;
+  for (const ParamDecl& declaration : declared) {
+    if (declaration.quickDivisor == 1) continue;
     ParsedParam param;
-    if (const ParsedParam* given = params->Find(declaration->name)) {
+    if (const ParsedParam* given = params->Find(declaration.name)) {
       if (given->numbers.size() != 1) continue;  // malformed: the binder reports the error
       param = *given;
     } else {
-      const std::optional<std::vector<double>> value = ParseNumbers(declaration->defaultText);
+      const std::optional<std::vector<double>> value = ParseNumbers(declaration.defaultText);
       if (!value) continue;  // no numeric default: the plugin derives the value
-      param.name = declaration->name;
+      param.name = declaration.name;
       param.type = "integer";
       param.where = params->where;
       param.numbers = *value;
     }
-    const double least = std::max(declaration->min.value_or(1), param.numbers[0] > 0 ? 1.0 : 0.0);
-    const double scaled = std::floor(param.numbers[0] / divisor);
+    const double least = std::max(declaration.min.value_or(1), param.numbers[0] > 0 ? 1.0 : 0.0);
+    const double scaled = std::floor(param.numbers[0] / declaration.quickDivisor);
     param.numbers[0] = std::min(param.numbers[0], std::max(scaled, least));
     params->Add(std::move(param));
   }

@@ -17,8 +17,9 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
                     const std::string& what, const std::vector<ParamDecl>& declared,
                     ParamSet* params);
 
-// --quick: divides photon counts by 10 and gather sample counts by 4, both given and default
-// values.
+// --quick: divides the counts of an integrator, both given and default values, by the divisors that
+// it declares (ParamDecl::quickDivisor). No value falls below its minimum, and none that is above 0
+// falls to 0.
 void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params);
 
 }  // namespace exphoton

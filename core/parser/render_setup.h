@@ -49,7 +49,7 @@ struct LoadOptions {
   std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window
   std::optional<std::int64_t> samplesPerPixel;
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
-  bool isQuick = false;          // a quarter of the resolution, 1 sample, a tenth of the photons
+  bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
 };
 
 struct LoadingStopped {};

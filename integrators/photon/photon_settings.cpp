@@ -9,13 +9,18 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
   static const ParamTable<S> table{
       Param("causticphotons", &S::causticPhotons,
             "photons wanted in the caustic map; 20000 if absent")
-          .Range(0, 1e9),
+          .Range(0, 1e9)
+          .DividedByQuick(10),
       Param("directphotons", &S::directPhotons,
             "photons wanted in the direct map; as indirectphotons if absent")
-          .Range(0, 1e9),
+          .Range(0, 1e9)
+          .DividedByQuick(10),
       Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")
-          .Range(0, 1e9),
-      Param("nused", &S::nUsed, "photons used in a density estimate").Range(2, 100000),
+          .Range(0, 1e9)
+          .DividedByQuick(10),
+      Param("nused", &S::nUsed, "photons used in a density estimate")
+          .Range(2, 100000)
+          .DividedByQuick(10),
       Param(
           "directlights", &S::directLights,
           "lights of a scene that are all sampled at each point; where there are more, this number "
@@ -27,7 +32,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "gather indirect light over the hemisphere; false shows the maps directly"),
       Param("finalgathersamples", &S::finalGatherSamples,
             "gather rays at a shading point, both techniques together")
-          .Range(1, 1 << 20),
+          .Range(1, 1 << 20)
+          .DividedByQuick(4),
       Param("maxdist", &S::maxDist,
             "largest radius of a density estimate; chosen from the photons if absent")
           .Range(1e-15, 1e15)

@@ -88,6 +88,7 @@ TEST(Overrides, QuickDividesGivenAndDefaultCounts) {
   photons.name = "indirectphotons", photons.defaultText = "100000", photons.min = 0;
   used.name = "nused", used.defaultText = "50", used.min = 2;
   gather.name = "finalgathersamples", gather.defaultText = "32", gather.min = 1;
+  photons.quickDivisor = used.quickDivisor = 10, gather.quickDivisor = 4;
   other.name = "maxdepth", other.defaultText = "5";
   ParamSet params;
   ParsedParam given;
@@ -103,6 +104,7 @@ TEST(Overrides, QuickDividesGivenAndDefaultCounts) {
 TEST(Overrides, QuickLeavesNoPhotonsNone) {
   ParamDecl photons;
   photons.name = "causticphotons", photons.defaultText = "20000", photons.min = 0;
+  photons.quickDivisor = 10;
   ParamSet params;
   ParsedParam given;
   given.type = "integer", given.name = "causticphotons", given.numbers = {0};

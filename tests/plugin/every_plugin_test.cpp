@@ -11,6 +11,7 @@
 
 #include "core/base/log.h"
 #include "core/params/param_reader.h"
+#include "core/parser/overrides.h"
 #include "core/plugins/catalogue.h"
 #include "core/plugins/registry.h"
 
@@ -143,6 +144,44 @@ TEST_F(EveryPlugin, IsListedAndDescribed) {
     EXPECT_EQ(error.Status(), ExitStatus::CommandLine);
     EXPECT_STREQ(error.what(), "there is no plugin \"exphotonmpa\"");
     EXPECT_EQ(error.Hint(), "did you mean \"exphotonmap\"?");
+  }
+}
+
+// Returns "name=count" for each parameter that --quick changes. `given` is the count that the scene
+// file gives all parameters, or 0 if it gives none.
+std::set<std::string> QuickCounts(const PluginFactory& factory, int given) {
+  const std::vector<ParamDecl>& declared = factory.parameters->Declarations();
+  ParamSet params;
+  for (const ParamDecl& decl : declared) {
+    if (given == 0) break;
+    ParsedParam param;
+    param.type = "integer", param.name = decl.name, param.numbers = {double(given)};
+    params.Add(param);
+  }
+  ScaleForQuick(declared, &params);
+  std::set<std::string> counts;
+  for (const ParsedParam& param : params.All())
+    if (const int count = int(param.numbers.at(0)); count != given)
+      counts.insert(param.name + "=" + std::to_string(count));
+  return counts;
+}
+
+using QuickPhotons = EveryPlugin;
+
+TEST_F(QuickPhotons, AreATenthAndTheGatherSamplesAQuarter) {
+  using Counts = std::set<std::string>;
+  for (const std::string& name : registry_.Available(PluginKind::Integrator)) {
+    SCOPED_TRACE(name);
+    const PluginFactory& factory = registry_.Find(PluginKind::Integrator, name, {});
+    const bool hasPhotons = name == "photonmap" || name == "exphotonmap";
+    // The default counts of direct and caustic photons are automatic, so they are not scaled.
+    EXPECT_EQ(QuickCounts(factory, 0),
+              hasPhotons ? Counts({"indirectphotons=10000", "nused=5", "finalgathersamples=8"})
+                         : Counts());
+    EXPECT_EQ(QuickCounts(factory, 15),
+              hasPhotons ? Counts({"causticphotons=1", "directphotons=1", "indirectphotons=1",
+                                   "nused=2", "finalgathersamples=3"})
+                         : Counts());
   }
 }
 
