@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -87,7 +88,6 @@ struct LiContext {
 
 // A stored photon, for inspection by the user.
 struct StoredPhoton {
-  std::string map;  // for example "indirect"
   Point3 p;
   Vector3 wi;  // unit direction towards its origin
   Spectrum power;
@@ -120,10 +120,12 @@ class SurfaceIntegrator {
   // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 
-  // Returns the photons nearest to p in a map ("direct", "caustic" or "indirect"), nearest first.
-  // The result is empty if there are none. Preprocess must have run.
-  virtual std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
-                                                int count) const {
+  // Returns the names of the photon maps, the most interesting first. The result is empty if the
+  // integrator has none.
+  virtual std::vector<std::string> PhotonMapNames() const { return {}; }
+  // Returns the photons nearest to p, nearest first, in the map with this index in
+  // PhotonMapNames(). The result is empty if the map is. Preprocess must have run.
+  virtual std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const {
     (void)p, (void)map, (void)count;
     return {};
   }

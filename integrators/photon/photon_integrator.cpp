@@ -3,6 +3,7 @@
 #include "integrators/photon/photon_integrator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 
@@ -14,6 +15,9 @@
 
 namespace exphoton {
 namespace {
+
+// The maps in the order of PhotonMapNames.
+constexpr std::array kListedMaps{PhotonKind::Indirect, PhotonKind::Direct, PhotonKind::Caustic};
 
 // Empty where photons of distant lights start towards the whole scene.
 DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scene& scene,
@@ -186,22 +190,26 @@ void PhotonIntegrator::FillDensity(const ShadingPoint& point, LiContext& context
     context.aovs->photonDensity = maps_.PhotonDensity(point, &context.arena);
 }
 
-std::vector<StoredPhoton> PhotonIntegrator::PhotonsNear(const Point3& p, const std::string& map,
+std::vector<std::string> PhotonIntegrator::PhotonMapNames() const {
+  std::vector<std::string> names;
+  for (const PhotonKind kind : kListedMaps) names.push_back(PhotonKindName(kind));
+  return names;
+}
+
+std::vector<StoredPhoton> PhotonIntegrator::PhotonsNear(const Point3& p, std::size_t map,
                                                         int count) const {
+  const PhotonMap& photonMap = maps_.Map(kListedMaps.at(map));
+  if (photonMap.IsEmpty()) return {};
+  Arena arena;
+  const NearPoints nearest = photonMap.Nearest(p, count, &arena);
+  std::vector<std::pair<Real, std::uint32_t>> sorted;
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+    sorted.emplace_back(nearest.distance2[i], nearest.index[i]);
+  std::sort(sorted.begin(), sorted.end());
   std::vector<StoredPhoton> photons;
-  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
-    const PhotonMap& stored = maps_.Map(kind);
-    if (map != PhotonKindName(kind) || stored.IsEmpty()) continue;
-    Arena arena;
-    const NearPoints nearest = stored.Nearest(p, count, &arena);
-    std::vector<std::pair<Real, std::uint32_t>> sorted;
-    for (std::size_t i = 0; i < nearest.size(); ++i)
-      sorted.emplace_back(nearest.distance2[i], nearest.index[i]);
-    std::sort(sorted.begin(), sorted.end());
-    for (const auto& [distance2, photon] : sorted)
-      photons.push_back({map, stored.Position(photon), stored.Direction(photon),
-                         stored.Alpha(photon), std::sqrt(distance2)});
-  }
+  for (const auto& [distance2, photon] : sorted)
+    photons.push_back({photonMap.Position(photon), photonMap.Direction(photon),
+                       photonMap.Alpha(photon), std::sqrt(distance2)});
   return photons;
 }
 

@@ -29,8 +29,8 @@ class PhotonIntegrator final : public SurfaceIntegrator {
 
   std::vector<std::string> Explain(const Scene& scene) const override;
   AovSet Aovs() const override;
-  std::vector<StoredPhoton> PhotonsNear(const Point3& p, const std::string& map,
-                                        int count) const override;
+  std::vector<std::string> PhotonMapNames() const override;
+  std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const override;
 
  private:
   static constexpr std::uint64_t kGatherStream = 0x726164ull;

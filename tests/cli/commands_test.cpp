@@ -77,7 +77,20 @@ TEST_F(CommandTest, ShowThePhotonsAroundWhatAPixelShows) {
   EXPECT_EQ(dots, 20u);
   const ProgramResult none = Run({"info", "--photons-at=4,3", "room.pbrt", "--integrator", "path"});
   EXPECT_EQ(none.status, 0);
-  EXPECT_NE(none.err.find("has no indirect photons"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("integrator \"path\" has no photon maps"), std::string::npos) << none.err;
+  const auto photonsOf = [&](const std::string& map) {
+    return Run({"info", "--photons-at=4,3", "room.pbrt", "--count", "20", "--map", map});
+  };
+  EXPECT_EQ(photonsOf("indirect").out, result.out) << "the default is another map";
+  EXPECT_NE(photonsOf("direct").out, result.out);
+  EXPECT_NE(photonsOf("caustic").err.find("has no caustic photons in this scene"),
+            std::string::npos);
+  const ProgramResult unknown = photonsOf("indirct");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("there is no photon map \"indirct\"; available: indirect, direct, "
+                             "caustic"),
+            std::string::npos)
+      << unknown.err;
   EXPECT_EQ(Run({"info", "--photons-at", "8,3", "room.pbrt"}).status, 1);
   EXPECT_EQ(Run({"info", "--photons-at", "4", "room.pbrt"}).status, 1);
 }

@@ -4,6 +4,7 @@
 // on the hemisphere.
 #include "core/app/commands/photons_command.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -18,6 +19,7 @@
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
+#include "core/params/suggestions.h"
 #include "core/parser/render_setup.h"
 #include "core/plugins/registry.h"
 
@@ -25,7 +27,7 @@ namespace exphoton::cli {
 namespace {
 
 struct Options {
-  std::string scene, pixel, map = "indirect", plotFile, integrator;
+  std::string scene, pixel, map, plotFile, integrator;  // map: "" for the first one
   std::vector<std::string> sets, pluginFolders;
   int count = 50, threads = 0;
   std::uint64_t seed = 0;
@@ -39,14 +41,13 @@ Options ParsePhotonsOptions(const std::vector<std::string>& arguments) {
                    "exphoton info --photons-at");
   app.Add("--photons-at", options.pixel, "the pixel").Required().TypeName("x,y");
   app.Add("scene", options.scene, "the scene").Required();
-  app.Add("--map", options.map, "indirect (default), direct or caustic")
-      .OneOf({"indirect", "direct", "caustic"});
+  app.Add("--map", options.map, "the photon map to search; default: the integrator's first");
   app.Add("--count", options.count, "number of photons (default 50)").Between(1, 1000000);
   app.Add("--plot", options.plotFile, "also plot their directions to this file")
       .TypeName("FILE.svg");
   app.Add("--integrator", options.integrator, "as in exphoton render");
   app.Add("--set", options.sets, "as in exphoton render").OnePerUse();
-  app.Add("--seed", options.seed, "other photons");
+  app.Add("--seed", options.seed, "seed of the random numbers");
   app.Add("--nthreads,--ncores", options.threads, "threads; 0: all cores").Between(0, 4096);
   app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
       .OnePerUse();
@@ -91,7 +92,7 @@ Place FindPlace(const RenderSetup& setup, const PixelBounds& pixel) {
   sample.lens = {Real(.5), Real(.5)};
   const RayDifferential ray = setup.camera->GenerateRay(sample, false);
   const auto hit = setup.scene->Intersect(ray);
-  if (!hit) FailUsage("nothing is seen at this pixel");
+  if (!hit) FailUsage("no surface is visible at this pixel");
   Place place{hit->p, FaceForward(hit->ng, -ray.d), {}, {}};
   // s lies along the world's x axis, or along its z axis if the normal is nearly parallel to x.
   const Vector3 n(place.n);
@@ -152,6 +153,29 @@ std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photon
   return text + "</svg>\n";
 }
 
+// Returns the index of the map with this name, or 0 for the name "" and where there are no maps.
+std::size_t FindMap(const std::string& name, const std::vector<std::string>& maps) {
+  if (name.empty() || maps.empty()) return 0;
+  const auto found = std::find(maps.begin(), maps.end(), name);
+  if (found != maps.end()) return std::size_t(found - maps.begin());
+  std::string list;
+  for (const std::string& map : maps) list += (list.empty() ? "" : ", ") + map;
+  FailUsage("--map: there is no photon map \"" + name + "\"; available: " + list,
+            DidYouMean(name, maps));
+}
+
+// Returns the photons nearest to p in the map that the user chose. Preprocess must have run.
+std::vector<StoredPhoton> PhotonsAt(const Point3& p, std::size_t map, int count,
+                                    const RenderSetup& setup, Log& log) {
+  const std::vector<std::string> maps = setup.integrator->PhotonMapNames();
+  std::vector<StoredPhoton> photons;
+  if (!maps.empty()) photons = setup.integrator->PhotonsNear(p, map, count);
+  if (photons.empty())
+    log.Warning("integrator \"" + setup.integratorName + "\" has no " +
+                (maps.empty() ? "photon maps" : maps[map] + " photons in this scene"));
+  return photons;
+}
+
 void CheckFiles(const Options& options, const RenderSetup& setup, Log& log) {
   if (options.plotFile.empty()) return;
   RunFiles files;
@@ -174,6 +198,7 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
   const auto setups = LoadScenes(source, options.scene, SceneOptions(options), log);
   const RenderSetup& setup = *setups.front();
   CheckFiles(options, setup, log);
+  const std::size_t map = FindMap(options.map, setup.integrator->PhotonMapNames());
   const Place place = FindPlace(setup, pixel);
   ThreadPool threads(options.threads);
   ProgressReporter progress(ProgressReporter::Mode::Quiet);
@@ -190,10 +215,7 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
                             {setup.film.xResolution, setup.film.yResolution},
                             setup.volumeIntegrator.get()};
   setup.integrator->Preprocess(*setup.scene, context);
-  const auto photons = setup.integrator->PhotonsNear(place.p, options.map, options.count);
-  if (photons.empty())
-    log.Warning("integrator \"" + setup.integratorName + "\" has no " + options.map +
-                " photons in this scene");
+  const auto photons = PhotonsAt(place.p, map, options.count, setup, log);
   PrintOut(TableText(place, photons));
   if (!options.plotFile.empty()) WriteTextFile(options.plotFile, PlotText(place, photons));
 }

@@ -81,7 +81,9 @@ TEST_P(PhotonSeeds, ShootOtherPhotons) {
     TestRenderOptions options;
     options.seed = seed;
     RenderLoaded(loaded, options);
-    return loaded.setup->integrator->PhotonsNear({0, 0, 3}, "direct", 30);
+    const SurfaceIntegrator& integrator = *loaded.setup->integrator;
+    EXPECT_EQ(integrator.PhotonMapNames().at(1), "direct");
+    return integrator.PhotonsNear({0, 0, 3}, 1, 30);
   };
   const auto one = photons(1), again = photons(1), two = photons(2);
   ASSERT_EQ(one.size(), 30u);
