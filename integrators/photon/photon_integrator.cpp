@@ -95,7 +95,7 @@ PhotonPassResult PhotonIntegrator::ShootPhotons(const Scene& scene, const Photon
 
 void PhotonIntegrator::BuildMaps(const Scene& scene, PhotonPassResult* photons,
                                  PreprocessContext& context) {
-  const PhaseTimer timer(context.statistics, "kd-trees");
+  const PhaseTimer timer(context.statistics, "photon maps");
   maps_ = PhotonMapSet(photons, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
   if (gathers_) gather_.Prepare(maps_.Map(PhotonKind::Indirect));
   context.CheckStop();

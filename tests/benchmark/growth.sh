@@ -73,7 +73,7 @@ photons() {
   for ((count = 10000; count <= largest * 10; count *= 10)); do
     run 64 4 "$extended \"integer indirectphotons\" $count \"integer maxphotonpaths\" 2000000000" \
       "$lamp $room"
-    echo "$count $(phase shoot) $(phase kd-trees) $(phase radiance) $(phase render) $(memory)"
+    echo "$count $(phase shoot) $(phase "photon maps") $(phase radiance) $(phase render) $(memory)"
   done
 }
 # lamps COUNT: this number of small lamps with the same total power, on a square under the ceiling.

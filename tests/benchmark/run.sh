@@ -87,7 +87,7 @@ threads() {
     for count in 1 2; do
       "$program" render "$work/room.pbrt" "${quiet[@]}" --reproducible --nthreads $count \
         --stats-json "$work/json" -o "$work/threads-$count.exr"
-      for phase in shoot kd-trees radiance render; do
+      for phase in shoot "photon maps" radiance render; do
         grep -o "\"name\":\"$phase\",\"seconds\":[^,]*" "$work/json" | sed 's/.*://' \
           >>"$work/$phase-$count.times"
       done
@@ -95,7 +95,7 @@ threads() {
   done
   cmp "$work/threads-1.exr" "$work/threads-2.exr" && echo "1 and 2 threads: the same bytes"
   printf '%-10s %10s %10s %8s\n' phase "1 thread" "2 threads" ratio
-  for phase in shoot kd-trees radiance render; do
+  for phase in shoot "photon maps" radiance render; do
     printf '%-10s %10.3f %10.3f %8.2f\n' "$phase" "$(median <"$work/$phase-1.times")" \
       "$(median <"$work/$phase-2.times")" \
       "$(paste "$work/$phase-1.times" "$work/$phase-2.times" | awk '{print $1 / $2}' | median)"

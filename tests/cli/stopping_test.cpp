@@ -52,6 +52,7 @@ TEST_F(StoppingTest, SaysWhatATargetReached) {
   ExpectIn("\"stoppedBy\":\"target-error\",\"noise\":0.00", json);
   ExpectIn("\"targetError\":0.01", json);
   ExpectIn("\"timeLimit\":null", json);
+  ExpectIn("\"aovs\":\"\"", json);
   const auto attributes = ReadExr(Path("out.exr")).attributes;
   EXPECT_EQ(std::get<std::string>(attributes.at("stoppedBy")), "target-error");
   EXPECT_LE(std::get<float>(attributes.at("noise")), .01f);

@@ -110,7 +110,7 @@ void AddStopping(const RunRecord& run, JsonWriter* json) {
   AddOptional("noise", run.noise, json);
   AddOptional("targetError", run.targetError, json);
   AddOptional("timeLimit", run.timeLimit, json);
-  json->Key("layers"), json->Text(run.aovs);
+  json->Key("aovs"), json->Text(run.aovs);
 }
 
 void AddStatistics(const Statistics& statistics, JsonWriter* json) {

@@ -37,7 +37,7 @@ const char* PhaseMeaning(const std::string& name) {
       {"parse", "reading the scene: files, plugins, textures, meshes"},
       {"accelerator", "building what finds the first surface along a ray"},
       {"shoot", "tracing photons from the lights"},
-      {"kd-trees", "sorting photons for searching, and choosing radii"},
+      {"photon maps", "sorting photons for searching, and choosing radii"},
       {"radiance", "computing the radiance at radiance photons"},
       {"render", "camera rays and everything they cause"},
       {"write", "writing the picture"}};
