@@ -171,9 +171,10 @@ std::map<std::string, std::string> ReferencePages(PluginRegistry& registry) {
     for (const Entry& entry : EntriesOf(registry, KindAt(i))) {
       names += (names.empty() ? "`" : ", `") + entry.name + '`';
     }
-    if (!names.empty()) {
-      index += "- [" + Capitalized(Plural(KindAt(i))) + "](" + file + "): " + names + '\n';
-    }
+    // The lines after the first are indented, as Markdown wants it for one item of a list.
+    if (!names.empty())
+      index += Wrapped("- [" + Capitalized(Plural(KindAt(i))) + "](" + file + "): " + names, 2)
+                   .substr(2);
   }
   pages["README.md"] = index;
   return pages;
