@@ -24,7 +24,8 @@ struct FilmSettings {
   int writeFrequency = -1;
 
   PixelBounds Full() const { return {0, 0, xResolution, yResolution}; }
-  PixelBounds Crop() const;  // pixels whose upper left corner is in the crop window, as in pbrt v1
+  PixelBounds Crop()
+      const;  // pixels whose upper left corners are in the crop window, as in pbrt v1
 };
 
 class Film {

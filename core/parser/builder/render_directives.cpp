@@ -139,8 +139,8 @@ void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
   if (!setup->crop.IsEmpty()) return;
   const ParsedParam* window = params.Find("cropwindow");
   if (options_.cropWindow || !window)
-    throw Error(ExitStatus::CommandLine, "the crop window holds no pixel's centre");
-  FailAt(window->where, "the crop window holds no pixel's centre");
+    throw Error(ExitStatus::CommandLine, "the crop window has no pixel's upper left corner");
+  FailAt(window->where, "the crop window has no pixel's upper left corner");
 }
 
 void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
