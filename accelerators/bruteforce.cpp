@@ -46,4 +46,5 @@ std::unique_ptr<Aggregate> Create(const Settings&, const AcceleratorContext& con
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_ACCELERATOR("bruteforce", "tests every primitive; the yardstick of the other accelerators")
+EXPHOTON_ACCELERATOR("bruteforce",
+                     "tests every primitive; the reference for tests of other accelerators")

@@ -17,10 +17,10 @@ struct Settings {
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       Param("maxprims", &Settings::maxPrimitives,
-            "a leaf has at most as many triangles, and at most eight")
+            "largest number of triangles in a leaf, at most eight")
           .Range(1, 64),
       Param("vectors", &Settings::vectors,
-            "the widest vectors of the machine, or no wider ones than these; the hits are the same")
+            "widest SIMD instructions to use, auto: the machine's; the hits are the same")
           .OneOf({{"auto", BvhVectors::Widest},
                   {"avx2", BvhVectors::Avx2},
                   {"portable", BvhVectors::Portable}})};
@@ -58,4 +58,4 @@ std::unique_ptr<Aggregate> Create(const Settings& settings, const AcceleratorCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_ACCELERATOR("bvh", "a bounding volume hierarchy, eight wide; used where none is named")
+EXPHOTON_ACCELERATOR("bvh", "a bounding volume hierarchy, eight wide; the default")

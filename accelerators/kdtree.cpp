@@ -24,7 +24,8 @@ const ParamTable<Settings>& Parameters() {
           .Range(0, 1000000),
       Param("emptybonus", &Settings::emptyBonus, "discount for cutting off empty space")
           .Range(0, 1),
-      Param("maxprims", &Settings::maxPrimitives, "a cell with as few is not split")
+      Param("maxprims", &Settings::maxPrimitives,
+            "largest number of primitives in a cell that is not split")
           .Range(1, 1000000),
       Param("maxdepth", &Settings::maxDepth, "levels of the tree; -1: by the number of primitives")
           .Range(-1, 1000000)};

@@ -93,4 +93,4 @@ std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const Integr
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_INTEGRATOR("directlighting", "light straight from the lights, and specular recursion")
+EXPHOTON_INTEGRATOR("directlighting", "direct light and specular recursion")

@@ -281,4 +281,4 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_LIGHT("infinite", "light from all round the scene, uniform or from a map")
+EXPHOTON_LIGHT("infinite", "light from all directions, uniform or from a map")

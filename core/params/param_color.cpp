@@ -56,7 +56,8 @@ std::vector<double> ParseNumbers(std::string text) {
     words.imbue(std::locale::classic());
     for (double number; words >> number;) numbers.push_back(number);
     if (!words.eof()) {
-      throw std::runtime_error("line " + std::to_string(count) + " is not numbers");
+      throw std::runtime_error("line " + std::to_string(count) +
+                               " contains a word that is not a number");
     }
   }
   return numbers;

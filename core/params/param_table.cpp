@@ -36,8 +36,8 @@ void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& kno
                    const BindContext& context) {
   if (context.siblingNames && Contains(context.siblingNames(), param.name)) {
     if (context.log) {
-      context.log->Notice("parameter \"" + param.name + "\" means nothing to " + context.what +
-                              ": it is of another plugin of this kind",
+      context.log->Notice("parameter \"" + param.name + "\" does not apply to " + context.what +
+                              "; another plugin of this kind has it",
                           Place(param.where));
     }
     return;

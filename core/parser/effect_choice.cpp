@@ -48,10 +48,11 @@ void ApplyOne(const std::string& item, RequiredFeatures* plan, Log& log) {
   const std::vector<std::string> names = EffectNames();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) FailChoice("unknown effect \"" + name + "\"", DidYouMean(name, names));
-  if (value != "on" && value != "off") FailChoice("\"" + item + "\" says neither on nor off");
-  const auto effect = Feature(found - names.begin());
-  if (value == "off" && plan->Needs(effect)) log.Warning("--effects " + item + " " + Loss(effect));
-  plan->Set(effect, value == "on", "by --effects");
+  if (value != "on" && value != "off") FailChoice("\"" + item + "\" must end in =on or =off");
+  const auto feature = Feature(found - names.begin());
+  if (value == "off" && plan->Needs(feature))
+    log.Warning("--effects " + item + " " + Loss(feature));
+  plan->Set(feature, value == "on", "by --effects");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class Library {
         (kMachine != EM_NONE && header_.e_machine != kMachine))
       throw Fault("cannot be loaded: it is built for another kind of machine");
     if (header_.e_type != ET_DYN || header_.e_phentsize != sizeof(Elf64_Phdr))
-      throw Fault("is no shared library");
+      throw Fault("is not a shared library");
   }
 
   // The system's loader maps the segments that the headers describe. The process would die if the
@@ -105,7 +105,7 @@ class Library {
       }
       return;
     }
-    throw Fault("is no shared library");
+    throw Fault("is not a shared library");
   }
 
   bool IsDefinedAs(std::uint64_t index, const std::string& name) const {
@@ -157,7 +157,7 @@ class Library {
 std::optional<std::string> FaultOfLibrary(int file, const std::string& symbol) {
   try {
     if (Library(file).Exports(symbol)) return std::nullopt;
-    return "is a library, but no plugin: it has no symbol " + symbol;
+    return "is a library, but not a plugin: it has no symbol " + symbol;
   } catch (const Fault& fault) {
     return fault.what();
   }

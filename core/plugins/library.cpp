@@ -104,11 +104,13 @@ const PluginDescriptor& CheckedDescriptor(PluginEntry entry, const std::string& 
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw PluginFileError(std::string("fails when asked what it is: ") + error.what());
+    throw PluginFileError(
+        std::string("throws an exception when the program asks for its description: ") +
+        error.what());
   } catch (...) {
-    throw PluginFileError("fails when asked what it is");
+    throw PluginFileError("throws an exception when the program asks for its description");
   }
-  if (!descriptor) throw PluginFileError("does not say what it is");
+  if (!descriptor) throw PluginFileError("returns no description of itself");
   // The ABI number is the first member. No other member may be read before it is checked.
   if (descriptor->abi != kPluginAbi) {
     throw PluginFileError("is built for plugin interface " + std::to_string(descriptor->abi) +
@@ -121,9 +123,9 @@ const PluginDescriptor& CheckedDescriptor(PluginEntry entry, const std::string& 
                           "\", and this program by \"" + CoreBuildTag() + "\": build it again");
   }
   if (!descriptor->name || descriptor->name != name) {
-    throw PluginFileError("says that its name is \"" +
+    throw PluginFileError("names itself \"" +
                           std::string(descriptor->name ? descriptor->name : "") +
-                          "\": a plugin's file must be named as it is");
+                          "\": the file must have the name of the plugin");
   }
   return *descriptor;
 }
@@ -135,7 +137,7 @@ const PluginDescriptor& LoadPluginFile(const PluginFile& file, const std::string
   void* const library = OpenLibrary(file);
   void* symbol = dlsym(library, kPluginSymbol);
   if (!symbol) {
-    throw PluginFileError(std::string("is a library, but no plugin: it has no symbol ") +
+    throw PluginFileError(std::string("is a library, but not a plugin: it has no symbol ") +
                           kPluginSymbol);
   }
   return CheckedDescriptor(reinterpret_cast<PluginEntry>(symbol), name);

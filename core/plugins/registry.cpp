@@ -82,8 +82,8 @@ void PluginRegistry::ThrowMissing(PluginKind kind, const std::string& name,
                                   const SourceLocation& where) const {
   const std::vector<std::string> available = Available(kind);
   std::string text = "there is no " + Named(kind, name);
-  text += available.empty() ? "; no plugin of this kind was found"
-                            : "; those that there are: " + Join(available);
+  text +=
+      available.empty() ? "; no plugin of this kind was found" : "; available: " + Join(available);
   text += PlacesText();
   throw Error(ExitStatus::Scene, text, where, DidYouMean(name, available));
 }
@@ -118,8 +118,8 @@ const PluginFactory& PluginRegistry::Find(PluginKind kind, const std::string& na
       plugin.factories.empty() ? "nothing" : PluginKindName(plugin.factories[0].kind);
   const std::vector<std::string> available = Available(kind);
   throw Error(ExitStatus::Scene,
-              '"' + name + "\" is no " + PluginKindName(kind) + " but of the kind " + is +
-                  "; those that there are: " + Join(available),
+              '"' + name + "\" has the kind " + is + ", not " + PluginKindName(kind) +
+                  "; available: " + Join(available),
               where, DidYouMean(name, available));
 }
 
@@ -176,9 +176,10 @@ void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, con
   } catch (const std::exception& error) {
     throw Error(ExitStatus::Scene, failed + error.what(), params.where);
   } catch (...) {
-    throw Error(ExitStatus::Scene, failed + "it failed without saying why", params.where);
+    throw Error(ExitStatus::Scene, failed + "it threw an exception without a message",
+                params.where);
   }
-  throw Error(ExitStatus::Scene, failed + "its plugin made nothing", params.where);
+  throw Error(ExitStatus::Scene, failed + "its plugin returned no object", params.where);
 }
 
 }  // namespace exphoton

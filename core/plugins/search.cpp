@@ -21,7 +21,7 @@ constexpr PluginAlias kAliases[] = {
     {PluginKind::AreaLight, "diffuse", "area", nullptr},
     {PluginKind::Light, "infinitesample", "infinite", nullptr},
     {PluginKind::Sampler, "bestcandidate", "lowdiscrepancy",
-     "sampler \"bestcandidate\" does not exist yet: \"lowdiscrepancy\" takes its place"},
+     "sampler \"bestcandidate\" is not available: \"lowdiscrepancy\" is used instead"},
 };
 
 // Returns the existing plugin folders beside the program and beside the core's library. It checks
@@ -59,7 +59,7 @@ const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name) {
 std::optional<std::string> FaultOfPluginName(const std::string& name) {
   if (name.empty()) return "is empty";
   if (name.find('/') != std::string::npos || name.find("..") != std::string::npos) {
-    return "has parts of a path: folders are given by --plugin-dir or PBRT_SEARCHPATH";
+    return "contains a path: --plugin-dir or PBRT_SEARCHPATH names folders";
   }
   if (name.find('\0') != std::string::npos || name.size() > 200) {
     return "cannot be the name of a file";

@@ -81,9 +81,10 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("photonaim", &S::photonAim,
             "photons of distant lights (sun, sky) start towards visible points; auto: where that "
             "makes them many times denser there")
-          .OneOf(
-              {{"auto", PhotonAiming::Auto}, {"on", PhotonAiming::On}, {"off", PhotonAiming::Off}}),
-      Param("show", &S::show, "shows one map directly, for looking at it")
+          .OneOf({{"auto", PhotonTargeting::Auto},
+                  {"on", PhotonTargeting::On},
+                  {"off", PhotonTargeting::Off}}),
+      Param("show", &S::show, "shows one map directly, for inspection")
           .OneOf({{"", ShowMap::Nothing},
                   {"radiancephotons", ShowMap::Radiance},
                   {"directphotons", ShowMap::Direct},

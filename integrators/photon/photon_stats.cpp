@@ -51,8 +51,8 @@ void NoticeUnstoredLights(const PhotonPassResult& result, const PhotonTargets& t
                     " has shot ", light.shot, " photons and none was stored"),
                origin.where,
                light.hit + light.passedBy == 0
-                   ? "they hit nothing: does the light shine at the scene?"
-                   : "they met surfaces, but left nothing that the photon maps still wanted");
+                   ? "they hit nothing: check the light's position and direction"
+                   : "they hit surfaces, but left no photons of a kind that the maps still needed");
   }
   if (found > kMaxLightNotices)
     log.Notice(Text(found - kMaxLightNotices, " more lights shot photons and none was stored"));
@@ -65,8 +65,8 @@ void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& se
   const RequiredFeatures& plan = scene.Features();
   if (plan.Needs(Feature::Caustics) || targets[PhotonKind::Caustic] > 0) return;
   if (settings.causticPhotons.value_or(0) == 0) return;
-  log.Notice(Text("causticphotons ", *settings.causticPhotons, ": none is shot (",
-                  plan.Get(Feature::Caustics).reason, ")"));
+  log.Notice(Text("causticphotons ", *settings.causticPhotons,
+                  ": no photons are shot for caustics (", plan.Get(Feature::Caustics).reason, ")"));
 }
 
 void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context) {
@@ -106,8 +106,8 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
   if (result.passedBy > 0)
     context.statistics.AddToCounter(
         "photons/passed by", double(result.passedBy),
-        "of them, paths for caustics alone that were not traced because "
-        "they pass all specular surfaces by");
+        "of these, paths for caustics only that were not traced because "
+        "they miss all specular surfaces");
   if (result.paths > 0)
     context.statistics.SetCounter("photons/emitted power",
                                   result.emittedPower / double(result.paths),

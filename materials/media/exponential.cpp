@@ -19,7 +19,8 @@ const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       MediumParameters(), Param("a", &Settings::a, "density at p0").AtLeast(0),
       Param("b", &Settings::b, "how fast it falls with height; the height of 1/e is 1 / b"),
-      Param("updir", &Settings::up, "where height grows; its length counts").As(ParamType::Vector)};
+      Param("updir", &Settings::up, "direction of increasing height; its length scales the height")
+          .As(ParamType::Vector)};
   return table;
 }
 

@@ -21,7 +21,7 @@ const ParamTable<ImageSettings>& ImageParameters() {
       Param("filename", &ImageSettings::filename, "image file, EXR or PNG")
           .As(ParamType::File)
           .Required(),
-      Param("wrap", &ImageSettings::wrap, "what lies outside the unit square")
+      Param("wrap", &ImageSettings::wrap, "the image outside the unit square")
           .OneOf({{"repeat", WrapMode::Repeat},
                   {"black", WrapMode::Black},
                   {"clamp", WrapMode::Clamp}}),

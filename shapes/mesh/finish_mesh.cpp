@@ -71,7 +71,7 @@ std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,
   MoveToWorld(context, positionParam, mesh.get());
   const std::size_t total = mesh->TriangleCount(), dropped = mesh->DropDegenerate();
   if (total == 0) {
-    context.log.Warning("mesh without triangles: nothing to see", context.where);
+    context.log.Warning("the mesh has no triangles", context.where);
   } else if (dropped > 0) {
     context.log.Warning(std::to_string(dropped) + " of " + std::to_string(total) +
                             " triangles have no area and are left out",

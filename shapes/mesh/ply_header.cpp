@@ -126,7 +126,7 @@ PlyHeader ParsePlyHeader(std::string_view bytes) {
                      "\"");
     }
   }
-  if (!format) throw PlyError("its header does not say the format");
+  if (!format) throw PlyError("its header has no format line");
   header.format = *format;
   return header;
 }

@@ -83,7 +83,7 @@ class NumberStream {
     double value = 0;
     const auto result = std::from_chars(begin, word.data() + word.size(), value);
     if (result.ec != std::errc() || result.ptr != word.data() + word.size())
-      throw PlyError("it has \"" + std::string(word.substr(0, 40)) + "\" where a number must be");
+      throw PlyError("it has \"" + std::string(word.substr(0, 40)) + "\" instead of a number");
     return value;
   }
 

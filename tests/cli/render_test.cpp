@@ -123,7 +123,7 @@ TEST_F(RenderCommandTest, GoesOnWithTheNextFileAfterAnError) {
 
 TEST_F(RenderCommandTest, RendersNothingOfAFileWithAnErrorAtItsEnd) {
   ExpectFailure(RunText(SmallScene() + "AttributeEnd\n"), 2,
-                "scene.pbrt:10:1: error: AttributeEnd must stand between WorldBegin and WorldEnd");
+                "scene.pbrt:10:1: error: AttributeEnd must be between WorldBegin and WorldEnd");
 }
 
 TEST_F(RenderCommandTest, CallsWrongUsageStatus1) {

@@ -109,7 +109,7 @@ TEST_F(StudyFolderTest, StudiesOfEarlierVersionsGoOn) {
   fs::remove_all(Path("out/.exphoton-study"));  // earlier versions did not make this folder
   const ProgramResult again = Run(Options("out"));
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_NE(again.err.find("2 renders were there already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("2 renders existed already"), std::string::npos) << again.err;
   EXPECT_EQ(Run({"report", "out"}).status, 0);
 }
 

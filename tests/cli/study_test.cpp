@@ -107,7 +107,7 @@ TEST_F(StudyTest, DoesNotRepeatWhatIsDone) {
   const std::string rows = Read("out/results.csv"), page = Read("out/report.html");
   const ProgramResult again = Run(Options("out"));
   EXPECT_EQ(again.status, 0);
-  EXPECT_NE(again.err.find("12 renders were there already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("12 renders existed already"), std::string::npos) << again.err;
   EXPECT_EQ(Read("out/results.csv"), rows);
   EXPECT_EQ(Read("out/report.html"), page);
   fs::remove(Path("out/report.html"));
@@ -147,7 +147,7 @@ TEST_F(StudyTest, RendersADamagedPictureAgain) {
   const std::vector<std::string> pictures = Pictures("out");
   Write("out/" + ReadResults("out").runs[5].image, "no picture");
   const ProgramResult again = Run(Options("out"));
-  EXPECT_NE(again.err.find("11 renders were there already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("11 renders existed already"), std::string::npos) << again.err;
   EXPECT_EQ(Pictures("out"), pictures);
 }
 

@@ -162,16 +162,18 @@ TEST(ObjectInstance, OfMovingPartsOnlyIsSeen) {
 }
 
 TEST(Motion, IsRefusedWithItsPlaceWhereThereIsNone) {
-  EXPECT_EQ(ErrorIn(kEnd + "Scale -1 1 1\n Shape \"sphere\"\nWorldEnd"),
-            "3:2: error: sphere cannot move so: it is mirrored at one end and not at the other, "
-            "and would be flat in between");
+  EXPECT_EQ(
+      ErrorIn(kEnd + "Scale -1 1 1\n Shape \"sphere\"\nWorldEnd"),
+      "3:2: error: sphere cannot move this way: it is mirrored at one end and not at the other, "
+      "and would be flat in between");
   EXPECT_EQ(ErrorIn(kEnd + "Transform [1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1]\nShape "
                            "\"sphere\"\nWorldEnd"),
             "2:25: error: Transform: the matrix is projective: number 12 is not 0");
-  EXPECT_EQ(ErrorIn("ObjectBegin \"o\" Shape \"sphere\" ObjectEnd " + kEnd +
-                    "Scale 1 1 -1\nObjectInstance \"o\"\nWorldEnd"),
-            "3:1: error: \"o\" cannot move so: it is mirrored at one end and not at the other, "
-            "and would be flat in between");
+  EXPECT_EQ(
+      ErrorIn("ObjectBegin \"o\" Shape \"sphere\" ObjectEnd " + kEnd +
+              "Scale 1 1 -1\nObjectInstance \"o\"\nWorldEnd"),
+      "3:1: error: \"o\" cannot move this way: it is mirrored at one end and not at the other, "
+      "and would be flat in between");
   EXPECT_EQ(ErrorIn(kEnd + "Scale 0 1 1"), "2:25: error: Scale: a factor is 0");
 }
 
@@ -215,8 +217,7 @@ TEST(TransformTimes, MustBeInOrderAndBeforeTheWorld) {
                   .error.find("scene.pbrt:1:"),
               std::string::npos)
         << times;
-  EXPECT_EQ(ErrorIn("TransformTimes 0 1"),
-            "2:1: error: TransformTimes must stand before WorldBegin");
+  EXPECT_EQ(ErrorIn("TransformTimes 0 1"), "2:1: error: TransformTimes must be before WorldBegin");
 }
 
 TEST(Shutter, MustNotCloseBeforeItOpens) {

@@ -39,7 +39,7 @@ TEST(Overrides, AreErrorsOfTheCommandLine) {
             "<command line>:1:24: error: parameter \"xresolution\" takes numbers, not \"wide\"\n"
             "    --set Film.xresolution=wide\n                           ^\n");
   EXPECT_NE(errorOf({"Shape", "radius", "3"})
-                .find("--set: \"Shape\" cannot be set; these can: Accelerator, Camera, Film, "
+                .find("--set: \"Shape\" cannot be set; available: Accelerator, Camera, Film, "
                       "PixelFilter, Sampler, SurfaceIntegrator"),
             std::string::npos);
   EXPECT_NE(errorOf({"Film", "xresolution", "0"}), "");  // out of range
@@ -53,8 +53,8 @@ TEST(Overrides, SwapTheIntegratorAndOnlyNoticeItsOldParameters) {
       "SurfaceIntegrator \"directlighting\" \"string strategy\" \"all\"\n" + kScene, options);
   ASSERT_EQ(built.error, "");
   EXPECT_EQ(built.setups[0]->integratorName, "path");
-  EXPECT_NE(built.Messages().find("note: parameter \"strategy\" means nothing to integrator "
-                                  "\"path\": it is of another plugin of this kind"),
+  EXPECT_NE(built.Messages().find("note: parameter \"strategy\" does not apply to integrator "
+                                  "\"path\"; another plugin of this kind has it"),
             std::string::npos)
       << built.Messages();
 }
@@ -121,7 +121,7 @@ TEST(Overrides, CropByPixelsWithinThePicture) {
   const BuiltScene outside = BuildText(kScene, options);
   EXPECT_EQ(outside.status, 1);
   EXPECT_EQ(outside.error,
-            "exphoton: error: the pixels asked for lie outside the picture of 4 x 4\n");
+            "exphoton: error: the requested pixels lie outside the picture of 4 x 4\n");
 }
 
 TEST(EffectChoice, AllSwitchesEverythingOn) {

@@ -47,10 +47,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"WorldEnd", "1:1: WorldEnd without WorldBegin"},
         Case{kBegin + "Identity\n", "3:1: WorldEnd is missing: the world begins at scene.pbrt:1"},
         Case{kBegin + "WorldBegin", "2:1: WorldBegin inside the world that begins at scene.pbrt:1"},
-        Case{"Shape \"sphere\"", "1:1: Shape must stand between WorldBegin and WorldEnd"},
-        Case{"AttributeBegin", "1:1: AttributeBegin must stand between WorldBegin and WorldEnd"},
-        Case{kBegin + "Camera \"perspective\"", "2:1: Camera must stand before WorldBegin"},
-        Case{kBegin + "SearchPath \"x\"", "2:1: SearchPath must stand before WorldBegin"},
+        Case{"Shape \"sphere\"", "1:1: Shape must be between WorldBegin and WorldEnd"},
+        Case{"AttributeBegin", "1:1: AttributeBegin must be between WorldBegin and WorldEnd"},
+        Case{kBegin + "Camera \"perspective\"", "2:1: Camera must be before WorldBegin"},
+        Case{kBegin + "SearchPath \"x\"", "2:1: SearchPath must be before WorldBegin"},
         Case{kBegin + "AttributeEnd", "2:1: AttributeEnd without AttributeBegin"},
         Case{kBegin + "TransformEnd", "2:1: TransformEnd without TransformBegin"},
         Case{kBegin + "ObjectEnd", "2:1: ObjectEnd without ObjectBegin"},
@@ -293,10 +293,9 @@ TEST(SceneBuilder, AcceptsVolumeIntegratorsWithoutEffect) {
 
 TEST(SceneBuilder, NamesTheVolumesAndVolumeIntegratorsThatThereAre) {
   const BuiltScene volume = BuildText(kBegin + "Volume \"homogenous\"\nWorldEnd");
-  EXPECT_NE(
-      volume.error.find("2:1: error: there is no volume \"homogenous\"; those that there are: "
-                        "exponential, homogeneous, volumegrid"),
-      std::string::npos)
+  EXPECT_NE(volume.error.find("2:1: error: there is no volume \"homogenous\"; available: "
+                              "exponential, homogeneous, volumegrid"),
+            std::string::npos)
       << volume.error;
   const BuiltScene integrator = BuildText("VolumeIntegrator \"singel\"\n" + kBegin + "WorldEnd");
   EXPECT_NE(

@@ -98,8 +98,9 @@ Setting ParseSetting(const std::string& text) {
   std::istringstream words(colon == std::string::npos ? text : text.substr(colon + 1));
   words >> setting.integrator;
   if (setting.integrator.empty() || setting.integrator.find('=') != std::string::npos)
-    throw std::invalid_argument("a setting is \"[LABEL: ]INTEGRATOR [name=value ...]\", not \"" +
-                                text + "\"");
+    throw std::invalid_argument(
+        "a setting must have the form \"[LABEL: ]INTEGRATOR [name=value ...]\", not \"" + text +
+        "\"");
   setting.label = colon == std::string::npos ? setting.integrator : Trim(text.substr(0, colon));
   for (std::string word; words >> word;) {
     Parameter parameter;
@@ -122,10 +123,11 @@ Knob ParseKnob(const std::string& text) {
     knob.parameter = parameter.first;
     knob.values = SplitList(parameter.second);
   }
-  if (knob.values.empty())
-    throw std::invalid_argument("what varies is \"[INTEGRATOR:]name=value,value,...\", not \"" +
-                                text + "\"");
-  return knob;
+  if (varied.values.empty())
+    throw std::invalid_argument(
+        "a parameter to vary must have the form \"[INTEGRATOR:]name=value,value,...\", not \"" +
+        text + "\"");
+  return varied;
 }
 
 double ParseSeconds(const std::string& text) {
@@ -135,8 +137,9 @@ double ParseSeconds(const std::string& text) {
   const std::string unit(next, end);
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
   if (error != std::errc{} || !(value > 0) || factor == 0 || !(value * factor < 1e9))
-    throw std::invalid_argument("a time is a number of seconds, or like 90s, 30m, 2h, not \"" +
-                                text + "\"");
+    throw std::invalid_argument(
+        "a time must be a number of seconds or have a unit, such as 90s, 30m or 2h, not \"" + text +
+        "\"");
   return value * factor;
 }
 
@@ -171,11 +174,11 @@ std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& or
     for (const Setting& setting : settings)
       if (std::find(all.begin(), all.end(), setting) == all.end()) all.push_back(setting);
   }
-  for (const Knob& knob : plan.knobs)
-    if (std::find(used.begin(), used.end(), &knob) == used.end())
-      throw std::invalid_argument("nothing has the parameter \"" + knob.parameter +
-                                  "\" that should vary" +
-                                  (knob.integrator.empty() ? "" : " for " + knob.integrator));
+  for (const VariedParameter& varied : plan.varied)
+    if (std::find(used.begin(), used.end(), &varied) == used.end())
+      throw std::invalid_argument("no setting has the varied parameter \"" + varied.parameter +
+                                  "\"" +
+                                  (varied.integrator.empty() ? "" : " for " + varied.integrator));
   return all;
 }
 

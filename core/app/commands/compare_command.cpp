@@ -155,10 +155,9 @@ CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
       "exphoton compare");
   app.Add("reference", options.reference, "EXR or PNG").Required();
   app.Add("pictures", options.pictures, "EXR or PNG files of the same size").Required();
-  app.Add("--max-relmse", options.maxRelMse, "up to this relMSE they count as the same")
+  app.Add("--max-relmse", options.maxRelMse, "largest relMSE of pictures that count as the same")
       .AtLeastZero();
-  app.Add("--max-mean", options.maxMean, "up to this relative error of the mean, too")
-      .AtLeastZero();
+  app.Add("--max-mean", options.maxMean, "largest relative error of their means").AtLeastZero();
   app.Add("--difference", options.differenceFolder,
           "write NAME-difference.exr (layers: signed, relative, squared error, FLIP) and "
           "NAME-difference.png (red: too bright, blue: too dark) to this folder")

@@ -21,7 +21,7 @@ void WriteReference(const std::string& folder, PluginRegistry& registry) {
     if (older.empty() || older.substr(0, older.find('\n')) == page.substr(0, page.find('\n')))
       continue;
     throw Error(ExitStatus::File, "cannot write \"" + folder + "/" + file +
-                                      "\": it is no page that this command has written");
+                                      "\": it is not a page that this command has written");
   }
   for (const auto& [file, page] : pages) WriteTextFile(folder + "/" + file, page);
 }

@@ -126,7 +126,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   for (const auto& setup : setups) {
     const std::string output = names_.Picture(setup->film.filename);
     if (std::filesystem::path(output).extension() != ".exr")
-      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, whatever its name");
+      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, regardless of its name");
   }
 }
 
@@ -169,7 +169,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
     run.wallSeconds = SecondsSince(begin.wall);
     run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
     run.peakMemory = PeakMemoryBytes();
-    statistics.SetCounter("memory/peak", run.peakMemory, "most bytes of memory held at any time");
+    statistics.SetCounter("memory/peak", run.peakMemory, "peak memory in bytes");
     Report(run);
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::Resource, "out of memory after the picture \"" + picture.path +

@@ -60,7 +60,7 @@ int Try(void (*work)(const void*), const void* context) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::length_error&) {
-    return Fail(ExitStatus::Resource, "out of memory: something is larger than any memory");
+    return Fail(ExitStatus::Resource, "out of memory: a size is larger than the address space");
   } catch (const std::filesystem::filesystem_error& error) {
     return FailBySystem(ExitStatus::File,
                         std::string("cannot use a file or folder: ") + error.what(), error.code());

@@ -79,7 +79,7 @@ void LimitMemory(const Limits& limits) {
 
 void AddLimitsOption(OptionParser& app, std::string* text) {
   app.Add("--limits", *text,
-          "what files may cost at most: memory=SIZE, time=TIME until the first pixel, includes=N, "
+          "limits for scene files: memory=SIZE, time=TIME until the first pixel, includes=N, "
           "texturenodes=N a lookup; separated by commas")
       .TakeLast()
       .TypeName("LIST");

@@ -46,7 +46,7 @@ void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw)
   app.Add("--effects", command.load.effects,
           "what to compute: auto, all, or a list such as caustics=off,lens=on")
       .TypeName("LIST");
-  app.Add("--dialect", raw.dialect, "how LookAt is meant: v1 (default) or v2")
+  app.Add("--dialect", raw.dialect, "the meaning of LookAt: v1 (default) or v2")
       .OneOf({"v1", "v2"})
       .TypeName("");
   app.AddFlag("--strict", command.load.isStrict,
@@ -64,9 +64,9 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
   app.Add("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
       .Between(0, kMaxThreads)
       .TypeName("N");
-  app.Add("--seed", command.seed, "another seed gives other noise").TypeName("N");
+  app.Add("--seed", command.seed, "seed of the random numbers").TypeName("N");
   app.Add("--footprint-spp", command.footprintSamples,
-          "filter textures and bumps as with N samples a pixel, whatever --spp says; for renders "
+          "filter textures and bumps as with N samples a pixel, regardless of --spp; for renders "
           "that are compared")
       .Between(std::int64_t(1), kMaxSamplesPerPixel)
       .TypeName("N");
@@ -77,9 +77,8 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
   app.Add("--target-error", command.targetError,
           "render whole passes until the noise part of relMSE is estimated below this")
       .TypeName("X");
-  app.AddFlag(
-      "--two-halves", command.asTwoHalves,
-      "render two independent halves, say how far apart they are, write both into the file");
+  app.AddFlag("--two-halves", command.asTwoHalves,
+              "render two independent halves, print their difference, write both into the file");
   app.Add("--aov", raw.aovs, "also write these AOVs: " + AllAovNames()).TypeName("LIST");
   app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
   app.AddFlag("--reproducible", command.isReproducible,
@@ -90,7 +89,7 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
   app.Add("--stats-json", command.statsFile, "write them to this file (-: print them)")
       .TypeName("FILE");
   app.AddFlag("--quiet", raw.isQuiet, "errors and warnings only");
-  app.AddFlag("--verbose", raw.isVerbose, "say more");
+  app.AddFlag("--verbose", raw.isVerbose, "print more messages");
   app.AddFlag("--no-progress", raw.hidesProgress, "no progress bar");
 }
 

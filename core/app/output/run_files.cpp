@@ -40,9 +40,9 @@ void CheckSceneName(const OutputFile& output) {
   const bool isNear =
       LiesIn(target, ".") || (output.namedBy != "-" && LiesIn(target, FolderOf(output.namedBy)));
   if (!isNear)
-    Refuse(output, scene + "and it lies neither in the working folder nor in the scene's folder");
+    Refuse(output, scene + "and it is neither in the working folder nor in the scene's folder");
   if (Exists(target) && !IsOwnPicture(target))
-    Refuse(output, scene + "and a file is there that is no picture of this program");
+    Refuse(output, scene + "and the existing file is not a picture of this program");
 }
 
 }  // namespace

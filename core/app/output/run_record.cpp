@@ -35,11 +35,11 @@ std::string Row(const std::string& label, const std::string& text) {
 const char* PhaseMeaning(const std::string& name) {
   const std::pair<const char*, const char*> meanings[] = {
       {"parse", "reading the scene: files, plugins, textures, meshes"},
-      {"accelerator", "building what finds the first surface along a ray"},
+      {"accelerator", "building the acceleration structure"},
       {"shoot", "tracing photons from the lights"},
       {"photon maps", "sorting photons for searching, and choosing radii"},
       {"radiance", "computing the radiance at radiance photons"},
-      {"render", "camera rays and everything they cause"},
+      {"render", "camera rays and all rays that follow from them"},
       {"write", "writing the picture"}};
   for (const auto& [known, meaning] : meanings)
     if (name == known) return meaning;
@@ -53,7 +53,7 @@ const char* RayMeaning(RayKind kind) {
     case RayKind::Shadow:
       return "from a surface to a point on a light";
     case RayKind::Bsdf:
-      return "from a surface, in a direction that its material chose";
+      return "from a surface, in a direction sampled from its BSDF";
     case RayKind::Specular:
       return "over mirrors and through glass, on the camera's side";
     case RayKind::Gather:

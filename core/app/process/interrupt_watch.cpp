@@ -50,7 +50,7 @@ void InterruptWatch::Watch() {
     if (mustFinish_) continue;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (limitSeconds_ && seconds > *limitSeconds_)
-      End("exphoton: error: this takes longer than --limits allows\n", int(ExitStatus::Resource));
+      End("exphoton: error: the time limit of --limits is exceeded\n", int(ExitStatus::Resource));
     if (!StopFlag() || ++seen < kGraceIntervals) continue;
     End("exphoton: interrupted before anything was rendered\n", 128 + SignalNumber());
   }

@@ -174,11 +174,11 @@ int RunReport(const std::vector<std::string>& arguments) {
                      "exphoton report");
     std::string folder, clock;
     app.Add("folder", folder, "the folder of a study").Required();
-    app.Add("--clock", clock, "seconds of what: cpu or wall").OneOf({"cpu", "wall"});
+    app.Add("--clock", clock, "clock for all times: cpu or wall").OneOf({"cpu", "wall"});
     app.Parse(arguments);
     const std::string text = ReadTextFile(folder + "/results.json");
     if (text.empty())
-      throw Error(ExitStatus::File, "\"" + folder + "\" holds no results.json of a finished study");
+      throw Error(ExitStatus::File, "\"" + folder + "\" has no results.json of a finished study");
     study::Results results;
     try {
       results = study::FromJson(text);

@@ -73,7 +73,7 @@ void StudyFolder::CheckIsAStudy() {
   try {
     study::FromJson(ReadTextFile(path_ + "/results.json"));
   } catch (const std::runtime_error&) {
-    Fail(path_, "there are files in it, and none says that they are a study's",
+    Fail(path_, "it contains files, but it is not the folder of a study",
          "--out FOLDER names a new or an empty folder, or one of an earlier study");
   }
 }
@@ -133,7 +133,7 @@ void StudyFolder::Append(const std::string& line) {
 
 std::string StudyFolder::Claim(const std::string& name) {
   const std::string file = path_ + "/" + name;
-  if (!LiesIn(file, path_)) Fail(file, "it leads out of the study's folder");
+  if (!LiesIn(file, path_)) Fail(file, "it is a link to a place outside the study's folder");
   const bool isListed = written_.contains(name);
   if (!isListed && fs::exists(fs::symlink_status(file)))
     Fail(file, "no study has written this file", "move it away, or name another folder");

@@ -44,7 +44,7 @@ void CheckAllowedInStudyFile(const std::string& name, const std::string& value,
                              const std::string& place) {
   const bool isAllowed = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
   if (isAllowed) return;
-  throw Error(ExitStatus::File, place + "\"" + name + "\" is an option of the command line alone",
+  throw Error(ExitStatus::File, place + "\"" + name + "\" can only be given on the command line",
               SourceLocation(),
               "to choose it yourself: exphoton study ... --" + name +
                   (value.empty() ? "" : " " + CommandLineText({value})));
@@ -80,7 +80,7 @@ std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::strin
     std::string value;
     if (space != std::string::npos) value = line.substr(line.find_first_not_of(" \t", space));
     if (name[0] == '-')
-      throw Error(ExitStatus::CommandLine, place + "options have no dashes in a study file");
+      throw Error(ExitStatus::CommandLine, place + "options in a study file have no dashes");
     if (!app.Has("--" + name))
       throw Error(ExitStatus::CommandLine, place + "there is no option \"" + Printable(name) + '"');
     CheckAllowedInStudyFile(name, value, place);
@@ -102,7 +102,7 @@ void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
       .TakeLast()
       .TypeName("LIST");
   app.Add("--setting", raw.settings,
-          "one more thing to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
+          "another setting to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
       .OnePerUse();
   app.Add("--vary", raw.knobs,
           "a parameter and its values, [INTEGRATOR:]name=v1,v2,...; \"spp\" too. Several "
@@ -117,19 +117,20 @@ void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
   app.Add("--targets", raw.targets, "errors of the price list (default .1,.03,.01,.003)")
       .TakeLast()
       .TypeName("LIST");
-  app.Add("--clock", options.clock, "seconds of what: cpu (default) or wall")
+  app.Add("--clock", options.clock, "clock for all times: cpu (default) or wall")
       .OneOf({"cpu", "wall"})
       .TakeLast();
 }
 
 void AddReference(OptionParser& app, StudyOptions& options, RawOptions& raw) {
   app.Add("--reference", options.references,
-          "the true picture; given twice: two independent halves of it")
+          "the reference picture; given twice: two independent halves of it")
       .OnePerUse();
   app.Add("--make-reference", options.makeReference,
           "render one, in two halves, with this: \"path maxdepth=100\"")
       .TakeLast();
-  app.Add("--reference-time", raw.referenceTime, "for so long (default 30m)").TakeLast();
+  app.Add("--reference-time", raw.referenceTime, "render time of the reference (default 30m)")
+      .TakeLast();
   app.Add("--reference-scene", options.referenceScene,
           "another scene file that has the same picture")
       .TakeLast();

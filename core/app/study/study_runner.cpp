@@ -161,7 +161,7 @@ std::vector<study::RunRow> StudyRunner::RunAll(const std::vector<study::Setting>
                   left > 0 ? (", about " + Duration(left) + " left").c_str() : "");
     Say(options_, text);
   }
-  if (found > 0) Say(options_, std::to_string(found) + " renders were there already");
+  if (found > 0) Say(options_, std::to_string(found) + " renders existed already");
   return rows;
 }
 

@@ -38,12 +38,12 @@ inline const ParamTable<CameraSettings>& CameraParameters() {
   static const ParamTable<S> table{
       Param("hither", &S::hither, "nearer surfaces are not seen").AtLeast(0).Unit("camera units"),
       Param("yon", &S::yon, "farther surfaces are not seen").Above(0).Unit("camera units"),
-      Param("shutteropen", &S::shutterOpen, "begin of the exposure"),
+      Param("shutteropen", &S::shutterOpen, "start of the exposure"),
       Param("shutterclose", &S::shutterClose, "end of the exposure"),
       Param("lensradius", &S::lensRadius, "radius of the thin lens; 0: a pinhole")
           .Range(0, 1e15)
           .Unit("camera units"),
-      Param("focaldistance", &S::focalDistance, "distance of the plane that is sharp")
+      Param("focaldistance", &S::focalDistance, "distance of the plane in focus")
           .AtLeast(1e-15)
           .Unit("camera units"),
       Param("frameaspectratio", &S::frameAspectRatio, "width by height; the film's if absent")

@@ -42,7 +42,7 @@ const AovInfo& GetAovInfo(Aov aov) {
       {"P", Axes("P"), "where it was hit, in world space"},
       {"Variance", Colors("Variance"), "estimated variance of the pixel"},
       {"emission", Colors("emission"), "light that the first surface emits, and the background"},
-      {"direct", Colors("direct"), "light that it scatters straight from lights"},
+      {"direct", Colors("direct"), "direct light that it scatters"},
       {"caustic", Colors("caustic"), "light that it scatters, from lights over specular surfaces"},
       {"indirect", Colors("indirect"), "all other light that it scatters"},
       {"specular", Colors("specular"), "light over its own specular lobes"},

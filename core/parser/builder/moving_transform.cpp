@@ -12,11 +12,11 @@ AnimatedTransform MotionBetween(const MovingTransform& transform, Interval times
   const char* problem = "";
   const auto motion = AnimatedTransform::Between(transform.start, transform.end, times, &problem);
   if (!motion)
-    throw Error(ExitStatus::Scene, what + " cannot move so: " + problem, where,
+    throw Error(ExitStatus::Scene, what + " cannot move this way: " + problem, where,
                 "its transformations at StartTime and at EndTime are interpolated");
   if (motion->IsHalfTurn())
-    log.Warning(what + " turns by half a turn: which way round is left to chance", where,
-                "turn by less, 179 degrees for example");
+    log.Warning(what + " rotates by half a turn: both directions are equally short", where,
+                "rotate by less, for example 179 degrees");
   return *motion;
 }
 

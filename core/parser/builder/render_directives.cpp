@@ -132,7 +132,7 @@ void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
     setup->crop = {std::max(setup->crop.x0, full.x0), std::max(setup->crop.y0, full.y0),
                    std::min(setup->crop.x1, full.x1), std::min(setup->crop.y1, full.y1)};
     if (setup->crop.IsEmpty())
-      throw Error(ExitStatus::CommandLine, "the pixels asked for lie outside the picture of " +
+      throw Error(ExitStatus::CommandLine, "the requested pixels lie outside the picture of " +
                                                std::to_string(full.x1) + " x " +
                                                std::to_string(full.y1));
   }

@@ -45,9 +45,9 @@ void SceneBuilder::CheckScope(const Directive& directive) const {
     FailAt(directive.Where(),
            "WorldBegin inside the world that begins at " + LocationText(*worldBegin_));
   if (directive.spec->scope == DirectiveScope::World && !world_)
-    FailAt(directive.Where(), name + " must stand between WorldBegin and WorldEnd");
+    FailAt(directive.Where(), name + " must be between WorldBegin and WorldEnd");
   if (directive.spec->scope == DirectiveScope::Options && world_)
-    FailAt(directive.Where(), name + " must stand before WorldBegin");
+    FailAt(directive.Where(), name + " must be before WorldBegin");
 }
 
 void SceneBuilder::Handle(Directive directive) {
@@ -139,7 +139,7 @@ void SceneBuilder::ChangeTransform(const Directive& directive) {
     current.end = ApplyTransform(current.end, directive, options_.dialect);
   if (state_.active != ActiveTimes::All && directive.spec->id == DirectiveId::Rotate &&
       std::abs(directive.numbers[0]) > 180)
-    log_.Warning("a rotation by more than half a turn: what moves turns the shortest way",
+    log_.Warning("a rotation by more than half a turn: moving objects rotate the shortest way",
                  directive.Where());
 }
 
@@ -193,7 +193,7 @@ void SceneBuilder::MakeNamedMaterial(Directive directive) {
   spec->textures = state_.textures;
   GraphicsState::MaterialMap& materials = state_.OwnNamedMaterials();
   if (materials.contains(name))
-    log_.Warning("material \"" + name + "\" is defined again: shapes from here on get the new one",
+    log_.Warning("material \"" + name + "\" is defined again: later shapes use the new one",
                  directive.Where());
   materials[name] = std::move(spec);
 }

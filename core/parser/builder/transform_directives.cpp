@@ -56,9 +56,9 @@ Transform MatrixOf(const Directive& directive) {
 
 Transform LookAtOf(const Directive& directive, Dialect dialect) {
   const std::vector<double>& n = directive.numbers;
-  const Transform lookAt =
-      Require(Transform::LookAt(VectorOf(n, 0), VectorOf(n, 3), VectorOf(n, 6)), directive,
-              "the eye is where it looks at, or \"up\" is parallel to the direction of view");
+  const Transform lookAt = Require(
+      Transform::LookAt(VectorOf(n, 0), VectorOf(n, 3), VectorOf(n, 6)), directive,
+      "the eye is the point that it looks at, or \"up\" is parallel to the direction of view");
   if (dialect == Dialect::V1) return lookAt;
   return *Transform::Scale(-1, 1, 1) * lookAt;
 }

@@ -102,7 +102,7 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
     FailAt(directive.Where(), "texture \"" + name + "\" has type \"" + type +
                                   "\"; types of textures are \"float\" and \"color\"");
   if (state->transform.Moves())
-    log_.Warning("a texture does not move: it stays where the transformation starts",
+    log_.Warning("a texture does not move: it uses the transformation at StartTime",
                  directive.Where());
   const TextureContext context{state->transform.start, log_, directive.Where(), shared_};
   const TextureUse use(*state->textures);
@@ -118,7 +118,7 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
   CheckGraph(graph, directive, limits_);
   const bool isKnown = state->textures->Has(name, isColor);
   if (isKnown)
-    log_.Warning("texture \"" + name + "\" is defined again: shapes from here on get the new one",
+    log_.Warning("texture \"" + name + "\" is defined again: later shapes use the new one",
                  directive.Where());
   TextureTable& table = state->OwnTextures();
   if (isKnown) table.generation = ++textureGenerations_;

@@ -128,7 +128,7 @@ TEST_F(ColorParams, AFileOfPairsIsASpectrum) {
   EXPECT_EQ(Bind(File(path)), Bind(Numbers("spectrum", {400, 1, 500, .5, 700, .2})));
   std::ofstream(path) << "400 1\nred\n";
   EXPECT_EQ(Fails(File(path)), "parameter \"L\" of light \"x\" cannot use the spectrum file \"" +
-                                   path + "\": line 2 is not numbers");
+                                   path + "\": line 2 contains a word that is not a number");
   std::ofstream(path) << "";
   EXPECT_EQ(Fails(File(path)), "parameter \"L\" of light \"x\" cannot use the spectrum file \"" +
                                    path +

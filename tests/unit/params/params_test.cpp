@@ -295,7 +295,7 @@ TEST_F(Params, ANameOfASiblingIsANoticeEvenUnderStrict) {
   Table().Bind(Parse("\"integer photons\" 3"), context);
   ASSERT_EQ(log_.Messages().size(), 1u);
   EXPECT_EQ(log_.WarningCount(), 0);
-  EXPECT_NE(log_.Messages()[0].find("note: parameter \"photons\" means nothing to shape \"x\": it "
+  EXPECT_NE(log_.Messages()[0].find("note: parameter \"photons\" does not apply to shape \"x\": it "
                                     "is of another plugin of this kind\n"),
             std::string::npos);
 }

@@ -153,8 +153,9 @@ TEST(CausticPhotons, AskedForInVainGiveANotice) {
     return RenderSceneText(TestHeader(integrator + " \"integer indirectphotons\" 500", 4, 4, 1) +
                            FurnaceWorld(1, "\"matte\""));
   };
-  EXPECT_TRUE(render("\"exphotonmap\" \"integer causticphotons\" 100")
-                  .Says("causticphotons 100: none is shot (no specular surface)"));
+  EXPECT_TRUE(
+      render("\"exphotonmap\" \"integer causticphotons\" 100")
+          .Says("causticphotons 100: no photons are shot for caustics (no specular surface)"));
   EXPECT_FALSE(render("\"exphotonmap\" \"integer causticphotons\" 0").Says("causticphotons"));
   EXPECT_FALSE(render("\"exphotonmap\"").Says("causticphotons"));
 }
