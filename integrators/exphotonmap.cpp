@@ -19,7 +19,7 @@ struct Settings : PhotonSettings {
     lightSelection = LightSelection::Power;
     // Other defaults
     rrThreshold = Real(.05);
-    photonAim = PhotonAiming::Auto;
+    photonTargeting = PhotonTargeting::Auto;
   }
 };
 

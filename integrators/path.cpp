@@ -55,9 +55,9 @@ struct PathState {
 // the last non-specular scattering to the light over specular lobes only.
 class PathHistory {
  public:
-  PathHistory(const RequiredFeatures& effects, AovSample* aovs)
-      : hasIndirect_(effects.Needs(Feature::Indirect)),
-        hasCaustics_(effects.Needs(Feature::Caustics)),
+  PathHistory(const RequiredFeatures& features, AovSample* aovs)
+      : hasIndirect_(features.Needs(Feature::Indirect)),
+        hasCaustics_(features.Needs(Feature::Caustics)),
         aovs_(aovs) {}
 
   void Bounce(bool isSpecular) {

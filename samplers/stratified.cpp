@@ -51,8 +51,8 @@ Real InCell(double cell, double offset, double count) {
   return v;
 }
 
-// Turn is the place of one sample among the samples of its pixel, for one request.
-struct Turn {
+// SamplePlace is the place of one sample among the samples of its pixel, for one request.
+struct SamplePlace {
   std::uint64_t pixelKey;   // hash of (seed, pixel, round, request): the same for all samples
   std::uint64_t sampleKey;  // hash of pixelKey and the sample
   std::uint32_t cell;       // the sample's cell in this request's order
@@ -62,8 +62,8 @@ struct Turn {
   // pixel take each part once.
   std::uint32_t PartOf(std::uint32_t number, std::uint64_t axis) const {
     const std::uint64_t bits = MixBits(pixelKey + axis + kGolden * (number + 1));
-    const auto turn = std::uint32_t((bits >> 32) * cells >> 32);
-    return std::uint32_t((std::uint64_t(cell) + turn) % cells);
+    const auto rotation = std::uint32_t((bits >> 32) * cells >> 32);
+    return std::uint32_t((std::uint64_t(cell) + rotation) % cells);
   }
 };
 
@@ -73,11 +73,11 @@ void Shuffle(std::span<T> values, RandomStream* random) {
     std::swap(values[i - 1], values[(random->Bits() >> 32) * i >> 32]);
 }
 
-void FillArray(const Turn& turn, std::span<Real> values) {
-  RandomStream random(turn.sampleKey);
+void FillArray(const SamplePlace& place, std::span<Real> values) {
+  RandomStream random(place.sampleKey);
   const auto n = std::uint32_t(values.size());
   for (std::uint32_t j = 0; j < n; ++j) {
-    const double part = (turn.PartOf(j, 0) + double(random.Uniform())) / turn.cells;
+    const double part = (place.PartOf(j, 0) + double(random.Uniform())) / place.cells;
     values[j] = InCell(j, part, n);
   }
   Shuffle(values, &random);
@@ -85,14 +85,14 @@ void FillArray(const Turn& turn, std::span<Real> values) {
 
 // Fills columns x rows cells with one point each. Within a column (row) the points lie in different
 // finer columns (rows), so that each axis alone is stratified too.
-void FillArray(const Turn& turn, std::span<Point2> values) {
-  RandomStream random(turn.sampleKey);
+void FillArray(const SamplePlace& place, std::span<Point2> values) {
+  RandomStream random(place.sampleKey);
   const auto n = std::uint32_t(values.size());
   std::uint32_t rows = std::uint32_t(std::sqrt(double(n)));
   while (n % rows != 0) --rows;
   const std::uint32_t columns = n / rows;
   const auto value = [&](std::uint32_t stratum, std::uint64_t axis) {
-    const double part = (turn.PartOf(stratum, axis) + double(random.Uniform())) / turn.cells;
+    const double part = (place.PartOf(stratum, axis) + double(random.Uniform())) / place.cells;
     return InCell(stratum, part, n);
   };
   const auto xKey = std::uint32_t(random.Bits()), yKey = std::uint32_t(random.Bits());
@@ -125,47 +125,47 @@ class StratifiedSampler final : public Sampler {
     const std::uint64_t round = std::uint64_t(key.index) / grid_.Count();
     const std::uint64_t pixelKey = HashKey(
         {key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), round, 0x73747261});
-    samples->film = InGrid(TurnOf(pixelKey, key.index, 1), jitter_);
-    if (samples->NeedsLens()) samples->lens = InGrid(TurnOf(pixelKey, key.index, 2), jitter_);
-    if (samples->NeedsTime()) samples->time = InRow(TurnOf(pixelKey, key.index, 3), jitter_);
+    samples->film = InGrid(PlaceOf(pixelKey, key.index, 1), jitter_);
+    if (samples->NeedsLens()) samples->lens = InGrid(PlaceOf(pixelKey, key.index, 2), jitter_);
+    if (samples->NeedsTime()) samples->time = InRow(PlaceOf(pixelKey, key.index, 3), jitter_);
     return pixelKey;
   }
   void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
             std::span<Real> values) const override {
-    const Turn turn = TurnOf(pixelKey, index, kFirstArray + std::uint64_t(request));
+    const SamplePlace place = PlaceOf(pixelKey, index, kFirstArray + std::uint64_t(request));
     if (values.size() == 1)
-      values[0] = InRow(turn, true);
+      values[0] = InRow(place, true);
     else
-      FillArray(turn, values);
+      FillArray(place, values);
   }
   void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
             std::span<Point2> values) const override {
-    const Turn turn = TurnOf(pixelKey, index, kFirstArray + std::uint64_t(request));
+    const SamplePlace place = PlaceOf(pixelKey, index, kFirstArray + std::uint64_t(request));
     if (values.size() == 1)
-      values[0] = InGrid(turn, true);
+      values[0] = InGrid(place, true);
     else
-      FillArray(turn, values);
+      FillArray(place, values);
   }
 
  private:
   static constexpr std::uint64_t kFirstArray = 4;  // after film, lens and time
 
-  Turn TurnOf(std::uint64_t pixelKey, std::int64_t sample, std::uint64_t number) const {
+  SamplePlace PlaceOf(std::uint64_t pixelKey, std::int64_t sample, std::uint64_t number) const {
     const std::uint64_t request = pixelKey + kGolden * number;
     const auto index = std::uint32_t(std::uint64_t(sample) % grid_.Count());
-    Turn turn{request, MixBits(request + MixBits(index + kGolden)), 0, grid_.Count()};
-    turn.cell = PermuteIndex(index, turn.cells, std::uint32_t(MixBits(request)));
-    return turn;
+    SamplePlace place{request, MixBits(request + MixBits(index + kGolden)), 0, grid_.Count()};
+    place.cell = PermuteIndex(index, place.cells, std::uint32_t(MixBits(request)));
+    return place;
   }
-  Point2 InGrid(const Turn& turn, bool jitter) const {
-    RandomStream random(turn.sampleKey);
+  Point2 InGrid(const SamplePlace& place, bool jitter) const {
+    RandomStream random(place.sampleKey);
     const double dx = jitter ? double(random.Uniform()) : .5;
     const double dy = jitter ? double(random.Uniform()) : .5;
-    return {InCell(turn.cell % grid_.x, dx, grid_.x), InCell(turn.cell / grid_.x, dy, grid_.y)};
+    return {InCell(place.cell % grid_.x, dx, grid_.x), InCell(place.cell / grid_.x, dy, grid_.y)};
   }
-  Real InRow(const Turn& turn, bool jitter) const {
-    RandomStream random(turn.sampleKey);
-    return InCell(turn.cell, jitter ? double(random.Uniform()) : .5, turn.cells);
+  Real InRow(const SamplePlace& place, bool jitter) const {
+    RandomStream random(place.sampleKey);
+    return InCell(place.cell, jitter ? double(random.Uniform()) : .5, place.cells);
   }
   std::int64_t count_;
   Grid grid_;

@@ -31,7 +31,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-constexpr double kMostTriangles = 1 << 27;
+constexpr double kMaxTriangles = 1 << 27;
 
 // Peak memory of LoopSubdivide per triangle of the finest mesh: its sides during sorting, its
 // edges, the sums around its vertices, two meshes. Measured for the whole program: 155 bytes at 9
@@ -59,9 +59,9 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
                      "subdivision needs a surface"};
   }
   const double count = double(control.faces.size()) * std::pow(4.0, settings.levels);
-  if (count > kMostTriangles) {
+  if (count > kMaxTriangles) {
     throw ParamError{"nlevels", "would make " + std::to_string(std::int64_t(count)) + " triangles",
-                     "at most " + std::to_string(std::int64_t(kMostTriangles))};
+                     "at most " + std::to_string(std::int64_t(kMaxTriangles))};
   }
   CheckMemory(count, settings.levels, context.where);
   LimitMesh limit = LoopSubdivide(std::move(control), settings.levels);

@@ -160,9 +160,9 @@ class Builder {
                            {std::uint32_t(first), std::uint32_t(others.size())});
       arrays_.lists.insert(arrays_.lists.end(), others.begin(), others.end());
     }
-    constexpr std::size_t kMost = std::size_t(1) << 29;  // numbers fit into the bits of nodes
-    if (arrays_.nodes.size() >= 2 * kMost || blocks >= kMost || first + blocks >= 8 * kMost ||
-        arrays_.lists.size() >= 8 * kMost)
+    constexpr std::size_t kMaxIndex = std::size_t(1) << 29;  // numbers fit into the bits of nodes
+    if (arrays_.nodes.size() >= 2 * kMaxIndex || blocks >= kMaxIndex ||
+        first + blocks >= 8 * kMaxIndex || arrays_.lists.size() >= 8 * kMaxIndex)
       throw Error(ExitStatus::Resource, "the kd-tree is too large for its node format");
     arrays_.nodes.push_back(KdNode::Leaf(std::uint32_t(others.empty() ? first : list),
                                          std::uint32_t(blocks), !others.empty()));

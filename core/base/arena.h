@@ -32,10 +32,10 @@ class alignas(128) Arena {
     if (count == 0) return {};
     return {new (Allocate(sizeof(T) * count, alignof(T))) T[count](), count};
   }
-  // Returns uninitialised room for `count` elements. The caller constructs each element in place
-  // (new (room + i) T) before reading it.
+  // Allocates an array of `count` elements without constructing them. The caller constructs each
+  // element in place (new (array + i) T) before reading it.
   template <class T>
-  T* Room(std::size_t count) {
+  T* AllocateArray(std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T>);
     return static_cast<T*>(Allocate(sizeof(T) * count, alignof(T)));
   }

@@ -12,12 +12,12 @@
 namespace exphoton {
 
 template <class T>
-struct LargePageAllocator {
+struct HugePageAllocator {
   using value_type = T;
 
-  LargePageAllocator() = default;
+  HugePageAllocator() = default;
   template <class U>
-  LargePageAllocator(const LargePageAllocator<U>&) {}
+  HugePageAllocator(const HugePageAllocator<U>&) {}
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
@@ -29,7 +29,7 @@ struct LargePageAllocator {
   void deallocate(T* memory, std::size_t count) {
     ::operator delete(memory, count * sizeof(T) < kPage ? kSmall : kLarge);
   }
-  friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+  friend bool operator==(const HugePageAllocator&, const HugePageAllocator&) { return true; }
 
  private:
   static constexpr std::size_t kPage = std::size_t(1) << 21;
@@ -38,12 +38,12 @@ struct LargePageAllocator {
   static constexpr auto kSmall = std::align_val_t(alignof(T) < 64 ? 64 : alignof(T));
 };
 
-// RawLargePageAllocator leaves numbers uninitialised on resize. It is for arrays that threads fill.
+// RawHugePageAllocator leaves numbers uninitialised on resize. It is for arrays that threads fill.
 template <class T>
-struct RawLargePageAllocator : LargePageAllocator<T> {
-  RawLargePageAllocator() = default;
+struct RawHugePageAllocator : HugePageAllocator<T> {
+  RawHugePageAllocator() = default;
   template <class U>
-  RawLargePageAllocator(const RawLargePageAllocator<U>&) {}
+  RawHugePageAllocator(const RawHugePageAllocator<U>&) {}
   template <class U>
   void construct(U* place) {
     ::new (static_cast<void*>(place)) U;
@@ -51,8 +51,8 @@ struct RawLargePageAllocator : LargePageAllocator<T> {
 };
 
 template <class T>
-using UninitializedHugePageVector = std::vector<T, RawLargePageAllocator<T>>;
+using UninitializedHugePageVector = std::vector<T, RawHugePageAllocator<T>>;
 template <class T>
-using HugePageVector = std::vector<T, LargePageAllocator<T>>;
+using HugePageVector = std::vector<T, HugePageAllocator<T>>;
 
 }  // namespace exphoton

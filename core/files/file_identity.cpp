@@ -15,7 +15,7 @@ namespace exphoton {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kMostLinks = 40;  // the kernel's limit
+constexpr int kMaxLinks = 40;  // the kernel's limit
 
 std::string ReadLink(const std::string& path) {
   std::vector<char> text(256);
@@ -46,7 +46,7 @@ std::string NameOf(const std::string& path) { return path.substr(path.rfind('/')
 
 std::string FollowLinks(const std::string& path) {
   std::string at = path;
-  for (int i = 0; i <= kMostLinks; ++i) {
+  for (int i = 0; i <= kMaxLinks; ++i) {
     struct stat status;
     if (lstat(at.c_str(), &status) != 0 || !S_ISLNK(status.st_mode)) return at;
     const std::string next = ReadLink(at);

@@ -24,7 +24,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kLongestName = 255;  // bytes, on every common file system
+constexpr std::size_t kMaxFileNameLength = 255;  // bytes, on every common file system
 
 enum class SlotState { Free, Taken, Opening, File, Folder };
 
@@ -34,7 +34,7 @@ struct Slot {
   pid_t owner = 0;  // a forked child must not remove the parent's files
   dev_t device = 0;
   ino_t inode = 0;
-  char name[kLongestName + 1] = {};
+  char name[kMaxFileNameLength + 1] = {};
 };
 Slot slots[64];
 std::atomic<bool> isEnding{false};
@@ -96,7 +96,7 @@ void EmptyFolder(int folder) {
 
 std::string PartialName(const std::string& name) {
   const std::string end = "." + RandomName() + ".partial";
-  std::size_t length = std::min(name.size(), kLongestName - end.size());
+  std::size_t length = std::min(name.size(), kMaxFileNameLength - end.size());
   while (length > 0 && length < name.size() && (name[length] & 0xC0) == 0x80) --length;  // UTF-8
   return name.substr(0, length) + end;
 }
@@ -125,7 +125,7 @@ std::string RandomName() {
 TemporaryFile::TemporaryFile(int folder, const std::string& name, mode_t mode)
     : folder_(folder), slot_(TakeSlot()) {
   constexpr int kTries = 100;
-  name_.reserve(kLongestName);
+  name_.reserve(kMaxFileNameLength);
   for (int i = 0; i < kTries && descriptor_ < 0; ++i) {
     name_ = PartialName(name);
     const SignalBlock block;

@@ -45,16 +45,16 @@ Point3 OffsetRayOrigin(const SurfacePoint& point, const Vector3& w);
 // tMax.
 Ray SpawnRay(const SurfacePoint& point, const Vector3& w);
 
-// RayFan makes many rays from one point. Each ray equals the result of SpawnRay.
-class RayFan {
+// RaySpawner spawns many rays from one point. Each ray equals the result of SpawnRay.
+class RaySpawner {
  public:
-  explicit RayFan(const SurfacePoint& point)
+  explicit RaySpawner(const SurfacePoint& point)
       : ng_(point.ng),
         front_(OffsetRayOrigin(point, point.ng)),
         back_(OffsetRayOrigin(point, -point.ng)),
         time_(point.time) {}
 
-  Ray Towards(const Vector3& w) const {
+  Ray Spawn(const Vector3& w) const {
     Ray ray;
     ray.o = Dot(w, ng_) < 0 ? back_ : front_;
     ray.d = w;

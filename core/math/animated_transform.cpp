@@ -65,14 +65,14 @@ std::optional<AnimatedTransform> AnimatedTransform::Between(const Transform& sta
   const auto first = PolarDecomposition(linear[0]), last = PolarDecomposition(linear[1]);
   if (!first || !last) return fail("its matrix is singular at one end");
   animated.rotation_ = first->rotation;
-  animated.turn_ = TurnOf(last->rotation * Transpose(first->rotation));
+  animated.relativeRotation_ = AxisAngleOf(last->rotation * Transpose(first->rotation));
   animated.stretches_[0] = first->stretch;
   animated.stretches_[1] = last->stretch;
   return animated;
 }
 
 bool AnimatedTransform::IsHalfTurn() const {
-  return turn_.angle > (1 - 1e-6) * 3.14159265358979323846;
+  return relativeRotation_.angle > (1 - 1e-6) * 3.14159265358979323846;
 }
 
 Transform AnimatedTransform::At(Real time) const {
@@ -84,7 +84,8 @@ Transform AnimatedTransform::At(Real time) const {
 Transform AnimatedTransform::Within(double u) const {
   if (isTranslation_)
     return Compose(LinearPart(start_.Matrix()), LinearPart(start_.InverseMatrix()), u);
-  const Matrix3 rotation = RotationOf({turn_.axis, u * turn_.angle}) * rotation_;
+  const Matrix3 rotation =
+      RotationOf({relativeRotation_.axis, u * relativeRotation_.angle}) * rotation_;
   const Matrix3 stretch = Mix(stretches_[0], stretches_[1], u);
   return Compose(rotation * stretch, Inverse(stretch) * Transpose(rotation), u);
 }
@@ -115,7 +116,7 @@ Bounds3 AnimatedTransform::ApplyBounds(const Bounds3& box) const {
   if (!moves_ || bounds.IsEmpty()) return bounds;
   bounds.Extend(end_.ApplyBounds(box));
   constexpr double kPiecesPerRadian = 16;
-  const double angle = turn_.angle;
+  const double angle = relativeRotation_.angle;
   const int pieces = std::max(1, int(std::ceil(angle * kPiecesPerRadian)));
   if (!isTranslation_)  // includes both ends as recomposed, which rounding changes
     for (int i = 0; i <= pieces; ++i) bounds.Extend(Within(double(i) / pieces).ApplyBounds(box));

@@ -48,7 +48,7 @@ class AnimatedTransform {
   bool moves_ = false;
   bool isTranslation_ = false;  // both ends have the same linear part
   Matrix3 rotation_{};          // at the start
-  Turn turn_;                   // from rotation_ to the rotation at the end
+  AxisAngle relativeRotation_;  // from rotation_ to the rotation at the end
   Matrix3 stretches_[2]{};      // at start and end
 };
 

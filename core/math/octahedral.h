@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Octahedral codes store unit vectors in 32 bits. The sphere is projected onto an octahedron, which
 // is unfolded into a square of 2 x 16 bits. The error is below 7e-5 radians, and the axes are
-// exact. A code with an 8-bit note has an error below 1.2e-3 radians. Source: Cigolle et al. 2014,
-// "A Survey of Efficient Representations for Independent Unit Vectors".
+// exact. A code with an 8-bit payload has an error below 1.2e-3 radians. Source: Cigolle et al.
+// 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
 #pragma once
 
 #include <cmath>
@@ -34,18 +34,18 @@ inline std::uint32_t EncodeOctahedral(const Vector3& v) {
   return half(place.x) | half(place.y) << 16;
 }
 
-// Encodes v with an 8-bit note. Each half of the code ends in four bits of the note. The code is
-// the closest to v with this ending and is decoded like any other.
-inline std::uint32_t EncodeOctahedral(const Vector3& v, std::uint8_t note) {
-  constexpr int kStep = 16, kMost = int(kOctahedralOne);
+// Encodes v with an 8-bit payload. Each half of the code ends in four bits of the payload. The code
+// is the closest to v with this ending and is decoded like any other.
+inline std::uint32_t EncodeOctahedral(const Vector3& v, std::uint8_t payload) {
+  constexpr int kStep = 16, kMaxCode = int(kOctahedralOne);
   const auto half = [](Real x, int end) {
     int code = kStep * int(std::lround((x * kOctahedralOne - Real(end)) / kStep)) + end;
-    if (code > kMost) code -= kStep;
-    if (code < -kMost) code += kStep;
+    if (code > kMaxCode) code -= kStep;
+    if (code < -kMaxCode) code += kStep;
     return std::uint32_t(std::uint16_t(std::int16_t(code)));
   };
   const Point2 place = OctahedralPlace(v);
-  return half(place.x, note % kStep) | half(place.y, note / kStep) << 16;
+  return half(place.x, payload % kStep) | half(place.y, payload / kStep) << 16;
 }
 inline std::uint8_t OctahedralPayload(std::uint32_t bits) {
   return std::uint8_t((bits & 15) | (bits >> 12 & 0xf0));

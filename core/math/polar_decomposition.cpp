@@ -123,16 +123,16 @@ std::optional<PolarParts> PolarDecomposition(const Matrix3& a) {
   return parts;
 }
 
-Turn TurnOf(const Matrix3& rotation) {
+AxisAngle AxisAngleOf(const Matrix3& rotation) {
   const auto q = QuaternionOf(rotation);
   const double sine = std::hypot(q[1], q[2], q[3]);
   if (!(sine > 0)) return {};
   return {{q[1] / sine, q[2] / sine, q[3] / sine}, 2 * std::atan2(sine, q[0])};
 }
 
-Matrix3 RotationOf(const Turn& turn) {
-  const auto& a = turn.axis;
-  const double s = std::sin(turn.angle), c = std::cos(turn.angle);
+Matrix3 RotationOf(const AxisAngle& axisAngle) {
+  const auto& a = axisAngle.axis;
+  const double s = std::sin(axisAngle.angle), c = std::cos(axisAngle.angle);
   Matrix3 r;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) r[i][j] = a[i] * a[j] * (1 - c) + (i == j ? c : 0.);

@@ -27,13 +27,13 @@ struct PolarParts {
 // finite.
 std::optional<PolarParts> PolarDecomposition(const Matrix3& a);
 
-// Turn is a rotation by `angle` (radians, 0 to pi) about the unit `axis`, in the sense of
+// AxisAngle is a rotation by `angle` (radians, 0 to pi) about the unit `axis`, in the sense of
 // Transform::Rotate.
-struct Turn {
+struct AxisAngle {
   std::array<double, 3> axis{0, 0, 1};
   double angle = 0;
 };
-Turn TurnOf(const Matrix3& rotation);
-Matrix3 RotationOf(const Turn& turn);
+AxisAngle AxisAngleOf(const Matrix3& rotation);
+Matrix3 RotationOf(const AxisAngle& axisAngle);
 
 }  // namespace exphoton

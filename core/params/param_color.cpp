@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kHottestKelvin = 1e9;
-constexpr std::uintmax_t kLargestSpectrumFile = 16 << 20;  // bytes
+constexpr std::uintmax_t kMaxSpectrumBytes = 16 << 20;  // bytes
 
 std::string ReadSmallFile(const std::string& path) {
   std::error_code error;
@@ -31,7 +31,7 @@ std::string ReadSmallFile(const std::string& path) {
   } catch (const InputFileError& fault) {
     throw std::runtime_error(std::string("it ") + fault.what());
   }
-  if (fs::file_size(path, error) > kLargestSpectrumFile || error) {
+  if (fs::file_size(path, error) > kMaxSpectrumBytes || error) {
     throw std::runtime_error("it is too large for a spectrum");
   }
   std::ifstream stream(path, std::ios::binary);

@@ -30,7 +30,7 @@ std::optional<SourceLocation> Place(const SourceLocation& where) {
 
 // Further unknown parameters of a directive are counted, not listed, because exporters and damaged
 // files can have very many.
-constexpr int kMostUnknownListed = 10;
+constexpr int kMaxUnknownListed = 10;
 
 void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& known,
                    const BindContext& context) {
@@ -96,12 +96,12 @@ void ParamTableBase::BindValues(const ParamSet& params, const BindContext& conte
   int unknown = 0;
   for (const ParsedParam& param : params.All()) {
     if (Contains(known, param.name)) continue;
-    if (++unknown <= kMostUnknownListed || context.isStrict) ReportUnknown(param, known, context);
+    if (++unknown <= kMaxUnknownListed || context.isStrict) ReportUnknown(param, known, context);
   }
-  if (unknown > kMostUnknownListed && context.log)
-    context.log->Warning(std::to_string(unknown - kMostUnknownListed) +
-                             " more unknown parameters of " + context.what,
-                         Place(params.where));
+  if (unknown > kMaxUnknownListed && context.log)
+    context.log->Warning(
+        std::to_string(unknown - kMaxUnknownListed) + " more unknown parameters of " + context.what,
+        Place(params.where));
   for (std::size_t i = 0; i < declarations_.size(); ++i) {
     const ParamDecl& decl = declarations_[i];
     if (const ParsedParam* param = FindWithOverrides(decl.name, params, context)) {

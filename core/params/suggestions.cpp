@@ -7,7 +7,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kLongestName = 64;  // longer names are not typing mistakes
+constexpr std::size_t kMaxSuggestedLength = 64;  // longer names are not typing mistakes
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
@@ -31,11 +31,11 @@ int EditDistance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> Nearest(std::string_view name, const std::vector<std::string>& known) {
-  if (name.size() > kLongestName) return std::nullopt;
+  if (name.size() > kMaxSuggestedLength) return std::nullopt;
   std::optional<std::string> nearest;
   int best = std::max(1, int(name.size()) / 3) + 1;
   for (const std::string& candidate : known) {
-    if (candidate.size() > kLongestName) continue;
+    if (candidate.size() > kMaxSuggestedLength) continue;
     const int distance = EditDistance(name, candidate);
     if (distance < best) {
       best = distance;

@@ -28,8 +28,8 @@ std::vector<std::string> EffectNames() {
 }
 
 // Describes how the picture changes if an effect that the scene needs is switched off.
-std::string Loss(Feature effect) {
-  switch (effect) {
+std::string Loss(Feature feature) {
+  switch (feature) {
     case Feature::Filtering:
       return "leaves textures unfiltered";
     case Feature::Lens:

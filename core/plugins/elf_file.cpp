@@ -25,7 +25,7 @@ constexpr int kMachine = EM_AARCH64;
 #else
 constexpr int kMachine = EM_NONE;  // unknown: left to the system's loader
 #endif
-constexpr std::uint64_t kMostSymbols = 1 << 24;
+constexpr std::uint64_t kMaxSymbols = 1 << 24;
 
 struct Fault : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -121,7 +121,7 @@ class Library {
 
   bool IsInTable(const std::string& name) const {
     const std::uint64_t count = Read<std::uint32_t>(hash_ + 4);
-    for (std::uint64_t i = 1; i < std::min(count, kMostSymbols); ++i)
+    for (std::uint64_t i = 1; i < std::min(count, kMaxSymbols); ++i)
       if (IsDefinedAs(i, name)) return true;
     return false;
   }
@@ -137,7 +137,7 @@ class Library {
     const std::uint64_t bucketsAt = 4 + 2 * filterWords, chainsAt = bucketsAt + buckets;
     std::uint64_t index = word(bucketsAt + hash % buckets);
     if (index < first) return false;
-    for (std::uint64_t i = 0; i < kMostSymbols; ++i, ++index) {
+    for (std::uint64_t i = 0; i < kMaxSymbols; ++i, ++index) {
       const std::uint64_t other = word(chainsAt + index - first);
       if ((other | 1) == (std::uint64_t(hash) | 1) && IsDefinedAs(index, name)) return true;
       if (other & 1) return false;  // the end of the chain

@@ -106,7 +106,7 @@ class TileRenderer {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool Needs(Feature effect) const { return job_.scene.Features().Needs(effect); }
+  bool Needs(Feature feature) const { return job_.scene.Features().Needs(feature); }
   bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
   // Returns false if rendering was stopped.

@@ -14,11 +14,11 @@ using Clock = std::chrono::steady_clock;
 // The passes of one replicate continue the same sequences of camera samples, because longer
 // sequences are better distributed.
 constexpr int kReplicates = 8;
-constexpr int kLeastPasses = 2;      // needed for a noise estimate
+constexpr int kMinPasses = 2;        // needed for a noise estimate
 constexpr std::int64_t kGrowth = 8;  // a pass adds at most 1/8 of the samples so far
-constexpr std::int64_t kLargestPass = 64;
+constexpr std::int64_t kMaxPassSamples = 64;
 constexpr std::uint64_t kPassSeed = 0x70617373ull, kReplicateSeed = 0x7265706cull;
-constexpr std::int64_t kPromille = 1000;
+constexpr std::int64_t kProgressSteps = 1000;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -36,13 +36,14 @@ class Passes {
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
         noise_(job.film.Crop(), kReplicates),
-        largestPass_(std::clamp<std::int64_t>(job.sampler.SamplesPerPixel(), 1, kLargestPass)) {
+        maxPassSamples_(
+            std::clamp<std::int64_t>(job.sampler.SamplesPerPixel(), 1, kMaxPassSamples)) {
     if (job.sampler.IsProgressive())
       progressiveSampler_ = job.sampler.WithSamplesPerPixel(rule.maxSamples);
   }
 
   PassesResult Run() {
-    job_.progress.Begin("Rendering", kPromille);
+    job_.progress.Begin("Rendering", kProgressSteps);
     for (std::optional<StopReason> reason; !reason; reason = Reason()) {
       if (!RunPass(NextSize())) {
         result_.reason = StopReason::Signal;
@@ -59,18 +60,18 @@ class Passes {
   // an eighth of the samples so far.
   std::int64_t NextSize() const {
     const std::int64_t total = result_.samplesPerPixel;
-    const std::int64_t size = std::clamp<std::int64_t>(total / kGrowth, 1, largestPass_);
+    const std::int64_t size = std::clamp<std::int64_t>(total / kGrowth, 1, maxPassSamples_);
     return std::min({size, SizeInTime(), rule_.maxSamples - total});
   }
   // Returns the pass size that the remaining time allows, judged by the times of the last pass.
   // Returns 0 if not even one sample fits.
   std::int64_t SizeInTime() const {
-    if (!rule_.timeLimit || result_.passes == 0) return largestPass_;
+    if (!rule_.timeLimit || result_.passes == 0) return maxPassSamples_;
     const double left =
         *rule_.timeLimit - SecondsSince(rule_.start) - renderer_.PreprocessSeconds();
     const double each = renderer_.RenderSeconds() / double(lastSize_);
     return std::int64_t(
-        std::clamp(std::floor(left / std::max(each, 1e-9)), 0., double(largestPass_)));
+        std::clamp(std::floor(left / std::max(each, 1e-9)), 0., double(maxPassSamples_)));
   }
 
   bool RunPass(std::int64_t size) {
@@ -101,7 +102,7 @@ class Passes {
   }
 
   std::optional<StopReason> Reason() {
-    if (rule_.targetError && result_.passes >= kLeastPasses && *result_.noise <= *rule_.targetError)
+    if (rule_.targetError && result_.passes >= kMinPasses && *result_.noise <= *rule_.targetError)
       reasonMet_ = StopReason::TargetError;
     else if (result_.samplesPerPixel >= rule_.maxSamples)
       reasonMet_ = StopReason::Samples;
@@ -117,7 +118,7 @@ class Passes {
     if (rule_.targetError && result_.noise)
       done = std::max(done, *rule_.targetError / *result_.noise);
     if (rule_.timeLimit) done = std::max(done, SecondsSince(rule_.start) / *rule_.timeLimit);
-    return std::int64_t(double(kPromille) * std::clamp(done, 0., 1.));
+    return std::int64_t(double(kProgressSteps) * std::clamp(done, 0., 1.));
   }
 
   PassesResult Finish() {
@@ -140,7 +141,7 @@ class Passes {
   PassRenderer renderer_;
   Film passFilm_;
   PassNoise noise_;
-  std::int64_t largestPass_, lastSize_ = 1;
+  std::int64_t maxPassSamples_, lastSize_ = 1;
   std::unique_ptr<Sampler> progressiveSampler_;  // null if the sampler is not progressive
   PassesResult result_;
   std::optional<StopReason> reasonMet_;

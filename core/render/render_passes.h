@@ -16,9 +16,9 @@ struct StoppingRule {
   std::optional<double> targetError;  // noise part of relMSE, > 0; used alone, it ignores time
   std::optional<double> timeLimit;    // seconds from `start`, including preprocessing
   std::chrono::steady_clock::time_point start;
-  std::int64_t maxSamples = kMostSamples;  // per pixel
+  std::int64_t maxSamples = kMaxSamples;  // per pixel
 
-  static constexpr std::int64_t kMostSamples = std::int64_t(1) << 20;
+  static constexpr std::int64_t kMaxSamples = std::int64_t(1) << 20;
 };
 
 enum class StopReason { Samples, TargetError, TimeLimit, Signal };

@@ -49,22 +49,22 @@ LobeSet ScatteringSides(Real woSide, Real wiSide) {
   return (woSide > 0) == (wiSide > 0) ? LobeSet::Reflection : LobeSet::Transmission;
 }
 
-// Chosen holds the lobes under a mask, with the specular lobes separate.
-struct Chosen {
-  std::array<const Bxdf*, Bsdf::kMaxLobes> sharp, smooth;
-  std::size_t sharpCount = 0, smoothCount = 0;
+// MatchingLobes holds the lobes under a mask, with the specular lobes separate.
+struct MatchingLobes {
+  std::array<const Bxdf*, Bsdf::kMaxLobes> specular, smooth;
+  std::size_t specularCount = 0, smoothCount = 0;
 
-  Chosen(std::span<const Bxdf* const> lobes, LobeSet mask) {
+  MatchingLobes(std::span<const Bxdf* const> lobes, LobeSet mask) {
     for (const Bxdf* lobe : lobes) {
       if (!lobe->Matches(mask)) continue;
       if (lobe->Matches(LobeSet::Specular)) {
-        sharp[sharpCount++] = lobe;
+        specular[specularCount++] = lobe;
       } else {
         smooth[smoothCount++] = lobe;
       }
     }
   }
-  std::span<const Bxdf* const> Sharp() const { return {sharp.data(), sharpCount}; }
+  std::span<const Bxdf* const> Specular() const { return {specular.data(), specularCount}; }
 };
 
 // Samples one of these specular lobes in proportion to the largest component of its coefficient.
@@ -105,19 +105,19 @@ struct Drawn {
   Vector3 drawn, seen;
 };
 
-// Replaces the density of the picked lobe by the mean over all chosen lobes, and its value by the
+// Replaces the density of the picked lobe by the mean over all matching lobes, and its value by the
 // sum of the lobes that scatter between these sides.
-void CombineSmooth(const Chosen& chosen, std::size_t picked, LobeSet served, const Vector3& wo,
-                   const Drawn& wi, BsdfSample* sample) {
+void CombineSmooth(const MatchingLobes& lobes, std::size_t picked, LobeSet served,
+                   const Vector3& wo, const Drawn& wi, BsdfSample* sample) {
   Spectrum f;
   Real pdf = 0;
-  for (std::size_t i = 0; i < chosen.smoothCount; ++i) {
-    const Bxdf& lobe = *chosen.smooth[i];
+  for (std::size_t i = 0; i < lobes.smoothCount; ++i) {
+    const Bxdf& lobe = *lobes.smooth[i];
     if (!lobe.Matches(served)) continue;
     f += lobe.f(wo, wi.seen);
     pdf += i == picked ? sample->pdf : lobe.Pdf(wo, wi.drawn);
   }
-  sample->pdf = pdf / Real(chosen.sharpCount + chosen.smoothCount);
+  sample->pdf = pdf / Real(lobes.specularCount + lobes.smoothCount);
   if (sample->pdf > 0) sample->throughput = f * (std::abs(wi.drawn.z) / sample->pdf);
 }
 
@@ -181,22 +181,22 @@ BsdfValue Bsdf::Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) con
 
 std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, LobeSet mask,
                                        TransportMode mode) const {
-  const Chosen chosen(std::span(lobes_.data(), std::size_t(count_)), mask);
-  const int count = int(chosen.sharpCount + chosen.smoothCount);
+  const MatchingLobes lobes(std::span(lobes_.data(), std::size_t(count_)), mask);
+  const int count = int(lobes.specularCount + lobes.smoothCount);
   if (count == 0) return std::nullopt;
   const LocalOut out = ToLocalOut(frame_, ng_, wo);
   if (out.side == 0 || out.wo.z == 0) return std::nullopt;
 
   const Real position = uLobe * Real(count);
-  if (position < Real(chosen.sharpCount)) {
-    auto sample = SampleSpecular(chosen.Sharp(), out.wo, position / Real(chosen.sharpCount));
+  if (position < Real(lobes.specularCount)) {
+    auto sample = SampleSpecular(lobes.Specular(), out.wo, position / Real(lobes.specularCount));
     if (!sample) return std::nullopt;
     // Undo the flip of wo's cosine for transmission, so that an invisible boundary bends no ray.
     const bool isUndone = out.isMirrored && sample->IsTransmission();
     sample->wi = frame_.ToWorld(isUndone ? MirrorZ(sample->wi) : sample->wi);
     if (!Intersects(sample->lobe, ScatteringSides(out.side, Dot(sample->wi, ng_))))
       return std::nullopt;
-    const Real share = Real(chosen.sharpCount) / Real(count);
+    const Real share = Real(lobes.specularCount) / Real(count);
     sample->pdf *= share;
     sample->throughput /= share;
     if (!(sample->pdf > 0) || !sample->throughput.IsFinite()) return std::nullopt;
@@ -207,8 +207,8 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   // wo).
   if (mode == TransportMode::Importance && out.isMirrored) return std::nullopt;
   const std::size_t picked =
-      std::min(std::size_t(position) - chosen.sharpCount, chosen.smoothCount - 1);
-  const Bxdf& lobe = *chosen.smooth[picked];
+      std::min(std::size_t(position) - lobes.specularCount, lobes.smoothCount - 1);
+  const Bxdf& lobe = *lobes.smooth[picked];
   const auto local = lobe.Sample(out.wo, u);
   if (!local) return std::nullopt;
   BsdfSample sample{frame_.ToWorld(local->wi), local->throughput, local->pdf, lobe.Lobe()};
@@ -221,7 +221,7 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   }
   const LobeSet served = ScatteringSides(out.side, Dot(sample.wi, ng_));
   if (!Intersects(sample.lobe, served)) return std::nullopt;
-  if (count > 1 || isTurned) CombineSmooth(chosen, picked, served, out.wo, drawn, &sample);
+  if (count > 1 || isTurned) CombineSmooth(lobes, picked, served, out.wo, drawn, &sample);
   if (!(sample.pdf > 0) || !sample.throughput.IsFinite()) return std::nullopt;
   return sample;
 }

@@ -104,14 +104,14 @@ void NoteTimes(const Scene& scene, const Camera& camera, RequiredFeatures* plan)
   plan->notes.push_back(note.str());
 }
 
-const char* FeatureName(Feature effect) { return kFeatureNames[std::size_t(effect)]; }
+const char* FeatureName(Feature feature) { return kFeatureNames[std::size_t(feature)]; }
 
 RequiredFeatures::RequiredFeatures() {
   for (Row& row : rows_) row = {true, "asked for"};
 }
 
-void RequiredFeatures::Set(Feature effect, bool on, std::string reason) {
-  rows_[std::size_t(effect)] = {on, std::move(reason)};
+void RequiredFeatures::Set(Feature feature, bool on, std::string reason) {
+  rows_[std::size_t(feature)] = {on, std::move(reason)};
 }
 
 std::string RequiredFeatures::Describe() const {

@@ -26,7 +26,7 @@ enum class Feature {
 };
 inline constexpr int kFeatureCount = 10;
 
-const char* FeatureName(Feature effect);  // for example "caustics", as in --effects
+const char* FeatureName(Feature feature);  // for example "caustics", as in --effects
 
 class RequiredFeatures {
  public:
@@ -36,12 +36,14 @@ class RequiredFeatures {
   };
 
   RequiredFeatures();  // all features on, as with --effects all
-  static constexpr bool IsCompiled(Feature effect) {
-    return ((kCompiledFeatures >> unsigned(effect)) & 1u) != 0;
+  static constexpr bool IsCompiled(Feature feature) {
+    return ((kCompiledFeatures >> unsigned(feature)) & 1u) != 0;
   }
-  bool Needs(Feature effect) const { return IsCompiled(effect) && rows_[std::size_t(effect)].on; }
-  const Row& Get(Feature effect) const { return rows_[std::size_t(effect)]; }
-  void Set(Feature effect, bool on, std::string reason);
+  bool Needs(Feature feature) const {
+    return IsCompiled(feature) && rows_[std::size_t(feature)].on;
+  }
+  const Row& Get(Feature feature) const { return rows_[std::size_t(feature)]; }
+  void Set(Feature feature, bool on, std::string reason);
 
   // Returns one line per feature, such as "caustics      off  no specular surface".
   std::string Describe() const;

@@ -24,7 +24,7 @@ class PixelState {
     }
     return *static_cast<T*>(data_);
   }
-  // Returns memory for data that the note points to. It frees the memory of earlier calls.
+  // Returns memory for data that the state points to. It frees the memory of earlier calls.
   Arena& FreshArena() {
     arena_.Rewind(mark_);
     return arena_;

@@ -27,7 +27,7 @@ DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scen
   // On average at least this many photons of the smallest map start towards each bounding sphere.
   // They are enough for many density estimates, so that the emission density hardly varies within
   // one estimate.
-  constexpr double kLeastPhotons = 2000;
+  constexpr double kMinPhotons = 2000;
   const auto& lights = scene.Lights();
   const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
     return light->IsDistant() && !light->IsProvablyBlack();
@@ -35,14 +35,14 @@ DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scen
   if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
   DistantLightTargeting targeting(
       VisiblePoints(scene, *context.camera, context.resolution, context.seed),
-      BoundingSphere(scene.WorldBounds()), kLeastPhotons / double(targets.Least()));
+      BoundingSphere(scene.WorldBounds()), kMinPhotons / double(targets.Least()));
   const bool isWorthwhile = targeting.Gain() >= kWorthwhileGain;
-  if (settings.photonAim == PhotonAiming::Off) {
-    if (isWorthwhile) NoticeUnaimed(targeting, context.log);
+  if (settings.photonTargeting == PhotonTargeting::Off) {
+    if (isWorthwhile) NoticeMissingTargeting(targeting, context.log);
     return {};
   }
-  if (settings.photonAim == PhotonAiming::Auto && !isWorthwhile) return {};
-  ReportAim(targeting, context);
+  if (settings.photonTargeting == PhotonTargeting::Auto && !isWorthwhile) return {};
+  ReportTargeting(targeting, context);
   return targeting;
 }
 
@@ -138,7 +138,7 @@ Spectrum PhotonIntegrator::Caustic(const ShadingPoint& point, LiContext& context
 
 Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& context) const {
   if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
-  RandomStream random = context.Stream(kGatherStream + std::uint64_t(point.depth));
+  RandomStream random = context.Stream(kGatherRayStream + std::uint64_t(point.depth));
   return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context,
                         GatherRay(maps_, radianceMap_.get(), settings_, lights_, context, &random));
 }

@@ -33,7 +33,8 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const override;
 
  private:
-  static constexpr std::uint64_t kGatherStream = 0x726164ull;
+  // The stream of random numbers for the hits of gather rays.
+  static constexpr std::uint64_t kGatherRayStream = 0x726164ull;
 
   // The steps of Preprocess.
   PhotonPassResult ShootPhotons(const Scene& scene, const PhotonTargets& targets,

@@ -78,7 +78,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .Range(1, 1 << 20),
       Param("maxphotonpaths", &S::maxPhotonPaths, "paths after which a map stays as it is")
           .Range(1, 1e15),
-      Param("photonaim", &S::photonAim,
+      Param("photonaim", &S::photonTargeting,
             "photons of distant lights (sun, sky) start towards visible points; auto: where that "
             "makes them many times denser there")
           .OneOf({{"auto", PhotonTargeting::Auto},

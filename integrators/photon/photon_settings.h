@@ -18,7 +18,7 @@ enum class PhotonRoulette {
 };
 enum class GatherSampling { Photons, Bsdf };
 enum class DensityKernel { Constant, Simpson };
-enum class PhotonAiming {
+enum class PhotonTargeting {
   Auto,  // on if photons become at least four times denser at visible points
   On,
   Off,
@@ -51,7 +51,7 @@ struct PhotonSettings {
   Real shortRays = Real(.3);
   int maxPhotonDepth = 1024;
   std::int64_t maxPhotonPaths = std::int64_t(1) << 24;
-  PhotonAiming photonAim = PhotonAiming::Off;
+  PhotonTargeting photonTargeting = PhotonTargeting::Off;
   ShowMap show = ShowMap::Nothing;
   bool directWithPhotons = false;  // direct light from the direct map; a parameter of photonmap
 

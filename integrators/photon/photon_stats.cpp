@@ -12,7 +12,7 @@ namespace exphoton {
 namespace {
 
 // Most lights that get rows in the table of counters, and most notices about lights.
-constexpr std::size_t kMostListedLights = 64;
+constexpr std::size_t kMaxListedLights = 64;
 constexpr int kMaxLightNotices = 5;
 // A light with fewer paths than this may miss a small scene by chance.
 constexpr std::int64_t kSignificantPaths = 1000;
@@ -69,21 +69,21 @@ void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& se
                   ": no photons are shot for caustics (", plan.Get(Feature::Caustics).reason, ")"));
 }
 
-void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context) {
+void ReportTargeting(const DistantLightTargeting& targeting, PreprocessContext& context) {
   context.statistics.SetCounter(
-      "photons/aim gain", aim.Gain(),
+      "photons/targeting gain", targeting.Gain(),
       "how much denser photons of distant lights start towards visible points");
   context.log.Notice(Text("photons of distant lights start towards visible points, ",
-                          std::llround(aim.Gain()), " times denser than everywhere"),
+                          std::llround(targeting.Gain()), " times denser than everywhere"),
                      {}, "\"string photonaim\" \"off\" spreads them over the whole scene");
 }
 
-void NoticeUnaimed(const DistantLightTargeting& aim, Log& log) {
+void NoticeMissingTargeting(const DistantLightTargeting& targeting, Log& log) {
   log.Notice(
       Text("photons of distant lights are spread over the whole scene: where the camera looks "
            "they are sparse, and light is missing behind glass and in corners"),
       {},
-      Text("\"string photonaim\" \"auto\" makes them about ", std::llround(aim.Gain()),
+      Text("\"string photonaim\" \"auto\" makes them about ", std::llround(targeting.Gain()),
            " times as dense there"));
 }
 
@@ -137,7 +137,7 @@ void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, 
   for (std::size_t i = 0; i < result.lights.size(); ++i) {
     const LightTally& light = result.lights[i];
     if (scene.Lights()[i]->IsProvablyBlack()) continue;
-    if (i >= kMostListedLights) {
+    if (i >= kMaxListedLights) {
       rest.shot += light.shot;
       rest.stored += light.stored;
       continue;

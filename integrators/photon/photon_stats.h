@@ -13,9 +13,9 @@ namespace exphoton {
 void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
                           const Scene& scene, Log& log);
 // Reports that photons of distant lights are targeted, and the gain.
-void ReportAim(const DistantLightTargeting& aim, PreprocessContext& context);
+void ReportTargeting(const DistantLightTargeting& targeting, PreprocessContext& context);
 // Logs a notice that targeting is off although it would be worthwhile.
-void NoticeUnaimed(const DistantLightTargeting& aim, Log& log);
+void NoticeMissingTargeting(const DistantLightTargeting& targeting, Log& log);
 // To be called after tracing, while the result still holds the photon buffers.
 void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
                       const PhotonSettings& settings, PreprocessContext& context);

@@ -242,9 +242,9 @@ TEST_F(StudyTest, SaysWhatIsWrong) {
   EXPECT_EQ(Run({"study", "none.pbrt", "--out", "out"}).status, 3);
   EXPECT_EQ(Run({"study", "none.study", "--out", "out"}).status, 3);
   EXPECT_EQ(Run({"study", "box.pbrt", "--integrators", "nosuch", "--out", "out"}).status, 2);
-  const ProgramResult knob = Run({"study", "box.pbrt", "--vary", "nosuch=1", "--out", "out"});
-  EXPECT_EQ(knob.status, 1);
-  EXPECT_NE(knob.err.find("\"nosuch\""), std::string::npos) << knob.err;
+  const ProgramResult unknown = Run({"study", "box.pbrt", "--vary", "nosuch=1", "--out", "out"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("\"nosuch\""), std::string::npos) << unknown.err;
   EXPECT_EQ(Run({"report", "out"}).status, 3);
   const ProgramResult value =
       Run({"study", "box.pbrt", "--integrators", "path", "--vary", "maxdepth=-3", "--out", "out"});

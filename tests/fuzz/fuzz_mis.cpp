@@ -25,10 +25,10 @@ void TryCones(fuzz::Input* input) {
   if (!(angle >= Real(1e-5)) || !(angle <= kPi / 2)) return;
   const Real uAxis = Real(input->Byte()) / 256;
   const Point2 u{Real(input->Byte()) / 256, Real(input->Byte()) / 256};
-  constexpr std::size_t kMost = 64;
+  constexpr std::size_t kMaxCones = 64;
   Arena arena;
-  ConeDirections axes(kMost, &arena);
-  while (!input->IsEmpty() && axes.size() < kMost) {
+  ConeDirections axes(kMaxCones, &arena);
+  while (!input->IsEmpty() && axes.size() < kMaxCones) {
     const Point3 p = input->AnyPoint();
     const Vector3 axis = NormalizeOr(Vector3{p.x, p.y, p.z}, {0, 0, 1});
     if (IsFinite(axis)) axes.Add(axis);

@@ -13,11 +13,11 @@ using namespace exphoton;
 
 namespace {
 
-constexpr int kMostPixels = 64, kMostSamples = 16;
+constexpr int kMaxPixels = 64, kMaxSamples = 16;
 
 bool IsCheap(const RenderSetup& setup) {
-  return std::int64_t(setup.crop.Width()) * setup.crop.Height() <= kMostPixels &&
-         setup.sampler->SamplesPerPixel() <= kMostSamples;
+  return std::int64_t(setup.crop.Width()) * setup.crop.Height() <= kMaxPixels &&
+         setup.sampler->SamplesPerPixel() <= kMaxSamples;
 }
 
 // Overrides the photon counts in the text. An integrator without these parameters would fail, so

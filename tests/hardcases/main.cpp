@@ -82,10 +82,10 @@ void Fill(const Verdict& verdict, const NamedTests::Result& tests, bool areRun, 
   line->falseAlarms = verdict.falseAlarms;
   line->seconds = verdict.seconds;
   line->megabytes = verdict.megabytes;
-  constexpr std::size_t kMostSeen = 6;
-  for (std::size_t i = 0; i < verdict.seen.size() && i < kMostSeen; ++i)
+  constexpr std::size_t kMaxSeen = 6;
+  for (std::size_t i = 0; i < verdict.seen.size() && i < kMaxSeen; ++i)
     line->seen += (i > 0 ? "; " : "") + verdict.seen[i];
-  if (verdict.seen.size() > kMostSeen) line->seen += "; ...";
+  if (verdict.seen.size() > kMaxSeen) line->seen += "; ...";
   if (tests.count > 0) {
     line->seen += (line->seen.empty() ? "" : "; ") + std::to_string(tests.count) +
                   (tests.count == 1 ? " test" : " tests") + (areRun ? "" : " (by name)");

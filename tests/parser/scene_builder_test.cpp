@@ -89,22 +89,22 @@ INSTANTIATE_TEST_SUITE_P(
              "1:1: unknown time \"Alll\" of ActiveTransform; known: All, StartTime, EndTime | did "
              "you mean \"All\"?"}));
 
-INSTANTIATE_TEST_SUITE_P(
-    Transformations, SceneError,
-    testing::Values(
-        Case{"Scale 0 1 1", "1:1: Scale: a factor is 0"},
-        Case{"Rotate 10 0 0 0", "1:1: Rotate: the axis is 0 0 0"},
-        Case{"LookAt 1 1 1 1 1 1 0 1 0",
-             "1:1: LookAt: the eye is where it looks at, or \"up\" is parallel to the direction of "
-             "view"},
-        Case{"LookAt 0 0 0 0 5 0 0 1 0",
-             "1:1: LookAt: the eye is where it looks at, or \"up\" is parallel to the direction of "
-             "view"},
-        Case{"Transform [1 0 0 0 2 0 0 0 0 0 1 0 0 0 0 1]",
-             "1:1: Transform: the matrix is "
-             "singular"},
-        Case{"ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]",
-             "1:1: ConcatTransform: the matrix is singular"}));
+INSTANTIATE_TEST_SUITE_P(Transformations, SceneError,
+                         testing::Values(Case{"Scale 0 1 1", "1:1: Scale: a factor is 0"},
+                                         Case{"Rotate 10 0 0 0", "1:1: Rotate: the axis is 0 0 0"},
+                                         Case{"LookAt 1 1 1 1 1 1 0 1 0",
+                                              "1:1: LookAt: the eye is the point that it looks at, "
+                                              "or \"up\" is parallel to the direction of "
+                                              "view"},
+                                         Case{"LookAt 0 0 0 0 5 0 0 1 0",
+                                              "1:1: LookAt: the eye is the point that it looks at, "
+                                              "or \"up\" is parallel to the direction of "
+                                              "view"},
+                                         Case{"Transform [1 0 0 0 2 0 0 0 0 0 1 0 0 0 0 1]",
+                                              "1:1: Transform: the matrix is "
+                                              "singular"},
+                                         Case{"ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]",
+                                              "1:1: ConcatTransform: the matrix is singular"}));
 
 TEST(SceneBuilder, RefusesAMillionNestedBlocksWithoutOverflow) {
   std::string text = kBegin;

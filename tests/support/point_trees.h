@@ -12,13 +12,13 @@ namespace exphoton {
 struct TestDisk {
   Point3 p;
   std::uint32_t direction = EncodeOctahedral({0, 0, 1});
-  Real reach2 = kInfinity;
+  Real radius2 = kInfinity;
 };
 struct TestDiskBlock : DiskBlock {
   using Record = TestDisk;
   void Set(std::uint32_t lane, const TestDisk& disk) {
     PointBlock::Set(lane, {disk.p, disk.direction});
-    reach2[lane] = disk.reach2;
+    reach2[lane] = disk.radius2;
   }
 };
 

@@ -104,10 +104,10 @@ std::vector<DoublingEffect> FindDoublingEffects(const std::vector<Setting>& sett
         all[{settings[i].label, name}][Others(settings[i], name)].push_back({*value, i});
   }
   std::vector<DoublingEffect> costs;
-  for (auto& [knob, groups] : all) {
+  for (auto& [key, groups] : all) {
     DoublingEffect cost;
-    cost.label = knob.first;
-    cost.parameter = knob.second;
+    cost.label = key.first;
+    cost.parameter = key.second;
     double logFactors = 0;
     for (auto& group : groups) {
       std::vector<Step>& steps = group.second;

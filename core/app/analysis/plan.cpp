@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This file parses settings and knobs, and expands their combinations.
+// This file parses settings and varied parameters, and expands their combinations.
 #include "core/app/analysis/plan.h"
 
 #include <algorithm>
@@ -35,24 +35,26 @@ std::string BudgetText(double seconds) {
   return text;
 }
 
-// Returns the knobs that apply to a base. A knob for its integrator or label overrides a general
-// one.
-std::vector<const Knob*> KnobsOf(const Setting& base, const StudyPlan& plan,
-                                 const ParameterLookup& oracle) {
-  std::vector<const Knob*> chosen;
-  for (const Knob& knob : plan.knobs) {
-    const bool isSpecial = !knob.integrator.empty();
-    if (isSpecial && knob.integrator != base.integrator && knob.integrator != base.label) continue;
-    if (base.Find(knob.parameter)) continue;
-    if (!isSpecial && !AppliesToAny(knob.parameter) && !oracle.Has(base.integrator, knob.parameter))
+// Returns the varied parameters that apply to a base. One for its integrator or label overrides a
+// general one.
+std::vector<const VariedParameter*> VariedParametersOf(const Setting& base, const StudyPlan& plan,
+                                                       const ParameterLookup& oracle) {
+  std::vector<const VariedParameter*> chosen;
+  for (const VariedParameter& varied : plan.varied) {
+    const bool isSpecial = !varied.integrator.empty();
+    if (isSpecial && varied.integrator != base.integrator && varied.integrator != base.label)
       continue;
-    const auto same = std::find_if(chosen.begin(), chosen.end(), [&](const Knob* other) {
-      return other->parameter == knob.parameter;
+    if (base.Find(varied.parameter)) continue;
+    if (!isSpecial && !AppliesToAny(varied.parameter) &&
+        !oracle.Has(base.integrator, varied.parameter))
+      continue;
+    const auto same = std::find_if(chosen.begin(), chosen.end(), [&](const VariedParameter* other) {
+      return other->parameter == varied.parameter;
     });
     if (same == chosen.end())
-      chosen.push_back(&knob);
+      chosen.push_back(&varied);
     else if (isSpecial)
-      *same = &knob;
+      *same = &varied;
   }
   return chosen;
 }
@@ -112,16 +114,16 @@ Setting ParseSetting(const std::string& text) {
   return setting;
 }
 
-Knob ParseKnob(const std::string& text) {
-  Knob knob;
+VariedParameter ParseVariedParameter(const std::string& text) {
+  VariedParameter varied;
   const std::size_t equals = text.find('=');
   const std::size_t colon = text.substr(0, equals).rfind(':');
-  if (colon != std::string::npos) knob.integrator = Trim(text.substr(0, colon));
+  if (colon != std::string::npos) varied.integrator = Trim(text.substr(0, colon));
   Parameter parameter;
   const std::string rest = colon == std::string::npos ? text : text.substr(colon + 1);
   if (ParseParameter(Trim(rest), &parameter)) {
-    knob.parameter = parameter.first;
-    knob.values = SplitList(parameter.second);
+    varied.parameter = parameter.first;
+    varied.values = SplitList(parameter.second);
   }
   if (varied.values.empty())
     throw std::invalid_argument(
@@ -159,12 +161,12 @@ std::vector<double> ParseBudgets(const std::string& text) {
 
 std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& oracle) {
   std::vector<Setting> all;
-  std::vector<const Knob*> used;
+  std::vector<const VariedParameter*> used;
   for (const Setting& base : plan.bases) {
     std::vector<Setting> settings{base};
-    for (const Knob* knob : KnobsOf(base, plan, oracle)) {
-      used.push_back(knob);
-      Multiply(knob->parameter, knob->values, &settings);
+    for (const VariedParameter* varied : VariedParametersOf(base, plan, oracle)) {
+      used.push_back(varied);
+      Multiply(varied->parameter, varied->values, &settings);
     }
     if (!plan.budgets.empty() && !base.Find("time")) {
       std::vector<std::string> texts;

@@ -25,8 +25,8 @@ struct Setting {
   friend bool operator==(const Setting&, const Setting&) = default;
 };
 
-// Knob is a parameter with the values to try.
-struct Knob {
+// VariedParameter holds a parameter and the values to try.
+struct VariedParameter {
   std::string integrator;  // integrator or label; "": all integrators with the parameter
   std::string parameter;
   std::vector<std::string> values;
@@ -34,14 +34,14 @@ struct Knob {
 
 struct StudyPlan {
   std::vector<Setting> bases;  // integrators, and settings given explicitly
-  std::vector<Knob> knobs;
+  std::vector<VariedParameter> varied;
   std::vector<double> budgets;  // seconds; empty: no time-limited runs
 };
 
 // Parses "[LABEL:] INTEGRATOR [name=value ...]". Throws std::invalid_argument with an explanation.
 Setting ParseSetting(const std::string& text);
 // Parses "[INTEGRATOR:]name=value,value,...". Throws std::invalid_argument.
-Knob ParseKnob(const std::string& text);
+VariedParameter ParseVariedParameter(const std::string& text);
 // Parse "1,4,16,64s", also with units m and h, to seconds. Throw std::invalid_argument.
 std::vector<double> ParseBudgets(const std::string& text);
 double ParseSeconds(const std::string& text);
@@ -54,9 +54,9 @@ class ParameterLookup {
   virtual bool Has(const std::string& integrator, const std::string& parameter) const = 0;
 };
 
-// Returns every base in every combination of its knobs and of the budgets. A knob for one
-// integrator overrides a general knob. A parameter given by the base is not varied. Throws
-// std::invalid_argument if a knob applies to no base.
+// Returns every base in every combination of its varied parameters and of the budgets. A varied
+// parameter for one integrator overrides a general one. A parameter given by the base is not
+// varied. Throws std::invalid_argument if a varied parameter applies to no base.
 std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& oracle);
 
 // Returns the seed of a reference half (0 or 1) in a round. Runs of a setting have the seeds 1, 2

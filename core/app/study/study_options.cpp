@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct RawOptions {
   std::string integrators, budgets, referenceTime, resolution, targets;
-  std::vector<std::string> settings, knobs;
+  std::vector<std::string> settings, varied;
   bool hidesMaps = false;
 };
 
@@ -104,7 +104,7 @@ void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
   app.Add("--setting", raw.settings,
           "another setting to render: \"[LABEL: ]INTEGRATOR [name=value ...]\"")
       .OnePerUse();
-  app.Add("--vary", raw.knobs,
+  app.Add("--vary", raw.varied,
           "a parameter and its values, [INTEGRATOR:]name=v1,v2,...; \"spp\" too. Several "
           "are multiplied")
       .OnePerUse();
@@ -194,7 +194,8 @@ void TakePlan(const RawOptions& raw, StudyOptions* options) {
     options->plan.bases.push_back(study::ParseSetting(name));
   for (const std::string& text : raw.settings)
     options->plan.bases.push_back(study::ParseSetting(text));
-  for (const std::string& text : raw.knobs) options->plan.knobs.push_back(study::ParseKnob(text));
+  for (const std::string& text : raw.varied)
+    options->plan.varied.push_back(study::ParseVariedParameter(text));
   if (!raw.budgets.empty()) options->plan.budgets = study::ParseBudgets(raw.budgets);
   if (!raw.referenceTime.empty())
     options->referenceSeconds = study::ParseSeconds(raw.referenceTime);

@@ -29,7 +29,7 @@
 namespace exphoton {
 namespace {
 
-constexpr float kLargestHalf = 65504;
+constexpr float kMaxHalf = 65504;
 constexpr int kLinesPerBlock = 16;  // of ZIP compression
 
 Imath::Box2i ToBox(const PixelBounds& b) { return {{b.x0, b.y0}, {b.x1 - 1, b.y1 - 1}}; }
@@ -104,9 +104,9 @@ Imf::FrameBuffer MakeFrameBuffer(const Image& image, T* values, int y, int lines
 }
 
 half ToHalf(float value, long long* clamped) {
-  if (std::abs(value) > kLargestHalf) {  // false for NaN, which is kept
+  if (std::abs(value) > kMaxHalf) {  // false for NaN, which is kept
     ++*clamped;
-    value = std::copysign(kLargestHalf, value);
+    value = std::copysign(kMaxHalf, value);
   }
   return half(value);
 }

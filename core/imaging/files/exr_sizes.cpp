@@ -14,12 +14,12 @@
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kLongestName = 255;
+constexpr std::size_t kMaxExrNameLength = 255;
 constexpr std::uint32_t kMagic = 20000630;
 constexpr unsigned kMultiPartFlag = 0x1000;
 
 // Deflate expands a byte to at most 1032 bytes. The lossy methods also drop whole blocks.
-constexpr double kMostInflation = 65536;
+constexpr double kMaxInflation = 65536;
 constexpr double kAlwaysFine = 1 << 26;
 
 // Attribute types of fixed size. The library reads this number of bytes, whatever size the file
@@ -67,7 +67,7 @@ class HeaderWalk {
   // Reads a zero-terminated name or type and skips the zero byte.
   std::string Text() {
     std::string text;
-    for (int c; text.size() <= kLongestName && (c = file_.get()) > 0;) text.push_back(char(c));
+    for (int c; text.size() <= kMaxExrNameLength && (c = file_.get()) > 0;) text.push_back(char(c));
     return text;
   }
 
@@ -116,7 +116,7 @@ void CheckExrHeaders(const std::string& path) { HeaderWalk(path).Check(); }
 
 void CheckExrPixels(const std::string& path, double pixelBytes) {
   if (pixelBytes <= kAlwaysFine) return;
-  if (pixelBytes > kMostInflation * double(std::filesystem::file_size(path)))
+  if (pixelBytes > kMaxInflation * double(std::filesystem::file_size(path)))
     throw ImageError("more pixels than a file of this length can hold");
 }
 

@@ -7,7 +7,7 @@
 namespace exphoton {
 namespace {
 
-constexpr std::int64_t kMostNodes = std::int64_t(1) << 60;
+constexpr std::int64_t kMaxNodes = std::int64_t(1) << 60;
 
 template <class Map>
 auto TextureIn(const Map& map, const std::string& name) {
@@ -25,7 +25,7 @@ TextureGraph GraphIn(const Map& map, const std::string& name) {
 
 void TextureGraph::Include(const TextureGraph& other) {
   depth = std::max(depth, other.depth);
-  nodes = std::min(nodes + other.nodes, kMostNodes);
+  nodes = std::min(nodes + other.nodes, kMaxNodes);
 }
 
 TexturePtr<Real> TextureTable::Float(const std::string& name) const {

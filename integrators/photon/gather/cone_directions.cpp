@@ -30,7 +30,7 @@ std::span<const ConeLoops> ConeDirections::Loops() {
 
 ConeDirections::ConeDirections(std::size_t capacity, Arena* arena) {
   const std::size_t room = WholeRuns(capacity) + kRun;  // `choose` may write one run more
-  x_ = arena->Room<Real>(3 * room);
+  x_ = arena->AllocateArray<Real>(3 * room);
   y_ = x_ + room;
   z_ = y_ + room;
 }

@@ -32,7 +32,7 @@ class FinalGather {
   // Integrates f * incident * |cos| over the non-specular lobes, by rays with 0 < t < infinity. All
   // rays are traced before the first one reads a map, so that the CPU caches need not hold the
   // scene and the maps at once. incident.Trace(ray) returns an Incident::Segment,
-  // incident.Look(segments) looks up all of them together, and incident.Read(segment) returns the
+  // incident.LookUp(segments) looks up all of them together, and incident.Read(segment) returns the
   // radiance.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
@@ -87,14 +87,14 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   const ConeMixture cones(guide.axes, cone_);
   const Split& split = SplitFor(guide);
   const Vector3& wo = point.Wo();
-  const RayFan fan(point.surface);
+  const RaySpawner spawner(point.surface);
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
   const auto rays = std::size_t(split.bsdfRays + split.photonRays);
   using Segment = typename Incident::Segment;
-  Segment* const segments = context.arena.template Room<Segment>(rays);
-  Vector3* const directions = context.arena.template Room<Vector3>(rays);
-  Spectrum* const weights = context.arena.template Room<Spectrum>(rays);
+  Segment* const segments = context.arena.template AllocateArray<Segment>(rays);
+  Vector3* const directions = context.arena.template AllocateArray<Vector3>(rays);
+  Spectrum* const weights = context.arena.template AllocateArray<Spectrum>(rays);
   std::size_t count = 0;
   const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
     const Real factor =
@@ -126,8 +126,8 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   }
 
   for (std::size_t i = 0; i < count; ++i)
-    new (segments + i) Segment(incident.Trace(fan.Towards(directions[i])));
-  incident.Look(std::span<Segment>(segments, count));
+    new (segments + i) Segment(incident.Trace(spawner.Spawn(directions[i])));
+  incident.LookUp(std::span<Segment>(segments, count));
   Spectrum gathered;
   for (std::size_t i = 0; i < count; ++i) gathered += weights[i] * incident.Read(segments[i]);
   context.arena.Rewind(mark);

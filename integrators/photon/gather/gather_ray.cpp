@@ -47,13 +47,13 @@ GatherRay::GatherRay(const PhotonMapSet& maps, const RadiancePhotonMap* radiance
       random_(random),
       mappedLobes_(radianceMap ? LobeSet::Diffuse : LobeSet::NonSpecular),
       followedLobes_(LobeSet::None) {
-  const RequiredFeatures& effects = context.scene.Features();
-  if (effects.Needs(Feature::Specular)) followedLobes_ = LobeSet::Specular;
-  if (radianceMap && effects.Needs(Feature::Glossy))
+  const RequiredFeatures& features = context.scene.Features();
+  if (features.Needs(Feature::Specular)) followedLobes_ = LobeSet::Specular;
+  if (radianceMap && features.Needs(Feature::Glossy))
     followedLobes_ = followedLobes_ | LobeSet::Glossy;
 }
 
-void GatherRay::Look(std::span<Segment> segments) const {
+void GatherRay::LookUp(std::span<Segment> segments) const {
   if (!radianceMap_) return;
   constexpr std::size_t kAtOnce = 16;
   RadiancePhotonMap::Place places[kAtOnce];
@@ -91,22 +91,22 @@ Spectrum GatherRay::Along(const Segment& segment) const {
     if (walk.glossyPdf > 0) walk.Add(Emission(walk));
     if (!hit || !hit->material) break;
     walk.Add(FromMaps(&walk));
-  } while (GoOn(&walk));
+  } while (Continue(&walk));
   return walk.radiance;
 }
 
-bool GatherRay::GoOn(Walk* walk) const {
+bool GatherRay::Continue(Walk* walk) const {
   const LobeSet lobes = LobesToFollow(walk->segment);
   if (!Any(lobes)) return false;
   if (!Intersects(lobes, LobeSet::Glossy)) return Bounce(LobeSet::Specular, walk);
   // Play Russian roulette before the BSDF is made, because making it takes as long as tracing a
   // ray. The survival probability is the glossy share of the surface (1 if unknown), from the
   // second glossy bounce on times the throughput.
-  constexpr Real kMostSurvival = Real(.95);  // ends walks where nothing is absorbed
+  constexpr Real kMaxSurvival = Real(.95);  // ends walks where nothing is absorbed
   const auto& entry = walk->segment.entry;
   Real survival = entry && !Intersects(lobes, LobeSet::Specular) ? entry->packed.GlossyShare() : 1;
   if (walk->glossyBounces > 0)
-    survival = std::min(survival * std::min(walk->throughput.Y(), Real(1)), kMostSurvival);
+    survival = std::min(survival * std::min(walk->throughput.Y(), Real(1)), kMaxSurvival);
   if (!(random_->Uniform() < survival)) return false;
   walk->throughput /= survival;
   return Bounce(lobes, walk);
@@ -140,7 +140,7 @@ bool GatherRay::BounceGlossy(const ShadingPoint& point, Walk* walk) const {
   walk->glossyPdf = bounce->pdf;
   ++walk->glossyBounces;
   walk->from = walk->segment.hit->point;
-  walk->segment = TraceAndLook(SpawnRay(walk->from, bounce->wi));
+  walk->segment = TraceAndLookUp(SpawnRay(walk->from, bounce->wi));
   return true;
 }
 
@@ -155,7 +155,7 @@ bool GatherRay::BounceSpecular(const ShadingPoint& point, Walk* walk) const {
   walk->throughput *= bounce->throughput;
   walk->glossyPdf = 0;
   ++walk->specularBounces;
-  walk->segment = TraceAndLook(SpawnRay(walk->segment.hit->point, bounce->wi));
+  walk->segment = TraceAndLookUp(SpawnRay(walk->segment.hit->point, bounce->wi));
   return true;
 }
 

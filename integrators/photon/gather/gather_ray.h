@@ -17,7 +17,7 @@ class GatherRay {
   struct Segment {
     Ray ray;
     std::optional<Scene::HitPoint> hit;
-    std::optional<RadiancePhotonMap::Entry> entry;  // valid for the hit; set by Look
+    std::optional<RadiancePhotonMap::Entry> entry;  // valid for the hit; set by LookUp
   };
 
   // All arguments must outlive this object. Without radiance photons (radianceMap null), all
@@ -31,8 +31,8 @@ class GatherRay {
     return {ray, context_.IntersectPoint(ray, RayKind::Gather), std::nullopt};
   }
   // Finds the radiance photons that are valid for the hits.
-  void Look(std::span<Segment> segments) const;
-  // Returns the radiance arriving along the ray. Look must be called first.
+  void LookUp(std::span<Segment> segments) const;
+  // Returns the radiance arriving along the ray. LookUp must be called first.
   Spectrum Read(const Segment& segment) const { return Along(segment); }
 
  private:
@@ -51,9 +51,9 @@ class GatherRay {
     void Add(const Spectrum& found) { radiance += throughput * found; }
   };
 
-  Segment TraceAndLook(const Ray& ray) const {
+  Segment TraceAndLookUp(const Ray& ray) const {
     Segment segment = Trace(ray);
-    Look({&segment, 1});
+    LookUp({&segment, 1});
     return segment;
   }
   // Returns the lobes at the end of a segment that extend the walk.
@@ -63,7 +63,7 @@ class GatherRay {
   }
   Spectrum Along(const Segment& segment) const;
   // Replaces the segment by the next one. Returns false if the walk ends.
-  bool GoOn(Walk* walk) const;
+  bool Continue(Walk* walk) const;
   // Continues the walk from its hit along one of these lobes. Returns false if the walk ends.
   bool Bounce(LobeSet lobes, Walk* walk) const;
   bool BounceGlossy(const ShadingPoint& point, Walk* walk) const;

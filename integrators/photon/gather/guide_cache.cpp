@@ -24,11 +24,12 @@ Vector3 Within(const Vector3& v) {
 Real ClearlyExceeded(Real n) { return Square((std::sqrt(1 + 8 * n) - 1) / 4); }
 
 // Computes denserThan from the number of other photons within the cone about each direction. Of
-// more than kMost photons, only every n-th is counted; in Hilbert order these are well distributed.
+// more than kMaxCounted photons, only every n-th is counted; in Hilbert order these are well
+// distributed.
 void CompareWithOthers(const ConeDirections& axes, const Cone& cone, Arena* arena,
                        Real* denserThan) {
-  constexpr std::size_t kMost = 1024;
-  const std::size_t step = (axes.size() + kMost - 1) / kMost;
+  constexpr std::size_t kMaxCounted = 1024;
+  const std::size_t step = (axes.size() + kMaxCounted - 1) / kMaxCounted;
   ConeDirections some(axes.size() / step + 1, arena);
   for (std::size_t i = 0; i < axes.size(); i += step) some.Add(axes[i]);
   some.Finish();
@@ -42,11 +43,11 @@ std::uint64_t Bits(Real x) { return std::bit_cast<std::uint64_t>(double(x)); }
 
 }  // namespace
 
-GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& middle, int count,
+GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& center, int count,
                                const Cone& cone, Arena* scratch)
-    : middle_(middle) {
+    : center_(center) {
   const Arena::Mark mark = scratch->GetMark();
-  const NearPoints near = map.Nearest(middle, count, scratch);
+  const NearPoints near = map.Nearest(center, count, scratch);
   if (near.size() == 0) {
     scratch->Rewind(mark);
     return;
@@ -60,7 +61,7 @@ GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& middle, int c
   ConeDirections axes(near.size(), scratch);
   std::size_t i = 0;
   for (const std::uint32_t photon : HilbertOrder(map, near.index, scratch)) {
-    const Vector3 origin = Within(map.Origin(photon) - middle);
+    const Vector3 origin = Within(map.Origin(photon) - center);
     x[i] = origin.x, y[i] = origin.y, z[i] = origin.z;
     axes.Add(NormalizeOr(origin, map.Direction(photon)));
     ++i;
@@ -75,8 +76,8 @@ const GuideCacheCell& GuideCache::At(const Point3& p) {
   Slot& slot = slots_[HashKey({Bits(key.x), Bits(key.y), Bits(key.z)}) % kSlots];
   if (!slot.isUsed || !(slot.key == key)) {
     const Vector3 half(Real(.5), Real(.5), Real(.5));
-    const Point3 middle = Point3() + (Vector3(key.x, key.y, key.z) + half) * width_;
-    slot.cell = GuideCacheCell(map_, middle, count_, cone_, &scratch_);
+    const Point3 center = Point3() + (Vector3(key.x, key.y, key.z) + half) * width_;
+    slot.cell = GuideCacheCell(map_, center, count_, cone_, &scratch_);
     slot.key = key;
     slot.isUsed = true;
   }

@@ -17,27 +17,27 @@ namespace exphoton {
 class GuideCacheCell {
  public:
   GuideCacheCell() = default;
-  GuideCacheCell(const PhotonMap& map, const Point3& middle, int count, const Cone& cone,
+  GuideCacheCell(const PhotonMap& map, const Point3& center, int count, const Cone& cone,
                  Arena* scratch);
 
-  const Point3& Middle() const { return middle_; }
+  const Point3& Center() const { return center_; }
   Real Radius2() const { return radius2_; }  // squared distance of the farthest photon
   std::size_t size() const { return count_; }
-  // Origins of the photons' light, relative to the middle, as a structure of arrays.
+  // Origins of the photons' light, relative to the center, as a structure of arrays.
   const Real* X() const { return rows_.data(); }
-  const Real* Y() const { return X() + Room(); }
-  const Real* Z() const { return Y() + Room(); }
+  const Real* Y() const { return X() + RowLength(); }
+  const Real* Z() const { return Y() + RowLength(); }
   // Per photon: let n be the number of other photons in the cone about its direction, seen from the
-  // middle. The value is the expected count e with n = 2 e + sqrt(e). The cone is over-dense where
+  // center. The value is the expected count e with n = 2 e + sqrt(e). The cone is over-dense where
   // fewer than e photons are expected.
-  const Real* DenserThan() const { return Z() + Room(); }
+  const Real* DenserThan() const { return Z() + RowLength(); }
   // Returns the length of a row: the photon count, padded to a whole number of SIMD vectors.
-  std::size_t Room() const { return rows_.size() / kRows; }
+  std::size_t RowLength() const { return rows_.size() / kRows; }
 
  private:
   static constexpr std::size_t kRows = 4;
 
-  Point3 middle_;
+  Point3 center_;
   Real radius2_ = 0;
   std::size_t count_ = 0;
   std::vector<Real> rows_;

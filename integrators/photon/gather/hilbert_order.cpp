@@ -59,12 +59,14 @@ void SortByDigit(std::span<const Placed> from, std::uint32_t shift, Placed* to) 
 std::span<const std::uint32_t> HilbertOrder(const PhotonMap& map,
                                             std::span<const std::uint32_t> photons, Arena* arena) {
   const std::size_t count = photons.size();
-  Placed *const given = arena->Room<Placed>(count), *const sorted = arena->Room<Placed>(count);
+  Placed *const given = arena->AllocateArray<Placed>(count), *const sorted =
+                                                                 arena->AllocateArray<Placed>(
+                                                                     count);
   for (std::size_t i = 0; i < count; ++i)
     given[i] = {photons[i], LocationOf(map.DirectionCode(photons[i]))};
   SortByDigit({given, count}, 0, sorted);
   SortByDigit({sorted, count}, kBits, given);
-  std::uint32_t* const ordered = arena->Room<std::uint32_t>(count);
+  std::uint32_t* const ordered = arena->AllocateArray<std::uint32_t>(count);
   for (std::size_t i = 0; i < count; ++i) ordered[i] = given[i].photon;
   return {ordered, count};
 }

@@ -31,14 +31,14 @@ GuidedDirections WorthFollowing(const GuideCacheCell& cell, const RestPose& rest
 // LastGuide is the guide of the previous camera sample in the pixel, and its shading point.
 struct LastGuide {
   GuidedDirections directions;
-  Real reach2 = 0;  // squared distance of the farthest photon
+  Real radius2 = 0;  // squared distance of the farthest photon
   Point3 p;
   LitSide side;
 
   // Returns whether the guide is valid at `at`: well within reach, on nearly the same plane.
-  bool Serves(const Point3& at, const LitSide& seen) const {
+  bool IsValidAt(const Point3& at, const LitSide& seen) const {
     constexpr Real kRadii2 = Square(Real(.25)), kMinCosine = Real(.95);
-    return DistanceSquared(at, p) < kRadii2 * reach2 && Dot(seen.ng, side.ng) > kMinCosine &&
+    return DistanceSquared(at, p) < kRadii2 * radius2 && Dot(seen.ng, side.ng) > kMinCosine &&
            Dot(seen.ns, side.ns) > kMinCosine && seen.isTwoSided == side.isTwoSided;
   }
 };
@@ -58,7 +58,7 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
   const Point3& p = point.surface.p;
   const LitSide side(point);
   LastGuide* const last = context.pixelState ? &context.pixelState->Get<LastGuide>() : nullptr;
-  if (last && last->Serves(p, side)) return last->directions;
+  if (last && last->IsValidAt(p, side)) return last->directions;
 
   const RestPose rest(point.surface);
   Arena& arena = context.pixelState ? context.pixelState->FreshArena() : context.arena;

@@ -57,13 +57,13 @@ std::span<const ReprojectedCell::Kernel> ReprojectedCell::Kernels() {
 
 ReprojectedCell::ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side,
                                  Arena* arena)
-    : x(arena->Room<Real>(4 * cell.Room())),
-      y(x + cell.Room()),
-      z(y + cell.Room()),
-      cosine(z + cell.Room()) {
+    : x(arena->AllocateArray<Real>(4 * cell.RowLength())),
+      y(x + cell.RowLength()),
+      z(y + cell.RowLength()),
+      cosine(z + cell.RowLength()) {
   static const Kernel look = Kernels().back();
-  look(cell, p - cell.Middle(), side, this);
-  for (std::size_t i = cell.size(); i < cell.Room(); ++i) x[i] = y[i] = z[i] = cosine[i] = 0;
+  look(cell, p - cell.Center(), side, this);
+  for (std::size_t i = cell.size(); i < cell.RowLength(); ++i) x[i] = y[i] = z[i] = cosine[i] = 0;
 }
 
 }  // namespace exphoton

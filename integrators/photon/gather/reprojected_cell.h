@@ -37,7 +37,7 @@ struct ReprojectedCell {
 
   ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side, Arena* arena);
 
-  // A Kernel computes the arrays as seen from p, which is relative to cell.Middle(). There is one
+  // A Kernel computes the arrays as seen from p, which is relative to cell.Center(). There is one
   // per SIMD target, for tests.
   using Kernel = void (*)(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
                           ReprojectedCell* view);

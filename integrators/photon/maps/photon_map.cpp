@@ -14,7 +14,8 @@ namespace {
 
 NearBuffer BufferFor(std::size_t k, Arena* arena) {
   const std::size_t size = NearBuffer::SizeFor(k);
-  return {{arena->Room<Real>(size), size}, {arena->Room<std::uint32_t>(size), size}};
+  return {{arena->AllocateArray<Real>(size), size},
+          {arena->AllocateArray<std::uint32_t>(size), size}};
 }
 
 }  // namespace

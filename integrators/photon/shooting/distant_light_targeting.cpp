@@ -12,12 +12,12 @@ namespace exphoton {
 namespace {
 
 // Fewer points do not show where photons are wanted.
-constexpr std::size_t kLeastPoints = 16;
+constexpr std::size_t kMinPoints = 16;
 // Radii are enlarged by this factor, because the points are only a sample of the wanted region.
 constexpr Real kMargin = Real(1.5);
 // Radii shrink at most by this factor from level to level, or the density would jump.
-constexpr Real kLeastShrink = Real(.25);
-constexpr int kMostLevels = 64;
+constexpr Real kMinShrink = Real(.25);
+constexpr int kMaxLevels = 64;
 
 Bounds3 BoundsOf(std::span<const Point3> points) {
   Bounds3 bounds;
@@ -36,37 +36,37 @@ double DiskArea(Real radius) { return double(kPi) * double(radius) * double(radi
 }  // namespace
 
 DistantLightTargeting::DistantLightTargeting(std::vector<Point3> wanted, const Sphere3& world,
-                                             double leastShare)
+                                             double minShare)
     : world_(world) {
-  if (wanted.size() < kLeastPoints || !(world.radius > 0)) return;
-  AddLevels(wanted, std::max(leastShare, double(kLeastPoints) / double(wanted.size())));
+  if (wanted.size() < kMinPoints || !(world.radius > 0)) return;
+  AddLevels(wanted, std::max(minShare, double(kMinPoints) / double(wanted.size())));
   std::vector<double> shares{1};  // the world sphere
-  for (const Ball& ball : balls_) shares.push_back(ball.share);
+  for (const TargetSphere& sphere : spheres_) shares.push_back(sphere.share);
   shares_ = DiscreteDistribution(shares);
-  for (Ball& ball : balls_) ball.share /= shares_.Sum();
+  for (TargetSphere& sphere : spheres_) sphere.share /= shares_.Sum();
   gain_ = Gain(wanted);
 }
 
 // A set of points that fits a much smaller sphere gets a chain of shrinking spheres first. Then it
-// is halved, unless a half would hold less than leastShare of the points.
-void DistantLightTargeting::AddLevels(std::span<Point3> wanted, double leastShare) {
+// is halved, unless a half would hold less than minShare of the points.
+void DistantLightTargeting::AddLevels(std::span<Point3> wanted, double minShare) {
   struct Part {
     std::span<Point3> points;
     Real parentRadius;
   };
   std::vector<Part> parts{{wanted, world_.radius}};
-  for (int level = 1; level <= kMostLevels && !parts.empty(); ++level) {
+  for (int level = 1; level <= kMaxLevels && !parts.empty(); ++level) {
     std::vector<Part> next;
     for (const auto& [points, parentRadius] : parts) {
       const Bounds3 bounds = BoundsOf(points);
       const Sphere3 sphere = BoundingSphere(bounds);
-      const Real fitting = sphere.radius * kMargin, smallest = parentRadius * kLeastShrink;
+      const Real fitting = sphere.radius * kMargin, smallest = parentRadius * kMinShrink;
       const Real radius = std::clamp(fitting, smallest, parentRadius);
       const double share = double(points.size()) / double(wanted.size());
-      balls_.push_back({sphere.center - world_.center, radius, share});
+      spheres_.push_back({sphere.center - world_.center, radius, share});
       if (fitting < smallest) {
         next.push_back({points, radius});
-      } else if (share / 2 >= leastShare) {
+      } else if (share / 2 >= minShare) {
         Halve(points, bounds.LongestAxis());
         next.push_back({points.first(points.size() / 2), radius});
         next.push_back({points.subspan(points.size() / 2), radius});
@@ -76,7 +76,7 @@ void DistantLightTargeting::AddLevels(std::span<Point3> wanted, double leastShar
   }
 }
 
-double DistantLightTargeting::Ball::Density(Real distance2) const {
+double DistantLightTargeting::TargetSphere::Density(Real distance2) const {
   if (!(distance2 < radius * radius)) return 0;
   return 2 * double(1 - distance2 / (radius * radius)) * share / DiskArea(radius);
 }
@@ -88,9 +88,9 @@ double DistantLightTargeting::WorldDensity() const {
 double DistantLightTargeting::Density(const Vector3& offset, const Frame& frame) const {
   const Real x = Dot(offset, frame.x), y = Dot(offset, frame.y);
   double density = WorldDensity();
-  for (const Ball& ball : balls_) {
-    const Real dx = x - Dot(ball.center, frame.x), dy = y - Dot(ball.center, frame.y);
-    density += ball.Density(dx * dx + dy * dy);
+  for (const TargetSphere& sphere : spheres_) {
+    const Real dx = x - Dot(sphere.center, frame.x), dy = y - Dot(sphere.center, frame.y);
+    density += sphere.Density(dx * dx + dy * dy);
   }
   return density;
 }
@@ -105,11 +105,11 @@ void DistantLightTargeting::Redirect(LightLeSample* emission, Point2 u) const {
     onPlane = (frame.x * d.x + frame.y * d.y) * world_.radius;
   } else {
     // The CDF over the squared relative radius s is 2 s - s^2.
-    const Ball& ball = balls_[std::size_t(choice.index - 1)];
-    const Real d = ball.radius * SafeSqrt(1 - std::sqrt(1 - choice.remapped));
+    const TargetSphere& sphere = spheres_[std::size_t(choice.index - 1)];
+    const Real d = sphere.radius * SafeSqrt(1 - std::sqrt(1 - choice.remapped));
     const Real phi = 2 * kPi * u.y;
-    onPlane = frame.x * (Dot(ball.center, frame.x) + d * std::cos(phi)) +
-              frame.y * (Dot(ball.center, frame.y) + d * std::sin(phi));
+    onPlane = frame.x * (Dot(sphere.center, frame.x) + d * std::cos(phi)) +
+              frame.y * (Dot(sphere.center, frame.y) + d * std::sin(phi));
   }
   const double density = Density(onPlane, frame);
   // Start slightly outside the world sphere, so that rounding never starts a photon inside a wall
@@ -125,8 +125,8 @@ double DistantLightTargeting::Gain(std::span<const Point3> wanted) const {
   std::vector<double> gains;
   for (const Point3& p : wanted) {
     double density = WorldDensity();
-    for (const Ball& ball : balls_)
-      density += ball.Density(LengthSquared(p - world_.center - ball.center));
+    for (const TargetSphere& sphere : spheres_)
+      density += sphere.Density(LengthSquared(p - world_.center - sphere.center));
     gains.push_back(density * DiskArea(world_.radius));
   }
   const auto middle = gains.begin() + std::ptrdiff_t(gains.size() / 2);

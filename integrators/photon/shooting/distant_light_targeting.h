@@ -24,14 +24,14 @@ namespace exphoton {
 // The power of a photon is multiplied by 1 / (pi R^2 p). No light is lost, because p is at least
 // the first term. The enclosing spheres make p fall off roughly as 1 / distance^2 outside the
 // wanted region, which limits the power of photons that bounce in from outside. Within a disk p is
-// smooth, and leastShare keeps the disks so large that p hardly varies within one density estimate.
+// smooth, and minShare keeps the disks so large that p hardly varies within one density estimate.
 class DistantLightTargeting {
  public:
   DistantLightTargeting() = default;  // empty: no targeting
   // `world` is the bounding sphere that the lights were prepared with. No sphere holds less than
-  // leastShare, in (0,1], of the points, up to rounding. With fewer than 16 points the object is
+  // minShare, in (0,1], of the points, up to rounding. With fewer than 16 points the object is
   // empty.
-  DistantLightTargeting(std::vector<Point3> wanted, const Sphere3& world, double leastShare);
+  DistantLightTargeting(std::vector<Point3> wanted, const Sphere3& world, double minShare);
 
   bool IsEmpty() const { return shares_.IsEmpty(); }
 
@@ -44,22 +44,22 @@ class DistantLightTargeting {
   double Gain() const { return gain_; }
 
  private:
-  struct Ball {
+  struct TargetSphere {
     Vector3 center;  // relative to the world's centre
     Real radius;
     double share;  // of all photons
 
     double Density(Real distance2) const;
   };
-  void AddLevels(std::span<Point3> wanted, double leastShare);  // reorders the points
+  void AddLevels(std::span<Point3> wanted, double minShare);  // reorders the points
   double WorldDensity() const;
   // Density per area at `offset` from the world's centre, in the plane of frame.x and frame.y.
   double Density(const Vector3& offset, const Frame& frame) const;
   double Gain(std::span<const Point3> wanted) const;
 
   Sphere3 world_;
-  std::vector<Ball> balls_;      // without the world sphere
-  DiscreteDistribution shares_;  // of the world sphere, then of balls_
+  std::vector<TargetSphere> spheres_;  // without the world sphere
+  DiscreteDistribution shares_;        // of the world sphere, then of spheres_
   double gain_ = 1;
 };
 

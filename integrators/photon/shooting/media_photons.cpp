@@ -12,7 +12,7 @@ namespace {
 
 // Most boxes for all media together, and per axis of one medium. Emission varies little in a box.
 constexpr int kMaxBoxes = 1 << 16;
-constexpr int kMostPerAxis = 16;
+constexpr int kMaxPerAxis = 16;
 // Share of the choices that is uniform over the boxes, for emission that the box centres miss.
 constexpr double kUniformShare = 0.1;
 
@@ -38,7 +38,7 @@ MediaPhotons::MediaPhotons(const Scene& scene, const VolumeIntegrator* volume) :
   }
   scatters_ = scatters_ && volume && volume->ScattersLight();
   if (emitting == 0 || !volume) return;
-  int perAxis = kMostPerAxis;
+  int perAxis = kMaxPerAxis;
   while (perAxis > 1 && std::int64_t(emitting) * perAxis * perAxis * perAxis > kMaxBoxes) --perAxis;
   std::vector<double> luminances;
   for (const auto& medium : scene.Media())

@@ -20,7 +20,7 @@ namespace exphoton {
 // Largest growth of the power of a photon since its emission. A photon beyond it has hit many
 // surfaces that reflect more than they receive, and its power could overflow sums over the map.
 // Russian roulette never comes near this limit.
-constexpr Real kMostGrowth = Real(std::uint64_t(1) << 40);
+constexpr Real kMaxGrowth = Real(std::uint64_t(1) << 40);
 
 // Path follows one photon path to its end, and stores photons for the `open` maps in the chunk.
 class PhotonTracer::Path {
@@ -127,8 +127,8 @@ class PhotonTracer::Path {
     light_ = choice.index;
     auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
     if (!emission) return false;
-    if (!tracer_.aim_.IsEmpty() && choice.light->IsDistant())
-      tracer_.aim_.Redirect(&*emission, uPosition);
+    if (!tracer_.targeting_.IsEmpty() && choice.light->IsDistant())
+      tracer_.targeting_.Redirect(&*emission, uPosition);
     *ray = RayDifferential(emission->ray);
     // docs/theory/exphotonmap.md, eq. 3
     return Begin(emission->power / (choice.probability * (1 - tracer_.mediaShare_)));
@@ -148,7 +148,7 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
-    emittedMost_ = alpha_.MaxComponent();
+    maxEmitted_ = alpha_.MaxComponent();
     chunk_->emittedPower += double(alpha_.Y());
     return alpha_.MaxComponent() > 0;
   }
@@ -204,7 +204,7 @@ class PhotonTracer::Path {
       Drop();
       return false;
     }
-    if (alpha_.MaxComponent() / kMostGrowth > emittedMost_) {  // the division cannot overflow
+    if (alpha_.MaxComponent() / kMaxGrowth > maxEmitted_) {  // the division cannot overflow
       ++chunk_->overgrown;
       return false;
     }
@@ -245,7 +245,7 @@ class PhotonTracer::Path {
       false;  // a medium emitted the photon, or scattered it on its way from the light
   std::int64_t stored_ = 0;  // photon count
   Spectrum alpha_;
-  Real emittedMost_ = 0;
+  Real maxEmitted_ = 0;
   Real distance_ = 0;            // path length since the light or the last non-specular scattering
   bool isSpecularPath_ = false;  // every bounce so far was specular
 };
@@ -261,36 +261,37 @@ Real FarthestDistance(const Scene& scene) {
 }
 
 // A targeted light needs fewer photons, in inverse proportion to the gain in density.
-std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting& aim) {
+std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting& targeting) {
   std::vector<double> factors(scene.Lights().size(), 1.0);
-  if (aim.IsEmpty()) return factors;
+  if (targeting.IsEmpty()) return factors;
   for (std::size_t i = 0; i < factors.size(); ++i)
-    if (scene.Lights()[i]->IsDistant()) factors[i] = 1 / std::max(aim.Gain(), 1.0);
+    if (scene.Lights()[i]->IsDistant()) factors[i] = 1 / std::max(targeting.Gain(), 1.0);
   return factors;
 }
 
-// Returns the share of paths that begin in media: by power, but at least kLeast for both sources.
+// Returns the share of paths that begin in media: by power, but at least kMinShare for both
+// sources.
 Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightDistribution& lights) {
-  constexpr double kLeast = .05;
+  constexpr double kMinShare = .05;
   if (!media.Emit()) return 0;
   if (lights.IsEmpty()) return 1;
   double power = 0;
   for (const auto& light : scene.Lights()) power += UsablePower(*light);
   const double sum = power + media.EmittedPower();
-  return Real(std::clamp(sum > 0 ? media.EmittedPower() / sum : .5, kLeast, 1 - kLeast));
+  return Real(std::clamp(sum > 0 ? media.EmittedPower() / sum : .5, kMinShare, 1 - kMinShare));
 }
 
 }  // namespace
 
 PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
-                           DistantLightTargeting aim, MediaPhotons media)
+                           DistantLightTargeting targeting, MediaPhotons media)
     : scene_(scene),
       settings_(settings),
       seed_(seed),
-      aim_(std::move(aim)),
+      targeting_(std::move(targeting)),
       media_(std::move(media)),
       lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
-              ShareFactors(scene, aim_)),
+              ShareFactors(scene, targeting_)),
       mediaShare_(MediaShare(scene, media_, lights_)),
       specularBoxes_(scene.Features().Needs(Feature::Specular) ? SpecularBoxes(scene)
                                                                : SpecularBoxes()),
@@ -371,7 +372,7 @@ std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, doub
   // map is not overfilled.
   const double needed = filled > 0 ? double(paths) * (1 - filled) / filled : 0;
   std::int64_t most = kMaxBatchPaths;
-  while (most < kLargestBatchPaths && double(4 * most) <= needed) most *= 2;
+  while (most < kMaxGrownBatchPaths && double(4 * most) <= needed) most *= 2;
   return std::min(2 * last, most);
 }
 

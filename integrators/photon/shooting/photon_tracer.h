@@ -73,7 +73,7 @@ struct PhotonChunk;
 class PhotonTracer {
  public:
   PhotonTracer(const Scene& scene, const PhotonSettings& settings, std::uint64_t seed,
-               DistantLightTargeting aim = {}, MediaPhotons media = {});
+               DistantLightTargeting targeting = {}, MediaPhotons media = {});
 
   // Traces until every requested map is full, has used maxphotonpaths, or has stored nothing in its
   // first kFruitlessPaths.
@@ -84,7 +84,7 @@ class PhotonTracer {
   static constexpr int kChunkPaths = 64;
   // Largest batch while a map may soon be full, and while all maps are far from full.
   static constexpr std::int64_t kMaxBatchPaths = 4096;
-  static constexpr std::int64_t kLargestBatchPaths = 65536;
+  static constexpr std::int64_t kMaxGrownBatchPaths = 65536;
 
  private:
   class Path;
@@ -104,7 +104,7 @@ class PhotonTracer {
   const Scene& scene_;
   PhotonSettings settings_;
   std::uint64_t seed_;
-  DistantLightTargeting aim_;
+  DistantLightTargeting targeting_;
   MediaPhotons media_;
   LightDistribution lights_;
   Real mediaShare_;  // share of the paths that begin in a medium

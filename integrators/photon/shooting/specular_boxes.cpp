@@ -46,7 +46,7 @@ SpecularBoxes::SpecularBoxes(const Scene& scene) {
         !primitives.Bounds(id).IsEmpty())
       parts.push_back(primitives.Bounds(id));
   if (parts.empty()) return;
-  Split(parts, kMostBoxes, &boxes_);
+  Split(parts, kMaxBoxes, &boxes_);
   const Vector3 margin = MarginOf(scene.WorldBounds());
   for (Bounds3& box : boxes_) {
     box.min = box.min - margin;

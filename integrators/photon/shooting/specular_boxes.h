@@ -14,7 +14,7 @@ namespace exphoton {
 class SpecularBoxes {
  public:
   // More boxes bound the surfaces more tightly, but take longer to test.
-  static constexpr int kMostBoxes = 16;
+  static constexpr int kMaxBoxes = 16;
 
   SpecularBoxes() = default;  // no boxes: every ray passes by
   explicit SpecularBoxes(const Scene& scene);

@@ -11,7 +11,7 @@ namespace exphoton {
 namespace {
 
 constexpr std::uint32_t kCameraRays = 1024;
-constexpr int kMostSpecularBounces = 16;
+constexpr int kMaxSpecularBounces = 16;
 constexpr std::uint64_t kFilmKey = 0x7365656e31ull, kLensKey = 0x7365656e32ull,
                         kStreamKey = 0x7365656e33ull, kTimeKey = 0x7365656e34ull;
 
@@ -22,7 +22,7 @@ class VisiblePointTracer {
 
   // Returns the first hit with a non-specular lobe, following specular bounces.
   std::optional<ShadingPoint> Follow(RayDifferential ray) {
-    for (int bounces = 0; bounces <= kMostSpecularBounces; ++bounces) {
+    for (int bounces = 0; bounces <= kMaxSpecularBounces; ++bounces) {
       const auto surface = scene_.Intersect(ray);
       if (!surface) return std::nullopt;
       const ShadingPoint point =

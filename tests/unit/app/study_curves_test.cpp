@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check Pareto fronts, times to an error and costs of knobs, on points made by hand.
+// These tests check Pareto fronts, times to an error and costs of parameters, on points made by
+// hand.
 #include "core/app/analysis/curves.h"
 
 #include <gtest/gtest.h>

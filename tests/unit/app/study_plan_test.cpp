@@ -46,12 +46,12 @@ TEST(StudyPlan, GivesEveryHalfOfEveryRoundOfAReferenceASeedOfItsOwn) {
 }
 
 TEST(StudyPlan, ReadsKnobsAndBudgets) {
-  const Knob knob = ParseKnob("path:spp=1,4, 16");
-  EXPECT_EQ(knob.integrator, "path");
-  EXPECT_EQ(knob.parameter, "spp");
-  EXPECT_EQ(knob.values, (std::vector<std::string>{"1", "4", "16"}));
-  EXPECT_THROW(ParseKnob("spp"), std::invalid_argument);
-  EXPECT_THROW(ParseKnob("spp=,"), std::invalid_argument);
+  const VariedParameter varied = ParseVariedParameter("path:spp=1,4, 16");
+  EXPECT_EQ(varied.integrator, "path");
+  EXPECT_EQ(varied.parameter, "spp");
+  EXPECT_EQ(varied.values, (std::vector<std::string>{"1", "4", "16"}));
+  EXPECT_THROW(ParseVariedParameter("spp"), std::invalid_argument);
+  EXPECT_THROW(ParseVariedParameter("spp=,"), std::invalid_argument);
   EXPECT_EQ(ParseBudgets("1,4,16s"), (std::vector<double>{1, 4, 16}));
   EXPECT_EQ(ParseBudgets("1,2m"), (std::vector<double>{60, 120}));
   EXPECT_EQ(ParseSeconds("1.5h"), 5400);
@@ -62,7 +62,8 @@ TEST(StudyPlan, ReadsKnobsAndBudgets) {
 TEST(StudyPlan, MultipliesKnobsWhereTheyApply) {
   StudyPlan plan;
   plan.bases = {ParseSetting("photonmap"), ParseSetting("path")};
-  plan.knobs = {ParseKnob("spp=1,4"), ParseKnob("indirectphotons=10,20"), ParseKnob("path:spp=64")};
+  plan.varied = {ParseVariedParameter("spp=1,4"), ParseVariedParameter("indirectphotons=10,20"),
+                 ParseVariedParameter("path:spp=64")};
   EXPECT_EQ(Texts(ExpandPlan(plan, Oracle())),
             (std::vector<std::string>{"photonmap: spp=1 indirectphotons=10",
                                       "photonmap: spp=1 indirectphotons=20",
@@ -75,8 +76,8 @@ TEST(StudyPlan, AKnobOfOneIntegratorWinsOverThatOfAllInAnyOrder) {
   for (const bool isSpecialFirst : {false, true}) {
     StudyPlan plan;
     plan.bases = {ParseSetting("path"), ParseSetting("photonmap")};
-    plan.knobs = {ParseKnob("spp=1"), ParseKnob("path:spp=64")};
-    if (isSpecialFirst) std::swap(plan.knobs[0], plan.knobs[1]);
+    plan.varied = {ParseVariedParameter("spp=1"), ParseVariedParameter("path:spp=64")};
+    if (isSpecialFirst) std::swap(plan.varied[0], plan.varied[1]);
     EXPECT_EQ(Texts(ExpandPlan(plan, Oracle())), expected) << isSpecialFirst;
   }
 }
@@ -84,7 +85,7 @@ TEST(StudyPlan, AKnobOfOneIntegratorWinsOverThatOfAllInAnyOrder) {
 TEST(StudyPlan, AWordOfASettingWinsOverKnobs) {
   StudyPlan plan;
   plan.bases = {ParseSetting("path spp=2")};
-  plan.knobs = {ParseKnob("spp=1,4"), ParseKnob("maxdepth=5,100")};
+  plan.varied = {ParseVariedParameter("spp=1,4"), ParseVariedParameter("maxdepth=5,100")};
   plan.bases.push_back(ParseSetting("path"));
   const std::vector<std::string> texts = Texts(ExpandPlan(plan, Oracle()));
   EXPECT_EQ(texts.size(), 6u);
@@ -97,7 +98,7 @@ TEST(StudyPlan, BudgetsAreTimesAndAKnobThatAppliesToNothingIsAnError) {
   plan.budgets = {1, 4};
   EXPECT_EQ(Texts(ExpandPlan(plan, Oracle())),
             (std::vector<std::string>{"path: time=1", "path: time=4"}));
-  plan.knobs = {ParseKnob("indirectphotons=10")};
+  plan.varied = {ParseVariedParameter("indirectphotons=10")};
   EXPECT_THROW(ExpandPlan(plan, Oracle()), std::invalid_argument);
 }
 

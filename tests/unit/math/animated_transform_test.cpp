@@ -75,9 +75,9 @@ TEST(Polar, TurnsComeBackFromTheirMatrices) {
     const Transform rotation = *Transform::Rotate(degrees, RandomVector(random));
     Matrix3 matrix;
     for (std::size_t j = 0; j < 9; ++j) matrix[j / 3][j % 3] = rotation.Matrix().m[j / 3][j % 3];
-    const Turn turn = TurnOf(matrix);
-    EXPECT_NEAR(turn.angle, degrees * (3.14159265358979323846 / 180), 1e-9);
-    const Matrix3 again = RotationOf(turn);
+    const AxisAngle axisAngle = AxisAngleOf(matrix);
+    EXPECT_NEAR(axisAngle.angle, degrees * (3.14159265358979323846 / 180), 1e-9);
+    const Matrix3 again = RotationOf(axisAngle);
     for (std::size_t j = 0; j < 9; ++j)
       EXPECT_NEAR(again[j / 3][j % 3], matrix[j / 3][j % 3], 1e-9);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check rays that leave surfaces: RayFan must make the same rays as SpawnRay.
+// These tests check rays that leave surfaces: RaySpawner must make the same rays as SpawnRay.
 #include "core/geometry/ray.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(SpawnRayTo, KeepsTheTimeOfItsOrigin) {
   EXPECT_EQ(SpawnRay(from, {0, 0, 1}).time, Real(.75));
 }
 
-TEST(RayFan, MakesTheRaysThatAreSpawnedOneByOne) {
+TEST(RaySpawner, MakesTheRaysThatAreSpawnedOneByOne) {
   RandomStream random(3);
   const auto direction = [&] { return SampleUniformSphere({random.Uniform(), random.Uniform()}); };
   for (int i = 0; i < 100; ++i) {
@@ -27,10 +27,10 @@ TEST(RayFan, MakesTheRaysThatAreSpawnedOneByOne) {
     point.pError = Abs(direction()) * Real(1e-6);
     if (i % 10) point.ng = direction();  // otherwise the point is on no surface
     point.time = random.Uniform();
-    const RayFan fan(point);
+    const RaySpawner spawner(point);
     for (int j = 0; j < 10; ++j) {
       const Vector3 w = direction();
-      const Ray expected = SpawnRay(point, w), ray = fan.Towards(w);
+      const Ray expected = SpawnRay(point, w), ray = spawner.Spawn(w);
       EXPECT_EQ(ray.o, expected.o);
       EXPECT_EQ(ray.d, expected.d);
       EXPECT_EQ(ray.tMax, expected.tMax);

@@ -42,7 +42,7 @@ TEST(DistantLightTargeting, OfTooFewPointsIsNone) {
 // points the error is about .2 %, and 1 % in far parts.
 TEST(DistantLightTargeting, LosesNoPowerAnywhere) {
   const Point3 wanted = kWorld.center + Vector3{300, 200, 0};
-  const DistantLightTargeting aim(Square(wanted, 4, 500), kWorld, kShare);
+  const DistantLightTargeting targeting(Square(wanted, 4, 500), kWorld, kShare);
   const Frame frame = Frame::FromZ(-kDown);
   struct Part {
     Point3 center;
@@ -58,7 +58,7 @@ TEST(DistantLightTargeting, LosesNoPowerAnywhere) {
   std::vector<double> power(std::size(parts), 0.0);
   for (std::uint32_t i = 0; i < kCount; ++i) {
     LightLeSample emission = Uniform();
-    aim.Redirect(&emission, ScrambledSobol2(i, 11));
+    targeting.Redirect(&emission, ScrambledSobol2(i, 11));
     EXPECT_NEAR(double(emission.pdfPosition * emission.power.r), 1, 1e-4);
     for (std::size_t k = 0; k < std::size(parts); ++k) {
       const Vector3 d = emission.ray.o - parts[k].center;
@@ -76,28 +76,29 @@ TEST(DistantLightTargeting, LosesNoPowerAnywhere) {
 // is close to it.
 TEST(DistantLightTargeting, GainsWhatPhotonsThatStartOverTheWantedPointsAreDenser) {
   for (const Real side : {Real(2), Real(20), Real(200)}) {
-    const DistantLightTargeting aim(Square(kWorld.center, side, 1000), kWorld, kShare);
+    const DistantLightTargeting targeting(Square(kWorld.center, side, 1000), kWorld, kShare);
     constexpr std::uint32_t kCount = 1 << 16;
     int over = 0;
     for (std::uint32_t i = 0; i < kCount; ++i) {
       LightLeSample emission = Uniform();
       emission.ray.d = {0, 0, -1};
-      aim.Redirect(&emission, ScrambledSobol2(i, 5));
+      targeting.Redirect(&emission, ScrambledSobol2(i, 5));
       const Vector3 d = emission.ray.o - kWorld.center;
       over += std::max(std::abs(d.x), std::abs(d.y)) < side / 2;
     }
     const double share = double(side) * double(side) / (double(kPi) * 1e6);
-    EXPECT_NEAR(over / (kCount * share) / aim.Gain(), 1, .15) << side;
-    EXPECT_GT(aim.Gain(), 1 / (20 * share)) << side;  // a twentieth of the largest possible gain
+    EXPECT_NEAR(over / (kCount * share) / targeting.Gain(), 1, .15) << side;
+    EXPECT_GT(targeting.Gain(), 1 / (20 * share))
+        << side;  // a twentieth of the largest possible gain
   }
   EXPECT_LT(DistantLightTargeting(Square(kWorld.center, 1800, 1000), kWorld, kShare).Gain(), 4);
 }
 
 TEST(DistantLightTargeting, OfPointsOnOneSpotIsFinite) {
-  const DistantLightTargeting aim(std::vector<Point3>(1000, kWorld.center), kWorld, kShare);
+  const DistantLightTargeting targeting(std::vector<Point3>(1000, kWorld.center), kWorld, kShare);
   for (std::uint32_t i = 0; i < 1000; ++i) {
     LightLeSample emission = Uniform();
-    aim.Redirect(&emission, ScrambledSobol2(i, 3));
+    targeting.Redirect(&emission, ScrambledSobol2(i, 3));
     EXPECT_TRUE(emission.power.IsFinite());
     EXPECT_GT(emission.pdfPosition, 0);
   }

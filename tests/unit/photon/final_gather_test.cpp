@@ -26,7 +26,7 @@ class Sky {
     Vector3 d;
   };
   Segment Trace(const Ray& ray) const { return {ray.d}; }
-  void Look(std::span<Segment>) const {}
+  void LookUp(std::span<Segment>) const {}
   Spectrum Read(const Segment& segment) const { return Spectrum(radiance_(segment.d)); }
 
  private:

@@ -69,7 +69,7 @@ class PaneTest : public testing::Test {
     ray.o = o;
     ray.d = d;
     auto segment = gather.Trace(ray);
-    gather.Look({&segment, 1});
+    gather.LookUp({&segment, 1});
     const double radiance = double(gather.Read(segment).g);
     const double radius2 = segment.entry ? double(segment.entry->radius2) : 0;
     return {radiance, std::sqrt(radius2), aovs.radiancePhotonsRead};

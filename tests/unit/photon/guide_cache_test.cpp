@@ -41,7 +41,7 @@ PhotonMap LampMap(int count = 1000) {
 
 std::vector<Real> Content(const GuideCacheCell& cell) {
   std::vector<Real> content(cell.X(), cell.X() + 4 * cell.size());
-  for (const Real x : {cell.Middle().x, cell.Middle().y, cell.Middle().z}) content.push_back(x);
+  for (const Real x : {cell.Center().x, cell.Center().y, cell.Center().z}) content.push_back(x);
   return content;
 }
 
@@ -64,8 +64,8 @@ TEST(GuideCache, AreSharedByThePointsInThem) {
   GuideCache cells(map, kCount, kCone, kWidth);
   const GuideCacheCell* const cell = &cells.At({Real(.51), Real(.51), Real(.01)});
   EXPECT_EQ(cell, &cells.At({Real(.74), Real(.74), Real(.2)}));
-  EXPECT_NEAR(cell->Middle().x, .625, 1e-6);
-  EXPECT_NEAR(cell->Middle().z, .125, 1e-6);
+  EXPECT_NEAR(cell->Center().x, .625, 1e-6);
+  EXPECT_NEAR(cell->Center().z, .125, 1e-6);
 }
 
 TEST(GuideCache, HoldFewerPhotonsWhereThereAreFewer) {
@@ -135,9 +135,9 @@ TEST(ReprojectedCell, IsTheSameWithEveryWidthOfVectors) {
     Arena arena;
     const LitSide side(Normalize(Normal3(1, 0, Real(.3))), Normalize(Normal3(1, 1, 0)), false);
     ReprojectedCell first(cell, p, side, &arena), other(cell, p, side, &arena);
-    ReprojectedCell::Kernels().front()(cell, p - cell.Middle(), side, &first);
+    ReprojectedCell::Kernels().front()(cell, p - cell.Center(), side, &first);
     for (const ReprojectedCell::Kernel look : ReprojectedCell::Kernels()) {
-      look(cell, p - cell.Middle(), side, &other);
+      look(cell, p - cell.Center(), side, &other);
       EXPECT_EQ(other.lit, first.lit);
       for (std::size_t i = 0; i < 4 * cell.size(); ++i) ASSERT_EQ(other.x[i], first.x[i]);
     }

@@ -181,7 +181,7 @@ TEST(PointTree, FindsTheDiskThatBruteForceFindsWhereAllAreAsNear) {
   for (TestDisk& disk : disks) {
     const Vector3 w = NormalizeOr(disk.p - Point3(Real(.5), Real(.5), Real(.5)), {1, 0, 0});
     disk.p = Point3() + w * (1 + Real(.001) * random.Uniform());
-    disk.reach2 = 4;
+    disk.radius2 = 4;
     disk.direction = EncodeOctahedral({0, 0, 1});
   }
   const TestPointTree tree(disks);
@@ -304,9 +304,9 @@ TEST(Octahedral, WithANoteKeepsItAndStaysClose) {
     if (i % 4 == 0) v[i / 4 % 3] = 0;  // on the folds and edges of the octahedral map
     if (i % 8 == 0) v[i / 8 % 3] = 0;
     v = NormalizeOr(v, {0, 0, -1});
-    const auto note = std::uint8_t(i);
-    const std::uint32_t code = EncodeOctahedral(v, note);
-    ASSERT_EQ(OctahedralPayload(code), note);
+    const auto payload = std::uint8_t(i);
+    const std::uint32_t code = EncodeOctahedral(v, payload);
+    ASSERT_EQ(OctahedralPayload(code), payload);
     ASSERT_LT(Distance(DecodeOctahedral(code), v), 1.2e-3);
   }
 }
