@@ -251,7 +251,8 @@ TEST_F(Stranger, LimitsEndWhatTakesTooLongToPrepare) {
                    "Shape \"sphere\" \"float radius\" 50"));
   const ProgramResult result = Run({"scene.pbrt", "--nthreads", "1", "--limits", "time=0.5"});
   EXPECT_EQ(result.status, 4) << result.err;
-  EXPECT_NE(result.err.find("longer than --limits allows"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("the time limit of --limits is exceeded"), std::string::npos)
+      << result.err;
   EXPECT_LT(result.seconds, 20);
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
   // The time limit applies to preparation only, not to rendering.

@@ -126,7 +126,7 @@ TEST_F(StudyTest, GoesOnAfterAnInterruptionWithTheSamePictures) {
   EXPECT_LT(CountFiles("broken/images", ".json"), 12u);
   const ProgramResult again = Run(SlowOptions("broken"));
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_NE(again.err.find("renders were there already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("renders existed already"), std::string::npos) << again.err;
   EXPECT_EQ(Pictures("broken"), Pictures("whole"));
 }
 

@@ -207,7 +207,7 @@ TEST(Motion, WarnsOfTurnsThatAreNotMeantSo) {
     return BuildText(InWorld(kEnd + turn + " Shape \"sphere\"")).Messages();
   };
   EXPECT_EQ(said("Rotate 90 0 0 1").find("turn"), std::string::npos);
-  EXPECT_NE(said("Rotate 180 0 0 1").find("turns by half a turn"), std::string::npos);
+  EXPECT_NE(said("Rotate 180 0 0 1").find("rotates by half a turn"), std::string::npos);
   EXPECT_NE(said("Rotate 360000 0 0 1").find("by more than half a turn"), std::string::npos);
 }
 

@@ -299,8 +299,8 @@ TEST(SceneBuilder, NamesTheVolumesAndVolumeIntegratorsThatThereAre) {
       << volume.error;
   const BuiltScene integrator = BuildText("VolumeIntegrator \"singel\"\n" + kBegin + "WorldEnd");
   EXPECT_NE(
-      integrator.error.find("1:1: error: there is no volume integrator \"singel\"; those that "
-                            "there are: emission, single"),
+      integrator.error.find("1:1: error: there is no volume integrator \"singel\"; available: "
+                            "emission, single"),
       std::string::npos)
       << integrator.error;
 }

@@ -332,8 +332,8 @@ TEST_F(Loader, AliasesStandForTheirPlugins) {
   EXPECT_TRUE(log_.Messages().empty());
   EXPECT_STREQ(registry.Load(PluginKind::Sampler, "bestcandidate", {}).name, "lowdiscrepancy");
   EXPECT_EQ(log_.Messages(),
-            std::vector<std::string>{"exphoton: note: sampler \"bestcandidate\" does not exist "
-                                     "yet: \"lowdiscrepancy\" takes its place\n"});
+            std::vector<std::string>{"exphoton: note: sampler \"bestcandidate\" is not "
+                                     "available: \"lowdiscrepancy\" is used instead\n"});
 }
 
 TEST_F(Loader, FoldersComeFromTheCommandLineTheEnvironmentAndTheProgram) {

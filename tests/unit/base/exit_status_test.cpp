@@ -64,7 +64,7 @@ TEST(ExitStatus, OfWhatTheMachineLacksIsFour) {
   const std::string lacks = "memory";
   ExpectStatus(4, std::bad_alloc(), lacks);
   ExpectStatus(4, std::bad_array_new_length(), lacks);
-  ExpectStatus(4, std::length_error("vector::reserve"), "larger than any memory");
+  ExpectStatus(4, std::length_error("vector::reserve"), "larger than the address space");
   const auto noMemory = std::make_error_code(std::errc::not_enough_memory);
   ExpectStatus(4, std::system_error(noMemory), lacks);
   ExpectStatus(4, std::filesystem::filesystem_error("read", noMemory), lacks);

@@ -295,8 +295,8 @@ TEST_F(Params, ANameOfASiblingIsANoticeEvenUnderStrict) {
   Table().Bind(Parse("\"integer photons\" 3"), context);
   ASSERT_EQ(log_.Messages().size(), 1u);
   EXPECT_EQ(log_.WarningCount(), 0);
-  EXPECT_NE(log_.Messages()[0].find("note: parameter \"photons\" does not apply to shape \"x\": it "
-                                    "is of another plugin of this kind\n"),
+  EXPECT_NE(log_.Messages()[0].find("note: parameter \"photons\" does not apply to shape \"x\"; "
+                                    "another plugin of this kind has it\n"),
             std::string::npos);
 }
 

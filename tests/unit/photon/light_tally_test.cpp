@@ -69,7 +69,7 @@ TEST(LightTally, TellsALightThatMeetsOnlyMirrorsFromOneThatMissesTheScene) {
       "LightSource \"point\" \"color I\" [90 90 90] \"point from\" [0 0 -20]\n";
   const TestRender render = Render(kLamp + mirrors + kFloor);
   EXPECT_TRUE(render.Says("light 2 (point) has shot "));
-  EXPECT_TRUE(render.Says("they met surfaces, but left nothing"));
+  EXPECT_TRUE(render.Says("they hit surfaces, but left no photons"));
 }
 
 TEST(LightTally, IsSilentAboutLightsThatOnlyCauseNoCaustics) {
