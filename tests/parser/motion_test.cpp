@@ -180,7 +180,7 @@ TEST(Motion, IsRefusedWithItsPlaceWhereThereIsNone) {
 TEST(Motion, OfTheCameraIsRefusedWithItsPlace) {
   const BuiltScene built =
       BuildText(kEnd + "Scale -1 1 1\n" + kAll + "Camera \"perspective\" " + InWorld(""));
-  EXPECT_NE(built.error.find("scene.pbrt:2:21: error: the camera cannot move so"),
+  EXPECT_NE(built.error.find("scene.pbrt:2:21: error: the camera cannot move this way"),
             std::string::npos)
       << built.error;
 }
