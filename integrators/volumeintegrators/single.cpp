@@ -3,7 +3,7 @@
 // At each step it chooses one light by power (half of the choices are uniform) and samples one
 // point on it.
 #include "core/lights/light_distribution.h"
-#include "integrators/volume/common/march.h"
+#include "integrators/volumeintegrators/common/march.h"
 
 namespace exphoton {
 namespace {
@@ -54,6 +54,8 @@ class SingleScattering final : public VolumeIntegrator {
   LightDistribution lights_;
 };
 
+const ParamTable<MarchSettings>& Parameters() { return MarchParameters(); }
+
 std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const NoContext&) {
   return std::make_unique<SingleScattering>(settings);
 }
@@ -61,6 +63,4 @@ std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const No
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("single", "media emit, absorb and scatter light once",
-                exphoton::MakeFactory<exphoton::PluginKind::VolumeIntegrator>(
-                    exphoton::MarchParameters(), exphoton::Create))
+EXPHOTON_VOLUME_INTEGRATOR("single", "media emit, absorb and scatter light once")
