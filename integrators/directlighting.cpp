@@ -3,7 +3,6 @@
 // by the power heuristic) and specular recursion, but no interreflection. The strategies have the
 // same mean: "all" samples every light; "one" picks one light per camera sample, uniformly;
 // "weighted" picks it in proportion to power; "near" picks one per point, by power and distance.
-#include "core/lights/light_distribution.h"
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/specular_tree.h"
@@ -39,8 +38,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
   void Preprocess(const Scene& scene, PreprocessContext&) override {
     if (!ChoosesForSample()) return;
     const bool byPower = settings_.strategy == Strategy::Weighted;
-    distribution_ = LightDistribution(scene.Lights(),
-                                      byPower ? LightSelection::Power : LightSelection::Uniform);
+    lights_ = scene.MakeLightSampler(byPower ? LightSelection::Power : LightSelection::Uniform);
   }
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
     if (!ChoosesForSample()) {
@@ -71,9 +69,9 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
 
   Spectrum DirectLight(const ShadingPoint& point, LiContext& context) const {
     if (!ChoosesForSample()) return direct_.AllLights(point, context);
-    if (distribution_.IsEmpty()) return {};
+    if (lights_->IsEmpty()) return {};
     const CameraSamples& samples = context.samples;
-    const auto choice = distribution_.Sample(samples.Array1D(arrays_.choice1D)[0]);
+    const auto choice = lights_->Sample(point.surface.p, samples.Array1D(arrays_.choice1D)[0]);
     const DirectLightingVariates sample{
         samples.Array2D(arrays_.light2D)[0], samples.Array1D(arrays_.part1D)[0],
         samples.Array2D(arrays_.bsdf2D)[0], samples.Array1D(arrays_.lobe1D)[0]};
@@ -82,7 +80,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
 
   Settings settings_;
   DirectLighting direct_;
-  LightDistribution distribution_;
+  std::unique_ptr<const LightSampler> lights_;  // null unless ChoosesForSample()
   OneLightArrays arrays_;
 };
 

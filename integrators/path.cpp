@@ -9,7 +9,6 @@
 #include "core/math/sampling/mis.h"
 #include "core/plugin.h"
 #include "core/transport/light_sample.h"
-#include "core/transport/light_sampler.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
@@ -118,7 +117,7 @@ class PathIntegrator final : public SurfaceIntegrator {
   explicit PathIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
-    lights_ = LightSampler(scene);
+    lights_ = scene.MakeLightSampler(LightSelection::Auto);
   }
 
   void RequestSamples(const Scene&, const Sampler&, SampleLayout* layout) override {
@@ -229,7 +228,7 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
   Real BsdfWeight(const PathState& path, const Light& light, const SurfacePoint* on) const {
     const Real lightPdf =
-        lights_.Probability(path.from.p, light) * light.PdfDirect(path.from, path.ray.d, on);
+        lights_->Pmf(path.from.p, light) * light.PdfDirect(path.from, path.ray.d, on);
     return PowerHeuristic(1, path.bsdfPdf, 1, lightPdf);
   }
 
@@ -238,12 +237,11 @@ class PathIntegrator final : public SurfaceIntegrator {
     return scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular;
   }
 
-  // Next event estimation with one light. LightSampler chooses it by power (half of the choices are
-  // uniform), or by the light tree if there are many lights.
+  // Next event estimation with one light, chosen as LightSelection::Auto describes.
   Spectrum DirectLight(const ShadingPoint& point, const PathVertexVariates& sample,
                        LiContext& context) const {
-    if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-    const auto choice = lights_.Sample(point.surface.p, sample.lightChoice);
+    if (lights_->IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
+    const auto choice = lights_->Sample(point.surface.p, sample.lightChoice);
     return FromLightSample(point,
                            {choice.light, choice.probability, sample.light, sample.lightPart}, {},
                            Lobes(context.scene), context);
@@ -283,7 +281,7 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
 
   int maxDepth_;
-  LightSampler lights_;
+  std::unique_ptr<const LightSampler> lights_;
   std::array<VertexArrays, kSampledVertices> arrays_;
 };
 

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace exphoton {
 namespace {
@@ -22,9 +23,10 @@ bool IsContinuationByte(char c) { return (static_cast<unsigned char>(c) & 0xC0) 
 
 // Returns the line, and below it a caret under the column. Tabs are kept in both lines, so that
 // they align. A control byte could disturb the terminal and is shown as '?'. A long line is cut to
-// an excerpt around the column.
+// an excerpt around the column. The '\r' of a line end "\r\n" is left out.
 std::string LineWithCaret(const SourceLocation& where) {
-  const std::string& line = where.lineText;
+  std::string_view line = where.lineText;
+  if (line.ends_with('\r')) line.remove_suffix(1);
   const std::size_t column =
       std::min(where.column > 0 ? std::size_t(where.column - 1) : 0, line.size());
   std::size_t begin = 0, end = line.size();
@@ -41,9 +43,6 @@ std::string LineWithCaret(const SourceLocation& where) {
     const bool isControl = (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;
     shown += isControl ? '?' : c;
     if (i < column && !IsContinuationByte(c)) caret += c == '\t' ? '\t' : ' ';
-  }
-  while (!isCutAfter && !shown.empty() && (shown.back() == ' ' || shown.back() == '?')) {
-    shown.pop_back();  // the '\r' of "\r\n"
   }
   return shown + (isCutAfter ? "...\n" : "\n") + caret + "^\n";
 }

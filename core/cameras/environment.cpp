@@ -20,6 +20,8 @@ class EnvironmentCamera final : public CameraBase {
   }
 };
 
+const ParamTable<CameraSettings>& Parameters() { return CameraParameters(); }
+
 std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraContext& context) {
   return std::make_unique<EnvironmentCamera>(settings, context);
 }
@@ -27,6 +29,4 @@ std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("environment", "every direction, as a map of latitude and longitude",
-                exphoton::MakeFactory<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
-                                                                    exphoton::Create))
+EXPHOTON_CAMERA("environment", "every direction, as a map of latitude and longitude")

@@ -22,6 +22,8 @@ class OrthographicCamera final : public CameraBase {
   }
 };
 
+const ParamTable<CameraSettings>& Parameters() { return CameraParameters(); }
+
 std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraContext& context) {
   return std::make_unique<OrthographicCamera>(settings, context);
 }
@@ -29,6 +31,4 @@ std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("orthographic", "parallel rays",
-                exphoton::MakeFactory<exphoton::PluginKind::Camera>(exphoton::CameraParameters(),
-                                                                    exphoton::Create))
+EXPHOTON_CAMERA("orthographic", "parallel rays")

@@ -15,13 +15,6 @@ Matrix3 LinearPart(const Matrix4& a) {
   return b;
 }
 
-bool AllFinite(const Matrix4& a) {
-  for (const auto& row : a.m)
-    for (const double v : row)
-      if (!std::isfinite(v)) return false;
-  return true;
-}
-
 bool IsAffine(const Matrix4& a) {
   return a.m[3][0] == 0 && a.m[3][1] == 0 && a.m[3][2] == 0 && a.m[3][3] == 1;
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace exphoton {
-namespace {
 
 bool AllFinite(const Matrix4& a) {
   for (const auto& row : a.m)
@@ -14,6 +13,8 @@ bool AllFinite(const Matrix4& a) {
       if (!std::isfinite(v)) return false;
   return true;
 }
+
+namespace {
 
 double MaxAbs(const Matrix4& a) {
   double largest = 0;

@@ -19,6 +19,7 @@ struct Matrix4 {
 };
 Matrix4 operator*(const Matrix4& a, const Matrix4& b);
 Matrix4 Transpose(const Matrix4& a);
+bool AllFinite(const Matrix4& a);
 // Returns nullopt if the matrix is singular to working precision (relative pivots) or not finite.
 std::optional<Matrix4> Inverse(const Matrix4& a);
 

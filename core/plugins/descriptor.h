@@ -70,6 +70,17 @@ bool RegisterStaticPlugin(PluginEntry entry);
 //   const ParamTable<Settings>& Parameters();
 //   std::unique_ptr<Material> Create(const Settings&, const MaterialContext&);
 #define EXPHOTON_MATERIAL(name, summary) EXPHOTON_REGISTER(Material, name, summary)
+// EXPHOTON_TEXTURE registers a texture of floats and of colours; Parameters<T>() and Create<T> are
+// templates over the value type. EXPHOTON_COLOR_TEXTURE and EXPHOTON_FLOAT_TEXTURE register one of
+// both.
+#define EXPHOTON_TEXTURE(name, summary)                                                      \
+  EXPHOTON_PLUGIN(                                                                           \
+      name, summary,                                                                         \
+      ::exphoton::MakeFactory<::exphoton::PluginKind::FloatTexture>(                         \
+          ::exphoton::Parameters<::exphoton::Real>(), ::exphoton::Create<::exphoton::Real>), \
+      ::exphoton::MakeFactory<::exphoton::PluginKind::ColorTexture>(                         \
+          ::exphoton::Parameters<::exphoton::Spectrum>(),                                    \
+          ::exphoton::Create<::exphoton::Spectrum>))
 #define EXPHOTON_COLOR_TEXTURE(name, summary) EXPHOTON_REGISTER(ColorTexture, name, summary)
 #define EXPHOTON_FLOAT_TEXTURE(name, summary) EXPHOTON_REGISTER(FloatTexture, name, summary)
 #define EXPHOTON_SHAPE(name, summary) EXPHOTON_REGISTER(Shape, name, summary)
@@ -88,9 +99,7 @@ bool RegisterStaticPlugin(PluginEntry entry);
                   ::exphoton::MakeFactory<::exphoton::PluginKind::kind>(::exphoton::Parameters(), \
                                                                         ::exphoton::Create))
 
-// Registers a plugin of several kinds, or with other names for the table and the function.
-//   EXPHOTON_PLUGIN("matte", "diffuse reflection",
-//                   exphoton::MakeFactory<exphoton::PluginKind::Material>(Parameters(), Create))
+// Registers a plugin with any list of factories. The macros above are defined by it.
 #ifdef EXPHOTON_STATIC_PLUGINS
 #define EXPHOTON_PLUGIN(pluginName, pluginSummary, ...)                                        \
   namespace {                                                                                  \

@@ -42,8 +42,10 @@ enum class PluginKind {
   VolumeIntegrator,
 };
 inline constexpr int kPluginKindCount = 13;
-const char* PluginKindName(PluginKind kind);    // for messages, such as "area light"
-const char* PluginKindFolder(PluginKind kind);  // for example "lights"
+const char* PluginKindName(PluginKind kind);  // for messages, such as "area light"
+// Returns the name of the folder that holds the sources and, under plugins/, the built plugins of a
+// kind, for example "lights".
+const char* PluginKindFolder(PluginKind kind);
 
 struct NoContext {};
 

@@ -25,6 +25,10 @@ int Scene::NonBlackLightCount() const {
                            [](const auto& light) { return !light->IsProvablyBlack(); }));
 }
 
+std::unique_ptr<const LightSampler> Scene::MakeLightSampler(LightSelection selection) const {
+  return exphoton::MakeLightSampler(Lights(), BoundingSphere(bounds_), selection);
+}
+
 void Scene::SetFeatures(RequiredFeatures plan, Interval shutter) {
   effects_ = std::move(plan);
   exposure_ = {shutter.min, effects_.Needs(Feature::Motion) ? shutter.max : shutter.min};

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/lights/light.h"
+#include "core/lights/selection/light_selection.h"
 #include "core/scattering/material.h"
 #include "core/scattering/medium.h"
 #include "core/scene/aggregate.h"
@@ -63,6 +64,8 @@ class Scene {
   // must skip them.
   const std::vector<std::unique_ptr<Light>>& Lights() const { return parts_.lights; }
   int NonBlackLightCount() const;  // number of lights that are not black
+  // The scene must outlive the sampler.
+  std::unique_ptr<const LightSampler> MakeLightSampler(LightSelection selection) const;
   const LightOrigin& OriginOfLight(std::size_t i) const { return parts_.lightOrigins[i]; }
   const std::vector<const Light*>& InfiniteLights() const { return infiniteLights_; }
   const std::vector<std::shared_ptr<const Material>>& Materials() const { return parts_.materials; }

@@ -18,10 +18,7 @@ constexpr int kLightsPerBsdf = 8;
 
 void ManyLights::RequestSamples(const Scene& scene, const Sampler& sampler, int count,
                                 SampleLayout* layout) {
-  tree_ = LightTree(scene.Lights(), BoundingSphere(scene.WorldBounds()));
-  indices_.clear();
-  for (std::size_t i = 0; i < scene.Lights().size(); ++i)
-    indices_.emplace(scene.Lights()[i].get(), int(i));
+  lights_ = scene.MakeLightSampler(LightSelection::Tree);
   lightCount_ = std::max(1, sampler.RoundCount(count));
   bsdfCount_ = std::max(1, lightCount_ / kLightsPerBsdf);
   choice1D_ = layout->Request1D(lightCount_);
@@ -32,13 +29,13 @@ void ManyLights::RequestSamples(const Scene& scene, const Sampler& sampler, int 
 }
 
 Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) const {
-  if (tree_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
+  if (lights_->IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
   const CameraSamples& samples = context.samples;
   const auto choice = samples.Array1D(choice1D_), part = samples.Array1D(part1D_);
   const auto light = samples.Array2D(light2D_);
   Spectrum byLights, byBsdf;
   for (std::size_t i = 0; i < choice.size(); ++i) {
-    const auto chosen = tree_.Sample(point.surface.p, choice[i]);
+    const auto chosen = lights_->Sample(point.surface.p, choice[i]);
     byLights += FromLightSample(point, {chosen.light, chosen.probability, light[i], part[i]},
                                 {lightCount_, bsdfCount_}, LobeSet::NonSpecular, context);
   }
@@ -51,8 +48,7 @@ Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) con
 
 Real ManyLights::LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
                           const SurfacePoint* on) const {
-  return tree_.Probability(point.surface.p, indices_.at(&light)) *
-         light.PdfDirect(point.surface, wi, on);
+  return lights_->Pmf(point.surface.p, light) * light.PdfDirect(point.surface, wi, on);
 }
 
 Spectrum ManyLights::FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe,

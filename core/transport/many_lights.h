@@ -5,9 +5,9 @@
 // point grows only logarithmically with the number of lights.
 #pragma once
 
-#include <unordered_map>
+#include <memory>
 
-#include "core/lights/light_tree.h"
+#include "core/lights/selection/light_sampler.h"
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 
@@ -26,8 +26,7 @@ class ManyLights {
   Real LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
                 const SurfacePoint* on) const;
 
-  LightTree tree_;
-  std::unordered_map<const Light*, int> indices_;
+  std::unique_ptr<const LightSampler> lights_;  // a light tree
   int lightCount_ = 0, bsdfCount_ = 0;
   int choice1D_ = -1, part1D_ = -1, light2D_ = -1, bsdf2D_ = -1, lobe1D_ = -1;
 };

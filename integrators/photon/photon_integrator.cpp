@@ -57,7 +57,7 @@ void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context
   maps_ = {};
 
   gathers_ = GathersIndirectLight(settings_, scene);
-  lights_ = LightSampler(scene);
+  lights_ = scene.MakeLightSampler(LightSelection::Auto);
   const PhotonTargets targets = ChooseTargets(settings_, scene);
   if (BytesOf(targets) > PhysicalMemory()) FailByMemory(targets);
   try {
@@ -139,8 +139,9 @@ Spectrum PhotonIntegrator::Caustic(const ShadingPoint& point, LiContext& context
 Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& context) const {
   if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
   RandomStream random = context.Stream(kGatherRayStream + std::uint64_t(point.depth));
-  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context,
-                        GatherRay(maps_, radianceMap_.get(), settings_, lights_, context, &random));
+  return gather_.Gather(
+      point, maps_.Map(PhotonKind::Indirect), context,
+      GatherRay(maps_, radianceMap_.get(), settings_, *lights_, context, &random));
 }
 
 SurfaceLight PhotonIntegrator::Shown(const ShadingPoint& point, LiContext& context) const {

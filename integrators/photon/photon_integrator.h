@@ -7,9 +7,9 @@
 
 #include <memory>
 
+#include "core/lights/selection/light_sampler.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/integrator.h"
-#include "core/transport/light_sampler.h"
 #include "core/transport/specular_tree.h"
 #include "integrators/photon/gather/final_gather.h"
 #include "integrators/photon/maps/photon_map_set.h"
@@ -57,7 +57,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   DirectLighting direct_;
   FinalGather gather_;
   bool gathers_ = false;  // whether indirect light is gathered; false: read from its map
-  LightSampler lights_;   // for the glossy lobes at the hits of gather rays
+  std::unique_ptr<const LightSampler> lights_;  // for the glossy lobes at gather hits
   PhotonMapSet maps_;
   std::unique_ptr<RadiancePhotonMap> radianceMap_;  // null: no radiance photons
 };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/lights/light_distribution.h"
+#include "core/lights/selection/light_selection.h"
 #include "core/params/param_table.h"
 
 namespace exphoton {

@@ -49,4 +49,4 @@ std::unique_ptr<Texture<T>> Create(const Settings<T>& settings, const TextureCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_TEXTURE_PLUGIN("bilerp", "bilinear between four corner values")
+EXPHOTON_TEXTURE("bilerp", "bilinear between four corner values")

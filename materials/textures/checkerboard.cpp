@@ -153,4 +153,4 @@ std::unique_ptr<Texture<T>> Create(const Settings<T>& settings, const TextureCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_TEXTURE_PLUGIN("checkerboard", "alternating cells of two textures")
+EXPHOTON_TEXTURE("checkerboard", "alternating cells of two textures")

@@ -24,4 +24,4 @@ std::unique_ptr<Texture<T>> Create(const Settings<T>& settings, const TextureCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_TEXTURE_PLUGIN("constant", "one value everywhere")
+EXPHOTON_TEXTURE("constant", "one value everywhere")

@@ -113,4 +113,4 @@ std::unique_ptr<Texture<T>> Create(const ImageSettings& settings, const TextureC
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_TEXTURE_PLUGIN("imagemap", "image file, filtered over the pixel's footprint")
+EXPHOTON_TEXTURE("imagemap", "image file, filtered over the pixel's footprint")

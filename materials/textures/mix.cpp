@@ -63,4 +63,4 @@ std::unique_ptr<Texture<T>> Create(const Settings<T>& settings, const TextureCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_TEXTURE_PLUGIN("mix", "blend of two textures by a third")
+EXPHOTON_TEXTURE("mix", "blend of two textures by a third")

@@ -54,4 +54,4 @@ std::unique_ptr<Texture<T>> Create(const Settings<T>& settings, const TextureCon
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_TEXTURE_PLUGIN("scale", "product of two textures")
+EXPHOTON_TEXTURE("scale", "product of two textures")

@@ -78,7 +78,7 @@ echo
 # What a plugin adds: its own file, compiled and linked again alone. The slowest of all kinds.
 slowest=0 slowest_name=
 for source in "$top"/{integrators,accelerators,shapes,lights,materials,samplers}/*.cpp \
-  "$top"/{materials/textures,materials/media,integrators/volume,samplers/filters,core/cameras}/*.cpp; do
+  "$top"/{materials/textures,materials/volumes,integrators/volumeintegrators,samplers/filters,core/cameras}/*.cpp; do
   seconds=$(awk -v f="$source" '$2 == f { print $1 }' "$BUILD_LOG" | tail -n 1)
   if exceeds "${seconds:-0}" "$slowest"; then
     slowest=$seconds

@@ -291,6 +291,15 @@ TEST(SceneBuilder, AcceptsVolumeIntegratorsWithoutEffect) {
             std::string::npos);
 }
 
+TEST(SceneBuilder, ReportsParametersOfTheRendererWhichHasNone) {
+  const BuiltScene built =
+      BuildText("Renderer \"sampler\" \"integer threads\" 3\n" + kBegin + "WorldEnd");
+  ASSERT_EQ(built.error, "");
+  EXPECT_NE(built.Messages().find("unknown parameter \"threads\" of renderer \"sampler\""),
+            std::string::npos)
+      << built.Messages();
+}
+
 TEST(SceneBuilder, NamesTheVolumesAndVolumeIntegratorsThatThereAre) {
   const BuiltScene volume = BuildText(kBegin + "Volume \"homogenous\"\nWorldEnd");
   EXPECT_NE(volume.error.find("2:1: error: there is no volume \"homogenous\"; available: "

@@ -80,6 +80,38 @@ TEST_F(EveryPlugin, CanBeLoaded) {
 
 #endif
 
+// Returns the plugin's source: NAME.cpp in a folder named as the folder of its kind.
+fs::path SourceOf(PluginKind kind, const std::string& name) {
+  const fs::path top = EXPHOTON_SOURCE_DIR;
+  for (const char* folder : {"accelerators", "core/cameras", "integrators", "lights", "materials",
+                             "samplers", "shapes"}) {
+    for (const fs::path& place : {top / folder, top / folder / PluginKindFolder(kind)}) {
+      const fs::path source = place / (name + ".cpp");
+      if (place.filename() == PluginKindFolder(kind) && fs::exists(source)) return source;
+    }
+  }
+  return {};
+}
+
+TEST_F(EveryPlugin, HasItsSourceInAFolderNamedAsItsKind) {
+  ForEachFactory([](const PluginDescriptor& plugin, const PluginFactory& factory) {
+    EXPECT_NE(SourceOf(factory.kind, plugin.name), fs::path());
+  });
+}
+
+TEST_F(EveryPlugin, IsRegisteredByTheOneMacroOfItsKind) {
+  ForEachFactory([](const PluginDescriptor& plugin, const PluginFactory& factory) {
+    std::ifstream file(SourceOf(factory.kind, plugin.name));
+    int macros = 0;
+    for (std::string line; std::getline(file, line);) {
+      if (!line.starts_with("EXPHOTON_")) continue;
+      ++macros;
+      EXPECT_FALSE(line.starts_with("EXPHOTON_PLUGIN")) << line;
+    }
+    EXPECT_EQ(macros, 1);
+  });
+}
+
 TEST_F(EveryPlugin, SaysWhatItIsInOneLine) {
   ForEachFactory([](const PluginDescriptor& plugin, const PluginFactory&) {
     const std::string summary = plugin.summary;

@@ -139,13 +139,14 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   const Limits limits = ParseLimits(options.limits);
   LimitMemory(limits);
   const SceneFacts scene = ExamineScene(options.scene, options);
-  study::Results results = Describe(options, scene, ExamineProgram(options));
+  const ProgramFacts program = ExamineProgram(options);
+  study::Results results = Describe(options, scene, program);
   results.settings = PlanSettings(options);
   if (options.onlyPlans) return PrintOut(PlanText(options, results.settings));
   StudyFolder folder(options.folder);
   ClaimResults(options, scene, folder);
   MakeFolder(options.folder + "/images");
-  StudyRunner runner(options, folder, scene, ExamineProgram(options));
+  StudyRunner runner(options, folder, scene, program);
   results.reference = PrepareReference(options, runner);
   CheckReference(options, scene, results.reference);
   results.runs = runner.RunAll(results.settings);

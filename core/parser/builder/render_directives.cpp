@@ -17,6 +17,9 @@ namespace {
 
 constexpr int kQuickResolutionDivisor = 4;
 
+// Renderer "sampler" has no parameters. The empty table reports those that a file gives.
+struct RendererSettings {};
+
 // Checks the name in a directive without plugins: Film, made by the core, and Renderer, ignored.
 void RequireName(const std::string& what, const std::string& name, const SourceLocation& where,
                  const std::vector<std::string>& known) {
@@ -143,6 +146,15 @@ void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
   FailAt(window->where, "the crop window has no pixel's upper left corner");
 }
 
+void RenderDirectives::CheckRenderer(Log& log) const {
+  static const ParamTable<RendererSettings> table{};
+  BindContext bind;
+  bind.log = &log;
+  bind.isStrict = options_.isStrict;
+  bind.what = "renderer \"sampler\"";
+  table.Bind(renderer_.params, bind);
+}
+
 void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
   const ParamSet params = Overridden("Sampler", sampler_, PluginKind::Sampler, registry);
   setup->samplerName = sampler_.name;
@@ -188,6 +200,7 @@ void RenderDirectives::CreateVolumeIntegrator(PluginRegistry& registry, Log& log
 
 void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
                               RenderSetup* setup) const {
+  CheckRenderer(log);
   CreateFilm(log, setup);
   CreateVolumeIntegrator(registry, log, hasMedia, setup);
   const ParamSet camera = Overridden("Camera", camera_, PluginKind::Camera, registry);

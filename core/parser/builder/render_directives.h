@@ -42,6 +42,7 @@ class RenderDirectives {
   ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
                       PluginRegistry& registry) const;
   BindContext Bind(PluginKind kind, const std::string& name, Log& log) const;
+  void CheckRenderer(Log& log) const;  // its parameters; the renderer itself has no effect
   void CreateFilm(Log& log, RenderSetup* setup) const;
   void CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateIntegrator(PluginRegistry& registry, Log& log, RenderSetup* setup) const;

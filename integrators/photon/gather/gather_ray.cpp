@@ -171,8 +171,7 @@ Spectrum GatherRay::Emission(const Walk& walk) const {
   const auto& hit = walk.segment.hit;
   const Vector3& w = walk.segment.ray.d;
   const auto weight = [&](const Light& light, const SurfacePoint* on) {
-    const Real lightPdf =
-        lights_.Probability(walk.from.p, light) * light.PdfDirect(walk.from, w, on);
+    const Real lightPdf = lights_.Pmf(walk.from.p, light) * light.PdfDirect(walk.from, w, on);
     return PowerHeuristic(1, walk.glossyPdf, 1, lightPdf);
   };
   Spectrum sum;

@@ -6,7 +6,9 @@
 // elsewhere direct lighting or the caustic map contains it (docs/theory/exphotonmap.md, section 4).
 #pragma once
 
-#include "core/transport/light_sampler.h"
+#include "core/lights/selection/light_sampler.h"
+#include "core/transport/integrator.h"
+#include "core/transport/shading_point.h"
 #include "integrators/photon/maps/photon_map_set.h"
 #include "integrators/photon/maps/radiance_photon_map.h"
 

@@ -123,7 +123,7 @@ class PhotonTracer::Path {
       }
       uChoice = (uChoice - tracer_.mediaShare_) / (1 - tracer_.mediaShare_);
     }
-    const auto choice = tracer_.lights_.Sample(std::min(uChoice, kOneMinusEpsilon));
+    const auto choice = tracer_.lights_->Sample(std::min(uChoice, kOneMinusEpsilon));
     light_ = choice.index;
     auto emission = choice.light->SampleEmission(uPosition, uDirection, uLight.y, Time());
     if (!emission) return false;
@@ -271,7 +271,7 @@ std::vector<double> ShareFactors(const Scene& scene, const DistantLightTargeting
 
 // Returns the share of paths that begin in media: by power, but at least kMinShare for both
 // sources.
-Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightDistribution& lights) {
+Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightSampler& lights) {
   constexpr double kMinShare = .05;
   if (!media.Emit()) return 0;
   if (lights.IsEmpty()) return 1;
@@ -290,9 +290,9 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       seed_(seed),
       targeting_(std::move(targeting)),
       media_(std::move(media)),
-      lights_(scene.Lights(), settings.lightSelection, LightDistribution::kUniformShare,
-              ShareFactors(scene, targeting_)),
-      mediaShare_(MediaShare(scene, media_, lights_)),
+      lights_(MakeEmissionLightSampler(scene.Lights(), settings.lightSelection,
+                                       ShareFactors(scene, targeting_))),
+      mediaShare_(MediaShare(scene, media_, *lights_)),
       specularBoxes_(scene.Features().Needs(Feature::Specular) ? SpecularBoxes(scene)
                                                                : SpecularBoxes()),
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
@@ -330,7 +330,7 @@ PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets,
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
   result.lights.resize(scene_.Lights().size());
   for (PhotonBuffer& buffer : result.buffers) buffer.farthest = farthest_;
-  if (lights_.IsEmpty() && !media_.Emit()) return result;
+  if (lights_->IsEmpty() && !media_.Emit()) return result;
 
   std::vector<Worker> workers(std::size_t(context.threads.Count()));
   std::vector<PhotonChunk> chunks;

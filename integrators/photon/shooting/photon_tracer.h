@@ -106,7 +106,7 @@ class PhotonTracer {
   std::uint64_t seed_;
   DistantLightTargeting targeting_;
   MediaPhotons media_;
-  LightDistribution lights_;
+  std::unique_ptr<const FixedLightSampler> lights_;
   Real mediaShare_;  // share of the paths that begin in a medium
   SpecularBoxes specularBoxes_;
   LobeSet lobes_;  // lobes that scatter photons

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This header defines the parameters of 2D texture mappings, and a macro that registers the float
-// and the colour texture of one template.
+// MappingSettings holds the parameters of 2D texture mappings, which several textures share.
 #pragma once
 
 #include "core/plugin.h"
@@ -38,12 +37,3 @@ inline const ParamTable<MappingSettings>& MappingParameters() {
 }
 
 }  // namespace exphoton
-
-// Registers a plugin of both texture kinds from the templates Parameters<T>() and Create<T>.
-#define EXPHOTON_TEXTURE_PLUGIN(pluginName, pluginSummary)                           \
-  EXPHOTON_PLUGIN(                                                                   \
-      pluginName, pluginSummary,                                                     \
-      exphoton::MakeFactory<exphoton::PluginKind::FloatTexture>(                     \
-          exphoton::Parameters<exphoton::Real>(), exphoton::Create<exphoton::Real>), \
-      exphoton::MakeFactory<exphoton::PluginKind::ColorTexture>(                     \
-          exphoton::Parameters<exphoton::Spectrum>(), exphoton::Create<exphoton::Spectrum>))

@@ -63,6 +63,13 @@ TEST(Diagnostic, HidesControlBytesAndLineEnds) {
             "a.pbrt:1:1: error: no\n    a?[31m\n    ^\n");
 }
 
+TEST(Diagnostic, KeepsQuestionMarksAndSpacesAtTheEndOfALine) {
+  EXPECT_EQ(FormatDiagnostic("error", "no", At(1, 1, "Shape \"what\" ??"), ""),
+            "a.pbrt:1:1: error: no\n    Shape \"what\" ??\n    ^\n");
+  EXPECT_EQ(FormatDiagnostic("error", "no", At(1, 3, "a  \r"), ""),
+            "a.pbrt:1:3: error: no\n    a  \n      ^\n");
+}
+
 TEST(Diagnostic, CutsALongLineRoundTheColumn) {
   std::string line(10000, '.');
   line[5000] = 'X';

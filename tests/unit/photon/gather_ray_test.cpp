@@ -63,8 +63,8 @@ class PaneTest : public testing::Test {
   Read ReadFrom(const Point3& o, const Vector3& d, const RadiancePhotonMap* radianceMap) {
     AovSample aovs;
     LiContext context{*scene_.setup->scene, samples_, arena_, rays_, 1, 1, &aovs};
-    const LightSampler lights(*scene_.setup->scene);
-    const GatherRay gather(maps_, radianceMap, settings_, lights, context, &random_);
+    const auto lights = scene_.setup->scene->MakeLightSampler(LightSelection::Auto);
+    const GatherRay gather(maps_, radianceMap, settings_, *lights, context, &random_);
     Ray ray;
     ray.o = o;
     ray.d = d;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check LightTree. Its probabilities must match its choices, sum to 1, and be positive
-// for every light that may emit. Pictures with many lights must have the same mean as with every
-// light sampled.
-#include "core/lights/light_tree.h"
+// These tests check TreeLightSampler. Its probabilities must match its choices, sum to 1, and be
+// positive for every light that may emit. Pictures with many lights must have the same mean as with
+// every light sampled.
+#include "core/lights/selection/tree_light_sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -30,23 +30,23 @@ Lights Scattered(int count) {
 }
 
 // Each light has an interval of u, so the light is chosen as often as its probability states.
-TEST(LightTree, ChoosesWithTheProbabilitiesThatItGives) {
+TEST(TreeLightSampler, ChoosesWithTheProbabilitiesThatItGives) {
   Lights lights = Scattered(37);
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(500)));
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(100)));
   lights.push_back(std::make_unique<PlacedLight>(Point3{5, 5, 0}, Real(9), true));
-  const LightTree tree(lights, kWorld);
+  const TreeLightSampler tree(lights, kWorld);
   for (const Point3 p : {Point3{5, 5, 0}, Point3{-40, 2, 3}, Point3{1, 9, .5f}}) {
     std::vector<double> found(lights.size(), 0.0);
     constexpr int kSteps = 200000;
     for (int i = 0; i < kSteps; ++i) {
       const auto choice = tree.Sample(p, Real((i + .5) / kSteps));
       found[std::size_t(choice.index)] += 1.0 / kSteps;
-      ASSERT_NEAR(choice.probability / tree.Probability(p, choice.index), 1, 1e-5);
+      ASSERT_NEAR(choice.probability / tree.Pmf(p, *choice.light), 1, 1e-5);
     }
     double sum = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      const double probability = double(tree.Probability(p, int(i)));
+      const double probability = double(tree.Pmf(p, *lights[i]));
       EXPECT_NEAR(found[i], probability, 2e-5) << i;
       EXPECT_EQ(probability > 0, i + 1 < lights.size()) << i;
       sum += probability;
@@ -55,31 +55,31 @@ TEST(LightTree, ChoosesWithTheProbabilitiesThatItGives) {
   }
 }
 
-TEST(LightTree, PrefersWhatIsNear) {
+TEST(TreeLightSampler, PrefersWhatIsNear) {
   Lights lights;
   for (int i = 0; i < 100; ++i)
     lights.push_back(std::make_unique<PlacedLight>(Point3{Real(i), 0, 0}, Real(1)));
-  const LightTree tree(lights, kWorld);
+  const TreeLightSampler tree(lights, kWorld);
   const Point3 p{20, Real(.5), 0};
-  EXPECT_GT(tree.Probability(p, 20), .1);
-  EXPECT_LT(tree.Probability(p, 90), .003);
+  EXPECT_GT(tree.Pmf(p, *lights[20]), .1);
+  EXPECT_LT(tree.Pmf(p, *lights[90]), .003);
 }
 
-TEST(LightTree, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
+TEST(TreeLightSampler, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
   Lights lights;
   for (int i = 0; i < 5; ++i)  // all at the same point
     lights.push_back(std::make_unique<PlacedLight>(Point3{1, 1, 1}, i == 0 ? Real(0) : Real(1e30)));
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(0)));
-  const LightTree tree(lights, kWorld);
+  const TreeLightSampler tree(lights, kWorld);
   for (const Point3 p : {Point3{1, 1, 1}, Point3{2, 3, 4}}) {
     double sum = 0;
     for (int i = 0; i < 6; ++i) {
-      EXPECT_GT(tree.Probability(p, i), 1e-4) << i;
-      sum += double(tree.Probability(p, i));
+      EXPECT_GT(tree.Pmf(p, *lights[std::size_t(i)]), 1e-4) << i;
+      sum += double(tree.Pmf(p, *lights[std::size_t(i)]));
     }
     EXPECT_NEAR(sum, 1, 1e-6);
   }
-  EXPECT_TRUE(LightTree(Lights(), kWorld).IsEmpty());
+  EXPECT_TRUE(TreeLightSampler(Lights(), kWorld).IsEmpty());
 }
 
 // Returns a floor with 81 small lamps behind the camera, 8 point lights and a sky.

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightTree is built by splitting the lights into halves along the longest side of the box of their
-// centres. It is sampled from the root down.
-#include "core/lights/light_tree.h"
+// TreeLightSampler is built by splitting the lights into halves along the longest side of the box
+// of their centres. It is sampled from the root down.
+#include "core/lights/selection/tree_light_sampler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-
-#include "core/lights/light_distribution.h"
 
 namespace exphoton {
 namespace {
 
 // The share of the mean power in every light's weight: powers are estimates and can be 0.
-constexpr double kUniformShare = .05;
+constexpr double kMeanPowerShare = .05;
 // The least probability of the tree and of the group of distant lights.
 constexpr double kLeastGroupShare = .1;
 // The least probability of each of two children.
@@ -20,8 +19,9 @@ constexpr double kLeastChildShare = 1e-3;
 
 }  // namespace
 
-LightTree::LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sphere3& world)
-    : places_(lights.size()) {
+TreeLightSampler::TreeLightSampler(std::span<const std::unique_ptr<Light>> lights,
+                                   const Sphere3& world)
+    : LightSampler(lights), places_(lights.size()) {
   std::vector<Leaf> leaves;
   std::vector<double> irradiances;
   double sum = 0;
@@ -40,16 +40,15 @@ LightTree::LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sp
     }
   }
   if (leaves.empty() && distantLights_.empty()) return;
-  for (const auto& light : lights) lights_.push_back(light.get());
   for (Leaf& leaf : leaves) {
     const double mean = sum > 0 ? sum / double(leaves.size()) : 1;
-    leaf.power = (1 - kUniformShare) * leaf.power + kUniformShare * mean;
+    leaf.power = (1 - kMeanPowerShare) * leaf.power + kMeanPowerShare * mean;
   }
   double farSum = 0;
   for (const double irradiance : irradiances) farSum += irradiance;
   for (double& irradiance : irradiances) {
     const double mean = farSum > 0 ? farSum / double(irradiances.size()) : 1;
-    irradiance = (1 - kUniformShare) * irradiance + kUniformShare * mean;
+    irradiance = (1 - kMeanPowerShare) * irradiance + kMeanPowerShare * mean;
   }
   if (!irradiances.empty()) far_ = DiscreteDistribution(irradiances);
   nodes_.reserve(2 * leaves.size());
@@ -57,7 +56,7 @@ LightTree::LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sp
 }
 
 // Returns the index of the subtree's root node.
-int LightTree::Build(std::span<Leaf> leaves, Place place) {
+int TreeLightSampler::Build(std::span<Leaf> leaves, Place place) {
   const int number = int(nodes_.size());
   nodes_.emplace_back();
   Bounds3 bounds, centers;
@@ -89,11 +88,11 @@ int LightTree::Build(std::span<Leaf> leaves, Place place) {
   return number;
 }
 
-double LightTree::Distance2(const Node& node, const Point3& p) {
+double TreeLightSampler::Distance2(const Node& node, const Point3& p) {
   return double(std::max(LengthSquared(node.center - p), node.radius2));
 }
 
-double LightTree::LeftProbability(int node, const Point3& p) const {
+double TreeLightSampler::LeftProbability(int node, const Point3& p) const {
   const Node& left = nodes_[std::size_t(node + 1)];
   const Node& right = nodes_[std::size_t(nodes_[std::size_t(node)].right)];
   // Compares power / distance^2 of both children, multiplied by both squared distances, because p
@@ -102,7 +101,7 @@ double LightTree::LeftProbability(int node, const Point3& p) const {
   return a + b > 0 ? std::clamp(a / (a + b), kLeastChildShare, 1 - kLeastChildShare) : .5;
 }
 
-double LightTree::DistantProbability(const Point3& p) const {
+double TreeLightSampler::DistantProbability(const Point3& p) const {
   if (distantLights_.empty()) return 0;
   if (nodes_.empty()) return 1;
   const double distance2 = Distance2(nodes_[0], p);  // 0 if p and all lights are at one point
@@ -111,14 +110,14 @@ double LightTree::DistantProbability(const Point3& p) const {
   return std::clamp(far_.Sum() / (far_.Sum() + near), kLeastGroupShare, 1 - kLeastGroupShare);
 }
 
-LightTree::Choice LightTree::Sample(const Point3& p, Real u) const {
+LightSampler::Choice TreeLightSampler::Sample(const Point3& p, Real u) const {
   const double farProbability = DistantProbability(p);
   double rest = double(u);
   if (rest < farProbability) {
     const auto choice =
         far_.Sample(Real(std::min(rest / farProbability, double(kOneMinusEpsilon))));
     const int index = distantLights_[std::size_t(choice.index)];
-    return {lights_[std::size_t(index)], index, Real(farProbability) * choice.probability};
+    return {LightAt(index), index, Real(farProbability) * choice.probability, choice.remapped};
   }
   double probability = 1 - farProbability;
   rest = (rest - farProbability) / probability;
@@ -133,12 +132,11 @@ LightTree::Choice LightTree::Sample(const Point3& p, Real u) const {
     node = goesLeft ? node + 1 : nodes_[std::size_t(node)].right;
   }
   const int index = nodes_[std::size_t(node)].light;
-  return {lights_[std::size_t(index)], index, Real(probability)};
+  return {LightAt(index), index, Real(probability), std::min(Real(rest), kOneMinusEpsilon)};
 }
 
-Real LightTree::Probability(const Point3& p, int index) const {
-  if (IsEmpty()) return 0;
-  const Place& place = places_[std::size_t(index)];
+Real TreeLightSampler::Pmf(const Point3& p, const Light& light) const {
+  const Place& place = places_[std::size_t(IndexOf(light))];
   const double farProbability = DistantProbability(p);
   if (place.far >= 0) return Real(farProbability) * far_.Probability(place.far);
   if (place.depth < 0) return 0;

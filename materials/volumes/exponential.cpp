@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The medium "exponential" has the density a exp(-b h) at height h above p0 along updir, like air
 // or ground fog. The integral along a ray has a closed form, so it needs no ray marching.
-#include "materials/media/common/box_medium.h"
+#include "materials/volumes/common/box_medium.h"
 
 namespace exphoton {
 namespace {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightTree chooses one of many lights for a point, in time proportional to the logarithm of their
-// number. It chooses near and bright lights more often. Source: Conty Estevez and Kulla 2018,
+// TreeLightSampler chooses one of many lights for a point, in time proportional to the logarithm of
+// their number. It chooses near and bright lights more often. Source: Conty Estevez and Kulla 2018,
 // "Importance Sampling of Many Lights with Adaptive Tree Splitting", without orientations and
 // without splitting.
 #pragma once
 
-#include <memory>
-#include <span>
-#include <vector>
-
-#include "core/lights/light.h"
+#include "core/lights/selection/light_sampler.h"
 #include "core/math/sampling/distribution.h"
 
 namespace exphoton {
@@ -19,22 +15,13 @@ namespace exphoton {
 // the centre of its box, and r is half the diagonal of the box. Distant lights (sun, sky) form a
 // separate group and are chosen by irradiance. No light is starved: each choice between groups or
 // children has a least probability, and each light's power is mixed with the mean power.
-class LightTree {
+class TreeLightSampler final : public LightSampler {
  public:
-  LightTree() = default;
-  // Black lights are never chosen. `world` is the sphere that the lights were prepared with.
-  LightTree(const std::vector<std::unique_ptr<Light>>& lights, const Sphere3& world);
+  // `world` is the sphere that the lights were prepared with.
+  TreeLightSampler(std::span<const std::unique_ptr<Light>> lights, const Sphere3& world);
 
-  bool IsEmpty() const { return lights_.empty(); }  // true if every light is black
-
-  struct Choice {
-    const Light* light;
-    int index;         // index into the constructor's vector
-    Real probability;  // > 0
-  };
-  Choice Sample(const Point3& p, Real u) const;
-  // Returns the probability with which Sample chooses light `index` at p; 0 for a black light.
-  Real Probability(const Point3& p, int index) const;
+  Choice Sample(const Point3& p, Real u) const override;
+  Real Pmf(const Point3& p, const Light& light) const override;
 
  private:
   struct Node {
@@ -63,9 +50,8 @@ class LightTree {
   double LeftProbability(int node, const Point3& p) const;
   double DistantProbability(const Point3& p) const;
 
-  std::vector<const Light*> lights_;  // all lights of the constructor
-  std::vector<Place> places_;         // one per light
-  std::vector<Node> nodes_;           // the root first
+  std::vector<Place> places_;  // one per light
+  std::vector<Node> nodes_;    // the root first
   std::vector<int> distantLights_;
   DiscreteDistribution far_;  // by irradiance
 };

@@ -2,8 +2,7 @@
 // The volume integrator "single" computes emission of media and single scattering of direct light.
 // At each step it chooses one light by power (half of the choices are uniform) and samples one
 // point on it.
-#include "core/lights/light_distribution.h"
-#include "integrators/volume/common/march.h"
+#include "integrators/volumeintegrators/common/march.h"
 
 namespace exphoton {
 namespace {
@@ -15,7 +14,7 @@ class SingleScattering final : public VolumeIntegrator {
   bool ScattersLight() const override { return true; }
 
   void Preprocess(const Scene& scene) override {
-    lights_ = LightDistribution(scene.Lights(), LightSelection::Power, kUniformShare);
+    lights_ = scene.MakeLightSampler(LightSelection::HalfPower);
   }
 
   Spectrum Li(const Ray& ray, LiContext& context, RandomStream random) const override {
@@ -29,16 +28,14 @@ class SingleScattering final : public VolumeIntegrator {
   }
 
  private:
-  static constexpr double kUniformShare = 0.5;
-
   // Returns sigma_s * phase, summed over the media, times the light of one sampled light.
   Spectrum Scattered(const Point3& p, const Ray& ray, LiContext& context,
                      RandomStream* random) const {
     // Draw all numbers even if they are not needed, so that later steps always get the same ones.
     const Real uLight = random->Uniform(), uSubLight = random->Uniform(), u = random->Uniform();
     const Point2 uPoint{u, random->Uniform()};
-    if (lights_.IsEmpty()) return {};
-    const auto choice = lights_.Sample(uLight);
+    if (lights_->IsEmpty()) return {};
+    const auto choice = lights_->Sample(p, uLight);
     const SurfacePoint at{p, Abs(p) * Gamma(3), Normal3(), ray.time};
     const auto direct = choice.light->SampleDirect(at, uPoint, uSubLight);
     if (!direct || direct->Li.IsBlack()) return {};
@@ -51,8 +48,10 @@ class SingleScattering final : public VolumeIntegrator {
   }
 
   Real stepSize_;
-  LightDistribution lights_;
+  std::unique_ptr<const LightSampler> lights_;
 };
+
+const ParamTable<MarchSettings>& Parameters() { return MarchParameters(); }
 
 std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const NoContext&) {
   return std::make_unique<SingleScattering>(settings);
@@ -61,6 +60,4 @@ std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const No
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("single", "media emit, absorb and scatter light once",
-                exphoton::MakeFactory<exphoton::PluginKind::VolumeIntegrator>(
-                    exphoton::MarchParameters(), exphoton::Create))
+EXPHOTON_VOLUME_INTEGRATOR("single", "media emit, absorb and scatter light once")

@@ -4,7 +4,7 @@
 // quadrature integrates exactly.
 #include <array>
 
-#include "materials/media/common/box_medium.h"
+#include "materials/volumes/common/box_medium.h"
 
 namespace exphoton {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The medium "homogeneous" has constant density in its box (fog, smoke, clear liquids).
-#include "materials/media/common/box_medium.h"
+#include "materials/volumes/common/box_medium.h"
 
 namespace exphoton {
 namespace {
@@ -12,6 +12,8 @@ struct Uniform {
   }
 };
 
+const ParamTable<MediumSettings>& Parameters() { return MediumParameters(); }
+
 std::unique_ptr<Medium> Create(const MediumSettings& settings, const MediumContext& context) {
   return std::make_unique<BoxMedium<Uniform>>(settings, context, Uniform());
 }
@@ -19,6 +21,4 @@ std::unique_ptr<Medium> Create(const MediumSettings& settings, const MediumConte
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("homogeneous", "a medium of constant density",
-                exphoton::MakeFactory<exphoton::PluginKind::Volume>(exphoton::MediumParameters(),
-                                                                    exphoton::Create))
+EXPHOTON_VOLUME("homogeneous", "a medium of constant density")

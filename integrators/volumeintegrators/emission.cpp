@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The volume integrator "emission" computes the emission of media, but no scattering.
-#include "integrators/volume/common/march.h"
+#include "integrators/volumeintegrators/common/march.h"
 
 namespace exphoton {
 namespace {
@@ -22,6 +22,8 @@ class EmissionIntegrator final : public VolumeIntegrator {
   Real stepSize_;
 };
 
+const ParamTable<MarchSettings>& Parameters() { return MarchParameters(); }
+
 std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const NoContext&) {
   return std::make_unique<EmissionIntegrator>(settings);
 }
@@ -29,6 +31,4 @@ std::unique_ptr<VolumeIntegrator> Create(const MarchSettings& settings, const No
 }  // namespace
 }  // namespace exphoton
 
-EXPHOTON_PLUGIN("emission", "media emit and absorb",
-                exphoton::MakeFactory<exphoton::PluginKind::VolumeIntegrator>(
-                    exphoton::MarchParameters(), exphoton::Create))
+EXPHOTON_VOLUME_INTEGRATOR("emission", "media emit and absorb")
