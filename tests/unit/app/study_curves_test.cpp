@@ -156,7 +156,7 @@ TEST(StudyMarkup, EncodesBase64AsRfc4648DoesInItsExamples) {
 }
 
 TEST(StudyMarkup, EscapesWhatMarkupWouldTake) {
-  EXPECT_EQ(Escape("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
+  EXPECT_EQ(Escape("<a href=\"x\">&").Markup(), "&lt;a href=&quot;x&quot;&gt;&amp;");
 }
 
 TEST(StudyMarkup, ALogScaleHasTicksAtOneTwoAndFive) {
