@@ -35,7 +35,7 @@ class Chart {
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddLine(i);
     AddNumbers();
     for (const auto& [number, end] : ends_) AddName(number, end);
-    return Fill("chart", {{"width", kWidth}, {"height", kHeight}, {"content", shapes_}});
+    return Fill("chart", {{"width", kWidth}, {"height", kHeight}, {"content", shapes_ + notes_}});
   }
 
  private:
@@ -53,7 +53,7 @@ class Chart {
     shapes_ += SvgText({(kLeft + kWidth - kRight) / 2, kHeight - 12},
                        results_.clock == "wall" ? "seconds" : "CPU seconds", "middle", "axis");
     const std::string name = analysis_.hasReference ? "error (relMSE)" : "noise (relMSE)";
-    AddTurnedText({16, (kTop + kHeight - kBottom) / 2}, -90, name, "axis");
+    shapes_ += SvgTurnedText({16, (kTop + kHeight - kBottom) / 2}, -90, name, "axis");
   }
 
   // Shades the errors below ten times the reference's noise, which are not compared.
@@ -63,8 +63,8 @@ class Chart {
     if (limit < y_.Low()) return;
     const double y = std::max(y_(limit), kTop);
     shapes_ += SvgRect({kLeft, y}, {kWidth - kRight - kLeft, kHeight - kBottom - y}, "limit");
-    shapes_ += SvgText({kWidth - kRight - 6, std::min(y + 15, kHeight - kBottom - 4)},
-                       "below: the reference is too noisy to compare", "end", "note");
+    AddNoteAtRight(std::min(y + 15, kHeight - kBottom - 4),
+                   "below: the reference is too noisy to compare", "note");
   }
 
   // Draws the slope of pure noise, error ~ 1 / seconds, below all points.
@@ -81,7 +81,7 @@ class Chart {
     shapes_ += SvgLine(a, b, "slope");
     const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / 3.14159265358979;
     const Point2d at{a.x + .4 * (b.x - a.x), a.y + .4 * (b.y - a.y) + 16};
-    AddTurnedText(at, angle, "pure noise: its root falls with slope −1/2", "note");
+    notes_ += SvgTurnedText(at, angle, "pure noise: its root falls with slope −1/2", "note");
   }
 
   // Draws bias^2 of each line's most accurate setting if it is significant: at least two standard
@@ -97,9 +97,8 @@ class Chart {
       if (bias.value < .1 * best.cost.error.value || bias.value < y_.Low()) continue;
       const double y = y_(bias.value), x = x_(best.cost.seconds.value);
       const double start = std::max(kLeft, x - 90), end = kWidth - kRight;
-      shapes_ += SvgLine({start, y}, {end, y}, "floor " + Color(i));
-      shapes_ += SvgText({end - 4, y - 5}, "bias² of " + analysis_.lines[i].label, "end",
-                         "note text" + Color(i));
+      shapes_ += SvgLine({start, y}, {end, y}, "floor " + ColorClass(i));
+      AddNoteAtRight(y - 5, "bias² of " + analysis_.lines[i].label, "note text" + ColorClass(i));
     }
   }
 
@@ -110,7 +109,7 @@ class Chart {
     std::vector<Point2d> corners;
     for (const std::size_t i : front)
       corners.push_back({x_(points[i].seconds.value), y_(points[i].error.value)});
-    shapes_ += SvgPolyline(corners, "series " + Color(number));
+    shapes_ += SvgPolyline(corners, "series " + ColorClass(number));
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!IsShown(points[i])) continue;
       const bool isFront = std::find(front.begin(), front.end(), i) != front.end();
@@ -137,7 +136,7 @@ class Chart {
       at.y = hit->first.y + kHeightOfText + 1;
     }
     taken_.emplace_back(at, width);
-    shapes_ += SvgText(at, label, "start", "name text" + Color(number));
+    shapes_ += SvgText(at, label, "start", "name text" + ColorClass(number));
   }
 
   void AddPoint(std::size_t line, std::size_t index, bool isFront) {
@@ -146,17 +145,19 @@ class Chart {
     const Point2d at{x_(s.value), y_(e.value)};
     if (std::isfinite(e.error)) {
       const double low = std::max(e.value - e.error, y_.Low());
-      shapes_ += SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "whisker " + Color(line));
+      shapes_ +=
+          SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "whisker " + ColorClass(line));
     }
     if (std::isfinite(s.error) && s.error < s.value)
       shapes_ += SvgLine({x_(s.value - s.error), at.y}, {x_(s.value + s.error), at.y},
-                         "whisker " + Color(line));
+                         "whisker " + ColorClass(line));
     taken_.emplace_back(Point2d{at.x - 5, at.y + 4}, 10);
     const std::string title = analysis_.lines[line].label + ", " +
                               results_.settings[setting.setting].Text() + ": " +
                               SecondsText(s.value) + ", " + ShortNumber(e.value);
-    shapes_ += SvgMarker(int(line), at, isFront ? 5 : 4,
-                         std::string(isFront ? "point " : "point hollow ") + Color(line), title);
+    shapes_ +=
+        SvgMarker(int(line), at, isFront ? 5 : 4,
+                  std::string(isFront ? "point " : "point hollow ") + ColorClass(line), title);
   }
 
   void AddNumbers() {
@@ -168,21 +169,21 @@ class Chart {
     }
   }
 
-  void AddTurnedText(Point2d at, double degrees, const std::string& text,
-                     const std::string& classes) {
-    shapes_ += Fill(
-        "svg-turned-text",
-        {{"x", at.x}, {"y", at.y}, {"degrees", degrees}, {"classes", classes}, {"text", text}});
-  }
-
-  static std::string Color(std::size_t line) {
-    return "c" + std::to_string(line % std::size_t(kSeriesColors));
+  // Writes a note at the right edge, moved up if it would cover another one.
+  void AddNoteAtRight(double y, const std::string& text, const std::string& classes) {
+    constexpr double kHeightOfNote = 14;
+    std::sort(notesAtRight_.rbegin(), notesAtRight_.rend());
+    for (const double other : notesAtRight_)
+      if (std::abs(y - other) < kHeightOfNote) y = other - kHeightOfNote;
+    notesAtRight_.push_back(y);
+    notes_ += SvgText({kWidth - kRight - 6, y}, text, "end", classes);
   }
 
   const Results& results_;
   const Analysis& analysis_;
   LogScale x_, y_;
-  Html shapes_;
+  Html shapes_, notes_;               // notes are in front of all lines
+  std::vector<double> notesAtRight_;  // their baselines
   // Left ends and widths of texts and markers, in SVG units. Names must not cover these.
   std::vector<std::pair<Point2d, double>> taken_;
   std::vector<std::pair<std::size_t, Point2d>> ends_;  // end point of each line, by line number

@@ -61,12 +61,24 @@ Html SvgText(Point2d at, const std::string& text, const std::string& anchor,
               {{"x", at.x}, {"y", at.y}, {"anchor", anchor}, {"classes", classes}, {"text", text}});
 }
 
+Html SvgTurnedText(Point2d at, double degrees, const std::string& text,
+                   const std::string& classes) {
+  return Fill(
+      "svg-turned-text",
+      {{"x", at.x}, {"y", at.y}, {"degrees", degrees}, {"classes", classes}, {"text", text}});
+}
+
 Html SvgPolyline(const std::vector<Point2d>& points, const std::string& classes) {
   return Fill("svg-polyline", {{"points", PointsText(points)}, {"classes", classes}});
 }
 
+std::string ColorClass(std::size_t line) {
+  return "c" + std::to_string(line % std::size_t(kSeriesColors));
+}
+
 Html SvgMarker(int shape, Point2d at, double size, const std::string& classes,
-               const std::string& title) {
+               const std::string& text) {
+  const Html title = text.empty() ? Html() : Fill("svg-title", {{"text", text}});
   // Each round of colours starts with another shape, so lines of the same colour have two shapes.
   const int kind = (shape + shape / kSeriesColors) % kSeriesColors;
   if (kind == 0)

@@ -25,9 +25,12 @@ Html SvgRect(Point2d corner, Point2d size, const std::string& classes);
 // `anchor` is start, middle or end.
 Html SvgText(Point2d at, const std::string& text, const std::string& anchor,
              const std::string& classes);
+// Centres the text at the point and turns it clockwise.
+Html SvgTurnedText(Point2d at, double degrees, const std::string& text, const std::string& classes);
 Html SvgPolyline(const std::vector<Point2d>& points, const std::string& classes);
+std::string ColorClass(std::size_t line);  // "c0" for line 0
 // Draws the marker for a line number: a circle, square, triangle, diamond, pentagon or inverted
-// triangle. `title` appears on hover.
+// triangle. `title` appears on hover, unless it is empty.
 Html SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                const std::string& title);
 

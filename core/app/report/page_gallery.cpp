@@ -76,7 +76,7 @@ class Gallery {
       pictures += PictureElement(SignedErrorImage(reference_, image, kErrorScale), 1,
                                  "signed error of " + label, true);
     return Fill("figure", {{"pictures", pictures},
-                           {"dot", ColorDot(line)},
+                           {"marker", LineMarker(line)},
                            {"label", label},
                            {"setting", results_.settings[result.setting].Text()},
                            {"seconds", SecondsText(result.cost.seconds.value)},
@@ -106,7 +106,7 @@ double CommonTime(const Analysis& analysis) {
 
 Html SettingRow(const std::string& label, const std::string& setting, std::size_t line,
                 const SettingResult& s) {
-  return Fill("setting-row", {{"dot", ColorDot(line)},
+  return Fill("setting-row", {{"marker", LineMarker(line)},
                               {"label", label},
                               {"setting", setting},
                               {"cpu", MeasuredText(s.cpu)},

@@ -192,7 +192,7 @@ Html DoublingRows(const Results& results, const Analysis& analysis) {
   Html rows;
   for (const DoublingEffect& knob : costs)
     rows += Fill("doubling-row",
-                 {{"dot", ColorDot(LineNumber(analysis, knob.label))},
+                 {{"marker", LineMarker(LineNumber(analysis, knob.label))},
                   {"label", knob.label},
                   {"parameter", knob.parameter},
                   {"seconds", (knob.secondsPerDoubling >= 0 ? "+" : "−") +
@@ -211,8 +211,9 @@ Html MeasuredText(const Measured& m) {
   return Fill("measured", {{"value", ShortNumber(m.value)}, {"error", ShortNumber(m.error, 1)}});
 }
 
-Html ColorDot(std::size_t line) {
-  return Fill("line-dot", {{"color", line % std::size_t(kSeriesColors)}});
+Html LineMarker(std::size_t line) {
+  return Fill("line-marker",
+              {{"shape", SvgMarker(int(line), {}, 5, "point " + ColorClass(line), "")}});
 }
 
 std::string CountText(double count) {
@@ -245,7 +246,7 @@ Html HeadlineSection(const Results& results, const Analysis& analysis) {
 Html CurveSection(const Results& results, const Analysis& analysis) {
   Html keys, rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i)
-    keys += Fill("line-key", {{"dot", ColorDot(i)}, {"label", analysis.lines[i].label}});
+    keys += Fill("line-key", {{"marker", LineMarker(i)}, {"label", analysis.lines[i].label}});
   int number = 0;
   for (const std::size_t i : FrontOf(analysis)) {
     const SettingResult& s = analysis.settings[i];
@@ -274,7 +275,7 @@ Html BarSection(const Results& results, const Analysis& analysis) {
     keys += Fill("phase-key", {{"color", PhaseColor(i)}, {"name", names[i]}});
   const bool isGrouped = analysis.lines.size() < analysis.settings.size();
   for (std::size_t i = 0; i < analysis.lines.size(); ++i) {
-    const Html name = ColorDot(i) + Escape(analysis.lines[i].label);
+    const Html name = LineMarker(i) + Escape(analysis.lines[i].label);
     if (isGrouped) rows += Fill("bar-group", {{"name", name}});
     for (const std::size_t index : analysis.lines[i].settings) {
       const SettingResult& setting = analysis.settings[index];
@@ -288,7 +289,7 @@ Html BarSection(const Results& results, const Analysis& analysis) {
 Html PriceSection(const Results& results, const Analysis& analysis) {
   Html lines, rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i)
-    lines += Fill("price-line", {{"dot", ColorDot(i)}, {"label", analysis.lines[i].label}});
+    lines += Fill("price-line", {{"marker", LineMarker(i)}, {"label", analysis.lines[i].label}});
   for (const double target : results.targets) rows += PriceRow(results, analysis, target);
   const Html knobs = DoublingRows(results, analysis);
   return Fill("price-section",

@@ -18,7 +18,7 @@ Html MapSection(const std::string& folder, const Results& results);
 Html DataSection(const Results& results, const Analysis& analysis);
 
 Html MeasuredText(const Measured& measured);  // "0.012 ± 0.001"
-Html ColorDot(std::size_t line);              // colour marker of a line
+Html LineMarker(std::size_t line);            // colour and shape of a line
 std::string CountText(double count);          // "120 k"
 
 }  // namespace exphoton::study
