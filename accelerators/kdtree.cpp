@@ -137,6 +137,12 @@ class KdTree final : public Aggregate {
 
   enum class Order { NearFirst, FarFirst };
 
+  // ToVisit is a node and the part of the ray inside it.
+  struct ToVisit {
+    std::uint32_t node;
+    Span span;
+  };
+
   // Visits the leaves along the ray, roughly from front to back or from back to front. visit(leaf)
   // returns the t beyond which no hit matters any more; a hit at exactly this t still matters. A
   // negative t ends the traversal.
@@ -144,10 +150,6 @@ class KdTree final : public Aggregate {
   void Walk(const Ray& worldRay, Visit&& visit) const {
     const KdRay ray(worldRay);
     const KdNode* nodes = arrays_.nodes.data();
-    struct ToVisit {
-      std::uint32_t node;
-      Span span;
-    };
     std::array<ToVisit, std::size_t(kKdMaxDepth)> toVisit;
     std::size_t count = 0;
     ToVisit now{0, RootSpan(ray, arrays_.bounds, worldRay.tMax)};

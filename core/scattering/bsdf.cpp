@@ -100,22 +100,22 @@ std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, con
 // differ for a photon that leaves behind the shading normal: the sampled direction was behind the
 // geometric normal and was reversed, and lobes see the reversed direction mirrored in z. The
 // hemisphere of the geometric normal is thus covered once, with the density |wi.ns| of the sampled
-// direction.
+// direction. `wo` is the outgoing direction.
 struct Drawn {
-  Vector3 drawn, seen;
+  Vector3 wo, drawn, seen;
 };
 
 // Replaces the density of the picked lobe by the mean over all matching lobes, and its value by the
 // sum of the lobes that scatter between these sides.
-void CombineSmooth(const MatchingLobes& lobes, std::size_t picked, LobeSet served,
-                   const Vector3& wo, const Drawn& wi, BsdfSample* sample) {
+void CombineSmooth(const MatchingLobes& lobes, std::size_t picked, LobeSet served, const Drawn& wi,
+                   BsdfSample* sample) {
   Spectrum f;
   Real pdf = 0;
   for (std::size_t i = 0; i < lobes.smoothCount; ++i) {
     const Bxdf& lobe = *lobes.smooth[i];
     if (!lobe.Matches(served)) continue;
-    f += lobe.f(wo, wi.seen);
-    pdf += i == picked ? sample->pdf : lobe.Pdf(wo, wi.drawn);
+    f += lobe.f(wi.wo, wi.seen);
+    pdf += i == picked ? sample->pdf : lobe.Pdf(wi.wo, wi.drawn);
   }
   sample->pdf = pdf / Real(lobes.specularCount + lobes.smoothCount);
   if (sample->pdf > 0) sample->throughput = f * (std::abs(wi.drawn.z) / sample->pdf);
@@ -212,7 +212,7 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   const auto local = lobe.Sample(out.wo, u);
   if (!local) return std::nullopt;
   BsdfSample sample{frame_.ToWorld(local->wi), local->throughput, local->pdf, lobe.Lobe()};
-  Drawn drawn{local->wi, local->wi};
+  Drawn drawn{out.wo, local->wi, local->wi};
   const bool isTurned = !Intersects(sample.lobe, ScatteringSides(out.side, Dot(sample.wi, ng_)));
   if (isTurned) {
     if (mode == TransportMode::Radiance) return std::nullopt;
@@ -221,7 +221,7 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   }
   const LobeSet served = ScatteringSides(out.side, Dot(sample.wi, ng_));
   if (!Intersects(sample.lobe, served)) return std::nullopt;
-  if (count > 1 || isTurned) CombineSmooth(lobes, picked, served, out.wo, drawn, &sample);
+  if (count > 1 || isTurned) CombineSmooth(lobes, picked, served, drawn, &sample);
   if (!(sample.pdf > 0) || !sample.throughput.IsFinite()) return std::nullopt;
   return sample;
 }

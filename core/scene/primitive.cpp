@@ -8,6 +8,7 @@
 #include "core/geometry/placement.h"
 #include "core/geometry/triangle_point.h"
 #include "core/geometry/triangle_single.h"
+#include "core/scattering/material.h"
 #include "core/scene/aggregate.h"
 #include "core/scene/hit_order.h"
 

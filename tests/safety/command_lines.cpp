@@ -267,11 +267,17 @@ std::string Line(const Names& words) {
   return line;
 }
 
+// KnownFiles are the outputs that the user and the scene name, the inputs, and the names of files
+// that an earlier run wrote.
+struct KnownFiles {
+  std::set<fs::path> user, scene, inputs;
+  std::set<std::string> own;
+};
+
 // Returns a description of the fault, or "" if there is none.
-std::string Judge(const Command& command, int status, const std::set<fs::path>& user,
-                  const std::set<fs::path>& scene, const std::set<fs::path>& inputs,
-                  const std::map<std::string, std::string>& before,
-                  const std::set<std::string>& own) {
+std::string Judge(const Command& command, int status, const KnownFiles& files,
+                  const std::map<std::string, std::string>& before) {
+  const auto& [user, scene, inputs, own] = files;
   const fs::path folder = fs::current_path();
   const auto after = Snapshot(folder);
   for (const auto& [name, text] : before) {
@@ -305,15 +311,14 @@ bool RunCase(unsigned seed, const std::string& scratch, Tally* tally) {
   fs::create_directories(folder);
   Case one(fs::canonical(folder), seed);
   const Command command = one.MakeCommand();
-  std::set<fs::path> user, scene, inputs;
-  for (const std::string& name : command.outputs) user.insert(Target(name));
-  for (const std::string& name : command.sceneOutputs) scene.insert(Target(name));
-  for (const std::string& name : command.inputs) inputs.insert(Target(name));
+  KnownFiles files;
+  for (const std::string& name : command.outputs) files.user.insert(Target(name));
+  for (const std::string& name : command.sceneOutputs) files.scene.insert(Target(name));
+  for (const std::string& name : command.inputs) files.inputs.insert(Target(name));
   const auto before = Snapshot(fs::current_path());
-  std::set<std::string> own;
   for (const auto& [name, text] : before)
     if (text.starts_with("v/1\x01") && text.find("exphoton ") != std::string::npos)
-      own.insert(name);
+      files.own.insert(name);
   int status = 0;
   {
     const Silence silence(scratch + "/output");
@@ -322,7 +327,7 @@ bool RunCase(unsigned seed, const std::string& scratch, Tally* tally) {
   ++tally->cases;
   tally->rendered += status == 0;
   tally->refused += status == 3;
-  const std::string fault = Judge(command, status, user, scene, inputs, before, own);
+  const std::string fault = Judge(command, status, files, before);
   if (fault.empty()) return true;
   ++tally->failed;
   std::printf("case %u: %s\n  %s\n%s\n", seed, fault.c_str(), Line(command.words).c_str(),

@@ -29,12 +29,17 @@ const std::string kEmits = "AreaLightSource \"area\" ";
 const std::string kBackdrop =
     "Material \"matte\" \"color Kd\" [0 0 0]\n" + Square(-99, 99, -99, 99, 9);
 
+struct MotionRun {
+  std::uint64_t seed = 1;
+  int size = 8;  // of the picture in pixels
+};
+
 TestRender Render(const std::string& integrator, const std::string& world, int samples = 64,
-                  const std::string& effects = "auto", std::uint64_t seed = 1, int size = 8) {
+                  const std::string& effects = "auto", MotionRun run = {}) {
   TestRenderOptions options;
   options.load.effects = effects;
-  options.seed = seed;
-  return RenderSceneText(TestHeader(integrator, size, size, samples) + world, options);
+  options.seed = run.seed;
+  return RenderSceneText(TestHeader(integrator, run.size, run.size, samples) + world, options);
 }
 
 // Returns "Transform [...]" with the numbers of the matrix, column by column.
@@ -97,7 +102,7 @@ TEST(Motion, OfATurningSectorLightsEachAngleForItsShare) {
   const std::string world = "WorldBegin\n" + kBackdrop + kEmits + kEnd + "Rotate 90 0 0 1 " + kAll +
                             "Translate 0 0 1 Rotate 180 1 0 0 Rotate -90 0 0 1 Shape \"disk\" "
                             "\"float radius\" 4 \"float phimax\" 90\nWorldEnd\n";
-  const Image image = Render("\"whitted\"", world, 1024, "auto", 1, 16).image;
+  const Image image = Render("\"whitted\"", world, 1024, "auto", {1, 16}).image;
   EXPECT_NEAR(MeanRadiance(image), .25, .002);
   double most = 0;
   for (int y = 0; y < 16; ++y)
@@ -203,7 +208,7 @@ double MeanOfStills(const std::string& integrator, const AnimatedTransform& moti
   for (int i = 0; i < kStills; ++i)
     sum += MeanRadiance(Render(integrator,
                                world(TransformText(motion.At((Real(i) + Real(.5)) / kStills))),
-                               samples, "auto", std::uint64_t(i) + 1)
+                               samples, "auto", {std::uint64_t(i) + 1})
                             .image);
   return sum / kStills;
 }
@@ -231,7 +236,7 @@ TEST(Motion, OfALampLightsAsItsPositionsDo) {
   for (const std::string integrator : {"\"directlighting\"", "\"path\"", "\"whitted\""}) {
     const double truth = MeanOfStills(integrator, motion, world, 64);
     const SeedEstimate moving = EstimateOverSeeds([&](std::uint64_t seed) {
-      return MeanRadiance(Render(integrator, world(MovingText(motion)), 256, "auto", seed).image);
+      return MeanRadiance(Render(integrator, world(MovingText(motion)), 256, "auto", {seed}).image);
     });
     EXPECT_TRUE(IsWithin(.02, moving, truth)) << integrator;
   }
@@ -250,7 +255,7 @@ TEST(Motion, OfALampShootsThePhotonsThatItsPositionsDo) {
   const AnimatedTransform motion = LampMotion();
   const double truth = MeanOfStills("\"directlighting\"", motion, world, 64);
   const SeedEstimate moving = EstimateOverSeeds([&](std::uint64_t seed) {
-    return MeanRadiance(Render(photons, world(MovingText(motion)), 8, "auto", seed).image);
+    return MeanRadiance(Render(photons, world(MovingText(motion)), 8, "auto", {seed}).image);
   });
   EXPECT_TRUE(IsWithin(.03, moving, truth));
 }
@@ -269,7 +274,7 @@ TEST(Motion, OfABlockerLeavesThePhotonsOfTheMean) {
       "nused\" 60";
   const double truth = MeanOfStills(photons, motion, world, 8);
   const SeedEstimate moving = EstimateOverSeeds([&](std::uint64_t seed) {
-    return MeanRadiance(Render(photons, world(MovingText(motion)), 8, "auto", seed).image);
+    return MeanRadiance(Render(photons, world(MovingText(motion)), 8, "auto", {seed}).image);
   });
   EXPECT_TRUE(IsWithin(.03, moving, truth));
 }
@@ -308,7 +313,7 @@ TEST(Motion, InAFurnaceChangesNothing) {
          "finalgather\" \"false\"",
          .03}}) {
     const SeedEstimate mean = EstimateOverSeeds([&, name = integrator](std::uint64_t seed) {
-      return MeanRadiance(Render(name, world, 16, "auto", seed).image);
+      return MeanRadiance(Render(name, world, 16, "auto", {seed}).image);
     });
     EXPECT_TRUE(IsWithin(tolerance, mean, 2)) << integrator;
   }

@@ -12,7 +12,12 @@ namespace {
 
 using Density = std::function<double(double, double)>;
 
-double TensorSum(const Density& f, double x0, double y0, double dx, double dy) {
+struct Rectangle {
+  double x0, y0, dx, dy;
+};
+
+double TensorSum(const Density& f, const Rectangle& cell) {
+  const auto& [x0, y0, dx, dy] = cell;
   // Gauss-Legendre quadrature uses 3 x 3 points.
   constexpr double kNode = 0.7745966692414834;
   const double node[3] = {(1 - kNode) / 2, 0.5, (1 + kNode) / 2};
@@ -25,21 +30,21 @@ double TensorSum(const Density& f, double x0, double y0, double dx, double dy) {
 }
 
 // Halves a cell until its quarters agree with the whole.
-double Integrate(const Density& f, double x0, double y0, double dx, double dy, int depth,
-                 double whole, int level = 0) {
-  const double hx = dx / 2, hy = dy / 2;
+double Integrate(const Density& f, const Rectangle& cell, int depth, double whole, int level = 0) {
+  const double hx = cell.dx / 2, hy = cell.dy / 2;
+  const auto part = [&](int i) {
+    return Rectangle{cell.x0 + (i & 1) * hx, cell.y0 + (i >> 1) * hy, hx, hy};
+  };
   double quarter[4], sum = 0;
   for (int i = 0; i < 4; ++i) {
-    quarter[i] = TensorSum(f, x0 + (i & 1) * hx, y0 + (i >> 1) * hy, hx, hy);
+    quarter[i] = TensorSum(f, part(i));
     sum += quarter[i];
   }
   // The first levels are always halved, because a small bright part may lie between the points.
   constexpr int kAlways = 2;
   if (depth <= 0 || (level >= kAlways && std::abs(sum - whole) <= 1e-4 * std::abs(sum))) return sum;
   sum = 0;
-  for (int i = 0; i < 4; ++i)
-    sum += Integrate(f, x0 + (i & 1) * hx, y0 + (i >> 1) * hy, hx, hy, depth - 1, quarter[i],
-                     level + 1);
+  for (int i = 0; i < 4; ++i) sum += Integrate(f, part(i), depth - 1, quarter[i], level + 1);
   return sum;
 }
 
@@ -76,10 +81,6 @@ ChiSquareResult Compare(std::vector<Cell> cells, double mass) {
   return result;
 }
 
-struct Rectangle {
-  double x0, y0, dx, dy;
-};
-
 ChiSquareResult TestRectangle(
     const Rectangle& area,
     const std::function<std::optional<std::pair<double, double>>(RandomStream&)>& sample,
@@ -91,9 +92,8 @@ ChiSquareResult TestRectangle(
   double mass = 0;
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
-      const double x = area.x0 + i * dx, y = area.y0 + j * dy;
-      const double p =
-          Integrate(pdf, x, y, dx, dy, options.quadratureDepth, TensorSum(pdf, x, y, dx, dy));
+      const Rectangle cell{area.x0 + i * dx, area.y0 + j * dy, dx, dy};
+      const double p = Integrate(pdf, cell, options.quadratureDepth, TensorSum(pdf, cell));
       cells[std::size_t(i * columns + j)].expected = p * samples;
       mass += p;
     }

@@ -15,7 +15,7 @@
 #include "core/app/output/run_files.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
-#include "core/app/report/markup.h"
+#include "core/app/report/template.h"
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
@@ -124,33 +124,27 @@ std::string TableText(const Place& place, const std::vector<StoredPhoton>& photo
 // Plots directions by Lambert's azimuthal equal-area projection, so that areas in the plot are
 // proportional to solid angles. The area of a dot is proportional to the photon's power.
 std::string PlotText(const Place& place, const std::vector<StoredPhoton>& photons) {
-  using study::Coordinate;
-  constexpr double kSize = 360, kRadius = 150, kDegree = 3.14159265358979 / 180;
+  using study::Fill;
+  constexpr double kCentre = 180, kRadius = 150, kDegree = 3.14159265358979 / 180;
   const auto radius = [](double polar) {
     return kRadius * std::sqrt(2.) * std::sin(polar * kDegree / 2);
   };
-  std::string text =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + Coordinate(kSize) + " " +
-      Coordinate(kSize) +
-      "\" width=\"360\" height=\"360\"><style>text{font:11px sans-serif;fill:#777}"
-      "circle.ring{fill:none;stroke:#9a9a9a;stroke-width:.7}"
-      "circle.dot{fill:#0b5fa5;fill-opacity:.55;stroke:#0b5fa5}"
-      "@media (prefers-color-scheme:dark){circle.dot{fill:#7cc0ff;stroke:#7cc0ff}}</style>\n";
+  study::Html rings, dots;
   for (const double polar : {30., 60., 90.}) {
     const double r = radius(polar);
-    text += "<circle class=\"ring\" cx=\"180\" cy=\"180\" r=\"" + Coordinate(r) + "\"/>";
-    text += study::SvgText({180, 180 - r - 3}, Coordinate(polar) + "°", "middle") + "\n";
+    rings += Fill("photon-ring", {{"radius", r}, {"textY", kCentre - r - 3}, {"degrees", polar}});
   }
   double mean = 0;
   for (const StoredPhoton& photon : photons)
     mean += double(photon.power.Y()) / double(photons.size());
   for (const StoredPhoton& photon : photons) {
     const double r = radius(place.Polar(photon.wi)), angle = place.Azimuth(photon.wi) * kDegree;
-    const double size = 4 * std::sqrt(std::max(0., double(photon.power.Y()) / mean));
-    text += "<circle class=\"dot\" cx=\"" + Coordinate(180 + r * std::cos(angle)) + "\" cy=\"" +
-            Coordinate(180 - r * std::sin(angle)) + "\" r=\"" + Coordinate(size) + "\"/>\n";
+    dots += Fill("photon-dot",
+                 {{"x", kCentre + r * std::cos(angle)},
+                  {"y", kCentre - r * std::sin(angle)},
+                  {"radius", 4 * std::sqrt(std::max(0., double(photon.power.Y()) / mean))}});
   }
-  return text + "</svg>\n";
+  return Fill("photon-plot", {{"rings", rings}, {"dots", dots}}).Markup() + "\n";
 }
 
 // Returns the index of the map with this name, or 0 for the name "" and where there are no maps.

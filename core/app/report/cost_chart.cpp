@@ -27,7 +27,7 @@ class Chart {
         x_(lowX, highX, kLeft, kWidth - kRight),
         y_(lowY, highY, kHeight - kBottom, kTop) {}
 
-  std::string Draw() {
+  Html Draw() {
     AddGrid();
     AddReferenceLimit();
     AddSlope();
@@ -35,27 +35,25 @@ class Chart {
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddLine(i);
     AddNumbers();
     for (const auto& [number, end] : ends_) AddName(number, end);
-    return "<svg class=\"chart\" viewBox=\"0 0 " + Coordinate(kWidth) + " " + Coordinate(kHeight) +
-           "\" role=\"img\" aria-label=\"Error against seconds\">" + text_ + "</svg>";
+    return Fill("chart", {{"width", kWidth}, {"height", kHeight}, {"content", shapes_ + notes_}});
   }
 
  private:
   void AddGrid() {
     for (const LogScale::Tick& tick : x_.Ticks()) {
       const double x = x_(tick.value);
-      text_ += SvgLine({x, kTop}, {x, kHeight - kBottom}, tick.isDecade ? "grid major" : "grid");
-      text_ += SvgText({x, kHeight - kBottom + 18}, ShortNumber(tick.value), "middle", "tick");
+      shapes_ += SvgLine({x, kTop}, {x, kHeight - kBottom}, tick.isDecade ? "grid major" : "grid");
+      shapes_ += SvgText({x, kHeight - kBottom + 18}, ShortNumber(tick.value), "middle", "tick");
     }
     for (const LogScale::Tick& tick : y_.Ticks()) {
       const double y = y_(tick.value);
-      text_ += SvgLine({kLeft, y}, {kWidth - kRight, y}, tick.isDecade ? "grid major" : "grid");
-      text_ += SvgText({kLeft - 8, y + 4}, ShortNumber(tick.value), "end", "tick");
+      shapes_ += SvgLine({kLeft, y}, {kWidth - kRight, y}, tick.isDecade ? "grid major" : "grid");
+      shapes_ += SvgText({kLeft - 8, y + 4}, ShortNumber(tick.value), "end", "tick");
     }
-    text_ += SvgText({(kLeft + kWidth - kRight) / 2, kHeight - 12},
-                     results_.clock == "wall" ? "seconds" : "CPU seconds", "middle", "axis");
+    shapes_ += SvgText({(kLeft + kWidth - kRight) / 2, kHeight - 12},
+                       results_.clock == "wall" ? "seconds" : "CPU seconds", "middle", "axis");
     const std::string name = analysis_.hasReference ? "error (relMSE)" : "noise (relMSE)";
-    text_ += "<text class=\"axis\" text-anchor=\"middle\" transform=\"translate(16 " +
-             Coordinate((kTop + kHeight - kBottom) / 2) + ") rotate(-90)\">" + name + "</text>";
+    shapes_ += SvgTurnedText({16, (kTop + kHeight - kBottom) / 2}, -90, name, "axis");
   }
 
   // Shades the errors below ten times the reference's noise, which are not compared.
@@ -64,9 +62,9 @@ class Chart {
     const double limit = analysis_.reference.variance.value / kMaxReferenceShare;
     if (limit < y_.Low()) return;
     const double y = std::max(y_(limit), kTop);
-    text_ += SvgRect({kLeft, y}, {kWidth - kRight - kLeft, kHeight - kBottom - y}, "limit");
-    text_ += SvgText({kWidth - kRight - 6, std::min(y + 15, kHeight - kBottom - 4)},
-                     "below: the reference is too noisy to compare", "end", "note");
+    shapes_ += SvgRect({kLeft, y}, {kWidth - kRight - kLeft, kHeight - kBottom - y}, "limit");
+    AddNoteAtRight(std::min(y + 15, kHeight - kBottom - 4),
+                   "below: the reference is too noisy to compare", "note");
   }
 
   // Draws the slope of pure noise, error ~ 1 / seconds, below all points.
@@ -80,12 +78,10 @@ class Chart {
     const double right = std::min(x_.High(), product / y_.Low());
     if (!(left < right)) return;
     const Point2d a{x_(left), y_(product / left)}, b{x_(right), y_(product / right)};
-    text_ += SvgLine(a, b, "slope");
+    shapes_ += SvgLine(a, b, "slope");
     const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / 3.14159265358979;
     const Point2d at{a.x + .4 * (b.x - a.x), a.y + .4 * (b.y - a.y) + 16};
-    text_ += "<text class=\"note\" text-anchor=\"middle\" transform=\"translate(" +
-             Coordinate(at.x) + " " + Coordinate(at.y) + ") rotate(" + Coordinate(angle) +
-             ")\">pure noise: its root falls with slope −1/2</text>";
+    notes_ += SvgTurnedText(at, angle, "pure noise: its root falls with slope −1/2", "note");
   }
 
   // Draws bias^2 of each line's most accurate setting if it is significant: at least two standard
@@ -101,9 +97,8 @@ class Chart {
       if (bias.value < .1 * best.cost.error.value || bias.value < y_.Low()) continue;
       const double y = y_(bias.value), x = x_(best.cost.seconds.value);
       const double start = std::max(kLeft, x - 90), end = kWidth - kRight;
-      text_ += SvgLine({start, y}, {end, y}, "floor " + Color(i));
-      text_ += SvgText({end - 4, y - 5}, "bias² of " + analysis_.lines[i].label, "end",
-                       "note text" + Color(i));
+      shapes_ += SvgLine({start, y}, {end, y}, "floor " + ColorClass(i));
+      AddNoteAtRight(y - 5, "bias² of " + analysis_.lines[i].label, "note text" + ColorClass(i));
     }
   }
 
@@ -114,7 +109,7 @@ class Chart {
     std::vector<Point2d> corners;
     for (const std::size_t i : front)
       corners.push_back({x_(points[i].seconds.value), y_(points[i].error.value)});
-    text_ += SvgPolyline(corners, "series " + Color(number));
+    shapes_ += SvgPolyline(corners, "series " + ColorClass(number));
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!IsShown(points[i])) continue;
       const bool isFront = std::find(front.begin(), front.end(), i) != front.end();
@@ -141,7 +136,7 @@ class Chart {
       at.y = hit->first.y + kHeightOfText + 1;
     }
     taken_.emplace_back(at, width);
-    text_ += SvgText(at, label, "start", "name text" + Color(number));
+    shapes_ += SvgText(at, label, "start", "name text" + ColorClass(number));
   }
 
   void AddPoint(std::size_t line, std::size_t index, bool isFront) {
@@ -150,36 +145,45 @@ class Chart {
     const Point2d at{x_(s.value), y_(e.value)};
     if (std::isfinite(e.error)) {
       const double low = std::max(e.value - e.error, y_.Low());
-      text_ += SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "whisker " + Color(line));
+      shapes_ +=
+          SvgLine({at.x, y_(low)}, {at.x, y_(e.value + e.error)}, "whisker " + ColorClass(line));
     }
     if (std::isfinite(s.error) && s.error < s.value)
-      text_ += SvgLine({x_(s.value - s.error), at.y}, {x_(s.value + s.error), at.y},
-                       "whisker " + Color(line));
+      shapes_ += SvgLine({x_(s.value - s.error), at.y}, {x_(s.value + s.error), at.y},
+                         "whisker " + ColorClass(line));
     taken_.emplace_back(Point2d{at.x - 5, at.y + 4}, 10);
     const std::string title = analysis_.lines[line].label + ", " +
                               results_.settings[setting.setting].Text() + ": " +
                               SecondsText(s.value) + ", " + ShortNumber(e.value);
-    text_ += SvgMarker(int(line), at, isFront ? 5 : 4,
-                       std::string(isFront ? "point " : "point hollow ") + Color(line), title);
+    shapes_ +=
+        SvgMarker(int(line), at, isFront ? 5 : 4,
+                  std::string(isFront ? "point " : "point hollow ") + ColorClass(line), title);
   }
 
   void AddNumbers() {
     int number = 0;
     for (const std::size_t i : FrontOf(analysis_)) {
       const CostPoint& cost = analysis_.settings[i].cost;
-      text_ += SvgText({x_(cost.seconds.value) - 7, y_(cost.error.value) + 16},
-                       std::to_string(++number), "end", "number");
+      shapes_ += SvgText({x_(cost.seconds.value) - 7, y_(cost.error.value) + 16},
+                         std::to_string(++number), "end", "number");
     }
   }
 
-  static std::string Color(std::size_t line) {
-    return "c" + std::to_string(line % std::size_t(kSeriesColors));
+  // Writes a note at the right edge, moved up if it would cover another one.
+  void AddNoteAtRight(double y, const std::string& text, const std::string& classes) {
+    constexpr double kHeightOfNote = 14;
+    std::sort(notesAtRight_.rbegin(), notesAtRight_.rend());
+    for (const double other : notesAtRight_)
+      if (std::abs(y - other) < kHeightOfNote) y = other - kHeightOfNote;
+    notesAtRight_.push_back(y);
+    notes_ += SvgText({kWidth - kRight - 6, y}, text, "end", classes);
   }
 
   const Results& results_;
   const Analysis& analysis_;
   LogScale x_, y_;
-  std::string text_;
+  Html shapes_, notes_;               // notes are in front of all lines
+  std::vector<double> notesAtRight_;  // their baselines
   // Left ends and widths of texts and markers, in SVG units. Names must not cover these.
   std::vector<std::pair<Point2d, double>> taken_;
   std::vector<std::pair<std::size_t, Point2d>> ends_;  // end point of each line, by line number
@@ -191,7 +195,7 @@ std::vector<std::size_t> FrontOf(const Analysis& analysis) {
   return ParetoFront(analysis.Points());
 }
 
-std::string CostChart(const Results& results, const Analysis& analysis) {
+Html CostChart(const Results& results, const Analysis& analysis) {
   double lowX = 1e300, highX = 0, lowY = 1e300, highY = 0;
   for (const SettingResult& setting : analysis.settings) {
     const CostPoint& p = setting.cost;
@@ -201,7 +205,7 @@ std::string CostChart(const Results& results, const Analysis& analysis) {
     lowY = std::min(lowY, p.error.value);
     highY = std::max(highY, p.error.value);
   }
-  if (highX == 0) return "<p>No setting has an error that can be shown.</p>";
+  if (highX == 0) return Fill("no-chart");
   return Chart(results, analysis, lowX, highX, lowY, highY).Draw();
 }
 

@@ -30,15 +30,12 @@ std::optional<double> ChooseTarget(const Analysis& analysis) {
   return best;
 }
 
-std::string Plus(const Measured& m, const char* format) {
-  return Format(format, m.value) +
-         (std::isfinite(m.error) ? " ± " + Format(format, m.error) : std::string());
+std::string WithError(const Measured& m) {
+  return ShortNumber(m.value) +
+         (std::isfinite(m.error) ? " ± " + ShortNumber(m.error, 1) : std::string());
 }
 
-std::string RatioText(const Measured& ratio) {
-  const char* format = ratio.value < 10 ? "%.1f" : "%.0f";
-  return "(" + Plus(ratio, format) + "×)";
-}
+std::string RatioText(const Measured& ratio) { return "(" + WithError(ratio) + "×)"; }
 
 std::string LineText(const Line& line, const Line& fastest) {
   const TimeToError& t = line.toTarget;
@@ -118,11 +115,11 @@ std::string Efficiencies(const Results& results, const Analysis& analysis) {
   std::stable_sort(ratios.begin(), ratios.end(),
                    [](const auto& a, const auto& b) { return a.first.value > b.first.value; });
   std::string text = "On " + results.title + ", “" + ratios[0].second + "” is " +
-                     Plus(ratios[0].first, "%.1f") +
+                     WithError(ratios[0].first) +
                      " times as efficient (1 / (error × seconds)) as " + base;
   for (std::size_t i = 1; i < std::min(kNamed, ratios.size()); ++i)
     text += (i == 1 ? "; next are “" : ", “") + ratios[i].second + "” with " +
-            Plus(ratios[i].first, "%.1f");
+            WithError(ratios[i].first);
   return text + ".";
 }
 

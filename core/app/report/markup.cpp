@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This file writes HTML and SVG text, independent of studies.
+// This file writes SVG shapes and numbers, independent of studies.
 #include "core/app/report/markup.h"
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <numbers>
 
 namespace exphoton::study {
 namespace {
 
-std::string At(const char* x, const char* y, Point2d p) {
-  return std::string(" ") + x + "=\"" + Coordinate(p.x) + "\" " + y + "=\"" + Coordinate(p.y) +
-         "\"";
-}
-
-std::string Class(const std::string& classes) {
-  return classes.empty() ? "" : " class=\"" + classes + "\"";
+// Returns the attribute "points" of polygons and polylines.
+std::string PointsText(const std::vector<Point2d>& points) {
+  std::string text;
+  for (const Point2d& p : points) text += Coordinate(p.x) + "," + Coordinate(p.y) + " ";
+  return text;
 }
 
 std::vector<Point2d> Polygon(int corners, double turn, double radius, Point2d centre) {
@@ -29,29 +26,6 @@ std::vector<Point2d> Polygon(int corners, double turn, double radius, Point2d ce
 }
 
 }  // namespace
-
-std::string Escape(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string Base64(const std::string& bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -66,51 +40,57 @@ std::string Base64(const std::string& bytes) {
   return text;
 }
 
-std::string Coordinate(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", std::isfinite(value) ? value : 0);
-  std::string number = text;
-  while (number.back() == '0') number.pop_back();
-  if (number.back() == '.') number.pop_back();
-  return number == "-0" ? "0" : number;
-}
-
 std::string Percent(double share) { return Coordinate(100 * share) + "%"; }
 
-std::string SvgLine(Point2d a, Point2d b, const std::string& classes) {
-  return "<line" + At("x1", "y1", a) + At("x2", "y2", b) + Class(classes) + "/>";
+Html SvgLine(Point2d a, Point2d b, const std::string& classes) {
+  return Fill("svg-line",
+              {{"x1", a.x}, {"y1", a.y}, {"x2", b.x}, {"y2", b.y}, {"classes", classes}});
 }
 
-std::string SvgRect(Point2d corner, Point2d size, const std::string& classes) {
-  return "<rect" + At("x", "y", corner) + At("width", "height", size) + Class(classes) + "/>";
+Html SvgRect(Point2d corner, Point2d size, const std::string& classes) {
+  return Fill("svg-rect", {{"x", corner.x},
+                           {"y", corner.y},
+                           {"width", size.x},
+                           {"height", size.y},
+                           {"classes", classes}});
 }
 
-std::string SvgText(Point2d at, const std::string& text, const std::string& anchor,
-                    const std::string& classes) {
-  return "<text" + At("x", "y", at) + " text-anchor=\"" + anchor + "\"" + Class(classes) + ">" +
-         Escape(text) + "</text>";
+Html SvgText(Point2d at, const std::string& text, const std::string& anchor,
+             const std::string& classes) {
+  return Fill("svg-text",
+              {{"x", at.x}, {"y", at.y}, {"anchor", anchor}, {"classes", classes}, {"text", text}});
 }
 
-std::string SvgPolyline(const std::vector<Point2d>& points, const std::string& classes) {
-  std::string text = "<polyline points=\"";
-  for (const Point2d& p : points) text += Coordinate(p.x) + "," + Coordinate(p.y) + " ";
-  return text + "\"" + Class(classes) + "/>";
+Html SvgTurnedText(Point2d at, double degrees, const std::string& text,
+                   const std::string& classes) {
+  return Fill(
+      "svg-turned-text",
+      {{"x", at.x}, {"y", at.y}, {"degrees", degrees}, {"classes", classes}, {"text", text}});
 }
 
-std::string SvgMarker(int shape, Point2d at, double size, const std::string& classes,
-                      const std::string& title) {
-  const std::string end = "><title>" + Escape(title) + "</title></";
+Html SvgPolyline(const std::vector<Point2d>& points, const std::string& classes) {
+  return Fill("svg-polyline", {{"points", PointsText(points)}, {"classes", classes}});
+}
+
+std::string ColorClass(std::size_t line) {
+  return "c" + std::to_string(line % std::size_t(kSeriesColors));
+}
+
+Html SvgMarker(int shape, Point2d at, double size, const std::string& classes,
+               const std::string& text) {
+  const Html title = text.empty() ? Html() : Fill("svg-title", {{"text", text}});
   // Each round of colours starts with another shape, so lines of the same colour have two shapes.
   const int kind = (shape + shape / kSeriesColors) % kSeriesColors;
   if (kind == 0)
-    return "<circle" + At("cx", "cy", at) + " r=\"" + Coordinate(size) + "\"" + Class(classes) +
-           end + "circle>";
+    return Fill(
+        "svg-circle-marker",
+        {{"x", at.x}, {"y", at.y}, {"radius", size}, {"classes", classes}, {"title", title}});
   const int corners = kind == 1 || kind == 3 ? 4 : kind == 4 ? 5 : 3;
   const double turn = kind == 1 || kind == 5 ? .5 : 0;
-  std::string points;
-  for (const Point2d& p : Polygon(corners, turn, 1.25 * size, at))
-    points += Coordinate(p.x) + "," + Coordinate(p.y) + " ";
-  return "<polygon points=\"" + points + "\"" + Class(classes) + end + "polygon>";
+  return Fill("svg-polygon-marker",
+              {{"points", PointsText(Polygon(corners, turn, 1.25 * size, at))},
+               {"classes", classes},
+               {"title", title}});
 }
 
 LogScale::LogScale(double low, double high, double pixelLow, double pixelHigh)

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These functions produce HTML and SVG text: escaping, numbers, base64 and the shapes of the
-// charts. Colours are CSS classes of the page's style sheet (page_style.cpp), so they adapt to
-// light and dark mode.
+// These functions produce the shapes of the charts, numbers and base64. Colours are CSS classes of
+// page.css, so they adapt to light and dark mode.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "core/app/report/template.h"
+
 namespace exphoton::study {
 
-std::string Escape(const std::string& text);
 std::string Base64(const std::string& bytes);
-std::string Coordinate(double value);  // at most two decimals
-std::string Percent(double share);     // "12.34%" for 0.1234
+std::string Percent(double share);  // "12.34%" for 0.1234
 
 inline constexpr int kSeriesColors = 6;  // CSS classes c0 to c5
 inline constexpr int kPhaseColors = 8;   // CSS classes p0 to p7
@@ -21,16 +20,19 @@ struct Point2d {
   double x = 0, y = 0;
 };
 
-std::string SvgLine(Point2d a, Point2d b, const std::string& classes);
-std::string SvgRect(Point2d corner, Point2d size, const std::string& classes);
+Html SvgLine(Point2d a, Point2d b, const std::string& classes);
+Html SvgRect(Point2d corner, Point2d size, const std::string& classes);
 // `anchor` is start, middle or end.
-std::string SvgText(Point2d at, const std::string& text, const std::string& anchor,
-                    const std::string& classes = "");
-std::string SvgPolyline(const std::vector<Point2d>& points, const std::string& classes);
+Html SvgText(Point2d at, const std::string& text, const std::string& anchor,
+             const std::string& classes);
+// Centres the text at the point and turns it clockwise.
+Html SvgTurnedText(Point2d at, double degrees, const std::string& text, const std::string& classes);
+Html SvgPolyline(const std::vector<Point2d>& points, const std::string& classes);
+std::string ColorClass(std::size_t line);  // "c0" for line 0
 // Draws the marker for a line number: a circle, square, triangle, diamond, pentagon or inverted
-// triangle. `title` appears on hover.
-std::string SvgMarker(int shape, Point2d at, double size, const std::string& classes,
-                      const std::string& title);
+// triangle. `title` appears on hover, unless it is empty.
+Html SvgMarker(int shape, Point2d at, double size, const std::string& classes,
+               const std::string& title);
 
 // LogScale maps data to pixels logarithmically, with ticks at 1, 2 and 5 per decade, or denser.
 class LogScale {

@@ -43,17 +43,15 @@ class Gallery {
     if (crops_.empty()) crops_.push_back(WorstWindow(first, reference_));
   }
 
-  std::string Figures(const std::vector<std::size_t>& settings) const {
-    std::string text = "<div class=\"pictures\">";
-    if (analysis_.hasReference) {
-      text += "<figure>" + PictureElement(reference_, scale_, "reference", false);
-      for (const auto& crop : crops_)
-        text += PictureElement(CropOf(reference_, crop), scale_, "part of the reference", true);
-      text += "<figcaption><b>reference</b><small>" + Escape(results_.reference.integrator) +
-              "</small></figcaption></figure>";
-    }
-    for (std::size_t line = 0; line < settings.size(); ++line) text += Figure(line, settings[line]);
-    return text + "</div>\n";
+  Html Figures(const std::vector<std::size_t>& settings) const {
+    Html figures;
+    if (analysis_.hasReference)
+      figures += Fill("reference-figure",
+                      {{"pictures", PictureAndCrops(reference_, "reference", "the reference")},
+                       {"integrator", results_.reference.integrator}});
+    for (std::size_t line = 0; line < settings.size(); ++line)
+      figures += Figure(line, settings[line]);
+    return figures;
   }
 
  private:
@@ -62,20 +60,27 @@ class Gallery {
     return ReadExr(PathOf(folder_, results_.runs[run].image));
   }
 
-  std::string Figure(std::size_t line, std::size_t setting) const {
+  Html PictureAndCrops(const Image& image, const std::string& alt, const std::string& whole) const {
+    Html pictures = PictureElement(image, scale_, alt, false);
+    for (const auto& crop : crops_)
+      pictures += PictureElement(CropOf(image, crop), scale_, "part of " + whole, true);
+    return pictures;
+  }
+
+  Html Figure(std::size_t line, std::size_t setting) const {
     const SettingResult& result = analysis_.settings[setting];
     const std::string& label = analysis_.lines[line].label;
     const Image image = Read(setting);
-    std::string text = "<figure>" + PictureElement(image, scale_, label, false);
-    for (const auto& crop : crops_)
-      text += PictureElement(CropOf(image, crop), scale_, "part of " + label, true);
+    Html pictures = PictureAndCrops(image, label, label);
     if (analysis_.hasReference)
-      text += PictureElement(SignedErrorImage(reference_, image, kErrorScale), 1,
-                             "signed error of " + label, true);
-    return text + "<figcaption>" + ColorDot(line) + "<b>" + Escape(label) + "</b><small>" +
-           Escape(results_.settings[result.setting].Text()) + "</small>" +
-           SecondsText(result.cost.seconds.value) + ", error " +
-           ShortNumber(result.cost.error.value) + "</figcaption></figure>";
+      pictures += PictureElement(SignedErrorImage(reference_, image, kErrorScale), 1,
+                                 "signed error of " + label, true);
+    return Fill("figure", {{"pictures", pictures},
+                           {"marker", LineMarker(line)},
+                           {"label", label},
+                           {"setting", results_.settings[result.setting].Text()},
+                           {"seconds", SecondsText(result.cost.seconds.value)},
+                           {"error", ShortNumber(result.cost.error.value)}});
   }
 
   const std::string& folder_;
@@ -99,51 +104,54 @@ double CommonTime(const Analysis& analysis) {
   return times[times.size() / 2];
 }
 
-std::string EverySetting(const Results& results, const Analysis& analysis) {
-  std::string rows;
-  const auto cell = [](const std::string& text) { return "<td>" + text + "</td>"; };
+Html SettingRow(const std::string& label, const std::string& setting, std::size_t line,
+                const SettingResult& s) {
+  return Fill("setting-row", {{"marker", LineMarker(line)},
+                              {"label", label},
+                              {"setting", setting},
+                              {"cpu", MeasuredText(s.cpu)},
+                              {"wall", MeasuredText(s.wall)},
+                              {"relMse", MeasuredText(s.separation.relMse)},
+                              {"trimmed", ShortNumber(s.trimmed)},
+                              {"noise", MeasuredText(s.separation.variance)},
+                              {"bias", MeasuredText(s.separation.bias2)},
+                              {"mse", ShortNumber(s.mse)},
+                              {"meanError", (s.relativeMean > 0 ? "+" : "") +
+                                                ShortNumber(100 * s.relativeMean) + " %"},
+                              {"p99", ShortNumber(s.p99)},
+                              {"flip", ShortNumber(s.flip)},
+                              {"nonFinite", s.nonFinite},
+                              {"efficiency", ShortNumber(s.Efficiency())},
+                              {"spp", ShortNumber(s.samplesPerPixel, 6)},
+                              {"paths", CountText(s.photonPaths)},
+                              {"photons", CountText(s.photonsStored)},
+                              {"memory", ShortNumber(s.peakMemory / (1 << 20), 3)}});
+}
+
+Html SettingRows(const Results& results, const Analysis& analysis) {
+  Html rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i) {
     for (const std::size_t index : analysis.lines[i].settings) {
       const SettingResult& s = analysis.settings[index];
-      rows += "<tr><td>" + ColorDot(i) + Escape(analysis.lines[i].label) + "<br><small>" +
-              Escape(results.settings[s.setting].Text()) + "</small></td>";
-      rows += cell(MeasuredText(s.cpu)) + cell(MeasuredText(s.wall)) +
-              cell(MeasuredText(s.separation.relMse)) + cell(ShortNumber(s.trimmed)) +
-              cell(MeasuredText(s.separation.variance)) + cell(MeasuredText(s.separation.bias2)) +
-              cell(ShortNumber(s.mse)) +
-              cell((s.relativeMean > 0 ? "+" : "") + ShortNumber(100 * s.relativeMean) + " %") +
-              cell(ShortNumber(s.p99)) + cell(ShortNumber(s.flip)) +
-              cell(std::to_string(s.nonFinite)) + cell(ShortNumber(s.Efficiency())) +
-              cell(ShortNumber(s.samplesPerPixel, 6)) + cell(CountText(s.photonPaths)) +
-              cell(CountText(s.photonsStored)) + cell(ShortNumber(s.peakMemory / (1 << 20), 3)) +
-              "</tr>\n";
+      rows += SettingRow(analysis.lines[i].label, results.settings[s.setting].Text(), i, s);
     }
   }
-  return Table(
-      "<th>setting</th><th>CPU s</th><th>wall s</th><th>relMSE</th><th>trimmed</th><th>noise</th>"
-      "<th>bias²</th><th>MSE</th><th>mean error</th><th>p99</th><th>FLIP</th><th>NaN/Inf</th>"
-      "<th>efficiency</th><th>spp</th><th>paths shot</th><th>photons</th><th>MiB</th>",
-      rows);
+  return rows;
 }
 
-std::string Commands(const Results& results) {
-  std::string text = Escape(results.command) + "\n";
-  if (!results.reference.command.empty())
-    text +=
-        "\n# the reference: the mean of renders like this, two halves with seeds of their own\n" +
-        Escape(results.reference.command) + "\n";
-  text += "\n# each setting, here with its first seed\n";
+// Returns the command of each setting's first render, one a line.
+std::string SettingCommands(const Results& results) {
+  std::string text;
   std::set<std::size_t> seen;
   for (const RunRow& row : results.runs)
-    if (seen.insert(row.setting).second) text += Escape(row.command) + "\n";
-  return "<pre>" + text + "</pre>\n";
+    if (seen.insert(row.setting).second) text += row.command + "\n";
+  return text;
 }
 
 }  // namespace
 
-std::string PictureSection(const std::string& folder, const Results& results,
-                           const Analysis& analysis) {
-  if (analysis.settings.empty()) return "";
+Html PictureSection(const std::string& folder, const Results& results, const Analysis& analysis) {
+  if (analysis.settings.empty()) return {};
   const Gallery gallery(folder, results, analysis);
   const double time = CommonTime(analysis);
   std::vector<std::size_t> equalTime, equalError;
@@ -152,49 +160,38 @@ std::string PictureSection(const std::string& folder, const Results& results,
     if (analysis.target)
       equalError.push_back(Nearest(analysis, line, *analysis.target, &CostPoint::error));
   }
-  std::string text =
-      "<p>From top to bottom: the picture, a part of it enlarged" +
-      std::string(analysis.hasReference
-                      ? ", and the signed error: red too bright, blue too dark, full colour at a "
-                        "relative error of " +
-                            ShortNumber(kErrorScale)
-                      : "") +
-      ". Each line shows its setting nearest to the time or error named, with its first seed.</p>\n"
-      "<h3>Equal time: about " +
-      SecondsText(time) + "</h3>\n" + gallery.Figures(equalTime);
+  Html scale, equalErrorPart;
+  if (analysis.hasReference) scale = Fill("error-scale", {{"error", ShortNumber(kErrorScale)}});
   if (analysis.target)
-    text += "<h3>Equal error: about " + ShortNumber(*analysis.target) + "</h3>\n" +
-            gallery.Figures(equalError);
-  return SectionOf("At equal time, at equal error", text);
+    equalErrorPart = Fill("equal-error", {{"error", ShortNumber(*analysis.target)},
+                                          {"figures", gallery.Figures(equalError)}});
+  return Fill("picture-section", {{"scale", scale},
+                                  {"time", SecondsText(time)},
+                                  {"figures", gallery.Figures(equalTime)},
+                                  {"equalError", equalErrorPart}});
 }
 
-std::string MapSection(const std::string& folder, const Results& results) {
-  std::string maps;
-  for (const MapRecord& map : results.maps) {
-    const std::string element =
-        MapElement(ReadExr(PathOf(folder, map.image)), map.channel, map.unit);
-    if (!element.empty())
-      maps += "<figure>" + element + "<figcaption>" + Escape(map.title) + "</figcaption></figure>";
-  }
-  if (maps.empty()) return "";
-  return SectionOf("Where the work goes",
-                   "<p>Scales are logarithmic; grey where there is nothing.</p><div "
-                   "class=\"maps\">" +
-                       maps + "</div>\n");
+Html MapSection(const std::string& folder, const Results& results) {
+  Html maps;
+  for (const MapRecord& map : results.maps)
+    maps += MapFigure(ReadExr(PathOf(folder, map.image)), map);
+  return maps.IsEmpty() ? Html() : Fill("map-section", {{"maps", maps}});
 }
 
-std::string DataSection(const Results& results, const Analysis& analysis) {
-  const int threads = results.runs.empty() ? 0 : results.runs.front().threads;
-  const std::string machine = Escape(results.processor) + ", " + std::to_string(results.cores) +
-                              " cores, " + Escape(results.system) + "; " + Escape(results.program) +
-                              " (build " + Escape(results.fingerprint) + "), " +
-                              std::to_string(threads) + " threads a render";
-  return SectionOf("Machine, commands, data",
-                   "<p>" + machine + "</p>\n<details><summary>Commands</summary>" +
-                       Commands(results) + "</details>\n<details><summary>Every setting</summary>" +
-                       "<p>Efficiency is 1 / (error × CPU seconds). Rows of every render are in "
-                       "results.csv and results.json, pictures in images/.</p>" +
-                       EverySetting(results, analysis) + "</details>\n");
+Html DataSection(const Results& results, const Analysis& analysis) {
+  const std::string& reference = results.reference.command;
+  return Fill("data-section",
+              {{"processor", results.processor},
+               {"cores", results.cores},
+               {"system", results.system},
+               {"program", results.program},
+               {"fingerprint", results.fingerprint},
+               {"threads", results.runs.empty() ? 0 : results.runs.front().threads},
+               {"command", results.command},
+               {"referenceCommand",
+                reference.empty() ? Html() : Fill("reference-command", {{"command", reference}})},
+               {"settingCommands", SettingCommands(results)},
+               {"rows", SettingRows(results, analysis)}});
 }
 
 }  // namespace exphoton::study

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/app/analysis/analysis.h"
 #include "core/app/report/markup.h"
+#include "core/base/format.h"
 #include "core/imaging/files/png.h"
 #include "core/imaging/metrics/metrics.h"
 
@@ -16,10 +18,12 @@ namespace {
 
 constexpr int kMaxWidth = 420;
 
-std::string Element(const Image& image, float exposure, const std::string& alt, bool isPixelated) {
-  return "<img src=\"data:image/png;base64," + Base64(EncodePng(image, exposure)) + "\" width=\"" +
-         std::to_string(image.Width()) + "\" height=\"" + std::to_string(image.Height()) +
-         "\" alt=\"" + Escape(alt) + "\"" + (isPixelated ? " class=\"pixels\"" : "") + ">";
+Html Element(const Image& image, float exposure, const std::string& alt, bool isPixelated) {
+  return Fill("picture", {{"data", Base64(EncodePng(image, exposure))},
+                          {"width", image.Width()},
+                          {"height", image.Height()},
+                          {"alt", alt},
+                          {"class", isPixelated ? Fill("enlarged") : Html()}});
 }
 
 // Maps [0, 1] to colours from dark violet over green to yellow, in nearly equal steps of lightness
@@ -44,16 +48,33 @@ float Decode(double v) {
   return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
 }
 
-std::string Gradient() {
+// Returns the colours of a CSS gradient.
+std::string GradientStops() {
   std::string stops;
   for (int i = 0; i <= 10; ++i) {
-    char text[64];
     const auto c = FalseColor(i / 10.);
-    std::snprintf(text, sizeof text, "%srgb(%.0f %.0f %.0f)", i ? "," : "", 255 * c[0], 255 * c[1],
-                  255 * c[2]);
-    stops += text;
+    stops += Format("%srgb(%.0f %.0f %.0f)", i ? "," : "", 255 * c[0], 255 * c[1], 255 * c[2]);
   }
-  return "<span class=\"ramp\" style=\"background:linear-gradient(90deg," + stops + ")\"></span>";
+  return stops;
+}
+
+struct MapScale {
+  double low, high;
+};
+
+// Returns the 1st and the 99th percentile of the positive values, if there are any.
+std::optional<MapScale> FindScale(const Image& image, int channel) {
+  std::vector<float> values;
+  for (int y = 0; y < image.Height(); ++y)
+    for (int x = 0; x < image.Width(); ++x)
+      if (const float v = image.At(x, y, channel); std::isfinite(v) && v > 0) values.push_back(v);
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const auto quantile = [&](double q) {
+    return double(values[std::size_t(q * double(values.size() - 1))]);
+  };
+  const double low = quantile(.01);
+  return MapScale{low, std::max(quantile(.99), low * 1.01)};
 }
 
 }  // namespace
@@ -95,8 +116,7 @@ Image CropOf(const Image& image, const std::array<double, 4>& f) {
   return crop;
 }
 
-std::string PictureElement(const Image& image, double scale, const std::string& alt,
-                           bool isPixelated) {
+Html PictureElement(const Image& image, double scale, const std::string& alt, bool isPixelated) {
   Image colors(image.data, image.display, {"R", "G", "B"});
   const auto from = FindColors(image, "the picture");
   for (int y = 0; y < image.Height(); ++y)
@@ -105,19 +125,11 @@ std::string PictureElement(const Image& image, double scale, const std::string& 
   return Element(Shrink(colors, kMaxWidth), float(std::log2(scale)), alt, isPixelated);
 }
 
-std::string MapElement(const Image& image, const std::string& channel, const std::string& unit) {
-  const int from = image.FindChannel(channel);
-  if (from < 0) return "";
-  std::vector<float> values;
-  for (int y = 0; y < image.Height(); ++y)
-    for (int x = 0; x < image.Width(); ++x)
-      if (const float v = image.At(x, y, from); std::isfinite(v) && v > 0) values.push_back(v);
-  if (values.empty()) return "";
-  std::sort(values.begin(), values.end());
-  const auto quantile = [&](double q) {
-    return double(values[std::size_t(q * double(values.size() - 1))]);
-  };
-  const double low = quantile(.01), high = std::max(quantile(.99), low * 1.01);
+Html MapFigure(const Image& image, const MapRecord& map) {
+  const int from = image.FindChannel(map.channel);
+  const auto scale = from < 0 ? std::nullopt : FindScale(image, from);
+  if (!scale) return {};
+  const auto [low, high] = *scale;
   Image shown(image.Width(), image.Height(), {"R", "G", "B"});
   for (int y = 0; y < image.Height(); ++y) {
     for (int x = 0; x < image.Width(); ++x) {
@@ -128,9 +140,11 @@ std::string MapElement(const Image& image, const std::string& channel, const std
       for (std::size_t c = 0; c < 3; ++c) shown.At(x, y, int(c)) = Decode(color[c]);
     }
   }
-  return Element(Shrink(shown, kMaxWidth), 0, channel, false) + "<div class=\"legend\"><span>" +
-         ShortNumber(low) + "</span>" + Gradient() + "<span>" + ShortNumber(high) + " " +
-         Escape(unit) + "</span></div>";
+  return Fill("map", {{"picture", Element(Shrink(shown, kMaxWidth), 0, map.channel, false)},
+                      {"low", ShortNumber(low)},
+                      {"stops", GradientStops()},
+                      {"high", ShortNumber(high) + " " + map.unit},
+                      {"title", map.title}});
 }
 
 std::array<double, 4> WorstWindow(const Image& image, const Image& reference) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PictureElement and MapElement return pictures of the report as <img> elements with embedded data.
+// PictureElement and MapFigure return pictures of the report as elements with embedded data.
 #pragma once
 
 #include <array>
 #include <string>
 
+#include "core/app/analysis/results.h"
+#include "core/app/report/template.h"
 #include "core/imaging/image.h"
 
 namespace exphoton::study {
@@ -15,12 +17,12 @@ Image Shrink(const Image& image, int maxWidth);
 Image CropOf(const Image& image, const std::array<double, 4>& fractions);
 
 // `scale` multiplies all values. `alt` is the text alternative of the picture.
-std::string PictureElement(const Image& image, double scale, const std::string& alt,
-                           bool isPixelated);
+Html PictureElement(const Image& image, double scale, const std::string& alt, bool isPixelated);
 
-// Shows one channel in false colours with a legend. The scale is logarithmic, from the 1st to the
-// 99th percentile. Values that are not positive are grey.
-std::string MapElement(const Image& image, const std::string& channel, const std::string& unit);
+// Shows the map's channel of an image in false colours with a legend. The scale is logarithmic,
+// from the 1st to the 99th percentile. Values that are not positive are grey. Returns no markup if
+// there is no positive value.
+Html MapFigure(const Image& image, const MapRecord& map);
 
 // Returns the window (a quarter of width and height, as fractions) with the largest sum of relMSE
 // terms, each at most 1.

@@ -14,13 +14,8 @@
 namespace exphoton::study {
 namespace {
 
-std::string Cell(const std::string& html, const std::string& classes = "") {
-  return "<td" + (classes.empty() ? "" : " class=\"" + classes + "\"") + ">" + html + "</td>";
-}
-std::string Row(const std::string& cells) { return "<tr>" + cells + "</tr>\n"; }
-
-std::string Fact(const std::string& value, const std::string& meaning) {
-  return "<div><b>" + value + "</b><span>" + meaning + "</span></div>";
+Html Fact(const Value& value, const std::string& meaning) {
+  return Fill("fact", {{"value", value}, {"meaning", meaning}});
 }
 
 std::string ClockName(const Results& results) {
@@ -28,23 +23,23 @@ std::string ClockName(const Results& results) {
 }
 
 std::string SettingText(const Results& results, const SettingResult& setting) {
-  return Escape(results.settings[setting.setting].Text());
+  return results.settings[setting.setting].Text();
 }
 
-std::string ReferenceFacts(const Results& results, const Analysis& analysis) {
+Html ReferenceFacts(const Results& results, const Analysis& analysis) {
   if (!analysis.hasReference)
     return Fact("No reference", "only the noise between seeds is known; bias is not included");
   const ReferenceRecord& r = results.reference;
   const Measured& noise = analysis.reference.variance;
-  std::string what = Escape(r.integrator.empty() ? "a given picture" : r.integrator);
+  std::string what = r.integrator.empty() ? "a given picture" : r.integrator;
   if (r.samplesPerPixel > 0) what += ", " + CountText(r.samplesPerPixel) + " samples a pixel";
-  std::string facts = Fact(
-      what, "the reference" + std::string(r.seconds > 0 ? ", in " + SecondsText(r.seconds) : ""));
-  facts += noise.IsKnown() ? Fact(ShortNumber(noise.value),
-                                  "relMSE of the reference's own noise, from its two "
-                                  "halves; taken off all errors")
-                           : Fact("unknown", "noise of the reference: it was given as one picture");
-  return facts;
+  const std::string time = r.seconds > 0 ? ", in " + SecondsText(r.seconds) : "";
+  return Fact(what, "the reference" + time) +
+         (noise.IsKnown()
+              ? Fact(ShortNumber(noise.value),
+                     "relMSE of the reference's own noise, from its two halves; taken off all "
+                     "errors")
+              : Fact("unknown", "noise of the reference: it was given as one picture"));
 }
 
 // Returns the file name with its parent folder. The report's commands show the full path.
@@ -54,14 +49,11 @@ std::string FileInFolder(const std::string& path) {
 }
 
 // Explains a reference that was rendered from another scene file.
-std::string ReferenceNote(const Results& results) {
+Html ReferenceNote(const Results& results) {
   const ReferenceRecord& r = results.reference;
-  if (r.scene.empty() || r.scene == results.scene || r.sceneHash == results.sceneHash) return "";
-  return "<p class=\"lead\">The reference was rendered from a variant of the scene, <code>" +
-         Escape(FileInFolder(r.scene)) +
-         "</code>, which has the same picture but light that path tracing finds; the other runs "
-         "render <code>" +
-         Escape(FileInFolder(results.scene)) + "</code>.</p>";
+  if (r.scene.empty() || r.scene == results.scene || r.sceneHash == results.sceneHash) return {};
+  return Fill("reference-note",
+              {{"reference", FileInFolder(r.scene)}, {"scene", FileInFolder(results.scene)}});
 }
 
 std::size_t LineNumber(const Analysis& analysis, const std::string& label) {
@@ -75,22 +67,23 @@ struct Bar {
   std::string classes, title;
 };
 
-std::string BarCell(const std::vector<Bar>& bars) {
+Html Bars(const std::vector<Bar>& bars) {
   double total = 0;
   for (const Bar& bar : bars) total += bar.share;
   const bool isCut = total > 1.001;
-  std::string text = "<td class=\"bar bars\"><svg role=\"img\">";
+  Html shapes;
   double at = 0;
   for (const Bar& bar : bars) {
     const double width = std::min(bar.share, 1 - at);
     if (!(width > 0)) continue;
-    text += "<rect x=\"" + Percent(at) + "\" width=\"" + Percent(width) +
-            "\" y=\"0\" height=\"14\" class=\"" + bar.classes + "\"><title>" + Escape(bar.title) +
-            "</title></rect>";
+    shapes += Fill("bar", {{"x", Percent(at)},
+                           {"width", Percent(width)},
+                           {"classes", bar.classes},
+                           {"title", bar.title}});
     at += width;
   }
-  if (isCut) text += "<text x=\"99%\" y=\"11\" text-anchor=\"end\" class=\"cut\">▸</text>";
-  return text + "</svg></td>";
+  if (isCut) shapes += Fill("cut-bar");
+  return Fill("bars", {{"bars", shapes}});
 }
 
 // Returns the value at which bars are cut, at most four times the median, so that short bars remain
@@ -117,32 +110,35 @@ std::vector<std::string> PhaseNames(const Analysis& analysis) {
   return names;
 }
 
-std::string PhaseClass(std::size_t i) {
-  return "p" + std::to_string(i % std::size_t(kPhaseColors));
-}
+std::size_t PhaseColor(std::size_t i) { return i % std::size_t(kPhaseColors); }
 
 struct BarScales {
   std::vector<std::string> phases;
   double fullTime, fullError;
 };
 
-std::string BarRow(const Analysis& analysis, const SettingResult& setting, const std::string& label,
-                   const BarScales& scales) {
+Html BarRow(const Analysis& analysis, const SettingResult& setting, const Value& name,
+            const BarScales& scales) {
   const auto& [names, fullTime, fullError] = scales;
   std::vector<Bar> time;
   for (std::size_t i = 0; i < names.size(); ++i)
-    for (const auto& [name, seconds] : setting.phases)
-      if (name == names[i])
-        time.push_back({seconds / fullTime, PhaseClass(i), name + ": " + SecondsText(seconds)});
+    for (const auto& [phase, seconds] : setting.phases)
+      if (phase == names[i])
+        time.push_back({seconds / fullTime, "p" + std::to_string(PhaseColor(i)),
+                        phase + ": " + SecondsText(seconds)});
   const Separation& s = setting.separation;
   const double bias = s.bias2.IsKnown() ? std::max(0., s.bias2.value) : 0;
   const double noise = s.variance.IsKnown() ? s.variance.value : setting.cost.error.value;
   const std::vector<Bar> error{{noise / fullError, "noise", "noise: " + ShortNumber(noise)},
                                {bias / fullError, "bias", "bias²: " + ShortNumber(bias)}};
   const Measured worth = RelativeEfficiency(analysis, setting, analysis.settings.front());
-  return Row(Cell(label, "wrap") + BarCell(time) + Cell(SecondsText(setting.cost.seconds.value)) +
-             BarCell(error) + Cell(MeasuredText(s.variance)) + Cell(MeasuredText(s.bias2)) +
-             Cell(worth.IsKnown() ? ShortNumber(worth.value) + "×" : "–"));
+  return Fill("bar-row", {{"name", name},
+                          {"time", Bars(time)},
+                          {"seconds", SecondsText(setting.cost.seconds.value)},
+                          {"error", Bars(error)},
+                          {"noise", MeasuredText(s.variance)},
+                          {"bias", MeasuredText(s.bias2)},
+                          {"efficiency", worth.IsKnown() ? ShortNumber(worth.value) + "×" : "–"}});
 }
 
 // Returns the line's cheapest setting with at most the target error, or null if there is none.
@@ -156,37 +152,36 @@ const SettingResult* CheapestOf(const Analysis& analysis, const Line& line, doub
   return best;
 }
 
-std::string PriceCell(const Results& results, const SettingResult* setting, bool isCheapest) {
-  if (!setting) return Cell("–");
+Html PriceCell(const Results& results, const SettingResult* setting, bool isCheapest) {
+  if (!setting) return Fill("price-none");
   const std::string seconds = SecondsText(setting->cost.seconds.value);
-  return Cell(
-      (isCheapest ? "<span class=\"best\">" + seconds + "</span>" : seconds) + "<br><small>" +
-          SettingText(results, *setting) + "<br>" +
-          ShortNumber(setting->peakMemory / (1 << 20), 3) + " MiB" +
-          (setting->photonsStored > 0 ? ", " + CountText(setting->photonsStored) + " photons"
-                                      : "") +
-          "</small>",
-      "wide");
+  std::string memory = ShortNumber(setting->peakMemory / (1 << 20), 3) + " MiB";
+  if (setting->photonsStored > 0) memory += ", " + CountText(setting->photonsStored) + " photons";
+  return Fill("price",
+              {{"seconds", isCheapest ? Fill("cheapest", {{"seconds", seconds}}) : Escape(seconds)},
+               {"setting", SettingText(results, *setting)},
+               {"memory", memory}});
 }
 
-std::string PriceRow(const Results& results, const Analysis& analysis, double target) {
-  std::string cells = Cell("<b>" + ShortNumber(target) + "</b>");
+Html PriceRow(const Results& results, const Analysis& analysis, double target) {
+  Html prices;
   const std::string shortfall = ShortfallText(analysis.reference, target);
-  if (!shortfall.empty())
-    return Row(cells + "<td class=\"refused wrap t\" colspan=\"" +
-               std::to_string(analysis.lines.size()) + "\">refused: " + shortfall + "</td>");
-  std::vector<const SettingResult*> cheapest;
-  double least = 1e300;
-  for (const Line& line : analysis.lines) {
-    cheapest.push_back(CheapestOf(analysis, line, target));
-    if (cheapest.back()) least = std::min(least, cheapest.back()->cost.seconds.value);
+  if (!shortfall.empty()) {
+    prices = Fill("price-refused", {{"columns", analysis.lines.size()}, {"reason", shortfall}});
+  } else {
+    std::vector<const SettingResult*> cheapest;
+    double least = 1e300;
+    for (const Line& line : analysis.lines) {
+      cheapest.push_back(CheapestOf(analysis, line, target));
+      if (cheapest.back()) least = std::min(least, cheapest.back()->cost.seconds.value);
+    }
+    for (const SettingResult* setting : cheapest)
+      prices += PriceCell(results, setting, setting && setting->cost.seconds.value == least);
   }
-  for (const SettingResult* setting : cheapest)
-    cells += PriceCell(results, setting, setting && setting->cost.seconds.value == least);
-  return Row(cells);
+  return Fill("price-row", {{"error", ShortNumber(target)}, {"prices", prices}});
 }
 
-std::string DoublingRows(const Results& results, const Analysis& analysis) {
+Html DoublingRows(const Results& results, const Analysis& analysis) {
   std::vector<CostPoint> points(results.settings.size());
   for (const SettingResult& s : analysis.settings) points[s.setting] = s.cost;
   std::vector<DoublingEffect> costs = FindDoublingEffects(results.settings, points);
@@ -194,38 +189,31 @@ std::string DoublingRows(const Results& results, const Analysis& analysis) {
                    [&](const DoublingEffect& a, const DoublingEffect& b) {
                      return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
                    });
-  std::string rows;
+  Html rows;
   for (const DoublingEffect& knob : costs)
-    rows += Row(Cell(ColorDot(LineNumber(analysis, knob.label)) + Escape(knob.label)) +
-                Cell(Escape(knob.parameter), "t") +
-                Cell((knob.secondsPerDoubling >= 0 ? "+" : "−") +
-                     SecondsText(std::abs(knob.secondsPerDoubling))) +
-                Cell((knob.errorFactor >= 1 ? "+" : "−") +
-                     ShortNumber(100 * std::abs(knob.errorFactor - 1)) + " %") +
-                Cell(std::to_string(knob.pairs)));
+    rows += Fill("doubling-row",
+                 {{"marker", LineMarker(LineNumber(analysis, knob.label))},
+                  {"label", knob.label},
+                  {"parameter", knob.parameter},
+                  {"seconds", (knob.secondsPerDoubling >= 0 ? "+" : "−") +
+                                  SecondsText(std::abs(knob.secondsPerDoubling))},
+                  {"error", (knob.errorFactor >= 1 ? "+" : "−") +
+                                ShortNumber(100 * std::abs(knob.errorFactor - 1)) + " %"},
+                  {"pairs", knob.pairs}});
   return rows;
 }
 
 }  // namespace
 
-std::string SectionOf(const std::string& title, const std::string& content) {
-  return "<section>\n<h2>" + title + "</h2>\n" + content + "</section>\n";
+Html MeasuredText(const Measured& m) {
+  if (!m.IsKnown()) return Escape("–");
+  if (!std::isfinite(m.error)) return Escape(ShortNumber(m.value));
+  return Fill("measured", {{"value", ShortNumber(m.value)}, {"error", ShortNumber(m.error, 1)}});
 }
 
-std::string Table(const std::string& head, const std::string& rows) {
-  return "<div class=\"scroll\"><table><thead>" + Row(head) + "</thead><tbody>\n" + rows +
-         "</tbody></table></div>\n";
-}
-
-std::string MeasuredText(const Measured& m) {
-  if (!m.IsKnown()) return "–";
-  std::string text = ShortNumber(m.value);
-  if (std::isfinite(m.error)) text += " <small>± " + ShortNumber(m.error, 1) + "</small>";
-  return text;
-}
-
-std::string ColorDot(std::size_t line) {
-  return "<i class=\"dot k" + std::to_string(line % std::size_t(kSeriesColors)) + "\"></i>";
+Html LineMarker(std::size_t line) {
+  return Fill("line-marker",
+              {{"shape", SvgMarker(int(line), {}, 5, "point " + ColorClass(line), "")}});
 }
 
 std::string CountText(double count) {
@@ -234,56 +222,47 @@ std::string CountText(double count) {
   return ShortNumber(count, 6);
 }
 
-std::string HeadlineSection(const Results& results, const Analysis& analysis) {
+Html HeadlineSection(const Results& results, const Analysis& analysis) {
   long long nonFinite = 0;
   for (const SettingResult& setting : analysis.settings) nonFinite += setting.nonFinite;
-  std::string text = "<header>\n<p class=\"kicker\">What accuracy costs in time</p>\n<h1>" +
-                     Escape(analysis.headline) + "</h1>\n";
-  text += "<p class=\"lead\">" +
-          std::string(analysis.hasReference
-                          ? "relMSE is the mean over pixels and colours of (x − r)² / (r² + 0.01); "
-                          : "Noise is measured between seeds, relative to their mean; ") +
-          "times are " + ClockName(results) +
-          " of the whole process. Times to an error are interpolated between measured settings and "
-          "never extrapolated; ± is one standard error.</p>\n";
-  text += ReferenceNote(results);
-  text += "<div class=\"facts\">" + ReferenceFacts(results, analysis);
-  text += Fact(std::to_string(results.runs.size()) + " renders",
-               std::to_string(results.settings.size()) + " settings with " +
-                   std::to_string(results.seeds) + " independent seeds each");
-  text += nonFinite == 0
-              ? Fact("0 pixels", "are NaN or infinite, in all pictures together")
-              : Fact("<span class=\"alarm\">" + std::to_string(nonFinite) + " pixels</span>",
-                     "are NaN or infinite and were left out of all errors");
-  return text + "</div>\n</header>\n";
+  Html facts = ReferenceFacts(results, analysis);
+  facts += Fact(std::to_string(results.runs.size()) + " renders",
+                std::to_string(results.settings.size()) + " settings with " +
+                    std::to_string(results.seeds) + " independent seeds each");
+  facts += nonFinite == 0 ? Fact("0 pixels", "are NaN or infinite, in all pictures together")
+                          : Fact(Fill("alarm", {{"text", std::to_string(nonFinite) + " pixels"}}),
+                                 "are NaN or infinite and were left out of all errors");
+  return Fill("headline-section",
+              {{"headline", analysis.headline},
+               {"measure", analysis.hasReference
+                               ? "relMSE is the mean over pixels and colours of (x − r)² / (r² + "
+                                 "0.01);"
+                               : "Noise is measured between seeds, relative to their mean;"},
+               {"clock", ClockName(results)},
+               {"note", ReferenceNote(results)},
+               {"facts", facts}});
 }
 
-std::string CurveSection(const Results& results, const Analysis& analysis) {
-  std::string keys = "<div class=\"keys\">";
+Html CurveSection(const Results& results, const Analysis& analysis) {
+  Html keys, rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i)
-    keys += "<span>" + ColorDot(i) + Escape(analysis.lines[i].label) + "</span>";
-  keys += "</div>\n";
-  std::string rows;
+    keys += Fill("line-key", {{"marker", LineMarker(i)}, {"label", analysis.lines[i].label}});
   int number = 0;
   for (const std::size_t i : FrontOf(analysis)) {
     const SettingResult& s = analysis.settings[i];
-    rows +=
-        Row(Cell(std::to_string(++number)) + Cell(Escape(results.settings[s.setting].label), "t") +
-            Cell(SettingText(results, s), "wrap t") + Cell(MeasuredText(s.cost.seconds)) +
-            Cell(MeasuredText(s.cost.error)));
+    rows += Fill("curve-row", {{"number", ++number},
+                               {"line", results.settings[s.setting].label},
+                               {"setting", SettingText(results, s)},
+                               {"seconds", MeasuredText(s.cost.seconds)},
+                               {"error", MeasuredText(s.cost.error)}});
   }
-  return SectionOf(
-      "Error against time",
-      "<p>Each mark is one setting, the mean of its seeds. Filled ones are the best of their line "
-      "for their time. The numbers are the settings that nothing beats in both time and error:"
-      "</p>\n" +
-          keys + "<div class=\"scroll\">" + CostChart(results, analysis) + "</div>\n" +
-          Table("<th>#</th><th class=\"t\">line</th><th class=\"t\">setting</th><th>" +
-                    ClockName(results) + "</th><th>error</th>",
-                rows));
+  return Fill("curve-section", {{"keys", keys},
+                                {"chart", CostChart(results, analysis)},
+                                {"clock", ClockName(results)},
+                                {"rows", rows}});
 }
 
-std::string BarSection(const Results& results, const Analysis& analysis) {
+Html BarSection(const Results& results, const Analysis& analysis) {
   const std::vector<std::string> names = PhaseNames(analysis);
   std::vector<double> times, errors;
   for (const SettingResult& s : analysis.settings) {
@@ -291,51 +270,32 @@ std::string BarSection(const Results& results, const Analysis& analysis) {
     errors.push_back(s.cost.error.value);
   }
   const BarScales scales{names, FullWidth(times), FullWidth(errors)};
-  std::string keys = "<div class=\"keys\">";
+  Html keys, rows;
   for (std::size_t i = 0; i < names.size(); ++i)
-    keys += "<span><i class=\"key " + PhaseClass(i) + "\"></i>" + Escape(names[i]) + "</span>";
-  keys +=
-      "</div><div class=\"keys\"><span><i class=\"key noise\"></i>noise (variance between seeds)"
-      "</span><span><i class=\"key bias\"></i>bias²</span></div>\n";
-  std::string rows;
+    keys += Fill("phase-key", {{"color", PhaseColor(i)}, {"name", names[i]}});
+  const bool isGrouped = analysis.lines.size() < analysis.settings.size();
   for (std::size_t i = 0; i < analysis.lines.size(); ++i) {
-    const bool isGroup = analysis.lines.size() < analysis.settings.size();
-    const std::string name = ColorDot(i) + Escape(analysis.lines[i].label);
-    if (isGroup) rows += "<tr class=\"group\"><td colspan=\"7\">" + name + "</td></tr>\n";
+    const Html name = LineMarker(i) + Escape(analysis.lines[i].label);
+    if (isGrouped) rows += Fill("bar-group", {{"name", name}});
     for (const std::size_t index : analysis.lines[i].settings) {
       const SettingResult& setting = analysis.settings[index];
-      rows += BarRow(analysis, setting, isGroup ? SettingText(results, setting) : name, scales);
+      rows += BarRow(analysis, setting,
+                     isGrouped ? Value(SettingText(results, setting)) : Value(name), scales);
     }
   }
-  return SectionOf("What each second bought",
-                   "<p>Left, where the time went; right, what error it left: noise, which another "
-                   "seed changes, and bias², which it does not. Noise, bias² and the reference's "
-                   "noise add up to the measured relMSE. A bias² below 0 is 0 within its error; ▸ "
-                   "marks bars that go on. Efficiency is 1 / (error × time), relative to the first "
-                   "row; – where the reference is too noisy to tell.</p>\n" +
-                       keys +
-                       Table("<th>setting</th><th colspan=\"2\">" + ClockName(results) +
-                                 "</th><th></th><th>noise</th><th>bias²</th><th>efficiency</th>",
-                             rows));
+  return Fill("bar-section", {{"keys", keys}, {"clock", ClockName(results)}, {"rows", rows}});
 }
 
-std::string PriceSection(const Results& results, const Analysis& analysis) {
-  std::string head = "<th>error</th>", rows;
+Html PriceSection(const Results& results, const Analysis& analysis) {
+  Html lines, rows;
   for (std::size_t i = 0; i < analysis.lines.size(); ++i)
-    head += "<th>" + ColorDot(i) + Escape(analysis.lines[i].label) + "</th>";
+    lines += Fill("price-line", {{"marker", LineMarker(i)}, {"label", analysis.lines[i].label}});
   for (const double target : results.targets) rows += PriceRow(results, analysis, target);
-  std::string text =
-      "<p>The cheapest measured setting with at most this error, its memory and its stored "
-      "photons. "
-      "–: none of the settings tried.</p>\n" +
-      Table(head, rows);
-  if (const std::string knobs = DoublingRows(results, analysis); !knobs.empty())
-    text += "<h3>What doubling a parameter does</h3>\n" +
-            Table(
-                "<th>line</th><th class=\"t\">doubling</th><th>costs</th><th>changes the error "
-                "by</th><th>pairs</th>",
-                knobs);
-  return SectionOf("Price list", text);
+  const Html knobs = DoublingRows(results, analysis);
+  return Fill("price-section",
+              {{"lines", lines},
+               {"rows", rows},
+               {"doubling", knobs.IsEmpty() ? Html() : Fill("doubling", {{"rows", knobs}})}});
 }
 
 }  // namespace exphoton::study

@@ -71,6 +71,16 @@ class FinalGather {
     return *split;
   }
 
+  // Rays are the directions to trace, with the factors on their radiance.
+  struct Rays {
+    Vector3* directions;
+    Spectrum* weights;
+    std::size_t count = 0;
+  };
+
+  // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
+  Rays DrawRays(const ShadingPoint& point, const PhotonMap& photons, LiContext& context) const;
+
   std::vector<Split> splits_;  // by descending photonRays, which is 0 in the last
   PhotonGuide guide_;
   Cone cone_;
@@ -80,56 +90,18 @@ class FinalGather {
 template <class Incident>
 Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons,
                              LiContext& context, const Incident& incident) const {
-  const Bsdf& bsdf = point.bsdf;
-  if (!bsdf.Has(kLobes)) return {};
+  if (!point.bsdf.Has(kLobes)) return {};
   const Arena::Mark mark = context.arena.GetMark();
-  const GuidedDirections guide = guide_.Directions(point, photons, context);
-  const ConeMixture cones(guide.axes, cone_);
-  const Split& split = SplitFor(guide);
-  const Vector3& wo = point.Wo();
-  const RaySpawner spawner(point.surface);
-  RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
-
-  const auto rays = std::size_t(split.bsdfRays + split.photonRays);
+  const Rays rays = DrawRays(point, photons, context);
   using Segment = typename Incident::Segment;
-  Segment* const segments = context.arena.template AllocateArray<Segment>(rays);
-  Vector3* const directions = context.arena.template AllocateArray<Vector3>(rays);
-  Spectrum* const weights = context.arena.template AllocateArray<Spectrum>(rays);
-  std::size_t count = 0;
-  const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
-    const Real factor =
-        SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
-    if (!(factor > 0)) return;
-    directions[count] = w;
-    weights[count++] = contribution * (factor / Real(drawn));
-  };
-  const auto squares = context.samples.Array2D(split.directions);
-  const bool picksLobe = bsdf.Count(kLobes) > 1;
-  const auto lobes = picksLobe ? context.samples.Array1D(split.lobes) : std::span<const Real>();
-  for (std::size_t i = 0; i < squares.size(); ++i) {
-    const auto sample = bsdf.Sample(wo, squares[i], picksLobe ? lobes[i] : 0, kLobes);
-    if (!sample) continue;
-    const Real photonPdf = cones.IsEmpty() ? Real(0) : cones.Pdf(sample->wi);
-    const Real weight = PowerHeuristic(split.bsdfRays, sample->pdf, split.photonRays, photonPdf);
-    add(sample->wi, sample->throughput * weight, photonPdf, split.bsdfRays);
-  }
-  const auto along = context.samples.Array2D(split.cones);
-  const auto radii = context.samples.Array1D(split.radii);
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    // The axes are in Hilbert order: axis and azimuth are stratified jointly.
-    const auto sample = cones.Draw(along[i].x, {radii[i], along[i].y});
-    const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
-    if (scattered.f.IsBlack()) continue;
-    const Real weight = PowerHeuristic(split.photonRays, sample.pdf, split.bsdfRays, scattered.pdf);
-    add(sample.w, scattered.f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf,
-        split.photonRays);
-  }
-
-  for (std::size_t i = 0; i < count; ++i)
-    new (segments + i) Segment(incident.Trace(spawner.Spawn(directions[i])));
-  incident.LookUp(std::span<Segment>(segments, count));
+  Segment* const segments = context.arena.template AllocateArray<Segment>(rays.count);
+  const RaySpawner spawner(point.surface);
+  for (std::size_t i = 0; i < rays.count; ++i)
+    new (segments + i) Segment(incident.Trace(spawner.Spawn(rays.directions[i])));
+  incident.LookUp(std::span<Segment>(segments, rays.count));
   Spectrum gathered;
-  for (std::size_t i = 0; i < count; ++i) gathered += weights[i] * incident.Read(segments[i]);
+  for (std::size_t i = 0; i < rays.count; ++i)
+    gathered += rays.weights[i] * incident.Read(segments[i]);
   context.arena.Rewind(mark);
   return gathered;
 }

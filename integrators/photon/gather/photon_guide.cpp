@@ -9,12 +9,20 @@
 namespace exphoton {
 namespace {
 
+// SeenFrom is a point that looks at photons, with its pose at rest.
+struct SeenFrom {
+  RestPose rest;
+  Point3 p;
+  LitSide side;
+};
+
 // Selects the directions from which clearly more light comes than a diffuse surface sends rays.
 // BSDF rays find the other light as well; guided rays spent on it would be missing where light is
 // dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
 // Importance Sampling). A direction's own photon does not count.
-GuidedDirections WorthFollowing(const GuideCacheCell& cell, const RestPose& rest, const Point3& p,
-                                const LitSide& side, const Cone& cone, Arena* arena) {
+GuidedDirections WorthFollowing(const GuideCacheCell& cell, const SeenFrom& from, const Cone& cone,
+                                Arena* arena) {
+  const auto& [rest, p, side] = from;
   const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);
   const ReprojectedCell view(cell, rest.Point(p), atRest, arena);
   // Expected photons in a cone about the normal, with the density of a diffuse surface's rays.
@@ -60,17 +68,17 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
   LastGuide* const last = context.pixelState ? &context.pixelState->Get<LastGuide>() : nullptr;
   if (last && last->IsValidAt(p, side)) return last->directions;
 
-  const RestPose rest(point.surface);
+  const SeenFrom from{RestPose(point.surface), p, side};
   Arena& arena = context.pixelState ? context.pixelState->FreshArena() : context.arena;
   const auto follow = [&](const GuideCacheCell& cell) {
-    const GuidedDirections directions = WorthFollowing(cell, rest, p, side, cone_, &arena);
+    const GuidedDirections directions = WorthFollowing(cell, from, cone_, &arena);
     if (last) *last = {directions, cell.Radius2(), p, side};
     return directions;
   };
   if (!context.threadState)
-    return follow(GuideCacheCell(map, rest.Point(p), count_, cone_, &context.arena));
+    return follow(GuideCacheCell(map, from.rest.Point(p), count_, cone_, &context.arena));
   GuideCache& cells = context.threadState->Get<GuideCache>(map, count_, cone_, cellWidth_);
-  return follow(cells.At(rest.Point(p)));
+  return follow(cells.At(from.rest.Point(p)));
 }
 
 }  // namespace exphoton

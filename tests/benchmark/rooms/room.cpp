@@ -26,9 +26,16 @@ void AddBox(const Point3& min, const Point3& max, TriangleMesh* mesh) {
   }
 }
 
-// Adds a body: a sphere with bumps of several sizes, made of 2 * rings * sectors triangles.
-void AddBody(const Point3& center, const Vector3& radii, Real phase, int rings, int sectors,
-             TriangleMesh* mesh) {
+// Body is a sphere with bumps of several sizes, made of 2 * rings * sectors triangles.
+struct Body {
+  Point3 center;
+  Vector3 radii;
+  Real phase;
+  int rings, sectors;
+};
+
+void AddBody(const Body& body, TriangleMesh* mesh) {
+  const auto& [center, radii, phase, rings, sectors] = body;
   const auto base = std::uint32_t(mesh->p.size());
   for (int ring = 0; ring <= rings; ++ring) {
     const Real theta = kPi * Real(ring) / Real(rings);
@@ -41,8 +48,8 @@ void AddBody(const Point3& center, const Vector3& radii, Real phase, int rings, 
       mesh->p.push_back(center + Vector3(d.x * radii.x, d.y * radii.y, d.z * radii.z) * (1 + bump));
     }
   }
-  const auto vertex = [&](int ring, int sector) {
-    return base + std::uint32_t(ring * sectors + sector % sectors);
+  const auto vertex = [base, count = body.sectors](int ring, int sector) {
+    return base + std::uint32_t(ring * count + sector % count);
   };
   for (int ring = 0; ring < rings; ++ring) {
     for (int sector = 0; sector < sectors; ++sector) {
@@ -124,7 +131,7 @@ std::unique_ptr<PrimitiveSet> BenchmarkRoom(std::size_t triangles) {
     const Point3 center(Real(i % 4) * Real(1.9) - Real(2.85) + between(Real(-.2), Real(.2)),
                         radii.y * Real(1.05) + between(0, Real(.5)),
                         Real(i / 4) * Real(1.9) - Real(1.9) + between(Real(-.2), Real(.2)));
-    AddBody(center, radii, between(0, 6), rings, sectors, mesh.get());
+    AddBody({center, radii, between(0, 6), rings, sectors}, mesh.get());
   }
   mesh->DropDegenerate();
   return SetOf(mesh);

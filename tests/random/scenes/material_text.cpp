@@ -163,63 +163,85 @@ std::array<double, 3> LargestAlbedo(const MaterialModel& material) {
           AlbedoOf(material, &Colour::blue)};
 }
 
-std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
-  constexpr std::array<const char*, kMaterialKinds> kNames{"matte",       "mirror", "glass",
-                                                           "plastic",     "metal",  "substrate",
-                                                           "translucent", "uber",   "shinymetal"};
-  const double diffuse = DiffuseShare(m), glossy = kReflected - diffuse;
-  std::string text, parameters;
-  const auto add = [&](const std::string& name, const TextureModel& texture, double factor) {
-    parameters += Coefficient(name, texture, factor, next, &text);
-  };
-  const auto choose = [&](const char* name, const std::array<const char*, 3>& values) {
-    parameters += Choice(name, m.roughness, values, next, &text);
-  };
-  const std::array<const char*, 3> rough{".1", ".3", ".02"};
-  const std::string fresnel = m.isPhysical ? " \"string fresnel\" \"physical\"" : "";
-  switch (m.kind) {
-    case MaterialKind::Matte:
-      add("Kd", m.diffuse, kReflected);
-      choose("sigma", {"0", "15", "40"});
-      break;
-    case MaterialKind::Mirror:
-      add("Kr", m.mirror, 1);
-      break;
-    case MaterialKind::Glass:
-      add("Kt", m.diffuse, 1);
-      add("Kr", m.glossy, 1);
-      choose("index", {"1.5", "1.1", "1"});
-      break;
-    case MaterialKind::Metal:
-      choose("roughness", rough);
-      break;
-    case MaterialKind::Plastic:
-    case MaterialKind::Translucent:
-    case MaterialKind::Uber:
-      add("Kd", m.diffuse, diffuse);
-      add("Ks", m.glossy, m.kind == MaterialKind::Uber ? glossy / 2 : glossy);
-      if (m.kind == MaterialKind::Translucent) add("transmit", m.mirror, .5);
-      if (m.kind == MaterialKind::Uber) {
-        add("Kr", m.mirror, glossy / 2);
-        parameters += OpacityText(m.opacity, next, &text);
-      }
-      choose("roughness", rough);
-      parameters += fresnel;
-      break;
-    case MaterialKind::Substrate:
-      add("Kd", m.diffuse, diffuse);
-      add("Ks", m.glossy, glossy);
-      choose("uroughness", rough);
-      parameters += " \"float vroughness\" .2";
-      break;
-    case MaterialKind::ShinyMetal:
-      add("Ks", m.glossy, .5);
-      add("Kr", m.mirror, .5);
-      choose("roughness", rough);
-      break;
+namespace {
+
+// MaterialWriter writes a material's textures and its Material directive.
+class MaterialWriter {
+ public:
+  MaterialWriter(const MaterialModel& material, int* next) : m_(material), next_(next) {}
+
+  std::string Text(bool hasBumps) {
+    constexpr std::array<const char*, kMaterialKinds> kNames{"matte",       "mirror", "glass",
+                                                             "plastic",     "metal",  "substrate",
+                                                             "translucent", "uber",   "shinymetal"};
+    AddParameters();
+    if (hasBumps) parameters_ += BumpText(m_.bump, next_, &text_);
+    return text_ + "  Material \"" + kNames[std::size_t(m_.kind)] + "\"" + parameters_ + "\n";
   }
-  if (hasBumps) parameters += BumpText(m.bump, next, &text);
-  return text + "  Material \"" + kNames[std::size_t(m.kind)] + "\"" + parameters + "\n";
+
+ private:
+  void Add(const std::string& name, const TextureModel& texture, double factor) {
+    parameters_ += Coefficient(name, texture, factor, next_, &text_);
+  }
+  void Choose(const char* name, const std::array<const char*, 3>& values) {
+    parameters_ += Choice(name, m_.roughness, values, next_, &text_);
+  }
+
+  void AddParameters() {
+    constexpr std::array<const char*, 3> kRough{".1", ".3", ".02"};
+    const double diffuse = DiffuseShare(m_), glossy = kReflected - diffuse;
+    switch (m_.kind) {
+      case MaterialKind::Matte:
+        Add("Kd", m_.diffuse, kReflected);
+        Choose("sigma", {"0", "15", "40"});
+        break;
+      case MaterialKind::Mirror:
+        Add("Kr", m_.mirror, 1);
+        break;
+      case MaterialKind::Glass:
+        Add("Kt", m_.diffuse, 1);
+        Add("Kr", m_.glossy, 1);
+        Choose("index", {"1.5", "1.1", "1"});
+        break;
+      case MaterialKind::Metal:
+        Choose("roughness", kRough);
+        break;
+      case MaterialKind::Plastic:
+      case MaterialKind::Translucent:
+      case MaterialKind::Uber:
+        Add("Kd", m_.diffuse, diffuse);
+        Add("Ks", m_.glossy, m_.kind == MaterialKind::Uber ? glossy / 2 : glossy);
+        if (m_.kind == MaterialKind::Translucent) Add("transmit", m_.mirror, .5);
+        if (m_.kind == MaterialKind::Uber) {
+          Add("Kr", m_.mirror, glossy / 2);
+          parameters_ += OpacityText(m_.opacity, next_, &text_);
+        }
+        Choose("roughness", kRough);
+        if (m_.isPhysical) parameters_ += " \"string fresnel\" \"physical\"";
+        break;
+      case MaterialKind::Substrate:
+        Add("Kd", m_.diffuse, diffuse);
+        Add("Ks", m_.glossy, glossy);
+        Choose("uroughness", kRough);
+        parameters_ += " \"float vroughness\" .2";
+        break;
+      case MaterialKind::ShinyMetal:
+        Add("Ks", m_.glossy, .5);
+        Add("Kr", m_.mirror, .5);
+        Choose("roughness", kRough);
+        break;
+    }
+  }
+
+  const MaterialModel& m_;
+  int* next_;
+  std::string text_, parameters_;
+};
+
+}  // namespace
+
+std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
+  return MaterialWriter(m, next).Text(hasBumps);
 }
 
 }  // namespace exphoton::random_scenes

@@ -107,8 +107,18 @@ Results Titled() {
 TEST(StudyHeadline, NamesTimesAndTheRatioAtEqualError) {
   Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
   WriteHeadline(Titled(), &analysis);
+  EXPECT_EQ(analysis.headline, "On room, fast reaches relMSE 0.01 in 10 s, slow in 70 s (7 ± 0×).");
+}
+
+TEST(StudyHeadline, GivesErrorsOfRatiosADigitThatIsNotZero) {
+  Analysis analysis = TwoLines({At(1, .1), At(10, .01, .05)}, {At(7, .1), At(19, .01, .1)});
+  WriteHeadline(Titled(), &analysis);
   EXPECT_EQ(analysis.headline,
-            "On room, fast reaches relMSE 0.01 in 10 s, slow in 70 s (7.0 ± 0.0×).");
+            "On room, fast reaches relMSE 0.01 in 10 s, slow in 19 s (1.9 ± 0.01×).");
+  analysis = TwoLines({At(1, .1)}, {At(20, .1, .4)});
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_NE(analysis.headline.find("“slow” is 0.05 ± 0.001 times as efficient"), std::string::npos)
+      << analysis.headline;
 }
 
 TEST(StudyHeadline, SaysWhereALineNeverGotThere) {
@@ -142,7 +152,7 @@ TEST(StudyHeadline, OfSingleSettingsNamesTheMostEfficient) {
   analysis.reference.variance = {.0001, .00001};
   WriteHeadline(Titled(), &analysis);
   EXPECT_EQ(analysis.headline,
-            "On room, “slow” is 5.0 ± 0.0 times as efficient (1 / (error × seconds)) as fast.");
+            "On room, “slow” is 5 ± 0 times as efficient (1 / (error × seconds)) as fast.");
   analysis.reference.variance = {.002, .0001};  // 20 % of the second error
   WriteHeadline(Titled(), &analysis);
   EXPECT_EQ(analysis.headline.find("efficient"), std::string::npos) << analysis.headline;
@@ -157,7 +167,7 @@ TEST(StudyMarkup, EncodesBase64AsRfc4648DoesInItsExamples) {
 }
 
 TEST(StudyMarkup, EscapesWhatMarkupWouldTake) {
-  EXPECT_EQ(Escape("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
+  EXPECT_EQ(Escape("<a href=\"x\">&").Markup(), "&lt;a href=&quot;x&quot;&gt;&amp;");
 }
 
 TEST(StudyMarkup, ALogScaleHasTicksAtOneTwoAndFive) {

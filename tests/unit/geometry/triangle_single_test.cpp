@@ -18,8 +18,12 @@ struct Tally {
 // Tests a ray that starts at a distance of about `away` and goes through a triangle near `center`.
 // The triangle has a size of about `size` and an elongation of `aspect`. If `away` is 0, the ray
 // starts on the triangle.
-void TestOne(RandomStream& random, const Point3& center, Real size, Real aspect, Real away,
-             Tally* tally) {
+struct Case {
+  Point3 center;
+  Real size, aspect, away;
+};
+void TestOne(RandomStream& random, const Case& one, Tally* tally) {
+  const auto [center, size, aspect, away] = one;
   const Vector3 along = RandomVector(random) * size,
                 across = RandomVector(random) * (size / aspect);
   const Point3 v[3] = {center, center + along, center + along * random.Uniform() + across};
@@ -56,7 +60,7 @@ TEST(TriangleSingle, AcceptsHitsWithinItsBound) {
       return std::pow(Real(10), Between(random, least, most));
     };
     const Real size = power(-6, 3), aspect = power(0, 5), away = power(-6, 6);
-    TestOne(random, RandomVector(random) * power(-3, 4), size, aspect, away, &tally);
+    TestOne(random, {RandomVector(random) * power(-3, 4), size, aspect, away}, &tally);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(tally.sure, 1000);
@@ -68,14 +72,14 @@ TEST(TriangleSingle, AcceptsMostHitsOfPlainTriangles) {
   RandomStream random(2);
   Tally tally;
   for (int i = 0; i < 20000; ++i)
-    TestOne(random, RandomVector(random), Between(random, Real(.1), 1), 2, 5, &tally);
+    TestOne(random, {RandomVector(random), Between(random, Real(.1), 1), 2, 5}, &tally);
   EXPECT_GT(tally.sure, tally.decided * 3 / 4);
 }
 
 TEST(TriangleSingle, LeavesTheTriangleThatARayStartsOnToDoubles) {
   RandomStream random(3);
   Tally tally;
-  for (int i = 0; i < 20000; ++i) TestOne(random, RandomVector(random), 1, 2, 0, &tally);
+  for (int i = 0; i < 20000; ++i) TestOne(random, {RandomVector(random), 1, 2, 0}, &tally);
   EXPECT_EQ(tally.sure, 0);
 }
 

@@ -39,11 +39,17 @@ struct Gathered {
   double error;  // 4 standard errors of the mean
 };
 
+struct GatherTrial {
+  Real angleDegrees, rrThreshold;
+  int count;
+};
+
 // Gathers the light of the sky over `count` independent sets of gather samples. Photons from the
 // given directions guide the gather.
 template <class AddLobes>
-Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, Real angleDegrees,
-                   Real rrThreshold, int count, const AddLobes& addLobes) {
+Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
+                   const GatherTrial& trial, const AddLobes& addLobes) {
+  const auto& [angleDegrees, rrThreshold, count] = trial;
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   PhotonBuffer buffer;
   for (const Vector3& w : guideDirections) buffer.Add({{0, 0, 0}, w, Spectrum(1)});
@@ -90,7 +96,7 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections, 
 template <class AddLobes>
 Gathered GatherConstant(const std::vector<Vector3>& guideDirections, Real angleDegrees, int count,
                         const AddLobes& addLobes) {
-  return GatherSky(kUniform, guideDirections, angleDegrees, PhotonSettings().rrThreshold, count,
+  return GatherSky(kUniform, guideDirections, {angleDegrees, PhotonSettings().rrThreshold, count},
                    addLobes);
 }
 
@@ -165,7 +171,7 @@ double RaysTowards(const Vector3& patch, int photonsFromThere) {
     return Real(1);
   });
   constexpr int kGathers = 500;
-  GatherSky(sky, guide, 2, 0, kGathers,
+  GatherSky(sky, guide, {2, 0, kGathers},
             [](Bsdf* bsdf, Arena* arena) { bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8)))); });
   return double(towards) / kGathers;
 }
@@ -188,7 +194,7 @@ TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
   const Sky sky([&](const Vector3& d) { return Dot(d, patch) > Real(.99) ? Real(100) : Real(.1); });
   const std::vector<Vector3> guide(50, patch);
   const auto gather = [&](Real threshold) {
-    return GatherSky(sky, guide, 10, threshold, 20000, [](Bsdf* bsdf, Arena* arena) {
+    return GatherSky(sky, guide, {10, threshold, 20000}, [](Bsdf* bsdf, Arena* arena) {
       bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
     });
   };
@@ -198,7 +204,7 @@ TEST(FinalGather, RouletteSparesRaysTowardsWhatPhotonsFoundBright) {
 }
 
 TEST(FinalGather, RouletteKeepsTheMeanWhereItEndsMostRays) {
-  const Gathered g = GatherSky(kUniform, Clusters(), 10, 2, 120000, [](Bsdf* bsdf, Arena* arena) {
+  const Gathered g = GatherSky(kUniform, Clusters(), {10, 2, 120000}, [](Bsdf* bsdf, Arena* arena) {
     bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.8))));
   });
   EXPECT_LE(std::abs(g.mean - .8) + g.error, .8 * 2 * kTolerance);

@@ -49,10 +49,15 @@ class PhotonGuideTest : public testing::Test {
   // Returns the guiding directions at (x, .5, 0), seen from the side of `wo`.
   Directions At(Real x, const Vector3& wo, PixelState* pixelState) {
     Arena arena;
-    return Listed(Guide(x, wo, photons_, kPhotons, pixelState, &arena));
+    return Listed(Guide(x, wo, {photons_, kPhotons}, pixelState, &arena));
   }
-  GuidedDirections Guide(Real x, const Vector3& wo, const PhotonMap& photons, int count,
-                         PixelState* pixelState, Arena* arenaPointer) {
+  struct Nearest {
+    const PhotonMap& photons;
+    int count;
+  };
+  GuidedDirections Guide(Real x, const Vector3& wo, const Nearest& nearest, PixelState* pixelState,
+                         Arena* arenaPointer) {
+    const auto& [photons, count] = nearest;
     Arena& arena = *arenaPointer;
     PhotonGuide guide(count, kCone);
     guide.Prepare(photons);
@@ -98,7 +103,7 @@ TEST_F(PhotonGuideTest, FollowsPhotonsOfAPatchAndLeavesThoseOfTheSkyToTheBsdf) {
   constexpr int kMany = 200;
   const PhotonMap both = Photons(Light::OfBoth);
   Arena arena;
-  const GuidedDirections guide = Guide(Real(.5), above_, both, kMany, nullptr, &arena);
+  const GuidedDirections guide = Guide(Real(.5), above_, {both, kMany}, nullptr, &arena);
   const Directions followed = Listed(guide);
   ASSERT_FALSE(followed.empty());
   for (const Vector3& w : followed) EXPECT_GT(Dot(w, kPatch), std::cos(Radians(30)));
@@ -109,7 +114,7 @@ TEST_F(PhotonGuideTest, LeavesASurfaceThatIsLitFromEverywhereToTheBsdf) {
   constexpr int kMany = 400;
   const PhotonMap sky = Photons(Light::OfTheSky);
   Arena arena;
-  const GuidedDirections guide = Guide(Real(.5), above_, sky, kMany, nullptr, &arena);
+  const GuidedDirections guide = Guide(Real(.5), above_, {sky, kMany}, nullptr, &arena);
   EXPECT_LT(guide.share, .05);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check the house rules: a folder of core/ includes only folders below it and no
-// plugin, no source file and no folder is too large, and comments and pages avoid the phrases that
-// docs/development/CONTRIBUTING.md names.
+// plugin, no folder is too large, and comments and pages avoid the phrases that
+// docs/development/CONTRIBUTING.md names. tests/unit/rules/ checks the lengths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,16 +64,6 @@ TEST(Layering, AFolderOfTheCoreIncludesOnlyWhatStandsBelowIt) {
     }
   }
   EXPECT_GT(checked, 300);
-}
-
-TEST(Layering, NoSourceFileHasMoreThan500Lines) {
-  for (const char* folder : {"core", "integrators", "accelerators", "shapes", "lights", "materials",
-                             "samplers", "tests"})
-    for (const auto& entry :
-         fs::recursive_directory_iterator(fs::path(EXPHOTON_SOURCE_DIR) / folder)) {
-      if (!entry.is_regular_file() || !IsSource(entry.path())) continue;
-      EXPECT_LE(Lines(entry.path()).size(), 500u) << entry.path();
-    }
 }
 
 const std::vector<std::string> kPrivatePhrases{
