@@ -4,21 +4,21 @@
 
 #include <vector>
 
-#include "core/spatial/point_spacing.h"
-#include "core/spatial/point_tree.h"
+#include "core/spatial/nearest_search.h"
+#include "core/spatial/search_start.h"
 
 namespace exphoton {
 
 struct TestDisk {
   Point3 p;
   std::uint32_t direction = EncodeOctahedral({0, 0, 1});
-  Real reach2 = kInfinity;
+  Real radius2 = kInfinity;
 };
 struct TestDiskBlock : DiskBlock {
   using Record = TestDisk;
   void Set(std::uint32_t lane, const TestDisk& disk) {
     PointBlock::Set(lane, {disk.p, disk.direction});
-    reach2[lane] = disk.reach2;
+    radius2[lane] = disk.radius2;
   }
 };
 

@@ -16,8 +16,8 @@ int CountEntries(const RadiancePhotonSite& site, bool needsTransmission) {
   return site.reflectance.IsBlack() ? 0 : 1;
 }
 
-// Computes all `entries` of a site. reach2 receives the squared radius of the density estimate; the
-// caller scales it to the validity radius.
+// Computes all `entries` of a site. radius2 receives the squared radius of the density estimate;
+// the caller scales it to the validity radius.
 void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Arena* arena,
                     std::span<RadianceRecord> entries) {
   if (entries.empty()) return;
@@ -66,13 +66,13 @@ RadiancePhotonMap::RadiancePhotonMap(std::span<RadiancePhotonSite> sites, const 
       const auto count = std::size_t(CountEntries(site, needsTransmission));
       const auto computed = entries.Records().subspan(at, count);
       ComputeEntries(site, maps, &arenas[std::size_t(worker)], computed);
-      for (RadianceRecord& entry : computed) entry.reach2 *= Square(reach_);
+      for (RadianceRecord& entry : computed) entry.radius2 *= Square(reach_);
       at += count;
     }
     context.progress.Advance();
   });
   for (const RadianceRecord& entry : entries.Records())
-    maxReach2_ = std::max(maxReach2_, entry.reach2);
+    maxRadius2_ = std::max(maxRadius2_, entry.radius2);
   context.progress.End();
   tree_ = PointTree<RadianceBlock>(std::move(entries), context.threads);
   grid_ = EntryGrid(tree_.View(), kGridCellsPerEntry * tree_.Size(), context.threads);
@@ -83,13 +83,13 @@ void RadiancePhotonMap::Find(std::span<const Place> places, std::optional<Entry>
   ClosestPoint closest[kAtOnce];
   for (; !places.empty(); places = places.subspan(std::min(kAtOnce, places.size()))) {
     const auto some = places.first(std::min(kAtOnce, places.size()));
-    FastestNearestSearch().closest(View(), {minCosine_, maxReach2_}, some, closest);
+    FastestNearestSearch().closest(View(), {minCosine_, maxRadius2_}, some, closest);
     for (std::size_t i = 0; i < some.size(); ++i, ++found) {
       found->reset();
       if (closest[i].index == ClosestPoint::kNone) continue;
       const RadianceBlock& block = tree_.BlockOf(closest[i].index);
       const std::uint32_t lane = tree_.Lane(closest[i].index);
-      *found = {block.value[lane], SafeDivide(block.reach2[lane], Square(reach_), 0),
+      *found = {block.value[lane], SafeDivide(block.radius2[lane], Square(reach_), 0),
                 closest[i].distance2};
     }
   }

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "core/scattering/bxdf.h"
-#include "core/spatial/point_tree.h"
+#include "core/spatial/nearest_search.h"
+#include "core/spatial/search_start.h"
 #include "integrators/photon/maps/packed_radiance.h"
 #include "integrators/photon/maps/photon_map_set.h"
 
@@ -19,7 +20,7 @@ namespace exphoton {
 struct RadianceRecord {
   Point3 p;
   std::uint32_t direction = 0;  // EncodeOctahedral of the normal on the valid side
-  Real reach2 = 0;              // squared validity radius
+  Real radius2 = 0;             // squared validity radius
   // Radiance that the diffuse lobes scatter to that side. On a coated surface it includes the
   // coat's transmission on the way in. Entry::Value applies the transmission on the way out.
   PackedRadiance value;
@@ -31,7 +32,7 @@ struct RadianceBlock : DiskBlock {
   PackedRadiance value[kBlockPoints];  // only read for single lanes
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
-    reach2[lane] = record.reach2;
+    radius2[lane] = record.radius2;
     value[lane] = record.value;
   }
 };
@@ -90,7 +91,7 @@ class RadiancePhotonMap {
   EntryGrid grid_;  // entry points of lookups
   Real minCosine_ = 0;
   Real reach_ = 0;  // ratio of the validity radius to the radius of the entry's density estimate
-  Real maxReach2_ = 0;  // largest squared validity radius
+  Real maxRadius2_ = 0;  // largest squared validity radius
 };
 
 }  // namespace exphoton
