@@ -32,16 +32,16 @@ class BlockOrder {
   // of the set.
   static void Sort(std::span<const std::span<Record>> sets, ThreadPool& threads,
                    const Finish& finish) {
-    constexpr std::size_t kEnough = 64;  // pieces
+    constexpr std::size_t kMinPieces = 64;
     std::vector<Piece> pieces;
     for (std::size_t set = 0; set < sets.size(); ++set) pieces.push_back({sets[set], set, 0});
-    for (int round = 0; pieces.size() < kEnough && round < 6; ++round) {
+    for (int round = 0; pieces.size() < kMinPieces && round < 6; ++round) {
       std::vector<Piece> halves(2 * pieces.size());
       threads.For(std::int64_t(pieces.size()), [&](std::int64_t i, int) {
         const auto& [records, set, begin] = pieces[i];
-        const std::size_t middle = Split(records);
-        halves[2 * i] = {records.first(middle), set, begin};
-        halves[2 * i + 1] = {records.subspan(middle), set, begin + middle};
+        const std::size_t split = Split(records);
+        halves[2 * i] = {records.first(split), set, begin};
+        halves[2 * i + 1] = {records.subspan(split), set, begin + split};
       });
       pieces = std::move(halves);
     }
@@ -60,9 +60,9 @@ class BlockOrder {
 
   static void SortPiece(std::span<Record> records) {
     while (records.size() > kBlockPoints) {
-      const std::size_t middle = Split(records);
-      SortPiece(records.first(middle));
-      records = records.subspan(middle);
+      const std::size_t split = Split(records);
+      SortPiece(records.first(split));
+      records = records.subspan(split);
     }
   }
 
@@ -72,13 +72,13 @@ class BlockOrder {
     if (records.size() <= kBlockPoints) return records.size();
     std::size_t run = kBlockPoints;
     while (run * kBlockPoints < records.size()) run *= kBlockPoints;
-    const std::size_t middle = (records.size() + run - 1) / run / 2 * run;
+    const std::size_t split = (records.size() + run - 1) / run / 2 * run;
     Bounds3 bounds;
     for (const Record& record : records) bounds.Extend(record.p);
     const int axis = MaxDimension(bounds.Diagonal());
-    std::nth_element(records.begin(), records.begin() + std::ptrdiff_t(middle), records.end(),
+    std::nth_element(records.begin(), records.begin() + std::ptrdiff_t(split), records.end(),
                      [axis](const Record& a, const Record& b) { return a.p[axis] < b.p[axis]; });
-    return middle;
+    return split;
   }
 };
 

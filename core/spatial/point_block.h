@@ -37,4 +37,9 @@ struct alignas(kBlockPoints * sizeof(Real)) PointBlock {
   }
 };
 
+// A block of points that are disks.
+struct DiskBlock : PointBlock {
+  Real radius2[kBlockPoints];  // squared radii: a disk covers the positions within its radius
+};
+
 }  // namespace exphoton

@@ -1,15 +1,67 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PointTree stores blocks of points and the BVH over them, ready for searches. A block type may
-// hold further data per point.
+// PointTree stores blocks of points and a bounding volume hierarchy over them, ready for the
+// searches in nearest_search.h. A block type may hold further data per point.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
+#include <vector>
 
+#include "core/base/parallel.h"
+#include "core/math/bounds.h"
 #include "core/spatial/block_order.h"
 #include "core/spatial/block_store.h"
-#include "core/spatial/nearest/nearest_search.h"
 
 namespace exphoton {
+
+class EntryGrid;
+
+inline constexpr std::uint32_t kBoxChildren = 16;
+
+// The bounds of sixteen children. A node with fewer children repeats the bounds of the last child,
+// as PointBlock repeats its last point.
+struct alignas(64) BoxNode {
+  Real low[3][kBoxChildren], high[3][kBoxChildren];
+
+  Bounds3 Bounds() const;  // of all children
+  void Set(std::uint32_t child, const Bounds3& bounds);
+};
+
+// PointBvh is an implicit 16-wide hierarchy of bounding boxes over blocks of points. Child i of
+// node n is node 16 n + i of the level below, or block 16 n + i at the lowest level. It needs no
+// pointers, because its shape depends only on the number of blocks.
+class PointBvh {
+ public:
+  static constexpr int kMaxLevels = 8;
+  static constexpr std::size_t kMaxPoints = std::size_t(1) << 31;
+
+  PointBvh() = default;  // no points
+  // bounds[i] is the bounding box of block i.
+  explicit PointBvh(const std::vector<Bounds3>& bounds);
+
+  int Levels() const { return int(levels_.size()); }
+  const BoxNode* Level(int level) const { return levels_[level].data(); }  // 0: above the blocks
+  Bounds3 Bounds() const { return levels_.empty() ? Bounds3() : levels_.back().front().Bounds(); }
+  std::size_t MemoryBytes() const;
+
+ private:
+  std::vector<std::vector<BoxNode>> levels_;
+};
+
+// PointTreeView is the data that a search reads. Blocks derive from PointBlock and are contiguous.
+struct PointTreeView {
+  const PointBvh* tree = nullptr;
+  const std::byte* blocks = nullptr;
+  std::size_t blockBytes = sizeof(PointBlock);
+  std::uint32_t count = 0;  // number of points
+  // For each run of kSpacingPoints points: the squared radius round the middle point that is
+  // expected to contain one point. It affects the time of a search only. May be null.
+  const Real* spacing2 = nullptr;
+  const EntryGrid* grid = nullptr;  // entry points of closest-disk queries; may be null
+
+  static constexpr std::uint32_t kSpacingPoints = 64;
+};
 
 template <class Block>
 class PointTree {

@@ -66,7 +66,7 @@ ClosestPoint TestPointTree::ClosestByBruteForce(const ClosestQuery& query,
     const Real distance2 = DistanceSquared(tree_.Position(i), query.p);
     const auto& block = tree_.BlockOf(i);
     if (!(distance2 <= limits.maxRadius2 && distance2 < best.distance2)) continue;
-    if (!(distance2 <= block.reach2[tree_.Lane(i)])) continue;
+    if (!(distance2 <= block.radius2[tree_.Lane(i)])) continue;
     if (Dot(tree_.Direction(i), query.n) > limits.minCosine) best = {distance2, i};
   }
   return best;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/spatial/point_spacing.h"
-#include "core/spatial/point_tree.h"
+#include "core/spatial/nearest_search.h"
+#include "core/spatial/search_start.h"
 
 namespace exphoton {
 
@@ -18,7 +18,7 @@ struct TestDiskBlock : DiskBlock {
   using Record = TestDisk;
   void Set(std::uint32_t lane, const TestDisk& disk) {
     PointBlock::Set(lane, {disk.p, disk.direction});
-    reach2[lane] = disk.radius2;
+    radius2[lane] = disk.radius2;
   }
 };
 

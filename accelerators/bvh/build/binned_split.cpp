@@ -30,7 +30,7 @@ class Binning {
   }
   bool CanSplit(int axis) const { return canSplit_[axis]; }
   void Find(const BvhItem& item, std::int32_t* bins) const {
-    const Real4 position = (item.Box().Middle() - min_) * scale_;
+    const Real4 position = (item.Box().Center() - min_) * scale_;
     Max(Min(position, Real4::All(kBins - 1)), Real4::All(0)).Truncate(bins);
   }
 
@@ -104,7 +104,7 @@ BvhSplit SweepRun(const BvhRun& run) {
   std::array<Real, kSweepLimit> middles[3];
   for (std::size_t i = 0; i < items.size(); ++i) {
     Real lanes[4];
-    items[i].Box().Middle().Store(lanes);
+    items[i].Box().Center().Store(lanes);
     for (int axis = 0; axis < 3; ++axis) middles[axis][i] = lanes[axis];
   }
   const Bounds3 bounds = run.middles.ToBounds();
@@ -128,7 +128,7 @@ BvhRun MakeRun(std::span<BvhItem> items) {
   BvhRun run{items, {}, {}};
   for (const BvhItem& item : items) {
     run.box.Extend(item.Box());
-    run.middles.Extend(item.Box().Middle());
+    run.middles.Extend(item.Box().Center());
   }
   return run;
 }
@@ -143,7 +143,7 @@ BvhSplit HalveRun(const BvhRun& run) {
   const std::size_t half = run.items.size() / 2;
   const auto middle = [axis](const BvhItem& item) {
     Real lanes[4];
-    item.Box().Middle().Store(lanes);
+    item.Box().Center().Store(lanes);
     return lanes[axis];
   };
   std::nth_element(run.items.begin(), run.items.begin() + std::ptrdiff_t(half), run.items.end(),

@@ -8,76 +8,42 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "core/math/bounds.h"
 
-#if defined(__SSE2__) && !defined(EXPHOTON_DOUBLE)
-#include <emmintrin.h>
-#define EXPHOTON_BUILD_SSE2 1
-#endif
-
 namespace exphoton {
 
-#if defined(EXPHOTON_BUILD_SSE2)
-
+// Real4 is a vector of the compiler's own vector extension, which every architecture has. It needs
+// no instructions beyond the baseline and can be inlined everywhere, so it is no SIMD kernel.
 struct Real4 {
-  __m128 v;
+  using Vector __attribute__((vector_size(4 * sizeof(Real)))) = Real;
+  using Bits __attribute__((vector_size(4 * sizeof(Real)))) =
+      std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  using Integers __attribute__((vector_size(4 * sizeof(std::int32_t)))) = std::int32_t;
 
-  static Real4 All(Real x) { return {_mm_set1_ps(x)}; }
-  static Real4 Of(const Point3& p) { return {_mm_setr_ps(p.x, p.y, p.z, 0)}; }
+  Vector v;
+
+  static Real4 All(Real x) { return {Vector{x, x, x, x}}; }
+  static Real4 Of(const Point3& p) { return {Vector{p.x, p.y, p.z, 0}}; }
   // The last lane becomes 0. It may hold the bits of an id, which as a float can be subnormal, and
   // subnormal numbers are slow to add.
   static Real4 Three(const Real* lanes) {
-    const __m128 mask = _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0));
-    return {_mm_and_ps(_mm_load_ps(lanes), mask)};
+    Bits bits;
+    std::memcpy(&bits, lanes, sizeof(bits));
+    return {Vector(bits & Bits{-1, -1, -1, 0})};
   }
-  void Store(Real* lanes) const { _mm_storeu_ps(lanes, v); }
+  void Store(Real* lanes) const { std::memcpy(lanes, &v, sizeof(v)); }
   void Truncate(std::int32_t* lanes) const {
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(lanes), _mm_cvttps_epi32(v));
+    const Integers integers = __builtin_convertvector(v, Integers);
+    std::memcpy(lanes, &integers, sizeof(integers));
   }
 };
-inline Real4 operator+(Real4 a, Real4 b) { return {_mm_add_ps(a.v, b.v)}; }
-inline Real4 operator-(Real4 a, Real4 b) { return {_mm_sub_ps(a.v, b.v)}; }
-inline Real4 operator*(Real4 a, Real4 b) { return {_mm_mul_ps(a.v, b.v)}; }
-inline Real4 Min(Real4 a, Real4 b) { return {_mm_min_ps(a.v, b.v)}; }  // NaN: the second
-inline Real4 Max(Real4 a, Real4 b) { return {_mm_max_ps(a.v, b.v)}; }
-
-#else
-
-struct Real4 {
-  Real v[4];
-
-  static Real4 All(Real x) { return {{x, x, x, x}}; }
-  static Real4 Of(const Point3& p) { return {{p.x, p.y, p.z, 0}}; }
-  static Real4 Three(const Real* lanes) { return {{lanes[0], lanes[1], lanes[2], 0}}; }
-  void Store(Real* lanes) const { std::copy(v, v + 4, lanes); }
-  void Truncate(std::int32_t* lanes) const {
-    for (int i = 0; i < 4; ++i) lanes[i] = std::int32_t(v[i]);
-  }
-};
-template <class Operation>
-Real4 EachOf(const Real4& a, const Real4& b, const Operation& operation) {
-  Real4 r;
-  for (int i = 0; i < 4; ++i) r.v[i] = operation(a.v[i], b.v[i]);
-  return r;
-}
-inline Real4 operator+(const Real4& a, const Real4& b) {
-  return EachOf(a, b, [](Real x, Real y) { return x + y; });
-}
-inline Real4 operator-(const Real4& a, const Real4& b) {
-  return EachOf(a, b, [](Real x, Real y) { return x - y; });
-}
-inline Real4 operator*(const Real4& a, const Real4& b) {
-  return EachOf(a, b, [](Real x, Real y) { return x * y; });
-}
-inline Real4 Min(const Real4& a, const Real4& b) {
-  return EachOf(a, b, [](Real x, Real y) { return x < y ? x : y; });
-}
-inline Real4 Max(const Real4& a, const Real4& b) {
-  return EachOf(a, b, [](Real x, Real y) { return x > y ? x : y; });
-}
-
-#endif
+inline Real4 operator+(const Real4& a, const Real4& b) { return {a.v + b.v}; }
+inline Real4 operator-(const Real4& a, const Real4& b) { return {a.v - b.v}; }
+inline Real4 operator*(const Real4& a, const Real4& b) { return {a.v * b.v}; }
+inline Real4 Min(const Real4& a, const Real4& b) { return {a.v < b.v ? a.v : b.v}; }
+inline Real4 Max(const Real4& a, const Real4& b) { return {a.v > b.v ? a.v : b.v}; }
 
 struct BuildBox {
   Real4 low = Real4::All(kInfinity), high = Real4::All(-kInfinity);
@@ -85,7 +51,7 @@ struct BuildBox {
   void Extend(const BuildBox& b) { low = Min(low, b.low), high = Max(high, b.high); }
   void Extend(Real4 p) { low = Min(low, p), high = Max(high, p); }
   // Halves each term first, so the sum never overflows.
-  Real4 Middle() const { return low * Real4::All(Real(.5)) + high * Real4::All(Real(.5)); }
+  Real4 Center() const { return low * Real4::All(Real(.5)) + high * Real4::All(Real(.5)); }
   Bounds3 ToBounds() const {
     Real a[4], b[4];
     low.Store(a), high.Store(b);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// BvhTraversal traces rays through the BVH. Its one implementation (traverse.inl) is compiled for
-// each SIMD target, and the widest target of the machine is chosen at run time. All targets return
-// the hits of brute force, bit for bit.
+// BvhTraversal traces rays through the BVH. Its one implementation (traverse_simd.cpp) is compiled
+// for each SIMD target, and the widest target of the machine is chosen at run time. All targets
+// return the hits of brute force, bit for bit.
 #pragma once
 
 #include "accelerators/bvh/bvh_layout.h"
@@ -29,13 +29,6 @@ struct BvhTraversal {
   bool (*occludedByBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
                            const TraceRay&);
 };
-
-extern const BvhTraversal kPortableTraversal;
-#if defined(__x86_64__) && !defined(EXPHOTON_DOUBLE)
-#define EXPHOTON_BVH_AVX 1
-extern const BvhTraversal kAvx2Traversal;    // requires AVX2
-extern const BvhTraversal kAvx512Traversal;  // requires AVX2 and AVX-512 F, VL, DQ
-#endif
 
 // FastestTraversal returns the best traversal for this machine that is no wider than `widest`.
 enum class BvhVectors { Portable, Avx2, Widest };

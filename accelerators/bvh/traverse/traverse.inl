@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This file is the traversal of the BVH, included into an unnamed namespace. The including file
-// defines for its SIMD target: Real8 (Load, Store, All, +, -, *, /, MultiplyAdd, Min, Max, Abs,
-// LessMask), Axes (All, +, -, *, /, Abs, AxesOf, AllOf), IsWorthTracing (IsTraceable), PresentMask,
-// kHitsInSingle (whether SIMD code may accept hits) and PushOrder. PushOrder::Push finds the
-// children with first <= last and returns their number. It returns the first of the order in *next
-// and pushes the others, the second on top.
+// The traversal of the BVH. This file is part of traverse_simd.cpp, which defines before it the
+// vectors of a SIMD target (core/math/simd/reals.inl, real8.inl).
 //
 // Rays enter boxes wherever rounding might have put a hit. The computed hit at t may lie up to
 // slope * t off the ray on each axis, with slope = kBvhMargin * |d|. The ray is thus a thin cone.
 // It crosses a plane at the earliest at (plane - o) / (|d_axis| + slope) and at the latest at
 // (plane - o) / (|d_axis| - slope). If the ray is perpendicular to an axis within the slope, planes
 // are instead moved by the cone's largest spread in the scene.
+
+// Whether SIMD code may accept hits.
+constexpr bool kHitsInSingle = kAcceptsSinglePrecision;
 
 // Force-inline lambdas: an out-of-line call would spill the SIMD registers.
 #define EXPHOTON_INLINE __attribute__((always_inline))
@@ -123,7 +122,7 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
   const BlockHits hits = blockRay.Hits(block, nearest->high);
   if (hits.possible == 0) return;
   Real t[kBvhWidth], e1[kBvhWidth], e2[kBvhWidth], determinant[kBvhWidth];
-  hits.t.Store(t), hits.e1.Store(e1), hits.e2.Store(e2), hits.determinant.Store(determinant);
+  hits.t.StoreUnaligned(t), hits.e1.StoreUnaligned(e1), hits.e2.StoreUnaligned(e2), hits.determinant.StoreUnaligned(determinant);
   for (unsigned open = hits.possible; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
     const Real high = t[lane] * (1 + kSingleError);
@@ -151,7 +150,7 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
   if (hits.possible == 0) return false;
   if ((hits.sure & LessMask(hits.t, Real8::All(tMax * (1 - 2 * kSingleError)))) != 0) return true;
   Real determinant[kBvhWidth];
-  hits.determinant.Store(determinant);
+  hits.determinant.StoreUnaligned(determinant);
   for (unsigned open = hits.possible; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
     if ((hits.crossed >> lane & 1) && IsBehind(block, lane, trace.triangle, determinant[lane]))

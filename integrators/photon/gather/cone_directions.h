@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/arena.h"
-#include "core/math/simd/real16.h"
+#include "core/math/vec.h"
 
 namespace exphoton {
 
@@ -30,7 +30,7 @@ struct ConeLoops {
 
 class ConeDirections {
  public:
-  static constexpr std::size_t kRun = kReal16Lanes;
+  static constexpr std::size_t kRun = 16;
 
   ConeDirections() = default;  // no directions
   // Makes room for `capacity` directions, valid as long as the arena keeps it.
@@ -65,13 +65,13 @@ class ConeDirections {
     return (count + kRun - 1) / kRun * kRun;
   }
 
-  static std::span<const ConeLoops> Loops();  // for this machine, widest last
+  static std::span<const ConeLoops* const> Loops();  // for this machine, widest last
 
  private:
   static constexpr Real kFar = 9;
 
   static const ConeLoops& Fastest() {
-    static const ConeLoops& fastest = Loops().back();
+    static const ConeLoops& fastest = *Loops().back();
     return fastest;
   }
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/scattering/bxdf.h"
-#include "core/spatial/point_spacing.h"
+#include "core/spatial/search_start.h"
 
 namespace exphoton {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/arena.h"
-#include "core/spatial/point_tree.h"
+#include "core/spatial/nearest_search.h"
 #include "integrators/photon/maps/photon.h"
 
 namespace exphoton {

@@ -89,7 +89,7 @@ void RadiancePhotonMap::Find(std::span<const Place> places, std::optional<Entry>
       if (closest[i].index == ClosestPoint::kNone) continue;
       const RadianceBlock& block = tree_.BlockOf(closest[i].index);
       const std::uint32_t lane = tree_.Lane(closest[i].index);
-      *found = {block.value[lane], SafeDivide(block.reach2[lane], Square(reach_), 0),
+      *found = {block.value[lane], SafeDivide(block.radius2[lane], Square(reach_), 0),
                 closest[i].distance2};
     }
   }

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "core/scattering/bxdf.h"
-#include "core/spatial/point_tree.h"
+#include "core/spatial/nearest_search.h"
+#include "core/spatial/search_start.h"
 #include "integrators/photon/maps/packed_radiance.h"
 #include "integrators/photon/maps/photon_map_set.h"
 
@@ -31,7 +32,7 @@ struct RadianceBlock : DiskBlock {
   PackedRadiance value[kBlockPoints];  // only read for single lanes
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
-    reach2[lane] = record.radius2;
+    radius2[lane] = record.radius2;
     value[lane] = record.value;
   }
 };

@@ -61,10 +61,10 @@ TEST(ConeDirections, AreAsManyForEveryWidthOfVectors) {
     // The limit is exactly the distance of one axis, so a different rounding would
     // change the count.
     const Real chord2 = Square(x[0] - w.x) + Square(y[0] - w.y) + Square(z[0] - w.z);
-    const auto count = [&](const ConeLoops& loops) {
-      return loops.count(x.data(), y.data(), z.data(), x.size(), w, chord2);
+    const auto count = [&](const ConeLoops* loops) {
+      return loops->count(x.data(), y.data(), z.data(), x.size(), w, chord2);
     };
-    for (const ConeLoops& loops : ConeDirections::Loops())
+    for (const ConeLoops* loops : ConeDirections::Loops())
       ASSERT_EQ(count(loops), count(ConeDirections::Loops().front()));
   }
 }
@@ -82,11 +82,11 @@ TEST(ConeDirections, ChooseTheSameForEveryWidthOfVectors) {
     for (std::size_t i = 0; i < kCount; ++i)
       if (from.value[i] * scale < from.limit[i])
         expected.insert(expected.end(), {from.x[i], from.y[i], from.z[i]});
-    for (const ConeLoops& loops : ConeDirections::Loops()) {
+    for (const ConeLoops* loops : ConeDirections::Loops()) {
       std::vector<Real> to(3 * (kRoom + ConeDirections::kRun));
       Real *const tx = to.data(), *const ty = tx + kRoom + ConeDirections::kRun,
                   *const tz = ty + kRoom + ConeDirections::kRun;
-      const std::size_t count = loops.choose(from, scale, tx, ty, tz);
+      const std::size_t count = loops->choose(from, scale, tx, ty, tz);
       std::vector<Real> chosen;
       for (std::size_t i = 0; i < count; ++i) chosen.insert(chosen.end(), {tx[i], ty[i], tz[i]});
       EXPECT_EQ(chosen, expected) << scale;

@@ -231,13 +231,13 @@ TEST(PointTree, MadeWithOthersAtOnceIsTheSameAsAlone) {
   ThreadPool one(1), three(3);
   std::vector<BlockStore<PointBlock>> stores;
   for (const auto& points : sets) stores.push_back(storeOf(points));
-  const auto together = PointTree<PointBlock>::MakeAll(stores, three);
+  const auto trees = PointTree<PointBlock>::MakeAll(stores, three);
   for (std::size_t set = 0; set < std::size(sets); ++set) {
     const PointTree<PointBlock> alone(storeOf(sets[set]), one);
-    ASSERT_EQ(together[set].Size(), sets[set].size());
-    EXPECT_EQ(together[set].MemoryBytes(), alone.MemoryBytes());
+    ASSERT_EQ(trees[set].Size(), sets[set].size());
+    EXPECT_EQ(trees[set].MemoryBytes(), alone.MemoryBytes());
     for (std::uint32_t i = 0; i < alone.Size(); ++i)
-      ASSERT_EQ(together[set].Position(i), alone.Position(i)) << set << " " << i;
+      ASSERT_EQ(trees[set].Position(i), alone.Position(i)) << set << " " << i;
   }
 }
 
@@ -274,9 +274,9 @@ TEST(PointTree, OfManyCoincidentPointsFindsTheFirstAtOnce) {
       ASSERT_EQ(near.back().index, 49u);
       const ClosestQuery place{query.p, {0, 0, 1}};
       const std::vector<ClosestQuery> places(16, place);
-      for (const std::size_t together : {std::size_t(1), places.size()}) {
-        std::vector<ClosestPoint> closest(together);
-        FastestNearestSearch().closest(tree.View(), {0, 9}, {places.data(), together},
+      for (const std::size_t queries : {std::size_t(1), places.size()}) {
+        std::vector<ClosestPoint> closest(queries);
+        FastestNearestSearch().closest(tree.View(), {0, 9}, {places.data(), queries},
                                        closest.data());
         for (const ClosestPoint& each : closest) ASSERT_EQ(each.index, 0u);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PointBvh: construction, from the blocks upwards.
-#include "core/spatial/point_bvh.h"
+#include "core/spatial/point_tree.h"
 
 #include <algorithm>
 
@@ -23,20 +23,17 @@ void BoxNode::Set(std::uint32_t child, const Bounds3& bounds) {
 }
 
 PointBvh::PointBvh(const std::vector<Bounds3>& bounds) {
-  for (const std::vector<Bounds3>* below = &bounds; !below->empty();) {
-    std::vector<BoxNode> nodes((below->size() + kBoxChildren - 1) / kBoxChildren);
+  // Adds a level over `count` boxes. The last node repeats the last box.
+  const auto addLevel = [this](std::size_t count, const auto& boundsOf) {
+    std::vector<BoxNode> nodes((count + kBoxChildren - 1) / kBoxChildren);
     for (std::size_t i = 0; i < nodes.size() * kBoxChildren; ++i)
-      nodes[i / kBoxChildren].Set(i % kBoxChildren, (*below)[std::min(i, below->size() - 1)]);
+      nodes[i / kBoxChildren].Set(i % kBoxChildren, boundsOf(std::min(i, count - 1)));
     levels_.push_back(std::move(nodes));
-    break;
-  }
-  while (!levels_.empty() && levels_.back().size() > 1) {
-    const std::vector<BoxNode>& below = levels_.back();
-    std::vector<BoxNode> nodes((below.size() + kBoxChildren - 1) / kBoxChildren);
-    for (std::size_t i = 0; i < nodes.size() * kBoxChildren; ++i)
-      nodes[i / kBoxChildren].Set(i % kBoxChildren, below[std::min(i, below.size() - 1)].Bounds());
-    levels_.push_back(std::move(nodes));
-  }
+  };
+  if (bounds.empty()) return;
+  addLevel(bounds.size(), [&](std::size_t i) { return bounds[i]; });
+  while (levels_.back().size() > 1)
+    addLevel(levels_.back().size(), [&](std::size_t i) { return levels_.back()[i].Bounds(); });
 }
 
 std::size_t PointBvh::MemoryBytes() const {

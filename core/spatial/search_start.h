@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// EntryGrid divides space into cubic cells and stores for each a block of points near its centre. A
-// closest-disk search scans that block first, to start with a small radius. The grid affects the
-// time of a search only, never its result.
+// EntryGrid and MeasureSpacing2 choose how searches begin: the block to scan first, and the
+// first radius to try. They affect the time of a search only, never its result.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "core/base/parallel.h"
-#include "core/math/bounds.h"
+#include "core/spatial/point_tree.h"
 
 namespace exphoton {
 
-struct PointTreeView;
-
+// EntryGrid divides space into cubic cells and stores for each a block of points near its centre. A
+// closest-disk search scans that block first, to start with a small radius.
 class EntryGrid {
  public:
   EntryGrid() = default;  // no cells
@@ -41,5 +39,11 @@ class EntryGrid {
   std::uint32_t counts_[3] = {0, 0, 0};
   std::vector<std::uint32_t> blocks_;
 };
+
+// MeasureSpacing2 estimates the local point density, from which k-NN queries choose their first
+// radius. It returns for each run of PointTreeView::kSpacingPoints points the squared radius round
+// the run's middle point that is expected to contain one point. The spacing2 of the view is
+// ignored.
+std::vector<Real> MeasureSpacing2(PointTreeView view, ThreadPool& threads);
 
 }  // namespace exphoton

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ReprojectedCell compiles one loop for each SIMD target. The loop has no branches and no selects.
+// The kernel of ReprojectedCell is one loop that the compiler vectorises for each SIMD target. It
+// has no branches and no selects.
 #include "integrators/photon/gather/reprojected_cell.h"
 
 #include <cmath>
 
-#include "core/base/simd_targets.h"
+#include "core/math/simd/targets.h"
 
-namespace exphoton {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "integrators/photon/gather/reprojected_cell_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-[[gnu::always_inline]] inline void Look(const GuideCacheCell& cell, const Vector3& from,
-                                        const LitSide& side, ReprojectedCell* view) {
+HWY_BEFORE_NAMESPACE();
+namespace exphoton::HWY_NAMESPACE {
+
+void Reproject(const GuideCacheCell& cell, const Vector3& from, const LitSide& side,
+               ReprojectedCell* view) {
   constexpr Real kNowhere = Real(2e-19);  // avoids 0 / 0 for an origin at p; changes no other
   const Real *const x = cell.X(), *const y = cell.Y(), *const z = cell.Z();
   Real *const wx = view->x, *const wy = view->y, *const wz = view->z, *const cosine = view->cosine;
@@ -33,25 +39,14 @@ namespace {
   view->lit = lit;
 }
 
-void ReprojectPortable(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
-                       ReprojectedCell* view) {
-  Look(cell, p, side, view);
-}
+}  // namespace exphoton::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-EXPHOTON_FOR_AVX2 void ReprojectAvx2(const GuideCacheCell& cell, const Vector3& p,
-                                     const LitSide& side, ReprojectedCell* view) {
-  Look(cell, p, side, view);
-}
-
-EXPHOTON_FOR_AVX512 void ReprojectAvx512(const GuideCacheCell& cell, const Vector3& p,
-                                         const LitSide& side, ReprojectedCell* view) {
-  Look(cell, p, side, view);
-}
-
-}  // namespace
+#if HWY_ONCE
+namespace exphoton {
 
 std::span<const ReprojectedCell::Kernel> ReprojectedCell::Kernels() {
-  static constexpr Kernel kAll[] = {ReprojectPortable, ReprojectAvx2, ReprojectAvx512};
+  static constexpr Kernel kAll[] = EXPHOTON_SIMD_TARGETS(Reproject);
   return {kAll, UsableSimdTargets()};
 }
 
@@ -67,3 +62,4 @@ ReprojectedCell::ReprojectedCell(const GuideCacheCell& cell, const Point3& p, co
 }
 
 }  // namespace exphoton
+#endif

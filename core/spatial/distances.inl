@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search.inl: distances to 16 boxes or points at a time, and masks of the lanes
-// that hold data. Box distances use the same operations in the same order as point distances, and
-// each operation is monotone. The rounded distance to a box is therefore never larger than to a
+// Part of nearest_search_simd.cpp: distances to 16 boxes or points at a time, and masks of the
+// lanes that hold data. Box distances use the same operations in the same order as point distances,
+// and each operation is monotone. The rounded distance to a box is therefore never larger than to a
 // point in it.
 
 constexpr Real kLargest = std::numeric_limits<Real>::max();
@@ -12,20 +12,23 @@ struct Point16 {
   explicit Point16(const Vec3& v) : x(Real16::All(v.x)), y(Real16::All(v.y)), z(Real16::All(v.z)) {}
 };
 
+// Returns the distances along one axis from `at` to the children's boxes.
+HWY_INLINE Real16 BoxDistanceAlong(const BoxNode& node, int axis, const Real16& at) {
+  return Max(Max(Real16::Load(node.low[axis]) - at, at - Real16::Load(node.high[axis])),
+             Real16::All(0));
+}
+
 // Returns the squared distances from p to the children's boxes.
-inline Real16 BoxDistance2(const BoxNode& node, const Point16& p) {
-  const Real16 zero = Real16::All(0);
-  const auto along = [&](int axis, Real16 at) {
-    return Max(Max(Real16::Load(node.low[axis]) - at, at - Real16::Load(node.high[axis])), zero);
-  };
-  const Real16 dx = along(0, p.x), dy = along(1, p.y), dz = along(2, p.z);
+HWY_INLINE Real16 BoxDistance2(const BoxNode& node, const Point16& p) {
+  const Real16 dx = BoxDistanceAlong(node, 0, p.x), dy = BoxDistanceAlong(node, 1, p.y),
+               dz = BoxDistanceAlong(node, 2, p.z);
   return dx * dx + dy * dy + dz * dz;
 }
 
 // Returns the flattened squared distances (NearestQuery) from p to the children's boxes. n is the
 // normal of the plane through p.
-inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Point16& p, const Point16& n,
-                                    Real16 steepness) {
+HWY_INLINE Real16 FlattenedBoxDistance2(const BoxNode& node, const Point16& p, const Point16& n,
+                                        Real16 steepness) {
   const auto products = [&](int axis, Real16 at, Real16 normal, Real16* least, Real16* most) {
     const Real16 a = (Real16::Load(node.low[axis]) - at) * normal;
     const Real16 b = (Real16::Load(node.high[axis]) - at) * normal;
@@ -45,7 +48,7 @@ inline Real16 FlattenedBoxDistance2(const BoxNode& node, const Point16& p, const
 
 // Returns the dot product of n and each point's direction. The directions are not normalised;
 // *length2 receives their squared lengths.
-inline Real16 DotDirection(const PointBlock& block, const Point16& n, Real16* length2) {
+HWY_INLINE Real16 DotDirection(const PointBlock& block, const Point16& n, Real16* length2) {
   Real16 a, b;
   LoadOctahedral(block.direction, &a, &b);
   const Real16 z = Real16::All(kOctahedralOne) - Abs(a) - Abs(b);
@@ -55,8 +58,8 @@ inline Real16 DotDirection(const PointBlock& block, const Point16& n, Real16* le
   return x * n.x + y * n.y + z * n.z;
 }
 
-inline Real16 PointDistance2(const PointBlock& block, const Point16& p, Real16* dx, Real16* dy,
-                             Real16* dz) {
+HWY_INLINE Real16 PointDistance2(const PointBlock& block, const Point16& p, Real16* dx, Real16* dy,
+                                 Real16* dz) {
   *dx = Real16::Load(block.x) - p.x;
   *dy = Real16::Load(block.y) - p.y;
   *dz = Real16::Load(block.z) - p.z;

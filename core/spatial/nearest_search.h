@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // NearestSearch runs k-nearest-neighbour and closest-disk queries on blocks of points under a
-// PointBvh. The implementation (nearest_search.inl) is compiled for several SIMD targets; the
+// PointBvh. The implementation (nearest_search_simd.cpp) is compiled for several SIMD targets; the
 // widest that the machine supports is chosen at run time. All targets give the same bits as a
 // linear search over all points. Points are compared by squared distance. Of equally distant points
 // the one with the lower index counts as nearer.
@@ -8,25 +8,9 @@
 
 #include <span>
 
-#include "core/math/simd/real16.h"
-#include "core/spatial/entry_grid.h"
-#include "core/spatial/point_bvh.h"
+#include "core/spatial/point_tree.h"
 
 namespace exphoton {
-
-// The data that a search reads. Blocks derive from PointBlock and are contiguous.
-struct PointTreeView {
-  const PointBvh* tree = nullptr;
-  const std::byte* blocks = nullptr;
-  std::size_t blockBytes = sizeof(PointBlock);
-  std::uint32_t count = 0;  // number of points
-  // For each run of kSpacingPoints points: the squared radius round the middle point that is
-  // expected to contain one point. It affects the time of a search only. May be null.
-  const Real* spacing2 = nullptr;
-  const EntryGrid* grid = nullptr;  // entry points of closest-disk queries; may be null
-
-  static constexpr std::uint32_t kSpacingPoints = 64;
-};
 
 struct NearestQuery {
   Point3 p;
@@ -58,11 +42,6 @@ class NearBuffer {
   std::span<std::uint32_t> index;
 };
 
-// A block of points that are disks: reach2 holds their squared radii.
-struct DiskBlock : PointBlock {
-  Real reach2[kBlockPoints];
-};
-
 struct ClosestQuery {
   Point3 p;
   Normal3 n;  // unit
@@ -71,7 +50,7 @@ struct ClosestQuery {
 // Limits that all queries of one call share.
 struct ClosestLimits {
   Real minCosine = 0;   // only disks whose direction d has dot(n, d) > minCosine
-  Real maxRadius2 = 0;  // upper bound of all reach2
+  Real maxRadius2 = 0;  // upper bound of all radius2
 };
 
 struct ClosestPoint {
@@ -91,12 +70,6 @@ struct NearestSearch {
   void (*closest)(const PointTreeView&, const ClosestLimits&, std::span<const ClosestQuery>,
                   ClosestPoint* found);
 };
-
-extern const NearestSearch kPortableNearestSearch;
-#if defined(EXPHOTON_WIDE_VECTORS)
-extern const NearestSearch kAvx2NearestSearch;    // requires AVX2
-extern const NearestSearch kAvx512NearestSearch;  // requires AVX-512 F
-#endif
 
 // Returns the searches that this machine can run, the fastest last.
 std::span<const NearestSearch* const> AvailableNearestSearches();
