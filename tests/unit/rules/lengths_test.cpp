@@ -26,12 +26,9 @@ const std::set<std::string> kLongFunctions{
 };
 const std::set<std::string> kManyArguments{
     // Kernels: a struct would pass through memory what registers hold.
-    "accelerators/bvh/traverse/traverse_avx2.cpp Push",
-    "accelerators/bvh/traverse/traverse_avx512.cpp Push",
-    "accelerators/bvh/traverse/traverse_portable.cpp Push",
-    "core/math/simd/real16_avx2.inl KeepSixteen",
-    "core/spatial/nearest/nearest_disks.inl Descend",
-    "integrators/photon/gather/cone_directions.inl Count",
+    "accelerators/bvh/traverse/real8.inl Push",
+    "core/spatial/closest_disk.inl Descend",
+    "integrators/photon/gather/cone_directions_simd.cpp Count",
     // The C library fixes the arguments.
     "tests/hardcases/preload/failing_allocations.cpp __libc_start_main",
 };
