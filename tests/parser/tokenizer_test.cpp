@@ -142,8 +142,9 @@ TEST(Tokenizer, LimitsTheLengthOfStringsAndWords) {
 
 TEST(Tokenizer, RefusesBytesThatAreNoText) {
   using namespace std::string_literals;
-  EXPECT_EQ(ErrorOf("Scale \0"s),
-            "scene.pbrt:1:7: error: a NUL byte: this is not a text file\n    Scale  \n          ^\n");
+  EXPECT_EQ(
+      ErrorOf("Scale \0"s),
+      "scene.pbrt:1:7: error: a NUL byte: this is not a text file\n    Scale  \n          ^\n");
   EXPECT_NE(ErrorOf("\"a\0b\""s), "");
   EXPECT_NE(ErrorOf("\x80").find("unexpected byte 0x80"), std::string::npos);
   EXPECT_NE(ErrorOf("'").find("unexpected '''"), std::string::npos);

@@ -34,7 +34,8 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
   const auto most = std::size_t(split.bsdfRays + split.photonRays);
-  Rays rays{context.arena.AllocateArray<Vector3>(most), context.arena.AllocateArray<Spectrum>(most)};
+  Rays rays{context.arena.AllocateArray<Vector3>(most),
+            context.arena.AllocateArray<Spectrum>(most)};
   const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
     const Real factor =
         SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
