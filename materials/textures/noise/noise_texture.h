@@ -20,7 +20,7 @@ inline const ParamTable<FractalSettings>& FractalParameters() {
       Param("octaves", &FractalSettings::octaves, "layers of noise, each about twice as fine")
           .Range(0, 64),
       Param("roughness", &FractalSettings::roughness, "amplitude of a layer over the one before")
-          .Range(0, 1)};
+          .Range(0, 4)};
   return table;
 }
 
