@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kTests = 19;
+constexpr int kTests = 25;
 
 struct Case {
   const char* name;
@@ -36,6 +36,12 @@ const Case kCases[] = {
     {"Disk", R"("disk")", {Real(.5), 1, 2}, true},
     {"DiskRingSector", R"("disk" "float innerradius" .4 "float phimax" 250)", {-1, 1, -2}, true},
     {"CylinderInside", R"("cylinder" "float phimax" 180)", {Real(.1), Real(.3), 0}, true},
+    {"Cone", R"("cone" "float radius" .7 "float phimax" 300)", {1, Real(-.5), 2}, true},
+    {"ParaboloidInside", R"("paraboloid" "float zmax" 2)", {Real(.1), Real(.1), 1}, true},
+    {"Hyperboloid",
+     R"("hyperboloid" "point p1" [1 0 -1] "point p2" [-.5 .8 1])",
+     {2, 1, Real(.5)},
+     true},
     {"Mesh",
      R"("trianglemesh" "integer indices" [0 1 2 0 2 3]
         "point P" [-1 -1 0  2 -1 0  2 1 1  -1 1 0])",
@@ -159,6 +165,19 @@ TEST(EmitterArea, IsSampledUniformly) {
        }},
       {"cylinder", R"("cylinder" "float zmax" 2 "float phimax" 90)", 3 * pi / 2,
        [](const Point3& p) { return Point2((p.z + 1) / 3, Turn(p, 90)); }},
+      {"cone", R"("cone" "float radius" 3 "float height" 4 "float phimax" 120)", 5 * pi,
+       [](const Point3& p) { return Point2((1 - p.z / 4) * (1 - p.z / 4), Turn(p, 120)); }},
+      {"paraboloid", R"("paraboloid" "float phimax" 90)", pi / 24 * (std::pow(5., 1.5) - 1),
+       [](const Point3& p) {
+         const auto area = Real((std::pow(1 + 4 * double(p.z), 1.5) - 1) / (std::pow(5., 1.5) - 1));
+         return Point2(std::min(area, kOneMinusEpsilon), Turn(p, 90));
+       }},
+      {"two cones of a line through the axis",
+       R"("hyperboloid" "point p1" [-1 0 -1] "point p2" [2 0 2])", 5 * pi * std::sqrt(2.),
+       [](const Point3& p) {
+         const Real signedArea = p.z * std::abs(p.z);
+         return Point2(std::min((signedArea + 1) / 5, kOneMinusEpsilon), Turn(p, 360));
+       }},
       {"quads of a mesh", R"("trianglemesh" "integer indices" [0 1 2  0 2 3  1 4 5  1 5 2]
           "point P" [0 0 0  .1 0 0  .1 1 0  0 1 0  1 0 0  1 1 0])",
        1, [](const Point3& p) { return Point2(p.x, p.y); }}};

@@ -208,11 +208,16 @@ ShapesAndInstances::ShapesAndInstances(TestPlugins& plugins, const std::string& 
                              double(Between(random, Real(.3), 1)), 0.5);
   };
   const auto addShapes = [&](PrimitiveSet& set, int count) {
-    const char* const kinds[] = {R"("sphere")", R"("disk" "float innerradius" .2)",
+    const char* const kinds[] = {R"("sphere")",
+                                 R"("disk" "float innerradius" .2)",
                                  R"("cylinder" "float phimax" 200)",
-                                 R"("sphere" "float zmin" -.5 "float phimax" 300)"};
+                                 R"("sphere" "float zmin" -.5 "float phimax" 300)",
+                                 R"("cone" "float phimax" 250)",
+                                 R"("paraboloid")",
+                                 R"("hyperboloid" "point p1" [1 0 -.5] "point p2" [-.4 .9 1])"};
     for (int i = 0; i < count; ++i) {
-      ShapeGeometry shape = plugins.MakeShape(kinds[i % 4], transform(2));
+      ShapeGeometry shape =
+          plugins.MakeShape(kinds[std::size_t(i) % std::size(kinds)], transform(2));
       set.AddShape(std::move(std::get<std::unique_ptr<Shape>>(shape)), {});
     }
   };

@@ -17,6 +17,8 @@ inline const char* const kSamplers[] = {
     R"("stratified" "integer xsamples" 4 "integer ysamples" 4)",
     R"("stratified" "integer xsamples" 16 "integer ysamples" 1 "bool jitter" "false")",
     R"("lowdiscrepancy" "integer pixelsamples" 16)",
+    R"("halton" "integer pixelsamples" 18)",
+    R"("bestcandidate" "integer pixelsamples" 18)",
 };
 
 struct Requests {

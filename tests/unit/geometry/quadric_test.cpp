@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check spheres, disks and cylinders. Hits must be accurate from afar and at grazing
-// incidence, a ray must not hit the surface that it leaves, and shapes must be refused if nothing
-// of them is left.
+// These tests check spheres, disks, cylinders and the surfaces of revolution. Hits must be accurate
+// from afar and at grazing incidence, a ray must not hit the surface that it leaves, and shapes
+// must be refused if nothing of them is left.
 #include <gtest/gtest.h>
+
+#include <functional>
 
 #include "core/geometry/vec3d.h"
 #include "tests/support/geometry_scenes.h"
@@ -30,17 +32,25 @@ Ray RayFromTo(const Point3& o, const Point3& target) {
 
 TEST_F(Quadrics, AreNeverHitAgainByARayThatLeavesThem) {
   RandomStream random(21);
-  const char* const kinds[] = {R"("sphere" "float radius" 1.3)",
-                               R"("disk" "float radius" 1.3 "float height" .7)",
-                               R"("cylinder" "float radius" 1.3)"};
+  struct Kind {
+    const char* text;
+    bool isBelowItsTangents;  // no ray that leaves outwards meets the shape again
+  };
+  const Kind kinds[] = {{R"("sphere" "float radius" 1.3)", true},
+                        {R"("disk" "float radius" 1.3 "float height" .7)", true},
+                        {R"("cylinder" "float radius" 1.3)", false},
+                        {R"("cone" "float radius" 1.3)", false},
+                        {R"("paraboloid" "float radius" .7)", false},
+                        {R"("hyperboloid" "point p1" [1 0 -1] "point p2" [-.5 .9 .8])", false}};
   int hits = 0, found = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 600; ++i) {
+    const Kind& kind = kinds[i % 6];
     const double scale = std::pow(10.0, double(Between(random, -4, 4)));
     const Transform toWorld =
         Transform::Translate(RandomVector(random) * Real(scale * 3)) *
         *Transform::Rotate(double(random.Uniform()) * 360, RandomVector(random)) *
-        *Transform::Scale(scale, scale, scale * (i % 2 ? 1 : 0.3));
-    const auto shape = Make(kinds[i % 3], toWorld);
+        *Transform::Scale(scale, scale, scale * (i / 6 % 2 ? 1 : 0.3));
+    const auto shape = Make(kind.text, toWorld);
     for (int k = 0; k < 200; ++k) {
       const Bounds3 bounds = shape->Bounds();
       const Ray in = RayFromTo(bounds.Center() + RandomVector(random) * Real(scale * 6),
@@ -56,12 +66,13 @@ TEST_F(Quadrics, AreNeverHitAgainByARayThatLeavesThem) {
       const auto again = shape->Intersect(SpawnRay(surface, w));
       if (!again) continue;
       const SurfaceInteraction next = shape->Surface(SpawnRay(surface, w), *again);
-      hits += Dot(w, surface.ng) > 0 && Dot(surface.ng, surface.p - next.p) >= 0 && i % 3 != 2;
+      hits += Dot(w, surface.ng) > 0 && Dot(surface.ng, surface.p - next.p) >= 0 &&
+              kind.isBelowItsTangents;
       hits += Distance(next.p, surface.p) < Real(1e-5 * scale) * AbsDot(w, surface.ng);
     }
   }
   EXPECT_EQ(hits, 0);
-  EXPECT_GT(found, 10000);
+  EXPECT_GT(found, 20000);
 }
 
 TEST_F(Quadrics, SphereIsAccurateFromAfar) {
@@ -117,9 +128,11 @@ TEST_F(Quadrics, NormalsPointOutUnlessReversedOrMirrored) {
     for (const Transform& toWorld : {Transform(), mirror}) {
       const Ray ray = RayFromTo({5, 0, Real(.3)}, {0, 0, Real(.3)});
       const Real side = reverse ? -1 : 1;
-      for (const char* text : {R"("sphere")", R"("cylinder")"}) {
+      for (const char* text : {R"("sphere")", R"("cylinder")", R"("cone" "float height" 9)",
+                               R"("paraboloid" "float zmax" 9)",
+                               R"("hyperboloid" "point p1" [1 0 0] "point p2" [1 .5 2])"}) {
         const auto shape = Make(text, toWorld, reverse);
-        EXPECT_GT(shape->Surface(ray, *shape->Intersect(ray)).ng.x * side, Real(.9));
+        EXPECT_GT(shape->Surface(ray, *shape->Intersect(ray)).ng.x * side, Real(.6)) << text;
       }
       const auto disk = Make(R"("disk")", toWorld, reverse);
       const Ray down = RayFromTo({Real(.2), Real(.1), 5}, {Real(.2), Real(.1), 0});
@@ -145,12 +158,21 @@ TEST_F(Quadrics, DerivativesAgreeWithDifferences) {
                                R"("sphere" "float radius" 2 "float zmin" -1.8 "float phimax" 300)",
                                R"("disk" "float innerradius" .1)",
                                R"("cylinder" "float phimax" 300)",
-                               R"("cylinder" "float radius" 2 "float phimax" 300)"};
-  for (int i = 0; i < 20; ++i) {
-    const std::string text = kinds[i % 5];
-    const bool reverse = i / 5 % 2 == 1, mirrored = i / 10 == 1;
+                               R"("cylinder" "float radius" 2 "float phimax" 300)",
+                               R"("cone" "float height" 2)",
+                               R"("paraboloid" "float zmax" 3)",
+                               R"("hyperboloid" "point p1" [2 .3 -3] "point p2" [1 2 4])"};
+  for (int i = 0; i < 32; ++i) {
+    const std::string text = kinds[i % 8];
+    const bool reverse = i / 8 % 2 == 1, mirrored = i / 16 == 1;
     SCOPED_TRACE(text + (reverse ? ", reversed" : "") + (mirrored ? ", mirrored" : ""));
-    const auto shape = Make(text, *Transform::Scale(2, mirrored ? -1 : 1, Real(.5)), reverse);
+    // The rays pass near the origin, where cone and paraboloid have their base and their tip.
+    const bool isLowered =
+        text.find("cone") != std::string::npos || text.find("paraboloid") != std::string::npos;
+    const auto shape = Make(text,
+                            Transform::Translate({0, 0, isLowered ? Real(-.6) : Real(0)}) *
+                                *Transform::Scale(2, mirrored ? -1 : 1, Real(.5)),
+                            reverse);
     const bool isDisk = text.find("disk") != std::string::npos;
     const auto at = [&](Real dx, Real dy) {
       const Ray ray =
@@ -173,8 +195,10 @@ TEST_F(Quadrics, DerivativesAgreeWithDifferences) {
 TEST_F(Quadrics, ScaleByPowersOfTwoBitForBit) {
   RandomStream random(31);
   int hits = 0;
-  for (const char* text : {R"("sphere")", R"("sphere" "float zmax" .5 "float phimax" 270)",
-                           R"("disk")", R"("cylinder")"}) {
+  for (const char* text :
+       {R"("sphere")", R"("sphere" "float zmax" .5 "float phimax" 270)", R"("disk")",
+        R"("cylinder")", R"("cone")", R"("paraboloid" "float zmin" .1)",
+        R"("hyperboloid" "float phimax" 270)"}) {
     const Vector3 shift = RandomVector(random);
     const Transform turned = *Transform::Rotate(37, {1, 2, 3});
     const auto shape = Make(text, Transform::Translate(shift) * turned);
@@ -216,12 +240,27 @@ TEST_F(Quadrics, ScaleByPowersOfTwoBitForBit) {
 }
 
 TEST_F(Quadrics, WithNothingLeftAreRefused) {
-  for (const char* text : {R"("sphere" "float radius" 0)", R"("sphere" "float radius" -1)",
+  for (const char* text : {R"("sphere" "float radius" 0)",
+                           R"("sphere" "float radius" -1)",
                            R"("sphere" "float zmin" .5 "float zmax" .5)",
-                           R"("sphere" "float phimax" 0)", R"("sphere" "float zmin" 2)",
-                           R"("disk" "float radius" 0)", R"("disk" "float innerradius" 1)",
-                           R"("disk" "float phimax" 361)", R"("cylinder" "float zmin" 1)",
-                           R"("cylinder" "float radius" -2)", R"("cylinder" "float phimax" 0)"}) {
+                           R"("sphere" "float phimax" 0)",
+                           R"("sphere" "float zmin" 2)",
+                           R"("disk" "float radius" 0)",
+                           R"("disk" "float innerradius" 1)",
+                           R"("disk" "float phimax" 361)",
+                           R"("cylinder" "float zmin" 1)",
+                           R"("cylinder" "float radius" -2)",
+                           R"("cylinder" "float phimax" 0)",
+                           R"("cone" "float height" 0)",
+                           R"("cone" "float radius" 0)",
+                           R"("cone" "float phimax" 0)",
+                           R"("paraboloid" "float zmin" 1)",
+                           R"("paraboloid" "float zmin" -.1)",
+                           R"("paraboloid" "float radius" 0)",
+                           R"("paraboloid" "float phimax" 361)",
+                           R"("hyperboloid" "point p2" [1 1 0])",
+                           R"("hyperboloid" "point p2" [0 0 1])",
+                           R"("hyperboloid" "float phimax" 0)"}) {
     EXPECT_THROW(Make(text), Error) << text;
   }
 }
@@ -244,7 +283,10 @@ TEST_F(Quadrics, UnevenlyScaledOnesHaveAnAreaAndAreNotSwitchedOff) {
       {R"("sphere")", uneven, spheroid},
       {R"("sphere" "float zmin" 0)", *Transform::Rotate(50, {1, 2, 3}) * uneven, spheroid / 2},
       {R"("cylinder")", *Transform::Scale(1, 2, 1), 2 * 9.688448220547675},
-      {R"("cylinder" "float phimax" 180)", *Transform::Scale(-2, 1, .5), 9.688448220547675 / 2}};
+      {R"("cylinder" "float phimax" 180)", *Transform::Scale(-2, 1, .5), 9.688448220547675 / 2},
+      {R"("cone")", *Transform::Scale(1, 1, 2), M_PI * std::sqrt(5.)},
+      {R"("paraboloid" "float phimax" 90)", *Transform::Scale(2, 2, 1),
+       (std::pow(8., 1.5) - 8) * M_PI / 12}};
   for (const auto& [text, toWorld, area] : cases) {
     const auto shape = Make(text, toWorld);
     EXPECT_EQ(shape->EmitterProblem(), nullptr);
@@ -264,6 +306,99 @@ TEST_F(Quadrics, UnevenlyScaledOnesHaveAnAreaAndAreNotSwitchedOff) {
     }
     EXPECT_NEAR(sum / area, 1, .01) << text;
   }
+}
+
+TEST_F(Quadrics, SurfacesOfRevolutionHaveTheirAreas) {
+  EXPECT_NEAR(Make(R"("cone" "float radius" 3 "float height" 4 "float phimax" 120)")->Area(),
+              5 * kPi, 1e-5);
+  // The area of a paraboloid rho^2 = z is pi / 6 ((1 + 4 z)^1.5 - 1).
+  EXPECT_NEAR(
+      double(Make(R"("paraboloid" "float radius" 2 "float zmin" 1 "float zmax" 4)")->Area()),
+      M_PI / 6 * (std::pow(17., 1.5) - std::pow(5., 1.5)), 1e-4);
+  // Lines through the axis make two cones, and vertical lines make tubes.
+  EXPECT_NEAR(Make(R"("hyperboloid" "point p1" [-1 0 -1] "point p2" [2 0 2])")->Area(),
+              5 * kPi * std::sqrt(Real(2)), 1e-4);
+  EXPECT_NEAR(Make(R"("hyperboloid" "point p1" [3 4 1] "point p2" [3 4 3])")->Area(), 20 * kPi,
+              1e-4);
+  // A hyperboloid by the midpoint rule: its line has the squared radius 1 + v^2 at height v.
+  double area = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const double v = (i + .5) / 10000;
+    area += 2 * M_PI * std::sqrt(1 + 2 * v * v) / 10000;
+  }
+  EXPECT_NEAR(double(Make(R"("hyperboloid" "point p1" [1 0 0] "point p2" [1 1 1])")->Area()), area,
+              1e-5);
+}
+
+// Hits lie on the surface that the implicit equation gives, and uv are the stated parameters.
+TEST_F(Quadrics, SurfacesOfRevolutionAreHitWhereTheirEquationsHold) {
+  const struct {
+    const char* text;
+    std::function<Point3(double phi, double v)> point;
+  } cases[] = {
+      {R"("cone" "float radius" 2 "float height" 3 "float phimax" 200)",
+       [](double phi, double v) {
+         return Point3(Real(2 * (1 - v) * std::cos(phi)), Real(2 * (1 - v) * std::sin(phi)),
+                       Real(3 * v));
+       }},
+      {R"("paraboloid" "float radius" 2 "float zmin" .5 "float zmax" 2 "float phimax" 200)",
+       [](double phi, double v) {
+         const double z = .5 + 1.5 * v, r = 2 * std::sqrt(z / 2);
+         return Point3(Real(r * std::cos(phi)), Real(r * std::sin(phi)), Real(z));
+       }},
+      {R"("hyperboloid" "point p1" [1 .2 -1] "point p2" [-.4 .9 2] "float phimax" 200)",
+       [](double phi, double v) {
+         const double x = 1 - 1.4 * v, y = .2 + .7 * v;
+         return Point3(Real(x * std::cos(phi) - y * std::sin(phi)),
+                       Real(x * std::sin(phi) + y * std::cos(phi)), Real(-1 + 3 * v));
+       }}};
+  RandomStream random(3);
+  for (const auto& [text, point] : cases) {
+    const auto shape = Make(text);
+    int outside = 0;
+    for (int i = 0; i < 500; ++i) {
+      const double u = double(random.Uniform()), v = double(random.Uniform());
+      const Point3 p = point(u * 200 * M_PI / 180, v);
+      EXPECT_TRUE(shape->Bounds().Contains(p)) << text;
+      const Vector3 w = RandomVector(random);
+      const Ray ray = RayFromTo(p + w * Real(.01), p);
+      const auto hit = shape->Intersect(ray);
+      ASSERT_TRUE(hit) << text << u << " " << v;
+      if (std::abs(hit->t - 1) > Real(.1)) continue;  // another part of the surface is nearer
+      const SurfaceInteraction surface = shape->Surface(ray, *hit);
+      const Real cosine = AbsDot(NormalizeOr(ray.d, {}), surface.ng);
+      EXPECT_LT(Distance(surface.p, p) * cosine, Real(2e-6)) << text;
+      EXPECT_NEAR(surface.uv.x, u, 1e-5 / double(cosine)) << text;
+      EXPECT_NEAR(surface.uv.y, v, 1e-5 / double(cosine)) << text;
+      // A point beyond phimax is not on the shape.
+      const Point3 off = point((201 + 158 * u) * M_PI / 180, v);
+      const Ray beside = RayFromTo(off + w * Real(.01), off);
+      const auto other = shape->Intersect(beside);
+      outside += other && std::abs(other->t - 1) < Real(.01);
+    }
+    EXPECT_EQ(outside, 0) << text;
+  }
+}
+
+TEST_F(Quadrics, HyperboloidExchangesItsEndsLikeVersion1) {
+  // With p2 in the plane z = 0 the line runs from p2 to p1, so that v and the normal turn round.
+  const auto shape = Make(R"("hyperboloid" "point p1" [1 0 2] "point p2" [1 0 0])");
+  const Ray ray = RayFromTo({5, 0, Real(.5)}, {0, 0, Real(.5)});
+  const SurfaceInteraction surface = shape->Surface(ray, *shape->Intersect(ray));
+  EXPECT_NEAR(surface.uv.y, .25, 1e-6);
+  EXPECT_GT(surface.ng.x, Real(.99));
+}
+
+TEST_F(Quadrics, ConeTipHasAFiniteFrame) {
+  const auto cone = Make(R"("cone")");
+  const Ray ray = RayFromTo({0, 0, 5}, {0, 0, 0});
+  const auto hit = cone->Intersect(ray);
+  ASSERT_TRUE(hit);
+  const SurfaceInteraction surface = cone->Surface(ray, *hit);
+  EXPECT_EQ(surface.ng, Normal3(0, 0, 1));
+  EXPECT_NEAR(surface.p.z, 1, 1e-6);
+  EXPECT_TRUE(IsFinite(surface.dpdu) && IsFinite(surface.dpdv));
+  EXPECT_GT(Length(Cross(surface.dpdu, surface.dpdv)), 0);
 }
 
 }  // namespace

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check NURBS surfaces and height fields: basis functions by their identities, rational
+// circles, Bezier patches by Bernstein polynomials, and the meshes that the shapes make.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "shapes/mesh/nurbs_surface.h"
+#include "tests/support/test_plugin.h"
+
+namespace exphoton {
+namespace {
+
+std::unique_ptr<TriangleMesh> MakeMesh(TestPlugins& plugins, const std::string& text) {
+  return std::move(std::get<std::unique_ptr<TriangleMesh>>(plugins.MakeShape(text)));
+}
+
+// A tube of radius 1 and height 2 about z. The circle consists of four rational quarters.
+const char* const kTube =
+    R"("nurbs" "integer nu" 9 "integer nv" 2 "integer uorder" 3 "integer vorder" 2
+    "float uknots" [0 0 0 1 1 2 2 3 3 4 4 4] "float vknots" [0 0 1 1] "float Pw" [
+    1 0 0 1  .70710678 .70710678 0 .70710678  0 1 0 1  -.70710678 .70710678 0 .70710678
+    -1 0 0 1  -.70710678 -.70710678 0 .70710678  0 -1 0 1  .70710678 -.70710678 0 .70710678
+    1 0 0 1
+    1 0 2 1  .70710678 .70710678 1.41421356 .70710678  0 1 2 1
+    -.70710678 .70710678 1.41421356 .70710678  -1 0 2 1
+    -.70710678 -.70710678 1.41421356 .70710678  0 -1 2 1
+    .70710678 -.70710678 1.41421356 .70710678  1 0 2 1] )";
+
+TEST(NurbsBasis, SumsToOneWithSlopesByDifferences) {
+  const NurbsBasis basis{4, {-1, 0, 0, .5, 1, 1, 1, 2.5, 3, 4, 4}};
+  std::vector<double> values, slopes, above, below, unused;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = basis.First() + (basis.Last() - basis.First()) * i / 200;
+    basis.Evaluate(t, &values, &slopes);
+    EXPECT_NEAR(std::accumulate(values.begin(), values.end(), 0.), 1, 1e-14);
+    EXPECT_NEAR(std::accumulate(slopes.begin(), slopes.end(), 0.), 0, 1e-12);
+    for (const double value : values) EXPECT_GE(value, 0);
+    const double step = 1e-6;
+    if (i == 0 || i == 200) continue;
+    const int first = basis.Evaluate(t - step, &below, &unused);
+    if (basis.Evaluate(t + step, &above, &unused) != first) continue;  // across a knot
+    for (std::size_t k = 0; k < slopes.size(); ++k)
+      EXPECT_NEAR(slopes[k], (above[k] - below[k]) / (2 * step), 1e-5) << t;
+  }
+}
+
+TEST(NurbsBasis, IsExactAtItsEnds) {
+  const NurbsBasis basis{3, {0, 0, 0, .3, .7, .7, .7}};
+  std::vector<double> values, slopes;
+  EXPECT_EQ(basis.Evaluate(0, &values, &slopes), 0);
+  EXPECT_EQ(values, (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(basis.Evaluate(.7, &values, &slopes), 1);
+  EXPECT_EQ(values, (std::vector<double>{0, 0, 1}));
+}
+
+TEST(NurbsBasis, SubdividesBetweenItsKnots) {
+  const NurbsBasis basis{2, {0, 0, 1, 1, 4, 4}};
+  const std::vector<double> all = basis.Subdivide(0, 4, 5, 2);
+  EXPECT_EQ(all, (std::vector<double>{0, 1. / 3, 2. / 3, 1, 2, 3, 4}));
+  EXPECT_EQ(basis.Subdivide(.5, 3, 1, 2), (std::vector<double>{.5, .75, 1, 2, 3}));
+}
+
+TEST(NurbsSurface, OfOneSpanIsABezierPatch) {
+  NurbsSurface surface{{4, {0, 0, 0, 0, 1, 1, 1, 1}}, {3, {0, 0, 0, 1, 1, 1}}, {}};
+  const auto height = [](int i, int j) { return std::sin(3. * i + 5 * j); };
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 4; ++i) surface.controls.push_back({{i / 3., j / 2., height(i, j)}, 1});
+  for (const double s : {0., .2, .9, 1.}) {
+    for (const double t : {0., .4, 1.}) {
+      const double bs[] = {std::pow(1 - s, 3), 3 * s * std::pow(1 - s, 2), 3 * s * s * (1 - s),
+                           s * s * s};
+      const double bt[] = {(1 - t) * (1 - t), 2 * t * (1 - t), t * t};
+      double z = 0;
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 4; ++i) z += bs[i] * bt[j] * height(i, j);
+      const NurbsPoint point = surface.At(s, t);
+      EXPECT_NEAR(point.p.x, s, 1e-14);
+      EXPECT_NEAR(point.p.y, t, 1e-14);
+      EXPECT_NEAR(point.p.z, z, 1e-13);
+      EXPECT_NEAR(Length(point.normal), 1, 1e-12);
+    }
+  }
+}
+
+TEST(Nurbs, MakesAnExactTube) {
+  TestPlugins plugins;
+  const auto mesh = MakeMesh(plugins, kTube);
+  ASSERT_EQ(mesh->p.size(), mesh->n.size());
+  double area = 0;
+  for (std::size_t i = 0; i < mesh->p.size(); ++i) {
+    const Point3& p = mesh->p[i];
+    EXPECT_NEAR(std::hypot(p.x, p.y), 1, 1e-6);
+    EXPECT_NEAR(Dot(mesh->n[i], Normal3(p.x, p.y, 0)), 1, 1e-6);
+  }
+  for (const auto& [a, b, c] : mesh->indices) {
+    const Vec3d across = Cross(Vec3d(mesh->p[b] - mesh->p[a]), Vec3d(mesh->p[c] - mesh->p[a]));
+    EXPECT_GT(Dot(across, Vec3d(mesh->n[a])), 0);
+    area += Length(across) / 2;
+  }
+  EXPECT_NEAR(area / (4 * M_PI), 1, .005);
+  // The texture coordinates are the parameters, and the seam closes without a gap.
+  EXPECT_EQ(mesh->uv.front(), Point2(0, 0));
+  EXPECT_EQ(mesh->uv.back(), Point2(4, 1));
+  EXPECT_EQ(mesh->uv[1], Point2(Real(.125), 0));
+  for (std::size_t row = 0; row < 31; ++row) EXPECT_EQ(mesh->p[row * 33], mesh->p[row * 33 + 32]);
+}
+
+TEST(Nurbs, MakesPartOfTheSurface) {
+  TestPlugins plugins;
+  const auto mesh =
+      MakeMesh(plugins, kTube + std::string(R"("float u0" 1 "float u1" 2 "float v0" .5)"));
+  EXPECT_NEAR(mesh->p.front().y, 1, 1e-6);
+  EXPECT_NEAR(mesh->p.front().z, 1, 1e-6);
+  EXPECT_NEAR(mesh->p.back().x, -1, 1e-6);
+  EXPECT_NEAR(mesh->p.back().z, 2, 1e-6);
+}
+
+TEST(Nurbs, RefusesWrongCountsAndKnots) {
+  TestPlugins plugins;
+  const std::string counts =
+      R"("nurbs" "integer nu" 2 "integer nv" 2 "integer uorder" 2 "integer vorder" 2 )";
+  const std::string knots = R"("float uknots" [0 0 1 1] "float vknots" [0 0 1 1] )";
+  const std::string points = R"("point P" [0 0 0  1 0 0  0 1 0  1 1 0] )";
+  EXPECT_NO_THROW(MakeMesh(plugins, counts + knots + points));
+  for (const std::string& text :
+       {counts + knots, counts + knots + R"("point P" [0 0 0])",
+        counts + knots + points + R"("float Pw" [0 0 0 1  1 0 0 1  0 1 0 1  1 1 0 1])",
+        counts + knots + R"("float Pw" [0 0 0 1  1 0 0 1  0 1 0 0  1 1 0 1])",
+        counts + R"("float uknots" [0 0 1] "float vknots" [0 0 1 1] )" + points,
+        counts + R"("float uknots" [0 1 0 1] "float vknots" [0 0 1 1] )" + points,
+        counts + R"("float uknots" [0 1 1 2] "float vknots" [0 0 1 1] )" + points,
+        counts + knots + points + R"("float u0" -.1)",
+        counts + knots + points + R"("float v1" 1.1)",
+        counts + knots + points + R"("float u0" .5 "float u1" .5)",
+        R"("nurbs" "integer nu" 2 "integer nv" 2 "integer uorder" 3 "integer vorder" 2 )" +
+            std::string(R"("float uknots" [0 0 0 1 1] "float vknots" [0 0 1 1] )") + points}) {
+    EXPECT_THROW(MakeMesh(plugins, text), Error) << text;
+  }
+}
+
+TEST(Heightfield, SpansTheUnitSquare) {
+  TestPlugins plugins;
+  const auto mesh =
+      MakeMesh(plugins, R"("heightfield" "integer nu" 3 "integer nv" 2 "float Pz" [0 1 2  3 4 5])");
+  ASSERT_EQ(mesh->p.size(), 6u);
+  EXPECT_EQ(mesh->p[1], Point3(Real(.5), 0, 1));
+  EXPECT_EQ(mesh->p[5], Point3(1, 1, 5));
+  EXPECT_EQ(mesh->uv[4], Point2(Real(.5), 1));
+  EXPECT_EQ(mesh->TriangleCount(), 4u);
+  // Normals point to +z, and the diagonal of each cell runs from its lowest to its highest corner.
+  for (const auto& [a, b, c] : mesh->indices) {
+    EXPECT_GT(Cross(mesh->p[b] - mesh->p[a], mesh->p[c] - mesh->p[a]).z, 0);
+    EXPECT_EQ(a + 4, std::max(b, c));
+  }
+  for (const char* text : {R"("heightfield" "integer nu" 3 "integer nv" 2 "float Pz" [0 1 2])",
+                           R"("heightfield" "integer nu" 1 "integer nv" 2 "float Pz" [0 1])",
+                           R"("heightfield" "integer nu" 2 "integer nv" 2)"})
+    EXPECT_THROW(MakeMesh(plugins, text), Error) << text;
+}
+
+}  // namespace
+}  // namespace exphoton
