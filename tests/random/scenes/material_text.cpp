@@ -137,12 +137,28 @@ double AlbedoOf(const MaterialModel& m, int Colour::*channel) {
       return (diffuse * kd + glossy * ks) * (.5 + .5 * kr);
     case MaterialKind::Uber:
       return m.opacity != 0 ? 1 : diffuse * kd + glossy / 2 * (ks + kr);
+    case MaterialKind::Mix:
+      return std::max(kReflected * kd, kr);
     case MaterialKind::Metal:
     case MaterialKind::Substrate:
     case MaterialKind::ShinyMetal:
+    case MaterialKind::Fitted:
       break;
   }
   return 1;
+}
+
+// Returns the two materials that a mix refers to, and appends its parameters. Both may have
+// textures, which are defined first.
+std::string PartsOfMix(const MaterialModel& m, int* next, std::string* parameters) {
+  std::string text;
+  const std::string matte = Coefficient("Kd", m.diffuse, kReflected, next, &text);
+  const std::string mirror = Coefficient("Kr", m.mirror, 1, next, &text);
+  const std::string first = Name((*next)++), second = Name((*next)++);
+  *parameters += " \"string namedmaterial1\" " + first + " \"string namedmaterial2\" " + second +
+                 " \"color amount\" [.3 .5 1]";
+  return text + "  MakeNamedMaterial " + first + " \"string type\" \"matte\"" + matte +
+         "\n  MakeNamedMaterial " + second + " \"string type\" \"mirror\"" + mirror + "\n";
 }
 
 }  // namespace
@@ -164,9 +180,11 @@ std::array<double, 3> LargestAlbedo(const MaterialModel& material) {
 }
 
 std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
-  constexpr std::array<const char*, kMaterialKinds> kNames{"matte",       "mirror", "glass",
-                                                           "plastic",     "metal",  "substrate",
-                                                           "translucent", "uber",   "shinymetal"};
+  constexpr std::array<const char*, kMaterialKinds> kNames{
+      "matte",       "mirror", "glass",      "plastic", "metal", "substrate",
+      "translucent", "uber",   "shinymetal", "",        "mix"};
+  constexpr std::array<const char*, 6> kFits{"bluepaint", "brushedmetal", "clay",
+                                             "felt",      "primer",       "skin"};
   const double diffuse = DiffuseShare(m), glossy = kReflected - diffuse;
   std::string text, parameters;
   const auto add = [&](const std::string& name, const TextureModel& texture, double factor) {
@@ -217,9 +235,17 @@ std::string MaterialText(const MaterialModel& m, bool hasBumps, int* next) {
       add("Kr", m.mirror, .5);
       choose("roughness", rough);
       break;
+    case MaterialKind::Mix:
+      text += PartsOfMix(m, next, &parameters);
+      break;
+    case MaterialKind::Fitted:
+      break;
   }
+  const bool isFitted = m.kind == MaterialKind::Fitted;
+  const std::string name = isFitted ? kFits[std::size_t(m.Fit())] : kNames[std::size_t(m.kind)];
+  hasBumps = hasBumps && m.kind != MaterialKind::Mix;
   if (hasBumps) parameters += BumpText(m.bump, next, &text);
-  return text + "  Material \"" + kNames[std::size_t(m.kind)] + "\"" + parameters + "\n";
+  return text + "  Material \"" + name + "\"" + parameters + "\n";
 }
 
 }  // namespace exphoton::random_scenes
