@@ -167,6 +167,8 @@ TEST_F(Measured, SampleHasItsValueAndOthersAreBetween) {
     return double(bsdf.f(wo, wi).g) / double(RgbFromSamples({{550, 1}}).g);
   };
   for (const double polar : {.1, .6, 1.1}) EXPECT_NEAR(at(polar), value(polar), 1e-3) << polar;
+  // The mean is continuous: near a sample, its weight exceeds the others.
+  EXPECT_NEAR(at(.101), value(.1), .01);
   EXPECT_GT(at(.65), value(.6));
   EXPECT_LT(at(.65), value(.7));
 }
