@@ -84,6 +84,8 @@ struct AreaLightContext {
 struct MaterialContext {
   Log& log;
   SourceLocation where;
+  const MaterialLookup* named = nullptr;  // null: the material can refer to no others
+  SharedCache* shared = nullptr;          // shared by all materials of the scene; null: none
 };
 struct MediumContext {
   Transform mediumToWorld;

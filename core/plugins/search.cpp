@@ -19,7 +19,6 @@ constexpr const char* kSuffix = ".so";
 
 constexpr PluginAlias kAliases[] = {
     {PluginKind::AreaLight, "diffuse", "area", nullptr},
-    {PluginKind::Light, "infinitesample", "infinite", nullptr},
     {PluginKind::Sampler, "bestcandidate", "lowdiscrepancy",
      "sampler \"bestcandidate\" is not available: \"lowdiscrepancy\" is used instead"},
 };

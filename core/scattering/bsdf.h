@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "core/geometry/interaction.h"
 #include "core/scattering/bxdf.h"
@@ -39,6 +40,7 @@ class Bsdf {
 
   bool Has(LobeSet mask) const { return Intersects(present_, mask); }
   int Count(LobeSet mask = LobeSet::All) const;
+  std::span<const Bxdf* const> Lobes() const { return {lobes_.data(), std::size_t(count_)}; }
   const Normal3& Ns() const { return frame_.z; }
   const Normal3& Ng() const { return ng_; }
 

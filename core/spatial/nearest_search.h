@@ -37,7 +37,7 @@ struct NearPoints {
 // Buffer that a k-nearest-neighbour query needs.
 class NearBuffer {
  public:
-  static std::size_t SizeFor(std::size_t k) { return 4 * k + 5 * kBlockPoints; }
+  static constexpr std::size_t SizeFor(std::size_t k) { return 4 * k + 5 * kBlockPoints; }
   std::span<Real> distance2;  // both have SizeFor(k) elements
   std::span<std::uint32_t> index;
 };

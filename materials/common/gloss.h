@@ -29,9 +29,10 @@ inline const ParamTable<GlossSettings>& GlossParameters() {
   return table;
 }
 
-inline Fresnel FresnelOf(CoatFresnel kind) {
-  return kind == CoatFresnel::Inverted ? Fresnel::Dielectric(Real(1.5), 1)
-                                       : Fresnel::Dielectric(1, Real(1.5));
+// `index` is the index of refraction of the coat.
+inline Fresnel FresnelOf(CoatFresnel kind, Real index = Real(1.5)) {
+  return kind == CoatFresnel::Inverted ? Fresnel::Dielectric(index, 1)
+                                       : Fresnel::Dielectric(1, index);
 }
 
 }  // namespace exphoton

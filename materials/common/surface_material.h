@@ -37,6 +37,7 @@ class SurfaceMaterial : public Material {
  public:
   LobeSet PossibleLobes() const final { return possible_; }
   bool NeedsDifferentials() const final { return needsDifferentials_; }
+  int LobeCount() const final { return lobeCount_; }
 
  protected:
   explicit SurfaceMaterial(const SurfaceSettings& settings) : bumpMap_(settings.bumpMap) {
@@ -61,7 +62,11 @@ class SurfaceMaterial : public Material {
                           context.where);
     }
   }
-  void MayHave(LobeSet lobe) { possible_ = possible_ | lobe; }
+  // Registers one lobe that Evaluate may add.
+  void MayHave(LobeSet lobe) {
+    possible_ = possible_ | lobe;
+    ++lobeCount_;
+  }
 
   // First step of Evaluate: applies the bump map and returns an empty BSDF in the resulting frame.
   Bsdf MakeBsdf(SurfaceInteraction* si) const {
@@ -73,6 +78,7 @@ class SurfaceMaterial : public Material {
   TexturePtr<Real> bumpMap_;
   bool needsDifferentials_ = false;
   LobeSet possible_ = LobeSet::None;
+  int lobeCount_ = 0;
 };
 
 }  // namespace exphoton

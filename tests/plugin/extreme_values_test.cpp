@@ -85,7 +85,8 @@ ParamSet Required(const ParamTableBase& table, const std::string& except) {
     if (decl.type == ParamType::PointList) param.numbers = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     if (decl.type == ParamType::Integer || decl.type == ParamType::Float) param.numbers = {2};
     if (decl.type == ParamType::FloatList) param.numbers = {0, 0, 1, 1};
-    if (decl.type == ParamType::File) param.strings = {"/nowhere.exr"};
+    if (decl.type == ParamType::File || decl.type == ParamType::String)
+      param.strings = {"/nowhere.exr"};
     params.Add(param);
   }
   return params;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These chi-square tests compare sampled directions with Pdf, for every smooth lobe and every
 // material. The false-alarm rate is 1 % over all tests of this file.
+#include <fstream>
+
 #include "core/base/arena.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/scattering.h"
@@ -43,6 +45,25 @@ struct MaterialCase {
   std::string name, text;
   friend void PrintTo(const MaterialCase& c, std::ostream* out) { *out << c.text; }
 };
+// Writes samples of a glossy lobe over a diffuse one to a file of measurements.
+std::string WriteGlossySamples() {
+  const std::string path = testing::TempDir() + "exphoton_glossy_samples.brdf";
+  std::ofstream file(path);
+  file << "1 550\n";
+  for (int i = 0; i <= 8; ++i) {
+    for (int o = 0; o <= 8; ++o) {
+      for (int a = 0; a <= 8; ++a) {
+        const double ti = i * .19, to = o * .19, azimuth = a * M_PI / 8;
+        const double x = std::sin(ti) + std::sin(to) * std::cos(azimuth);
+        const double y = std::sin(to) * std::sin(azimuth), z = std::cos(ti) + std::cos(to);
+        const double gloss = std::pow(z / std::sqrt(x * x + y * y + z * z), 60);
+        file << ti << " 0 " << to << ' ' << azimuth << ' ' << .1 + 2 * gloss << '\n';
+      }
+    }
+  }
+  return path;
+}
+
 std::vector<MaterialCase> Materials() {
   return {{"matte", R"("matte" "color Kd" [.5 .6 .7])"},
           {"matteRough", R"("matte" "float sigma" 40)"},
@@ -52,6 +73,14 @@ std::vector<MaterialCase> Materials() {
           {"metal", R"("metal" "float roughness" .02)"},
           {"substrate", R"("substrate" "float uroughness" .01 "float vroughness" .2)"},
           {"translucent", R"("translucent" "color transmit" [.3 .3 .3])"},
+          {"bluepaint", R"("bluepaint")"},
+          {"brushedmetal", R"("brushedmetal")"},
+          {"clay", R"("clay")"},
+          {"felt", R"("felt")"},
+          {"primer", R"("primer")"},
+          {"skin", R"("skin")"},
+          {"measured", "\"measured\" \"string filename\" \"" + WriteGlossySamples() + "\""},
+          {"uberRefracting", R"("uber" "color Kt" [.5 .5 .5] "float index" 1.3)"},
           {"uber", R"("uber" "color Kr" [.3 .3 .3] "color opacity" [.6 .6 .6])"}};
 }
 

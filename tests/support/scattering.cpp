@@ -4,6 +4,7 @@
 
 #include "core/math/sampling/sampling.h"
 #include "core/scattering/lobes/fresnel_blend.h"
+#include "core/scattering/lobes/lafortune.h"
 #include "core/scattering/lobes/lambert.h"
 #include "core/scattering/lobes/microfacet.h"
 #include "core/scattering/lobes/oren_nayar.h"
@@ -53,6 +54,12 @@ std::vector<NamedLobe> SmoothLobes() {
   add("BlendedGloss10", BlendedGloss(Spectrum(Real(.3)), 10, 10));
   add("BlendedAnisotropic", BlendedGloss(Spectrum(Real(.05)), 5, 300));
   add("BlendedSharp", BlendedGloss(Spectrum(1), 1000, 1000));
+  static const LafortuneFit forward{{Spectrum(-1), Spectrum(1), {12, 30, 200}}};
+  static const LafortuneFit grazing{{Spectrum(Real(-.9)), Spectrum(Real(-1.2)), {3, 5, 7}},
+                                    {Spectrum(1), Spectrum(Real(-.2)), Spectrum(90)},
+                                    {Spectrum(Real(-.5)), Spectrum(Real(.6)), {2, 3, 4}}};
+  add("LafortuneForward", Lafortune(forward));
+  add("LafortuneGrazing", Lafortune(grazing));
   add("TransmittedLambert", Transmitted<Lambert>(Lambert(color)));
   add("TransmittedGloss", Transmitted<Microfacet>(Microfacet(color, physical, 40)));
   add("TransmittedBlend", Transmitted<BlendedGloss>(BlendedGloss(Spectrum(Real(.3)), 10, 100)));

@@ -24,7 +24,7 @@ TextureTable& GraphicsState::OwnTextures() {
   return *textures;
 }
 
-GraphicsState::MaterialMap& GraphicsState::OwnNamedMaterials() {
+MaterialMap& GraphicsState::OwnNamedMaterials() {
   if (namedMaterials.use_count() > 1)
     namedMaterials = std::make_shared<MaterialMap>(*namedMaterials);
   return *namedMaterials;

@@ -16,15 +16,20 @@
 
 namespace exphoton {
 
+struct MaterialSpec;
+using MaterialMap = std::map<std::string, std::shared_ptr<MaterialSpec>>;
+
 // MaterialSpec stores a Material directive. The first shape that uses it instantiates the Material,
 // with the textures known at that shape. Later shapes share the object.
 struct MaterialSpec {
   std::string name;
   ParamSet params;
+  MaterialMap parts;                             // the named materials that the parameters refer to
   std::shared_ptr<const TextureTable> textures;  // null: use the textures known at the shape
 
   std::shared_ptr<const Material> made;
   int madeGeneration = -1;
+  const Material* listed = nullptr;  // the last one that the scene lists; null: none
 };
 
 struct AreaLightSpec {
@@ -39,7 +44,6 @@ struct GraphicsState {
   std::shared_ptr<MaterialSpec> material;
   std::shared_ptr<const AreaLightSpec> areaLight;  // null: shapes do not emit
   std::shared_ptr<TextureTable> textures = std::make_shared<TextureTable>();
-  using MaterialMap = std::map<std::string, std::shared_ptr<MaterialSpec>>;
   std::shared_ptr<MaterialMap> namedMaterials = std::make_shared<MaterialMap>();
 
   // Return a table that may be changed. A table that other states share is copied first.

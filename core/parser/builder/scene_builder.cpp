@@ -174,8 +174,8 @@ void SceneBuilder::UseCoordinateSystem(const Directive& directive) {
 }
 
 void SceneBuilder::SetMaterial(Directive directive) {
-  state_.material =
-      world_->MakeMaterialSpec(std::move(directive.strings[0]), std::move(directive.params));
+  state_.material = world_->MakeMaterialSpec(std::move(directive.strings[0]),
+                                             std::move(directive.params), *state_.namedMaterials);
 }
 
 // In the syntax of version 2, the parameter "type" names the plugin.
@@ -189,9 +189,10 @@ void SceneBuilder::MakeNamedMaterial(Directive directive) {
   params.where = directive.Where();
   for (const ParsedParam& param : directive.params.All())
     if (param.name != "type") params.Add(param);
-  std::shared_ptr<MaterialSpec> spec = world_->MakeMaterialSpec(type->strings[0], params);
+  std::shared_ptr<MaterialSpec> spec =
+      world_->MakeMaterialSpec(type->strings[0], params, *state_.namedMaterials);
   spec->textures = state_.textures;
-  GraphicsState::MaterialMap& materials = state_.OwnNamedMaterials();
+  MaterialMap& materials = state_.OwnNamedMaterials();
   if (materials.contains(name))
     log_.Warning("material \"" + name + "\" is defined again: later shapes use the new one",
                  directive.Where());

@@ -13,6 +13,9 @@
 namespace exphoton {
 namespace {
 
+// Materials are made recursively, so longer chains could overflow the stack.
+constexpr int kMaxMaterialDepth = 32;
+
 void RequireRest(const GraphicsState& state, const Directive& directive, const std::string& what) {
   if (!state.transform.Moves()) return;
   FailAt(directive.Where(),
@@ -128,9 +131,15 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
     table.Define(name, std::move(floats), graph);
 }
 
-std::shared_ptr<MaterialSpec> WorldBuilder::MakeMaterialSpec(std::string name, ParamSet params) {
+std::shared_ptr<MaterialSpec> WorldBuilder::MakeMaterialSpec(std::string name, ParamSet params,
+                                                             const MaterialMap& named) {
   registry_.Find(PluginKind::Material, name, params.where);
   auto spec = std::make_shared<MaterialSpec>();
+  for (const ParsedParam& param : params.All()) {
+    if (!param.name.starts_with("namedmaterial") || param.strings.size() != 1) continue;
+    const auto found = named.find(param.strings[0]);
+    if (found != named.end()) spec->parts.insert(*found);
+  }
   spec->name = std::move(name);
   spec->params = std::move(params);
   return spec;
@@ -164,24 +173,73 @@ ParamSet WorldBuilder::WithoutMaterialParameters(const std::string& shape,
   return own;
 }
 
+// NamedParts finds the materials that a material refers to, for its factory: those of its
+// directive, and those that a shape's own parameters name.
+class WorldBuilder::NamedParts final : public MaterialLookup {
+ public:
+  NamedParts(WorldBuilder& world, const MaterialSpec& spec, const GraphicsState& state)
+      : world_(world), spec_(spec), state_(state) {}
+
+  std::shared_ptr<const Material> Find(const std::string& name) const override {
+    const MaterialMap* const scopes[] = {&spec_.parts, state_.namedMaterials.get()};
+    for (const MaterialMap* materials : scopes) {
+      const auto found = materials->find(name);
+      if (found != materials->end()) return world_.MakeMaterial(*found->second, {}, state_);
+    }
+    return nullptr;
+  }
+  std::vector<std::string> Names() const override {
+    std::vector<std::string> names;
+    for (const auto& [name, spec] : *state_.namedMaterials) names.push_back(name);
+    return names;
+  }
+
+ private:
+  WorldBuilder& world_;
+  const MaterialSpec& spec_;
+  const GraphicsState& state_;
+};
+
 const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& shape,
                                           const GraphicsState& state) {
+  const std::shared_ptr<const Material> material = MakeMaterial(spec, shape, state);
+  // The scene lists the materials of its shapes only, because their lobes decide what it needs.
+  if (spec.listed != material.get()) {
+    parts_.materials.push_back(material);
+    spec.listed = material.get();
+  }
+  return material.get();
+}
+
+std::shared_ptr<const Material> WorldBuilder::MakeMaterial(MaterialSpec& spec,
+                                                           const ParamSet& shape,
+                                                           const GraphicsState& state) {
   const std::vector<ParsedParam>& all = shape.All();
   const bool overrides = std::any_of(all.begin(), all.end(), [&](const ParsedParam& param) {
     return Declares(PluginKind::Material, spec.name, param.name, spec.params.where);
   });
   const TextureTable& textures = spec.textures ? *spec.textures : *state.textures;
-  if (!overrides && spec.made && spec.madeGeneration == textures.generation) return spec.made.get();
+  if (!overrides && spec.made && spec.madeGeneration == textures.generation) return spec.made;
   BindContext bind = Bind(PluginKind::Material, spec.name, &textures);
   if (overrides) bind.overrides = &shape;
+  if (materialDepth_ >= kMaxMaterialDepth)
+    FailAt(spec.params.where, "material \"" + spec.name + "\" is the end of a chain of more than " +
+                                  std::to_string(kMaxMaterialDepth) +
+                                  " materials that refer to each other");
+  struct Depth {
+    int& depth;
+    ~Depth() { --depth; }
+  };
+  const Depth depth{++materialDepth_};
+  const NamedParts parts(*this, spec, state);
   std::shared_ptr<const Material> material = registry_.Create<PluginKind::Material>(
-      spec.name, spec.params, std::move(bind), MaterialContext{log_, spec.params.where});
-  parts_.materials.push_back(material);
+      spec.name, spec.params, std::move(bind),
+      MaterialContext{log_, spec.params.where, &parts, &shared_});
   if (!overrides) {
     spec.made = material;
     spec.madeGeneration = textures.generation;
   }
-  return material.get();
+  return material;
 }
 
 const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,

@@ -34,7 +34,9 @@ class WorldBuilder {
   void AddShape(Directive directive, const GraphicsState& state);
   void DefineTexture(const Directive& directive, GraphicsState* state);
   // Checks that the plugin exists. The first shape that uses the material instantiates it.
-  std::shared_ptr<MaterialSpec> MakeMaterialSpec(std::string name, ParamSet params);
+  // A parameter "namedmaterial..." means the material that `named` has now.
+  std::shared_ptr<MaterialSpec> MakeMaterialSpec(std::string name, ParamSet params,
+                                                 const MaterialMap& named);
   std::shared_ptr<AreaLightSpec> MakeAreaLightSpec(Directive directive);
 
   void BeginObject(const Directive& directive);
@@ -58,8 +60,12 @@ class WorldBuilder {
   BindContext Bind(PluginKind kind, const std::string& name, const TextureLookup* textures) const;
   std::unique_ptr<Aggregate> MakeAggregate(PrimitiveSet& set);
   const ObjectGeometry* MakeObject(std::unique_ptr<PrimitiveSet> set);
+  class NamedParts;
+  // Returns the material of a shape with these parameters, and keeps it in the scene.
   const Material* MaterialFor(MaterialSpec& spec, const ParamSet& shape,
                               const GraphicsState& state);
+  std::shared_ptr<const Material> MakeMaterial(MaterialSpec& spec, const ParamSet& shape,
+                                               const GraphicsState& state);
   const AreaLight* AreaLightFor(const AreaLightSpec* spec,
                                 std::shared_ptr<const EmitterSurface> surface,
                                 const Directive& shape, const GraphicsState& state);
@@ -90,6 +96,7 @@ class WorldBuilder {
   std::map<std::string, ObjectDefinition> objects_;
   ObjectDefinition* object_ = nullptr;  // the object being defined; null outside ObjectBegin
   int textureGenerations_ = 0;
+  int materialDepth_ = 0;  // materials that are being made, each for the one before
   SharedCache shared_;
 };
 

@@ -46,6 +46,8 @@ constexpr int kBlocks = 2;  // along each axis
 // Pictures with a lower mean radiance are not compared; emitters have .2 to 3.6.
 constexpr double kDark = .005;
 
+constexpr int kBrushedMetal = 1;  // MaterialModel::Fit
+
 struct Method {
   const char* integrator;
   int samples;
@@ -61,7 +63,8 @@ constexpr Method kExPhotonMap{"\"exphotonmap\" \"integer maxdepth\" 24", 4, 8, 1
 
 bool IsSpecular(const MaterialModel& m) {
   return m.kind == MaterialKind::Mirror || m.kind == MaterialKind::Glass ||
-         m.kind == MaterialKind::ShinyMetal || m.kind == MaterialKind::Uber;
+         m.kind == MaterialKind::ShinyMetal || m.kind == MaterialKind::Uber ||
+         m.kind == MaterialKind::Mix;
 }
 
 bool HasMaterial(const SceneModel& scene, bool (*is)(const MaterialModel&)) {
@@ -70,10 +73,11 @@ bool HasMaterial(const SceneModel& scene, bool (*is)(const MaterialModel&)) {
                      [&](const BodyModel& body) { return is(body.material); });
 }
 
-// Whether a glossy lobe has the roughness .02.
+// Whether a glossy lobe has the roughness .02, or is nearly as narrow as those of fitted materials.
 bool HasNarrowLobe(const SceneModel& scene) {
   return HasMaterial(scene, [](const MaterialModel& m) {
-    return m.kind != MaterialKind::Matte && m.roughness == 2;
+    if (m.kind == MaterialKind::Fitted) return true;
+    return m.kind != MaterialKind::Matte && m.kind != MaterialKind::Mix && m.roughness == 2;
   });
 }
 
@@ -241,8 +245,11 @@ std::vector<Comparison> IntegratorComparison::Compare(const std::string& only) {
 
 std::vector<Comparison> CompareWithEnergy(const SceneModel& scene, const Effort& effort) {
   std::vector<Comparison> comparisons;
-  // Both lobes of shinymetal approach 1 at grazing angles.
-  const auto gains = [](const MaterialModel& m) { return m.kind == MaterialKind::ShinyMetal; };
+  // Both lobes of shinymetal approach 1 at grazing angles, and brushedmetal reflects 1.6 there.
+  const auto gains = [](const MaterialModel& m) {
+    return m.kind == MaterialKind::ShinyMetal ||
+           (m.kind == MaterialKind::Fitted && m.Fit() == kBrushedMetal);
+  };
   const auto refracts = [](const MaterialModel& m) { return m.kind == MaterialKind::Glass; };
   if (HasMaterial(scene, gains)) return comparisons;
   if (HasMaterial(scene, refracts) &&

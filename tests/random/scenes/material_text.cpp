@@ -137,12 +137,28 @@ double AlbedoOf(const MaterialModel& m, int Colour::*channel) {
       return (diffuse * kd + glossy * ks) * (.5 + .5 * kr);
     case MaterialKind::Uber:
       return m.opacity != 0 ? 1 : diffuse * kd + glossy / 2 * (ks + kr);
+    case MaterialKind::Mix:
+      return std::max(kReflected * kd, kr);
     case MaterialKind::Metal:
     case MaterialKind::Substrate:
     case MaterialKind::ShinyMetal:
+    case MaterialKind::Fitted:
       break;
   }
   return 1;
+}
+
+// Returns the two materials that a mix refers to, and appends its parameters. Both may have
+// textures, which are defined first.
+std::string PartsOfMix(const MaterialModel& m, int* next, std::string* parameters) {
+  std::string text;
+  const std::string matte = Coefficient("Kd", m.diffuse, kReflected, next, &text);
+  const std::string mirror = Coefficient("Kr", m.mirror, 1, next, &text);
+  const std::string first = Name((*next)++), second = Name((*next)++);
+  *parameters += " \"string namedmaterial1\" " + first + " \"string namedmaterial2\" " + second +
+                 " \"color amount\" [.3 .5 1]";
+  return text + "  MakeNamedMaterial " + first + " \"string type\" \"matte\"" + matte +
+         "\n  MakeNamedMaterial " + second + " \"string type\" \"mirror\"" + mirror + "\n";
 }
 
 }  // namespace
@@ -171,12 +187,17 @@ class MaterialWriter {
   MaterialWriter(const MaterialModel& material, int* next) : m_(material), next_(next) {}
 
   std::string Text(bool hasBumps) {
-    constexpr std::array<const char*, kMaterialKinds> kNames{"matte",       "mirror", "glass",
-                                                             "plastic",     "metal",  "substrate",
-                                                             "translucent", "uber",   "shinymetal"};
+    constexpr std::array<const char*, kMaterialKinds> kNames{
+        "matte",       "mirror", "glass",      "plastic", "metal", "substrate",
+        "translucent", "uber",   "shinymetal", "",        "mix"};
+    constexpr std::array<const char*, 6> kFits{"bluepaint", "brushedmetal", "clay",
+                                               "felt",      "primer",       "skin"};
     AddParameters();
-    if (hasBumps) parameters_ += BumpText(m_.bump, next_, &text_);
-    return text_ + "  Material \"" + kNames[std::size_t(m_.kind)] + "\"" + parameters_ + "\n";
+    const bool isFitted = m_.kind == MaterialKind::Fitted;
+    const std::string name =
+        isFitted ? kFits[std::size_t(m_.Fit())] : kNames[std::size_t(m_.kind)];
+    if (hasBumps && m_.kind != MaterialKind::Mix) parameters_ += BumpText(m_.bump, next_, &text_);
+    return text_ + "  Material \"" + name + "\"" + parameters_ + "\n";
   }
 
  private:
@@ -229,6 +250,11 @@ class MaterialWriter {
         Add("Ks", m_.glossy, .5);
         Add("Kr", m_.mirror, .5);
         Choose("roughness", kRough);
+        break;
+      case MaterialKind::Mix:
+        text_ += PartsOfMix(m_, next_, &parameters_);
+        break;
+      case MaterialKind::Fitted:
         break;
     }
   }

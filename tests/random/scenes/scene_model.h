@@ -44,8 +44,10 @@ enum class MaterialKind {
   Translucent,
   Uber,
   ShinyMetal,
+  Fitted,  // bluepaint, brushedmetal, clay, felt, primer or skin
+  Mix,     // of a matte and a mirror
 };
-inline constexpr int kMaterialKinds = 9;
+inline constexpr int kMaterialKinds = 11;
 
 struct MaterialModel {
   MaterialKind kind = MaterialKind::Matte;
@@ -56,6 +58,8 @@ struct MaterialModel {
   int opacity = 0;
   int bump = 0;  // 0: none, 1: constant, 2: checkerboard, 3: bilerp, 4: image
   int isPhysical = 0;
+
+  int Fit() const { return share + 3 * isPhysical; }  // of a fitted material, by alphabet
 };
 
 enum class BodyKind {
@@ -89,8 +93,18 @@ struct BodyModel {
   MaterialModel material;
 };
 
-enum class LightKind { Point, Spot, Distant, Infinite, InfiniteMap };
-inline constexpr int kLightKinds = 5;
+enum class LightKind {
+  Point,
+  Spot,
+  Goniometric,
+  GoniometricMap,
+  Projection,
+  ProjectionMap,
+  Distant,
+  Infinite,
+  InfiniteMap,
+};
+inline constexpr int kLightKinds = 9;
 
 struct LightModel {
   LightKind kind = LightKind::Point;
@@ -98,7 +112,7 @@ struct LightModel {
   Place place;
   int isBlackbody = 0;     // 1: a spectrum of 4000 K, 2: one scaled by 0
   int isInsideAShape = 0;  // at the centre of the first body
-  int cone = 0;            // 0: 40 degrees, 1: 10, 2: 120
+  int cone = 0;            // or field of view; 0: 40 degrees, 1: 10, 2: 120
 };
 
 struct MediumModel {

@@ -132,22 +132,32 @@ std::string BodyText(const BodyModel& body, const TextOptions& options, int* nex
 }
 
 std::string LightText(const LightModel& light, const SceneModel& scene) {
-  constexpr std::array<const char*, kLightKinds> kNames{"point", "spot", "distant", "infinite",
-                                                        "infinite"};
+  constexpr std::array<const char*, kLightKinds> kNames{
+      "point",      "spot",    "goniometric", "goniometric",   "projection",
+      "projection", "distant", "infinite",    "infinitesample"};
   constexpr std::array<const char*, 3> kCones{"40", "10", "120"};
   const bool isFar = light.kind >= LightKind::Distant;
   const bool isSky = light.kind >= LightKind::Infinite;
+  const bool isMapped = light.kind == LightKind::InfiniteMap ||
+                        light.kind == LightKind::GoniometricMap ||
+                        light.kind == LightKind::ProjectionMap;
   std::string text = "LightSource \"" + std::string(kNames[std::size_t(light.kind)]) + "\"";
   const std::string name = isFar ? "L" : "I";
   if (light.isBlackbody != 0)
     text += " \"blackbody " + name + "\" [4000 " + (light.isBlackbody == 1 ? "1" : "0") + "]";
   else
     text += " \"color " + name + "\" " + ColourText(light.colour, isFar ? 1 : 3);
-  if (light.kind == LightKind::InfiniteMap) text += " \"string mapname\" \"" + ImageFile() + "\"";
+  if (isMapped) text += " \"string mapname\" \"" + ImageFile() + "\"";
   if (isSky) return text + "\n";
   const bool isInside = light.isInsideAShape != 0 && !scene.bodies.empty();
   const Place& p = isInside ? scene.bodies.front().place : light.place;
   const double x = kStep * p.x + .02, y = kStep * p.y + .03, z = kStep * p.z + .05;
+  if (light.kind >= LightKind::Goniometric && light.kind <= LightKind::ProjectionMap) {
+    if (light.kind >= LightKind::Projection)
+      text += std::string(" \"float fov\" ") + kCones[std::size_t(light.cone)];
+    return "AttributeBegin Translate " + Triple(x, y, z) + " Rotate 70 1 0 .3\n  " + text +
+           "\nAttributeEnd\n";
+  }
   text += " \"point from\" [" + Triple(x, y, z) + "]";
   if (light.kind == LightKind::Point) return text + "\n";
   text += " \"point to\" [" + Triple(x + .1, y - 1, z + .3) + "]";

@@ -209,6 +209,51 @@ TEST_F(Materials, UberScalesEveryLobeByItsOpacity) {
   EXPECT_NEAR(mirrored->throughput.g, .25 * .02, 1e-6);
 }
 
+// The index is of the mirror reflection and the gloss, as in version 2, whose default is 1.5.
+TEST_F(Materials, UberTakesItsIndex) {
+  const auto mirrored = [&](const std::string& rest) {
+    const Bsdf bsdf = Evaluate(R"("uber" "color Kr" [1 1 1])" + rest);
+    return double(bsdf.Sample({0, 0, 1}, {}, 0, LobeSet::Specular)->throughput.r);
+  };
+  EXPECT_NEAR(mirrored(""), .04, 1e-6);
+  EXPECT_NEAR(mirrored(R"("float index" 3)"), .25, 1e-6);
+  const std::string gloss = R"("uber" "color Kd" [0 0 0])";
+  const Vector3 z(0, 0, 1);
+  EXPECT_NEAR(Evaluate(gloss + R"("float index" 3)").f(z, z).r / Evaluate(gloss).f(z, z).r,
+              .25 / .04, 1e-4);
+}
+
+// In the inverted meaning the denser side is outside, as in version 2; in the physical one inside.
+TEST_F(Materials, UberRefractsByKtWithItsOpacity) {
+  const std::string uber = R"("uber" "color Kd" [0 0 0] "color Ks" [0 0 0] "color Kt" [.5 .5 .5])";
+  EXPECT_EQ(Possible(uber), LobeSet::SpecularTransmission);
+  const Vector3 wo(Real(.6), 0, Real(.8));
+  const auto pass = [&](const std::string& rest) {
+    return Evaluate(uber + rest, TransportMode::Importance)
+        .Sample(wo, {}, 0, LobeSet::SpecularTransmission);
+  };
+  const auto inverted = pass(""), physical = pass(R"("string fresnel" "physical")");
+  ASSERT_TRUE(inverted && physical);
+  EXPECT_NEAR(double(inverted->wi.x), -.6 * 1.5, 1e-6);
+  EXPECT_NEAR(double(physical->wi.x), -.6 / 1.5, 1e-6);
+  EXPECT_NEAR(double(physical->throughput.g),
+              .5 * (1 - double(FresnelDielectric(Real(.8), 1, Real(1.5)))), 1e-6);
+  const auto bent = pass(R"("float index" 1.2)");
+  EXPECT_NEAR(double(bent->wi.x), -.6 * 1.2, 1e-6);
+  // The opacity scales the refraction. The rest goes straight through.
+  const Bsdf half = Evaluate(uber + R"("color opacity" [.5 .5 .5])", TransportMode::Importance);
+  EXPECT_EQ(half.Count(LobeSet::SpecularTransmission), 2);
+  Spectrum sum;
+  for (const Bxdf* lobe : half.Lobes()) sum += lobe->Sample({0, 0, 1}, {})->throughput;
+  EXPECT_NEAR(double(sum.g), .5 + .5 * .5 * .96, 1e-6);
+}
+
+TEST_F(Materials, UberWithoutKtNeverRefracts) {
+  EXPECT_FALSE(Evaluate(R"("uber" "float index" 1.3)").Has(LobeSet::Transmission));
+  ExpectError(R"("uber" "float index" 0)");
+  ExpectError(R"("uber" "color Kt" [-1 0 0])");
+}
+
 // A texture may be transparent somewhere, whatever it is elsewhere.
 TEST_F(Materials, UberOfTexturedOpacityMayLetLightThrough) {
   const LoadedScene scene = LoadSceneText(

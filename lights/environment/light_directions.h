@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// LightDirections maps directions between world space and the space of a light. Lengths do not
+// matter. A transformation that is not a similarity stretches solid angles.
+#pragma once
+
+#include "core/math/transform.h"
+
+namespace exphoton {
+
+class LightDirections {
+ public:
+  explicit LightDirections(const Transform& lightToWorld)
+      : toWorld_(lightToWorld), toLight_(lightToWorld.Inverted()) {
+    const Vector3 x = toWorld_.ApplyVector({1, 0, 0}), y = toWorld_.ApplyVector({0, 1, 0});
+    determinant_ = AbsDot(Cross(x, y), toWorld_.ApplyVector({0, 0, 1}));
+  }
+
+  Vector3 ToLight(const Vector3& w) const {
+    return NormalizeOr(toLight_.ApplyVector(w), {0, 0, 1});
+  }
+  Vector3 ToWorld(const Vector3& local) const {
+    return NormalizeOr(toWorld_.ApplyVector(local), {0, 0, 1});
+  }
+  // Returns the factor from a density per solid angle at `local` in light space to the density in
+  // world space. The transformation M stretches solid angles by |det M| / |M w|^3.
+  Real DensityFactor(const Vector3& local) const {
+    const Real stretch = Length(toWorld_.ApplyVector(local));
+    return stretch * stretch * stretch / determinant_;
+  }
+
+ private:
+  Transform toWorld_, toLight_;
+  Real determinant_;
+};
+
+}  // namespace exphoton
