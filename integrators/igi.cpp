@@ -8,15 +8,12 @@
 // Keller 2004, "Illumination in the Presence of Weak Singularities").
 #include <algorithm>
 
-#include "core/base/parallel.h"
-#include "core/base/progress.h"
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/light_sample.h"
 #include "core/transport/light_sampler.h"
 #include "core/transport/specular_tree.h"
-#include "integrators/lightpaths/light_path.h"
-#include "integrators/photon/shooting/photon_path_sampler.h"
+#include "integrators/lightpaths/virtual_lights.h"
 
 namespace exphoton {
 namespace {
@@ -60,40 +57,22 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-constexpr std::uint64_t kLightStream = 0x69676c, kRouletteStream = 0x696772,
-                        kGatherStream = 0x696767;
-constexpr int kPathsTogether = 64;  // light paths of a parallel task
-constexpr int kMostBounces = 1024;
+constexpr std::uint64_t kRouletteStream = 0x696772, kGatherStream = 0x696767;
 constexpr Real kSurvival = Real(.1);  // of contributions below the threshold
-
-// A set of virtual lights. Every one is a surface point of a light path.
-struct LightSet {
-  std::vector<LightPathVertex> lights;
-};
-
-// Light paths of a task, and the memory of their BSDFs.
-struct PathBlock {
-  Arena arena;
-  std::vector<LightPathVertex> lights;
-  RayCounters rays;
-};
 
 class IgiIntegrator final : public SurfaceIntegrator {
  public:
   explicit IgiIntegrator(const Settings& settings) : settings_(settings) {}
 
   void Preprocess(const Scene& scene, PreprocessContext& context) override {
-    sets_.assign(std::size_t(settings_.sets), {});
-    blocks_.clear();
+    virtualLights_.Clear();
     lights_ = LightSampler(scene);
     hasIndirect_ = scene.Features().Needs(Feature::Indirect) && settings_.indirectScale > 0;
     if (!hasIndirect_) return;
     const PhaseTimer timer(context.statistics, "virtual lights");
-    tracer_ = LightPathTracer(scene);
-    TracePaths(scene, context);
-    std::size_t count = 0;
-    for (const LightSet& set : sets_) count += set.lights.size();
-    context.statistics.SetCounter("igi/virtual lights", double(count), "in all sets together");
+    virtualLights_.Trace(scene, settings_.sets, settings_.lightPaths, context);
+    context.statistics.SetCounter("igi/virtual lights", double(virtualLights_.Count()),
+                                  "in all sets together");
   }
 
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
@@ -132,49 +111,13 @@ class IgiIntegrator final : public SurfaceIntegrator {
   }
 
  private:
-  // Path i of all sets depends on (seed, i) alone.
-  void TracePaths(const Scene& scene, PreprocessContext& context) {
-    const int perSet = (settings_.lightPaths + kPathsTogether - 1) / kPathsTogether;
-    blocks_.resize(std::size_t(settings_.sets) * std::size_t(perSet));
-    context.progress.Begin("Tracing light paths", std::int64_t(blocks_.size()));
-    const auto [open, close] = scene.Exposure();
-    context.threads.For(std::int64_t(blocks_.size()), [&](std::int64_t b, int) {
-      context.CheckStop();
-      auto block = std::make_unique<PathBlock>();
-      const std::int64_t set = b / perSet, first = b % perSet * kPathsTogether;
-      const std::int64_t end = std::min<std::int64_t>(first + kPathsTogether, settings_.lightPaths);
-      LightPath path;
-      for (std::int64_t i = first; i < end; ++i) {
-        const std::uint64_t index = std::uint64_t(set * settings_.lightPaths + i);
-        const PhotonPathSequences sequences(context.seed, index);
-        PhotonPathSampler sampler(sequences, index);
-        const Point2 choice = sampler.Next2D(), position = sampler.Next2D();
-        const Point2 direction = sampler.Next2D();
-        const Real time = open == close ? open : Lerp(sampler.Time(), open, close);
-        tracer_.Trace({choice.x, position, direction, choice.y}, time, kMostBounces,
-                      RandomStream(HashKey({context.seed, kLightStream, index})), &block->arena,
-                      &block->rays, &path);
-        for (const LightPathVertex& vertex : path.vertices)
-          if (vertex.point.bsdf.Has(LobeSet::NonSpecular)) block->lights.push_back(vertex);
-      }
-      blocks_[std::size_t(b)] = std::move(block);
-    });
-    context.progress.End();
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      auto& lights = sets_[b / std::size_t(perSet)].lights;
-      lights.insert(lights.end(), blocks_[b]->lights.begin(), blocks_[b]->lights.end());
-      blocks_[b]->lights = {};
-      context.statistics.AddRays(blocks_[b]->rays);
-    }
-  }
-
   // Returns the radiance that the point reflects from the virtual lights of a set.
   Spectrum Indirect(const ShadingPoint& point, int set, std::uint64_t shading,
                     LiContext& context) const {
     if (!point.bsdf.Has(LobeSet::NonSpecular)) return {};
     RandomStream random = context.Stream(HashKey({kRouletteStream, shading}));
     Spectrum sum;
-    for (const LightPathVertex& light : sets_[std::size_t(set)].lights)
+    for (const LightPathVertex& light : virtualLights_.Set(set))
       sum += FromVirtualLight(point, light, &random, context);
     sum /= Real(settings_.lightPaths);
     if (!settings_.geometricLimit) return sum;
@@ -284,7 +227,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
       sum += FromLightSample(point, sampled, {1, 0}, LobeSet::NonSpecular, context);
     }
     Spectrum indirect;
-    for (const LightPathVertex& light : sets_[std::size_t(set)].lights)
+    for (const LightPathVertex& light : virtualLights_.Set(set))
       indirect += FromVirtualLight(point, light, random, context);
     sum += indirect / Real(settings_.lightPaths);
     return sum + Gathered(point, set, depth, random, context);
@@ -295,9 +238,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
   int set1D_ = -1;
   DirectLighting direct_;
   LightSampler lights_;
-  LightPathTracer tracer_;
-  std::vector<LightSet> sets_;
-  std::vector<std::unique_ptr<PathBlock>> blocks_;  // own the memory of the BSDFs
+  VirtualLights virtualLights_;
 };
 
 std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const IntegratorContext&) {
