@@ -33,7 +33,7 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
     lighting_.direct = LightSampler(scene);
-    lighting_.tracer = LightPathTracer(scene);
+    lighting_.tracer = LightPathTracer(scene, true);
   }
 
   void RequestSamples(const Scene&, const Sampler&, SampleLayout* layout) override {

@@ -25,14 +25,14 @@ double DensityFromLight(const Bsdf& bsdf, const Vector3& toLight, const Vector3&
 
 Spectrum AdjointBsdf(const ShadingPoint& vertex, const Vector3& toCamera, LobeSet lobes) {
   const Vector3& wi = vertex.Wo();
-  if (IsBetweenNormals(vertex.bsdf, wi) || IsBetweenNormals(vertex.bsdf, toCamera)) return {};
   const Real geometric = AbsDot(wi, vertex.bsdf.Ng());
   if (!(geometric > 0)) return {};
   return vertex.bsdf.f(toCamera, wi, lobes) * (AbsDot(wi, vertex.bsdf.Ns()) / geometric);
 }
 
-LightPathTracer::LightPathTracer(const Scene& scene)
+LightPathTracer::LightPathTracer(const Scene& scene, bool isWeighted)
     : scene_(&scene),
+      isWeighted_(isWeighted),
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       lights_(scene.Lights(), LightSelection::Power) {
   for (std::size_t i = 0; i < scene.Lights().size(); ++i)
@@ -132,7 +132,9 @@ bool LightPathTracer::Scatter(LightPath* path, RandomStream* random, Ray* ray, S
   const Real x = random->Uniform(), y = random->Uniform(), uLobe = random->Uniform();
   const Real uRoulette = random->Uniform();
   const auto sample = bsdf.Sample(wo, {x, y}, uLobe, lobes_, TransportMode::Importance);
-  if (!sample || IsBetweenNormals(bsdf, wo) || IsBetweenNormals(bsdf, sample->wi)) return false;
+  if (!sample) return false;
+  if (isWeighted_ && (IsBetweenNormals(bsdf, wo) || IsBetweenNormals(bsdf, sample->wi)))
+    return false;
   const Real denominator = AbsDot(wo, bsdf.Ng()) * AbsDot(sample->wi, bsdf.Ns());
   if (!(denominator > 0)) return false;
   const Real factor = AbsDot(wo, bsdf.Ns()) * AbsDot(sample->wi, bsdf.Ng()) / denominator;
@@ -150,7 +152,7 @@ bool LightPathTracer::Scatter(LightPath* path, RandomStream* random, Ray* ray, S
                                 : path->vertices[path->vertices.size() - 2].densities;
   before.fromCamera = reverse * vertex.toPrevious;
   *ray = SpawnRay(vertex.point.surface, sample->wi);
-  return *pdf > 0;
+  return *pdf > 0 || !isWeighted_;
 }
 
 }  // namespace exphoton

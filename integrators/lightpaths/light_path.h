@@ -43,8 +43,9 @@ struct LightPath {
 class LightPathTracer {
  public:
   LightPathTracer() = default;  // traces nothing
-  // The scene must outlive this object. Lights are chosen by power.
-  explicit LightPathTracer(const Scene& scene);
+  // The scene must outlive this object. Lights are chosen by power. If isWeighted, the paths
+  // compete with camera paths, and end where IsBetweenNormals holds.
+  LightPathTracer(const Scene& scene, bool isWeighted);
 
   bool IsEmpty() const { return !scene_ || lights_.IsEmpty(); }
 
@@ -74,13 +75,14 @@ class LightPathTracer {
   bool Scatter(LightPath* path, RandomStream* random, Ray* ray, Spectrum* alpha, double* pdf) const;
 
   const Scene* scene_ = nullptr;
+  bool isWeighted_ = true;
   LobeSet lobes_ = LobeSet::All;
   LightDistribution lights_;
   std::unordered_map<const Light*, int> indices_;
 };
 
-// Returns whether the geometric and the shading normal disagree about the side of w. Light paths
-// end where they do for a direction of the path; camera paths carry this light.
+// Returns whether the geometric and the shading normal disagree about the side of w. Weighted light
+// paths end where they do for a direction of the path; camera paths carry this light.
 inline bool IsBetweenNormals(const Bsdf& bsdf, const Vector3& w) {
   return (Dot(w, bsdf.Ng()) > 0) != (Dot(w, bsdf.Ns()) > 0);
 }
@@ -91,8 +93,8 @@ double DensityFromLight(const Bsdf& bsdf, const Vector3& toLight, const Vector3&
                         LobeSet lobes);
 
 // Returns the BSDF of a light path's vertex towards the camera, with the factor |wi.ns| / |wi.ng|
-// of the power that arrives from its wo (Veach 1997, eq. 5.19). 0 where the path ends between the
-// two normals.
+// of the power that arrives from its wo (Veach 1997, eq. 5.19). toCamera may lie between the two
+// normals, as in Bsdf::f.
 Spectrum AdjointBsdf(const ShadingPoint& vertex, const Vector3& toCamera, LobeSet lobes);
 
 }  // namespace exphoton

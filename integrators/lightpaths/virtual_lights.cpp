@@ -41,7 +41,7 @@ std::size_t VirtualLights::Count() const {
 void VirtualLights::Trace(const Scene& scene, int sets, int paths, PreprocessContext& context) {
   Clear();
   sets_.resize(std::size_t(sets));
-  tracer_ = LightPathTracer(scene);
+  tracer_ = LightPathTracer(scene, false);
   const int perSet = (paths + kPathsTogether - 1) / kPathsTogether;
   blocks_.resize(std::size_t(sets) * std::size_t(perSet));
   context.progress.Begin("Tracing light paths", std::int64_t(blocks_.size()));

@@ -153,10 +153,9 @@ INSTANTIATE_TEST_SUITE_P(
                                  "radius\" .6\nAttributeEnd\n"},
         World{"shading_normals",
               kRoom + kLamp +
-                  "AttributeBegin\nTranslate 0 -1 3\nScale 1.2 1.2 1.2\nMaterial \"matte\"\n"
-                  "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 0 3 4 0 4 1] \"point "
-                  "P\" [0 1 0  1 0 1  1 0 -1  -1 0 -1  -1 0 1] \"normal N\" [0 1 0  1 .1 1  1 .1 "
-                  "-1  -1 .1 -1  -1 .1 1]\nAttributeEnd\n"},
+                  "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 -1.9 0 "
+                  "2 -1.9 0  2 -1.9 5  -2 -1.9 5] \"normal N\" [.8 .6 0  .8 .6 0  .8 .6 0  .8 .6 "
+                  "0]\n"},
         World{"delta_lights",
               kRoom + "LightSource \"point\" \"point from\" [1 1 3] \"color I\" [2 2 2]\n"
                       "LightSource \"spot\" \"point from\" [-1.5 1.5 1] \"point to\" [0 -2 3] "

@@ -126,6 +126,24 @@ TEST(Igi, OfAMovingSphereAgreesWithPathTracing) {
                             EstimateBlocks(Room("\"path\" \"integer maxdepth\" 30", 256, moving))));
 }
 
+// All indirect light passes the adjoint BSDF of the floor, whose shading normals are tilted.
+TEST(Igi, OverTiltedNormalsHasTheIndirectLightOfPathTracing) {
+  const std::string tilted =
+      "Material \"matte\" \"color Kd\" [.8 .8 .8]\nShape \"trianglemesh\" \"integer indices\" [0 1 "
+      "2 0 2 3] \"point P\" [-2 -1.9 0  2 -1.9 0  2 -1.9 5  -2 -1.9 5] \"normal N\" [.8 .6 0  .8 "
+      ".6 "
+      "0  .8 .6 0  .8 .6 0]\n";
+  const auto indirect = [&](const std::string& integrator, int samples) {
+    return EstimateOverSeeds([&](std::uint64_t seed) {
+      return MeanChannel(Render(Room(integrator, samples, tilted), seed).image, "indirect.G");
+    });
+  };
+  const std::string lights =
+      "\"igi\" \"integer nlights\" 256 \"integer nsets\" 64 \"float mindist\" .02";
+  EXPECT_TRUE(
+      IsWithin(.03, indirect(lights, 64), indirect("\"path\" \"integer maxdepth\" 30", 256).mean));
+}
+
 TEST(Igi, ReportsThatItLeavesCausticsOut) {
   const LoadedScene scene = LoadSceneText(Furnace(""));
   const auto lines = scene.setup->integrator->Explain(*scene.setup->scene);
