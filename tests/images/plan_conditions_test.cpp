@@ -59,7 +59,8 @@ TEST_P(PlanCondition, IsTrueOfThisScene) {
   TestRenderOptions all;
   all.load.effects = "all";
   for (const char* integrator :
-       {"\"exphotonmap\"", "\"photonmap\"", "\"path\"", "\"directlighting\"", "\"whitted\""}) {
+       {"\"exphotonmap\"", "\"photonmap\"", "\"path\"", "\"directlighting\"", "\"whitted\"",
+        "\"bidirectional\"", "\"igi\"", "\"irradiancecache\" \"integer nsamples\" 16"}) {
     const std::string text = TextOf(GetParam(), integrator);
     EXPECT_EQ(RenderSceneText(text).image.pixels, RenderSceneText(text, all).image.pixels)
         << integrator;

@@ -191,7 +191,7 @@ AttributeEnd
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, FloorLight,
-                         testing::Values("whitted", "directlighting", "path"),
+                         testing::Values("whitted", "directlighting", "path", "bidirectional"),
                          [](const auto& info) { return std::string(info.param); });
 
 // All three strategies for choosing lights must have the same mean.
@@ -266,7 +266,8 @@ WorldEnd
 // A small lamp is visible only through a perfect mirror or a pane without refraction. Emission
 // after specular bounces must count once and in full.
 TEST(Emission, ThroughSpecularBouncesIsSeenInFull) {
-  for (const char* integrator : {"whitted", "directlighting", "path"}) {
+  for (const char* integrator :
+       {"whitted", "directlighting", "path", "bidirectional", "igi", "irradiancecache"}) {
     const std::string scene =
         TestHeader("\"" + std::string(integrator) + "\"", 4, 4, 4) + R"(WorldBegin
 Material "glass" "float index" 1
@@ -284,7 +285,8 @@ WorldEnd
 }
 
 TEST(Scene, WithoutLightsIsBlackButOpaque) {
-  for (const char* integrator : {"whitted", "directlighting", "path"}) {
+  for (const char* integrator :
+       {"whitted", "directlighting", "path", "bidirectional", "igi", "irradiancecache"}) {
     const auto render = RenderSceneText(
         TestHeader("\"" + std::string(integrator) + "\"", 4, 4, 4) +
         "WorldBegin\nTranslate 0 0 3\nShape \"sphere\" \"float radius\" 2.9\nWorldEnd\n");
@@ -294,7 +296,8 @@ TEST(Scene, WithoutLightsIsBlackButOpaque) {
 }
 
 TEST(Scene, ThatIsEmptyShowsItsSky) {
-  for (const char* integrator : {"whitted", "directlighting", "path"}) {
+  for (const char* integrator :
+       {"whitted", "directlighting", "path", "bidirectional", "igi", "irradiancecache"}) {
     const auto render = RenderSceneText(TestHeader("\"" + std::string(integrator) + "\"", 4, 4, 4) +
                                         "WorldBegin\nLightSource \"infinite\" \"color L\" [2 2 2]\n"
                                         "LightSource \"distant\"\nWorldEnd\n");

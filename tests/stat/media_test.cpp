@@ -32,7 +32,12 @@ const std::string kEmitter = "AreaLightSource \"area\" \"color L\" [2 2 2]\n" + 
 const std::string kBlackDisk = "Material \"matte\" \"color Kd\" [0 0 0]\n" + kDisk;
 
 const char* const kIntegrators[] = {
-    "\"whitted\"", "\"directlighting\"", "\"path\"",
+    "\"whitted\"",
+    "\"directlighting\"",
+    "\"path\"",
+    "\"bidirectional\"",
+    "\"igi\" \"integer nlights\" 1",
+    "\"irradiancecache\" \"integer nsamples\" 4",
     "\"photonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\"",
     "\"exphotonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\""};
 

@@ -233,7 +233,8 @@ TEST(Motion, OfALampLightsAsItsPositionsDo) {
            "WorldEnd\n";
   };
   const AnimatedTransform motion = LampMotion();
-  for (const std::string integrator : {"\"directlighting\"", "\"path\"", "\"whitted\""}) {
+  for (const std::string integrator :
+       {"\"directlighting\"", "\"path\"", "\"whitted\"", "\"bidirectional\""}) {
     const double truth = MeanOfStills(integrator, motion, world, 64);
     const SeedEstimate moving = EstimateOverSeeds([&](std::uint64_t seed) {
       return MeanRadiance(Render(integrator, world(MovingText(motion)), 256, "auto", {seed}).image);

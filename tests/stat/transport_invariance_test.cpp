@@ -30,6 +30,7 @@ std::string Integrator(const std::string& name) {
         " \"integer indirectphotons\" 500 \"integer causticphotons\" 200"
         " \"integer directphotons\" 500 \"integer maxphotonpaths\" 20000"
         " \"integer finalgathersamples\" 4";
+  if (name == "irradiancecache" || name == "ambientocclusion") text += " \"integer nsamples\" 16";
   return text;
 }
 
@@ -103,7 +104,8 @@ TEST_P(Transport, GivesTheSameBitsForAnyThreadsTilesAndCrop) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Transport,
-                         testing::Values("whitted", "directlighting", "path"),
+                         testing::Values("whitted", "directlighting", "path", "bidirectional",
+                                         "irradiancecache"),
                          [](const auto& info) { return info.param; });
 
 class Features : public testing::TestWithParam<std::string> {};
@@ -123,7 +125,8 @@ TEST_P(Features, ComputedOrSkippedGiveTheSamePictureBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Features,
                          testing::Values("whitted", "directlighting", "path", "photonmap",
-                                         "exphotonmap"),
+                                         "exphotonmap", "bidirectional", "igi", "irradiancecache",
+                                         "ambientocclusion", "debug"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -183,13 +183,15 @@ TEST_P(LightAovsTest, HoldWhatTheyAreNamedAfter) {
   for (const char* aov : {"emission", "direct", "specular"})
     EXPECT_GT(MeanChannel(render.image, std::string(aov) + ".R"), .001) << aov;
   const std::string name = GetParam();
-  const bool isGlobal = name.find("photonmap") != std::string::npos || name == "\"path\"";
+  const bool isGlobal = name.find("photonmap") != std::string::npos || name == "\"path\"" ||
+                        name == "\"bidirectional\"";
   for (const char* aov : {"caustic", "indirect"})
     EXPECT_EQ(MeanChannel(render.image, std::string(aov) + ".R") > .0005, isGlobal) << aov;
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, LightAovsTest,
                          testing::Values("\"path\"", "\"directlighting\"", "\"whitted\"",
+                                         "\"bidirectional\"",
                                          "\"photonmap\" \"integer causticphotons\" 2000 "
                                          "\"integer indirectphotons\" 2000",
                                          "\"exphotonmap\" \"integer causticphotons\" 2000 "
@@ -290,8 +292,8 @@ TEST(SurfaceAovs, HaveThePhotonDensityOfADiskUnderParallelLight) {
 
 // A mirror covers what is behind it, whatever it shows.
 TEST(Alpha, OfAMirrorThatShowsNothingIsOne) {
-  for (const char* integrator :
-       {"\"whitted\"", "\"directlighting\"", "\"path\"", "\"exphotonmap\""}) {
+  for (const char* integrator : {"\"whitted\"", "\"directlighting\"", "\"path\"", "\"exphotonmap\"",
+                                 "\"bidirectional\"", "\"igi\"", "\"irradiancecache\""}) {
     const Image image =
         RenderSceneText(TestHeader(integrator, 5, 5, 4) +
                         "WorldBegin LightSource \"point\" \"point from\" [0 0 9]\nMaterial "

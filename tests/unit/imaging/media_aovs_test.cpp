@@ -11,7 +11,7 @@ namespace exphoton {
 namespace {
 
 const char* const kIntegrators[] = {
-    "\"whitted\"", "\"directlighting\"", "\"path\"",
+    "\"whitted\"", "\"directlighting\"", "\"path\"", "\"bidirectional\"",
     "\"exphotonmap\" \"integer indirectphotons\" 0 \"bool finalgather\" \"false\""};
 
 // The camera looks along +z into a perfect mirror at z = 5, which shows it what lies at negative z.
