@@ -59,13 +59,13 @@ class AmbientOcclusionIntegrator final : public SurfaceIntegrator {
       return sky;
     }
     const Frame frame = Frame::FromZ(FaceForward(hit->ng, hit->wo));
-    const RayFan fan(*hit);
+    const RaySpawner spawner(*hit);
     const auto points = context.samples.Array2D(directions2D_);
     int open = 0;
     for (const Point2 u : points) {
       const Vector3 local = settings_.weighting == Weighting::Cosine ? SampleCosineHemisphere(u)
                                                                      : SampleUniformHemisphere(u);
-      Ray probe = fan.Towards(frame.ToWorld(local));
+      Ray probe = spawner.Spawn(frame.ToWorld(local));
       probe.o += probe.d * settings_.minDistance;
       if (settings_.maxDistance) probe.tMax = *settings_.maxDistance - settings_.minDistance;
       open += !context.Occluded(probe);

@@ -32,7 +32,7 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
   explicit BidirectionalIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
-    lighting_.direct = LightSampler(scene);
+    lighting_.direct = scene.MakeLightSampler(LightSelection::Auto);
     lighting_.tracer = LightPathTracer(scene, true);
   }
 

@@ -8,10 +8,10 @@
 // Keller 2004, "Illumination in the Presence of Weak Singularities").
 #include <algorithm>
 
+#include "core/lights/selection/light_selection.h"
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/light_sample.h"
-#include "core/transport/light_sampler.h"
 #include "core/transport/specular_tree.h"
 #include "integrators/lightpaths/virtual_lights.h"
 
@@ -57,7 +57,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-constexpr std::uint64_t kRouletteStream = 0x696772, kGatherStream = 0x696767;
+constexpr std::uint64_t kRouletteStream = 0x696772, kGatherRayStream = 0x696767;
 constexpr Real kSurvival = Real(.1);  // of contributions below the threshold
 
 class IgiIntegrator final : public SurfaceIntegrator {
@@ -66,7 +66,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
 
   void Preprocess(const Scene& scene, PreprocessContext& context) override {
     virtualLights_.Clear();
-    lights_ = LightSampler(scene);
+    lights_ = scene.MakeLightSampler(LightSelection::Auto);
     hasIndirect_ = scene.Features().Needs(Feature::Indirect) && settings_.indirectScale > 0;
     if (!hasIndirect_) return;
     const PhaseTimer timer(context.statistics, "virtual lights");
@@ -121,7 +121,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
       sum += FromVirtualLight(point, light, &random, context);
     sum /= Real(settings_.lightPaths);
     if (!settings_.geometricLimit) return sum;
-    RandomStream gather = context.Stream(HashKey({kGatherStream, shading}));
+    RandomStream gather = context.Stream(HashKey({kGatherRayStream, shading}));
     Spectrum gathered;
     for (int i = 0; i < settings_.gatherSamples; ++i)
       gathered += Gathered(point, set, settings_.maxDepth, &gather, context);
@@ -220,8 +220,8 @@ class IgiIntegrator final : public SurfaceIntegrator {
                      LiContext& context) const {
     if (!point.bsdf.Has(LobeSet::NonSpecular)) return {};
     Spectrum sum;
-    if (!lights_.IsEmpty()) {
-      const auto choice = lights_.Sample(point.surface.p, random->Uniform());
+    if (!lights_->IsEmpty()) {
+      const auto choice = lights_->Sample(point.surface.p, random->Uniform());
       const Real x = random->Uniform(), y = random->Uniform();
       const SampledLight sampled{choice.light, choice.probability, {x, y}, random->Uniform()};
       sum += FromLightSample(point, sampled, {1, 0}, LobeSet::NonSpecular, context);
@@ -237,7 +237,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
   bool hasIndirect_ = false;
   int set1D_ = -1;
   DirectLighting direct_;
-  LightSampler lights_;
+  std::unique_ptr<const LightSampler> lights_;
   VirtualLights virtualLights_;
 };
 

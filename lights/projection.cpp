@@ -61,7 +61,7 @@ class ProjectedImage final : public IntensityMap {
       : texels_(std::move(map.texels)), width_(map.width), height_(map.height) {
     const bool isUniform = std::all_of(texels_.begin(), texels_.end(),
                                        [&](const Spectrum& s) { return s == texels_.front(); });
-    mostSteps_ = isUniform ? 1 : kMostSteps;
+    maxSteps_ = isUniform ? 1 : kMaxSteps;
     const double aspect = double(width_) / height_;
     a_ = tanHalf * std::max(aspect, 1.);
     b_ = tanHalf * std::max(1 / aspect, 1.);
@@ -141,7 +141,7 @@ class ProjectedImage final : public IntensityMap {
   // the extent `width` and the image has `cells` cells.
   int StepsOf(double width, int cells) const {
     constexpr double kStep = .005;
-    return int(std::clamp(std::ceil(width / cells / kStep), 1., std::max(1., mostSteps_ / cells)));
+    return int(std::clamp(std::ceil(width / cells / kStep), 1., std::max(1., maxSteps_ / cells)));
   }
 
   // Returns the integral of the interpolant over the solid angle of a cell. The sum is scaled by
@@ -165,14 +165,14 @@ class ProjectedImage final : public IntensityMap {
     return sum;
   }
 
-  static constexpr double kMostSteps = 1024;  // over the image, along an axis
+  static constexpr double kMaxSteps = 1024;  // over the image, along an axis
   // Coarser images have several cells for a texel, so that the weights of photons vary little.
   static constexpr int kLeastCells = 64;
 
   std::vector<Spectrum> texels_;
   int width_, height_;
   int columns_, rows_;  // of the cells by which directions are sampled
-  double mostSteps_;
+  double maxSteps_;
   double a_, b_;  // half the extents of the image on the plane z = 1
   std::array<double, 3> integral_{};
   Spectrum largest_;

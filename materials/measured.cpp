@@ -69,7 +69,7 @@ class Measured final : public SurfaceMaterial {
 };
 
 // Above 1 by the error of Rho.
-constexpr Real kMostReflectance = Real(1.05);
+constexpr Real kMaxReflectance = Real(1.05);
 
 std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext& context) {
   const auto read = [&] { return MeasuredBrdf(ReadMeasuredValues(settings.fileName)); };
@@ -81,7 +81,7 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
   } catch (const MeasurementError& error) {
     throw ParamError{"filename", error.what(), ""};
   }
-  if (brdf->Rho().MaxComponent() > kMostReflectance)
+  if (brdf->Rho().MaxComponent() > kMaxReflectance)
     context.log.Warning("\"" + settings.fileName +
                             "\": the surface scatters more light than it "
                             "receives",

@@ -25,7 +25,7 @@ IndirectRadiance::IndirectRadiance(const Scene& scene, int maxDepth)
       hasIndirect_(scene.Features().Needs(Feature::Indirect)),
       hasCaustics_(scene.Features().Needs(Feature::Caustics)),
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
-      lights_(scene) {}
+      lights_(scene.MakeLightSampler(LightSelection::Auto)) {}
 
 IndirectRadiance::Incident IndirectRadiance::Along(const Ray& ray, RandomStream* random,
                                                    LiContext& context) const {
@@ -61,7 +61,7 @@ Spectrum IndirectRadiance::Emission(const State& path, const SurfaceInteraction*
                                     const Scene& scene) const {
   const Vector3& w = path.ray.d;
   const auto weight = [&](const Light& light) {
-    const Real pdf = lights_.Probability(path.from.p, light) * light.PdfDirect(path.from, w, hit);
+    const Real pdf = lights_->Pmf(path.from.p, light) * light.PdfDirect(path.from, w, hit);
     return PowerHeuristic(1, path.bsdfPdf, 1, pdf);
   };
   if (!hit) {
@@ -80,8 +80,8 @@ Spectrum IndirectRadiance::Direct(const ShadingPoint& point, RandomStream* rando
                                   LiContext& context) const {
   const Real uChoice = random->Uniform(), x = random->Uniform(), y = random->Uniform();
   const Real uPart = random->Uniform();
-  if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-  const auto choice = lights_.Sample(point.surface.p, uChoice);
+  if (lights_->IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
+  const auto choice = lights_->Sample(point.surface.p, uChoice);
   return FromLightSample(point, {choice.light, choice.probability, {x, y}, uPart}, {}, lobes_,
                          context);
 }

@@ -4,8 +4,8 @@
 // lighting computes it.
 #pragma once
 
+#include "core/lights/selection/light_selection.h"
 #include "core/transport/integrator.h"
-#include "core/transport/light_sampler.h"
 #include "core/transport/shading_point.h"
 
 namespace exphoton {
@@ -36,7 +36,7 @@ class IndirectRadiance {
   int maxDepth_ = 0;
   bool hasIndirect_ = false, hasCaustics_ = false;
   LobeSet lobes_ = LobeSet::All;  // of f, Pdf and Sample
-  LightSampler lights_;
+  std::unique_ptr<const LightSampler> lights_;
 };
 
 }  // namespace exphoton

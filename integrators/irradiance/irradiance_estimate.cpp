@@ -22,7 +22,7 @@ class Hemisphere {
 
   void Trace(const SurfacePoint& surface, const IndirectRadiance& incident, RandomStream* random,
              LiContext& context) {
-    const RayFan fan(surface);
+    const RaySpawner spawner(surface);
     const bool isFront = Dot(frame_.z, surface.ng) > 0;
     for (int k = 0; k < n_; ++k) {
       for (int j = 0; j < m_; ++j) {
@@ -31,7 +31,7 @@ class Hemisphere {
         const Real cosTheta = std::max(SafeSqrt(1 - sin2), kMachineEpsilon);
         const Vector3 w = frame_.ToWorld(SphericalDirection(std::sqrt(sin2), cosTheta, phi));
         if ((Dot(w, surface.ng) > 0) != isFront) continue;
-        At(j, k) = incident.Along(fan.Towards(w), random, context);
+        At(j, k) = incident.Along(spawner.Spawn(w), random, context);
         // The stratum's middle, because the tangent of single rays has no bound.
         const Real middle = (Real(j) + Real(.5)) / Real(m_);
         AddRotation(At(j, k).radiance, std::sqrt(middle / (1 - middle)), phi);

@@ -51,8 +51,8 @@ void CameraPath::Append(const SurfaceInteraction& hit) {
 }
 
 void CameraPath::AddDirect(const ShadingPoint& point, Real uChoice, Point2 u, Real uPart) {
-  if (lighting_.direct.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return;
-  const auto choice = lighting_.direct.Sample(point.surface.p, uChoice);
+  if (lighting_.direct->IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return;
+  const auto choice = lighting_.direct->Sample(point.surface.p, uChoice);
   const auto direct = choice.light->SampleDirect(point.surface, u, uPart);
   if (!direct || direct->Li.IsBlack()) return;
   const Spectrum f =
@@ -105,7 +105,7 @@ bool CameraPath::Continue(const ShadingPoint& point, Point2 u, Real uLobe, Real 
   if (isSpecular && sample->IsTransmission()) etaScale_ /= sample->eta * sample->eta;
   if (!(beta_.MaxComponent() > 0) || !beta_.IsFinite()) return false;
   if (point.depth >= kRouletteDepth) {
-    const Real survival = std::min(beta_.MaxComponent() * etaScale_, kMostSurvival);
+    const Real survival = std::min(beta_.MaxComponent() * etaScale_, kMaxSurvival);
     if (!(uRoulette < survival)) return false;
     beta_ /= survival;
   }
@@ -127,7 +127,7 @@ bool CameraPath::Continue(const ShadingPoint& point, Point2 u, Real uLobe, Real 
 
 double CameraPath::DirectDensity(const Light& light, const SurfacePoint& from, const Vector3& w,
                                  const SurfacePoint* on, double toArea) const {
-  const double choice = double(lighting_.direct.Probability(from.p, light));
+  const double choice = double(lighting_.direct->Pmf(from.p, light));
   return light.IsDelta() ? choice : choice * double(light.PdfDirect(from, w, on)) * toArea;
 }
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/transport/light_sampler.h"
+#include "core/lights/selection/light_selection.h"
 #include "core/transport/volume_integrator.h"
 #include "integrators/lightpaths/light_path.h"
 #include "integrators/lightpaths/path_weight.h"
@@ -40,8 +40,8 @@ struct PathKind {
 
 // The parts of an integrator that are the same for all samples.
 struct BidirectionalLighting {
-  LightSampler direct;     // technique 1
-  LightPathTracer tracer;  // techniques from 2 on
+  std::unique_ptr<const LightSampler> direct;  // technique 1
+  LightPathTracer tracer;                      // techniques from 2 on
 };
 
 // CameraPath makes all contributions of one camera sample.
@@ -82,7 +82,7 @@ class CameraPath {
 
  private:
   static constexpr int kRouletteDepth = 4;
-  static constexpr Real kMostSurvival = Real(.98);
+  static constexpr Real kMaxSurvival = Real(.98);
 
   static double ToArea(const Vector3& w, const Normal3& ng, Real distance) {
     return double(AbsDot(w, ng)) / (double(distance) * double(distance));

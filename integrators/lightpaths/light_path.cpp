@@ -9,7 +9,7 @@ namespace exphoton {
 namespace {
 
 constexpr std::size_t kPlainVertices = 3;  // surface points before Russian roulette begins
-constexpr Real kMostSurvival = Real(.98);
+constexpr Real kMaxSurvival = Real(.98);
 
 double ToArea(const Vector3& w, const Normal3& ng, Real distance) {
   return double(AbsDot(w, ng)) / (double(distance) * double(distance));
@@ -34,10 +34,7 @@ LightPathTracer::LightPathTracer(const Scene& scene, bool isWeighted)
     : scene_(&scene),
       isWeighted_(isWeighted),
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
-      lights_(scene.Lights(), LightSelection::Power) {
-  for (std::size_t i = 0; i < scene.Lights().size(); ++i)
-    indices_.emplace(scene.Lights()[i].get(), int(i));
-}
+      lights_(MakeEmissionLightSampler(scene.Lights(), LightSelection::Power, {})) {}
 
 LightPathTracer::BeginningDensities LightPathTracer::Beginning(const Light& light,
                                                                const SurfacePoint* on,
@@ -45,7 +42,7 @@ LightPathTracer::BeginningDensities LightPathTracer::Beginning(const Light& ligh
                                                                const SurfacePoint& x,
                                                                Real distance) const {
   if (IsEmpty()) return {};
-  const double choice = double(lights_.Probability(indices_.at(&light)));
+  const double choice = double(lights_->Pmf({}, light));
   const Light::EmissionPdf pdf = light.PdfEmission(on ? *on : x, w);
   if (light.IsDistant()) {
     const double direction = light.IsDelta() ? 1 : double(pdf.direction);
@@ -86,7 +83,7 @@ void LightPathTracer::Trace(const EmissionVariates& emission, Real time, int mos
   path->origin = {};
   path->vertices.clear();
   if (IsEmpty() || mostVertices < 1) return;
-  const auto choice = lights_.Sample(emission.light);
+  const auto choice = lights_->Sample(emission.light);
   const auto sample =
       choice.light->SampleEmission(emission.position, emission.direction, emission.part, time);
   if (!sample) return;
@@ -141,7 +138,7 @@ bool LightPathTracer::Scatter(LightPath* path, RandomStream* random, Ray* ray, S
   const Spectrum scattered = *alpha * sample->throughput * (bsdf.Ng() == bsdf.Ns() ? 1 : factor);
   Real survival = 1;
   if (path->vertices.size() >= kPlainVertices)
-    survival = std::min(SafeDivide(scattered.Y(), alpha->Y(), Real(0)), kMostSurvival);
+    survival = std::min(SafeDivide(scattered.Y(), alpha->Y(), Real(0)), kMaxSurvival);
   if (!(uRoulette < survival)) return false;
   *alpha = scattered / survival;
   vertex.densities.isSpecular = sample->IsSpecular();

@@ -5,10 +5,9 @@
 // Radiosity"; Veach 1997, sections 5.3 (shading normals) and 10.2.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
-#include "core/lights/light_distribution.h"
+#include "core/lights/selection/light_selection.h"
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 
@@ -47,7 +46,7 @@ class LightPathTracer {
   // compete with camera paths, and end where IsBetweenNormals holds.
   LightPathTracer(const Scene& scene, bool isWeighted);
 
-  bool IsEmpty() const { return !scene_ || lights_.IsEmpty(); }
+  bool IsEmpty() const { return !scene_ || lights_->IsEmpty(); }
 
   // The uniform random numbers of an emission, in [0,1).
   struct EmissionVariates {
@@ -77,8 +76,7 @@ class LightPathTracer {
   const Scene* scene_ = nullptr;
   bool isWeighted_ = true;
   LobeSet lobes_ = LobeSet::All;
-  LightDistribution lights_;
-  std::unordered_map<const Light*, int> indices_;
+  std::unique_ptr<const FixedLightSampler> lights_;
 };
 
 // Returns whether the geometric and the shading normal disagree about the side of w. Weighted light

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kVirtualLightStream = 0x69676c;
 constexpr int kPathsTogether = 64;  // light paths of a parallel task
-constexpr int kMostBounces = 1024;
+constexpr int kMaxBounces = 1024;
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void VirtualLights::Trace(const Scene& scene, int sets, int paths, PreprocessCon
           const Point2 choice = sampler.Next2D(), position = sampler.Next2D();
           const Point2 direction = sampler.Next2D();
           const Real time = open == close ? open : Lerp(sampler.Time(), open, close);
-          tracer_.Trace({choice.x, position, direction, choice.y}, time, kMostBounces,
+          tracer_.Trace({choice.x, position, direction, choice.y}, time, kMaxBounces,
                         RandomStream(HashKey({context.seed, kVirtualLightStream, index})),
                         &block->arena, &block->rays, &path);
           for (const LightPathVertex& vertex : path.vertices)

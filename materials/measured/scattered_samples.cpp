@@ -10,13 +10,14 @@
 
 #include "core/files/input_file.h"
 #include "core/math/cie.h"
+#include "core/spatial/nearest_search.h"
 
 namespace exphoton {
 namespace {
 
 constexpr std::uint32_t kNeighbours = 8;
-constexpr std::size_t kMostWavelengths = 1000;
-constexpr double kMostPolar = 1.5709;  // pi / 2, rounded up
+constexpr std::size_t kMaxWavelengths = 1000;
+constexpr double kMaxPolar = 1.5709;  // pi / 2, rounded up
 // A sample at a smaller squared distance is taken as it is.
 constexpr Real kSame2 = Real(1e-12);
 
@@ -76,9 +77,9 @@ Spectrum Colour(const std::vector<SpectralSample>& samples) {
 ScatteredSamples::ScatteredSamples(const std::string& path) {
   const std::vector<double> numbers = NumbersOf(path);
   const double first = numbers.empty() ? 0 : numbers[0];
-  if (!(first >= 1 && first <= double(kMostWavelengths) && first == std::floor(first)))
+  if (!(first >= 1 && first <= double(kMaxWavelengths) && first == std::floor(first)))
     throw MeasurementError(path + ": must begin with the number of wavelengths, from 1 to " +
-                           std::to_string(kMostWavelengths));
+                           std::to_string(kMaxWavelengths));
   const auto wavelengths = std::size_t(first);
   const std::size_t perSample = 4 + wavelengths;
   if (numbers.size() < 1 + wavelengths + perSample ||
@@ -96,7 +97,7 @@ ScatteredSamples::ScatteredSamples(const std::string& path) {
   for (std::size_t at = 1 + wavelengths; at < numbers.size(); at += perSample) {
     for (std::size_t i = 0; i < wavelengths; ++i) spectrum[i].value = numbers[at + 4 + i];
     for (const double polar : {numbers[at], numbers[at + 2]})
-      if (!(polar >= 0 && polar <= kMostPolar))
+      if (!(polar >= 0 && polar <= kMaxPolar))
         throw MeasurementError(path + ": sample " + std::to_string(values_.size() + 1) +
                                " has a polar angle that is not between 0 and pi / 2");
     const Vector3 wi = DirectionOf(numbers[at], numbers[at + 1]);

@@ -194,8 +194,7 @@ class MaterialWriter {
                                                "felt",      "primer",       "skin"};
     AddParameters();
     const bool isFitted = m_.kind == MaterialKind::Fitted;
-    const std::string name =
-        isFitted ? kFits[std::size_t(m_.Fit())] : kNames[std::size_t(m_.kind)];
+    const std::string name = isFitted ? kFits[std::size_t(m_.Fit())] : kNames[std::size_t(m_.kind)];
     if (hasBumps && m_.kind != MaterialKind::Mix) parameters_ += BumpText(m_.bump, next_, &text_);
     return text_ + "  Material \"" + name + "\"" + parameters_ + "\n";
   }
