@@ -14,7 +14,8 @@ struct Settings : SurfaceSettings {
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      SurfaceParameters(), Param("Kd", &Settings::kd, "diffuse reflectance").AtLeast(0),
+      SurfaceParameters(),
+      Param("Kd", &Settings::kd, "diffuse reflectance").InVersion2({.5, .5, .5}).AtLeast(0),
       Param("sigma", &Settings::sigma, "deviation of the slope of the facets; 0 is Lambert's law")
           .Range(0, 90)
           .Unit("degrees")};

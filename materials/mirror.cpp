@@ -11,8 +11,9 @@ struct Settings : SurfaceSettings {
 };
 
 const ParamTable<Settings>& Parameters() {
-  static const ParamTable<Settings> table{SurfaceParameters(),
-                                          Param("Kr", &Settings::kr, "reflectance").AtLeast(0)};
+  static const ParamTable<Settings> table{
+      SurfaceParameters(),
+      Param("Kr", &Settings::kr, "reflectance").InVersion2({.9, .9, .9}).AtLeast(0)};
   return table;
 }
 

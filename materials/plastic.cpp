@@ -13,8 +13,9 @@ struct Settings : GlossSettings {
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      GlossParameters(), Param("Kd", &Settings::kd, "diffuse reflectance").AtLeast(0),
-      Param("Ks", &Settings::ks, "scales the gloss").AtLeast(0)};
+      GlossParameters(),
+      Param("Kd", &Settings::kd, "diffuse reflectance").InVersion2({.25, .25, .25}).AtLeast(0),
+      Param("Ks", &Settings::ks, "scales the gloss").InVersion2({.25, .25, .25}).AtLeast(0)};
   return table;
 }
 

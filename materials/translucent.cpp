@@ -18,8 +18,10 @@ struct Settings : GlossSettings {
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       GlossParameters(),
-      Param("Kd", &Settings::kd, "diffuse reflectance and transmittance").AtLeast(0),
-      Param("Ks", &Settings::ks, "scales the gloss").AtLeast(0),
+      Param("Kd", &Settings::kd, "diffuse reflectance and transmittance")
+          .InVersion2({.25, .25, .25})
+          .AtLeast(0),
+      Param("Ks", &Settings::ks, "scales the gloss").InVersion2({.25, .25, .25}).AtLeast(0),
       Param("reflect", &Settings::reflect, "share that is reflected").AtLeast(0),
       Param("transmit", &Settings::transmit, "share that goes through").AtLeast(0)};
   return table;

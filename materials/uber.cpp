@@ -21,8 +21,8 @@ struct Settings : GlossSettings {
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       GlossParameters(),
-      Param("Kd", &Settings::kd, "diffuse reflectance").AtLeast(0),
-      Param("Ks", &Settings::ks, "scales the gloss").AtLeast(0),
+      Param("Kd", &Settings::kd, "diffuse reflectance").InVersion2({.25, .25, .25}).AtLeast(0),
+      Param("Ks", &Settings::ks, "scales the gloss").InVersion2({.25, .25, .25}).AtLeast(0),
       Param("Kr", &Settings::kr, "scales the mirror reflection").AtLeast(0),
       Param("Kt", &Settings::kt, "scales the refraction").AtLeast(0),
       Param("opacity", &Settings::opacity, "share that the surface stops; the rest goes through")

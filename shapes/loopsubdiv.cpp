@@ -10,13 +10,11 @@
 namespace exphoton {
 namespace {
 
-enum class Scheme { Loop };
-
 struct Settings {
   int levels = 3;
   std::vector<int> indices;
   std::vector<Point3> positions;
-  Scheme scheme = Scheme::Loop;
+  std::string scheme = "loop";
 };
 
 const ParamTable<Settings>& Parameters() {
@@ -27,7 +25,8 @@ const ParamTable<Settings>& Parameters() {
       Param("P", &Settings::positions, "vertices of the control mesh")
           .Required()
           .Unit("scene units"),
-      Param("scheme", &Settings::scheme, "rule of subdivision").OneOf({{"loop", Scheme::Loop}})};
+      Param("scheme", &Settings::scheme,
+            "rule of subdivision; any other than \"loop\" is ignored")};
   return table;
 }
 
@@ -49,6 +48,10 @@ void CheckMemory(double triangles, int levels, const SourceLocation& where) {
 }
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
+  if (settings.scheme != "loop")
+    context.log.Warning(
+        "subdivision scheme \"" + settings.scheme + "\" is not available: \"loop\" is used instead",
+        context.where);
   SubdivisionMesh control;
   control.faces = CheckedTriangles(settings.indices, settings.positions.size(), "indices");
   for (const Point3& p : settings.positions) control.positions.push_back(Vec3d(p));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace exphoton {
 
@@ -33,10 +34,17 @@ class Error : public std::runtime_error {
   const std::optional<SourceLocation>& Where() const { return where_; }
   const std::string& Hint() const { return hint_; }
 
+  // The errors that were found after this one, in the same file or run.
+  const std::vector<Error>& Others() const { return others_; }
+  void AddOthers(const std::vector<Error>& others) {
+    others_.insert(others_.end(), others.begin(), others.end());
+  }
+
  private:
   ExitStatus status_;
   std::optional<SourceLocation> where_;
   std::string hint_;
+  std::vector<Error> others_;
 };
 
 // Returns "file:line:col: error: text", followed by the source line, a caret, the include chain and

@@ -29,8 +29,8 @@ void Log::Notice(const std::string& text, const std::optional<SourceLocation>& w
   if (level_ != Level::Quiet) Say("note", text, where, hint);
 }
 
-void Log::Verbose(const std::string& text) {
-  if (level_ == Level::Verbose) Say("note", text, {}, {});
+void Log::Verbose(const std::string& text, const std::optional<SourceLocation>& where) {
+  if (level_ == Level::Verbose) Say("note", text, where, {});
 }
 
 void Log::Say(const char* severity, const std::string& text,

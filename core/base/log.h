@@ -25,7 +25,8 @@ class Log {
                const std::string& hint = {});
   void Notice(const std::string& text, const std::optional<SourceLocation>& where = {},
               const std::string& hint = {});
-  void Verbose(const std::string& text);  // printed only at Level::Verbose
+  // Printed only at Level::Verbose.
+  void Verbose(const std::string& text, const std::optional<SourceLocation>& where = {});
 
   // Prints how often each repeated message occurred. Call this once, at the end.
   void Summarize();

@@ -89,12 +89,6 @@ Spectrum ColorOfPairs(const std::vector<double>& numbers) {
 
 }  // namespace
 
-std::string ResolveScenePath(const std::string& name, const SourceLocation& where) {
-  const fs::path path(name);
-  if (path.is_absolute()) return name;
-  return (fs::path(where.file).parent_path() / path).string();
-}
-
 Spectrum ParamReader::ColorFromFile() const {
   NeedCount(1);
   const std::string path = ResolveScenePath(param_.strings[0], param_.where);
@@ -106,7 +100,10 @@ Spectrum ParamReader::ColorFromFile() const {
   } catch (const std::runtime_error& error) {
     fault = error.what();
   }
-  if (!fault.empty()) Fail("cannot use the spectrum file \"" + path + "\": " + fault, Place(0));
+  if (!fault.empty()) {
+    Fail("cannot use the spectrum file \"" + path + "\": " + fault, Place(0),
+         fs::exists(path) ? "" : TriedPaths());
+  }
   return KeepInGamut(ColorOfPairs(numbers), numbers);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/params/param_text.h"
 #include "core/params/scene_path.h"
@@ -61,6 +62,11 @@ std::vector<std::string_view> AcceptedTypes(ParamType type) {
   return {};
 }
 
+bool ParamReader::HasAcceptedType() const {
+  const std::vector<std::string_view> accepted = AcceptedTypes(decl_.type);
+  return std::find(accepted.begin(), accepted.end(), param_.type) != accepted.end();
+}
+
 std::any ParamReader::Read() const {
   NeedType();
   switch (decl_.type) {
@@ -114,8 +120,12 @@ std::any ParamReader::ReadString() const {
     if (text == "false") return false;
     Fail("must be \"true\" or \"false\", not " + Quoted(text), Place(0));
   }
-  if (decl_.type == ParamType::File && !text.empty()) return ResolveScenePath(text, param_.where);
-  return text;
+  if (decl_.type != ParamType::File || text.empty()) return text;
+  const std::string path = ResolveScenePath(text, param_.where);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    Fail("names a file that does not exist: " + Quoted(text), Place(0), TriedPaths());
+  return path;
 }
 
 std::any ParamReader::ReadChoice() const {
@@ -156,8 +166,8 @@ std::vector<V> ParamReader::ReadTuples() const {
 }
 
 void ParamReader::NeedType() const {
-  const std::vector<std::string_view> accepted = AcceptedTypes(decl_.type);
-  if (std::find(accepted.begin(), accepted.end(), param_.type) == accepted.end()) {
+  if (!HasAcceptedType()) {
+    const std::vector<std::string_view> accepted = AcceptedTypes(decl_.type);
     Fail("must be of type " + JoinQuoted(accepted) + ", not " + Quoted(param_.type), param_.where,
          "write \"" + std::string(accepted[0]) + ' ' + decl_.name + '"');
   }
@@ -213,6 +223,11 @@ Real ParamReader::NeedReal(std::size_t index) const {
          Place(index));
   }
   return Real(number);
+}
+
+std::string ParamReader::TriedPaths() const {
+  return TriedPathsText(
+      ScenePathCandidates(param_.strings[0], param_.where.file, MainFileOf(param_.where)));
 }
 
 std::string ParamReader::Subject() const {

@@ -20,6 +20,8 @@ class ParamReader {
   // Returns the value in the form that ParamMember::assign expects, but a Choice as the int index
   // of the choice. Throws Error(Scene).
   std::any Read() const;
+  // Returns whether the declaration accepts the type that the file states.
+  bool HasAcceptedType() const;
 
  private:
   std::any ReadInteger() const;
@@ -53,6 +55,7 @@ class ParamReader {
   [[noreturn]] void Fail(const std::string& rest, const SourceLocation& where,
                          const std::string& hint = {}) const;
   std::string Subject() const;
+  std::string TriedPaths() const;  // of a file name
 
   const ParamDecl& decl_;
   const ParsedParam& param_;

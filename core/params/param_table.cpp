@@ -49,6 +49,21 @@ void ReportUnknown(const ParsedParam& param, const std::vector<std::string>& kno
   if (context.log) context.log->Warning(text, Place(param.where), hint);
 }
 
+// Returns whether a parameter of the wrong type keeps its default, as in pbrt-v1, which looks up
+// parameters by name and type. Warns of it.
+bool IsLeftAtDefault(const ParamDecl& decl, const ParsedParam& param, const BindContext& context) {
+  const bool isLenient = !context.isStrict && !decl.isRequired;
+  if (!isLenient || ParamReader(decl, param, context).HasAcceptedType()) return false;
+  const std::string type(AcceptedTypes(decl.type)[0]);
+  if (context.log) {
+    context.log->Warning("parameter \"" + decl.name + "\" of " + context.what +
+                             " keeps its default: it must be of type \"" + type + "\", not \"" +
+                             param.type + '"',
+                         Place(param.where), "write \"" + type + ' ' + decl.name + '"');
+  }
+  return true;
+}
+
 }  // namespace
 
 ParamDraft::ParamDraft(const char* name, const ParamMember& paramMember, const char* doc)
@@ -89,6 +104,14 @@ void ParamTableBase::AddSlot(ParamDecl decl, Slot slot, const void* defaults) {
   slots_.push_back(std::move(slot));
 }
 
+void ParamTableBase::Assign(std::size_t i, const ParsedParam& param, const BindContext& context,
+                            void* settings) const {
+  const Slot& slot = slots_[i];
+  std::any value = ParamReader(declarations_[i], param, context).Read();
+  if (slot.member->choice) value = slot.choiceValues[std::size_t(std::any_cast<int>(value))];
+  slot.member->assign(static_cast<char*>(settings) + slot.offset, value);
+}
+
 void ParamTableBase::BindValues(const ParamSet& params, const BindContext& context,
                                 void* settings) const {
   std::vector<std::string> known;
@@ -105,10 +128,14 @@ void ParamTableBase::BindValues(const ParamSet& params, const BindContext& conte
   for (std::size_t i = 0; i < declarations_.size(); ++i) {
     const ParamDecl& decl = declarations_[i];
     if (const ParsedParam* param = FindWithOverrides(decl.name, params, context)) {
-      const Slot& slot = slots_[i];
-      std::any value = ParamReader(decl, *param, context).Read();
-      if (slot.member->choice) value = slot.choiceValues[std::size_t(std::any_cast<int>(value))];
-      slot.member->assign(static_cast<char*>(settings) + slot.offset, value);
+      if (IsLeftAtDefault(decl, *param, context)) continue;
+      Assign(i, *param, context, settings);
+    } else if (!decl.version2Default.empty() && context.dialect == Dialect::V2) {
+      ParsedParam param;
+      param.type = AcceptedTypes(decl.type)[0];
+      param.name = decl.name;
+      param.numbers = decl.version2Default;
+      Assign(i, param, context, settings);
     } else if (decl.isRequired) {
       throw Error(ExitStatus::Scene,
                   context.what + " needs the parameter \"" +

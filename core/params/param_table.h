@@ -30,6 +30,10 @@ namespace exphoton {
 
 class Log;
 
+// Dialect is the version of the scene language. It selects the meaning of LookAt (version 2 mirrors
+// the view) and the defaults of some parameters.
+enum class Dialect { V1, V2 };
+
 // An error in one parameter, thrown by Settings::Validate() or a factory. The binder adds the
 // location of the parameter, or the location of the directive if the file does not set the
 // parameter.
@@ -51,6 +55,8 @@ struct ParamDecl {
   std::vector<std::string> choices;  // Choice only
   std::string defaultText;           // in scene file syntax; "" if automatic
   int quickDivisor = 1;              // --quick divides the value by this
+  // The default in scenes of version 2, as numbers; empty if it is the same.
+  std::vector<double> version2Default;
 };
 // Returns "between 0 and 90", "above 0 and at most 1" ...; "" without limits.
 std::string RangeText(const ParamDecl& decl);
@@ -60,6 +66,7 @@ struct BindContext {
   const TextureLookup* textures = nullptr;  // null: texture parameters are not allowed
   Log* log = nullptr;
   bool isStrict = false;
+  Dialect dialect = Dialect::V1;
   std::string what;  // for messages, such as "integrator \"exphotonmap\""
   // Returns the parameter names of other plugins of the same kind. Such a name causes a notice
   // instead of a warning. Called when an unknown name is found. May be empty.
@@ -105,6 +112,9 @@ class ParamTableBase {
     std::vector<long long> choiceValues;
   };
   void AddSlot(ParamDecl decl, Slot slot, const void* defaults);
+  // Reads the parameter of declaration i and stores it.
+  void Assign(std::size_t i, const ParsedParam& param, const BindContext& context,
+              void* settings) const;
 
   std::vector<ParamDecl> declarations_;
   std::vector<Slot> slots_;  // in the order of declarations_
@@ -148,6 +158,10 @@ class Param : public ParamDraft {
   }
   Param& Unit(const char* unit) {
     decl.unit = unit;
+    return *this;
+  }
+  Param& InVersion2(std::vector<double> numbers) {
+    decl.version2Default = std::move(numbers);
     return *this;
   }
   Param& Required() {

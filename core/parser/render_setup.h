@@ -12,6 +12,7 @@
 
 #include "core/imaging/film/camera.h"
 #include "core/imaging/film/film.h"
+#include "core/params/param_table.h"
 #include "core/parser/syntax/scene_limits.h"
 #include "core/parser/syntax/source.h"
 #include "core/sampling/filter.h"
@@ -24,10 +25,6 @@ namespace exphoton {
 
 class Log;
 
-// Dialect selects the meaning of LookAt. Version 2 mirrors the view, so its scenes begin with Scale
-// -1 1 1.
-enum class Dialect { V1, V2 };
-
 // One --set Directive.parameter=value.
 struct ParameterOverride {
   std::string directive, parameter, value;
@@ -37,7 +34,7 @@ struct LoadOptions {
   std::vector<std::string> pluginFolders;  // as PluginRegistry::DefaultFolders returns them
   bool allowsScenePlugins = false;         // also search plugin folders that a scene file names
   bool isStrict = false;                   // unknown parameters are errors
-  Dialect dialect = Dialect::V1;
+  std::optional<Dialect> dialect;          // absent: recognised by the directives
   SceneLimits limits;
   int threads = 1;                          // for building accelerators; 0: one per core
   const std::atomic<bool>* stop = nullptr;  // set from outside: loading throws LoadingStopped

@@ -154,12 +154,12 @@ class Library {
 
 }  // namespace
 
-std::optional<std::string> FaultOfLibrary(int file, const std::string& symbol) {
+std::optional<LibraryFault> FaultOfLibrary(int file, const std::string& symbol) {
   try {
     if (Library(file).Exports(symbol)) return std::nullopt;
-    return "is a library, but not a plugin: it has no symbol " + symbol;
+    return LibraryFault{"is a library, but not a plugin: it has no symbol " + symbol, true};
   } catch (const Fault& fault) {
-    return fault.what();
+    return LibraryFault{fault.what(), false};
   }
 }
 

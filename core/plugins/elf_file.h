@@ -8,9 +8,13 @@
 
 namespace exphoton {
 
+struct LibraryFault {
+  std::string text;        // continues a sentence that begins with the file's path
+  bool isForeign = false;  // a sound library without the symbol, probably of another program
+};
+
 // Returns the reason why the open file cannot be a library of this machine that exports `symbol`.
-// The text continues a sentence that begins with the file's path. Returns nullopt if the file is
-// such a library.
-std::optional<std::string> FaultOfLibrary(int file, const std::string& symbol);
+// Returns nullopt if the file is such a library.
+std::optional<LibraryFault> FaultOfLibrary(int file, const std::string& symbol);
 
 }  // namespace exphoton

@@ -74,8 +74,10 @@ std::string NameForLoader(const PluginFile& file, int descriptor) {
 // loaded must therefore not be reused, so the descriptor stays open.
 void* OpenLibrary(const PluginFile& file) {
   Descriptor descriptor(OpenFile(file.path, 0));
-  if (const auto fault = FaultOfLibrary(descriptor.Get(), kPluginSymbol))
-    throw PluginFileError(*fault);
+  if (const auto fault = FaultOfLibrary(descriptor.Get(), kPluginSymbol)) {
+    if (fault->isForeign) throw ForeignLibraryError(fault->text);
+    throw PluginFileError(fault->text);
+  }
   const std::string name = NameForLoader(file, descriptor.Get());
   errno = 0;
   void* const library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);

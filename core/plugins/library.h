@@ -18,6 +18,12 @@ class PluginFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The file is a library of another program, such as a plugin of pbrt-v1.
+class ForeignLibraryError : public PluginFileError {
+ public:
+  using PluginFileError::PluginFileError;
+};
+
 // Checks the file, loads it, and checks its descriptor against this core and the expected name. The
 // code of a file that is not a plugin never runs. The library stays loaded until the process ends,
 // because objects and exceptions of its types may outlive everything else. If a scene names the

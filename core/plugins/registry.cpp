@@ -44,7 +44,8 @@ const PluginDescriptor* FindStatic(PluginKind kind, const std::string& name) {
 
 }  // namespace
 
-PluginRegistry::PluginRegistry(PluginFolders folders, Log* log) : log_(log) {
+PluginRegistry::PluginRegistry(PluginFolders folders, Log* log, bool isStrict)
+    : log_(log), isStrict_(isStrict) {
   for (PluginFolder& folder : folders) {
     const bool isKnown =
         std::any_of(folders_.begin(), folders_.end(),
@@ -57,13 +58,33 @@ const PluginDescriptor* PluginRegistry::TryLoad(PluginKind kind, const std::stri
   const auto found = loaded_.find(Key(kind, name));
   if (found != loaded_.end()) return found->second;
   if (const PluginDescriptor* plugin = FindStatic(kind, name)) return plugin;
-  const std::optional<PluginFile> file = FindPluginFile(folders_, kind, name);
-  if (!file) return nullptr;
-  try {
-    return &LoadPluginFile(*file, name);
-  } catch (const PluginFileError& error) {
-    throw PluginFileError('"' + file->path + "\" " + error.what());
+  for (const PluginFile& file : FindPluginFiles(folders_, kind, name)) {
+    try {
+      return &LoadPluginFile(file, name);
+    } catch (const ForeignLibraryError& error) {
+      if (log_) log_->Notice("the file \"" + file.path + "\" is skipped: it " + error.what());
+    } catch (const PluginFileError& error) {
+      throw PluginFileError('"' + file.path + "\" " + error.what());
+    }
   }
+  return nullptr;
+}
+
+const PluginDescriptor* PluginRegistry::Substitute(PluginKind kind, const std::string& name,
+                                                   const SourceLocation& where) {
+  const PluginAlias* alias = FindPluginAlias(kind, name);
+  if (alias && !alias->loss) return &Load(kind, alias->name, where);
+  // pbrt-v1 renders a shape with an unknown material as matte.
+  if (isStrict_ || (!alias && kind != PluginKind::Material)) return nullptr;
+  const std::string by = alias ? alias->name : "matte";
+  const std::string hint = alias ? "" : DidYouMean(name, Available(kind));
+  const PluginDescriptor& plugin = Load(kind, by, where);
+  const bool isNew = noticed_.insert(Key(kind, name)).second;
+  if (log_ && isNew)
+    log_->Warning("there is no " + Named(kind, name) + ": \"" + by + "\" is used instead" +
+                      (alias ? std::string("; ") + alias->loss : std::string()),
+                  where, hint);
+  return &plugin;
 }
 
 std::string PluginRegistry::PlacesText() const {
@@ -96,13 +117,10 @@ const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string&
   }
   try {
     const PluginDescriptor* plugin = TryLoad(kind, name);
-    const PluginAlias* alias = plugin ? nullptr : FindPluginAlias(kind, name);
-    if (alias) {
-      const bool isNew = noticed_.insert(Key(kind, name)).second;
-      if (alias->notice && log_ && isNew) log_->Notice(alias->notice, where);
-      return Load(kind, alias->name, where);
+    if (!plugin) {
+      if (const PluginDescriptor* other = Substitute(kind, name, where)) return *other;
+      ThrowMissing(kind, name, where);
     }
-    if (!plugin) ThrowMissing(kind, name, where);
     loaded_.emplace(Key(kind, name), plugin);
     return *plugin;
   } catch (const PluginFileError& error) {

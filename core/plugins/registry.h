@@ -17,8 +17,9 @@ namespace exphoton {
 class PluginRegistry {
  public:
   // `folders` is in order of preference. Each folder may hold <kind folder>/<name>.so or <name>.so.
-  // If two files match a plugin, the first is used, even if it is broken.
-  PluginRegistry(PluginFolders folders, Log* log);
+  // If two files match a plugin, the first is used, even if it is broken; but libraries of other
+  // programs are skipped. If isStrict is set, no plugin is replaced by another.
+  PluginRegistry(PluginFolders folders, Log* log, bool isStrict = false);
   PluginRegistry(const std::vector<std::string>& chosen, Log* log)
       : PluginRegistry(ChosenFolders(chosen), log) {}
 
@@ -26,9 +27,9 @@ class PluginRegistry {
   static std::vector<std::string> DefaultFolders(const std::vector<std::string>& extra);
 
   // Returns the factory of that kind and plugin name, after resolving aliases ("diffuse" is
-  // "area"). Throws Error(Scene) at `where` if the plugin is missing (listing the available plugins
-  // and the folders searched), is not a library, has a wrong ABI, build tag, kind or name, or
-  // throws.
+  // "area") and replacing plugins that are not available (search.h) with a warning. Throws
+  // Error(Scene) at `where` if the plugin is missing (listing the available plugins and the folders
+  // searched), is not a library, has a wrong ABI, build tag, kind or name, or throws.
   const PluginFactory& Find(PluginKind kind, const std::string& name, const SourceLocation& where);
 
   template <PluginKind kind>
@@ -51,6 +52,9 @@ class PluginRegistry {
   std::string PlacesText() const;
   // Returns null if there is no such plugin. Throws PluginFileError.
   const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
+  // Returns the plugin that is used in place of a missing one, or null.
+  const PluginDescriptor* Substitute(PluginKind kind, const std::string& name,
+                                     const SourceLocation& where);
   [[noreturn]] void ThrowMissing(PluginKind kind, const std::string& name,
                                  const SourceLocation& where) const;
   // Returns the parameter names of all plugins of a kind. The first call for a kind loads them.
@@ -60,8 +64,9 @@ class PluginRegistry {
 
   PluginFolders folders_;
   Log* log_;
+  bool isStrict_;
   std::map<PluginKind, std::vector<std::string>> parameterNames_;  // of the kinds used so far
-  std::set<std::string> noticed_;                                  // aliases used so far
+  std::set<std::string> noticed_;                                  // replaced plugins
   std::map<std::string, const PluginDescriptor*> loaded_;          // by "<kind folder>/<name>"
 };
 

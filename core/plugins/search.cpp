@@ -17,10 +17,35 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSuffix = ".so";
 
+constexpr const char* kSamePicture = "the picture is the same";
+constexpr const char* kOtherPoints = "its points differ, the picture does not";
+
 constexpr PluginAlias kAliases[] = {
+    {PluginKind::Integrator, "dipolesubsurface", "path", "no light travels below surfaces"},
+    {PluginKind::Integrator, "glossyprt", "path", "light is simulated, not precomputed"},
+    {PluginKind::Integrator, "diffuseprt", "path", "light is simulated, not precomputed"},
+    {PluginKind::Integrator, "useprobes", "path", "light is simulated, not read from probes"},
+    {PluginKind::Integrator, "volpath", "path", "media scatter light once at most"},
+    {PluginKind::Integrator, "mlt", "path", "hidden light is noisier"},
+    {PluginKind::Integrator, "sppm", "exphotonmap", "a fixed number of photons is used"},
+    {PluginKind::Integrator, "bdpt", "bidirectional", kSamePicture},
+    {PluginKind::Integrator, "ao", "ambientocclusion", nullptr},
+    {PluginKind::Accelerator, "grid", "bvh", kSamePicture},
+    {PluginKind::Accelerator, "none", "bvh", kSamePicture},
     {PluginKind::AreaLight, "diffuse", "area", nullptr},
-    {PluginKind::Sampler, "bestcandidate", "lowdiscrepancy",
-     "sampler \"bestcandidate\" is not available: \"lowdiscrepancy\" is used instead"},
+    {PluginKind::Material, "subsurface", "matte", "no light travels below the surface"},
+    {PluginKind::Material, "kdsubsurface", "matte", "no light travels below the surface"},
+    {PluginKind::Material, "disney", "plastic", "only diffuse and glossy reflection remain"},
+    {PluginKind::Material, "fourier", "matte", "the measured reflection is lost"},
+    {PluginKind::Material, "hair", "matte", "hair does not shine"},
+    {PluginKind::Sampler, "adaptive", "lowdiscrepancy",
+     "all pixels get the same number of samples"},
+    {PluginKind::Sampler, "02sequence", "lowdiscrepancy", nullptr},
+    {PluginKind::Sampler, "zerotwosequence", "lowdiscrepancy", nullptr},
+    {PluginKind::Sampler, "sobol", "lowdiscrepancy", kOtherPoints},
+    {PluginKind::Sampler, "maxmindist", "lowdiscrepancy", kOtherPoints},
+    {PluginKind::FloatTexture, "ptex", "constant", "the image is lost"},
+    {PluginKind::ColorTexture, "ptex", "constant", "the image is lost"},
 };
 
 // Returns the existing plugin folders beside the program and beside the core's library. It checks
@@ -72,17 +97,20 @@ PluginFolders ChosenFolders(const std::vector<std::string>& paths) {
   return folders;
 }
 
-std::optional<PluginFile> FindPluginFile(const PluginFolders& folders, PluginKind kind,
-                                         const std::string& name) {
+std::span<const PluginAlias> AllPluginAliases() { return kAliases; }
+
+std::vector<PluginFile> FindPluginFiles(const PluginFolders& folders, PluginKind kind,
+                                        const std::string& name) {
+  std::vector<PluginFile> files;
   std::error_code error;
   for (const auto& [folder, trust] : folders) {
     if (trust == PluginTrust::Skipped) continue;
     for (const fs::path& file : {fs::path(folder) / PluginKindFolder(kind) / (name + kSuffix),
                                  fs::path(folder) / (name + kSuffix)}) {
-      if (fs::exists(file, error)) return PluginFile{file.string(), trust};
+      if (fs::exists(file, error)) files.push_back({file.string(), trust});
     }
   }
-  return std::nullopt;
+  return files;
 }
 
 std::vector<std::string> PluginNamesIn(const PluginFolders& folders, PluginKind kind) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,17 @@
 
 namespace exphoton {
 
-// An alternative name of a plugin in scene files.
+// An alternative name of a plugin in scene files, or the name of a plugin of some version of pbrt
+// that is not available.
 struct PluginAlias {
   PluginKind kind;
   const char* alias;
   const char* name;
-  const char* notice;  // logged on use; null: the names are synonyms
+  const char* loss;  // what the picture loses, for a warning; null: the names are synonyms
 };
 const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name);
+// Returns all aliases, sorted by kind.
+std::span<const PluginAlias> AllPluginAliases();
 
 // Returns the error in a plugin name, as the rest of a sentence; nullopt if the name is valid.
 std::optional<std::string> FaultOfPluginName(const std::string& name);
@@ -40,10 +44,10 @@ struct PluginFile {
   std::string path;
   PluginTrust trust;
 };
-// Returns <folder>/<kind folder>/<name>.so or <folder>/<name>.so from the first folder that has
-// either and is not skipped.
-std::optional<PluginFile> FindPluginFile(const PluginFolders& folders, PluginKind kind,
-                                         const std::string& name);
+// Returns the existing files <folder>/<kind folder>/<name>.so and <folder>/<name>.so of the folders
+// that are not skipped, in the order of the folders.
+std::vector<PluginFile> FindPluginFiles(const PluginFolders& folders, PluginKind kind,
+                                        const std::string& name);
 
 // Returns the names of all files <folder>/<kind folder>/<name>.so in folders that are not skipped,
 // sorted and without duplicates.

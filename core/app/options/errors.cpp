@@ -54,7 +54,10 @@ int Try(void (*work)(const void*), const void* context) {
     std::fputs("exphoton: interrupted before anything was rendered\n", stderr);
     return 128 + SignalNumber();
   } catch (const Error& error) {
-    return Fail(error.Status(), error.what(), error.Where(), error.Hint());
+    const int status = Fail(error.Status(), error.what(), error.Where(), error.Hint());
+    for (const Error& other : error.Others())
+      Fail(other.Status(), other.what(), other.Where(), other.Hint());
+    return status;
   } catch (const ImageError& error) {
     return Fail(ExitStatus::File, error.what());
   } catch (const std::bad_alloc&) {

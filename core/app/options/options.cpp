@@ -18,7 +18,7 @@ constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 
 // RawOptions holds option values that TakeRaw converts and checks after parsing.
 struct RawOptions {
-  std::string cropWindow, pixelBounds, pixel, dialect = "v1";
+  std::string cropWindow, pixelBounds, pixel, dialect = "auto";
   std::vector<std::string> sets, pluginFolders;
   std::string integrator, aovs, timeLimit, limits;
   std::int64_t samplesPerPixel = 0;
@@ -46,8 +46,9 @@ void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw)
   app.Add("--effects", command.load.effects,
           "what to compute: auto, all, or a list such as caustics=off,lens=on")
       .TypeName("LIST");
-  app.Add("--dialect", raw.dialect, "the meaning of LookAt: v1 (default) or v2")
-      .OneOf({"v1", "v2"})
+  app.Add("--dialect", raw.dialect,
+          "version of the scene language: v1, v2, or auto (default: by its directives)")
+      .OneOf({"auto", "v1", "v2"})
       .TypeName("");
   app.AddFlag("--strict", command.load.isStrict,
               "unknown parameters and samples that are not finite are errors");
@@ -111,7 +112,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   for (const std::string& text : raw.sets) load.parameters.push_back(ParseOverride(text));
   if (!raw.integrator.empty()) load.integrator = raw.integrator;
   if (raw.samplesPerPixel > 0) load.samplesPerPixel = raw.samplesPerPixel;
-  load.dialect = raw.dialect == "v2" ? Dialect::V2 : Dialect::V1;
+  if (raw.dialect != "auto") load.dialect = raw.dialect == "v2" ? Dialect::V2 : Dialect::V1;
   load.pluginFolders = PluginRegistry::DefaultFolders(raw.pluginFolders);
   if (!raw.timeLimit.empty()) command->timeLimit = ParseDuration("--time-limit", raw.timeLimit);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))

@@ -29,9 +29,29 @@ void RequireName(const std::string& what, const std::string& name, const SourceL
   FailAt(where, "unknown " + what + " \"" + name + "\"; known: " + list, DidYouMean(name, known));
 }
 
+// A renderer of version 2 that is not available. integrator: used in its place; null: the file's.
+struct MissingRenderer {
+  const char* name;
+  const char* integrator;
+  const char* loss;
+};
+constexpr MissingRenderer kMissingRenderers[] = {
+    {"metropolis", "path", "hidden light is noisier"},
+    {"createprobes", nullptr, "no probes are written; the picture is rendered"},
+    {"surfacepoints", nullptr, "no points are written; the picture is rendered"},
+    {"aggregatetest", nullptr, "nothing is tested; the picture is rendered"}};
+
+std::vector<std::string> KnownRenderers() {
+  std::vector<std::string> names{"sampler"};
+  for (const MissingRenderer& renderer : kMissingRenderers) names.push_back(renderer.name);
+  return names;
+}
+
 }  // namespace
 
-RenderDirectives::RenderDirectives(const LoadOptions& options) : options_(options) {
+RenderDirectives::RenderDirectives(const LoadOptions& options, Dialect dialect)
+    : options_(options), dialect_(dialect) {
+  if (dialect == Dialect::V2) filter_.name = "box";
   OverrideIntegrator();
 }
 
@@ -65,7 +85,7 @@ void RenderDirectives::Handle(Directive directive, const MovingTransform& curren
       choice = &filter_;
       break;
     case DirectiveId::Renderer:
-      RequireName("renderer", name, directive.Where(), {"sampler"});
+      RequireName("renderer", name, directive.Where(), KnownRenderers());
       choice = &renderer_;
       break;
     case DirectiveId::Sampler:
@@ -94,6 +114,7 @@ BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log
   BindContext bind;
   bind.log = &log;
   bind.isStrict = options_.isStrict;
+  bind.dialect = dialect_;
   bind.what = std::string(PluginKindName(kind)) + " \"" + name + "\"";
   return bind;
 }
@@ -198,11 +219,7 @@ void RenderDirectives::CreateVolumeIntegrator(PluginRegistry& registry, Log& log
   }
 }
 
-void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
-                              RenderSetup* setup) const {
-  CheckRenderer(log);
-  CreateFilm(log, setup);
-  CreateVolumeIntegrator(registry, log, hasMedia, setup);
+void RenderDirectives::CreateCamera(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
   const ParamSet camera = Overridden("Camera", camera_, PluginKind::Camera, registry);
   setup->cameraName = camera_.name;
   setup->camera = registry.Create<PluginKind::Camera>(
@@ -210,12 +227,43 @@ void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
       CameraContext{MotionBetween(worldToCamera_.Inverted(), transformTimes_, "the camera",
                                   camera_.params.where, log),
                     setup->film.xResolution, setup->film.yResolution});
+}
+
+void RenderDirectives::CreateFilter(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
   const ParamSet filter = Overridden("PixelFilter", filter_, PluginKind::Filter, registry);
   setup->filterName = filter_.name;
   setup->filter = registry.Create<PluginKind::Filter>(
       filter_.name, filter, Bind(PluginKind::Filter, filter_.name, log), NoContext{});
-  CreateSampler(registry, log, setup);
-  CreateIntegrator(registry, log, setup);
+}
+
+void RenderDirectives::ReplaceRenderer(Log& log) {
+  for (const MissingRenderer& renderer : kMissingRenderers) {
+    if (renderer_.name != renderer.name) continue;
+    const std::string missing = "there is no renderer \"" + renderer_.name + '"';
+    if (options_.isStrict) FailAt(renderer_.params.where, missing);
+    const std::string by = renderer.integrator ? renderer.integrator : integrator_.name;
+    log.Warning(missing + ": integrator \"" + by + "\" is used instead; " + renderer.loss,
+                renderer_.params.where);
+    if (!renderer.integrator || options_.integrator) return;
+    const ParsedParam* const depth = renderer_.params.Find("maxdepth");
+    integrator_ = {by, {}, true};
+    integrator_.params.where = renderer_.params.where;
+    if (depth) integrator_.params.Add(*depth);
+    renderer_.params = {};
+    return;
+  }
+}
+
+void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia, RenderSetup* setup,
+                              ErrorCollector* errors) {
+  errors->Try([&] { ReplaceRenderer(log); });
+  errors->Try([&] { CheckRenderer(log); });
+  errors->Try([&] { CreateFilm(log, setup); });
+  errors->Try([&] { CreateVolumeIntegrator(registry, log, hasMedia, setup); });
+  errors->Try([&] { CreateCamera(registry, log, setup); });
+  errors->Try([&] { CreateFilter(registry, log, setup); });
+  errors->Try([&] { CreateSampler(registry, log, setup); });
+  errors->Try([&] { CreateIntegrator(registry, log, setup); });
   setup->acceleratorName = accelerator_.name;
 }
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "core/parser/builder/error_collector.h"
 #include "core/parser/builder/moving_transform.h"
 #include "core/parser/builder/world_builder.h"
 #include "core/parser/render_setup.h"
@@ -15,7 +16,7 @@ namespace exphoton {
 
 class RenderDirectives {
  public:
-  explicit RenderDirectives(const LoadOptions& options);
+  RenderDirectives(const LoadOptions& options, Dialect dialect);
 
   // Stores Camera, Film, Sampler and so on. The last directive of each kind wins.
   void Handle(Directive directive, const MovingTransform& current);
@@ -28,8 +29,10 @@ class RenderDirectives {
 
   AcceleratorSpec Accelerator(PluginRegistry& registry) const;
 
-  // Makes everything except the scene.
-  void Create(PluginRegistry& registry, Log& log, bool hasMedia, RenderSetup* setup) const;
+  // Makes everything except the scene. Errors go to `errors`; the objects that they concern are
+  // not made.
+  void Create(PluginRegistry& registry, Log& log, bool hasMedia, RenderSetup* setup,
+              ErrorCollector* errors);
 
  private:
   struct Choice {
@@ -39,17 +42,22 @@ class RenderDirectives {
   };
 
   void OverrideIntegrator();
+  // Chooses the integrator that takes the place of a renderer of version 2 that is not available.
+  void ReplaceRenderer(Log& log);
   ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
                       PluginRegistry& registry) const;
   BindContext Bind(PluginKind kind, const std::string& name, Log& log) const;
   void CheckRenderer(Log& log) const;  // its parameters; the renderer itself has no effect
   void CreateFilm(Log& log, RenderSetup* setup) const;
+  void CreateCamera(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  void CreateFilter(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateIntegrator(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateVolumeIntegrator(PluginRegistry& registry, Log& log, bool hasMedia,
                               RenderSetup* setup) const;
 
   const LoadOptions& options_;
+  Dialect dialect_;
   Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
       accelerator_{"bvh", {}}, integrator_{"directlighting", {}}, volumeIntegrator_{"emission", {}},
       camera_{"perspective", {}}, renderer_{"sampler", {}};

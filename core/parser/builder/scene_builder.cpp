@@ -18,22 +18,23 @@
 
 namespace exphoton {
 
-SceneBuilder::SceneBuilder(std::string sceneName, const LoadOptions& options, Log& log)
-    : sceneName_(std::move(sceneName)), options_(options), log_(log) {
+SceneBuilder::SceneBuilder(std::string sceneName, const LoadOptions& options, Dialect dialect,
+                           Log& log)
+    : sceneName_(std::move(sceneName)), options_(options), dialect_(dialect), log_(log) {
   CheckOverrides(options_.parameters);
   Reset();
 }
 
 void SceneBuilder::Reset() {
   pluginFolders_ = ChosenFolders(options_.pluginFolders);
-  registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_);
+  registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_, options_.isStrict);
   world_.reset();
   worldBegin_.reset();
-  render_.emplace(options_);
+  render_.emplace(options_, dialect_);
   state_ = GraphicsState();
   stack_.Clear();
   coordinateSystems_.clear();
-  hash_ = 0;
+  hash_ = std::uint64_t(dialect_);
   inputFiles_ = {sceneName_};
 }
 
@@ -52,6 +53,33 @@ void SceneBuilder::CheckScope(const Directive& directive) const {
 
 void SceneBuilder::Handle(Directive directive) {
   if (options_.stop && *options_.stop) throw LoadingStopped();
+  Directive name;  // without the parameters, which may be large
+  name.spec = directive.spec;
+  name.strings = directive.strings;
+  name.params.where = directive.Where();
+  if (!errors_.Try([&] { HandleOrThrow(std::move(directive)); })) RecoverFrom(name);
+}
+
+void SceneBuilder::RecoverFrom(const Directive& directive) {
+  if (!world_) return;
+  if (directive.spec->id == DirectiveId::WorldEnd) return Reset();
+  if (directive.spec->id == DirectiveId::Texture) {
+    const bool isFloat = directive.strings[1] == "float";
+    if (state_.textures->Has(directive.strings[0], !isFloat)) return;
+    TextureTable& table = state_.OwnTextures();
+    if (isFloat)
+      table.Define(directive.strings[0], Uniform(Real(0)), {});
+    else
+      table.Define(directive.strings[0], Uniform(Spectrum()), {});
+  } else if (directive.spec->id == DirectiveId::MakeNamedMaterial) {
+    ParamSet none;
+    none.where = directive.Where();
+    state_.OwnNamedMaterials().try_emplace(directive.strings[0],
+                                           world_->MakeMaterialSpec("matte", none));
+  }
+}
+
+void SceneBuilder::HandleOrThrow(Directive directive) {
   CheckScope(directive);
   hash_ = HashDirective(hash_, directive);
   NoteInputFiles(directive, &inputFiles_);
@@ -134,9 +162,9 @@ void SceneBuilder::EndBlock(StateStack::Block block, const Directive& directive)
 void SceneBuilder::ChangeTransform(const Directive& directive) {
   MovingTransform& current = state_.transform;
   if (state_.active != ActiveTimes::End)
-    current.start = ApplyTransform(current.start, directive, options_.dialect);
+    current.start = ApplyTransform(current.start, directive, dialect_);
   if (state_.active != ActiveTimes::Start)
-    current.end = ApplyTransform(current.end, directive, options_.dialect);
+    current.end = ApplyTransform(current.end, directive, dialect_);
   if (state_.active != ActiveTimes::All && directive.spec->id == DirectiveId::Rotate &&
       std::abs(directive.numbers[0]) > 180)
     log_.Warning("a rotation by more than half a turn: moving objects rotate the shortest way",
@@ -240,7 +268,7 @@ void SceneBuilder::SetSearchPath(const Directive& directive) {
   }
   for (const std::string& folder : options_.pluginFolders) folders.push_back({folder});
   pluginFolders_ = std::move(folders);
-  registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_);
+  registry_ = std::make_unique<PluginRegistry>(pluginFolders_, &log_, options_.isStrict);
 }
 
 }  // namespace exphoton

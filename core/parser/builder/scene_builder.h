@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parser/builder/error_collector.h"
 #include "core/parser/builder/graphics_state.h"
 #include "core/parser/builder/render_directives.h"
 #include "core/parser/builder/world_builder.h"
@@ -21,13 +22,20 @@ namespace exphoton {
 class SceneBuilder final : public DirectiveHandler {
  public:
   // `options` and `log` must outlive the builder. `log` must also outlive the setups.
-  SceneBuilder(std::string sceneName, const LoadOptions& options, Log& log);
+  SceneBuilder(std::string sceneName, const LoadOptions& options, Dialect dialect, Log& log);
 
+  // Errors of a directive are kept, and the next directive is handled (TakeErrors).
   void Handle(Directive directive) override;
   void Finish(const SourceLocation& end) override;
+  // Returns the errors found so far, followed by `last` if it is given.
+  std::optional<Error> TakeErrors(const Error* last = nullptr) { return errors_.Take(last); }
   std::vector<std::unique_ptr<RenderSetup>> TakeSetups() { return std::move(setups_); }
 
  private:
+  void HandleOrThrow(Directive directive);
+  // Defines the name that a directive with an error would have defined, so that its uses cause no
+  // further errors; ends the world after a faulty WorldEnd.
+  void RecoverFrom(const Directive& directive);
   void CheckScope(const Directive& directive) const;
   void ChangeTransform(const Directive& directive);
   void SetActiveTransform(const Directive& directive);
@@ -46,6 +54,7 @@ class SceneBuilder final : public DirectiveHandler {
 
   std::string sceneName_;
   const LoadOptions& options_;
+  Dialect dialect_;
   Log& log_;
   PluginFolders pluginFolders_;
   std::unique_ptr<PluginRegistry> registry_;
@@ -58,6 +67,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::map<std::string, MovingTransform> coordinateSystems_;
   std::uint64_t hash_ = 0;
   std::set<std::string> inputFiles_;
+  ErrorCollector errors_;
   std::vector<std::unique_ptr<RenderSetup>> setups_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/base/log.h"
 #include "core/parser/builder/scene_builder.h"
+#include "core/parser/dialect.h"
 #include "core/parser/effect_choice.h"
 
 namespace exphoton {
@@ -12,7 +13,9 @@ namespace exphoton {
 void SceneBuilder::BeginWorld(const Directive& directive) {
   worldBegin_ = directive.Where();
   render_->SetDefaultLocation(directive.Where());
-  world_.emplace(*registry_, log_, options_, render_->Accelerator(*registry_),
+  AcceleratorSpec accelerator{"bvh", {}, options_.threads};
+  errors_.Try([&] { accelerator = render_->Accelerator(*registry_); });
+  world_.emplace(*registry_, log_, options_, dialect_, std::move(accelerator),
                  render_->TransformTimes());
   state_.transform = MovingTransform();
   state_.active = ActiveTimes::All;
@@ -34,8 +37,9 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->sceneName = sceneName_;
   setup->sceneHash = hash_;
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
+  render_->Create(*registry_, log_, world_->HasMedia(), setup.get(), &errors_);
+  if (!errors_.IsEmpty()) return Reset();  // no time is spent on a scene that will not be rendered
   SceneParts parts = world_->Take();
-  render_->Create(*registry_, log_, !parts.media.empty(), setup.get());
   for (const Statistics::Phase& phase : world_->Times().Phases()) {
     setup->acceleratorSeconds += phase.wallSeconds;
     setup->acceleratorCpuSeconds += phase.cpuSeconds;
@@ -54,8 +58,12 @@ void SceneBuilder::EndWorld(const Directive& directive) {
 }
 
 void SceneBuilder::Finish(const SourceLocation& end) {
-  if (world_) FailAt(end, "WorldEnd is missing: the world begins at " + LocationText(*worldBegin_));
-  if (setups_.empty()) FailAt(end, "the file has no WorldBegin: there is nothing to render");
+  errors_.Try([&] {
+    if (world_)
+      FailAt(end, "WorldEnd is missing: the world begins at " + LocationText(*worldBegin_));
+    if (setups_.empty() && errors_.IsEmpty())
+      FailAt(end, "the file has no WorldBegin: there is nothing to render");
+  });
 }
 
 namespace {
@@ -67,20 +75,36 @@ void AddFilesRead(const SceneSource& source, RenderSetup* setup) {
   setup->inputFiles.assign(files.begin(), files.end());
 }
 
+// Parses the file to its end, or to an error of its syntax, and throws all errors found.
+void ParseAll(SceneSource& source, const std::string& path, const LoadOptions& options, Log& log,
+              SceneBuilder* builder) {
+  try {
+    ParseScene(source, path, *builder, log, options.limits);
+  } catch (const Error& error) {
+    // The collector throws errors with the others attached; those of the syntax come alone.
+    if (!error.Others().empty() || error.Status() == ExitStatus::Resource) throw;
+    throw *builder->TakeErrors(&error);
+  }
+  if (const std::optional<Error> error = builder->TakeErrors()) throw *error;
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
                                                      const LoadOptions& options, Log& log) {
   try {
-    SceneBuilder builder(path == "-" ? "<stdin>" : path, options, log);
-    ParseScene(source, path, builder, log, options.limits);
+    const Dialect dialect = options.dialect.value_or(RecogniseDialect(source, path, options, log));
+    SceneBuilder builder(path == "-" ? "<stdin>" : path, options, dialect, log);
+    ParseAll(source, path, options, log, &builder);
     std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();
     for (const auto& setup : setups) AddFilesRead(source, setup.get());
     return setups;
   } catch (const Error& error) {
     const bool isCommandLine = error.Where() && error.Where()->file == kCommandLineLocation;
     if (!isCommandLine || error.Status() == ExitStatus::CommandLine) throw;
-    throw Error(ExitStatus::CommandLine, error.what(), *error.Where(), error.Hint());
+    Error ofCommandLine(ExitStatus::CommandLine, error.what(), *error.Where(), error.Hint());
+    ofCommandLine.AddOthers(error.Others());
+    throw ofCommandLine;
   }
 }
 

@@ -36,7 +36,8 @@ class TextureTable final : public TextureLookup {
   void Define(const std::string& name, TexturePtr<Real> texture, const TextureGraph& graph);
   void Define(const std::string& name, TexturePtr<Spectrum> texture, const TextureGraph& graph);
 
-  // Changes when a name is redefined. Materials made from an older generation are then remade.
+  // Different for any two tables with different textures. Materials made from another generation
+  // are remade.
   int generation = 0;
 
  private:

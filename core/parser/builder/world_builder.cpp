@@ -40,10 +40,11 @@ void CheckGraph(const TextureGraph& graph, const Directive& directive, const Sce
 }  // namespace
 
 WorldBuilder::WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options,
-                           AcceleratorSpec accelerator, Interval transformTimes)
+                           Dialect dialect, AcceleratorSpec accelerator, Interval transformTimes)
     : registry_(registry),
       log_(log),
       isStrict_(options.isStrict),
+      dialect_(dialect),
       limits_(options.limits),
       accelerator_(std::move(accelerator)),
       transformTimes_(transformTimes) {
@@ -56,6 +57,7 @@ BindContext WorldBuilder::Bind(PluginKind kind, const std::string& name,
   bind.textures = textures;
   bind.log = &log_;
   bind.isStrict = isStrict_;
+  bind.dialect = dialect_;
   bind.what = std::string(PluginKindName(kind)) + " \"" + name + "\"";
   return bind;
 }
@@ -124,7 +126,7 @@ void WorldBuilder::DefineTexture(const Directive& directive, GraphicsState* stat
     log_.Warning("texture \"" + name + "\" is defined again: later shapes use the new one",
                  directive.Where());
   TextureTable& table = state->OwnTextures();
-  if (isKnown) table.generation = ++textureGenerations_;
+  table.generation = ++textureGenerations_;
   if (isColor)
     table.Define(name, std::move(colors), graph);
   else
@@ -173,6 +175,18 @@ ParamSet WorldBuilder::WithoutMaterialParameters(const std::string& shape,
   return own;
 }
 
+namespace {
+
+// Returns whether a material may depend on textures: by its parameters, or by materials that it
+// names.
+bool RefersToTextures(const ParamSet& params) {
+  return std::any_of(params.All().begin(), params.All().end(), [](const ParsedParam& param) {
+    return param.type == "texture" || param.type == "string";
+  });
+}
+
+}  // namespace
+
 // NamedParts finds the materials that a material refers to, for its factory: those of its
 // directive, and those that a shape's own parameters name.
 class WorldBuilder::NamedParts final : public MaterialLookup {
@@ -219,7 +233,9 @@ std::shared_ptr<const Material> WorldBuilder::MakeMaterial(MaterialSpec& spec,
     return Declares(PluginKind::Material, spec.name, param.name, spec.params.where);
   });
   const TextureTable& textures = spec.textures ? *spec.textures : *state.textures;
-  if (!overrides && spec.made && spec.madeGeneration == textures.generation) return spec.made;
+  const bool isUpToDate =
+      spec.madeGeneration == textures.generation || !RefersToTextures(spec.params);
+  if (!overrides && spec.made && isUpToDate) return spec.made;
   BindContext bind = Bind(PluginKind::Material, spec.name, &textures);
   if (overrides) bind.overrides = &shape;
   if (materialDepth_ >= kMaxMaterialDepth)

@@ -26,7 +26,7 @@ struct AcceleratorSpec {
 class WorldBuilder {
  public:
   // `transformTimes` are the times of the start and end transformations.
-  WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options,
+  WorldBuilder(PluginRegistry& registry, Log& log, const LoadOptions& options, Dialect dialect,
                AcceleratorSpec accelerator, Interval transformTimes);
 
   void AddLight(const Directive& directive, const GraphicsState& state);
@@ -43,6 +43,7 @@ class WorldBuilder {
   void EndObject();
   void AddInstance(const Directive& directive, const GraphicsState& state);
   bool IsInObject() const { return object_ != nullptr; }
+  bool HasMedia() const { return !parts_.media.empty(); }
 
   // Returns the finished world. Nothing may be added afterwards.
   SceneParts Take();
@@ -88,6 +89,7 @@ class WorldBuilder {
   PluginRegistry& registry_;
   Log& log_;
   bool isStrict_;
+  Dialect dialect_;
   SceneLimits limits_;
   AcceleratorSpec accelerator_;
   Interval transformTimes_;

@@ -170,7 +170,7 @@ void Parser::ParseParameters(ParamSet* params) {
   while (token_.kind == TokenKind::String) {
     ParsedParam param = ParseDeclaration();
     if (params->Find(param.name))
-      log_.Warning("parameter \"" + param.name + "\" is given twice: the last one counts",
+      log_.Verbose("parameter \"" + param.name + "\" is given twice: the last one counts",
                    param.where);
     // ParamSet searches linearly; real directives have fewer than 50 parameters.
     constexpr std::size_t kMaxParameters = 1000;

@@ -55,15 +55,9 @@ std::string ReadDescriptor(int file, std::size_t expected, std::size_t limit) {
 
 }  // namespace
 
-std::string SceneSource::Resolve(const std::string& name, const std::string& from) const {
-  const std::filesystem::path path(name);
-  if (path.is_absolute()) return name;
-  return (std::filesystem::path(from).parent_path() / path).lexically_normal().string();
-}
-
 std::string FileSource::Read(const std::string& path, bool isIncluded) {
   const bool isStandardInput = path == "-" && !isIncluded;
-  if (streams_ && streams_->contains(path)) return streams_->at(path);
+  if (streams_->contains(path)) return streams_->at(path);
   const Descriptor opened(isStandardInput ? -1 : OpenSource(path, isIncluded));
   const int file = isStandardInput ? STDIN_FILENO : opened.Get();
   struct stat status;
@@ -78,8 +72,13 @@ std::string FileSource::Read(const std::string& path, bool isIncluded) {
   if (!isStandardInput) filesRead_.insert(path);
   std::string text = ReadDescriptor(file, expected, limit);
   if (IsGzip(text)) text = Gunzip(text);
-  if (streams_ && (!isRegular || isStandardInput)) streams_->emplace(path, text);
+  if (!isRegular || isStandardInput) streams_->emplace(path, text);
   return text;
+}
+
+bool FileSource::Has(const std::string& path) const {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
 }
 
 std::string FileSource::Identity(const std::string& path) const {

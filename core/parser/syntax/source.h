@@ -28,8 +28,8 @@ class SceneSource {
   // Returns the paths of all files read so far; empty if the text does not come from files.
   virtual std::set<std::string> FilesRead() const { return {}; }
 
-  // Returns the path of `name` as written in the file `from`: relative to the folder of `from`.
-  virtual std::string Resolve(const std::string& name, const std::string& from) const;
+  // Returns whether Read may succeed for this path.
+  virtual bool Has(const std::string& path) const = 0;
 
   // Returns one canonical name for all spellings of a path, to detect a file that includes itself.
   virtual std::string Identity(const std::string& path) const { return path; }
@@ -40,21 +40,24 @@ class FileSource : public SceneSource {
   // Streams holds texts by path. If `streams` is given, Read stores text there that can be read
   // only once (standard input, pipes), and returns the stored text in later calls.
   using Streams = std::map<std::string, std::string>;
-  explicit FileSource(Streams* streams = nullptr) : streams_(streams) {}
+  explicit FileSource(Streams* streams = nullptr) : streams_(streams ? streams : &ownStreams_) {}
 
   std::string Read(const std::string& path, bool isIncluded) override;
+  bool Has(const std::string& path) const override;
   std::string Identity(const std::string& path) const override;
   std::set<std::string> FilesRead() const override { return filesRead_; }
 
  private:
   std::set<std::string> filesRead_;
-  Streams* streams_;
+  Streams ownStreams_;
+  Streams* streams_;  // not null
 };
 
 class MemorySource : public SceneSource {
  public:
   explicit MemorySource(std::map<std::string, std::string> files) : files_(std::move(files)) {}
   std::string Read(const std::string& path, bool isIncluded) override;
+  bool Has(const std::string& path) const override { return files_.contains(path); }
 
  private:
   std::map<std::string, std::string> files_;

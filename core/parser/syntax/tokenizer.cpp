@@ -3,11 +3,13 @@
 // independent of the locale.
 #include "core/parser/syntax/tokenizer.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "core/math/real.h"
+#include "core/params/scene_path.h"
 
 namespace exphoton {
 namespace {
@@ -64,7 +66,12 @@ void Tokenizer::Open(std::string name, std::string text,
 }
 
 void Tokenizer::Include(const std::string& name, const TextPosition& where) {
-  const std::string path = source_.Resolve(name, file_->name);
+  const std::vector<std::string> candidates =
+      ScenePathCandidates(name, file_->name, files_.front()->name);
+  const auto found =
+      std::find_if(candidates.begin(), candidates.end(),
+                   [this](const std::string& candidate) { return source_.Has(candidate); });
+  const std::string path = found == candidates.end() ? candidates.front() : *found;
   const std::string identity = source_.Identity(path);
   for (std::size_t i = 0; i < files_.size(); ++i) {
     if (files_[i]->identity != identity) continue;
@@ -81,7 +88,8 @@ void Tokenizer::Include(const std::string& name, const TextPosition& where) {
   try {
     Open(path, source_.Read(path, true), std::move(from));
   } catch (const SourceError& error) {
-    Fail("cannot read the included file \"" + Printable(path, 200) + "\": " + error.what(), where);
+    Fail("cannot read the included file \"" + Printable(path, 200) + "\": " + error.what(), where,
+         found == candidates.end() ? Printable(TriedPathsText(candidates), 800) : std::string());
   }
 }
 
