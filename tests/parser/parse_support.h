@@ -75,6 +75,7 @@ inline BuiltScene BuildText(const std::string& text, LoadOptions options = {}) {
     built.setups = LoadScenes(source, "scene.pbrt", options, *built.log);
   } catch (const Error& error) {
     built.error = Diagnostic(error);
+    for (const Error& other : error.Others()) built.error += Diagnostic(other);
     built.status = int(error.Status());
   }
   return built;

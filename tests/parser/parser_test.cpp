@@ -47,14 +47,17 @@ TEST(Parser, KeepsNoPlacesOfLongLists) {
   EXPECT_TRUE(directives[0].params.Find("x")->valueWhere.empty());
 }
 
-TEST(Parser, LetsTheLaterOfTwoParametersCountAndWarns) {
-  Log log(Log::Level::Normal, Log::Sink::Memory);
+TEST(Parser, LetsTheLaterOfTwoParametersCountAndSaysSoIfVerbose) {
+  Log normal(Log::Level::Normal, Log::Sink::Memory);
+  ParseFiles({{"scene.pbrt", "Film \"image\" \"integer x\" 1 \"integer x\" 2"}}, &normal);
+  EXPECT_TRUE(normal.Messages().empty());
+  Log log(Log::Level::Verbose, Log::Sink::Memory);
   const auto directives =
       ParseFiles({{"scene.pbrt", "Film \"image\" \"integer x\" 1 \"integer x\" 2"}}, &log);
   EXPECT_EQ(directives[0].params.Find("x")->numbers[0], 2);
   ASSERT_EQ(log.Messages().size(), 1u);
   EXPECT_EQ(log.Messages()[0],
-            "scene.pbrt:1:28: warning: parameter \"x\" is given twice: the last one counts\n"
+            "scene.pbrt:1:28: note: parameter \"x\" is given twice: the last one counts\n"
             "    Film \"image\" \"integer x\" 1 \"integer x\" 2\n"
             "                               ^\n");
 }
@@ -168,7 +171,24 @@ TEST(Include, SaysWhichFileIsMissing) {
             "sub/a.pbrt:1:1: error: cannot read the included file \"sub/none.pbrt\": no such file\n"
             "    Include \"none.pbrt\"\n"
             "    ^\n"
-            "    included from scene.pbrt:1:1\n");
+            "    included from scene.pbrt:1:1\n"
+            "    hint: tried \"sub/none.pbrt\" and \"none.pbrt\"\n");
+}
+
+TEST(Include, IsLookedUpInThreeFolders) {
+  // The folder of the file that names it, the folder of the main file, and the working folder.
+  const std::string include = "Include \"b.pbrt\"";
+  for (const char* place : {"main/sub/b.pbrt", "main/b.pbrt", "b.pbrt"}) {
+    std::map<std::string, std::string> files{{"main/scene.pbrt", "Include \"sub/a.pbrt\""},
+                                             {"main/sub/a.pbrt", include}};
+    files[place] = "Identity";
+    MemorySource source(files);
+    Log log(Log::Level::Normal, Log::Sink::Memory);
+    DirectiveList list;
+    ParseScene(source, "main/scene.pbrt", list, log);
+    EXPECT_EQ(list.directives.size(), 1u) << place;
+    EXPECT_EQ(list.directives[0].Where().file, place);
+  }
 }
 
 TEST(Include, NamesTheCycleOfFilesThatIncludeEachOther) {

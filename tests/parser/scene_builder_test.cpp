@@ -84,7 +84,10 @@ INSTANTIATE_TEST_SUITE_P(
              "2:1: texture \"t\" has type \"colour\"; types of textures are \"float\" and "
              "\"color\""},
         Case{"Film \"rgb\"", "1:1: unknown film \"rgb\"; known: \"image\""},
-        Case{"Renderer \"metropolis\"", "1:1: unknown renderer \"metropolis\"; known: \"sampler\""},
+        Case{"Renderer \"metropolitan\"",
+             "1:1: unknown renderer \"metropolitan\"; known: \"sampler\", \"metropolis\", "
+             "\"createprobes\", \"surfacepoints\", \"aggregatetest\" | did you mean "
+             "\"metropolis\"?"},
         Case{"ActiveTransform Alll",
              "1:1: unknown time \"Alll\" of ActiveTransform; known: All, StartTime, EndTime | did "
              "you mean \"All\"?"}));

@@ -75,7 +75,7 @@ void SceneBuilder::RecoverFrom(const Directive& directive) {
     ParamSet none;
     none.where = directive.Where();
     state_.OwnNamedMaterials().try_emplace(directive.strings[0],
-                                           world_->MakeMaterialSpec("matte", none));
+                                           world_->MakeMaterialSpec("matte", none, {}));
   }
 }
 

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check the rules that let files of other programs render: several errors in one run,
+// substitutes for plugins that are not available, parameters of another type, files in several
+// folders, and the defaults of version 2.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/plugins/search.h"
+#include "tests/parser/parse_support.h"
+
+namespace exphoton {
+namespace {
+
+int CountOf(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+BuiltScene BuildStrictly(const std::string& text) {
+  LoadOptions options;
+  options.isStrict = true;
+  return BuildText(text, options);
+}
+
+TEST(SeveralErrors, AreReportedInOneRun) {
+  const BuiltScene built = BuildText(
+      "Sampler \"nosampler\"\nCamera \"nocamera\"\n" +
+      InWorld("Texture \"t\" \"color\" \"nothing\"\nMaterial \"matte\" \"texture Kd\" \"t\"\n"
+              "Shape \"sphere\" \"float radius\" -1\nMaterial \"matte\" \"texture Kd\" \"u\"\n"
+              "Shape \"sphere\"\nShape \"disk\"\nAttributeEnd"));
+  // The texture that could not be made is defined for what follows. The second texture is reported
+  // once, although two shapes use it.
+  EXPECT_EQ(CountOf(built.error, "error:"), 6) << built.error;
+  for (const char* part : {"nosampler", "nocamera", "texture \"nothing\"", "radius",
+                           "not defined: \"u\"", "AttributeEnd without"})
+    EXPECT_EQ(CountOf(built.error, part) > 0, true) << part << "\n" << built.error;
+  EXPECT_EQ(built.status, 2);
+  EXPECT_TRUE(built.setups.empty());
+}
+
+TEST(SeveralErrors, AreTwentyAtMost) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) text += "Shape \"none" + std::to_string(i) + "\"\n";
+  const BuiltScene built = BuildText(InWorld(text));
+  EXPECT_EQ(CountOf(built.error, "there is no shape"), 20);
+  EXPECT_EQ(CountOf(built.error, "too many errors"), 1);
+}
+
+TEST(SeveralErrors, StopAtAnErrorOfTheSyntax) {
+  const BuiltScene built = BuildText(InWorld("Shape \"none\"\nShape 5\nShape \"more\""));
+  EXPECT_EQ(CountOf(built.error, "error:"), 2);
+  EXPECT_LT(built.error.find("none"), built.error.find("takes a name"));
+}
+
+TEST(SeveralErrors, OfAWorldLeaveTheNextWorldToBeChecked) {
+  const BuiltScene built =
+      BuildText(InWorld("ObjectBegin \"o\"") + InWorld("Shape \"none\"") + InWorld(""));
+  EXPECT_EQ(CountOf(built.error, "has no ObjectEnd"), 1);
+  EXPECT_EQ(CountOf(built.error, "there is no shape"), 1);
+  EXPECT_EQ(CountOf(built.error, "error:"), 2) << built.error;
+}
+
+TEST(Substitutes, AreUsedWithAWarningThatSaysWhatIsLost) {
+  const BuiltScene built = BuildText("Sampler \"sobol\"\n" + InWorld("Shape \"sphere\""));
+  ASSERT_EQ(built.error, "");
+  EXPECT_NE(built.Messages().find("there is no sampler \"sobol\": \"lowdiscrepancy\" is used "
+                                  "instead; its points differ, the picture does not"),
+            std::string::npos)
+      << built.Messages();
+  const BuiltScene strict = BuildStrictly("Sampler \"sobol\"\n" + InWorld("Shape \"sphere\""));
+  EXPECT_NE(strict.error.find("there is no sampler \"sobol\"; available:"), std::string::npos);
+}
+
+TEST(Substitutes, AreAvailableThemselves) {
+  const std::string folder = std::string(EXPHOTON_BINARY_DIR) + "/plugins";
+  Log log(Log::Level::Normal, Log::Sink::Memory);
+  PluginRegistry registry(std::vector<std::string>{folder}, &log);
+  for (const PluginAlias& alias : AllPluginAliases()) {
+    const auto available = registry.Available(alias.kind);
+    EXPECT_EQ(std::count(available.begin(), available.end(), alias.name), 1) << alias.alias;
+    EXPECT_EQ(std::count(available.begin(), available.end(), alias.alias), 0) << alias.alias;
+  }
+}
+
+TEST(Substitutes, ForUnknownMaterialsAreMatte) {
+  const std::string text = InWorld("Material \"platsic\"\nShape \"sphere\"");
+  const BuiltScene built = BuildText(text);
+  ASSERT_EQ(built.error, "");
+  EXPECT_NE(built.Messages().find("there is no material \"platsic\": \"matte\" is used instead"),
+            std::string::npos);
+  EXPECT_NE(built.Messages().find("did you mean \"plastic\"?"), std::string::npos);
+  EXPECT_NE(BuildStrictly(text).error.find("there is no material \"platsic\""), std::string::npos);
+  for (const char* other : {"Shape \"sphare\"", "LightSource \"pont\""})
+    EXPECT_NE(BuildText(InWorld(other)).error.find("did you mean"), std::string::npos) << other;
+}
+
+TEST(Substitutes, ForRenderersOfVersion2AreIntegrators) {
+  const std::string rest = InWorld("Shape \"sphere\"");
+  const BuiltScene metropolis = BuildText("Renderer \"metropolis\" \"integer maxdepth\" 3\n" + rest);
+  ASSERT_EQ(metropolis.error, "");
+  EXPECT_EQ(metropolis.setups.at(0)->integratorName, "path");
+  EXPECT_NE(metropolis.Messages().find("there is no renderer \"metropolis\": integrator \"path\""),
+            std::string::npos);
+  const BuiltScene probes =
+      BuildText("SurfaceIntegrator \"whitted\" Renderer \"createprobes\"\n" + rest);
+  ASSERT_EQ(probes.error, "");
+  EXPECT_EQ(probes.setups.at(0)->integratorName, "whitted");
+  LoadOptions chosen;
+  chosen.integrator = "exphotonmap";
+  const BuiltScene overridden = BuildText("Renderer \"metropolis\"\n" + rest, chosen);
+  EXPECT_EQ(overridden.setups.at(0)->integratorName, "exphotonmap");
+  EXPECT_NE(BuildStrictly("Renderer \"metropolis\"\n" + rest).error.find("there is no renderer"),
+            std::string::npos);
+}
+
+TEST(ParameterTypes, ThatAreWrongLeaveTheDefault) {
+  const std::string text = "Film \"image\" \"integer premultiplyalpha\" [0] \"float xresolution\" 6 "
+                           "\"integer yresolution\" 4\nPixelFilter \"box\" \"string xwidth\" \"2\"\n"
+                           "Accelerator \"bruteforce\" WorldBegin Shape \"sphere\" WorldEnd";
+  const BuiltScene built = BuildText(text);
+  ASSERT_EQ(built.error, "");
+  EXPECT_EQ(built.setups.at(0)->film.xResolution, 6);  // an integral float is an integer
+  EXPECT_EQ(built.setups.at(0)->filter->XWidth(), Real(.5));
+  EXPECT_NE(built.Messages().find("parameter \"xwidth\" of filter \"box\" keeps its default: it "
+                                  "must be of type \"float\", not \"string\""),
+            std::string::npos)
+      << built.Messages();
+  const BuiltScene strict = BuildStrictly(text);
+  EXPECT_NE(strict.error.find("\"xwidth\""), std::string::npos);
+  // A required parameter has no default, and a wrong count stays an error.
+  EXPECT_NE(BuildText(InWorld("Shape \"trianglemesh\" \"float indices\" [0 1 2] \"float P\" [0]"))
+                .error.find("must be of type \"point\""),
+            std::string::npos);
+  EXPECT_NE(BuildText(InWorld("Shape \"sphere\" \"float radius\" [1 2]")).error, "");
+}
+
+TEST(SubdivisionSchemes, OtherThanLoopAreIgnored) {
+  const BuiltScene built =
+      BuildText(InWorld("Shape \"loopsubdiv\" \"integer nlevels\" 0 \"integer indices\" [0 1 2] "
+                        "\"point P\" [0 0 0 1 0 0 0 1 0] \"string scheme\" \"catmull-clark\""));
+  EXPECT_EQ(built.error, "");
+  EXPECT_NE(built.Messages().find("\"catmull-clark\" is not available"), std::string::npos);
+}
+
+TEST(MissingFiles, AreReportedWithThePlacesThatWereTried) {
+  const BuiltScene built =
+      BuildText(InWorld("Texture \"t\" \"color\" \"imagemap\" \"string filename\" \"no/such.png\""));
+  EXPECT_NE(built.error.find("names a file that does not exist: \"no/such.png\""),
+            std::string::npos);
+  EXPECT_NE(built.error.find("hint: tried \"no/such.png\""), std::string::npos) << built.error;
+}
+
+// The red part of matte's default Kd shows the dialect: 1 in version 1, .5 in version 2.
+Real DiffuseOf(const BuiltScene& built) {
+  const Scene& scene = *built.setups.at(0)->scene;
+  Ray ray;
+  ray.o = {0, 0, -5};
+  ray.d = {0, 0, 1};
+  const auto hit = scene.Intersect(ray);
+  if (!hit) return -1;
+  Arena arena;
+  return hit->material->MakeBsdf(*hit, &arena).Rho(LobeSet::All).r;
+}
+
+TEST(Version2, IsRecognisedByItsDirectives) {
+  const std::string sphere = "Shape \"sphere\"";
+  const BuiltScene plain = BuildText(InWorld(sphere));
+  ASSERT_EQ(plain.error, "");
+  EXPECT_EQ(plain.setups[0]->filterName, "mitchell");
+  EXPECT_EQ(CountOf(plain.Messages(), "version 2"), 0);
+  for (const std::string& text :
+       {"Renderer \"sampler\"\n" + InWorld(sphere),
+        InWorld("MakeNamedMaterial \"m\" \"string type\" \"mirror\"\n" + sphere),
+        InWorld("AttributeBegin AreaLightSource \"diffuse\" AttributeEnd\n" + sphere),
+        InWorld("Texture \"t\" \"spectrum\" \"constant\"\n" + sphere)}) {
+    const BuiltScene built = BuildText(text);
+    ASSERT_EQ(built.error, "") << text;
+    EXPECT_EQ(built.setups[0]->filterName, "box") << text;
+    EXPECT_EQ(CountOf(built.Messages(), "scene language version 2, recognised by"), 1) << text;
+    LoadOptions version1;
+    version1.dialect = Dialect::V1;
+    EXPECT_EQ(BuildText(text, version1).setups.at(0)->filterName, "mitchell");
+  }
+  LoadOptions version2;
+  version2.dialect = Dialect::V2;
+  EXPECT_EQ(BuildText(InWorld(sphere), version2).setups.at(0)->filterName, "box");
+  // Neither a comment nor these directives decide.
+  EXPECT_EQ(BuildText("# Renderer\nTransformTimes 0 1 ActiveTransform All\n" + InWorld(sphere))
+                .setups.at(0)
+                ->filterName,
+            "mitchell");
+}
+
+TEST(Version2, HasItsOwnDefaultsOfMaterials) {
+  LoadOptions version2;
+  version2.dialect = Dialect::V2;
+  const struct {
+    const char* material;
+    Real v1, v2;
+  } cases[] = {{"matte", 1, Real(.5)}, {"mirror", 1, Real(.9)}};
+  for (const auto& [material, v1, v2] : cases) {
+    const std::string text =
+        InWorld("Material \"" + std::string(material) + "\" Shape \"sphere\"");
+    EXPECT_NEAR(DiffuseOf(BuildText(text)), v1, 1e-6) << material;
+    EXPECT_NEAR(DiffuseOf(BuildText(text, version2)), v2, 1e-6) << material;
+  }
+  EXPECT_NEAR(DiffuseOf(BuildText(InWorld("Shape \"sphere\""), version2)), .5, 1e-6);
+  for (const char* material : {"plastic", "translucent", "uber"}) {
+    const std::string given = InWorld("Material \"" + std::string(material) +
+                                      "\" \"color Kd\" [.25 .25 .25] \"color Ks\" [.25 .25 .25] "
+                                      "Shape \"sphere\"");
+    const std::string absent =
+        InWorld("Material \"" + std::string(material) + "\" Shape \"sphere\"");
+    EXPECT_EQ(DiffuseOf(BuildText(absent, version2)), DiffuseOf(BuildText(given))) << material;
+    EXPECT_NE(DiffuseOf(BuildText(absent)), DiffuseOf(BuildText(given))) << material;
+  }
+}
+
+// A texture of the same name in another block is another texture.
+TEST(Textures, OfABlockEndWithIt) {
+  const auto block = [](const std::string& texture) {
+    return "AttributeBegin " + texture + " Shape \"sphere\" AttributeEnd\n";
+  };
+  const auto define = [](const std::string& value) {
+    return "Texture \"t\" \"color\" \"constant\" \"color value\" [" + value + "]";
+  };
+  const std::string material = "Material \"matte\" \"texture Kd\" \"t\"\n";
+  const BuiltScene two = BuildText(
+      InWorld(material + block(define(".2 .2 .2") + " Translate 5 0 0") + block(define(".7 .7 .7"))));
+  ASSERT_EQ(two.error, "");
+  EXPECT_NEAR(DiffuseOf(two), .7, 1e-6);
+  const BuiltScene gone = BuildText(InWorld(material + block(define(".2 .2 .2")) + block("")));
+  EXPECT_NE(gone.error.find("not defined: \"t\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace exphoton
