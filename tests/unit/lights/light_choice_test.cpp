@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests compare the probabilities of light choices with closed forms: the two levels of the
-// light tree, the distribution by power, and the number of lights from which the tree is used.
+// light tree, and the number of lights from which path tracing uses it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/lights/light_distribution.h"
-#include "core/lights/light_tree.h"
+#include "core/lights/selection/tree_light_sampler.h"
 #include "core/scene/scene.h"
-#include "core/transport/light_sampler.h"
 #include "tests/support/placed_light.h"
 #include "tests/support/test_scene.h"
 
@@ -32,17 +30,17 @@ Lights Make(const std::vector<std::pair<std::optional<Point3>, Real>>& places) {
 // proportion to its mixed power over its squared distance.
 TEST(LightChoice, OfTwoLightsIsByPowerOverSquaredDistance) {
   const Lights lights = Make({{Point3{0, 0, 0}, Real(2)}, {Point3{4, 0, 0}, Real(10)}});
-  const LightTree tree(lights, {{0, 0, 0}, 10});
+  const TreeLightSampler tree(lights, {{0, 0, 0}, 10});
   const double near = .95 * 2 + .05 * 6, far = .95 * 10 + .05 * 6;
   for (const Point3 p : {Point3{1, 2, 0}, Point3{-3, 0, 5}, Point3{4, 1, 0}}) {
     const double a = near / double(LengthSquared(p - Point3{0, 0, 0}));
     const double b = far / double(LengthSquared(p - Point3{4, 0, 0}));
-    EXPECT_NEAR(double(tree.Probability(p, 0)), a / (a + b), 1e-5);
-    EXPECT_NEAR(double(tree.Probability(p, 1)), b / (a + b), 1e-5);
+    EXPECT_NEAR(double(tree.Pmf(p, *lights[0])), a / (a + b), 1e-5);
+    EXPECT_NEAR(double(tree.Pmf(p, *lights[1])), b / (a + b), 1e-5);
   }
   // No child is chosen with less than one thousandth.
-  EXPECT_NEAR(double(tree.Probability({4, 0, 0}, 0)), 1e-3, 1e-6);
-  EXPECT_NEAR(double(tree.Probability({0, Real(1e-4), 0}, 1)), 1e-3, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf({4, 0, 0}, *lights[0])), 1e-3, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf({0, Real(1e-4), 0}, *lights[1])), 1e-3, 1e-6);
 }
 
 // A group of lights counts by its whole power. Within the sphere round its box the distance is the
@@ -52,9 +50,9 @@ TEST(LightChoice, OfAGroupIsAtLeastItsRadiusAway) {
                               {Point3{0, 2, 0}, Real(1)},
                               {Point3{10, 0, 0}, Real(1)},
                               {Point3{10, 2, 0}, Real(1)}});
-  const LightTree tree(lights, {{0, 0, 0}, 20});
+  const TreeLightSampler tree(lights, {{0, 0, 0}, 20});
   const auto group = [&](const Point3& p) {
-    return double(tree.Probability(p, 0)) + double(tree.Probability(p, 1));
+    return double(tree.Pmf(p, *lights[0])) + double(tree.Pmf(p, *lights[1]));
   };
   // Both centres are at y = 1; both radii are 1.
   for (const Point3 p : {Point3{2, 1, 0}, Point3{4, 7, 1}, Point3{9, -3, 2}}) {
@@ -66,7 +64,7 @@ TEST(LightChoice, OfAGroupIsAtLeastItsRadiusAway) {
   const double b = 1 / double(LengthSquared(inside - Point3{10, 1, 0}));
   EXPECT_NEAR(group(inside), 1 / (1 + b), 1e-5);
   const double c = 1 / (1.25 * 1.25), d = 1 / (.75 * .75);
-  EXPECT_NEAR(double(tree.Probability(inside, 0)) / group(inside), c / (c + d), 1e-5);
+  EXPECT_NEAR(double(tree.Pmf(inside, *lights[0])) / group(inside), c / (c + d), 1e-5);
 }
 
 // The tree counts by its irradiance, power / (4 pi d^2), and the distant lights by power over the
@@ -75,41 +73,18 @@ TEST(LightChoice, OfDistantLightsIsByIrradiance) {
   const Sphere3 world{{0, 0, 0}, 10};
   const Lights lights =
       Make({{Point3{0, 0, 0}, Real(50)}, {std::nullopt, Real(300)}, {std::nullopt, Real(900)}});
-  const LightTree tree(lights, world);
+  const TreeLightSampler tree(lights, world);
   const double disk = M_PI * 100, far = 1200 / disk;
   for (const Real distance : {Real(1), Real(2), Real(3)}) {
     const Point3 p{0, distance, 0};
     const double near = 50 / (4 * M_PI * double(distance) * double(distance));
     const double all = std::clamp(far / (far + near), .1, .9);
-    EXPECT_NEAR(double(tree.Probability(p, 0)), 1 - all, 1e-5);
-    EXPECT_NEAR(double(tree.Probability(p, 1)), all * (.95 * .25 + .05 * .5), 1e-5);
-    EXPECT_NEAR(double(tree.Probability(p, 2)), all * (.95 * .75 + .05 * .5), 1e-5);
+    EXPECT_NEAR(double(tree.Pmf(p, *lights[0])), 1 - all, 1e-5);
+    EXPECT_NEAR(double(tree.Pmf(p, *lights[1])), all * (.95 * .25 + .05 * .5), 1e-5);
+    EXPECT_NEAR(double(tree.Pmf(p, *lights[2])), all * (.95 * .75 + .05 * .5), 1e-5);
   }
-  EXPECT_NEAR(double(tree.Probability({0, Real(.1), 0}, 0)), .9, 1e-6);
-  EXPECT_NEAR(double(tree.Probability({0, 1000, 0}, 0)), .1, 1e-6);
-}
-
-// By power: 95 % in proportion, 5 % in equal parts, unless another share is asked for.
-TEST(LightChoice, ByPowerHasItsUniformShare) {
-  Lights lights = Make({{Point3{0, 0, 0}, Real(3)}, {Point3{1, 0, 0}, Real(1)}});
-  lights.push_back(std::make_unique<PlacedLight>(Point3{2, 0, 0}, Real(7), true));
-  const auto probability = [&](const LightDistribution& d, int i) {
-    return double(d.Probability(i));
-  };
-  const LightDistribution plain(lights, LightSelection::Power);
-  EXPECT_NEAR(probability(plain, 0), .95 * .75 + .05 * .5, 1e-6);
-  EXPECT_EQ(plain.Probability(2), 0);
-  const LightDistribution half(lights, LightSelection::Power, .5);
-  EXPECT_NEAR(probability(half, 0), .5 * .75 + .5 * .5, 1e-6);
-  const std::vector<double> factors{1. / 3, 3, 1};
-  const LightDistribution scaled(lights, LightSelection::Power, 0, factors);
-  EXPECT_NEAR(probability(scaled, 0), .25, 1e-6);
-  EXPECT_NEAR(probability(LightDistribution(lights, LightSelection::Uniform), 1), .5, 1e-6);
-  const auto choice = half.Sample(Real(.8125));
-  EXPECT_EQ(choice.index, 1);
-  EXPECT_EQ(choice.light, lights[1].get());
-  EXPECT_NEAR(double(choice.probability), .375, 1e-6);
-  EXPECT_NEAR(double(choice.remapped), .5, 1e-5);
+  EXPECT_NEAR(double(tree.Pmf({0, Real(.1), 0}, *lights[0])), .9, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf({0, 1000, 0}, *lights[0])), .1, 1e-6);
 }
 
 LoadedScene RowOfLamps(int count) {
@@ -128,25 +103,25 @@ TEST(LightChoice, OfAPathIsByTheTreeFromSixteenLightsOn) {
   for (const int count : {15, 16}) {
     const LoadedScene loaded = RowOfLamps(count);
     const Scene& scene = *loaded.setup->scene;
-    const LightSampler sampler(scene);
+    const auto sampler = scene.MakeLightSampler(LightSelection::Auto);
     const Light& first = *scene.Lights()[0];
     const Point3 near{0, 1, 0}, away{99, 1, 0};
-    const bool isTree = sampler.Probability(near, first) != sampler.Probability(away, first);
+    const bool isTree = sampler->Pmf(near, first) != sampler->Pmf(away, first);
     EXPECT_EQ(isTree, count >= 16) << count;
     double sum = 0, power = 0;
     for (const auto& light : scene.Lights()) {
-      sum += double(sampler.Probability(near, *light));
+      sum += double(sampler->Pmf(near, *light));
       power += double(light->Power().Y());
     }
     EXPECT_NEAR(sum, 1, 1e-5);
     if (count == 15) {
-      EXPECT_NEAR(double(sampler.Probability(near, first)),
+      EXPECT_NEAR(double(sampler->Pmf(near, first)),
                   .5 * double(first.Power().Y()) / power + .5 / 15, 1e-6);
     }
-    const auto choice = sampler.Sample(near, Real(.4));
+    const auto choice = sampler->Sample(near, Real(.4));
     EXPECT_EQ(choice.light, scene.Lights()[std::size_t(choice.index)].get());
-    EXPECT_NEAR(double(choice.probability), double(sampler.Probability(near, *choice.light)), 1e-6);
-    EXPECT_EQ(sampler.Probability(near, *scene.Lights().back()), 0) << "it is black";
+    EXPECT_NEAR(double(choice.probability), double(sampler->Pmf(near, *choice.light)), 1e-6);
+    EXPECT_EQ(sampler->Pmf(near, *scene.Lights().back()), 0) << "it is black";
   }
 }
 

@@ -75,7 +75,7 @@ TEST(VisiblePoints, TakePhotonsFromTheSunAsTheyBecomeDenser) {
       "0 "
       "0 4 Shape \"disk\" \"float radius\" 5 Translate 0 0 100 Shape \"disk\" \"float radius\" 60\n"
       "WorldEnd\n");
-  const double gain = render.Counter("photons/aim gain");
+  const double gain = render.Counter("photons/targeting gain");
   ASSERT_GT(gain, 2);
   // The sphere round both disks: the box is 120 x 120 x 100.
   const double sun = M_PI * (60. * 60 + 60 * 60 + 50 * 50) / gain, lamp = 4 * M_PI * 2000;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/arena.h"
-#include "core/lights/light_distribution.h"
 #include "core/math/sampling/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scattering/lobes/lambert.h"
