@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These low-discrepancy sequences are randomised by a key:
-//   (0,2)-sequence: first two Sobol' dimensions with 32-bit indices, Owen-scrambled by hashing
-//     (Laine and Karras 2011; Burley 2020, "Practical Hash-based Owen Scrambling").
-//   Halton: radical inverses of 64-bit indices with Owen-scrambled (position- and prefix-dependent)
-//     digits (Owen 1995; Faure and Tezuka 2002 for the plain permutations).
+// The (0,2)-sequence of the first two Sobol' dimensions has 32-bit indices. A key randomises it by
+// Owen scrambling with a hash (Laine and Karras 2011; Burley 2020, "Practical Hash-based Owen
+// Scrambling").
 #pragma once
 
 #include <cstdint>
@@ -66,27 +64,6 @@ inline Point2 ScrambledSobol2(std::uint32_t index, std::uint64_t key) {
   const std::uint32_t second =
       OwenScrambleReversed(SobolSecondReversed(index), std::uint32_t(key >> 32));
   return {FractionToReal(ReverseBits32(first)), FractionToReal(ReverseBits32(second))};
-}
-
-inline constexpr std::uint32_t kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
-
-// Returns the radical inverse of a 64-bit index in `base`, in [0, kOneMinusEpsilon]. The key and
-// the preceding digits choose the permutation of each digit (nested Owen scrambling). Trailing zero
-// digits are permuted too, down to the resolution of Real.
-inline Real ScrambledRadicalInverse(std::uint32_t base, std::uint64_t index, std::uint64_t key) {
-  const double inverseBase = 1.0 / base;
-  double scale = inverseBase, value = 0;
-  std::uint64_t prefix = key;
-  for (int digitIndex = 0; scale > 1e-9 || index != 0; ++digitIndex, scale *= inverseBase) {
-    const auto digit = static_cast<std::uint32_t>(index % base);
-    index /= base;
-    const std::uint32_t permuted =
-        PermuteIndex(digit, base, static_cast<std::uint32_t>(MixBits(prefix)));
-    value += permuted * scale;
-    prefix = MixBits(prefix + 0x9e3779b97f4a7c15ull * (permuted + 1));
-    if (scale < 1e-300) break;
-  }
-  return std::min(Real(value), kOneMinusEpsilon);
 }
 
 }  // namespace exphoton
