@@ -62,7 +62,6 @@ std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet 
   SpecularRay result;
   result.ray = SpawnRay(point.surface, sample->wi);
   result.throughput = sample->throughput;
-  result.isTransmission = sample->IsTransmission();
   AddSpecularDifferentials(point, *sample, &result.ray);
   return result;
 }

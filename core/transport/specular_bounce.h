@@ -14,7 +14,6 @@ namespace exphoton {
 struct SpecularRay {
   RayDifferential ray;
   Spectrum throughput;
-  bool isTransmission = false;
 };
 
 // Sets the differentials of `ray`, which leaves the point by a specular `sample`. They follow from

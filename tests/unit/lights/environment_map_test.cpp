@@ -103,5 +103,27 @@ TEST_F(EnvironmentMap, PowerIsItsIntegralTimesTheDisk) {
   EXPECT_NEAR(double(light->Power().g), M_PI * integral, 0.05 * M_PI * integral);
 }
 
+TEST_F(EnvironmentMap, WithOneValueThatIsNoRadianceWarns) {
+  Image image(2, 1, {"R", "G", "B"});
+  image.At(0, 0, 1) = -1;
+  image.At(1, 0, 2) = 1;
+  const std::string path = testing::TempDir() + "exphoton_one_bad_value.exr";
+  WriteExr(path, image, false);
+  plugins_.MakeLight("\"infinite\" \"string mapname\" \"" + path + "\"");
+  EXPECT_EQ(plugins_.GetLog().WarningCount(), 1);
+}
+
+// A map and a factor may leave no channel together.
+TEST_F(EnvironmentMap, ThatSharesNoColourWithItsFactorIsBlack) {
+  Image image(2, 1, {"R", "G", "B"});
+  image.At(0, 0, 0) = 1;
+  image.At(1, 0, 0) = 2;
+  const std::string path = testing::TempDir() + "exphoton_red_sky.exr";
+  WriteExr(path, image, false);
+  const std::string text = "\"infinite\" \"string mapname\" \"" + path + "\" \"color L\" ";
+  EXPECT_TRUE(plugins_.MakeLight(text + "[0 1 1]")->IsProvablyBlack());
+  EXPECT_FALSE(plugins_.MakeLight(text + "[1 0 0]")->IsProvablyBlack());
+}
+
 }  // namespace
 }  // namespace exphoton

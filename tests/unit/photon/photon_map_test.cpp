@@ -61,7 +61,9 @@ TEST(PhotonMap, OfCoincidentPhotonsStaysFinite) {
   const auto e = map.EstimateIrradiance({{1, 2, 3}, {0, 0, 1}, 50, 1, true}, &arena);
   EXPECT_TRUE(e.e.IsFinite());
   EXPECT_GT(e.e.r, 0);
-  EXPECT_GT(e.radius, 0);
+  // Four rounding errors of the largest coordinate.
+  EXPECT_NEAR(double(e.radius / (12 * kMachineEpsilon)), 1, 1e-4);
+  EXPECT_NEAR(double(map.TypicalRadius(10, &arena) / (12 * kMachineEpsilon)), 1, 1e-4);
 }
 
 TEST(PhotonMap, IgnoresPhotonsThatArrivedOnTheOtherSide) {

@@ -45,6 +45,25 @@ TEST(Bump, SlopesDoNotDependOnTheFootprint) {
   }
 }
 
+// The slope of x^2 over a step s forwards is 2 x + s, for u, v and the point itself.
+TEST(Bump, StepsForwardAlongBothAxes) {
+  for (const bool byPoint : {true, false}) {
+    for (const bool alongU : {true, false}) {
+      SurfaceInteraction si = FlatSurface();
+      si.p = {Real(.25), Real(.75), 0};
+      ApplyBump(Height([&](const auto& at) {
+                  const Point2 place = byPoint ? Point2(at.p.x, at.p.y) : at.uv;
+                  const Real x = alongU ? place.x : place.y;
+                  return x * x;
+                }),
+                &si);
+      const Real slope = 2 * (alongU ? Real(.25) : Real(.75)) + Real(.01);
+      const Vector3 expected = Normalize(alongU ? Vector3(-slope, 0, 1) : Vector3(0, -slope, 1));
+      EXPECT_LT(Distance(si.shading.n, expected), Real(1e-4)) << alongU << byPoint;
+    }
+  }
+}
+
 // A unit sphere has u once around the axis and v from pole to pole. It is displaced by
 // d = .3 sin(4 u) sin(3 v). The expected normal of the surface p + d n comes from central
 // differences in double precision.

@@ -68,5 +68,32 @@ TEST(VolumeGrid, HasTheDensityOfEachCellAtItsMiddle) {
   }
 }
 
+// The height is counted from the lower corner, in whatever order the corners are given.
+TEST(Exponential, FallsWithTheHeightOverItsLowerCorner) {
+  for (const char* corners : {"\"point p0\" [-1 -2 -3] \"point p1\" [4 3 2]",
+                              "\"point p0\" [4 3 2] \"point p1\" [-1 -2 -3]"}) {
+    const LoadedScene loaded = LoadSceneText(
+        std::string("WorldBegin\nVolume \"exponential\" \"float a\" 2 \"float b\" .7 \"vector "
+                    "updir\" [.3 .5 .8] \"color sigma_a\" [1 2 3] \"color sigma_s\" [4 5 6] "
+                    "\"color Le\" [7 8 9] ") +
+        corners + "\nLightSource \"point\"\nWorldEnd\n");
+    const Medium& medium = *loaded.setup->scene->Media().front();
+    RandomStream random(4);
+    for (int i = 0; i < 20; ++i) {
+      const double x = 5 * double(random.Uniform()), y = 5 * double(random.Uniform());
+      const double z = 5 * double(random.Uniform());
+      const MediumPoint at = medium.At({Real(x - 1), Real(y - 2), Real(z - 3)});
+      const double density = 2 * std::exp(-.7 * (.3 * x + .5 * y + .8 * z));
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(double(at.absorption[c]), (1 + c) * density, 1e-4);
+        EXPECT_NEAR(double(at.scattering[c]), (4 + c) * density, 1e-4);
+        EXPECT_NEAR(double(at.emission[c]), (7 + c) * density, 1e-4);
+      }
+    }
+    EXPECT_TRUE(medium.Emits() && medium.Scatters());
+    EXPECT_EQ(medium.At({5, 0, 0}).absorption, Spectrum());
+  }
+}
+
 }  // namespace
 }  // namespace exphoton
