@@ -7,6 +7,7 @@
 
 #include "core/geometry/moving_emitter.h"
 #include "core/geometry/placed_emitter.h"
+#include "core/geometry/placement.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/geometry/vec3d.h"
 #include "core/math/sampling/sampling.h"
@@ -226,6 +227,77 @@ TEST(MovingEmitterFormulas, AreThoseOfTheSurfaceAtEachTime) {
   for (const Real time : {Real(2), Real(2.5), Real(4)}) {
     const double scale = double(time) - 1;
     ExpectUniformEllipse(emitter, *local, motion.At(time), M_PI * scale * scale, time);
+  }
+}
+
+// The sphere sets no time itself.
+TEST(PlacedEmitterFormulas, HaveTheTimeOfTheReference) {
+  TestPlugins plugins;
+  const auto sphere = plugins.MakeEmitter(R"("sphere")", *Transform::Scale(1, 2, 3));
+  SurfacePoint ref;
+  ref.p = {9, 0, 0};
+  ref.time = Real(.75);
+  const auto sample = sphere->SampleToward(ref, {Real(.3), Real(.6)}, Real(.5));
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->point.time, Real(.75));
+}
+
+// Coordinates of an instance are off by three roundings before the map, and keep their time.
+TEST(PointToWorld, WidensTheErrorByTheRoundingOfTheInstance) {
+  SurfacePoint local;
+  local.p = {2, -3, 4};
+  local.pError = {Real(1e-6), Real(2e-6), Real(3e-6)};
+  local.ng = {0, 0, 1};
+  local.time = Real(.75);
+  const SurfacePoint point = PointToWorld(*Transform::Scale(2, 2, 2), local);
+  EXPECT_EQ(point.time, Real(.75));
+  EXPECT_EQ(point.p, Point3(4, -6, 8));
+  EXPECT_EQ(PointToLocal({}, local).time, Real(.75));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double p = std::abs(double(local.p[axis])), unit = double(kMachineEpsilon);
+    const double bound = 2 * (double(local.pError[axis]) + 3 * unit * p) + unit * 2 * p;
+    EXPECT_NEAR(double(point.pError[axis]) / bound, 1, 1e-5);
+  }
+}
+
+// Neighbouring rays with origins and directions of their own meet the tangent plane.
+TEST(Differentials, AreStepsOnTheTangentPlane) {
+  RandomStream random(6);
+  for (int k = 0; k < 200; ++k) {
+    SurfaceInteraction s;
+    s.p = RandomVector(random);
+    s.dpdu = RandomVector(random), s.dpdv = RandomVector(random);
+    const Vec3d u(s.dpdu), v(s.dpdv), n = NormalizeOrZero(Cross(u, v));
+    if (Length(Cross(u, v)) < .2) continue;
+    s.ng = n.ToReal();
+    RayDifferential ray;
+    ray.o = s.p + s.ng * 2, ray.d = -s.ng;
+    ray.hasDifferentials = true;
+    ray.xOrigin = ray.o + RandomVector(random) * Real(.1);
+    ray.yOrigin = ray.o + RandomVector(random) * Real(.1);
+    ray.xDirection = ray.d + RandomVector(random) * Real(.1);
+    ray.yDirection = ray.d + RandomVector(random) * Real(.1);
+    s.ComputeDifferentials(ray);
+    ASSERT_TRUE(s.hasDifferentials);
+    const auto stepOf = [&](const Point3& origin, const Vector3& direction) {
+      const Vec3d o(origin), d(direction);
+      return o + d * (Dot(n, Vec3d(s.p) - o) / Dot(n, d)) - Vec3d(s.p);
+    };
+    const Vec3d x = stepOf(ray.xOrigin, ray.xDirection), y = stepOf(ray.yOrigin, ray.yDirection);
+    ExpectNear(s.dpdx, x, 1e-5, "dpdx");
+    ExpectNear(s.dpdy, y, 1e-5, "dpdy");
+    ExpectNear((u * double(s.dudx) + v * double(s.dvdx)).ToReal(), x, 1e-4, "x by u and v");
+    ExpectNear((u * double(s.dudy) + v * double(s.dvdy)).ToReal(), y, 1e-4, "y by u and v");
+    ray.xDirection = s.dpdu;  // parallel to the plane
+    s.ComputeDifferentials(ray);
+    if (s.hasDifferentials) continue;  // rounding left it slightly inclined
+    EXPECT_EQ(s.dpdx, Vector3());
+    EXPECT_EQ(s.dpdy, Vector3());
+    EXPECT_EQ(s.dudx + s.dvdx + s.dudy + s.dvdy, 0);
+    s.dudx = 1;
+    s.ComputeDifferentials(RayDifferential());
+    EXPECT_FALSE(s.hasDifferentials);
+    EXPECT_EQ(s.dudx, 0);
   }
 }
 

@@ -203,6 +203,9 @@ TEST(StratifiedSampler, OtherCountsHaveTheirOwnGrid) {
   TestPlugins plugins;
   const auto stratified = plugins.MakeSampler(R"("stratified")");
   EXPECT_EQ(stratified->SamplesPerPixel(), 4);
+  CameraSamples first{SampleLayout{}};
+  stratified->Generate({3, {5, 6}, 0}, &first);
+  EXPECT_NE(2 * first.film.x - std::floor(2 * first.film.x), Real(.5));  // jittered
   const auto filmOf = [&](std::int64_t count) {
     const auto sampler = stratified->WithSamplesPerPixel(count);
     EXPECT_EQ(sampler->SamplesPerPixel(), count);
