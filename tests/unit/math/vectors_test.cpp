@@ -192,7 +192,7 @@ TEST(Real, HasItsHelpers) {
   EXPECT_EQ(NextUp(kInfinity), kInfinity);
   EXPECT_EQ(NextUp(-Real(0)), std::numeric_limits<Real>::denorm_min());
   EXPECT_NEAR(double(Gamma(5) / kMachineEpsilon), 5, 1e-5);
-  EXPECT_EQ(kPi * kInvPi, 1);
+  EXPECT_NEAR(double(kPi * kInvPi), 1, 1e-7);
   EXPECT_NEAR(double(kPi * kInv2Pi), .5, 1e-7);
   EXPECT_NEAR(double(kPi * kInv4Pi), .25, 1e-7);
 }
