@@ -191,13 +191,13 @@ TEST(RenderSetup, CropsByPixelsOnEverySide) {
   options.cropWindow = std::vector<Real>{Real(.01), Real(.02), 0, 1};
   const BuiltScene empty = BuildText(InWorld(""), options);
   EXPECT_EQ(empty.status, 1);
-  EXPECT_EQ(empty.error, "exphoton: error: the crop window holds no pixel's centre\n");
+  EXPECT_EQ(empty.error, "exphoton: error: the crop window has no pixel's upper left corner\n");
   const BuiltScene file = BuildText(
       "Film \"image\" \"integer xresolution\" 4 \"float cropwindow\" [.01 .02 0 1]\n"
       "WorldBegin WorldEnd");
   EXPECT_EQ(file.status, 2);
   EXPECT_EQ(file.error.substr(0, file.error.find('\n')),
-            "scene.pbrt:1:38: error: the crop window holds no pixel's centre");
+            "scene.pbrt:1:38: error: the crop window has no pixel's upper left corner");
 }
 
 TEST(RenderSetup, RefusesOtherFilmsAndRenderers) {
@@ -230,7 +230,7 @@ TEST(WorldMessages, AreSaidInTheseWords) {
   saysAt(4, "ObjectBegin \"o\" AreaLightSource \"area\"\nShape \"sphere\"\nObjectEnd",
          "warning: a shape in an object cannot be an area light: it does not emit");
   saysAt(4, moving + "Texture \"t\" \"float\" \"constant\"",
-         "warning: a texture does not move: it stays where the transformation starts");
+         "warning: a texture does not move: it uses the transformation at StartTime");
   saysAt(4, moving + "LightSource \"point\"",
          "error: a light source cannot move; shapes, area lights on them, instances and the "
          "camera can");
@@ -241,7 +241,7 @@ TEST(WorldMessages, AreSaidInTheseWords) {
   saysAt(3, "Texture \"t\" \"vector\" \"constant\"",
          "error: texture \"t\" has type \"vector\"; types of textures are \"float\" and \"color\"");
   saysAt(4, "Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"constant\"",
-         "warning: texture \"t\" is defined again: shapes from here on get the new one");
+         "warning: texture \"t\" is defined again: later shapes use the new one");
 }
 
 TEST(Textures, OfBothKindsMayShareAName) {

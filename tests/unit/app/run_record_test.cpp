@@ -74,8 +74,8 @@ TEST_F(RunRecordTest, SaysWhatItIsInATable) {
             "rays                                  count  meaning\n"
             "camera                                    1  from the camera\n"
             "shadow                                   20  from a surface to a point on a light\n"
-            "bsdf                                    300  from a surface, in a direction that its "
-            "material chose\n"
+            "bsdf                                    300  from a surface, in a direction sampled "
+            "from its BSDF\n"
             "specular                               4000  over mirrors and through glass, on the "
             "camera's side\n"
             "gather                                50000  of the final gather, over the hemisphere "
@@ -97,20 +97,20 @@ TEST_F(RunRecordTest, SaysWhatItIsInATable) {
 
 TEST_F(RunRecordTest, ExplainsEveryPhaseOfTheRenderer) {
   for (const char* name :
-       {"parse", "accelerator", "shoot", "kd-trees", "radiance", "render", "write"})
+       {"parse", "accelerator", "shoot", "photon maps", "radiance", "render", "write"})
     statistics.AddPhase(name, 1, 2);
   const std::string table = StatisticsTable(run);
   for (const char* row :
-       {"accelerator                           1.000        2.000  building what finds the first "
-        "surface along a ray\n",
+       {"accelerator                           1.000        2.000  building the acceleration "
+        "structure\n",
         "shoot                                 1.000        2.000  tracing photons from the "
         "lights\n",
-        "kd-trees                              1.000        2.000  sorting photons for searching, "
+        "photon maps                           1.000        2.000  sorting photons for searching, "
         "and choosing radii\n",
         "radiance                              1.000        2.000  computing the radiance at "
         "radiance photons\n",
-        "render                                1.000        2.000  camera rays and everything they "
-        "cause\n",
+        "render                                1.000        2.000  camera rays and all rays that "
+        "follow from them\n",
         "write                                 1.000        2.000  writing the picture\n"})
     EXPECT_NE(table.find(row), std::string::npos) << row;
 }
@@ -145,7 +145,7 @@ TEST_F(RunRecordTest, IsALineOfJson) {
                 "\"nonFiniteSamples\":7,\"renderSeconds\":1.5,\"wallSeconds\":2.5,"
                 "\"cpuSeconds\":4.25,\"peakMemoryBytes\":1024,\"passes\":4,"
                 "\"stoppedBy\":\"samples\",\"noise\":null,\"targetError\":0.125,"
-                "\"timeLimit\":null,\"layers\":\"N\",\"phases\":[{\"name\":\"parse\","
+                "\"timeLimit\":null,\"aovs\":\"N\",\"phases\":[{\"name\":\"parse\","
                 "\"seconds\":0.25,\"cpuSeconds\":0.5},{\"name\":\"write\",\"seconds\":1,"
                 "\"cpuSeconds\":2}],\"rays\":{\"camera\":1,\"shadow\":2,\"bsdf\":3,"
                 "\"specular\":4,\"gather\":5,\"photon\":6},\"counters\":{\"things\":0.5}}\n");

@@ -90,6 +90,29 @@ void ExpectNear(const Vec3& a, const Vec3d& b, double tolerance, const char* wha
   EXPECT_LT(Length(Vec3d(a) - b), tolerance * (1 + Length(b))) << what;
 }
 
+void ExpectShadingOfTheSurface(const SurfaceInteraction& surface) {
+  EXPECT_EQ(surface.shading.n, surface.ng);
+  EXPECT_EQ(surface.shading.dpdu, surface.dpdu);
+  EXPECT_EQ(surface.shading.dpdv, surface.dpdv);
+  EXPECT_EQ(surface.shading.dndu, surface.dndu);
+  EXPECT_EQ(surface.shading.dndv, surface.dndv);
+}
+
+// A ray that ends at the hit misses; the error of the point is its rounding.
+void ExpectEndAndError(const Shape& shape, Ray ray, const ShapeHit& hit) {
+  const SurfaceInteraction surface = shape.Surface(ray, hit);
+  ray.tMax = hit.t;
+  EXPECT_FALSE(shape.Intersect(ray));
+  ray.tMax = NextUp(hit.t);
+  EXPECT_TRUE(shape.Intersect(ray));
+  EXPECT_TRUE(shape.Occludes(ray));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double rounding = double(Gamma(2)) * std::abs(double(surface.p[axis]));
+    EXPECT_GE(double(surface.pError[axis]), rounding * .999999);
+    EXPECT_LE(double(surface.pError[axis]), rounding * 1.000001 + 1e-11);
+  }
+}
+
 class QuadricFormulas : public testing::Test {
  protected:
   std::unique_ptr<Shape> Make(const std::string& text, const Transform& toWorld = {},
@@ -136,22 +159,8 @@ TEST_F(QuadricFormulas, GiveThePointsNormalsAndDerivatives) {
         ExpectNear(surface.dpdv, alongV(point), 1e-3, "dpdv");
         ExpectNear(surface.dndu, alongU(normal), 1e-3, "dndu");
         ExpectNear(surface.dndv, alongV(normal), 1e-3, "dndv");
-        EXPECT_EQ(surface.shading.n, surface.ng);
-        EXPECT_EQ(surface.shading.dpdu, surface.dpdu);
-        EXPECT_EQ(surface.shading.dpdv, surface.dpdv);
-        EXPECT_EQ(surface.shading.dndu, surface.dndu);
-        EXPECT_EQ(surface.shading.dndv, surface.dndv);
-        // The end of the ray, and the error of the point.
-        ray.tMax = hit->t;
-        EXPECT_FALSE(shape->Intersect(ray));
-        ray.tMax = NextUp(hit->t);
-        EXPECT_TRUE(shape->Intersect(ray));
-        EXPECT_TRUE(shape->Occludes(ray));
-        for (int axis = 0; axis < 3; ++axis) {
-          const double rounding = double(Gamma(2)) * std::abs(double(surface.p[axis]));
-          EXPECT_GE(double(surface.pError[axis]), rounding * .999999);
-          EXPECT_LE(double(surface.pError[axis]), rounding * 1.000001 + 1e-11);
-        }
+        ExpectShadingOfTheSurface(surface);
+        ExpectEndAndError(*shape, ray, *hit);
         if (HasFailure()) FAIL() << "u " << u << ", v " << v;
       }
     }
@@ -256,6 +265,23 @@ double ByArea(const Vec3d& ref, const SurfacePoint& on, double area) {
   return d2 * std::sqrt(d2) / (area * std::abs(Dot(between, Vec3d(on.ng))));
 }
 
+// Expects the step from a reference to a sample of a whole sphere of radius 2 that is seen from
+// outside, where u chose the sample. Returns the density of directions.
+double ExpectCone(double distance, const Vec3d& axis, Point2 u, const Vec3d& step) {
+  const Vec3d w = NormalizeOrZero(step);
+  const double cosMax = std::sqrt(1 - 4 / (distance * distance)), cosine = Dot(w, axis);
+  EXPECT_NEAR((1 - cosine) / (1 - cosMax), double(u.x), 2e-3);
+  // The nearer of the two points in this direction.
+  const double b = distance * cosine;
+  EXPECT_NEAR(Length(step), b - std::sqrt(std::max(b * b - distance * distance + 4, 0.)), 5e-3);
+  const Frame frame = Frame::FromZ(axis.ToReal());
+  if (u.x > Real(.01) && u.x < Real(.99)) {
+    const double phi = std::atan2(Dot(w, Vec3d(frame.y)), Dot(w, Vec3d(frame.x)));
+    EXPECT_NEAR(std::cos(phi - 2 * M_PI * double(u.y)), 1, 1e-4);
+  }
+  return 1 / (2 * M_PI * (1 - cosMax));
+}
+
 TEST_F(QuadricFormulas, GiveSamplesOfDirections) {
   RandomStream random(5);
   const Transform similar = Transform::Translate({1, -2, 3}) * *Transform::Rotate(35, {1, 2, -1}) *
@@ -280,20 +306,7 @@ TEST_F(QuadricFormulas, GiveSamplesOfDirections) {
       const Vec3d from(ref.p), w = NormalizeOrZero(Vec3d(sample->point.p) - from);
       double pdf = ByArea(from, sample->point, 4 * quadric.area);
       if (isWhole && i % 3 == 0) {
-        const double cosMax = std::sqrt(1 - 4 / (distance * distance));
-        pdf = 1 / (2 * M_PI * (1 - cosMax));
-        const double cosine = Dot(w, away * -1);
-        EXPECT_NEAR((1 - cosine) / (1 - cosMax), double(u.x), 2e-3);
-        // The nearer of the two points in this direction.
-        const double b = distance * cosine;
-        const double t = b - std::sqrt(std::max(b * b - distance * distance + 4, 0.));
-        EXPECT_NEAR(Length(Vec3d(sample->point.p) - from), t, 5e-3);
-        // By the azimuth, too.
-        const Frame frame = Frame::FromZ((away * -1).ToReal());
-        if (u.x > Real(.01) && u.x < Real(.99)) {
-          const double phi = std::atan2(Dot(w, Vec3d(frame.y)), Dot(w, Vec3d(frame.x)));
-          EXPECT_NEAR(std::cos(phi - 2 * M_PI * double(u.y)), 1, 1e-4);
-        }
+        pdf = ExpectCone(distance, away * -1, u, Vec3d(sample->point.p) - from);
       } else if (isWhole && i % 3 == 1) {
         pdf = 1 / (4 * M_PI);
         ExpectNear(w.ToReal(), Vec3d(SampleUniformSphere(u)), 1e-4, "direction");

@@ -42,69 +42,97 @@ TriangleMesh RandomTriangle(RandomStream& random, int parts) {
   return mesh;
 }
 
+// The second triangle of a mesh, with its formulas at barycentrics (b1, b2).
+class OneTriangle {
+ public:
+  explicit OneTriangle(const TriangleMesh& mesh) : mesh_(mesh), v_(mesh.indices[1]) {
+    for (int i = 0; i < 3; ++i) p_[i] = Vec3d(mesh.p[v_[i]]);
+    const Point2 defaults[3] = {{0, 0}, {1, 0}, {1, 1}};
+    const auto uvOf = [&](int i) { return mesh.uv.empty() ? defaults[i] : mesh.uv[v_[i]]; };
+    uv0 = uvOf(0), first = uvOf(1) - uvOf(0), second = uvOf(2) - uvOf(0);
+  }
+  Vec3d Cross() const { return exphoton::Cross(p_[1] - p_[0], p_[2] - p_[0]); }
+  bool IsRegular() const {
+    return Length(Cross()) > .3 && std::abs(first.x * second.y - second.x * first.y) > Real(.3);
+  }
+  Vec3d Ng() const { return NormalizeOrZero(Cross()) * (mesh_.flipNormal ? -1 : 1); }
+  Vec3d Edge(int i) const { return p_[i] - p_[0]; }
+  Vec3d Point(double b1, double b2) const { return p_[0] + Edge(1) * b1 + Edge(2) * b2; }
+  Vec3d Blend(const std::vector<Vec3>& values, double b1, double b2) const {
+    return Vec3d(values[v_[0]]) * (1 - b1 - b2) + Vec3d(values[v_[1]]) * b1 +
+           Vec3d(values[v_[2]]) * b2;
+  }
+  Vec3d Normal(double b1, double b2) const {
+    if (mesh_.n.empty()) return Ng();
+    const Vec3d sum = Blend(mesh_.n, b1, b2);
+    return NormalizeOrZero(sum) * (Dot(sum, Ng()) < 0 ? -1 : 1);
+  }
+
+  Point2 uv0, first, second;  // texture coordinates: of the first corner, and along two edges
+
+ private:
+  const TriangleMesh& mesh_;
+  const std::array<std::uint32_t, 3>& v_;
+  Vec3d p_[3];
+};
+
+// The derivatives along u and v combine to the differences along both edges.
+void ExpectDerivatives(const OneTriangle& triangle, double b1, double b2,
+                       const SurfaceInteraction& s) {
+  const auto along = [](const Vec3& byU, const Vec3& byV, Point2 uv) {
+    return byU * uv.x + byV * uv.y;
+  };
+  const Point2 first = triangle.first, second = triangle.second;
+  ExpectNear(along(s.dpdu, s.dpdv, first), triangle.Edge(1), 1e-4, "along the first edge");
+  ExpectNear(along(s.dpdu, s.dpdv, second), triangle.Edge(2), 1e-4, "along the second edge");
+  constexpr double e = 1e-4;
+  const Vec3d by1 = (triangle.Normal(b1 + e, b2) - triangle.Normal(b1 - e, b2)) * (.5 / e);
+  const Vec3d by2 = (triangle.Normal(b1, b2 + e) - triangle.Normal(b1, b2 - e)) * (.5 / e);
+  const auto& t = s.shading;
+  ExpectNear(along(t.dndu, t.dndv, first), by1, 1e-4, "normals along the first edge");
+  ExpectNear(along(t.dndu, t.dndv, second), by2, 1e-4, "normals along the second edge");
+  EXPECT_EQ(s.dndu, Normal3());
+  EXPECT_EQ(s.dndv, Normal3());
+}
+
+// `tangent` is that of the mesh, or 0.
+void ExpectShadingTangents(const SurfaceInteraction& s, const Vec3d& n, const Vec3d& tangent) {
+  const auto flat = [&](const Vec3d& a) { return NormalizeOrZero(a - n * Dot(n, a)); };
+  const double lengthU = double(Length(s.dpdu)), lengthV = double(Length(s.dpdv));
+  Vec3d first = flat(Vec3d(s.dpdu)) * lengthU, second = flat(Vec3d(s.dpdv)) * lengthV;
+  if (Length(tangent) > 0) {
+    first = flat(tangent) * lengthU;
+    const double side = Dot(Cross(Vec3d(s.dpdu), Vec3d(s.dpdv)), n) < 0 ? -1 : 1;
+    second = NormalizeOrZero(Cross(n, first)) * (side * lengthV);
+  }
+  ExpectNear(s.shading.dpdu, first, 1e-4, "shading.dpdu");
+  ExpectNear(s.shading.dpdv, second, 1e-4, "shading.dpdv");
+}
+
 TEST(TriangleFormulas, GiveTheSurfaceOfAnyMesh) {
   RandomStream random(1);
+  int tested = 0;
   for (int k = 0; k < 800; ++k) {
     const TriangleMesh mesh = RandomTriangle(random, k % 16);
-    const auto& v = mesh.indices[1];
-    const Vec3d p0(mesh.p[v[0]]), p1(mesh.p[v[1]]), p2(mesh.p[v[2]]);
-    const Point2 defaults[3] = {{0, 0}, {1, 0}, {1, 1}};
-    const auto uvOf = [&](int i) { return mesh.uv.empty() ? defaults[i] : mesh.uv[v[i]]; };
-    const Vec3d cross = Cross(p1 - p0, p2 - p0);
-    const double du1 = double(uvOf(1).x - uvOf(0).x), dv1 = double(uvOf(1).y - uvOf(0).y);
-    const double du2 = double(uvOf(2).x - uvOf(0).x), dv2 = double(uvOf(2).y - uvOf(0).y);
-    if (Length(cross) < .3 || std::abs(du1 * dv2 - du2 * dv1) < .3) continue;
+    const OneTriangle triangle(mesh);
+    if (!triangle.IsRegular()) continue;
+    ++tested;
     const double b1 = double(Between(random, Real(.05), Real(.5)));
     const double b2 = double(Between(random, Real(.05), Real(.45)));
     const SurfaceInteraction s = TriangleSurface(mesh, 1, Real(b1), Real(b2));
     SCOPED_TRACE(k);
-
-    ExpectNear(s.p, p0 * (1 - b1 - b2) + p1 * b1 + p2 * b2, 1e-6, "p");
-    const Vec3d ng = NormalizeOrZero(cross) * (mesh.flipNormal ? -1 : 1);
-    ExpectNear(s.ng, ng, 1e-6, "ng");
-    EXPECT_NEAR(double(s.uv.x), double(uvOf(0).x) + b1 * du1 + b2 * du2, 1e-5);
-    EXPECT_NEAR(double(s.uv.y), double(uvOf(0).y) + b1 * dv1 + b2 * dv2, 1e-5);
-    ExpectNear((s.dpdu * Real(du1) + s.dpdv * Real(dv1)), p1 - p0, 1e-4, "along the first edge");
-    ExpectNear((s.dpdu * Real(du2) + s.dpdv * Real(dv2)), p2 - p0, 1e-4, "along the second edge");
-    EXPECT_EQ(s.dndu, Normal3());
-    EXPECT_EQ(s.dndv, Normal3());
-
-    Vec3d n = ng;
-    if (!mesh.n.empty()) {
-      const auto shading = [&](double a1, double a2) {
-        const Vec3d sum = Vec3d(mesh.n[v[0]]) * (1 - a1 - a2) + Vec3d(mesh.n[v[1]]) * a1 +
-                          Vec3d(mesh.n[v[2]]) * a2;
-        return NormalizeOrZero(sum) * (Dot(sum, ng) < 0 ? -1 : 1);
-      };
-      n = shading(b1, b2);
-      constexpr double e = 1e-4;
-      const Vec3d by1 = (shading(b1 + e, b2) - shading(b1 - e, b2)) * (.5 / e);
-      const Vec3d by2 = (shading(b1, b2 + e) - shading(b1, b2 - e)) * (.5 / e);
-      const auto& t = s.shading;
-      ExpectNear(t.dndu * Real(du1) + t.dndv * Real(dv1), by1, 1e-4, "normals, first edge");
-      ExpectNear(t.dndu * Real(du2) + t.dndv * Real(dv2), by2, 1e-4, "normals, second edge");
-    } else {
-      EXPECT_EQ(s.shading.dndu, Normal3());
-      EXPECT_EQ(s.shading.dndv, Normal3());
-    }
+    ExpectNear(s.p, triangle.Point(b1, b2), 1e-6, "p");
+    ExpectNear(s.ng, triangle.Ng(), 1e-6, "ng");
+    const Point2 uv = triangle.uv0 + triangle.first * Real(b1) + triangle.second * Real(b2);
+    EXPECT_NEAR(double(s.uv.x), double(uv.x), 1e-5);
+    EXPECT_NEAR(double(s.uv.y), double(uv.y), 1e-5);
+    const Vec3d n = triangle.Normal(b1, b2);
     ExpectNear(s.shading.n, n, 1e-5, "shading normal");
-
-    Vec3d first(s.dpdu), second(s.dpdv);
-    const auto flat = [&](const Vec3d& a) { return NormalizeOrZero(a - n * Dot(n, a)); };
-    if (!mesh.s.empty()) {
-      first = flat(Vec3d(mesh.s[v[0]]) * (1 - b1 - b2) + Vec3d(mesh.s[v[1]]) * b1 +
-                   Vec3d(mesh.s[v[2]]) * b2) *
-              double(Length(s.dpdu));
-      const double side = Dot(Cross(Vec3d(s.dpdu), Vec3d(s.dpdv)), n) < 0 ? -1 : 1;
-      second = NormalizeOrZero(Cross(n, first)) * (side * double(Length(s.dpdv)));
-    } else if (!mesh.n.empty()) {
-      first = flat(first) * double(Length(s.dpdu));
-      second = flat(second) * double(Length(s.dpdv));
-    }
-    ExpectNear(s.shading.dpdu, first, 1e-4, "shading.dpdu");
-    ExpectNear(s.shading.dpdv, second, 1e-4, "shading.dpdv");
+    ExpectDerivatives(triangle, b1, b2, s);
+    ExpectShadingTangents(s, n, mesh.s.empty() ? Vec3d() : triangle.Blend(mesh.s, b1, b2));
     if (testing::Test::HasFailure()) return;
   }
+  EXPECT_GT(tested, 300);
 }
 
 // Without usable texture coordinates, the tangents are as long as the triangle is wide.
