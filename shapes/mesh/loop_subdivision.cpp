@@ -174,18 +174,20 @@ class Rings {
   std::vector<Spoke> spokes_;
 };
 
-// Returns the tangent that points into the surface at a boundary vertex (Hoppe et al. 1994,
-// appendix A).
+// Returns the tangent that points into the surface at a boundary vertex. Its weights are the left
+// eigenvector of the subdivision about the vertex for the eigenvalue 3/8 + cos(theta)/4. Two and
+// three faces have the weights of Hoppe et al. 1994, appendix A.
 Vec3d InwardTangent(const Vec3d& p, const std::vector<Vec3d>& ring) {
   const std::size_t n = ring.size();
   if (n == 2) return ring[0] + ring[1] - p * 2;
   if (n == 3) return ring[1] - p;
   if (n == 4) return (ring[1] + ring[2]) * 2 - ring[0] - ring[3] - p * 2;
   const double theta = std::numbers::pi / double(n - 1);
-  Vec3d tangent = (ring[0] + ring[n - 1]) * std::sin(theta);
-  for (std::size_t i = 1; i + 1 < n; ++i)
-    tangent = tangent + ring[i] * ((2 * std::cos(theta) - 2) * std::sin(theta * double(i)));
-  return tangent * -1.0;
+  const double inner = 1 / std::tan(theta / 2);  // sum of the inner weights
+  const double end = (std::sin(theta) - inner) / (2 * std::cos(theta) + 1);
+  Vec3d tangent = (ring[0] + ring[n - 1]) * end - p * (inner + 2 * end);
+  for (std::size_t i = 1; i + 1 < n; ++i) tangent = tangent + ring[i] * std::sin(theta * double(i));
+  return tangent;
 }
 
 Vec3d LimitNormal(const Vec3d& p, const std::vector<Vec3d>& ring, bool isBoundary) {

@@ -99,7 +99,8 @@ TEST(Substitutes, ForUnknownMaterialsAreMatte) {
 
 TEST(Substitutes, ForRenderersOfVersion2AreIntegrators) {
   const std::string rest = InWorld("Shape \"sphere\"");
-  const BuiltScene metropolis = BuildText("Renderer \"metropolis\" \"integer maxdepth\" 3\n" + rest);
+  const BuiltScene metropolis =
+      BuildText("Renderer \"metropolis\" \"integer maxdepth\" 3\n" + rest);
   ASSERT_EQ(metropolis.error, "");
   EXPECT_EQ(metropolis.setups.at(0)->integratorName, "path");
   EXPECT_NE(metropolis.Messages().find("there is no renderer \"metropolis\": integrator \"path\""),
@@ -117,9 +118,10 @@ TEST(Substitutes, ForRenderersOfVersion2AreIntegrators) {
 }
 
 TEST(ParameterTypes, ThatAreWrongLeaveTheDefault) {
-  const std::string text = "Film \"image\" \"integer premultiplyalpha\" [0] \"float xresolution\" 6 "
-                           "\"integer yresolution\" 4\nPixelFilter \"box\" \"string xwidth\" \"2\"\n"
-                           "Accelerator \"bruteforce\" WorldBegin Shape \"sphere\" WorldEnd";
+  const std::string text =
+      "Film \"image\" \"integer premultiplyalpha\" [0] \"float xresolution\" 6 "
+      "\"integer yresolution\" 4\nPixelFilter \"box\" \"string xwidth\" \"2\"\n"
+      "Accelerator \"bruteforce\" WorldBegin Shape \"sphere\" WorldEnd";
   const BuiltScene built = BuildText(text);
   ASSERT_EQ(built.error, "");
   EXPECT_EQ(built.setups.at(0)->film.xResolution, 6);  // an integral float is an integer
@@ -146,8 +148,8 @@ TEST(SubdivisionSchemes, OtherThanLoopAreIgnored) {
 }
 
 TEST(MissingFiles, AreReportedWithThePlacesThatWereTried) {
-  const BuiltScene built =
-      BuildText(InWorld("Texture \"t\" \"color\" \"imagemap\" \"string filename\" \"no/such.png\""));
+  const BuiltScene built = BuildText(
+      InWorld("Texture \"t\" \"color\" \"imagemap\" \"string filename\" \"no/such.png\""));
   EXPECT_NE(built.error.find("names a file that does not exist: \"no/such.png\""),
             std::string::npos);
   EXPECT_NE(built.error.find("hint: tried \"no/such.png\""), std::string::npos) << built.error;
@@ -156,13 +158,13 @@ TEST(MissingFiles, AreReportedWithThePlacesThatWereTried) {
 // The red part of matte's default Kd shows the dialect: 1 in version 1, .5 in version 2.
 Real DiffuseOf(const BuiltScene& built) {
   const Scene& scene = *built.setups.at(0)->scene;
-  Ray ray;
+  RayDifferential ray;
   ray.o = {0, 0, -5};
   ray.d = {0, 0, 1};
-  const auto hit = scene.Intersect(ray);
+  auto hit = scene.Intersect(ray);
   if (!hit) return -1;
   Arena arena;
-  return hit->material->MakeBsdf(*hit, &arena).Rho(LobeSet::All).r;
+  return hit->material->Evaluate(&*hit, TransportMode::Radiance, &arena).Rho(LobeSet::All).r;
 }
 
 TEST(Version2, IsRecognisedByItsDirectives) {
@@ -202,8 +204,7 @@ TEST(Version2, HasItsOwnDefaultsOfMaterials) {
     Real v1, v2;
   } cases[] = {{"matte", 1, Real(.5)}, {"mirror", 1, Real(.9)}};
   for (const auto& [material, v1, v2] : cases) {
-    const std::string text =
-        InWorld("Material \"" + std::string(material) + "\" Shape \"sphere\"");
+    const std::string text = InWorld("Material \"" + std::string(material) + "\" Shape \"sphere\"");
     EXPECT_NEAR(DiffuseOf(BuildText(text)), v1, 1e-6) << material;
     EXPECT_NEAR(DiffuseOf(BuildText(text, version2)), v2, 1e-6) << material;
   }
@@ -228,8 +229,8 @@ TEST(Textures, OfABlockEndWithIt) {
     return "Texture \"t\" \"color\" \"constant\" \"color value\" [" + value + "]";
   };
   const std::string material = "Material \"matte\" \"texture Kd\" \"t\"\n";
-  const BuiltScene two = BuildText(
-      InWorld(material + block(define(".2 .2 .2") + " Translate 5 0 0") + block(define(".7 .7 .7"))));
+  const BuiltScene two = BuildText(InWorld(
+      material + block(define(".2 .2 .2") + " Translate 5 0 0") + block(define(".7 .7 .7"))));
   ASSERT_EQ(two.error, "");
   EXPECT_NEAR(DiffuseOf(two), .7, 1e-6);
   const BuiltScene gone = BuildText(InWorld(material + block(define(".2 .2 .2")) + block("")));

@@ -25,5 +25,26 @@ TEST(LoopSubdivision, ABoundaryVertexOfManyFacesFacesAsTheyDo) {
   }
 }
 
+// The tangent mask of the boundary is an eigenvector of the subdivision, for any number of faces:
+// the limit's normal is the same at every level.
+TEST(LoopSubdivision, NormalsOfAFanDoNotDependOnTheLevel) {
+  for (std::uint32_t faces = 1; faces <= 8; ++faces) {
+    SubdivisionMesh fan;
+    fan.positions.push_back({0, 0, .3});
+    for (std::uint32_t i = 0; i <= faces; ++i) {
+      const double angle = M_PI * i / faces;
+      fan.positions.push_back(
+          {std::cos(angle) * (1 + .1 * i), std::sin(angle) + .2, .4 * std::sin(2. * i) + .2 * i});
+      if (i > 0) fan.faces.push_back({0, i, i + 1});
+    }
+    const LimitMesh coarse = LoopSubdivide(fan, 0);
+    for (const int level : {1, 3}) {
+      const LimitMesh fine = LoopSubdivide(fan, level);
+      EXPECT_GT(Dot(fine.normals[0], coarse.normals[0]), 1 - 1e-9) << faces << " " << level;
+      EXPECT_LT(Length(fine.mesh.positions[0] - coarse.mesh.positions[0]), 1e-12) << faces;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/base/error.h"
 #include "tests/support/test_plugin.h"
@@ -109,6 +110,79 @@ TEST(Filter, WidthsOutOfRangeAreErrors) {
     }
   }
   EXPECT_THROW(plugins.MakeFilter(R"("gaussian" "float alpha" 0)"), Error);
+}
+
+double Mitchell(double x, double b, double c) {
+  x = std::abs(x);
+  if (x >= 2) return 0;
+  if (x >= 1)
+    return ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + 8 * b +
+            24 * c) /
+           6;
+  return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + 6 - 2 * b) / 6;
+}
+double Sinc(double x) { return x == 0 ? 1 : std::sin(M_PI * x) / (M_PI * x); }
+
+// Samples come as far as the width on all four sides.
+void ExpectReach(const Filter& filter, const char* text) {
+  Real left = 0, right = 0, low = 0, high = 0;
+  for (int i = 0; i <= 50; ++i) {
+    const Real u = Real(i) / 50 * kOneMinusEpsilon;
+    const Point2 a = filter.Sample({u, Real(.4)}).offset, b = filter.Sample({Real(.4), u}).offset;
+    left = std::min(left, a.x), right = std::max(right, a.x);
+    low = std::min(low, b.y), high = std::max(high, b.y);
+  }
+  EXPECT_NEAR(double(right / filter.XWidth()), 1, .1) << text;
+  EXPECT_NEAR(double(left / filter.XWidth()), -1, .1) << text;
+  EXPECT_NEAR(double(high / filter.YWidth()), 1, .1) << text;
+  EXPECT_NEAR(double(low / filter.YWidth()), -1, .1) << text;
+}
+
+// The defaults, and each parameter with a value of its own, over the whole support.
+TEST(Filter, FollowsItsFormulaWithEachParameter) {
+  TestPlugins plugins;
+  const auto gauss = [](double alpha, double w) {
+    return [=](double x) { return std::exp(-alpha * x * x) - std::exp(-alpha * w * w); };
+  };
+  const auto mitchell = [](double w, double b, double c) {
+    return [=](double x) { return Mitchell(2 * x / w, b, c); };
+  };
+  const auto sinc = [](double w, double tau) {
+    return [=](double x) { return Sinc(tau * x / w) * Sinc(x / w); };
+  };
+  const auto triangle = [](double w) { return [=](double x) { return w - std::abs(x); }; };
+  const auto box = [](double) { return 1.; };
+  const struct {
+    const char* text;
+    double xWidth, yWidth;
+    std::function<double(double)> x, y;
+  } cases[] = {
+      {R"("box")", .5, .5, box, box},
+      {R"("box" "float xwidth" 1.5 "float ywidth" 2.5)", 1.5, 2.5, box, box},
+      {R"("triangle")", 2, 2, triangle(2), triangle(2)},
+      {R"("triangle" "float xwidth" 1.5 "float ywidth" 2.5)", 1.5, 2.5, triangle(1.5),
+       triangle(2.5)},
+      {R"("gaussian")", 2, 2, gauss(2, 2), gauss(2, 2)},
+      {R"("gaussian" "float xwidth" 1.5 "float ywidth" 2.5 "float alpha" .7)", 1.5, 2.5,
+       gauss(.7, 1.5), gauss(.7, 2.5)},
+      {R"("mitchell")", 2, 2, mitchell(2, 1. / 3, 1. / 3), mitchell(2, 1. / 3, 1. / 3)},
+      {R"("mitchell" "float xwidth" 1.5 "float ywidth" 2.5 "float B" .2 "float C" .6)", 1.5, 2.5,
+       mitchell(1.5, .2, .6), mitchell(2.5, .2, .6)},
+      {R"("sinc")", 4, 4, sinc(4, 3), sinc(4, 3)},
+      {R"("sinc" "float xwidth" 1.5 "float ywidth" 2.5 "float tau" 2)", 1.5, 2.5, sinc(1.5, 2),
+       sinc(2.5, 2)},
+  };
+  for (const auto& each : cases) {
+    const auto filter = plugins.MakeFilter(each.text);
+    EXPECT_EQ(filter->XWidth(), Real(each.xWidth)) << each.text;
+    EXPECT_EQ(filter->YWidth(), Real(each.yWidth)) << each.text;
+    for (int i = -19; i <= 19; ++i) {
+      const double x = each.xWidth * i / 20, y = each.yWidth * (i * 7 % 20) / 20;
+      EXPECT_NEAR(double(filter->Evaluate({Real(x), Real(y)})), each.x(x) * each.y(y), 2e-6)
+          << each.text << ' ' << x << ' ' << y;
+    }
+    ExpectReach(*filter, each.text);
+  }
 }
 
 }  // namespace

@@ -197,5 +197,77 @@ TEST(LowDiscrepancySampler, RoundsCountsToPowersOfTwo) {
       1 << 20);
 }
 
+// Other counts divide into the most nearly square grid: 12 points into 3 x 4 cells, 7 into a grid
+// of 9 cells, of which each takes one point at most.
+TEST(StratifiedSampler, OtherCountsHaveTheirOwnGrid) {
+  TestPlugins plugins;
+  const auto stratified = plugins.MakeSampler(R"("stratified")");
+  EXPECT_EQ(stratified->SamplesPerPixel(), 4);
+  CameraSamples first{SampleLayout{}};
+  stratified->Generate({3, {5, 6}, 0}, &first);
+  EXPECT_NE(2 * first.film.x - std::floor(2 * first.film.x), Real(.5));  // jittered
+  const auto filmOf = [&](std::int64_t count) {
+    const auto sampler = stratified->WithSamplesPerPixel(count);
+    EXPECT_EQ(sampler->SamplesPerPixel(), count);
+    std::vector<Point2> film;
+    for (int i = 0; i < count; ++i) {
+      CameraSamples s{SampleLayout{}};
+      sampler->Generate({3, {5, 6}, i}, &s);
+      film.push_back(s.film);
+    }
+    return film;
+  };
+  EXPECT_TRUE(IsStratified(filmOf(16), 4, 4));
+  EXPECT_TRUE(IsStratified(filmOf(12), 3, 4));
+  EXPECT_TRUE(IsStratified(filmOf(4), 2, 2));
+  EXPECT_TRUE(IsStratified(filmOf(2), 1, 2));
+  std::set<int> cells;
+  for (const Point2 p : filmOf(7)) cells.insert(int(3 * p.x) + 3 * int(3 * p.y));
+  EXPECT_EQ(cells.size(), 7u);
+}
+
+TEST(StratifiedSampler, ArraysThatAreNotSquareAreStratifiedAlongBothAxes) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("stratified")");
+  const struct {
+    int count, columns, rows;
+  } arrays[] = {{8, 4, 2}, {12, 4, 3}, {6, 3, 2}, {13, 13, 1}, {2, 2, 1}};
+  SampleLayout layout;
+  std::vector<int> requests;
+  for (const auto& array : arrays) requests.push_back(layout.Request2D(array.count));
+  for (int i = 0; i < 40; ++i) {
+    CameraSamples s(layout);
+    sampler->Generate({1, {i, 7}, i % 4}, &s);
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+      const auto [count, columns, rows] = arrays[k];
+      const auto array = s.Array2D(requests[k]);
+      const std::vector<Point2> points(array.begin(), array.end());
+      EXPECT_TRUE(IsStratified(points, columns, rows)) << count;
+      EXPECT_TRUE(IsStratified(points, count, 1)) << count;
+      EXPECT_TRUE(IsStratified(points, 1, count)) << count;
+    }
+  }
+}
+
+TEST(StratifiedSampler, WithoutJitterTakesTheCentresOfLensAndTimeToo) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(
+      R"("stratified" "integer xsamples" 2 "integer ysamples" 4 "bool jitter" "false")");
+  std::set<std::pair<Real, Real>> film, lens;
+  std::set<Real> time;
+  for (int i = 0; i < 8; ++i) {
+    CameraSamples s{Requests().layout};
+    sampler->Generate({0, {0, 0}, i}, &s);
+    film.insert({s.film.x * 2, s.film.y * 4});
+    lens.insert({s.lens.x * 2, s.lens.y * 4});
+    time.insert(s.time * 8);
+  }
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_TRUE(film.contains({Real(i % 2) + Real(.5), Real(i / 2) + Real(.5)})) << i;
+    EXPECT_TRUE(lens.contains({Real(i % 2) + Real(.5), Real(i / 2) + Real(.5)})) << i;
+    EXPECT_TRUE(time.contains(Real(i) + Real(.5))) << i;
+  }
+}
+
 }  // namespace
 }  // namespace exphoton

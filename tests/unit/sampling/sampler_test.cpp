@@ -173,5 +173,17 @@ TEST(Sampler, CountsOutOfRangeAreErrors) {
   EXPECT_THROW(plugins.MakeSampler(R"("random" "integer ysamples" 0)"), Error);
 }
 
+TEST(Sampler, DefaultsToFourSamples) {
+  TestPlugins plugins;
+  for (const char* name : {"random", "stratified", "lowdiscrepancy"})
+    EXPECT_EQ(plugins.MakeSampler('"' + std::string(name) + '"')->SamplesPerPixel(), 4) << name;
+  EXPECT_EQ(plugins.MakeSampler(R"("random" "integer xsamples" 3 "integer ysamples" 5)")
+                ->SamplesPerPixel(),
+            15);
+  EXPECT_EQ(plugins.MakeSampler(R"("stratified" "integer xsamples" 3 "integer ysamples" 5)")
+                ->SamplesPerPixel(),
+            15);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests compare the forms of a RunRecord with their whole text: the table of --stats, the
+// line of --stats-json, the line on stopping rules, the text of --explain, and the picture's
+// attributes.
+#include "core/app/output/run_record.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/test_scene.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr const char* kScene = R"(
+    Film "image" "integer xresolution" 20 "integer yresolution" 10
+    Sampler "stratified" "integer xsamples" 3 "integer ysamples" 1
+    PixelFilter "triangle"
+    Accelerator "kdtree"
+    SurfaceIntegrator "directlighting"
+    LookAt 1 2 3  1 2 5  0 1 0
+    Camera "orthographic" "float hither" 1 "float yon" 3
+    WorldBegin LightSource "point" Shape "sphere" Shape "sphere" WorldEnd)";
+
+class RunRecordTest : public testing::Test {
+ protected:
+  RunRecordTest() : scene_(LoadSceneText(kScene)), run(*scene_.setup, statistics) {
+    run.seed = 18446744073709551615u;
+    run.threads = 3;
+    run.renderSeconds = 1.5, run.wallSeconds = 2.5, run.cpuSeconds = 4.25;
+    run.peakMemory = 1024;
+    run.nonFiniteSamples = 7;
+    run.samplesPerPixel = 12;
+    run.passes = 4;
+    run.stoppedBy = "samples";
+    run.commandLine = "exphoton a.pbrt";
+  }
+  std::string Effects() const { return scene_.setup->scene->Features().Describe(); }
+  RenderSetup& Loaded() { return *scene_.setup; }
+
+ private:
+  LoadedScene scene_;
+
+ protected:
+  Statistics statistics;
+  RunRecord run;
+};
+
+TEST_F(RunRecordTest, SaysWhatItIsInATable) {
+  statistics.AddPhase("parse", .25, .5);
+  statistics.AddPhase("own phase", 1, 2);
+  RayCounters rays;
+  rays.counts = {1, 20, 300, 4000, 50000, 600000};
+  statistics.AddRays(rays);
+  statistics.SetCounter("things", 12345678, "that were counted");
+  statistics.SetCounter("parts", 1. / 3, "of a whole");
+  run.noise = .01234;
+  EXPECT_EQ(StatisticsTable(run),
+            "scene         test.pbrt\n"
+            "integrator    directlighting\n"
+            "picture       20 x 10\n"
+            "samples       12 a pixel in 4 passes\n"
+            "threads       3\n"
+            "noise         0.0123 of relMSE, estimated between passes (bias not included)\n"
+            "\n"
+            "phase                               seconds  CPU seconds  meaning\n"
+            "parse                                 0.250        0.500  reading the scene: files, "
+            "plugins, textures, meshes\n"
+            "own phase                             1.000        2.000  \n"
+            "all                                   2.500        4.250  from reading the scene to "
+            "writing the picture\n"
+            "\n"
+            "rays                                  count  meaning\n"
+            "camera                                    1  from the camera\n"
+            "shadow                                   20  from a surface to a point on a light\n"
+            "bsdf                                    300  from a surface, in a direction sampled "
+            "from its BSDF\n"
+            "specular                               4000  over mirrors and through glass, on the "
+            "camera's side\n"
+            "gather                                50000  of the final gather, over the hemisphere "
+            "of a surface\n"
+            "photon                               600000  that carried a photon\n"
+            "all                                  654321  rays that were traced\n"
+            "\n"
+            "counter                               value  meaning\n"
+            "things                             12345678  that were counted\n"
+            "parts                              0.333333  of a whole\n");
+  run.passes = 1;
+  run.noise.reset();
+  Loaded().crop = {2, 3, 8, 7};
+  const std::string one = StatisticsTable(run);
+  EXPECT_NE(one.find("\nsamples       12 a pixel in 1 pass\nthreads "), std::string::npos);
+  EXPECT_NE(one.find("\npicture       20 x 10, of which x 2 to 7, y 3 to 6\n"), std::string::npos);
+  EXPECT_EQ(one.find("noise"), std::string::npos);
+}
+
+TEST_F(RunRecordTest, ExplainsEveryPhaseOfTheRenderer) {
+  for (const char* name :
+       {"parse", "accelerator", "shoot", "photon maps", "radiance", "render", "write"})
+    statistics.AddPhase(name, 1, 2);
+  const std::string table = StatisticsTable(run);
+  for (const char* row :
+       {"accelerator                           1.000        2.000  building the acceleration "
+        "structure\n",
+        "shoot                                 1.000        2.000  tracing photons from the "
+        "lights\n",
+        "photon maps                           1.000        2.000  sorting photons for searching, "
+        "and choosing radii\n",
+        "radiance                              1.000        2.000  computing the radiance at "
+        "radiance photons\n",
+        "render                                1.000        2.000  camera rays and all rays that "
+        "follow from them\n",
+        "write                                 1.000        2.000  writing the picture\n"})
+    EXPECT_NE(table.find(row), std::string::npos) << row;
+}
+
+TEST_F(RunRecordTest, IsALineOfJson) {
+  Loaded().sceneName = "a\"b\\c\n.pbrt";
+  Loaded().sceneHash = 0xabcdef;
+  Loaded().crop = {2, 3, 8, 7};
+  statistics.AddPhase("parse", .25, .5);
+  statistics.AddPhase("write", 1, 2);
+  RayCounters rays;
+  rays.counts = {1, 2, 3, 4, 5, 6};
+  statistics.AddRays(rays);
+  statistics.SetCounter("things", .5, "");
+  run.footprintSamples = 5;
+  run.isComplete = false;
+  run.targetError = .125;
+  run.aovs = "N";
+  std::string effects;
+  for (int i = 0; i < kFeatureCount; ++i) {
+    const auto& row = Loaded().scene->Features().Get(Feature(i));
+    effects += std::string(i ? "," : "") + '"' + FeatureName(Feature(i)) +
+               "\":{\"on\":" + (row.on ? "true" : "false") + ",\"reason\":\"" + row.reason + "\"}";
+  }
+  EXPECT_EQ(StatisticsJson(run),
+            "{\"scene\":\"a\\\"b\\\\c\\u000a.pbrt\",\"sceneHash\":\"0000000000abcdef\","
+            "\"integrator\":\"directlighting\",\"sampler\":\"stratified\","
+            "\"accelerator\":\"kdtree\",\"resolution\":[20,10],\"pixelBounds\":[2,8,3,7],"
+            "\"samplesPerPixel\":12,\"footprintSamplesPerPixel\":5,\"effects\":{" +
+                effects +
+                "},\"seed\":\"18446744073709551615\",\"threads\":3,\"complete\":false,"
+                "\"nonFiniteSamples\":7,\"renderSeconds\":1.5,\"wallSeconds\":2.5,"
+                "\"cpuSeconds\":4.25,\"peakMemoryBytes\":1024,\"passes\":4,"
+                "\"stoppedBy\":\"samples\",\"noise\":null,\"targetError\":0.125,"
+                "\"timeLimit\":null,\"aovs\":\"N\",\"phases\":[{\"name\":\"parse\","
+                "\"seconds\":0.25,\"cpuSeconds\":0.5},{\"name\":\"write\",\"seconds\":1,"
+                "\"cpuSeconds\":2}],\"rays\":{\"camera\":1,\"shadow\":2,\"bsdf\":3,"
+                "\"specular\":4,\"gather\":5,\"photon\":6},\"counters\":{\"things\":0.5}}\n");
+  run.footprintSamples = 0;
+  run.isComplete = true;
+  run.noise = .25, run.timeLimit = 9;
+  const std::string other = StatisticsJson(run);
+  EXPECT_EQ(other.find("footprint"), std::string::npos);
+  EXPECT_NE(other.find("\"complete\":true,"), std::string::npos);
+  EXPECT_NE(other.find("\"noise\":0.25,\"targetError\":0.125,\"timeLimit\":9,"), std::string::npos);
+}
+
+TEST_F(RunRecordTest, SaysWhichRuleStoppedIt) {
+  run.noise = .0004;
+  const std::string noise = "; noise \u00b12 % (bias not included), relMSE of the noise 0.0004";
+  EXPECT_EQ(StoppingText(run), "two independent halves: 12 samples a pixel in 4 passes" + noise);
+  run.timeLimit = 90.5;
+  EXPECT_EQ(StoppingText(run),
+            "stopped at the limit of samples: 12 samples a pixel in 4 passes" + noise);
+  run.stoppedBy = "time-limit";
+  EXPECT_EQ(StoppingText(run),
+            "stopped at the last whole pass within 90.5 s: 12 samples a pixel "
+            "in 4 passes" +
+                noise);
+  run.timeLimit.reset();
+  run.stoppedBy = "samples";
+  run.targetError = .01;
+  EXPECT_EQ(StoppingText(run),
+            "stopped at the limit of samples: 12 samples a pixel in 4 passes" + noise);
+  run.stoppedBy = "target-error";
+  run.passes = 1;
+  run.noise.reset();
+  EXPECT_EQ(StoppingText(run),
+            "reached the target error 0.01: 12 samples a pixel in 1 pass, which "
+            "give no estimate of the noise");
+  run.isComplete = false;
+  EXPECT_EQ(StoppingText(run),
+            "stopped by a signal: 12 samples a pixel in 1 pass, which give no "
+            "estimate of the noise");
+}
+
+TEST_F(RunRecordTest, ExplainsTheScene) {
+  Loaded().sceneHash = 0xabcdef;
+  Loaded().plugins = {"filters/triangle", "shapes/sphere"};
+  EXPECT_EQ(ExplainText(Loaded()),
+            "scene         test.pbrt\n"
+            "hash          0000000000abcdef\n"
+            "integrator    directlighting\n"
+            "sampler       stratified\n"
+            "samples       3 a pixel\n"
+            "filter        triangle\n"
+            "camera        orthographic\n"
+            "accelerator   kdtree\n"
+            "picture       20 x 10\n"
+            "primitives    2\n" +
+                Effects() + "plugins       2 loaded: filters/triangle, shapes/sphere\n");
+}
+
+TEST_F(RunRecordTest, IsInTheAttributesOfThePicture) {
+  const auto attributes = PictureAttributes(run, true);
+  const auto text = [&](const char* name) { return std::get<std::string>(attributes.at(name)); };
+  EXPECT_EQ(text("scene"), "test.pbrt");
+  EXPECT_EQ(text("sceneHash"), HashText(Loaded().sceneHash));
+  EXPECT_EQ(text("integrator"), "directlighting");
+  EXPECT_EQ(text("effects"), Effects());
+  EXPECT_EQ(text("seed"), "18446744073709551615");
+  EXPECT_EQ(text("stoppedBy"), "samples");
+  EXPECT_EQ(text("comments"), "sampler stratified, filter triangle, camera orthographic");
+  EXPECT_EQ(std::get<int>(attributes.at("samplesPerPixel")), 12);
+  EXPECT_EQ(std::get<int>(attributes.at("passes")), 4);
+  // Row vectors: the translation is in the last row. The camera looks along +z from (1, 2, 3), and
+  // LookAt of version 1 turns x round.
+  EXPECT_EQ(std::get<std::vector<float>>(attributes.at("worldToCamera")),
+            (std::vector<float>{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, -2, -3, 1}));
+  // Widths 4 by 2, and depths from 1 to 3 behind the camera.
+  EXPECT_EQ(std::get<std::vector<float>>(attributes.at("worldToNDC")),
+            (std::vector<float>{-.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, .5, 0, .5, -2, -2, 1}));
+  for (const char* name :
+       {"footprintSamplesPerPixel", "noise", "targetError", "timeLimit", "capDate", "utcOffset",
+        "owner", "commandLine", "phaseTimes", "renderTimeSeconds", "threads"})
+    EXPECT_FALSE(attributes.contains(name)) << name;
+}
+
+TEST_F(RunRecordTest, HasTimesInTheAttributesUnlessReproducible) {
+  const char* const user = std::getenv("USER");
+  const std::string old = user ? user : "";
+  setenv("USER", "somebody", 1);
+  statistics.AddPhase("parse", .25, .5);
+  statistics.AddPhase("write", 1, 2);
+  run.isComplete = false;
+  run.footprintSamples = 5;
+  run.noise = .5, run.targetError = .25, run.timeLimit = 9;
+  const auto attributes = PictureAttributes(run, false);
+  const auto text = [&](const char* name) { return std::get<std::string>(attributes.at(name)); };
+  const auto number = [&](const char* name) { return std::get<float>(attributes.at(name)); };
+  EXPECT_EQ(text("comments"),
+            "incomplete: interrupted; sampler stratified, filter triangle, camera orthographic");
+  EXPECT_EQ(text("phaseTimes"), "parse 0.250 s (0.500 s CPU); write 1.000 s (2.000 s CPU)");
+  EXPECT_EQ(text("commandLine"), "exphoton a.pbrt");
+  EXPECT_EQ(text("owner"), "somebody");
+  EXPECT_EQ(number("renderTimeSeconds"), 1.5f);
+  EXPECT_EQ(number("noise"), .5f);
+  EXPECT_EQ(number("targetError"), .25f);
+  EXPECT_EQ(number("timeLimit"), 9.f);
+  EXPECT_EQ(std::get<int>(attributes.at("footprintSamplesPerPixel")), 5);
+  EXPECT_EQ(std::get<int>(attributes.at("threads")), 3);
+  const std::time_t now = std::time(nullptr);
+  EXPECT_EQ(number("utcOffset"), float(-std::localtime(&now)->tm_gmtoff));
+  EXPECT_EQ(text("capDate").size(), 19u);
+  if (user)
+    setenv("USER", old.c_str(), 1);
+  else
+    unsetenv("USER");
+}
+
+}  // namespace
+}  // namespace exphoton::cli
