@@ -165,21 +165,24 @@ HWY_INLINE hn::Vec<Tag> NumbersFrom(Tag tag, hn::TFromD<Tag> first) {
   return hn::Add(hn::Load(tag, kLaneNumbers<hn::TFromD<Tag>>), hn::Set(tag, first));
 }
 
-// Converts the lower and the upper half of each word, both signed.
-HWY_INLINE void LoadOctahedral(const std::uint32_t* words, Real16* lower, Real16* upper) {
-  using Integers = hn::Rebind<std::int32_t, Real16::Tag>;
-  const auto toReals = [](auto v) {
-    if constexpr (sizeof(Real) == sizeof(std::int32_t))
-      return hn::ConvertTo(Real16::Tag(), v);
-    else
-      return hn::PromoteTo(Real16::Tag(), v);
-  };
+HWY_INLINE hn::Vec<Real16::Tag> ToReals(hn::Vec<hn::Rebind<std::int32_t, Real16::Tag>> v) {
+#if defined(EXPHOTON_DOUBLE)
+  return hn::PromoteTo(Real16::Tag(), v);
+#else
+  return hn::ConvertTo(Real16::Tag(), v);
+#endif
+}
+// Converts the lower or the upper half of each word, both signed.
+template <bool kIsUpper>
+HWY_INLINE Real16 LoadHalves(const std::uint32_t* words) {
+  const hn::Rebind<std::int32_t, Real16::Tag> tag;
+  Real16 r;
   for (int i = 0; i < Real16::kRegisters; ++i) {
     const auto word =
-        hn::Load(Integers(), reinterpret_cast<const std::int32_t*>(words + i * Real16::kLanes));
-    lower->part[i] = toReals(hn::ShiftRight<16>(hn::ShiftLeft<16>(word)));
-    upper->part[i] = toReals(hn::ShiftRight<16>(word));
+        hn::Load(tag, reinterpret_cast<const std::int32_t*>(words + i * Real16::kLanes));
+    r.part[i] = ToReals(hn::ShiftRight<16>(kIsUpper ? word : hn::ShiftLeft<16>(word)));
   }
+  return r;
 }
 
 // Keys are the bits of values as signed integers. They have the same order as the values if no
