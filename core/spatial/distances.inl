@@ -49,8 +49,7 @@ HWY_INLINE Real16 FlattenedBoxDistance2(const BoxNode& node, const Point16& p, c
 // Returns the dot product of n and each point's direction. The directions are not normalised;
 // *length2 receives their squared lengths.
 HWY_INLINE Real16 DotDirection(const PointBlock& block, const Point16& n, Real16* length2) {
-  Real16 a, b;
-  LoadOctahedral(block.direction, &a, &b);
+  const Real16 a = LoadHalves<false>(block.direction), b = LoadHalves<true>(block.direction);
   const Real16 z = Real16::All(kOctahedralOne) - Abs(a) - Abs(b);
   const Real16 fold = Max(Real16::All(0) - z, Real16::All(0));
   const Real16 x = a - CopySign(fold, a), y = b - CopySign(fold, b);

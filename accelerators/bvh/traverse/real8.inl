@@ -120,7 +120,17 @@ class PushOrder {
 
 #endif
 
+// Assembles the vector in registers, because a vector load stalls on the narrower stores before it.
 HWY_INLINE Axes AxesOf(const Vec3& a) {
-  alignas(64) const Real lanes[kBvhWidth] = {a.x, a.y, a.z, 1, 1, 1, 1, 1};
-  return Axes::Load(lanes);
+  const Axes::Tag tag;
+  const auto set = [&](Real x) HWY_ATTR { return hn::Set(tag, x); };
+  Axes r;
+  r.part[0] = set(1);
+  for (int i = 1; i < Axes::kRegisters; ++i) r.part[i] = set(1);
+  const Real components[3] = {a.x, a.y, a.z};
+  for (int axis = 2; axis >= 0; --axis) {
+    auto& part = r.part[axis / Axes::kLanes];
+    part = hn::IfThenElse(MaskOf(tag, 1u << axis % Axes::kLanes), set(components[axis]), part);
+  }
+  return r;
 }
