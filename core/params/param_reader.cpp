@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "core/params/param_text.h"
 #include "core/params/scene_path.h"
@@ -120,12 +119,8 @@ std::any ParamReader::ReadString() const {
     if (text == "false") return false;
     Fail("must be \"true\" or \"false\", not " + Quoted(text), Place(0));
   }
-  if (decl_.type != ParamType::File || text.empty()) return text;
-  const std::string path = ResolveScenePath(text, param_.where);
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    Fail("names a file that does not exist: " + Quoted(text), Place(0), TriedPaths());
-  return path;
+  if (decl_.type == ParamType::File && !text.empty()) return ResolveScenePath(text, param_.where);
+  return text;
 }
 
 std::any ParamReader::ReadChoice() const {

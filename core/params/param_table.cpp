@@ -4,9 +4,11 @@
 #include "core/params/param_table.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/base/log.h"
 #include "core/params/param_reader.h"
+#include "core/params/scene_path.h"
 #include "core/params/suggestions.h"
 
 namespace exphoton {
@@ -145,13 +147,28 @@ void ParamTableBase::BindValues(const ParamSet& params, const BindContext& conte
   }
 }
 
+// Returns the paths that were tried, if the parameter names a file and none of them exists.
+std::string ParamTableBase::MissingFileHint(const ParsedParam& param) const {
+  const bool isFile =
+      std::any_of(declarations_.begin(), declarations_.end(), [&](const ParamDecl& decl) {
+        return decl.name == param.name && decl.type == ParamType::File;
+      });
+  std::error_code ignored;
+  if (!isFile || param.strings.size() != 1 ||
+      std::filesystem::exists(ResolveScenePath(param.strings[0], param.where), ignored))
+    return "";
+  return TriedPathsText(
+      ScenePathCandidates(param.strings[0], param.where.file, MainFileOf(param.where)));
+}
+
 void ParamTableBase::Locate(const ParamError& error, const ParamSet& params,
-                            const BindContext& context) {
+                            const BindContext& context) const {
   const ParsedParam* param = FindWithOverrides(error.param, params, context);
   const std::string subject =
       error.param.empty() ? context.what : "parameter \"" + error.param + "\" of " + context.what;
+  const std::string hint = error.hint.empty() && param ? MissingFileHint(*param) : error.hint;
   throw Error(ExitStatus::Scene, subject + ' ' + error.text, param ? param->where : params.where,
-              error.hint);
+              hint);
 }
 
 }  // namespace exphoton

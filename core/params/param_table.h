@@ -102,8 +102,8 @@ class ParamTableBase {
   // `settings`. Throws Error(Scene) with file, line, column and hint.
   void BindValues(const ParamSet& params, const BindContext& context, void* settings) const;
   // Throws the ParamError as an Error with the location of the parameter.
-  [[noreturn]] static void Locate(const ParamError& error, const ParamSet& params,
-                                  const BindContext& context);
+  [[noreturn]] void Locate(const ParamError& error, const ParamSet& params,
+                           const BindContext& context) const;
 
  private:
   struct Slot {
@@ -111,6 +111,7 @@ class ParamTableBase {
     const ParamMember* member;
     std::vector<long long> choiceValues;
   };
+  std::string MissingFileHint(const ParsedParam& param) const;
   void AddSlot(ParamDecl decl, Slot slot, const void* defaults);
   // Reads the parameter of declaration i and stores it.
   void Assign(std::size_t i, const ParsedParam& param, const BindContext& context,

@@ -70,6 +70,16 @@ const PluginDescriptor* PluginRegistry::TryLoad(PluginKind kind, const std::stri
   return nullptr;
 }
 
+void PluginRegistry::CheckForeignFiles(PluginKind kind, const std::string& name) const {
+  for (const PluginFile& file : FindPluginFiles(folders_, kind, name)) {
+    try {
+      LoadPluginFile(file, name);
+    } catch (const PluginFileError& error) {
+      throw PluginFileError('"' + file.path + "\" " + error.what());
+    }
+  }
+}
+
 const PluginDescriptor* PluginRegistry::Substitute(PluginKind kind, const std::string& name,
                                                    const SourceLocation& where) {
   const PluginAlias* alias = FindPluginAlias(kind, name);
@@ -119,6 +129,7 @@ const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string&
     const PluginDescriptor* plugin = TryLoad(kind, name);
     if (!plugin) {
       if (const PluginDescriptor* other = Substitute(kind, name, where)) return *other;
+      CheckForeignFiles(kind, name);
       ThrowMissing(kind, name, where);
     }
     loaded_.emplace(Key(kind, name), plugin);

@@ -52,6 +52,8 @@ class PluginRegistry {
   std::string PlacesText() const;
   // Returns null if there is no such plugin. Throws PluginFileError.
   const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
+  // Throws PluginFileError if a library of another program has the name of a missing plugin.
+  void CheckForeignFiles(PluginKind kind, const std::string& name) const;
   // Returns the plugin that is used in place of a missing one, or null.
   const PluginDescriptor* Substitute(PluginKind kind, const std::string& name,
                                      const SourceLocation& where);

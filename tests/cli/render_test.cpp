@@ -185,9 +185,9 @@ TEST_F(RenderCommandTest, CallsAWrongSceneStatus2AndLeavesTheOlderPicture) {
 }
 
 TEST_F(RenderCommandTest, NamesThePluginsThatExist) {
-  const ProgramResult result = RunText(SmallScene("", "Material \"mate\""));
+  const ProgramResult result = RunText(SmallScene("", "Shape \"spere\""));
   EXPECT_EQ(result.status, 2);
-  for (const char* name : {"there is no material \"mate\"", "glass", "matte", "mirror"})
+  for (const char* name : {"there is no shape \"spere\"", "cylinder", "disk", "sphere"})
     EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
 }
 
@@ -368,11 +368,11 @@ TEST_F(RenderCommandTest, SaysWhenMemoryIsNotEnough) {
 #endif
 
 TEST_F(RenderCommandTest, SaysThatItDidNotLookForPluginsInTheScenesSearchPath) {
-  Write("scene.pbrt", "SearchPath \"nowhere:&\"\nSearchPath \"elsewhere\"\n" +
-                          SmallScene("", "Material \"mate\""));
+  Write("scene.pbrt",
+        "SearchPath \"nowhere:&\"\nSearchPath \"elsewhere\"\n" + SmallScene("", "Shape \"spere\""));
   const ProgramResult result = Run({"scene.pbrt"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.err.find("matte"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("sphere"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("did not look in elsewhere, named by the scene: "
                             "--allow-scene-plugins"),
             std::string::npos)

@@ -101,7 +101,9 @@ TEST(RenderSetup, OfASecondWorldIsThatOfTheWorldAlone) {
       "Texture \"t\" \"float\" \"constant\" MakeNamedMaterial \"m\" \"string type\" \"glass\"\n"
       "ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Shape \"disk\" WorldEnd\n";
   const std::string second = "WorldBegin Shape \"sphere\" WorldEnd\n";
-  const BuiltScene both = BuildText(first + second), alone = BuildText(second);
+  LoadOptions options;  // MakeNamedMaterial would make the whole file one of version 2
+  options.dialect = Dialect::V1;
+  const BuiltScene both = BuildText(first + second, options), alone = BuildText(second, options);
   ASSERT_EQ(both.setups.size(), 2u) << both.error;
   const RenderSetup &a = *both.setups[1], &b = Only(alone);
   EXPECT_EQ(a.sceneHash, b.sceneHash);
@@ -208,8 +210,9 @@ TEST(RenderSetup, RefusesOtherFilmsAndRenderers) {
   };
   EXPECT_EQ(errorOf("Film \"imag\""),
             "scene.pbrt:1:1: error: unknown film \"imag\"; known: \"image\"");
-  EXPECT_EQ(errorOf("Renderer \"metropolis\""),
-            "scene.pbrt:1:1: error: unknown renderer \"metropolis\"; known: \"sampler\"");
+  EXPECT_EQ(errorOf("Renderer \"samplers\""),
+            "scene.pbrt:1:1: error: unknown renderer \"samplers\"; known: \"sampler\", "
+            "\"metropolis\", \"createprobes\", \"surfacepoints\", \"aggregatetest\"");
 }
 
 // Each message of the world in its words, with the place of its directive.

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/geometry/vec3d.h"
+
 namespace exphoton {
 namespace {
 
@@ -35,9 +37,9 @@ constexpr signed char kGradients[16][3] = {
 unsigned Permuted(unsigned i) { return kPermutation[i & 255]; }
 
 // Returns the product of a corner's gradient and the vector from the corner.
-double Corner(unsigned x, unsigned y, unsigned z, double dx, double dy, double dz) {
+double Corner(unsigned x, unsigned y, unsigned z, const Vec3d& d) {
   const auto& g = kGradients[Permuted(Permuted(Permuted(x) + y) + z) & 15];
-  return g[0] * dx + g[1] * dy + g[2] * dz;
+  return g[0] * d.x + g[1] * d.y + g[2] * d.z;
 }
 
 // Perlin's quintic, whose first and second derivatives vanish at 0 and 1.
@@ -86,8 +88,8 @@ double Noise(double x, double y, double z) {
   const double u = Fade(dx), v = Fade(dy), w = Fade(dz);
   const auto alongX = [&](unsigned j, unsigned k) {
     const double ey = dy - j, ez = dz - k;
-    return Mix(u, Corner(ix, iy + j, iz + k, dx, ey, ez),
-               Corner(ix + 1, iy + j, iz + k, dx - 1, ey, ez));
+    return Mix(u, Corner(ix, iy + j, iz + k, {dx, ey, ez}),
+               Corner(ix + 1, iy + j, iz + k, {dx - 1, ey, ez}));
   };
   return Mix(w, Mix(v, alongX(0, 0), alongX(1, 0)), Mix(v, alongX(0, 1), alongX(1, 1)));
 }

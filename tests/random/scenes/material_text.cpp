@@ -192,6 +192,7 @@ class MaterialWriter {
         "translucent", "uber",   "shinymetal", "",        "mix"};
     constexpr std::array<const char*, 6> kFits{"bluepaint", "brushedmetal", "clay",
                                                "felt",      "primer",       "skin"};
+    if (m_.kind == MaterialKind::Mix) text_ += PartsOfMix(m_, next_, &parameters_);
     AddParameters();
     const bool isFitted = m_.kind == MaterialKind::Fitted;
     const std::string name = isFitted ? kFits[std::size_t(m_.Fit())] : kNames[std::size_t(m_.kind)];
@@ -250,10 +251,7 @@ class MaterialWriter {
         Add("Kr", m_.mirror, .5);
         Choose("roughness", kRough);
         break;
-      case MaterialKind::Mix:
-        text_ += PartsOfMix(m_, next_, &parameters_);
-        break;
-      case MaterialKind::Fitted:
+      default:
         break;
     }
   }

@@ -47,7 +47,7 @@ TEST(RenderOptionDefaults, AreThoseOfTheManual) {
   EXPECT_FALSE(command.limits.memoryBytes || command.limits.seconds);
   const LoadOptions& load = command.load;
   EXPECT_FALSE(load.allowsScenePlugins || load.isStrict || load.isQuick);
-  EXPECT_EQ(load.dialect, Dialect::V1);
+  EXPECT_EQ(load.dialect, std::nullopt);
   EXPECT_FALSE(load.integrator || load.cropWindow || load.pixelBounds || load.samplesPerPixel);
   EXPECT_TRUE(load.parameters.empty());
   EXPECT_EQ(load.effects, "auto");

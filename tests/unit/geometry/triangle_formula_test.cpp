@@ -95,7 +95,7 @@ void ExpectDerivatives(const OneTriangle& triangle, double b1, double b2,
   EXPECT_EQ(s.dndv, Normal3());
 }
 
-// `tangent` is that of the mesh, or 0.
+// `tangent` belongs to the mesh; it may be 0.
 void ExpectShadingTangents(const SurfaceInteraction& s, const Vec3d& n, const Vec3d& tangent) {
   const auto flat = [&](const Vec3d& a) { return NormalizeOrZero(a - n * Dot(n, a)); };
   const double lengthU = double(Length(s.dpdu)), lengthV = double(Length(s.dpdv));
