@@ -251,8 +251,9 @@ struct PassRenderer::State {
                               {full.Width(), full.Height()},
                               job.volume,
                               Stop()};
-    job.integrator.Preprocess(job.scene, context);
+    // The integrator may march through media while it prepares.
     if (job.volume) job.volume->Preprocess(job.scene);
+    job.integrator.Preprocess(job.scene, context);
   }
 
   // If options.pixelsBegun is given, preprocessing sees the stop flag only after the first pixels
