@@ -33,6 +33,7 @@ constexpr PluginAlias kAliases[] = {
     {PluginKind::Accelerator, "grid", "bvh", kSamePicture},
     {PluginKind::Accelerator, "none", "bvh", kSamePicture},
     {PluginKind::AreaLight, "diffuse", "area", nullptr},
+    {PluginKind::Light, "infinitesample", "infinite", nullptr},
     {PluginKind::Material, "subsurface", "matte", "no light travels below the surface"},
     {PluginKind::Material, "kdsubsurface", "matte", "no light travels below the surface"},
     {PluginKind::Material, "disney", "plastic", "only diffuse and glossy reflection remain"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The lights "infinite" and "infinitesample" are one light. In version 1 of the scene language, the
+// The light "infinite"; "infinitesample" is its alias. In version 1 of the scene language, the
 // first sampled directions uniformly and the second by the map; here both sample by the map.
 #pragma once
 
