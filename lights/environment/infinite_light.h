@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The light "infinite"; "infinitesample" is its alias. In version 1 of the scene language, the
-// first sampled directions uniformly and the second by the map; here both sample by the map.
+// MakeInfiniteLight makes the light "infinite", whose alias is "infinitesample". In version 1 of
+// the scene language, the first sampled directions uniformly and the second by the map; here both
+// sample by the map.
 #pragma once
 
 #include "core/plugin.h"

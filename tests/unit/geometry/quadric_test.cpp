@@ -6,27 +6,12 @@
 
 #include "core/geometry/vec3d.h"
 #include "tests/support/geometry_scenes.h"
-#include "tests/support/test_plugin.h"
+#include "tests/unit/geometry/quadric_shapes.h"
 
 namespace exphoton {
 namespace {
 
-class Quadrics : public testing::Test {
- protected:
-  std::unique_ptr<Shape> Make(const std::string& text, const Transform& toWorld = {},
-                              bool reverse = false) {
-    ShapeGeometry geometry = plugins_.MakeShape(text, toWorld, reverse);
-    return std::move(std::get<std::unique_ptr<Shape>>(geometry));
-  }
-  TestPlugins plugins_;
-};
-
-Ray RayFromTo(const Point3& o, const Point3& target) {
-  Ray ray;
-  ray.o = o;
-  ray.d = target - o;
-  return ray;
-}
+class Quadrics : public QuadricShapes {};
 
 TEST_F(Quadrics, AreNeverHitAgainByARayThatLeavesThem) {
   RandomStream random(21);

@@ -5,28 +5,14 @@
 #include <functional>
 
 #include "core/geometry/vec3d.h"
+#include "core/math/sampling/sampling.h"
 #include "tests/support/geometry_scenes.h"
-#include "tests/support/test_plugin.h"
+#include "tests/unit/geometry/quadric_shapes.h"
 
 namespace exphoton {
 namespace {
 
-class RevolvedQuadrics : public testing::Test {
- protected:
-  std::unique_ptr<Shape> Make(const std::string& text, const Transform& toWorld = {},
-                              bool reverse = false) {
-    ShapeGeometry geometry = plugins_.MakeShape(text, toWorld, reverse);
-    return std::move(std::get<std::unique_ptr<Shape>>(geometry));
-  }
-  TestPlugins plugins_;
-};
-
-Ray RayFromTo(const Point3& o, const Point3& target) {
-  Ray ray;
-  ray.o = o;
-  ray.d = target - o;
-  return ray;
-}
+class RevolvedQuadrics : public QuadricShapes {};
 
 TEST_F(RevolvedQuadrics, SurfacesOfRevolutionHaveTheirAreas) {
   EXPECT_NEAR(Make(R"("cone" "float radius" 3 "float height" 4 "float phimax" 120)")->Area(),
@@ -119,6 +105,50 @@ TEST_F(RevolvedQuadrics, ConeTipHasAFiniteFrame) {
   EXPECT_NEAR(surface.p.z, 1, 1e-6);
   EXPECT_TRUE(IsFinite(surface.dpdu) && IsFinite(surface.dpdv));
   EXPECT_GT(Length(Cross(surface.dpdu, surface.dpdv)), 0);
+}
+
+// Returns the density of SampleToward in direction w: the sum over all points along w.
+double DensityToward(const Shape& shape, const SurfacePoint& ref, const Vector3& w) {
+  Ray ray;
+  ray.o = ref.p;
+  ray.d = w;
+  double sum = 0;
+  for (int i = 0; i < 8; ++i) {
+    const auto hit = shape.Intersect(ray);
+    if (!hit) break;
+    const SurfaceInteraction on = shape.Surface(ray, *hit);
+    sum += double(shape.PdfToward(ref, w, on));
+    ray = SpawnRay(on, w);
+  }
+  return sum;
+}
+
+// The mean of 1 / density over samples is the solid angle that the shape covers. Uniform directions
+// measure it independently. Densities are infinite at silhouettes, where a histogram would fail.
+TEST_F(RevolvedQuadrics, SampledFromOutsideCoverTheirSolidAngle) {
+  for (const char* text : {R"("cone" "float radius" .7 "float phimax" 300)", R"("paraboloid")",
+                           R"("hyperboloid" "point p1" [1 0 -1] "point p2" [-.5 .8 1])"}) {
+    const auto shape = Make(text);
+    SurfacePoint ref;
+    ref.p = {2, 1, Real(1.5)};
+    RandomStream random(4);
+    constexpr int kSamples = 200000;
+    double sampled = 0, uniform = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const Real x = random.Uniform();
+      const Point2 u(x, random.Uniform());
+      if (const auto s = shape->SampleToward(ref, u, 0)) {
+        const double pdf = DensityToward(*shape, ref, NormalizeOr(s->point.p - ref.p, {0, 0, 1}));
+        if (pdf > 0) sampled += 1 / pdf / kSamples;
+      }
+      const Vector3 w = SampleUniformSphere(u);
+      Ray ray;
+      ray.o = ref.p;
+      ray.d = w;
+      uniform += shape->Intersect(ray) ? 4 * M_PI / kSamples : 0;
+    }
+    EXPECT_NEAR(sampled / uniform, 1, .03) << text;
+  }
 }
 
 }  // namespace
