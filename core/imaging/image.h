@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Image is a rectangle of float pixels with named channels, in memory. exr.h and png.h read and
-// write files. ReadImage detects the format by content.
+// write files; tga.h and pfm.h read them. ReadImage detects the format.
 #pragma once
 
 #include <map>
@@ -17,6 +17,7 @@ struct PixelBounds {
   int Width() const { return x1 - x0; }
   int Height() const { return y1 - y0; }
   bool IsEmpty() const { return x1 <= x0 || y1 <= y0; }
+  bool Contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
   friend bool operator==(const PixelBounds&, const PixelBounds&) = default;
 };
 
@@ -29,6 +30,7 @@ struct Image {
   std::vector<std::string> channels;  // for example "R", "G", "B", "A", "Albedo.R"
   std::vector<float> pixels;          // row by row, with the channels of a pixel adjacent
   std::map<std::string, ImageAttribute> attributes;
+  bool isFromSrgb = false;  // whether the values were decoded from sRGB when the file was read
 
   Image() = default;
   Image(PixelBounds dataWindow, PixelBounds displayWindow, std::vector<std::string> channelNames);
@@ -49,10 +51,10 @@ class ImageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Reads EXR (linear) or PNG (8 or 16 bit) files. sRGB is decoded to linear. A PNG has the channels
-// R, G, B, and A if present; grey becomes R, G, B. EXR channels keep their names; Y alone becomes
-// R, G, B. Throws ImageError, also for more than 2^28 pixels or 64 channels, which are checked
-// before allocation.
+// Reads EXR and PFM (linear), PNG (8 or 16 bit) or TGA files. sRGB is decoded to linear. All but
+// EXR have the channels R, G, B, and A if present; grey becomes R, G, B. EXR channels keep their
+// names; Y alone becomes R, G, B. Throws ImageError, also for more than 2^28 pixels or 64 channels,
+// which are checked before allocation.
 Image ReadImage(const std::string& path);
 
 // Throws ImageError if `path` is not a readable regular file.

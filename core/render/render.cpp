@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "core/render/non_finite_log.h"
+#include "core/render/sharing/shared_gathers.h"
+#include "core/render/sharing/sharing_plan.h"
 #include "core/render/tiles.h"
 #include "core/transport/shading_point.h"
 
@@ -21,6 +23,7 @@ struct Worker {
 
   CameraSamples samples;
   Arena arena;
+  GatherRecords gathers;
   PixelState pixelState;
   ThreadState threadState;
   RayCounters rays;
@@ -84,6 +87,7 @@ class TileRenderer {
     const Sampler& sampler;
     Film& film;
     ProgressReporter& progress;
+    GatherFragments* gathers;  // null if gathers are not shared
   };
 
   TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
@@ -120,6 +124,13 @@ class TileRenderer {
 
   bool RenderSamples(Point2i pixel, Worker* worker) const {
     worker->pixelState.Reset();
+    const bool isWhole = RenderAllSamples(pixel, worker);
+    if (target_.gathers) target_.gathers->At(pixel).Finish();
+    return isWhole;
+  }
+
+  // Returns false if rendering was stopped.
+  bool RenderAllSamples(Point2i pixel, Worker* worker) const {
     const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
     for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
       if (IsStopped()) {
@@ -135,13 +146,9 @@ class TileRenderer {
     CameraSamples& samples = worker->samples;
     target_.sampler.Generate(key, &samples);
     const FilterSample filter = job_.filter.Sample(samples.film);
-    CameraSample sample;
-    sample.film =
+    const Point2 film =
         Point2(Real(key.pixel.x) + Real(.5), Real(key.pixel.y) + Real(.5)) + filter.offset;
-    sample.lens = Needs(Feature::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
-    sample.time = Needs(Feature::Motion) ? samples.time : 0;
-    RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
-    if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
+    const RayDifferential ray = CameraRay(film, samples);
 
     worker->arena.Reset();
     LiContext context{job_.scene, samples, worker->arena, worker->rays,
@@ -150,6 +157,8 @@ class TileRenderer {
     context.pixelState = &worker->pixelState;
     context.threadState = &worker->threadState;
     context.volume = job_.volume;
+    worker->gathers.clear();
+    if (target_.gathers) context.gathers = &worker->gathers;
     AovSample aovs;
     if (aovs_) {
       aovs.wanted = aovs_->Wanted();
@@ -159,16 +168,35 @@ class TileRenderer {
     Spectrum L = job_.integrator.Li(ray, context);
     ++worker->cameraSamples;
     const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
+    for (const GatherRecord& gather : worker->gathers)
+      if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
     if (!L.IsFinite()) {
       Drop(L, key, worker);
       L = Spectrum();
       Blacken(&aovs);
+      worker->gathers.clear();
     } else if (L.MinComponent() < 0) {
       ++worker->negative;
       ClampNegative(&L, &aovs);
     }
+    if (target_.gathers) {
+      // Neighbouring samples and neighbouring pixels belong to different halves.
+      const int half = int((key.index + key.pixel.x + key.pixel.y) & 1);
+      target_.gathers->At(key.pixel).Add(worker->gathers, film, filter.weight, half);
+      if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
+    }
     target_.film.AddSample(key.pixel, L, alpha, filter.weight);
     if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
+  }
+
+  RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const {
+    CameraSample sample;
+    sample.film = film;
+    sample.lens = Needs(Feature::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
+    sample.time = Needs(Feature::Motion) ? samples.time : 0;
+    RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
+    if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
+    return ray;
   }
 
   void Drop(const Spectrum& L, const SampleKey& key, Worker* worker) const {
@@ -232,11 +260,24 @@ RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
   return result;
 }
 
+// Returns the pixels whose gathers the crop window needs.
+PixelBounds Enlarged(const PixelBounds& crop, const PixelBounds& full) {
+  const int margin = SharingMargin();
+  return {std::max(crop.x0 - margin, full.x0), std::max(crop.y0 - margin, full.y0),
+          std::min(crop.x1 + margin, full.x1), std::min(crop.y1 + margin, full.y1)};
+}
+
 }  // namespace
 
 struct PassRenderer::State {
   State(const RenderJob& aJob, const RenderOptions& someOptions)
-      : job(aJob), options(someOptions) {}
+      : job(aJob),
+        options(someOptions),
+        sharing(PlanSharing(job.integrator, job.scene, job.camera,
+                            options.aovs ? options.aovs->Wanted() : AovSet())) {
+    if (!sharing.isOn && !sharing.reason.empty())
+      job.log.Notice("gathers are not shared: " + sharing.reason);
+  }
 
   void Preprocess(std::uint64_t seed, ProgressReporter& progress) {
     Log& log = passes == 0 ? job.log : mutedLog;
@@ -256,6 +297,25 @@ struct PassRenderer::State {
     job.integrator.Preprocess(job.scene, context);
   }
 
+  void RenderPixels(const TileRenderer::Target& target, const PixelBounds& window) {
+    const PhaseTimer timer(job.statistics, "render");
+    const Tiles tiles(window, options);
+    const TileRenderer renderer(job, options, target, &nonFinite);
+    if (options.pixelsBegun) *options.pixelsBegun = true;
+    job.progress.Begin("Rendering", std::int64_t(window.Width()) * window.Height());
+    job.threads.For(tiles.Count(), [&](std::int64_t number, int worker) {
+      renderer.RenderTile(tiles.Get(number), &workers[std::size_t(worker)]);
+    });
+    job.progress.End();
+  }
+
+  void ShareGathers(const GatherFragments& gathers, Film* film) {
+    const PhaseTimer timer(job.statistics, "share");
+    const double radius = AddSharedLight(gathers, &job.threads, film, options.aovs);
+    job.statistics.SetCounter("render/sharing radius", radius,
+                              "pixels, mean radius of the windows of shared gathers");
+  }
+
   // If options.pixelsBegun is given, preprocessing sees the stop flag only after the first pixels
   // have begun. Before that, the caller itself ends the process.
   const std::atomic<bool>* Stop() const {
@@ -264,6 +324,7 @@ struct PassRenderer::State {
 
   const RenderJob& job;
   const RenderOptions& options;
+  const SharingPlan sharing;
   std::deque<Worker> workers;
   bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;
@@ -292,13 +353,12 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
   State& state = *state_;
-  const RenderJob& job = state.job;
   const Clock::time_point start = Clock::now();
   for (Worker& worker : state.workers) worker.threadState.Reset();
   try {
-    state.Preprocess(pass.preprocessSeed, job.progress);
+    state.Preprocess(pass.preprocessSeed, state.job.progress);
   } catch (const PreprocessStopped&) {
-    job.progress.End();
+    state.job.progress.End();
     state.wasStopped = true;
     return false;
   }
@@ -306,17 +366,13 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   state.preprocessSeconds = secondsSince(start);
 
   const Clock::time_point renderStart = Clock::now();
-  const PhaseTimer timer(job.statistics, "render");
-  const Tiles tiles(film->Crop(), state.options);
-  const TileRenderer renderer(job, state.options, {pass, sampler, *film, job.progress},
-                              &state.nonFinite);
-  const PixelBounds& crop = film->Crop();
-  if (state.options.pixelsBegun) *state.options.pixelsBegun = true;
-  job.progress.Begin("Rendering", std::int64_t(crop.Width()) * crop.Height());
-  job.threads.For(tiles.Count(), [&](std::int64_t number, int worker) {
-    renderer.RenderTile(tiles.Get(number), &state.workers[std::size_t(worker)]);
-  });
-  job.progress.End();
+  if (state.sharing.isOn) {
+    GatherFragments gathers(Enlarged(film->Crop(), film->Full()), pass.sampleCount);
+    state.RenderPixels({pass, sampler, *film, state.job.progress, &gathers}, gathers.Bounds());
+    state.ShareGathers(gathers, film);
+  } else {
+    state.RenderPixels({pass, sampler, *film, state.job.progress, nullptr}, film->Crop());
+  }
   state.renderSeconds = secondsSince(renderStart);
   return std::none_of(state.workers.begin(), state.workers.end(),
                       [](const Worker& worker) { return worker.wasStopped; });

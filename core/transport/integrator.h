@@ -16,6 +16,7 @@
 #include "core/math/sampling/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
+#include "core/transport/gather_record.h"
 #include "core/transport/pixel_state.h"
 #include "core/transport/thread_state.h"
 
@@ -59,6 +60,9 @@ struct LiContext {
   Real alpha = 1;     // Li sets it to 0 if the camera ray escapes and sees no light
   // Li writes its AOVs here. Null if no AOV is requested.
   AovSample* aovs = nullptr;
+  // Li hands over the diffuse part of final gathers here and leaves it out of its result. Null if
+  // gathers are not shared.
+  GatherRecords* gathers = nullptr;
   PixelState* pixelState = nullptr;          // of the pixel; null: no state is kept
   ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
   const VolumeIntegrator* volume = nullptr;  // light from media; null: none
@@ -108,27 +112,29 @@ class SurfaceIntegrator {
   virtual void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) {
     (void)scene, (void)sampler, (void)layout;
   }
+  // Returns the effects that this integrator computes where a scene needs them. The plan of a
+  // render switches the others off, and says so.
+  virtual FeatureSet ComputedFeatures() const { return FeatureSet::All(); }
   // Describes the work for this scene in lines such as "photons       100000 indirect", for
   // `exphoton explain`.
-  virtual std::vector<std::string> Explain(const Scene& scene) const {
-    (void)scene;
-    return {};
-  }
+  virtual std::vector<std::string> Explain(const Scene& scene) const;
   // Returns the AOVs that Li fills if LiContext::aovs is not null. The renderer itself fills
   // kRendererAovs. The light AOVs must sum to the result of Li, up to rounding.
   virtual AovSet Aovs() const { return {}; }
+  // Returns whether Li fills LiContext::gathers.
+  virtual bool SharesGathers(const Scene& scene) const {
+    (void)scene;
+    return false;
+  }
   // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 
   // Returns the names of the photon maps, the most interesting first. The result is empty if the
   // integrator has none.
-  virtual std::vector<std::string> PhotonMapNames() const { return {}; }
+  virtual std::vector<std::string> PhotonMapNames() const;
   // Returns the photons nearest to p, nearest first, in the map with this index in
   // PhotonMapNames(). The result is empty if the map is. Preprocess must have run.
-  virtual std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const {
-    (void)p, (void)map, (void)count;
-    return {};
-  }
+  virtual std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const;
 };
 
 }  // namespace exphoton

@@ -8,10 +8,10 @@ ShadingPoint MakeShadingPoint(const SurfaceInteraction& surface, const RayDiffer
                               int depth, TransportMode mode, Arena* arena) {
   SurfaceInteraction shaded = surface;
   const Material* material = surface.material;
-  if (!material) return {shaded, Bsdf(shaded), ray, depth};
+  if (!material) return {shaded, Bsdf(shaded), ray, depth, Spectrum(1)};
   if (ray.hasDifferentials && material->NeedsDifferentials()) shaded.ComputeDifferentials(ray);
   const Bsdf bsdf = material->Evaluate(&shaded, mode, arena);
-  return {shaded, bsdf, ray, depth};
+  return {shaded, bsdf, ray, depth, Spectrum(1)};
 }
 
 }  // namespace exphoton

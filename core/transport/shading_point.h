@@ -13,8 +13,9 @@ namespace exphoton {
 struct ShadingPoint {
   SurfaceInteraction surface;
   Bsdf bsdf;
-  RayDifferential ray;  // the ray that hit the surface
-  int depth = 0;        // number of specular bounces since the camera
+  RayDifferential ray;     // the ray that hit the surface
+  int depth = 0;           // number of specular bounces since the camera
+  Spectrum throughput{1};  // of the path to the camera; known to SpecularTree only
 
   const Vector3& Wo() const { return surface.wo; }
   // Returns the radiance that the surface emits towards the ray's origin.

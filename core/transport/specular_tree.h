@@ -88,8 +88,9 @@ class SpecularTree {
   template <class Shade>
   Spectrum Leaving(const SurfaceInteraction& hit, const RayDifferential& ray,
                    const Spectrum& throughput, int depth, const Shade& shade) {
-    const ShadingPoint point =
+    ShadingPoint point =
         MakeShadingPoint(hit, ray, depth, TransportMode::Radiance, &context_.arena);
+    point.throughput = throughput;
     Spectrum radiance = shade(point);
     if (!context_.scene.Features().Needs(Feature::Specular)) return radiance;
     if (depth == maxDepth_) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ConeDirections stores unit directions as a structure of arrays, and counts how many lie close to
-// another direction. It uses the widest SIMD target of the machine; all give the same number.
+// ConeDirections stores the axes of cones, which are unit directions, as a structure of arrays. It
+// counts how many axes lie close to another direction, so how many cones contain that direction. It
+// uses the widest SIMD target of the machine; all give the same number.
 #pragma once
 
 #include <span>
@@ -10,8 +11,9 @@
 
 namespace exphoton {
 
-// DirectionRows is a structure of arrays of directions to choose from. Rows can be read up to a
-// whole number of runs; padding has a limit of 0.
+// DirectionRows is a structure of arrays of directions to choose from. Direction i is chosen if
+// value[i] * scale < limit[i]. Rows can be read up to a whole number of runs; padding has a limit
+// of 0, so it is never chosen.
 struct DirectionRows {
   const Real *x, *y, *z;
   const Real *value, *limit;  // >= 0, not NaN
@@ -44,6 +46,7 @@ class ConeDirections {
   }
   // Adds the directions of `from` with value * scale < limit.
   void AddChosen(const DirectionRows& from, Real scale);
+  // Replaces the i-th axis.
   void Set(std::size_t i, const Vector3& w) { x_[i] = w.x, y_[i] = w.y, z_[i] = w.z; }
   // Pads the last run. Must be called after the last change.
   void Finish();

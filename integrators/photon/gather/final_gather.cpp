@@ -2,7 +2,34 @@
 // FinalGather divides the rays between the two techniques, requests their samples and draws them.
 #include "integrators/photon/gather/final_gather.h"
 
+#include <limits>
+
 namespace exphoton {
+namespace {
+
+// Returns the reflectance of the diffuse lobe if the gather is shared, 0 otherwise. Light that is
+// transmitted diffusely comes from another hemisphere, and dark surfaces are not worth sharing.
+Spectrum SharedReflectance(const Bsdf& bsdf, const LiContext& context) {
+  constexpr Real kMinReflectance = Real(1e-3);
+  if (!context.gathers || bsdf.Has(LobeSet::DiffuseTransmission)) return {};
+  const Spectrum reflectance = bsdf.Rho(LobeSet::DiffuseReflection);
+  return reflectance.MaxComponent() > kMinReflectance ? reflectance : Spectrum();
+}
+
+// Divides light that leaves a surface by its reflectance. A channel without reflectance takes the
+// quotient of the brightest channel, because a white surface would reflect it.
+Spectrum OffWhite(const Spectrum& light, const Spectrum& reflectance) {
+  int brightest = reflectance.g > reflectance.r ? 1 : 0;
+  if (reflectance.b > reflectance[brightest]) brightest = 2;
+  const Real otherwise = light[brightest] / reflectance[brightest];
+  const Real least = Real(1e-4) * reflectance[brightest];
+  Spectrum white;
+  for (int c = 0; c < Spectrum::kChannels; ++c)
+    white[c] = reflectance[c] > least ? light[c] / reflectance[c] : otherwise;
+  return white;
+}
+
+}  // namespace
 
 FinalGather::FinalGather(const PhotonSettings& settings)
     : cone_(Radians(settings.gatherAngle)), rrThreshold_(settings.rrThreshold) {
@@ -24,6 +51,26 @@ void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
   }
 }
 
+FinalGather::Rays::Rays(std::size_t most, const Bsdf& bsdf, LiContext& context)
+    : directions(context.arena.AllocateArray<Vector3>(most)),
+      weights(context.arena.AllocateArray<Spectrum>(most)),
+      reflectance(SharedReflectance(bsdf, context)) {
+  if (!reflectance.IsBlack()) white = context.arena.AllocateArray<Spectrum>(most);
+}
+
+void FinalGather::Rays::SeparateDiffuse(const ShadingPoint& point, Real scale) {
+  Spectrum& weight = weights[count];
+  if (!point.bsdf.Has(LobeSet::Glossy)) {
+    white[count] = OffWhite(weight, reflectance);
+    weight = {};
+    return;
+  }
+  const Spectrum diffuse =
+      point.bsdf.f(point.Wo(), directions[count], LobeSet::DiffuseReflection) * scale;
+  white[count] = OffWhite(diffuse, reflectance);
+  weight = Clamp(weight - diffuse, 0, std::numeric_limits<Real>::max());
+}
+
 FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonMap& photons,
                                         LiContext& context) const {
   const Bsdf& bsdf = point.bsdf;
@@ -33,15 +80,18 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
   const Vector3& wo = point.Wo();
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 
-  const auto most = std::size_t(split.bsdfRays + split.photonRays);
-  Rays rays{context.arena.AllocateArray<Vector3>(most),
-            context.arena.AllocateArray<Spectrum>(most)};
-  const auto add = [&](const Vector3& w, const Spectrum& contribution, Real photonPdf, int drawn) {
-    const Real factor =
+  Rays rays(std::size_t(split.bsdfRays + split.photonRays), bsdf, context);
+  // `weight` is |cos| / pdf, times the weight of the power heuristic.
+  const auto add = [&](const Vector3& w, const Spectrum& contribution, Real weight, Real photonPdf,
+                       int drawn) {
+    Real factor =
         SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
     if (!(factor > 0)) return;
+    factor /= Real(drawn);
     rays.directions[rays.count] = w;
-    rays.weights[rays.count++] = contribution * (factor / Real(drawn));
+    rays.weights[rays.count] = contribution * factor;
+    if (rays.white) rays.SeparateDiffuse(point, weight * factor);
+    ++rays.count;
   };
   const auto squares = context.samples.Array2D(split.directions);
   const bool picksLobe = bsdf.Count(kLobes) > 1;
@@ -51,7 +101,9 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
     if (!sample) continue;
     const Real photonPdf = cones.IsEmpty() ? Real(0) : cones.Pdf(sample->wi);
     const Real weight = PowerHeuristic(split.bsdfRays, sample->pdf, split.photonRays, photonPdf);
-    add(sample->wi, sample->throughput * weight, photonPdf, split.bsdfRays);
+    const Real cosine = AbsDot(sample->wi, bsdf.Ns());
+    add(sample->wi, sample->throughput * weight, cosine * weight / sample->pdf, photonPdf,
+        split.bsdfRays);
   }
   const auto along = context.samples.Array2D(split.cones);
   const auto radii = context.samples.Array1D(split.radii);
@@ -61,8 +113,8 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
     const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
     if (scattered.f.IsBlack()) continue;
     const Real weight = PowerHeuristic(split.photonRays, sample.pdf, split.bsdfRays, scattered.pdf);
-    add(sample.w, scattered.f * (AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf), sample.pdf,
-        split.photonRays);
+    const Real scale = AbsDot(sample.w, bsdf.Ns()) * weight / sample.pdf;
+    add(sample.w, scattered.f * scale, scale, sample.pdf, split.photonRays);
   }
   return rays;
 }

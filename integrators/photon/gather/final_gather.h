@@ -73,9 +73,19 @@ class FinalGather {
 
   // Rays are the directions to trace, with the factors on their radiance.
   struct Rays {
+    Rays(std::size_t most, const Bsdf& bsdf, LiContext& context);
+
     Vector3* directions;
     Spectrum* weights;
     std::size_t count = 0;
+    // If the gather is shared: the factors for a white diffuse surface, which `weights` then lack,
+    // and the diffuse reflectance of the surface.
+    Spectrum* white = nullptr;
+    Spectrum reflectance;
+
+    // Moves the diffuse part of the weight of ray `count` to `white`. `scale` is the factor on the
+    // lobe's value f.
+    void SeparateDiffuse(const ShadingPoint& point, Real scale);
   };
 
   // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
@@ -99,9 +109,18 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
   for (std::size_t i = 0; i < rays.count; ++i)
     new (segments + i) Segment(incident.Trace(spawner.Spawn(rays.directions[i])));
   incident.LookUp(std::span<Segment>(segments, rays.count));
-  Spectrum gathered;
-  for (std::size_t i = 0; i < rays.count; ++i)
-    gathered += rays.weights[i] * incident.Read(segments[i]);
+  Spectrum gathered, white;
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const Spectrum radiance = incident.Read(segments[i]);
+    gathered += rays.weights[i] * radiance;
+    if (rays.white) white += rays.white[i] * radiance;
+  }
+  if (rays.white) {
+    const Normal3 n = FaceForward(point.bsdf.Ns(), point.Wo());
+    const Normal3 ng = FaceForward(point.surface.ng, point.Wo());
+    context.gathers->push_back(
+        {point.surface.p, n, ng, white, rays.reflectance * point.throughput, point.depth});
+  }
   context.arena.Rewind(mark);
   return gathered;
 }

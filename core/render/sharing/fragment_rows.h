@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// FragmentRows is a structure of arrays of all fragments of a picture, row by row of its pixels, so
+// that the fragments of neighbouring pixels of a row are neighbours in memory.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/render/sharing/gather_fragments.h"
+
+namespace exphoton {
+
+class FragmentRows {
+ public:
+  static constexpr std::size_t kPadding = 16;  // rows can be read this far beyond their end
+
+  enum Column {
+    X,
+    Y,
+    Px,
+    Py,
+    Pz,
+    Gx,
+    Gy,
+    Gz,
+    Nx,
+    Ny,
+    Nz,
+    Depth,
+    Count0,
+    R0,
+    G0,
+    B0,
+    Count1,
+    R1,
+    G1,
+    B1,
+    kColumns
+  };
+
+  explicit FragmentRows(const GatherFragments& gathers);
+
+  const Real* At(Column column) const { return columns_[std::size_t(column)].data(); }
+  // Returns the range of the fragments of pixels x0 to x1 - 1 of row y, clipped to the picture.
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  Range Fragments(int x0, int x1, int y) const;
+  std::size_t First(Point2i pixel) const { return first_[IndexOf(pixel)]; }
+
+ private:
+  std::size_t IndexOf(Point2i pixel) const {
+    return std::size_t(pixel.y - bounds_.y0) * std::size_t(bounds_.Width()) +
+           std::size_t(pixel.x - bounds_.x0);
+  }
+  PixelBounds bounds_;
+  std::vector<std::size_t> first_;  // by pixel; one more at the end
+  std::array<std::vector<Real>, kColumns> columns_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SharingWindows: judges the windows at each grid pixel, and then chooses among them by the errors
+// of a neighbourhood.
+#include "core/render/sharing/sharing_windows.h"
+
+#include <cmath>
+
+#include "core/render/sharing/local_fit.h"
+
+namespace exphoton {
+namespace {
+
+constexpr Real kChoiceRadius = 12, kBlendRadius = 6;  // pixels
+
+int FloorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+int CeilDivide(int a, int b) { return -FloorDivide(-a, b); }
+
+double SquaredDifference(const Spectrum& a, const Spectrum& b) {
+  const Spectrum d = a - b;
+  return double(d.r * d.r + d.g * d.g + d.b * d.b);
+}
+
+// Statistics of the differences between two windows' errors.
+struct Comparison {
+  double sum = 0, squares = 0;
+  void Add(double weight, double difference) {
+    const double weighted = weight * difference;
+    sum += weighted;
+    squares += weighted * weighted;
+  }
+  // Whether the first window is better by more than one standard error.
+  bool IsBetter() const { return sum + std::sqrt(squares) < 0; }
+};
+
+}  // namespace
+
+SharingWindows::SharingWindows(const GatherFragments& gathers, const FragmentRows& rows,
+                               ThreadPool* threads) {
+  const PixelBounds& bounds = gathers.Bounds();
+  x0_ = CeilDivide(bounds.x0, kStride);
+  y0_ = CeilDivide(bounds.y0, kStride);
+  columns_ = std::max(CeilDivide(bounds.x1, kStride) - x0_, 0);
+  rows_ = std::max(CeilDivide(bounds.y1, kStride) - y0_, 0);
+  cells_.resize(std::size_t(columns_) * std::size_t(rows_));
+  std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));
+  threads->For(rows_, [&](std::int64_t row, int worker) {
+    for (int column = 0; column < columns_; ++column) {
+      const Point2i pixel{(x0_ + column) * kStride, (y0_ + int(row)) * kStride};
+      Cell& cell = cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+      for (const GatherFragment& fragment : gathers.At(pixel).fragments)
+        cell.push_back(Judge(rows, pixel, fragment, &scratch[std::size_t(worker)]));
+    }
+  });
+  threads->For(rows_, [&](std::int64_t row, int) {
+    for (int column = 0; column < columns_; ++column)
+      for (Place& place : cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)])
+        place.radius = Choose(place);
+  });
+}
+
+SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pixel,
+                                            const GatherFragment& fragment,
+                                            FitNeighbours* scratch) {
+  Place place(pixel, fragment);
+  if (!fragment.HasBothHalves()) return place;
+  LocalFit::Collect(rows, FitTarget(fragment), pixel, kMaxRadius, scratch);
+  const Spectrum smooth = LocalFit(*scratch, kMaxRadius, 2).At({1, 0, 0, 0, 0});
+  const double scale = SquaredDifference(smooth, Spectrum());
+  if (!(scale > 0)) return place;
+  for (int half = 0; half < 2; ++half) {
+    const Spectrum other = fragment.Mean(1 - half);
+    for (std::size_t w = 0; w < kRadii.size(); ++w) {
+      const Spectrum fitted =
+          w == 0 ? fragment.Mean(half) : LocalFit(*scratch, kRadii[w], half).At({1, 0, 0, 0, 0});
+      place.errors[std::size_t(half)][w] = float(SquaredDifference(fitted, other) / scale);
+    }
+  }
+  place.isJudged = true;
+  return place;
+}
+
+template <class Use>
+void SharingWindows::ForNearby(const Place& point, Real radius, const Use& use) const {
+  const int reach = int(radius);
+  const int firstX = std::max(CeilDivide(point.pixel.x - reach, kStride) - x0_, 0),
+            firstY = std::max(CeilDivide(point.pixel.y - reach, kStride) - y0_, 0),
+            lastX = std::min(FloorDivide(point.pixel.x + reach, kStride) - x0_, columns_ - 1),
+            lastY = std::min(FloorDivide(point.pixel.y + reach, kStride) - y0_, rows_ - 1);
+  for (int y = firstY; y <= lastY; ++y) {
+    for (int x = firstX; x <= lastX; ++x) {
+      for (const Place& place : cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)]) {
+        const Point2 d = place.film - point.film;
+        const Real weight = 1 - (d.x * d.x + d.y * d.y) / (radius * radius);
+        if (weight > 0 && place.isJudged && place.depth == point.depth &&
+            LieOnOneSurface(point.p, point.ng, place.p, place.ng))
+          use(place, weight);
+      }
+    }
+  }
+}
+
+Real SharingWindows::Choose(const Place& place) const {
+  // Start with the smallest window that has a fit. Another window replaces the best one only if its
+  // errors are clearly smaller.
+  std::size_t best = 1;
+  const auto isBetter = [&](std::size_t window) {
+    Comparison comparison;
+    ForNearby(place, kChoiceRadius, [&](const Place& other, Real weight) {
+      for (const auto& errors : other.errors)
+        comparison.Add(double(weight), double(errors[window]) - double(errors[best]));
+    });
+    return comparison.IsBetter();
+  };
+  for (std::size_t window = 2; window < kRadii.size(); ++window)
+    if (isBetter(window)) best = window;
+  if (best == 1 && isBetter(0)) best = 0;
+  return kRadii[best];
+}
+
+Real SharingWindows::RadiusAt(Point2i pixel, const GatherFragment& fragment) const {
+  Real sum = 0, total = 0;
+  ForNearby(Place(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
+    sum += weight * place.radius;
+    total += weight;
+  });
+  return total > 0 ? sum / total : kRadii[1];
+}
+
+}  // namespace exphoton

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SharingWindows chooses how far gathers are shared, by cross-validation: light that is fitted to
+// the gathers of one half of the samples is compared with the gathers of the other half. Their mean
+// squared difference is the error of the fit, bias included, plus noise that is the same for all
+// windows. Windows are chosen on a grid of every fourth pixel, which is anchored at pixel 0,0.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/render/sharing/fragment_rows.h"
+#include "core/render/sharing/gather_fragments.h"
+
+namespace exphoton {
+
+struct FitNeighbours;
+
+class SharingWindows {
+ public:
+  // Radii of fits, in pixels. Radius 0 means that gathers are not shared.
+  static constexpr std::array<Real, 6> kRadii{0, 2, 3, 4, 6, 9};
+  static constexpr Real kMaxRadius = 9;
+  static constexpr int kStride = 4;
+  // A window depends on the gathers within this number of pixels.
+  static constexpr int kReach = 9 + 12 + 6;
+
+  SharingWindows(const GatherFragments& gathers, const FragmentRows& rows, ThreadPool* threads);
+
+  // Returns the radius for a fragment of the pixel: the mean of the radii chosen nearby on its
+  // surface.
+  Real RadiusAt(Point2i pixel, const GatherFragment& fragment) const;
+
+ private:
+  struct Place {  // a fragment of a pixel, mostly of a grid pixel
+    Place(Point2i aPixel, const GatherFragment& fragment)
+        : pixel(aPixel),
+          film(fragment.film),
+          p(fragment.p),
+          ng(fragment.ng),
+          depth(fragment.depth) {}
+    Point2i pixel;
+    Point2 film;
+    Point3 p;
+    Normal3 ng;
+    int depth;
+    // Squared relative differences between the fit of each window and the other half; by half of
+    // the fit.
+    std::array<std::array<float, kRadii.size()>, 2> errors{};
+    bool isJudged = false;
+    Real radius = 0;
+  };
+  using Cell = std::vector<Place>;
+
+  static Place Judge(const FragmentRows& rows, Point2i pixel, const GatherFragment& fragment,
+                     FitNeighbours* scratch);
+  Real Choose(const Place& place) const;
+  // Calls use(place, weight) for the judged places within `radius` pixels on the surface of
+  // another place.
+  template <class Use>
+  void ForNearby(const Place& point, Real radius, const Use& use) const;
+
+  int x0_, y0_, columns_, rows_;  // of the grid
+  std::vector<Cell> cells_;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check fragments of gathers, the regression over them, and the choice of its window.
+#include "core/render/sharing/local_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/base/error.h"
+#include "core/math/sampling/random.h"
+#include "core/render/sharing/sharing_windows.h"
+
+namespace exphoton {
+namespace {
+
+struct Place {
+  Real x, y;  // on the film, in pixels
+  Normal3 n;
+};
+using LightAt = std::function<Spectrum(const Place&, RandomStream*)>;
+
+// Returns the gathers of a picture of the plane z = 0 with two samples a pixel, one of each half.
+// One pixel is .01 units wide, and shading normals tilt at random.
+GatherFragments PlaneGathers(int size, const LightAt& light, std::uint64_t seed = 1) {
+  GatherFragments gathers({0, 0, size, size}, 2);
+  RandomStream random(seed);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      for (int half = 0; half < 2; ++half) {
+        Place place{Real(x) + random.Uniform(), Real(y) + random.Uniform(), {}};
+        place.n = Normalize(Normal3(random.Uniform() - Real(.5), random.Uniform() - Real(.5), 3));
+        const GatherRecord record{{place.x / 100, place.y / 100, 0},
+                                  place.n,
+                                  {0, 0, 1},
+                                  light(place, &random),
+                                  Spectrum(1)};
+        gathers.At({x, y}).Add({record}, {place.x, place.y}, 1, half);
+      }
+      gathers.At({x, y}).Finish();
+    }
+  }
+  return gathers;
+}
+
+Spectrum Linear(const Place& place, RandomStream*) {
+  return {2 + place.x / 20, 3 - place.y / 20, 2 + place.n.x + place.n.y / 2};
+}
+
+TEST(LieOnOneSurface, AsksForLikeNormalsAndCommonTangentPlanes) {
+  const Normal3 z{0, 0, 1};
+  EXPECT_TRUE(LieOnOneSurface({0, 0, 0}, z, {5, 7, 0}, z));
+  EXPECT_TRUE(LieOnOneSurface({0, 0, 0}, z, {0, 0, 0}, z));
+  EXPECT_TRUE(LieOnOneSurface({0, 0, 0}, z, {1, 0, Real(.09)}, z));
+  EXPECT_FALSE(LieOnOneSurface({0, 0, 0}, z, {1, 0, Real(.11)}, z)) << "a step";
+  EXPECT_FALSE(LieOnOneSurface({0, 0, 0}, z, {1, 0, 0}, -z)) << "the back";
+  EXPECT_FALSE(LieOnOneSurface({0, 0, 0}, z, {1, 0, 0}, {0, Real(.5), Real(.866)})) << "a fold";
+  const Normal3 tilted = Normalize(Normal3(Real(.2), 0, 1));
+  EXPECT_FALSE(LieOnOneSurface({0, 0, 0}, z, {1, 0, 0}, tilted)) << "beside its tangent plane";
+}
+
+TEST(GatherFragments, DivideAPixelByItsSurfacesAndDepths) {
+  GatherFragments gathers({4, 4, 5, 5}, 2);
+  auto& pixel = gathers.At({4, 4});
+  const Normal3 z{0, 0, 1};
+  const GatherRecord floor{{0, 0, 0}, z, z, Spectrum(1), Spectrum(1)};
+  GatherRecord more = floor, table = floor, reflected = floor;
+  more.p = {2, 0, 0};
+  more.light = Spectrum(3);
+  table.p = {0, 1, 1};
+  reflected.depth = 1;
+  pixel.Add({floor, reflected}, {4, 4}, 1, 0);
+  pixel.Add({table}, {5, 4}, 1, 1);
+  pixel.Add({more}, {5, 5}, 1, 0);
+  pixel.Finish();
+  ASSERT_EQ(pixel.fragments.size(), 3u);
+  EXPECT_EQ(pixel.fragments[0].count[0], 2);
+  EXPECT_EQ(pixel.fragments[0].count[1], 0);
+  EXPECT_EQ(pixel.fragments[0].Mean(0).r, 2);
+  EXPECT_EQ(pixel.fragments[0].p.x, 1);
+  EXPECT_EQ(pixel.fragments[0].film, Point2(Real(4.5), Real(4.5)));
+  EXPECT_EQ(pixel.fragments[2].count[1], 1);
+  ASSERT_EQ(pixel.samples.size(), 4u);
+  EXPECT_EQ(pixel.samples[1].fragment, 1u);
+  EXPECT_EQ(pixel.samples[3].fragment, 0u);
+}
+
+TEST(GatherFragments, SayIfMemoryDoesNotSuffice) {
+  try {
+    GatherFragments({0, 0, 1 << 20, 1 << 20}, 4);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Status(), ExitStatus::Resource);
+    EXPECT_NE(std::string(error.what()).find("set \"sharedgather\" to false"), std::string::npos);
+  }
+}
+
+TEST(LocalFit, ReproducesLightThatIsLinearInPositionAndTilt) {
+  const GatherFragments gathers = PlaneGathers(24, Linear);
+  const FragmentRows rows(gathers);
+  FitNeighbours neighbours;
+  for (const Point2i pixel : {Point2i{12, 12}, Point2i{0, 23}}) {
+    const FitTarget target(gathers.At(pixel).fragments[0]);
+    LocalFit::Collect(rows, target, pixel, 6, &neighbours);
+    for (int half = 0; half <= 2; ++half) {
+      const LocalFit fit(neighbours, 6, half);
+      const Place place{target.film.x + Real(.4), target.film.y - Real(.3),
+                        Normalize(Normal3(Real(.1), Real(-.1), 1))};
+      const Spectrum got = fit.At(target.FeaturesOf({place.x, place.y}, place.n));
+      const Spectrum wanted = Linear(place, nullptr);
+      // The ridge shrinks slopes by about a hundredth. A fragment has the mean position and normal
+      // of both halves, which is like noise for each half alone.
+      const double tolerance = half == 2 ? .01 : .05;
+      EXPECT_NEAR(got.r, wanted.r, tolerance) << half;
+      EXPECT_NEAR(got.g, wanted.g, tolerance) << half;
+      EXPECT_NEAR(got.b, wanted.b, tolerance) << half;
+    }
+  }
+}
+
+TEST(LocalFit, ReadsOneHalfOnly) {
+  int sample = 0;
+  const GatherFragments gathers = PlaneGathers(
+      16, [&](const Place&, RandomStream*) { return Spectrum(sample++ % 2 == 0 ? 1 : 3); });
+  const FragmentRows rows(gathers);
+  FitNeighbours neighbours;
+  LocalFit::Collect(rows, FitTarget(gathers.At({8, 8}).fragments[0]), {8, 8}, 4, &neighbours);
+  EXPECT_NEAR(LocalFit(neighbours, 4, 0).AtTarget().g, 1, 1e-4);
+  EXPECT_NEAR(LocalFit(neighbours, 4, 1).AtTarget().g, 3, 1e-4);
+  EXPECT_NEAR(LocalFit(neighbours, 4, 2).AtTarget().g, 2, 1e-4);
+}
+
+TEST(LocalFit, LeavesOtherSurfacesOut) {
+  GatherFragments gathers =
+      PlaneGathers(16, [](const Place&, RandomStream*) { return Spectrum(1); });
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      if ((x + y) % 2 == 0) continue;
+      GatherFragments::Pixel& pixel = gathers.At({x, y});
+      for (GatherFragment& fragment : pixel.fragments) {
+        fragment.p.z = 1;
+        fragment.lights = {Spectrum(100), Spectrum(100)};
+      }
+    }
+  }
+  const FragmentRows rows(gathers);
+  FitNeighbours neighbours;
+  LocalFit::Collect(rows, FitTarget(gathers.At({8, 8}).fragments[0]), {8, 8}, 6, &neighbours);
+  EXPECT_NEAR(LocalFit(neighbours, 6, 2).AtTarget().g, 1, 1e-4);
+}
+
+TEST(LocalFit, HasTheSameBitsOnAllTargets) {
+  const GatherFragments gathers = PlaneGathers(24, Linear);
+  const FragmentRows rows(gathers);
+  const FitTarget target(gathers.At({11, 9}).fragments[0]);
+  std::vector<FitMoments> moments;
+  for (const LocalFitLoops* loops : LocalFit::Loops()) {
+    FitNeighbours neighbours;
+    for (int y = 4; y < 20; ++y) {
+      const FragmentRows::Range range = rows.Fragments(3, 20, y);
+      neighbours.Reserve(range.end - range.begin + FitNeighbours::kRun);
+      loops->describe(rows, range, target, &neighbours);
+    }
+    loops->accumulate(neighbours, Real(4.5), 2, &moments.emplace_back());
+  }
+  for (const FitMoments& other : moments) {
+    EXPECT_EQ(other.matrix, moments[0].matrix);
+    EXPECT_EQ(other.right, moments[0].right);
+  }
+}
+
+Spectrum Noisy(Real light, RandomStream* random) { return Spectrum(light * 2 * random->Uniform()); }
+
+TEST(SharingWindows, AreLargeWhereLightIsConstantAndNoisy) {
+  const GatherFragments gathers =
+      PlaneGathers(48, [](const Place&, RandomStream* random) { return Noisy(1, random); });
+  ThreadPool threads(1);
+  const SharingWindows windows(gathers, FragmentRows(gathers), &threads);
+  EXPECT_GE(windows.RadiusAt({24, 24}, gathers.At({24, 24}).fragments[0]), 6);
+}
+
+TEST(SharingWindows, AreZeroWhereLightChangesQuickly) {
+  // Stripes of four pixels, whose edges lie beside each place where windows are judged
+  const GatherFragments gathers = PlaneGathers(48, [](const Place& place, RandomStream* random) {
+    return Spectrum((int(place.x) / 4 % 2 == 0 ? 1 : 3) + Real(.1) * random->Uniform());
+  });
+  ThreadPool threads(1);
+  const SharingWindows windows(gathers, FragmentRows(gathers), &threads);
+  EXPECT_EQ(windows.RadiusAt({24, 24}, gathers.At({24, 24}).fragments[0]), 0);
+}
+
+TEST(SharingWindows, DoNotReachBeyondTheirMargin) {
+  const auto light = [](const Place& place, RandomStream* random) {
+    return Noisy(1 + place.x / 50, random);
+  };
+  GatherFragments gathers = PlaneGathers(96, light);
+  ThreadPool threads(1);
+  const auto radius = [&] {
+    return SharingWindows(gathers, FragmentRows(gathers), &threads)
+        .RadiusAt({48, 48}, gathers.At({48, 48}).fragments[0]);
+  };
+  const Real before = radius();
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x)
+      if (std::max(std::abs(x - 48), std::abs(y - 48)) > SharingWindows::kReach)
+        for (GatherFragment& fragment : gathers.At({x, y}).fragments)
+          fragment.lights = {Spectrum(Real(x * y % 7)), Spectrum(Real(x * y % 5))};
+  EXPECT_EQ(radius(), before);
+}
+
+}  // namespace
+}  // namespace exphoton
