@@ -12,6 +12,8 @@ namespace {
 struct Settings {
   int maxPrimitives = kBvhWidth;
   BvhVectors vectors = BvhVectors::Widest;
+  int maxNodePrimitives = 4;
+  std::string splitMethod = "sah";
 };
 
 const ParamTable<Settings>& Parameters() {
@@ -23,7 +25,13 @@ const ParamTable<Settings>& Parameters() {
             "widest SIMD instructions to use, auto: the machine's; the hits are the same")
           .OneOf({{"auto", BvhVectors::Widest},
                   {"avx2", BvhVectors::Avx2},
-                  {"portable", BvhVectors::Portable}})};
+                  {"portable", BvhVectors::Portable}}),
+      Param("maxnodeprims", &Settings::maxNodePrimitives,
+            "version 2's size of leaves; the picture does not depend on it")
+          .Ignored(),
+      Param("splitmethod", &Settings::splitMethod,
+            "version 2's rule for splits; the surface area decides here")
+          .Ignored()};
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "accelerators/bvh/traverse/traverse.h"
 #include "accelerators/kd/kd_build.h"
 #include "core/plugin.h"
 
@@ -96,7 +97,7 @@ class KdTree final : public Aggregate {
     test_.makeBlockRay(trace.triangle, &blockRay);
     Walk<Order::NearFirst>(ray, [&](const KdNode& leaf) {
       test_.intersectBlocks(FirstBlock(leaf), leaf.Blocks(), blockRay, trace.triangle, &nearest);
-      if (leaf.HasOthers()) test_.settle(trace.triangle, &nearest);
+      if (leaf.HasOthers()) test_.findDistance(trace.triangle, &nearest);
       for (std::uint32_t id : Others(leaf)) IntersectOther(primitives_, id, trace, &nearest);
       return double(nearest.high);
     });

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "accelerators/bvh/traverse/block_test.h"
+#include "accelerators/bvh/build/block.h"
 
 namespace exphoton {
 

@@ -17,7 +17,8 @@ namespace exphoton {
 // sharing between arenas that lie in one array.
 class alignas(128) Arena {
  public:
-  Arena() = default;
+  Arena();
+  ~Arena();
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
@@ -65,11 +66,9 @@ class alignas(128) Arena {
         return blocks_[block_].data.get() + start;
       }
     }
-    const std::size_t size = bytes > kBlockBytes ? bytes : kBlockBytes;
-    blocks_.push_back({std::make_unique<std::byte[]>(size), size});
-    used_ = bytes;
-    return blocks_.back().data.get();
+    return AllocateInNewBlock(bytes);
   }
+  void* AllocateInNewBlock(std::size_t bytes);
 
   std::vector<Block> blocks_;
   std::size_t block_ = 0, used_ = 0;

@@ -49,6 +49,20 @@ std::string LineWithCaret(const SourceLocation& where) {
 
 }  // namespace
 
+Error::Error(ExitStatus status, const std::string& text)
+    : std::runtime_error(text), status_(status) {}
+
+Error::Error(ExitStatus status, const std::string& text, SourceLocation where, std::string hint)
+    : std::runtime_error(text), status_(status), where_(std::move(where)), hint_(std::move(hint)) {}
+
+Error::Error(const Error& other) = default;
+Error& Error::operator=(const Error& other) = default;
+Error::~Error() = default;
+
+void Error::AddOthers(const std::vector<Error>& others) {
+  others_.insert(others_.end(), others.begin(), others.end());
+}
+
 std::string FormatDiagnostic(const std::string& severity, const std::string& text,
                              const std::optional<SourceLocation>& where, const std::string& hint) {
   const bool hasPlace = where && !where->file.empty();

@@ -23,12 +23,11 @@ struct SourceLocation {
 
 class Error : public std::runtime_error {
  public:
-  Error(ExitStatus status, const std::string& text) : std::runtime_error(text), status_(status) {}
-  Error(ExitStatus status, const std::string& text, SourceLocation where, std::string hint = {})
-      : std::runtime_error(text),
-        status_(status),
-        where_(std::move(where)),
-        hint_(std::move(hint)) {}
+  Error(ExitStatus status, const std::string& text);
+  Error(ExitStatus status, const std::string& text, SourceLocation where, std::string hint = {});
+  Error(const Error& other);
+  Error& operator=(const Error& other);
+  ~Error() override;
 
   ExitStatus Status() const { return status_; }
   const std::optional<SourceLocation>& Where() const { return where_; }
@@ -36,9 +35,7 @@ class Error : public std::runtime_error {
 
   // The errors that were found after this one, in the same file or run.
   const std::vector<Error>& Others() const { return others_; }
-  void AddOthers(const std::vector<Error>& others) {
-    others_.insert(others_.end(), others.begin(), others.end());
-  }
+  void AddOthers(const std::vector<Error>& others);
 
  private:
   ExitStatus status_;

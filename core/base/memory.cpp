@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The memory functions use sysconf and getrlimit.
+// The memory of the machine and of the process, by sysconf and getrlimit; and the rare work of
+// Arena, which takes blocks from the heap.
 #include "core/base/memory.h"
 
 #include <sys/resource.h>
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "core/base/arena.h"
 
 namespace exphoton {
 namespace {
@@ -53,6 +56,16 @@ const char* OutOfMemoryText() {
   static char text[120];  // static, because nothing can be allocated here
   PrintLimit(text, sizeof text, "out of memory: ");
   return text;
+}
+
+Arena::Arena() = default;
+Arena::~Arena() = default;
+
+void* Arena::AllocateInNewBlock(std::size_t bytes) {
+  const std::size_t size = bytes > kBlockBytes ? bytes : kBlockBytes;
+  blocks_.push_back({std::make_unique<std::byte[]>(size), size});
+  used_ = bytes;
+  return blocks_.back().data.get();
 }
 
 }  // namespace exphoton

@@ -18,6 +18,7 @@ class MovingEmitter final : public EmitterSurface {
   const char* EmitterProblem() const override { return local_->EmitterProblem(); }
 
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override;
+  bool IsSampledUniformly() const override { return false; }
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
                                             Real uSubLight) const override;
   Real PdfToward(const SurfacePoint& ref, const Vector3& wi, const SurfacePoint& on) const override;

@@ -35,6 +35,7 @@ class PlacedEmitter final : public EmitterSurface {
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
     return SamplePlacedPoint(*local_, toWorld_, u, uSubLight, time);
   }
+  bool IsSampledUniformly() const override { return false; }
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
                                             Real uSubLight) const override {
     return SamplePlacedToward(*local_, toWorld_, ref, u, uSubLight);

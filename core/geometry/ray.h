@@ -28,12 +28,13 @@ struct RayDifferential : Ray {
   RayDifferential(const Ray& ray) : Ray(ray) {}
 };
 
-// SurfacePoint is a computed point on a surface with the bound of its rounding error.
+// SurfacePoint is a computed point on a surface, or in a medium, with the bound of its rounding
+// error.
 struct SurfacePoint {
   Point3 p;
   Vector3 pError;  // absolute, per axis: the true point lies in p +- pError
   Normal3 ng;      // unit geometric normal, on the outside as the scene file orients it;
-                   // 0 for a point that is on no surface (pError is then 0)
+                   // 0 for a point that is on no surface
   Real time = 0;   // time of the point: surfaces may move
 };
 

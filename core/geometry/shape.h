@@ -45,6 +45,9 @@ class EmitterSurface {
   // time.
   virtual EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const = 0;
 
+  // Returns whether the pdf of SamplePoint is 1 / Area() everywhere, at all times.
+  virtual bool IsSampledUniformly() const { return true; }
+
   // Samples a point as seen from ref, with its density per solid angle at ref. Returns nullopt if
   // there is no sample (edge-on, degenerate). The base class samples by area and converts the
   // density.

@@ -5,11 +5,15 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/geometry/shape.h"
 
 namespace exphoton {
+
+template <class T>
+class Texture;
 
 struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> indices;
@@ -20,6 +24,8 @@ struct TriangleMesh {
   // The geometric normal is Cross(p1 - p0, p2 - p0), negated if flipNormal is set
   // (ReverseOrientation xor a transformation that swaps handedness).
   bool flipNormal = false;
+  // Where this is 0, the mesh has no surface; null: it has none of these places.
+  std::shared_ptr<const Texture<Real>> alpha;
 
   std::size_t TriangleCount() const { return indices.size(); }
   // Removes triangles of zero area (computed in double) and returns their number.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // HitInSingle computes a triangle hit in single precision where an error bound proves it safe. This
-// covers most hits, at a fraction of the cost of DecideTriangle (triangle_decide.h). The order of
-// hits is the order of DecideTriangle; HitInSingle gives the reported values of the first hit if it
+// covers most hits, at a fraction of the cost of HitInDouble (triangle_double.h). The order of
+// hits is the order of HitInDouble; HitInSingle gives the reported values of the first hit if it
 // can. All accelerators and SIMD targets report the same bits: they do the same operations in the
 // same order.
 #pragma once
 
-#include "core/geometry/triangle_decide.h"
+#include "core/geometry/triangle_double.h"
 
 namespace exphoton {
 
@@ -44,7 +44,7 @@ inline bool MayHitInSingle(const TriangleRay& ray) {
   constexpr Real kLargest = 1 << 30;
   return std::abs(ray.sz) < kLargest && std::abs(ray.sz) > 1 / kLargest;
 }
-// The relative difference from DecideTriangle's t is less than kSingleError.
+// The relative difference from HitInDouble's t is less than kSingleError.
 inline constexpr Real kSingleError = Gamma(1024);
 
 #if defined(EXPHOTON_TRAPS)

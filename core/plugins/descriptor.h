@@ -14,7 +14,7 @@
 namespace exphoton {
 
 // Must be raised with every change of a core interface that plugins see.
-inline constexpr std::uint32_t kPluginAbi = 15;
+inline constexpr std::uint32_t kPluginAbi = 16;
 // Compiler, Real and core version. A plugin with another build tag is refused.
 const char* CoreBuildTag();
 #define EXPHOTON_BUILD_TAG ("exphoton 1, " __VERSION__ ", " EXPHOTON_REAL_NAME)
@@ -29,7 +29,8 @@ struct PluginFactory {
   const ParamTableBase* parameters;
   // Binds the parameters and creates a new PluginTraits<kind>::Product. `context` points to a
   // PluginTraits<kind>::Context. Throws Error.
-  std::function<void*(const ParamSet&, const BindContext&, const void* context)> create;
+  void* (*create)(const PluginFactory& factory, const ParamSet& params, const BindContext& bind,
+                  const void* context);
 };
 
 struct PluginDescriptor {
@@ -41,18 +42,22 @@ struct PluginDescriptor {
 };
 
 // Makes a plugin factory from a parameter table and a function
-//   std::unique_ptr<Product>(const S&, const Context&)
-template <PluginKind kind, class S, class Create>
-PluginFactory MakeFactory(const ParamTable<S>& table, Create create) {
-  using Context = typename PluginTraits<kind>::Context;
-  using Product = typename PluginTraits<kind>::Product;
+//   std::unique_ptr<Product> create(const S&, const Context&)
+template <PluginKind kind, auto create, class S>
+PluginFactory MakeFactory(const ParamTable<S>& table) {
   return {kind, &table,
-          [&table, create](const ParamSet& params, const BindContext& bind, const void* context) {
-            const S settings = table.Bind(params, bind);
-            std::unique_ptr<Product> product = table.Guard(params, bind, [&] {
-              return create(settings, *static_cast<const Context*>(context));
-            });
-            return static_cast<void*>(product.release());
+          [](const PluginFactory& factory, const ParamSet& params, const BindContext& bind,
+             const void* context) -> void* {
+            using Context = typename PluginTraits<kind>::Context;
+            const auto& parameters = static_cast<const ParamTable<S>&>(*factory.parameters);
+            const S settings = parameters.Bind(params, bind);
+            try {
+              std::unique_ptr<typename PluginTraits<kind>::Product> product =
+                  create(settings, *static_cast<const Context*>(context));
+              return product.release();
+            } catch (const ParamError& error) {
+              parameters.Locate(error, params, bind);
+            }
           }};
 }
 
@@ -73,14 +78,14 @@ bool RegisterStaticPlugin(PluginEntry entry);
 // EXPHOTON_TEXTURE registers a texture of floats and of colours; Parameters<T>() and Create<T> are
 // templates over the value type. EXPHOTON_COLOR_TEXTURE and EXPHOTON_FLOAT_TEXTURE register one of
 // both.
-#define EXPHOTON_TEXTURE(name, summary)                                                      \
-  EXPHOTON_PLUGIN(                                                                           \
-      name, summary,                                                                         \
-      ::exphoton::MakeFactory<::exphoton::PluginKind::FloatTexture>(                         \
-          ::exphoton::Parameters<::exphoton::Real>(), ::exphoton::Create<::exphoton::Real>), \
-      ::exphoton::MakeFactory<::exphoton::PluginKind::ColorTexture>(                         \
-          ::exphoton::Parameters<::exphoton::Spectrum>(),                                    \
-          ::exphoton::Create<::exphoton::Spectrum>))
+#define EXPHOTON_TEXTURE(name, summary)                                              \
+  EXPHOTON_PLUGIN(name, summary,                                                     \
+                  ::exphoton::MakeFactory<::exphoton::PluginKind::FloatTexture,      \
+                                          ::exphoton::Create<::exphoton::Real>>(     \
+                      ::exphoton::Parameters<::exphoton::Real>()),                   \
+                  ::exphoton::MakeFactory<::exphoton::PluginKind::ColorTexture,      \
+                                          ::exphoton::Create<::exphoton::Spectrum>>( \
+                      ::exphoton::Parameters<::exphoton::Spectrum>()))
 #define EXPHOTON_COLOR_TEXTURE(name, summary) EXPHOTON_REGISTER(ColorTexture, name, summary)
 #define EXPHOTON_FLOAT_TEXTURE(name, summary) EXPHOTON_REGISTER(FloatTexture, name, summary)
 #define EXPHOTON_SHAPE(name, summary) EXPHOTON_REGISTER(Shape, name, summary)
@@ -94,10 +99,10 @@ bool RegisterStaticPlugin(PluginEntry entry);
 #define EXPHOTON_FILTER(name, summary) EXPHOTON_REGISTER(Filter, name, summary)
 #define EXPHOTON_CAMERA(name, summary) EXPHOTON_REGISTER(Camera, name, summary)
 
-#define EXPHOTON_REGISTER(kind, name, summary)                                                    \
-  EXPHOTON_PLUGIN(name, summary,                                                                  \
-                  ::exphoton::MakeFactory<::exphoton::PluginKind::kind>(::exphoton::Parameters(), \
-                                                                        ::exphoton::Create))
+#define EXPHOTON_REGISTER(kind, name, summary)                                               \
+  EXPHOTON_PLUGIN(name, summary,                                                             \
+                  ::exphoton::MakeFactory<::exphoton::PluginKind::kind, ::exphoton::Create>( \
+                      ::exphoton::Parameters()))
 
 // Registers a plugin with any list of factories. The macros above are defined by it.
 #ifdef EXPHOTON_STATIC_PLUGINS

@@ -196,7 +196,7 @@ void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, con
   if (!bind.siblingNames) bind.siblingNames = [this, kind] { return ParameterNames(kind); };
   const std::string failed = bind.what + " cannot be made: ";
   try {
-    if (void* product = factory.create(params, bind, context)) return product;
+    if (void* product = factory.create(factory, params, bind, context)) return product;
   } catch (const Error& error) {
     if (error.Where() || error.Status() != ExitStatus::Scene) throw;
     throw Error(error.Status(), error.what(), params.where, error.Hint());

@@ -39,8 +39,6 @@ constexpr PluginAlias kAliases[] = {
     {PluginKind::Material, "disney", "plastic", "only diffuse and glossy reflection remain"},
     {PluginKind::Material, "fourier", "matte", "the measured reflection is lost"},
     {PluginKind::Material, "hair", "matte", "hair does not shine"},
-    {PluginKind::Sampler, "adaptive", "lowdiscrepancy",
-     "all pixels get the same number of samples"},
     {PluginKind::Sampler, "02sequence", "lowdiscrepancy", nullptr},
     {PluginKind::Sampler, "zerotwosequence", "lowdiscrepancy", nullptr},
     {PluginKind::Sampler, "sobol", "lowdiscrepancy", kOtherPoints},

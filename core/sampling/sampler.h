@@ -21,8 +21,8 @@ class SampleLayout {
   int Request1D(int count);  // count >= 0; returns the handle
   int Request2D(int count);
 
-  std::span<const int> Counts1D() const { return counts1D_; }
-  std::span<const int> Counts2D() const { return counts2D_; }
+  std::span<const int> Counts1D() const;
+  std::span<const int> Counts2D() const;
 
   // Whether the lens point and the time will be read. Samplers skip values that are not needed.
   bool needsLens = true, needsTime = true;
@@ -52,8 +52,8 @@ class CameraSamples {
   Real time = 0;  // in [0,1), if needed
 
   // Return the points of an array. They are valid from Sampler::Generate until its next call.
-  std::span<const Real> Array1D(int handle) const { return Read(arrays1D_, handle, 0); }
-  std::span<const Point2> Array2D(int handle) const { return Read(arrays2D_, handle, Count1D()); }
+  std::span<const Real> Array1D(int handle) const;
+  std::span<const Point2> Array2D(int handle) const;
   int Count1D() const { return int(arrays1D_.isMade.size()); }  // number of arrays
   int Count2D() const { return int(arrays2D_.isMade.size()); }
   bool NeedsLens() const { return needsLens_; }
@@ -111,17 +111,5 @@ class Sampler {
  private:
   friend class CameraSamples;
 };
-
-template <class T>
-std::span<const T> CameraSamples::Read(Arrays<T>& arrays, int handle, int firstRequest) const {
-  const auto i = std::size_t(handle);
-  const std::span<T> values(arrays.values.data() + arrays.offsets[i],
-                            arrays.offsets[i + 1] - arrays.offsets[i]);
-  if (!arrays.isMade[i]) {
-    arrays.isMade[i] = true;
-    if (!values.empty()) sampler_->Fill(key_, index_, firstRequest + handle, values);
-  }
-  return values;
-}
 
 }  // namespace exphoton

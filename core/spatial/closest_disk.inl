@@ -189,8 +189,8 @@ class BatchedClosestSearch {
     std::size_t count = 0;
     for (const std::uint32_t item : from) {
       const std::uint32_t q = QueryOf(item), node = NodeOf(item);
-      if (count >
-          kListCapacity) {  // list full: the single-query walk shrinks its radius as it goes
+      // The list is full. The single-query traversal shrinks its radius as it goes.
+      if (count > kListCapacity) {
         unbatchedQueries_ |= 1u << q;
         continue;
       }
@@ -208,7 +208,7 @@ class BatchedClosestSearch {
   static constexpr std::size_t kListCapacity = 256;
   static constexpr Real kGuess2 = Real(1) / 16;  // a factor of two changes little
   std::uint32_t first_[kMaxQueries];
-  unsigned unbatchedQueries_;  // bit i: query i needs a single-query walk
+  unsigned unbatchedQueries_;  // bit i: query i needs a ClosestTraversal
   std::uint32_t lists_[2][kListCapacity + 2 * kBlockPoints];
   Real distance2_[kBlockPoints];  // scratch output of AppendLanes, never read
 };

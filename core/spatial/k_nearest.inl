@@ -21,6 +21,7 @@ class Candidates {
     if (count_ > capacity_) Cut();
   }
 
+  // Returns the k nearest candidates. The last member is the position of the farthest of them.
   NearPoints Finish() {
     if (count_ > k_) Cut();
     if (count_ == 0) return {};

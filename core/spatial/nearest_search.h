@@ -28,8 +28,8 @@ struct NearestQuery {
 struct NearPoints {
   std::span<const Real> distance2;
   std::span<const std::uint32_t> index;
-  std::size_t farthest =
-      0;  // position in both arrays of the farthest point, the last of equals; 0 if empty
+  // Position in both arrays of the farthest point, the last of equals; 0 if empty.
+  std::size_t farthest = 0;
 
   std::size_t size() const { return index.size(); }
 };

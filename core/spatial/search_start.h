@@ -12,7 +12,8 @@
 namespace exphoton {
 
 // EntryGrid divides space into cubic cells and stores for each a block of points near its centre. A
-// closest-disk search scans that block first, to start with a small radius.
+// closest-disk search (ClosestDisks in nearest_search.h: the nearest point whose own disk covers
+// the query) scans that block first, to start with a small radius.
 class EntryGrid {
  public:
   EntryGrid() = default;  // no cells

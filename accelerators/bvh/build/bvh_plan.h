@@ -12,11 +12,13 @@ namespace exphoton {
 struct BvhPlanNode {
   Bounds3 bounds;
   std::uint32_t first = 0, count = 0;  // the node's run of items
-  // Index offsets from this node to its two halves; 0 for a leaf.
+  // Index offsets from this node to its two halves; 0 for a leaf of the binary tree.
   std::uint32_t lower = 0, upper = 0;
   ForestShares shares;
   std::uint8_t axis = 0;  // the lower half lies lower on this axis
-  bool isLeaf = false;    // as a single child of a node, this is a leaf
+  // What the node becomes if it takes one slot of an 8-wide node: a leaf of the 8-wide BVH, or
+  // itself an 8-wide node. A node with halves can become a leaf, too.
+  bool isLeaf = false;
 };
 
 // Nodes below this depth halve their runs, which adds at most 32 levels.

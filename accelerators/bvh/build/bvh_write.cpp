@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <new>
 
+#include "accelerators/bvh/build/block.h"
 #include "accelerators/bvh/build/child_order.h"
-#include "accelerators/bvh/traverse/block_test.h"
 #include "core/base/error.h"
 #include "core/geometry/vec3d.h"
 

@@ -18,7 +18,7 @@ class NearOrders {
  public:
   NearOrders();
   void Split(int lower, int upper, int axis);
-  // Returns BvhNode::orders without the blocking order.
+  // Returns BvhNode::orders. Its last entry, the blocking order (OrderByBlocking), is still 0.
   std::array<BvhOrder, 5> Packed() const;
 
  private:
@@ -29,7 +29,7 @@ class NearOrders {
 // Blocking describes a ray that enters a box, on average over all lines through the box.
 struct Blocking {
   double chance = 0;  // probability that something in the box blocks the ray
-  double work = 1;    // number of tests until this is decided
+  double work = 1;    // expected number of tests until the ray is known to be blocked or free
 };
 
 struct ChildBlocking {

@@ -12,9 +12,9 @@
 
 namespace exphoton {
 
-// A subtree of the binary BVH can occupy up to 8 child slots of one 8-wide node. least[k - 1] is
-// its least cost if it may use k slots. The cost is the sum of half area times visit cost over the
-// nodes and leaves made from it.
+// A subtree of the binary BVH can occupy up to 8 child slots of one 8-wide node: it then becomes a
+// forest of up to 8 subtrees. Element k - 1 is its least cost if it may use k slots. The cost is
+// the sum of half area times visit cost over the nodes and leaves made from it.
 using ForestCost = std::array<double, kBvhWidth>;
 
 // If a subtree may use k slots, ForestShares stores how many of them go to its lower half. The

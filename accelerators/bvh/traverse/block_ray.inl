@@ -62,7 +62,7 @@ struct BlockRay {
                             LessMask(size, Real8::All(kLargestSingle));
     // This test implies t (1 - kSingleError) > tMax, whatever the rounding.
     const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
-    // DecideTriangle finds the same sign of the volume. The error of the volume is less than
+    // HitInDouble finds the same sign of the volume. The error of the volume is less than
     // Gamma(7) 6 X Y Z plus the underflow of its products. Underflow in the edges is negligible
     // where the line crosses the triangle, because X Y exceeds 2^-76 there.
     const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(Square(kLeastSingle));

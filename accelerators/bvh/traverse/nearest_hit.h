@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// NearestHit holds the nearest hit found so far during traversal. DecideTriangle defines the order
+// NearestHit holds the nearest hit found so far during traversal. HitInDouble defines the order
 // of hits, but its double-precision arithmetic costs more than all other work in a leaf. It is
 // skipped for two triangles whose single-precision distances (triangle_single.h) clearly differ.
 #pragma once

@@ -19,13 +19,13 @@ struct BvhTraversal {
   Hit (*intersect)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   bool (*occluded)(const BvhArrays&, const PrimitiveSet&, const Ray&);
   // These functions are the leaf test for other accelerators. makeBlockRay prepares a ray.
-  // intersectBlocks replaces *nearest by a nearer hit, or by one at equal t with a lower id. settle
-  // computes the distance of *nearest, which must be known before shapes and instances are tested.
-  // occludedByBlocks returns whether any triangle of `count` blocks blocks the ray.
+  // intersectBlocks replaces *nearest by a nearer hit, or by one at equal t with a lower id.
+  // findDistance computes the distance of *nearest, which must be known before shapes and instances
+  // are tested. occludedByBlocks returns whether any triangle of `count` blocks blocks the ray.
   void (*makeBlockRay)(const TriangleRay&, BlockRayRoom*);
   void (*intersectBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
                           const TriangleRay&, NearestHit* nearest);
-  void (*settle)(const TriangleRay&, NearestHit* nearest);
+  void (*findDistance)(const TriangleRay&, NearestHit* nearest);
   bool (*occludedByBlocks)(const BvhBlock* blocks, std::uint32_t count, const BlockRayRoom&,
                            const TraceRay&);
 };

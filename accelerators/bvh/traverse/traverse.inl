@@ -21,7 +21,7 @@ inline Real Limit(Real t) { return t * (1 + Gamma(8)); }
 
 #include "accelerators/bvh/traverse/block_ray.inl"
 
-// Returns the triangle of a lane in the form that DecideTriangle needs.
+// Returns the triangle of a lane in the form that HitInDouble needs.
 inline auto CornersOf(const BvhBlock& block, int lane) {
   return TriangleCorners<3 * kBvhWidth, kBvhWidth>{&block.vertices[0][0][lane]};
 }
@@ -85,35 +85,35 @@ template <bool kIsAny, class Visit>
   }
 }
 
-// Computes the distance that orders the nearest hit, if it is unknown.
-[[gnu::noinline]] void Settle(const TriangleRay& ray, NearestHit* nearest) {
+// Computes the distance that orders the nearest hit, in double precision, if it is unknown.
+[[gnu::noinline]] void FindDistance(const TriangleRay& ray, NearestHit* nearest) {
   if (nearest->low == nearest->high) return;
-  const auto found = DecideTriangle(ray, kInfinity, CornersOf(*nearest->block, nearest->lane));
+  const auto found = HitInDouble(ray, kInfinity, CornersOf(*nearest->block, nearest->lane));
   if (found) nearest->low = nearest->high = found->t;
 }
 
-// Returns whether DecideTriangle rejects a triangle, which the ray's line crosses with this
+// Returns whether HitInDouble rejects a triangle, which the ray's line crosses with this
 // determinant, because it lies behind the ray's origin. Most often it is the triangle that the ray
 // starts on.
 inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Real determinant) {
   return PlaneIsBehind(ray.o, CornersOf(block, lane), -double(determinant) * double(ray.sz));
 }
 
-// Decides by DecideTriangle whether a triangle is hit and wins over the nearest hit.
-[[gnu::noinline]] void Decide(const BvhBlock& block, int lane, const TriangleRay& ray,
+// Tests a triangle in double precision and replaces *nearest if its hit wins.
+[[gnu::noinline]] void TestInDouble(const BvhBlock& block, int lane, const TriangleRay& ray,
                               NearestHit* nearest) {
   const std::uint32_t id = block.ids[lane];
   if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;  // tested before
   const auto corners = CornersOf(block, lane);
-  const auto decided = DecideTriangle(ray, nearest->high, corners);
-  if (!decided) return;
-  Settle(ray, nearest);
+  const auto found = HitInDouble(ray, nearest->high, corners);
+  if (!found) return;
+  FindDistance(ray, nearest);
   Hit ordered = nearest->hit;
   ordered.t = nearest->high;
-  if (!Wins(decided->t, kNoId, id, ordered)) return;
-  const TriangleHit told = HitInSingle(ray, corners).value_or(*decided);
-  nearest->hit = {told.t, {told.b1, told.b2}, id, kNoId};
-  nearest->low = nearest->high = decided->t;
+  if (!Wins(found->t, kNoId, id, ordered)) return;
+  const TriangleHit reported = HitInSingle(ray, corners).value_or(*found);
+  nearest->hit = {reported.t, {reported.b1, reported.b2}, id, kNoId};
+  nearest->low = nearest->high = found->t;
 }
 
 // Tests a block and replaces *nearest if one of its triangles wins.
@@ -122,7 +122,8 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
   const BlockHits hits = blockRay.Hits(block, nearest->high);
   if (hits.possible == 0) return;
   Real t[kBvhWidth], e1[kBvhWidth], e2[kBvhWidth], determinant[kBvhWidth];
-  hits.t.StoreUnaligned(t), hits.e1.StoreUnaligned(e1), hits.e2.StoreUnaligned(e2), hits.determinant.StoreUnaligned(determinant);
+  hits.t.StoreUnaligned(t), hits.e1.StoreUnaligned(e1), hits.e2.StoreUnaligned(e2);
+  hits.determinant.StoreUnaligned(determinant);
   for (unsigned open = hits.possible; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
     const Real high = t[lane] * (1 + kSingleError);
@@ -132,14 +133,15 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
       nearest->low = t[lane] * (1 - kSingleError), nearest->high = high;
       nearest->block = &block, nearest->lane = lane;
     } else if (!(hits.crossed >> lane & 1) || !IsBehind(block, lane, ray, determinant[lane])) {
-      Decide(block, lane, ray, nearest);
+      TestInDouble(block, lane, ray, nearest);
     }
   }
 }
 
-[[gnu::noinline]] bool DecideBlocked(const BvhBlock& block, int lane, const TriangleRay& ray,
+// Returns whether the triangle blocks the ray, in double precision.
+[[gnu::noinline]] bool BlocksInDouble(const BvhBlock& block, int lane, const TriangleRay& ray,
                                      Real tMax) {
-  const auto found = DecideTriangle(ray, tMax, CornersOf(block, lane));
+  const auto found = HitInDouble(ray, tMax, CornersOf(block, lane));
   return found && found->t < tMax;
 }
 
@@ -155,7 +157,7 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
     const int lane = std::countr_zero(open);
     if ((hits.crossed >> lane & 1) && IsBehind(block, lane, trace.triangle, determinant[lane]))
       continue;
-    if (DecideBlocked(block, lane, trace.triangle, tMax)) return true;
+    if (BlocksInDouble(block, lane, trace.triangle, tMax)) return true;
   }
   return false;
 }
@@ -170,7 +172,7 @@ Hit Intersect(const BvhArrays& arrays, const PrimitiveSet& primitives, const Ray
       IntersectBlock(leaf.Block(arrays.lines.data()), blockRay, trace.triangle, &nearest);
       return nearest.high;
     }
-    Settle(trace.triangle, &nearest);
+    FindDistance(trace.triangle, &nearest);
     const std::uint32_t* list = arrays.others.data() + leaf.Index();
     for (std::uint32_t i = 1; i <= list[0]; ++i)
       IntersectOther(primitives, list[i], trace, &nearest);

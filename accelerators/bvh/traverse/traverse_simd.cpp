@@ -31,8 +31,8 @@ namespace {
 }  // namespace
 
 extern const BvhTraversal kTraversal;
-const BvhTraversal kTraversal{kTargetName,     Intersect, Occluded,        MakeBlockRay,
-                              IntersectBlocks, Settle,    OccludedByBlocks};
+const BvhTraversal kTraversal{kTargetName,     Intersect,    Occluded,        MakeBlockRay,
+                              IntersectBlocks, FindDistance, OccludedByBlocks};
 
 }  // namespace exphoton::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -63,6 +63,18 @@ TEST(Trianglemesh, MirroringKeepsTheOutside) {
   EXPECT_EQ(TriangleSurface(*turned, 0, 0, 0).ng, Normal3(0, 0, -1));
 }
 
+TEST(Trianglemesh, TakesTextureCoordinatesByEitherName) {
+  TestPlugins plugins;
+  const std::string mesh =
+      R"("trianglemesh" "integer indices" [0 1 2] "point P" [0 0 0 1 0 0 0 1 0] )";
+  const auto uvOf = [&](const std::string& rest) { return MakeMesh(plugins, mesh + rest)->uv; };
+  const std::vector<Point2> first{{.5, 0}, {1, .25}, {0, 2}}, second{{3, 0}, {1, 4}, {0, 5}};
+  const std::string uv = R"("float uv" [.5 0 1 .25 0 2])", st = R"("float st" [3 0 1 4 0 5])";
+  EXPECT_EQ(uvOf(uv), first);
+  EXPECT_EQ(uvOf(st), second);
+  EXPECT_EQ(uvOf(st + uv), first);
+}
+
 // --- PLY -----------------------------------------------------------------------------------------
 
 const char* const kAsciiPly =
@@ -120,6 +132,44 @@ TEST(Ply, ReadsAsciiAndBothByteOrders) {
   ExpectTheMesh(*ParsePly(kAsciiPly));
   ExpectTheMesh(*ParsePly(BinaryPly(false)));
   ExpectTheMesh(*ParsePly(BinaryPly(true)));
+}
+
+// Another list follows the vertex numbers of each face.
+TEST(Ply, SkipsOtherListsOfAFace) {
+  std::string text = kAsciiPly;
+  const std::string list = "property list uchar int vertex_indices\n";
+  text.replace(text.find(list), list.size(), list + "property list uchar float more\n");
+  text.replace(text.find("3 0 1 2\n"), 8, "3 0 1 2 2 7 8\n");
+  text.replace(text.find("4 0 1 2 3\n"), 10, "4 0 1 2 3 0\n");
+  ExpectTheMesh(*ParsePly(text));
+}
+
+// Each type of whole numbers holds its largest value.
+TEST(Ply, ReadsLargeNumbersOfEveryType) {
+  const auto mesh = [](const std::string& type, auto last) {
+    std::string text =
+        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(last + 1) +
+        "\nproperty float x\nproperty float y\nproperty char z\nelement face 1\nproperty list "
+        "uchar " +
+        type + " vertex_indices\nend_header\n";
+    for (std::int64_t i = 0; i <= std::int64_t(last); ++i) {
+      for (const float f : {float(i), float(i % 7)}) Append(&text, f, false);
+      Append(&text, std::int8_t(-1), false);
+    }
+    Append(&text, std::uint8_t(3), false);
+    for (int i = 2; i >= 0; --i) Append(&text, decltype(last)(last - i), false);
+    return ParsePly(text);
+  };
+  const auto expectLast = [&](const std::string& type, auto last) {
+    const auto found = mesh(type, last);
+    EXPECT_EQ(found->indices[0][2], std::uint32_t(last)) << type;
+    EXPECT_EQ(found->p[0].z, -1) << type;
+  };
+  for (const char* type : {"uchar", "uint8"}) expectLast(type, std::uint8_t(255));
+  for (const char* type : {"char", "int8"}) expectLast(type, std::int8_t(127));
+  for (const char* type : {"ushort", "uint16"}) expectLast(type, std::uint16_t(65535));
+  for (const char* type : {"short", "int16"}) expectLast(type, std::int16_t(32767));
+  for (const char* type : {"int", "int32", "uint", "uint32"}) expectLast(type, std::int32_t(70000));
 }
 
 TEST(Ply, SmallCompressedFilesDoNotFillTheMemory) {

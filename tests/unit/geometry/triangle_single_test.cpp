@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests compare HitInSingle with DecideTriangle. Each hit of HitInSingle must be a hit of
-// DecideTriangle, with values within the error bound, for triangles of any size, shape and
+// These tests compare HitInSingle with HitInDouble. Each hit of HitInSingle must be a hit of
+// HitInDouble, with values within the error bound, for triangles of any size, shape and
 // distance. Some rays start on the triangle.
 #include <gtest/gtest.h>
 
@@ -37,9 +37,8 @@ void TestOne(RandomStream& random, const Case& one, Tally* tally) {
                                v[1].z, v[2].x, v[2].y, v[2].z};
   const TriangleCorners<3, 1> corners{coordinates};
   const auto hit = HitInSingle(test, corners);
-  const auto decided = MissesTriangle(test, v[0], v[1], v[2])
-                           ? std::nullopt
-                           : DecideTriangle(test, kInfinity, corners);
+  const auto decided =
+      MissesTriangle(test, v[0], v[1], v[2]) ? std::nullopt : HitInDouble(test, kInfinity, corners);
   tally->decided += decided.has_value();
   if (!hit) return;
   ++tally->sure;

@@ -269,5 +269,24 @@ TEST(StratifiedSampler, WithoutJitterTakesTheCentresOfLensAndTimeToo) {
   }
 }
 
+// Choices of lights and lobes would repeat in every pixel.
+TEST(StratifiedSampler, WithoutJitterKeepsTheChoicesRandom) {
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(
+      R"("stratified" "integer xsamples" 2 "integer ysamples" 4 "bool jitter" "false")");
+  const Requests requests;
+  std::set<Real> ones, xs, ys;
+  for (int x = 0; x < 20; ++x) {
+    CameraSamples s{Requests().layout};
+    sampler->Generate({0, {x, 0}, x % 8}, &s);
+    ones.insert(s.Array1D(requests.one)[0]);
+    xs.insert(s.Array2D(requests.one2)[0].x);
+    ys.insert(s.Array2D(requests.one2)[0].y);
+  }
+  EXPECT_EQ(ones.size(), 20u);
+  EXPECT_EQ(xs.size(), 20u);
+  EXPECT_EQ(ys.size(), 20u);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // MakeBlock packs up to 8 triangles into a BvhBlock, the leaf format of the BVH. Other accelerators
-// may use such blocks too, with the leaf-test functions of BvhTraversal (traverse.h).
+// may use such blocks too, with the leaf-test functions of BvhTraversal (traverse/traverse.h).
 #pragma once
 
 #include <span>
 
 #include "accelerators/bvh/bvh_layout.h"
-#include "accelerators/bvh/traverse/traverse.h"
 
 namespace exphoton {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// DecideTriangle is the double-precision part of the watertight ray-triangle test, inline for the
+// HitInDouble is the double-precision part of the watertight ray-triangle test, inline for the
 // loops of accelerators. It tests the triangles that MissesTriangle (the cheap edge test) did not
 // reject. Hits are ordered by the distance found here; triangle_single.h computes the reported
 // values of the nearest hit.
@@ -68,9 +68,9 @@ template <class Corner>
 // the value is 0, because rounding is monotone. The products in double used here are exact. Two
 // neighbours therefore never both reject a ray. Source: Woop, Benthin and Wald 2013 (JCGT 2:1).
 template <class Corner>
-[[gnu::always_inline]] inline std::optional<TriangleHit> DecideTriangle(const TriangleRay& ray,
-                                                                        Real tMax,
-                                                                        const Corner& corner) {
+[[gnu::always_inline]] inline std::optional<TriangleHit> HitInDouble(const TriangleRay& ray,
+                                                                     Real tMax,
+                                                                     const Corner& corner) {
   struct Sheared {
     double x, y, z;  // z: translated, not scaled
   };
