@@ -52,6 +52,7 @@ class Cylinder final : public QuadricShape {
     return objectToWorld_.ApplyBounds({{-r, -r, Real(zMin_)}, {r, r, Real(zMax_)}});
   }
 
+  bool IsSampledUniformly() const override { return !uneven_; }
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
     if (uneven_) return uneven_->SamplePoint(u, uSubLight, time);
     const double phi = double(u.y) * phiMax_, z = zMin_ + double(u.x) * (zMax_ - zMin_);

@@ -79,6 +79,7 @@ class Sphere final : public QuadricShape {
     return bounds;
   }
 
+  bool IsSampledUniformly() const override { return !uneven_; }
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
     if (uneven_) return uneven_->SamplePoint(u, uSubLight, time);
     const double z = zMin_ + double(u.x) * (zMax_ - zMin_), phi = double(u.y) * phiMax_;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The shape "trianglemesh" has triangles given by indices into lists of positions and, optionally,
 // normals, tangents and texture coordinates. Cross(p1 - p0, p2 - p0) points to the outside, from
-// where the corners are counter-clockwise. Given normals only affect shading, not the side.
+// where the corners are counter-clockwise. Given normals only affect shading, not the side. Where
+// "alpha" is 0, the mesh has holes for rays of all kinds, as in version 2.
+#include <algorithm>
+
 #include "core/plugin.h"
+#include "core/scattering/texture.h"
 #include "shapes/mesh/finish_mesh.h"
 
 namespace exphoton {
@@ -14,6 +18,8 @@ struct Settings {
   std::vector<Normal3> normals;
   std::vector<Vector3> tangents;
   std::vector<Point2> uv, st;
+  TexturePtr<Real> alpha = Uniform(Real(1));
+  bool discardDegenerateUvs = false;
 
   void Validate() const {
     const auto needSameCount = [&](const char* name, std::size_t count) {
@@ -38,8 +44,28 @@ const ParamTable<Settings>& Parameters() {
       Param("N", &Settings::normals, "shading normals, one a vertex").As(ParamType::NormalList),
       Param("S", &Settings::tangents, "shading tangents, one a vertex").As(ParamType::VectorList),
       Param("uv", &Settings::uv, "texture coordinates, one pair a vertex"),
-      Param("st", &Settings::st, "another name of 'uv'")};
+      Param("st", &Settings::st, "another name of 'uv'"),
+      Param("alpha", &Settings::alpha, "where it is 0, the mesh has a hole"),
+      Param("discarddegenerateUVs", &Settings::discardDegenerateUvs,
+            "leaves out all texture coordinates if those of any triangle coincide")};
   return table;
+}
+
+// Returns whether two corners of any triangle have the same texture coordinates.
+bool HasDegenerateUvs(const TriangleMesh& mesh) {
+  return std::any_of(mesh.indices.begin(), mesh.indices.end(), [&](const auto& v) {
+    const Point2 &a = mesh.uv[v[0]], &b = mesh.uv[v[1]], &c = mesh.uv[v[2]];
+    return a == b || b == c || c == a;
+  });
+}
+
+// Drops a constant alpha: a mesh is whole, or it has no triangles.
+void SetAlpha(const TexturePtr<Real>& alpha, TriangleMesh* mesh) {
+  const std::optional<Real> constant = alpha->ConstantValue();
+  if (!constant)
+    mesh->alpha = alpha;
+  else if (*constant == 0)
+    mesh->indices.clear();
 }
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
@@ -49,6 +75,14 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
   mesh->n = settings.normals;
   mesh->s = settings.tangents;
   mesh->uv = settings.uv.empty() ? settings.st : settings.uv;
+  if (settings.discardDegenerateUvs && !mesh->uv.empty() && HasDegenerateUvs(*mesh)) {
+    context.log.Warning(
+        "the mesh has triangles whose texture coordinates coincide: all texture "
+        "coordinates are left out",
+        context.where);
+    mesh->uv.clear();
+  }
+  SetAlpha(settings.alpha, mesh.get());
   return FinishMesh(std::move(mesh), context, "P");
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Bsdf combines lobes under a mask. The geometric normal alone separates reflection from
 // transmission. A direction on different sides of the shading normal and the geometric normal is
-// handled before any lobe sees it (Veach 1997, section 5.3).
+// handled before any lobe sees it (Veach 1997, section 5.3): diffuse lobes scatter its light by the
+// absolute cosine, which neither gains nor loses energy, and other lobes scatter none
+// (docs/decisions/0029-light-between-normals.md).
 #include "core/scattering/bsdf.h"
 
 #include <span>
@@ -26,20 +28,20 @@ Frame ShadingFrame(const SurfaceInteraction& si) {
   return frame;
 }
 
-// LocalOut is wo in the local frame, on the side of the geometric normal. If the two normals
-// disagree, the sign of its cosine is flipped, so that the point is seen under a grazing view
-// instead of being black.
-struct LocalOut {
-  Vector3 wo;
-  Real side = 0;  // wo . ng
+// LocalDirection is a direction in the local frame, on the side of the geometric normal. If the two
+// normals disagree, the sign of its cosine is flipped, so that the point is seen under a grazing
+// view instead of being black.
+struct LocalDirection {
+  Vector3 w;
+  Real side = 0;  // w . ng
   bool isMirrored = false;
 };
 
-LocalOut ToLocalOut(const Frame& frame, const Normal3& ng, const Vector3& wo) {
-  LocalOut out{frame.ToLocal(wo), Dot(wo, ng), false};
-  out.isMirrored = (out.wo.z < 0) != (out.side < 0);
-  if (out.isMirrored) out.wo.z = -out.wo.z;
-  return out;
+LocalDirection ToLocal(const Frame& frame, const Normal3& ng, const Vector3& w) {
+  LocalDirection local{frame.ToLocal(w), Dot(w, ng), false};
+  local.isMirrored = (local.w.z < 0) != (local.side < 0);
+  if (local.isMirrored) local.w.z = -local.w.z;
+  return local;
 }
 
 // Returns the lobe kinds that scatter between two directions with these cosines to the geometric
@@ -97,10 +99,10 @@ std::optional<BsdfSample> SampleSpecular(std::span<const Bxdf* const> lobes, con
 
 // Drawn is a direction sampled from a smooth lobe, in the local frame. `drawn` is the direction as
 // sampled, where its density is known. `seen` is the direction for which lobes are evaluated. They
-// differ for a photon that leaves behind the shading normal: the sampled direction was behind the
-// geometric normal and was reversed, and lobes see the reversed direction mirrored in z. The
-// hemisphere of the geometric normal is thus covered once, with the density |wi.ns| of the sampled
-// direction. `wo` is the outgoing direction.
+// differ for a direction between the normals: the sampled direction was behind the geometric normal
+// and was reversed, and lobes see the reversed direction mirrored in z. The hemisphere of the
+// geometric normal is thus covered once, with the density |wi.ns| of the sampled direction. `wo` is
+// the outgoing direction.
 struct Drawn {
   Vector3 wo, drawn, seen;
 };
@@ -139,41 +141,41 @@ int Bsdf::Count(LobeSet mask) const {
   return count;
 }
 
-// Calls visit(lobe, wo, wi) for each masked smooth lobe that scatters between these sides, in the
-// local frame.
+// Calls visit(lobe, drawn) for each masked smooth lobe that scatters between these sides.
 template <class Visit>
 void Bsdf::VisitMatching(const Vector3& wo, const Vector3& wi, LobeSet mask,
                          const Visit& visit) const {
-  const LocalOut out = ToLocalOut(frame_, ng_, wo);
-  const LobeSet served = mask & ScatteringSides(out.side, Dot(wi, ng_)) & LobeSet::NonSpecular;
+  const LocalDirection out = ToLocal(frame_, ng_, wo), in = ToLocal(frame_, ng_, wi);
+  LobeSet served = mask & ScatteringSides(out.side, in.side) & LobeSet::NonSpecular;
+  if (in.isMirrored) served = served & LobeSet::Diffuse;
   if (!Has(served)) return;
-  const Vector3 localWi = frame_.ToLocal(wi);
+  // Between the normals, Sample makes a direction by reversing the opposite one.
+  const Drawn drawn{out.w, in.isMirrored ? Vector3(-in.w.x, -in.w.y, in.w.z) : in.w, in.w};
   for (int i = 0; i < count_; ++i) {
     const Bxdf& lobe = *lobes_[std::size_t(i)];
-    if (lobe.Matches(served)) visit(lobe, out.wo, localWi);
+    if (lobe.Matches(served)) visit(lobe, drawn);
   }
 }
 
 Spectrum Bsdf::f(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   Spectrum sum;
   VisitMatching(wo, wi, mask,
-                [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) { sum += lobe.f(o, i); });
+                [&](const Bxdf& lobe, const Drawn& d) { sum += lobe.f(d.wo, d.seen); });
   return sum;
 }
 
 Real Bsdf::Pdf(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   Real sum = 0;
-  VisitMatching(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
-    sum += lobe.Pdf(o, i);
-  });
+  VisitMatching(wo, wi, mask,
+                [&](const Bxdf& lobe, const Drawn& d) { sum += lobe.Pdf(d.wo, d.drawn); });
   return sum == 0 ? 0 : sum / Real(Count(mask));
 }
 
 BsdfValue Bsdf::Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) const {
   BsdfValue value;
-  VisitMatching(wo, wi, mask, [&](const Bxdf& lobe, const Vector3& o, const Vector3& i) {
-    value.f += lobe.f(o, i);
-    value.pdf += lobe.Pdf(o, i);
+  VisitMatching(wo, wi, mask, [&](const Bxdf& lobe, const Drawn& d) {
+    value.f += lobe.f(d.wo, d.seen);
+    value.pdf += lobe.Pdf(d.wo, d.drawn);
   });
   if (value.pdf != 0) value.pdf /= Real(Count(mask));
   return value;
@@ -184,12 +186,12 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
   const MatchingLobes lobes(std::span(lobes_.data(), std::size_t(count_)), mask);
   const int count = int(lobes.specularCount + lobes.smoothCount);
   if (count == 0) return std::nullopt;
-  const LocalOut out = ToLocalOut(frame_, ng_, wo);
-  if (out.side == 0 || out.wo.z == 0) return std::nullopt;
+  const LocalDirection out = ToLocal(frame_, ng_, wo);
+  if (out.side == 0 || out.w.z == 0) return std::nullopt;
 
   const Real position = uLobe * Real(count);
   if (position < Real(lobes.specularCount)) {
-    auto sample = SampleSpecular(lobes.Specular(), out.wo, position / Real(lobes.specularCount));
+    auto sample = SampleSpecular(lobes.Specular(), out.w, position / Real(lobes.specularCount));
     if (!sample) return std::nullopt;
     // Undo the flip of wo's cosine for transmission, so that an invisible boundary bends no ray.
     const bool isUndone = out.isMirrored && sample->IsTransmission();
@@ -203,27 +205,53 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
     return sample;
   }
 
-  // A photon from a direction on different sides of the two normals is not scattered, as in f(wi,
-  // wo).
-  if (mode == TransportMode::Importance && out.isMirrored) return std::nullopt;
   const std::size_t picked =
       std::min(std::size_t(position) - lobes.specularCount, lobes.smoothCount - 1);
   const Bxdf& lobe = *lobes.smooth[picked];
-  const auto local = lobe.Sample(out.wo, u);
+  const auto local = lobe.Sample(out.w, u);
   if (!local) return std::nullopt;
   BsdfSample sample{frame_.ToWorld(local->wi), local->throughput, local->pdf, lobe.Lobe()};
-  Drawn drawn{out.wo, local->wi, local->wi};
+  Drawn drawn{out.w, local->wi, local->wi};
   const bool isTurned = !Intersects(sample.lobe, ScatteringSides(out.side, Dot(sample.wi, ng_)));
   if (isTurned) {
-    if (mode == TransportMode::Radiance) return std::nullopt;
     sample.wi = -sample.wi;
     drawn.seen = {-local->wi.x, -local->wi.y, local->wi.z};
   }
-  const LobeSet served = ScatteringSides(out.side, Dot(sample.wi, ng_));
+  // Only diffuse lobes scatter light that arrives between the normals, as in f.
+  const bool arrivesBetween = mode == TransportMode::Radiance ? isTurned : out.isMirrored;
+  const LobeSet served = ScatteringSides(out.side, Dot(sample.wi, ng_)) &
+                         (arrivesBetween ? LobeSet::Diffuse : LobeSet::All);
   if (!Intersects(sample.lobe, served)) return std::nullopt;
   if (count > 1 || isTurned) CombineSmooth(lobes, picked, served, drawn, &sample);
   if (!(sample.pdf > 0) || !sample.throughput.IsFinite()) return std::nullopt;
   return sample;
+}
+
+// Smooth lobes: with f_l cos <= bound_l pdf_l, the sum of f_l cos over the mean of pdf_l over all
+// `count` lobes is at most count times the largest bound_l. Specular lobes: see SampleSpecular.
+std::optional<Spectrum> Bsdf::ThroughputBound(const Vector3& wo, LobeSet mask) const {
+  const MatchingLobes lobes(std::span(lobes_.data(), std::size_t(count_)), mask);
+  const Real count = Real(lobes.specularCount + lobes.smoothCount);
+  const Vector3 local = ToLocal(frame_, ng_, wo).w;
+  Spectrum bound;
+  const auto include = [&bound](const Spectrum& value) {
+    for (int c = 0; c < Spectrum::kChannels; ++c) bound[c] = std::max(bound[c], value[c]);
+  };
+  Real total = 0;
+  for (std::size_t i = 0; i < lobes.smoothCount; ++i) {
+    const auto smooth = lobes.smooth[i]->ThroughputBound(local);
+    if (!smooth) return std::nullopt;
+    include(*smooth * count);
+  }
+  for (const Bxdf* lobe : lobes.Specular())
+    if (const auto coefficient = lobe->ThroughputBound(local)) total += coefficient->MaxComponent();
+  for (const Bxdf* lobe : lobes.Specular()) {
+    const auto coefficient = lobe->ThroughputBound(local);
+    if (!coefficient) return std::nullopt;
+    const Real largest = coefficient->MaxComponent();
+    if (largest > 0) include(*coefficient * (total / largest * count / Real(lobes.specularCount)));
+  }
+  return bound;
 }
 
 Spectrum Bsdf::Rho(LobeSet mask) const {

@@ -55,12 +55,16 @@ class Bsdf {
   // Picks one masked lobe uniformly by uLobe. If it is specular, a second choice picks a specular
   // lobe in proportion to its coefficient. Returns nullopt if there is no sample (absorbed).
   // In Importance mode, wo points to the origin of a photon, and smooth lobes scatter by f(wi, wo).
-  // This differs from f(wo, wi) if the two normals disagree: light from behind the shading normal
-  // is not scattered, but scattered light goes to every direction in front of the geometric normal.
+  // This differs from f(wo, wi) if the two normals disagree: only diffuse lobes scatter light from
+  // behind the shading normal, but all scatter to every direction in front of the geometric normal.
   // The throughput is f(wi, wo) |wi.ns| / pdf, without the ShadingNormalFactor.
   std::optional<BsdfSample> Sample(const Vector3& wo, Point2 u, Real uLobe,
                                    LobeSet mask = LobeSet::All,
                                    TransportMode mode = TransportMode::Radiance) const;
+  // Returns a bound on the throughput of every Sample(wo, ..., mask, mode) for each channel, or
+  // nullopt if a lobe knows none. A sample in Importance mode whose direction was on different
+  // sides of the two normals may exceed it.
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo, LobeSet mask) const;
   // Returns the sum of the hemispherical-hemispherical reflectances of the masked lobes.
   Spectrum Rho(LobeSet mask) const;
   // Returns whether the diffuse reflection lobe is coated (Bxdf::IsCoated).

@@ -69,6 +69,12 @@ class Bxdf {
   // Returns the density of Sample per solid angle, or 0 for a specular lobe.
   virtual Real Pdf(const Vector3& wo, const Vector3& wi) const = 0;
   virtual std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const = 0;
+  // Returns a bound for each channel: f(wo,wi) |cos wi| <= bound * Pdf(wo,wi) for every wi, so that
+  // no throughput of Sample(wo) is above it. nullopt: no bound is known.
+  virtual std::optional<Spectrum> ThroughputBound(const Vector3& wo) const {
+    (void)wo;
+    return std::nullopt;
+  }
   // Returns the hemispherical-hemispherical reflectance or transmittance, in [0,1] for physical
   // coefficients. It is a closed form or a good approximation, and never 0 for a lobe that is not
   // black.

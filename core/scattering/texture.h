@@ -39,9 +39,7 @@ class UniformTexture final : public Texture<T> {
  private:
   T value_;
 };
-template <class T>
-TexturePtr<T> Uniform(const T& value) {
-  return std::make_shared<const UniformTexture<T>>(value);
-}
+TexturePtr<Real> Uniform(Real value);
+TexturePtr<Spectrum> Uniform(const Spectrum& value);
 
 }  // namespace exphoton

@@ -4,8 +4,6 @@
 // need for ray differentials.
 #pragma once
 
-#include <string>
-
 #include "core/plugin.h"
 #include "core/scattering/bump.h"
 
@@ -15,13 +13,7 @@ struct SurfaceSettings {
   TexturePtr<Real> bumpMap;  // null: none
 };
 
-inline const ParamTable<SurfaceSettings>& SurfaceParameters() {
-  static const ParamTable<SurfaceSettings> table{
-      Param("bumpmap", &SurfaceSettings::bumpMap,
-            "displaces the surface along its normal, for shading only; none if absent")
-          .Unit("scene units")};
-  return table;
-}
+const ParamTable<SurfaceSettings>& SurfaceParameters();
 
 // Returns positive finite values unchanged, also above 1, and 0 for all other values.
 inline Real NonNegative(Real x) { return x > 0 && x < kInfinity ? x : 0; }
@@ -35,16 +27,13 @@ T ReadNonNegative(const TexturePtr<T>& texture, const SurfaceInteraction& si) {
 
 class SurfaceMaterial : public Material {
  public:
+  ~SurfaceMaterial() override;
   LobeSet PossibleLobes() const final { return possible_; }
   bool NeedsDifferentials() const final { return needsDifferentials_; }
   int LobeCount() const final { return lobeCount_; }
 
  protected:
-  explicit SurfaceMaterial(const SurfaceSettings& settings) : bumpMap_(settings.bumpMap) {
-    // A constant displacement tilts no normal, even on a curved surface.
-    if (bumpMap_ && bumpMap_->ConstantValue()) bumpMap_ = nullptr;
-    needsDifferentials_ = bumpMap_ != nullptr;
-  }
+  explicit SurfaceMaterial(const SurfaceSettings& settings);
 
   // Registers a texture that Evaluate reads. For constructors.
   template <class T>
@@ -53,15 +42,7 @@ class SurfaceMaterial : public Material {
   }
   // Registers a reflectance or transmittance. Warns if it is constant and creates energy.
   void ReadsColor(const char* name, const TexturePtr<Spectrum>& color,
-                  const MaterialContext& context) {
-    Reads(color);
-    const auto value = color->ConstantValue();
-    if (value && value->MaxComponent() > 1) {
-      context.log.Warning(std::string("'") + name +
-                              "' is above 1: the surface scatters more light than it receives",
-                          context.where);
-    }
-  }
+                  const MaterialContext& context);
   // Registers one lobe that Evaluate may add.
   void MayHave(LobeSet lobe) {
     possible_ = possible_ | lobe;

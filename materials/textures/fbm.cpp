@@ -13,7 +13,8 @@ const ParamTable<FractalSettings>& Parameters() {
 template <class T>
 std::unique_ptr<Texture<T>> Create(const FractalSettings& settings, const TextureContext& context) {
   return MakeNoiseTexture<T>(
-      context, [noise = settings.Noise()](const TexturePoint3& at) { return FbmAt(at, noise); });
+      context, [noise = settings.Noise()](const TexturePoint3& at) { return FbmAt(at, noise); },
+      settings.IsBlack());
 }
 
 }  // namespace

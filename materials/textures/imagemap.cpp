@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The texture "imagemap" reads an image file (EXR or PNG); t = 0 is the top row. A float texture
-// takes the luminance. Non-finite pixels count as 0, with a warning.
+// The texture "imagemap" reads an image file; t = 0 is the top row. A float texture takes the
+// luminance. Non-finite pixels count as 0, with a warning. With "gamma", a texel is
+// (scale * stored value)^gamma, as in version 2, where the values of 8-bit files are not sRGB.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/imaging/files/srgb.h"
 #include "core/imaging/image.h"
 #include "core/imaging/mipmap.h"
 #include "materials/textures/common/mapping.h"
@@ -13,12 +19,21 @@ struct ImageSettings : MappingSettings {
   WrapMode wrap = WrapMode::Repeat;
   Real maxAnisotropy = 8;
   bool trilinear = false;
+  std::optional<Real> gamma;  // absent: sRGB files are decoded
+  Real scale = 1;
+
+  // Textures with equal keys share the pixels.
+  std::string Key() const {
+    std::ostringstream key;
+    key << int(wrap) << ' ' << scale << ' ' << gamma.value_or(0) << ' ' << filename;
+    return key.str();
+  }
 };
 
 const ParamTable<ImageSettings>& ImageParameters() {
   static const ParamTable<ImageSettings> table{
       MappingParameters(),
-      Param("filename", &ImageSettings::filename, "image file, EXR or PNG")
+      Param("filename", &ImageSettings::filename, "image file: EXR, PNG, PFM or TGA")
           .As(ParamType::File)
           .Required(),
       Param("wrap", &ImageSettings::wrap, "the image outside the unit square")
@@ -29,7 +44,15 @@ const ParamTable<ImageSettings>& ImageParameters() {
             "longest side of a filtered footprint over its shortest")
           .Range(1, 64),
       Param("trilinear", &ImageSettings::trilinear,
-            "square footprints instead of elliptical ones: faster and more blurred")};
+            "square footprints instead of elliptical ones: faster and more blurred"),
+      Param("gamma", &ImageSettings::gamma,
+            "exponent of the stored values; if absent, PNG and TGA files are decoded from sRGB; 1 "
+            "in scenes of version 2")
+          .Above(0)
+          .AtMost(100)
+          .InVersion2({1}),
+      Param("scale", &ImageSettings::scale, "factor of the values, before \"gamma\"")
+          .Range(0, 1e6)};
   return table;
 }
 
@@ -41,6 +64,13 @@ const ParamTable<ImageSettings>& Parameters() {
 
 Real FromRgb(const Spectrum& rgb, Real) { return rgb.Y(); }
 Spectrum FromRgb(const Spectrum& rgb, const Spectrum&) { return rgb; }
+
+// Returns a channel of a texel. The stored value of a file in sRGB is encoded again.
+Real Adjusted(float value, bool isFromSrgb, const ImageSettings& settings) {
+  if (!settings.gamma) return Real(value) * settings.scale;
+  const double stored = isFromSrgb ? EncodeSrgb(double(value)) : double(value);
+  return Real(std::pow(std::max(stored * double(settings.scale), 0.), double(*settings.gamma)));
+}
 
 template <class T>
 MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& context) {
@@ -58,7 +88,10 @@ MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& contex
   std::size_t bad = 0;
   for (int y = 0; y < image.Height(); ++y) {
     for (int x = 0; x < image.Width(); ++x) {
-      Spectrum rgb(image.At(x, y, r), image.At(x, y, g), image.At(x, y, b));
+      const auto channel = [&](int c) {
+        return Adjusted(image.At(x, y, c), image.isFromSrgb, settings);
+      };
+      Spectrum rgb(channel(r), channel(g), channel(b));
       if (!rgb.IsFinite()) {
         rgb = Spectrum();
         ++bad;
@@ -74,11 +107,10 @@ MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& contex
   return MipMap<T>(image.Width(), image.Height(), std::move(texels), settings.wrap);
 }
 
-// Textures with the same file and wrap mode share the pixels.
 template <class T>
 std::shared_ptr<const MipMap<T>> SharedMipMap(const ImageSettings& settings,
                                               const TextureContext& context) {
-  return context.shared.GetOrMake<MipMap<T>>(std::to_string(int(settings.wrap)) + settings.filename,
+  return context.shared.GetOrMake<MipMap<T>>(settings.Key(),
                                              [&] { return ReadMipMap<T>(settings, context); });
 }
 

@@ -13,9 +13,10 @@ const ParamTable<FractalSettings>& Parameters() {
 
 template <class T>
 std::unique_ptr<Texture<T>> Create(const FractalSettings& settings, const TextureContext& context) {
-  return MakeNoiseTexture<T>(context, [noise = settings.Noise()](const TexturePoint3& at) {
-    return TurbulenceAt(at, noise);
-  });
+  return MakeNoiseTexture<T>(
+      context,
+      [noise = settings.Noise()](const TexturePoint3& at) { return TurbulenceAt(at, noise); },
+      settings.IsBlack());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The medium "exponential" has the density a exp(-b h) at height h above p0 along updir, like air
-// or ground fog. The integral along a ray has a closed form, so it needs no ray marching.
+// The medium "exponential" has the density a exp(-b h) at height h above the lower corner of the
+// box (the smaller of p0 and p1 on each axis) along updir, like air or ground fog. The integral
+// along a ray has a closed form, so it needs no ray marching.
 #include "materials/volumes/common/box_medium.h"
 
 namespace exphoton {
@@ -17,7 +18,9 @@ struct Settings : MediumSettings {
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      MediumParameters(), Param("a", &Settings::a, "density at p0").AtLeast(0),
+      MediumParameters(),
+      Param("a", &Settings::a, "density at the lower corner: the smaller of p0 and p1 on each axis")
+          .AtLeast(0),
       Param("b", &Settings::b, "how fast it falls with height; the height of 1/e is 1 / b"),
       Param("updir", &Settings::up, "direction of increasing height; its length scales the height")
           .As(ParamType::Vector)};

@@ -61,6 +61,7 @@ class RevolvedQuadric : public QuadricShape {
 
   Real Area() const override { return uneven_ ? uneven_->Area() : area_; }
   Bounds3 Bounds() const override;
+  bool IsSampledUniformly() const override { return !uneven_; }
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override;
   std::optional<EmitterSample> SampleToward(const SurfacePoint& ref, Point2 u,
                                             Real uSubLight) const override;

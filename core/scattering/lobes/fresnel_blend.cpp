@@ -36,6 +36,11 @@ std::optional<BxdfSample> BlendedDiffuse::Sample(const Vector3& wo, Point2 u) co
   return BxdfSample{wi, f(wo, wi) * kPi, pdf};
 }
 
+// The coat transmits most along the normal.
+std::optional<Spectrum> BlendedDiffuse::ThroughputBound(const Vector3& wo) const {
+  return rho_ * (CoatTransmission(std::abs(wo.z)) * CoatTransmission(1));
+}
+
 Spectrum BlendedDiffuse::Rho() const { return Clamp(rho_, 0, 1); }
 
 BlendedGloss::BlendedGloss(const Spectrum& gloss, Real exponentX, Real exponentY)
@@ -87,6 +92,17 @@ std::optional<BxdfSample> BlendedGloss::Sample(const Vector3& wo, Point2 u) cons
   const Spectrum weight = f(wo, wi) * (std::abs(wi.z) / pdf);
   if (!weight.IsFinite()) return std::nullopt;
   return BxdfSample{wi, weight, pdf};
+}
+
+// f cos / pdf is Schlick's term times a ratio of two norms and cos_i / max(cos_i, cos_o) <= 1. The
+// half vector is farthest from wo where wi is on the opposite horizon: cos^2 = (1 - sin wo) / 2.
+std::optional<Spectrum> BlendedGloss::ThroughputBound(const Vector3& wo) const {
+  const Real sine = std::min(std::sqrt(wo.x * wo.x + wo.y * wo.y), Real(1));
+  const Real fresnel = Power5(1 - std::sqrt((1 - sine) / 2));
+  Spectrum schlick;
+  for (int c = 0; c < Spectrum::kChannels; ++c)
+    schlick[c] = std::max(gloss_[c], gloss_[c] + (1 - gloss_[c]) * fresnel);
+  return schlick * (normD_ / normPdf_);
 }
 
 // The table is read at the exponent whose lobe width is the mean of the two widths.

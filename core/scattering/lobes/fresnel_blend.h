@@ -16,6 +16,7 @@ class BlendedDiffuse final : public Bxdf {
   Spectrum f(const Vector3& wo, const Vector3& wi) const override;
   Real Pdf(const Vector3& wo, const Vector3& wi) const override;  // |cos wi| / pi
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override;
   Spectrum Rho() const override;  // exact
   bool IsCoated() const override { return true; }
 
@@ -32,6 +33,7 @@ class BlendedGloss final : public Bxdf {
   Spectrum f(const Vector3& wo, const Vector3& wi) const override;
   Real Pdf(const Vector3& wo, const Vector3& wi) const override;  // from the half vector's density
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override;
   Spectrum Rho() const override;  // error up to 0.03 if the exponents differ
 
  private:

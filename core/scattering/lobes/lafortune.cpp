@@ -119,4 +119,10 @@ std::optional<BxdfSample> Lafortune::Sample(const Vector3& wo, Point2 u) const {
   return BxdfSample{wi, weightOf, pdf};
 }
 
+// Each channel of f is at most the sum of all cosine powers, which is 2 pi TotalWeight times the
+// density. The cosine of wi is at most 1.
+std::optional<Spectrum> Lafortune::ThroughputBound(const Vector3& wo) const {
+  return Spectrum(2 * kPi * TotalWeight(lobes_, Upwards(wo)));
+}
+
 }  // namespace exphoton

@@ -50,6 +50,7 @@ class Lafortune final : public Bxdf {
   Spectrum f(const Vector3& wo, const Vector3& wi) const override;
   Real Pdf(const Vector3& wo, const Vector3& wi) const override;
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override;
   Spectrum Rho() const override { return Clamp(rho_, 0, 1); }
 
  private:

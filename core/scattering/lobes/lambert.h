@@ -14,6 +14,7 @@ class Lambert final : public Bxdf {
   Spectrum f(const Vector3& wo, const Vector3& wi) const override;
   Real Pdf(const Vector3& wo, const Vector3& wi) const override;  // |cos wi| / pi
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3&) const override { return reflectance_; }
   Spectrum Rho() const override;
 
  private:

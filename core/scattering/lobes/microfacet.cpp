@@ -39,6 +39,18 @@ std::optional<BxdfSample> Microfacet::Sample(const Vector3& wo, Point2 u) const 
   return BxdfSample{wi, weight, pdf};
 }
 
+// The factor of R F in Sample is g o.h / (cos_o cos_h). With g <= 2 cos_h cos_o / o.h it is at most
+// 2. The half vector is farthest from wo where wi is on the opposite horizon: o.h^2 >= (1 - sin wo)
+// / 2. F has no maximum between there and normal incidence.
+std::optional<Spectrum> Microfacet::ThroughputBound(const Vector3& wo) const {
+  const Real sine = std::min(std::sqrt(wo.x * wo.x + wo.y * wo.y), Real(1));
+  const Spectrum normal = fresnel_(1), grazing = fresnel_(std::sqrt((1 - sine) / 2));
+  Spectrum bound;
+  for (int c = 0; c < Spectrum::kChannels; ++c)
+    bound[c] = 2 * reflectance_[c] * std::max(normal[c], grazing[c]);
+  return bound;
+}
+
 Spectrum Microfacet::Rho() const {
   return Clamp(reflectance_ * MicrofacetAlbedo(distribution_.Exponent(), fresnel_), 0, 1);
 }

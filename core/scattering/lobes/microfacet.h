@@ -21,6 +21,7 @@ class Microfacet final : public Bxdf {
   Spectrum f(const Vector3& wo, const Vector3& wi) const override;
   Real Pdf(const Vector3& wo, const Vector3& wi) const override;  // D cos h / (4 wo.h)
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override;
   Spectrum Rho() const override;
 
  private:

@@ -36,6 +36,15 @@ std::optional<BxdfSample> OrenNayar::Sample(const Vector3& wo, Point2 u) const {
   return BxdfSample{wi, f(wo, wi) * kPi, std::abs(wi.z) * kInvPi};
 }
 
+// The term is at most sin(wi) tan(wo) where wo has the larger cosine, and at most sin(wo) tan(wi)
+// <= tan(wo) where wi has it. Neither is above the tangent of wo.
+std::optional<Spectrum> OrenNayar::ThroughputBound(const Vector3& wo) const {
+  const Real tangent = std::sqrt(wo.x * wo.x + wo.y * wo.y) / std::abs(wo.z);
+  const Spectrum bound = reflectance_ * (a_ + b_ * tangent);
+  if (!bound.IsFinite()) return std::nullopt;
+  return bound;
+}
+
 // The mean of max(0, cos dphi) sin(alpha) tan(beta) over both hemispheres, weighted by cosines, is
 // 2/3 - 64/(45 pi).
 Spectrum OrenNayar::Rho() const {

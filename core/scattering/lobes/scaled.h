@@ -21,6 +21,11 @@ class ScaledLobe final : public Bxdf {
     if (sample) sample->throughput *= scale_;
     return sample;
   }
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override {
+    auto bound = lobe_.ThroughputBound(wo);
+    if (bound) *bound *= scale_;
+    return bound;
+  }
   Spectrum Rho() const override { return scale_ * lobe_.Rho(); }
   bool IsCoated() const override { return keepsCoat_ && lobe_.IsCoated(); }
 

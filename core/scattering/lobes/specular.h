@@ -9,6 +9,13 @@
 
 namespace exphoton {
 
+// Returns the coefficient of a delta lobe, which is the throughput of its only sample; black if
+// there is none.
+inline Spectrum CoefficientOf(const Bxdf& delta, const Vector3& wo) {
+  const auto sample = delta.Sample(wo, {});
+  return sample ? sample->throughput : Spectrum();
+}
+
 // SpecularReflection reflects about the normal. The coefficient is R F(cos wo), with the signed
 // cosine.
 class SpecularReflection final : public Bxdf {
@@ -19,6 +26,9 @@ class SpecularReflection final : public Bxdf {
   Spectrum f(const Vector3&, const Vector3&) const override { return {}; }
   Real Pdf(const Vector3&, const Vector3&) const override { return 0; }
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override {
+    return CoefficientOf(*this, wo);
+  }
   Spectrum Rho() const override;
 
  private:
@@ -43,6 +53,9 @@ class SpecularTransmission final : public Bxdf {
   Spectrum f(const Vector3&, const Vector3&) const override { return {}; }
   Real Pdf(const Vector3&, const Vector3&) const override { return 0; }
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override {
+    return CoefficientOf(*this, wo);
+  }
   Spectrum Rho() const override;
 
  private:

@@ -26,6 +26,9 @@ class Transmitted final : public Bxdf {
     if (sample) sample->wi = MirrorZ(sample->wi);
     return sample;
   }
+  std::optional<Spectrum> ThroughputBound(const Vector3& wo) const override {
+    return reflection_.ThroughputBound(wo);
+  }
   Spectrum Rho() const override { return reflection_.Rho(); }
 
  private:

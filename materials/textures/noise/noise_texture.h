@@ -12,6 +12,7 @@ struct FractalSettings {
   int octaves = 8;
   Real roughness = Real(.5);
 
+  bool IsBlack() const { return octaves == 0; }  // a sum of no octaves
   FractalNoise Noise() const { return {octaves, double(roughness)}; }
 };
 
@@ -28,22 +29,28 @@ inline const ParamTable<FractalSettings>& FractalParameters() {
 template <class T, class F>
 class NoiseTexture final : public Texture<T> {
  public:
-  NoiseTexture(const TextureContext& context, F value)
-      : mapping_(context.textureToWorld), value_(value) {}
+  // If isBlack, the value is 0 everywhere.
+  NoiseTexture(const TextureContext& context, F value, bool isBlack)
+      : mapping_(context.textureToWorld), value_(value), isBlack_(isBlack) {}
 
   T Evaluate(const SurfaceInteraction& si) const override {
     return T(Real(value_(mapping_.Map(si))));
   }
-  bool IsFiltered() const override { return true; }
+  std::optional<T> ConstantValue() const override {
+    return isBlack_ ? std::optional<T>(T(Real(0))) : std::nullopt;
+  }
+  bool IsFiltered() const override { return !isBlack_; }
 
  private:
   TextureMapping3D mapping_;
   F value_;
+  bool isBlack_;
 };
 
 template <class T, class F>
-std::unique_ptr<Texture<T>> MakeNoiseTexture(const TextureContext& context, F value) {
-  return std::make_unique<NoiseTexture<T, F>>(context, value);
+std::unique_ptr<Texture<T>> MakeNoiseTexture(const TextureContext& context, F value,
+                                             bool isBlack = false) {
+  return std::make_unique<NoiseTexture<T, F>>(context, value, isBlack);
 }
 
 }  // namespace exphoton

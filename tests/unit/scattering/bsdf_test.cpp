@@ -194,6 +194,61 @@ TEST(Bsdf, SeenFromBehindItsShadingNormalIsNotBlack) {
   EXPECT_GT(found, 8);
 }
 
+// A direction above the geometric surface and below the horizon of the shading normal.
+const Vector3 kBetween = Normalize(Vector3(Real(-.99), 0, Real(.14)));
+
+TEST(Bsdf, ScattersDiffuseLightBetweenItsNormalsByTheAbsoluteCosine) {
+  const Bsdf bsdf = Make({&kDiffuse}, TiltedSurface(1));
+  ASSERT_LT(Dot(kBetween, bsdf.Ns()), 0);
+  for (const Vector3& other : {kOut, Vector3(0, 0, 1), kBetween}) {
+    EXPECT_NEAR(bsdf.f(other, kBetween).r, .5 / M_PI, 1e-6);
+    EXPECT_EQ(bsdf.f(other, kBetween), bsdf.f(kBetween, other));
+    EXPECT_NEAR(bsdf.Pdf(other, kBetween), AbsDot(kBetween, bsdf.Ns()) / kPi, 1e-6);
+  }
+}
+
+TEST(Bsdf, ReflectsNoGlossFromBetweenItsNormals) {
+  const Bsdf bsdf = Make({&kGloss}, TiltedSurface(1));
+  EXPECT_TRUE(bsdf.f(kOut, kBetween).IsBlack());
+  EXPECT_EQ(bsdf.Pdf(kOut, kBetween), 0);
+  EXPECT_GT(bsdf.f(kBetween, kOut).r, 0);  // seen from there, it shines
+  RandomStream random(1);
+  int seen = 0, photons = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Real x = random.Uniform(), y = random.Uniform();
+    const auto sample = bsdf.Sample(kBetween, {x, y}, 0);
+    seen += sample.has_value();
+    if (sample) {
+      EXPECT_GT(Dot(sample->wi, bsdf.Ns()), 0);
+    }
+    photons +=
+        bsdf.Sample(kBetween, {x, y}, 0, LobeSet::All, TransportMode::Importance).has_value();
+  }
+  EXPECT_GT(seen, 20);
+  EXPECT_EQ(photons, 0);
+}
+
+// The reflectance of a diffuse lobe is the same under every shading normal and from every side, so
+// bumps neither gain nor lose energy. With TransportMode::Importance the same is true of photons.
+TEST(Bsdf, OfADiffuseLobeReflectsAllOfItsShareUnderAnyNormal) {
+  for (const Real tilt : {Real(0), Real(.3), Real(1), Real(1.4)}) {
+    const Bsdf bsdf = Make({&kDiffuse}, TiltedSurface(tilt));
+    for (const Vector3& wo : {kOut, kBetween, Vector3(0, 0, -1)}) {
+      RandomStream random(1);
+      for (int i = 0; i < 300; ++i) {
+        const Real x = random.Uniform(), y = random.Uniform();
+        for (const TransportMode mode : {TransportMode::Radiance, TransportMode::Importance}) {
+          const auto sample = bsdf.Sample(wo, {x, y}, random.Uniform(), LobeSet::All, mode);
+          ASSERT_TRUE(sample) << tilt;
+          EXPECT_GT(sample->wi.z * wo.z, 0);
+          EXPECT_NEAR(sample->throughput.r, .5, 1e-5);
+          EXPECT_NEAR(sample->pdf, bsdf.Pdf(wo, sample->wi), 1e-5);
+        }
+      }
+    }
+  }
+}
+
 TEST(Bsdf, AnInvisibleBoundaryBendsNothingUnderAnyNormal) {
   const SpecularTransmission straight(Spectrum(1), 1, 1, TransportMode::Radiance);
   const Bsdf bsdf = Make({&straight}, TiltedSurface(1));

@@ -71,6 +71,33 @@ TEST_P(SmoothLobe, CarriesTheThroughputOfItsValueAndDensity) {
   }
 }
 
+// f cos <= bound pdf in every direction, so no sample and no mixture of lobes exceeds the bound. It
+// must not be loose either: rejection would draw many candidates.
+TEST_P(SmoothLobe, StaysWithinItsThroughputBound) {
+  RandomStream random(4);
+  for (const Vector3& wo : Directions({1, Real(.9), Real(.5), Real(.1), Real(1e-2), Real(-.5)})) {
+    const auto bound = Lobe().ThroughputBound(wo);
+    ASSERT_TRUE(bound);
+    Spectrum largest;
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3 any = AnyDirection(random);
+      const Real x = random.Uniform(), y = random.Uniform();
+      const auto sample = Lobe().Sample(wo, {x, y});
+      for (const Vector3& wi : {any, sample ? sample->wi : any}) {
+        const Spectrum value = Lobe().f(wo, wi) * std::abs(wi.z);
+        const Real pdf = Lobe().Pdf(wo, wi);
+        for (int c = 0; c < 3; ++c)
+          EXPECT_LE(value[c], (*bound)[c] * pdf * Real(1.001) + Real(1e-6)) << "cos " << wo.z;
+      }
+      if (!sample) continue;
+      for (int c = 0; c < 3; ++c) largest[c] = std::max(largest[c], sample->throughput[c]);
+    }
+    if (std::abs(wo.z) < Real(.3)) continue;
+    EXPECT_LE(bound->MaxComponent(), std::max(8 * largest.MaxComponent(), Real(2)))
+        << "cos " << wo.z;
+  }
+}
+
 TEST_P(SmoothLobe, IsFiniteInEveryDirection) {
   std::vector<Vector3> all = Directions(
       {1, Real(.5), Real(1e-3), Real(1e-6), Real(1e-20), Real(1e-40), 0, Real(-1e-20), -1});

@@ -163,6 +163,25 @@ TEST(LobeFormulas, OfTheBaseUnderACoat) {
     EXPECT_NEAR(double(rho[c]), 23. / 28 * double(kColor[c]) * (1 - double(ks[c])), 1e-6);
 }
 
+// The albedo is read from a table. Here it is the mean of the samples' throughput over directions
+// of view that are distributed by their cosine.
+TEST(LobeFormulas, OfTheAlbedoOfACoat) {
+  const Spectrum gloss(Real(.04), Real(.5), Real(.96));
+  for (const Real exponent : {Real(3), Real(40), Real(700)}) {
+    const BlendedGloss coat(gloss, exponent, exponent);
+    RandomStream random(5);
+    constexpr int kSamples = 100000;
+    Spectrum sum;
+    for (int i = 0; i < kSamples; ++i) {
+      const Real x = random.Uniform(), y = random.Uniform(), u = random.Uniform();
+      if (const auto sample = coat.Sample(SampleCosineHemisphere({x, y}), {u, random.Uniform()}))
+        sum += sample->throughput;
+    }
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(double(coat.Rho()[c]), double(sum[c]) / kSamples, .01) << exponent << ' ' << c;
+  }
+}
+
 TEST(LobeFormulas, OfTheCoat) {
   for (const auto& [ex, ey] : {std::pair{20., 20.}, std::pair{4., 90.}, std::pair{120., 1.}}) {
     const auto power = [ex = ex, ey = ey](const Geometry& g) {
