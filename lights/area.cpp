@@ -70,6 +70,10 @@ class DiffuseAreaLight final : public AreaLight {
     return LightLeSample{SpawnRay(sample.point, w), Power() * stretched, sample.pdf,
                          CosineHemispherePdf(local.z)};
   }
+  std::optional<Real> EmissionBound() const override {
+    if (!surface_->IsSampledUniformly()) return std::nullopt;
+    return Power().Y();
+  }
   EmissionPdf PdfEmission(const SurfacePoint& from, const Vector3& w) const override {
     return {1 / area_, CosineHemispherePdf(Dot(from.ng, w))};
   }

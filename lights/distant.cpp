@@ -58,6 +58,7 @@ class DistantLight final : public Light {
     const Ray ray{world_.center + offset * world_.radius, -toLight_, kInfinity, time};
     return LightLeSample{ray, Power(), DiskPdf(), 1};
   }
+  std::optional<Real> EmissionBound() const override { return Power().Y(); }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {
     return {world_.radius > 0 ? DiskPdf() : 0, 0};
   }

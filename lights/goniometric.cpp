@@ -36,6 +36,7 @@ class UniformIntensity final : public IntensityMap {
   Real Pdf(const Vector3&) const override { return kUniformSpherePdf; }
   Spectrum Integral() const override { return value_ * (4 * kPi); }
   Spectrum Largest() const override { return value_; }
+  Spectrum LargestWeight() const override { return value_ / kUniformSpherePdf; }
 
  private:
   Spectrum value_;
@@ -50,6 +51,7 @@ class GoniometricMap final : public IntensityMap {
   Real Pdf(const Vector3& w) const override { return map_.Pdf(SwapYZ(w)); }
   Spectrum Integral() const override { return map_.Integral(); }
   Spectrum Largest() const override { return map_.Largest(); }
+  Spectrum LargestWeight() const override { return map_.LargestWeight(); }
 
  private:
   static Vector3 SwapYZ(const Vector3& w) { return {w.x, w.z, w.y}; }

@@ -51,6 +51,7 @@ class PointLight final : public Light {
     const Ray ray{position_, SampleUniformSphere(uDirection), kInfinity, time};
     return LightLeSample{ray, Power(), 1, kUniformSpherePdf};
   }
+  std::optional<Real> EmissionBound() const override { return Power().Y(); }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3&) const override {
     return {0, kUniformSpherePdf};
   }

@@ -85,6 +85,15 @@ class ProjectedImage final : public IntensityMap {
     return {Real(integral_[0]), Real(integral_[1]), Real(integral_[2])};
   }
   Spectrum Largest() const override { return largest_; }
+  Spectrum LargestWeight() const override {
+    Spectrum largest;
+    for (int y = 0; y < rows_; ++y)
+      for (int x = 0; x < columns_; ++x) {
+        const Spectrum value = LargestWeight(x, y);
+        for (int c = 0; c < Spectrum::kChannels; ++c) largest[c] = std::max(largest[c], value[c]);
+      }
+    return largest;
+  }
 
   Spectrum Evaluate(const Vector3& w) const override {
     const auto p = OnImage(w);
@@ -163,6 +172,32 @@ class ProjectedImage final : public IntensityMap {
                          X((column + 1.) / columns_), Y((row + 1.) / rows_)};
     for (double& channel : sum) channel *= std::max(cell.SolidAngle(), 0.) / weights;
     return sum;
+  }
+
+  // Returns a bound on Evaluate / Pdf in a cell. Cells divide texels, so the interpolant is
+  // bilinear between the borders of the cell and the centre of its texel, and largest at one of
+  // these. The solid angle per area is largest at the point of the cell that is nearest to the
+  // axis.
+  Spectrum LargestWeight(int column, int row) const {
+    const auto positions = [](int cell, int cells, int texels) {
+      const double low = double(cell) / cells, high = (cell + 1.) / cells;
+      const double centre = (std::floor((cell + .5) / cells * texels) + .5) / texels;
+      return std::array{low, std::clamp(centre, low, high), high};
+    };
+    const auto s = positions(column, columns_, width_), t = positions(row, rows_, height_);
+    const Point2 middle{Real((column + .5) / columns_), Real((row + .5) / rows_)};
+    const double pdf = double(distribution_.Pdf(middle)) / (4 * a_ * b_);  // per area of the plane
+    if (!(pdf > 0)) return {};
+    const double stretch =
+        SolidAnglePerArea(X(std::clamp(.5, s[0], s[2])), Y(std::clamp(.5, t[0], t[2])));
+    Spectrum largest;
+    for (const double u : s)
+      for (const double v : t) {
+        const Spectrum value = Interpolate(u, v);
+        for (int c = 0; c < Spectrum::kChannels; ++c)
+          largest[c] = std::max(largest[c], Real(double(value[c]) * stretch / pdf));
+      }
+    return largest;
   }
 
   static constexpr double kMaxSteps = 1024;  // over the image, along an axis

@@ -92,6 +92,7 @@ class SpotLight final : public Light {
     const Ray ray{position_, Frame::FromZ(axis_).ToWorld(local), kInfinity, time};
     return LightLeSample{ray, Power(), 1, falloff / EffectiveSolidAngle()};
   }
+  std::optional<Real> EmissionBound() const override { return Power().Y(); }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {0, Falloff(w) / EffectiveSolidAngle()};
   }

@@ -6,25 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plugin.h"
-#include "samplers/common/halton_points.h"
+#include "samplers/common/halton_sampler.h"
 
 namespace exphoton {
 namespace {
 
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ull;
-constexpr int kMaxCount = 1 << 30;
 constexpr std::int64_t kPatternSize = 1024;  // samples beyond it begin a pattern moved elsewhere
 
-struct Settings {
-  int pixelSamples = 4;
-};
+using Settings = PixelSamplesSettings;
 
-const ParamTable<Settings>& Parameters() {
-  static const ParamTable<Settings> table{
-      Param("pixelsamples", &Settings::pixelSamples, "samples a pixel").Range(1, kMaxCount)};
-  return table;
-}
+const ParamTable<Settings>& Parameters() { return PixelSamplesParameters(); }
 
 double TorusDistance2(Point2 a, Point2 b) {
   const auto along = [](Real x, Real y) {
@@ -66,38 +57,23 @@ Point2 MovedOnTorus(Point2 point, Point2 by) {
   return {along(point.x, by.x), along(point.y, by.y)};
 }
 
-class BestCandidateSampler final : public Sampler {
+class BestCandidateSampler final : public HaltonArraySampler<BestCandidateSampler> {
  public:
   explicit BestCandidateSampler(std::int64_t count)
-      : count_(count),
+      : HaltonArraySampler(count),
         film_(MakePattern(std::min(count, kPatternSize), 0x66696c6d)),
         lens_(MakePattern(std::min(count, kPatternSize), 0x6c656e73)) {}
-
-  std::int64_t SamplesPerPixel() const override { return count_; }
-  std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const override {
-    return std::make_unique<BestCandidateSampler>(std::clamp<std::int64_t>(count, 1, kMaxCount));
-  }
 
   std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const override {
     const std::uint64_t pixelKey =
         HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y), 0x62657374});
-    samples->film = PatternPoint(film_, pixelKey, key.index, 1);
-    if (samples->NeedsLens()) samples->lens = PatternPoint(lens_, pixelKey, key.index, 2);
-    if (samples->NeedsTime()) samples->time = Points(pixelKey, key.index, 3).First();
+    samples->film = PatternPoint(film_, pixelKey, key.index, kFilm);
+    if (samples->NeedsLens()) samples->lens = PatternPoint(lens_, pixelKey, key.index, kLens);
+    if (samples->NeedsTime()) samples->time = Points(pixelKey, key.index, kTime).First();
     return pixelKey;
-  }
-  void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
-            std::span<Real> values) const override {
-    Points(pixelKey, index, kFirstArray + request).Fill(values);
-  }
-  void Fill(std::uint64_t pixelKey, std::int64_t index, int request,
-            std::span<Point2> values) const override {
-    Points(pixelKey, index, kFirstArray + request).Fill(values);
   }
 
  private:
-  static constexpr int kFirstArray = 4;  // after film, lens and time
-
   // Returns a point of the pattern, moved by the pixel's vector. The pixel takes the pattern's
   // points in an order of its own, so that film and lens points do not correlate.
   static Point2 PatternPoint(const std::vector<Point2>& pattern, std::uint64_t pixelKey,
@@ -112,11 +88,7 @@ class BestCandidateSampler final : public Sampler {
                                              std::uint32_t(random.Bits() >> 32));
     return MovedOnTorus(pattern[place], shift);
   }
-  HaltonPoints Points(std::uint64_t pixelKey, std::int64_t sample, int request) const {
-    return {pixelKey + kGolden * std::uint64_t(request), sample, count_};
-  }
 
-  std::int64_t count_;
   std::vector<Point2> film_, lens_;
 };
 

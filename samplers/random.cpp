@@ -9,6 +9,7 @@ namespace {
 
 struct Settings {
   int xSamples = 2, ySamples = 2;
+  std::optional<int> pixelSamples;
 };
 
 const ParamTable<Settings>& Parameters() {
@@ -16,7 +17,10 @@ const ParamTable<Settings>& Parameters() {
       Param("xsamples", &Settings::xSamples, "samples a pixel, together with ysamples")
           .Range(1, 32768),
       Param("ysamples", &Settings::ySamples, "samples a pixel are xsamples times ysamples")
-          .Range(1, 32768)};
+          .Range(1, 32768),
+      Param("pixelsamples", &Settings::pixelSamples,
+            "version 2's number of samples a pixel, in place of the other two")
+          .Range(1, 1 << 30)};
   return table;
 }
 
@@ -64,7 +68,8 @@ class RandomSampler final : public Sampler {
 };
 
 std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext&) {
-  return std::make_unique<RandomSampler>(std::int64_t(settings.xSamples) * settings.ySamples);
+  return std::make_unique<RandomSampler>(
+      settings.pixelSamples.value_or(std::int64_t(settings.xSamples) * settings.ySamples));
 }
 
 }  // namespace

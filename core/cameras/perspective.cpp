@@ -7,21 +7,32 @@ namespace {
 
 struct Settings : CameraSettings {
   Real fov = 90;
+  std::optional<Real> halfFov;
+
+  double TangentOfHalf() const {
+    return halfFov ? std::tan(double(*halfFov) * (M_PI / 180))
+                   : std::tan(double(fov) * (M_PI / 360));
+  }
 };
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      CameraParameters(), Param("fov", &Settings::fov, "field of view of the image's shorter axis")
-                              .Above(0)
-                              .Below(180)
-                              .Unit("degrees")};
+      CameraParameters(),
+      Param("fov", &Settings::fov, "field of view of the image's shorter axis")
+          .Above(0)
+          .Below(180)
+          .Unit("degrees"),
+      Param("halffov", &Settings::halfFov, "half of 'fov', which it replaces")
+          .Above(0)
+          .Below(90)
+          .Unit("degrees")};
   return table;
 }
 
 class PerspectiveCamera final : public CameraBase {
  public:
   PerspectiveCamera(const Settings& settings, const CameraContext& context)
-      : CameraBase(settings, context), tan_(std::tan(double(settings.fov) * (M_PI / 360))) {}
+      : CameraBase(settings, context), tan_(settings.TangentOfHalf()) {}
 
   bool HasLens() const override { return Common().lensRadius > 0; }
   Matrix4 WorldToNdc() const override {

@@ -7,10 +7,15 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <new>
 
+#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/files/input_file.h"
 #include "core/imaging/files/exr.h"
+#include "core/imaging/files/pfm.h"
 #include "core/imaging/files/png.h"
+#include "core/imaging/files/tga.h"
 
 namespace exphoton {
 
@@ -45,20 +50,48 @@ void CheckImageFile(const std::string& path) {
   }
 }
 
+namespace {
+
+using OpenImage = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+// Returns `count` bytes from `from` on, or fewer at the end of the file.
+std::string BytesOf(const std::string& path, std::FILE* file, long from, std::size_t count) {
+  std::string bytes(count, '\0');
+  if (std::fseek(file, from, SEEK_SET) != 0) throw ImageError(path + ": " + std::strerror(errno));
+  bytes.resize(std::fread(bytes.data(), 1, count, file));
+  if (std::ferror(file)) throw ImageError(path + ": " + std::strerror(errno));
+  return bytes;
+}
+
+// Reads the formats that this program parses itself from bytes in memory.
+Image ReadPlainImage(const std::string& path, const std::string& magic, std::FILE* file) {
+  std::fseek(file, 0, SEEK_END);
+  const long size = std::ftell(file);
+  const bool isPfm = IsPfm(magic);
+  if (!isPfm && !IsTga(path, BytesOf(path, file, std::max(size - 26, 0l), 26)))
+    throw ImageError(path + ": not an OpenEXR, PNG, PFM or TGA file");
+  constexpr long kMaxBytes = 1l << 33;  // above the size of 2^28 pixels in any format
+  if (size > kMaxBytes) throw ImageError(path + ": more than 8 GiB");
+  try {
+    const std::string bytes = BytesOf(path, file, 0, std::size_t(size));
+    return isPfm ? ParsePfm(path, bytes) : ParseTga(path, bytes);
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::Resource,
+                "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
+  }
+}
+
+}  // namespace
+
 Image ReadImage(const std::string& path) {
   CheckImageFile(path);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
+  const OpenImage file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw ImageError(path + ": " + std::strerror(errno));
-  unsigned char magic[8] = {};
-  const std::size_t count = std::fread(magic, 1, sizeof magic, file.get());
-  if (std::ferror(file.get())) throw ImageError(path + ": " + std::strerror(errno));
-  if (count == 0) throw ImageError(path + ": the file is empty");
-  constexpr unsigned char kExr[4] = {0x76, 0x2f, 0x31, 0x01};
-  constexpr unsigned char kPng[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  if (count >= sizeof kExr && std::memcmp(magic, kExr, sizeof kExr) == 0) return ReadExr(path);
-  if (count >= sizeof kPng && std::memcmp(magic, kPng, sizeof kPng) == 0) return ReadPng(path);
-  throw ImageError(path + ": neither an OpenEXR nor a PNG file");
+  const std::string magic = BytesOf(path, file.get(), 0, 8);
+  if (magic.empty()) throw ImageError(path + ": the file is empty");
+  if (magic.starts_with("\x76\x2f\x31\x01")) return ReadExr(path);
+  if (magic == "\x89PNG\r\n\x1a\n") return ReadPng(path);
+  return ReadPlainImage(path, magic, file.get());
 }
 
 }  // namespace exphoton

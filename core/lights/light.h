@@ -76,6 +76,9 @@ class Light {
   // counts as a path.
   virtual std::optional<LightLeSample> SampleEmission(Point2 uPosition, Point2 uDirection,
                                                       Real uSubLight, Real time) const = 0;
+  // Returns a bound on the luminance of LightLeSample::power over all samples of SampleEmission, or
+  // nullopt if none is known. The call may be slow, so keep the result.
+  virtual std::optional<Real> EmissionBound() const { return std::nullopt; }
   // EmissionPdf has the densities with which SampleEmission makes a ray that leaves `from` in
   // direction w, for tests. They are defined as in LightLeSample, but are 0 for deltas.
   struct EmissionPdf {

@@ -68,6 +68,10 @@ bool IsLeftAtDefault(const ParamDecl& decl, const ParsedParam& param, const Bind
 
 }  // namespace
 
+ParamTableBase::~ParamTableBase() = default;
+
+ParamDraft::~ParamDraft() = default;
+
 ParamDraft::ParamDraft(const char* name, const ParamMember& paramMember, const char* doc)
     : member(&paramMember) {
   decl.name = name;
@@ -132,6 +136,10 @@ void ParamTableBase::BindValues(const ParamSet& params, const BindContext& conte
     if (const ParsedParam* param = FindWithOverrides(decl.name, params, context)) {
       if (IsLeftAtDefault(decl, *param, context)) continue;
       Assign(i, *param, context, settings);
+      if (decl.isIgnored && context.log)
+        context.log->Verbose(
+            "parameter \"" + decl.name + "\" of " + context.what + " has no effect: " + decl.doc,
+            Place(param->where));
     } else if (!decl.version2Default.empty() && context.dialect == Dialect::V2) {
       ParsedParam param;
       param.type = AcceptedTypes(decl.type)[0];

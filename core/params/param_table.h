@@ -55,6 +55,7 @@ struct ParamDecl {
   std::vector<std::string> choices;  // Choice only
   std::string defaultText;           // in scene file syntax; "" if automatic
   int quickDivisor = 1;              // --quick divides the value by this
+  bool isIgnored = false;            // accepted for other programs' scenes; has no effect
   // The default in scenes of version 2, as numbers; empty if it is the same.
   std::vector<double> version2Default;
 };
@@ -79,6 +80,7 @@ struct BindContext {
 // A parameter during its declaration, without the types of the settings struct and the member.
 struct ParamDraft {
   ParamDraft(const char* name, const ParamMember& member, const char* doc);
+  ~ParamDraft();
 
   ParamDecl decl;
   const ParamMember* member;
@@ -89,8 +91,11 @@ struct ParamDraft {
 // their offset.
 class ParamTableBase {
  public:
-  virtual ~ParamTableBase() = default;
+  virtual ~ParamTableBase();
   const std::vector<ParamDecl>& Declarations() const { return declarations_; }
+  // Throws the ParamError as an Error with the location of the parameter.
+  [[noreturn]] void Locate(const ParamError& error, const ParamSet& params,
+                           const BindContext& context) const;
 
  protected:
   // Declares a parameter whose member has this offset in the settings. `defaults` is a
@@ -101,9 +106,6 @@ class ParamTableBase {
   // Checks types, counts, ranges and names. Stores each declared parameter that the file sets in
   // `settings`. Throws Error(Scene) with file, line, column and hint.
   void BindValues(const ParamSet& params, const BindContext& context, void* settings) const;
-  // Throws the ParamError as an Error with the location of the parameter.
-  [[noreturn]] void Locate(const ParamError& error, const ParamSet& params,
-                           const BindContext& context) const;
 
  private:
   struct Slot {
@@ -169,6 +171,11 @@ class Param : public ParamDraft {
     decl.isRequired = true;
     return *this;
   }
+  // The parameter is checked but has no effect. The text says why.
+  Param& Ignored() {
+    decl.isIgnored = true;
+    return *this;
+  }
   // For the counts of an integrator: --quick divides the value of the file, or the default, by
   // this.
   Param& DividedByQuick(int divisor) {
@@ -227,15 +234,6 @@ class ParamTable final : public ParamTableBase {
       }
     }
     return settings;
-  }
-  // Runs a factory and adds the location to its ParamErrors.
-  template <class F>
-  auto Guard(const ParamSet& params, const BindContext& context, F&& factory) const {
-    try {
-      return factory();
-    } catch (const ParamError& error) {
-      Locate(error, params, context);
-    }
   }
 
  private:

@@ -32,7 +32,10 @@ const ParamTable<FilmParameters>& FilmParameterTable() {
                 "the part that is rendered: x0 x1 y0 y1 as fractions of the full picture")
           .Range(0, 1),
       FilmParam("writefrequency", &FilmSettings::writeFrequency,
-                "accepted without effect: the picture is written when it is complete"),
+                "the picture is written when it is complete")
+          .Ignored(),
+      Param("display", &FilmParameters::display, "version 2 shows the picture in a window")
+          .Ignored(),
   };
   return table;
 }

@@ -9,6 +9,7 @@
 namespace exphoton {
 
 struct FilmParameters : FilmSettings {
+  bool display = false;   // of version 2
   void Validate() const;  // throws ParamError
 };
 

@@ -30,8 +30,8 @@ class Aggregate {
 // A primitive set with its accelerator. Instances refer to such an object.
 class ObjectGeometry {
  public:
-  ObjectGeometry(std::unique_ptr<PrimitiveSet> set, std::unique_ptr<Aggregate> aggregate)
-      : set_(std::move(set)), aggregate_(std::move(aggregate)) {}
+  ObjectGeometry(std::unique_ptr<PrimitiveSet> set, std::unique_ptr<Aggregate> aggregate);
+  ~ObjectGeometry();
   const PrimitiveSet& Set() const { return *set_; }
   const Aggregate& Accelerator() const { return *aggregate_; }
 

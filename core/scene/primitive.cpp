@@ -10,6 +10,7 @@
 #include "core/geometry/triangle_single.h"
 #include "core/scattering/material.h"
 #include "core/scene/aggregate.h"
+#include "core/scene/cut_out_triangle.h"
 #include "core/scene/hit_order.h"
 
 namespace exphoton {
@@ -23,6 +24,11 @@ LobeSet LobesOf(const PrimitiveAttributes& attributes) {
 
 void PrimitiveSet::AddMesh(std::shared_ptr<const TriangleMesh> mesh,
                            PrimitiveAttributes attributes) {
+  if (mesh->alpha) {
+    for (std::uint32_t i = 0; i < mesh->TriangleCount(); ++i)
+      AddShape(std::make_shared<CutOutTriangle>(mesh, i), attributes);
+    return;
+  }
   meshFlips_.push_back(mesh->flipNormal);
   meshes_.push_back(std::move(mesh));
   meshAttributes_.push_back(attributes);

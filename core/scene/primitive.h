@@ -50,6 +50,7 @@ struct Instance {
 
 class PrimitiveSet {
  public:
+  // The triangles of a mesh with alpha become shapes.
   void AddMesh(std::shared_ptr<const TriangleMesh> mesh, PrimitiveAttributes attributes);
   void AddShape(std::shared_ptr<const Shape> shape, PrimitiveAttributes attributes);
   void AddInstance(const Instance& instance);

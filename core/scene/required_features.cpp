@@ -17,6 +17,20 @@ constexpr std::array<const char*, kFeatureCount> kFeatureNames{
     "media",    "filtering", "lens",         "motion",   "environment",
 };
 
+// The reasons for features that the integrator leaves out.
+constexpr std::array<const char*, kFeatureCount> kNotComputed{
+    "this integrator does not compute caustics",
+    "this integrator does not compute indirect light",
+    "this integrator has no radiance photons",
+    "this integrator does not follow mirrors and glass",
+    "this integrator has no gather rays that read radiance photons",
+    "this integrator ignores participating media",
+    "this integrator evaluates no textures",
+    "this integrator ignores the lens",
+    "this integrator ignores motion",
+    "this integrator does not show the sky",
+};
+
 constexpr Interval kAlways{-kInfinity, kInfinity};
 
 // The properties of a scene that the rules depend on.
@@ -114,6 +128,13 @@ void RequiredFeatures::Set(Feature feature, bool on, std::string reason) {
   rows_[std::size_t(feature)] = {on, std::move(reason)};
 }
 
+void RequiredFeatures::KeepComputed(FeatureSet computed) {
+  for (int i = 0; i < kFeatureCount; ++i) {
+    Row& row = rows_[std::size_t(i)];
+    if (row.on && !computed.Has(Feature(i))) row = {false, kNotComputed[std::size_t(i)]};
+  }
+}
+
 std::string RequiredFeatures::Describe() const {
   std::string text;
   for (int i = 0; i < kFeatureCount; ++i) {
@@ -126,7 +147,7 @@ std::string RequiredFeatures::Describe() const {
   return text;
 }
 
-RequiredFeatures PlanFeatures(const Scene& scene, const Camera& camera) {
+RequiredFeatures FindRequiredFeatures(const Scene& scene, const Camera& camera) {
   const SceneTraits traits(scene);
   RequiredFeatures plan;
   PlanPhotons(traits, &plan);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // RequiredFeatures states which effects a scene needs, each with its reason. It is computed once,
-// from the scene and the camera. A feature is off only if its contribution is provably zero, so
-// feature culling never changes the picture. Integrators and the renderer receive it as data.
+// from the scene, the camera and the integrator. A feature is off only if its contribution is
+// provably zero, or if the integrator never computes it, so feature culling never changes the
+// picture. Integrators and the renderer receive it as data.
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,34 @@ inline constexpr int kFeatureCount = 10;
 
 const char* FeatureName(Feature feature);  // for example "caustics", as in --effects
 
+// FeatureSet is a set of features. Integrators state with it which effects they can compute.
+class FeatureSet {
+ public:
+  constexpr FeatureSet() = default;
+  constexpr FeatureSet(std::initializer_list<Feature> features) {
+    for (const Feature feature : features) bits_ |= Bit(feature);
+  }
+  static constexpr FeatureSet All() {
+    FeatureSet all;
+    all.bits_ = (1u << kFeatureCount) - 1;
+    return all;
+  }
+  constexpr bool Has(Feature feature) const { return (bits_ & Bit(feature)) != 0; }
+  constexpr FeatureSet Without(FeatureSet other) const {
+    FeatureSet rest;
+    rest.bits_ = bits_ & ~other.bits_;
+    return rest;
+  }
+
+ private:
+  static constexpr unsigned Bit(Feature feature) { return 1u << unsigned(feature); }
+  unsigned bits_ = 0;
+};
+// The features that belong to photon maps alone.
+inline constexpr FeatureSet kPhotonMapFeatures{Feature::Transmission, Feature::Glossy};
+// The features that change how much light reaches a surface.
+inline constexpr FeatureSet kInterreflection{Feature::Caustics, Feature::Indirect};
+
 class RequiredFeatures {
  public:
   struct Row {
@@ -44,6 +74,9 @@ class RequiredFeatures {
   }
   const Row& Get(Feature feature) const { return rows_[std::size_t(feature)]; }
   void Set(Feature feature, bool on, std::string reason);
+  // Switches off the features that the integrator does not compute. Features that are off keep
+  // their reason.
+  void KeepComputed(FeatureSet computed);
 
   // Returns one line per feature, such as "caustics      off  no specular surface".
   std::string Describe() const;

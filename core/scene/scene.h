@@ -104,7 +104,7 @@ class Scene {
 
 // Derives the required features from the materials, the lights and the camera.
 // docs/guide/effects.md lists the rules.
-RequiredFeatures PlanFeatures(const Scene& scene, const Camera& camera);
+RequiredFeatures FindRequiredFeatures(const Scene& scene, const Camera& camera);
 // Adds a note with the times of camera rays and photons, if anything in the scene ever moves.
 void NoteTimes(const Scene& scene, const Camera& camera, RequiredFeatures* plan);
 

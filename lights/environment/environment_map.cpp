@@ -52,6 +52,29 @@ Spectrum EnvironmentMap::Integral() const {
   return {Real(sum[0]), Real(sum[1]), Real(sum[2])};
 }
 
+// The density is constant within a cell. The interpolant is bilinear in each quarter of a cell, so
+// it is largest at a corner of a quarter: at the texel, or midway to its neighbours.
+Spectrum EnvironmentMap::LargestWeight() const {
+  Spectrum largest;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const Point2 centre{Real((x + .5) / width_), Real((y + .5) / height_)};
+      const double pdf =
+          double(distribution_.Pdf(centre)) / (double(width_) * height_ * CellSolidAngle(y));
+      if (!(pdf > 0)) continue;
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const Spectrum value =
+              (Texel(x, y) + Texel(x + i, y) + Texel(x, y + j) + Texel(x + i, y + j)) / 4;
+          for (int c = 0; c < Spectrum::kChannels; ++c)
+            largest[c] = std::max(largest[c], Real(double(value[c]) / pdf));
+        }
+      }
+    }
+  }
+  return largest;
+}
+
 Spectrum EnvironmentMap::Evaluate(const Vector3& w) const {
   const Coordinates c = ToMap(w);
   const double x = c.x - .5, y = c.y - .5;

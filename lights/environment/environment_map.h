@@ -27,6 +27,9 @@ class EnvironmentMap {
   // Returns the integral of Evaluate over the sphere.
   Spectrum Integral() const;
 
+  // Returns the largest value of Evaluate / Pdf for each channel. Takes a pass over all texels.
+  Spectrum LargestWeight() const;
+
   // Directions are unit vectors in the space of the map.
   Spectrum Evaluate(const Vector3& w) const;
   Vector3 Sample(Point2 u) const;

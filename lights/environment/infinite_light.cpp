@@ -61,6 +61,11 @@ class InfiniteLight final : public Light {
     const Real pdf = DirectionPdf(*w);
     return LightLeSample{ray, Le(*w) * (DiskArea() / pdf), 1 / DiskArea(), pdf};
   }
+  std::optional<Real> EmissionBound() const override {
+    if (!map_) return Power().Y();
+    if (!directions_.KeepsSolidAngles()) return std::nullopt;
+    return (radiance_ * map_->LargestWeight()).Y() * DiskArea();
+  }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {world_.radius > 0 ? 1 / DiskArea() : 0, DirectionPdf(-w)};
   }

@@ -10,7 +10,9 @@ namespace exphoton {
 class LightDirections {
  public:
   explicit LightDirections(const Transform& lightToWorld)
-      : toWorld_(lightToWorld), toLight_(lightToWorld.Inverted()) {
+      : toWorld_(lightToWorld),
+        toLight_(lightToWorld.Inverted()),
+        keepsSolidAngles_(lightToWorld.SimilarityScale().has_value()) {
     const Vector3 x = toWorld_.ApplyVector({1, 0, 0}), y = toWorld_.ApplyVector({0, 1, 0});
     determinant_ = AbsDot(Cross(x, y), toWorld_.ApplyVector({0, 0, 1}));
   }
@@ -21,6 +23,8 @@ class LightDirections {
   Vector3 ToWorld(const Vector3& local) const {
     return NormalizeOr(toWorld_.ApplyVector(local), {0, 0, 1});
   }
+  // Returns whether DensityFactor is 1 everywhere, up to rounding.
+  bool KeepsSolidAngles() const { return keepsSolidAngles_; }
   // Returns the factor from a density per solid angle at `local` in light space to the density in
   // world space. The transformation M stretches solid angles by |det M| / |M w|^3.
   Real DensityFactor(const Vector3& local) const {
@@ -30,6 +34,7 @@ class LightDirections {
 
  private:
   Transform toWorld_, toLight_;
+  bool keepsSolidAngles_;
   Real determinant_;
 };
 

@@ -45,6 +45,10 @@ class MappedPointLight final : public Light {
     if (!(pdf > 0 && pdf < kInfinity)) return std::nullopt;
     return LightLeSample{Ray{position_, w, kInfinity, time}, Intensity(w) / pdf, 1, pdf};
   }
+  std::optional<Real> EmissionBound() const override {
+    if (!directions_.KeepsSolidAngles()) return std::nullopt;
+    return (intensity_ * map_->LargestWeight()).Y();
+  }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {0, DirectionPdf(w)};
   }

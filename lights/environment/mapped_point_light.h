@@ -21,6 +21,8 @@ class IntensityMap {
   virtual Spectrum Integral() const = 0;  // over the sphere
   // Returns the largest value of each channel. Unlike the integral, it cannot underflow to 0.
   virtual Spectrum Largest() const = 0;
+  // Returns a bound on Evaluate / Pdf for each channel. The call may be slow.
+  virtual Spectrum LargestWeight() const = 0;
 };
 
 struct MappedPointLightSettings {

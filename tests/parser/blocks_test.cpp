@@ -85,6 +85,16 @@ TEST(AttributeEnd, BringsBackWhichTimesDirectivesChange) {
   ExpectBounds(built, {2, -1, -1}, {4, 1, 1});
 }
 
+// The block begins while directives change the end only, and it ends so.
+TEST(TransformEnd, BringsBackWhichTimesDirectivesChange) {
+  const BuiltScene built =
+      BuildText(InWorld("ActiveTransform EndTime TransformBegin ActiveTransform StartTime "
+                        "TransformEnd Translate 3 0 0 Shape \"sphere\""));
+  ASSERT_EQ(built.error, "");
+  EXPECT_TRUE(built.setups[0]->scene->Primitives().MovesWithin({-kInfinity, kInfinity}));
+  ExpectBounds(built, {-1, -1, -1}, {4, 1, 1});
+}
+
 TEST(TransformEnd, LeavesOrientationAndMaterialAsTheBlockSetThem) {
   const BuiltScene built = BuildText(
       InWorld("Shape \"disk\" Translate 10 0 0 TransformBegin Translate 99 0 0 ReverseOrientation "

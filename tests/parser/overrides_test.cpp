@@ -111,6 +111,10 @@ TEST(Overrides, QuickLeavesNoPhotonsNone) {
   params.Add(given);
   ScaleForQuick({photons}, &params);
   EXPECT_EQ(params.Find("causticphotons")->numbers[0], 0);
+  given.numbers = {9};
+  params.Add(given);
+  ScaleForQuick({photons}, &params);
+  EXPECT_EQ(params.Find("causticphotons")->numbers[0], 1);  // few are not none
 }
 
 TEST(Overrides, CropByPixelsWithinThePicture) {

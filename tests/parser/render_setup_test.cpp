@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/log.h"
+#include "core/math/real.h"
 #include "tests/parser/parse_support.h"
 
 namespace exphoton {
@@ -239,8 +240,10 @@ TEST(WorldMessages, AreSaidInTheseWords) {
          "camera can");
   saysAt(4, moving + "Volume \"homogeneous\"",
          "error: a volume cannot move; shapes, area lights on them, instances and the camera can");
-  saysAt(4, "AreaLightSource \"area\" Scale 1e-30 1e-30 1e-30\nShape \"sphere\"",
-         "warning: an area light of area 0 does not emit");
+  if (sizeof(Real) == 4) {  // double holds this area
+    saysAt(4, "AreaLightSource \"area\" Scale 1e-30 1e-30 1e-30\nShape \"sphere\"",
+           "warning: an area light of area 0 does not emit");
+  }
   saysAt(3, "Texture \"t\" \"vector\" \"constant\"",
          "error: texture \"t\" has type \"vector\"; types of textures are \"float\" and \"color\"");
   saysAt(4, "Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"constant\"",

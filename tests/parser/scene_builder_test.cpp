@@ -339,6 +339,9 @@ TEST(SceneBuilder, HashesWhatTheSceneSaysAndNotHowItIsLaidOut) {
   EXPECT_EQ(plain, hash("# comment\n" + InWorld("Shape   \"sphere\"\n\"float radius\" [2.0]")));
   EXPECT_NE(plain, hash(InWorld("Shape \"sphere\" \"float radius\" 2.5")));
   EXPECT_NE(plain, hash(InWorld("Shape \"disk\" \"float radius\" 2")));
+  // The types say what the numbers mean.
+  EXPECT_NE(hash(InWorld("LightSource \"point\" \"rgb I\" [1 2 3]")),
+            hash(InWorld("LightSource \"point\" \"xyz I\" [1 2 3]")));
 }
 
 TEST(SceneBuilder, RefusesCropWindowsWithoutPixels) {

@@ -161,13 +161,15 @@ TEST(Tokenizer, SkipsByteOrderMarkCommentsAndEveryBlank) {
 
 TEST(Tokenizer, CountsLinesAndColumnsFromOne) {
   const std::string text = "1\r\n  2 # x\n\t\"a\\\nb\" 4";
-  MemorySource source({{"scene.pbrt", text}});
-  Tokenizer tokenizer(source, "scene.pbrt");
-  const int expected[4][2] = {{1, 1}, {2, 3}, {3, 2}, {4, 4}};
-  for (const auto& [line, column] : expected) {
-    const SourceLocation where = tokenizer.Locate(tokenizer.Next().position);
-    EXPECT_EQ(where.line, line);
-    EXPECT_EQ(where.column, column);
+  for (const char* mark : {"", "\xef\xbb\xbf"}) {  // a byte order mark has no column
+    MemorySource source({{"scene.pbrt", mark + text}});
+    Tokenizer tokenizer(source, "scene.pbrt");
+    const int expected[4][2] = {{1, 1}, {2, 3}, {3, 2}, {4, 4}};
+    for (const auto& [line, column] : expected) {
+      const SourceLocation where = tokenizer.Locate(tokenizer.Next().position);
+      EXPECT_EQ(where.line, line);
+      EXPECT_EQ(where.column, column);
+    }
   }
 }
 

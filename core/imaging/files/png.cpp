@@ -15,19 +15,12 @@
 #include "core/base/fp_traps.h"
 #include "core/base/memory.h"
 #include "core/files/atomic_file.h"
+#include "core/imaging/files/srgb.h"
 
 namespace exphoton {
 namespace {
 
 constexpr std::uint64_t kMaxPixels = std::uint64_t(1) << 28;
-
-// The sRGB transfer functions of IEC 61966-2-1.
-double DecodeSrgb(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-double EncodeSrgb(double v) {
-  return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
 
 std::uint8_t ToByte(double v) { return std::uint8_t(std::lround(std::clamp(v, 0., 1.) * 255)); }
 
@@ -82,6 +75,7 @@ Image Read(const std::string& path) {
   if (hasAlpha) names.push_back("A");
   const int channels = int(names.size());
   Image result(int(png.image.width), int(png.image.height), names);
+  result.isFromSrgb = true;
   const bool is16 = png.image.format & PNG_FORMAT_FLAG_LINEAR;
   return is16 ? Read16(path, &png.image, channels, std::move(result))
               : Read8(path, &png.image, channels, std::move(result));

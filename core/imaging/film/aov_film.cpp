@@ -99,6 +99,21 @@ void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& 
   }
 }
 
+void AovFilm::AddLight(Point2i pixel, Aov lightAov, const Spectrum& L, Real weight) {
+  Value* value = values_.data() + IndexOf(pixel) * valueCount_;
+  for (const Aov aov : averaged_) {
+    if (aov == lightAov) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double x = double(L[int(c)]);
+        value[c].sum += double(weight) * x;
+        value[c].absSum += float(std::abs(double(weight)) * x);
+      }
+      return;
+    }
+    value += GetAovInfo(aov).channels.size();
+  }
+}
+
 void AovFilm::AddTime(Point2i pixel, double seconds) { seconds_[IndexOf(pixel)] += seconds; }
 
 double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {

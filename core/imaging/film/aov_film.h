@@ -22,6 +22,8 @@ class AovFilm {
   // Adds one camera sample: its AOVs, the radiance L that the Film received, and the filter weight.
   // Only one thread at a time may add to a pixel.
   void AddSample(Point2i pixel, const AovSample& sample, const Spectrum& L, Real weight);
+  // Adds radiance to a light AOV of a sample that was added before with this weight.
+  void AddLight(Point2i pixel, Aov aov, const Spectrum& L, Real weight);
   void AddTime(Point2i pixel, double seconds);
 
   // Appends the channels to the film's picture. Light AOVs are scaled like the picture, so that

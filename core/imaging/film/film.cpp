@@ -49,20 +49,26 @@ std::size_t Film::IndexOf(Point2i pixel) const {
 }
 
 void Film::AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight) {
+  AddLight(pixel, L, weight);
+  Pixel& p = pixels_[IndexOf(pixel)];
+  p.alpha += double(weight) * double(alpha);
+  p.weight += double(weight);
+  ++p.samples;
+  const auto a = float(std::abs(weight));
+  p.absAlpha += a * float(alpha);
+  p.absWeight += a;
+}
+
+void Film::AddLight(Point2i pixel, const Spectrum& L, Real weight) {
   Pixel& p = pixels_[IndexOf(pixel)];
   const double w = weight;
   p.r += w * double(L.r);
   p.g += w * double(L.g);
   p.b += w * double(L.b);
-  p.alpha += w * double(alpha);
-  p.weight += w;
-  ++p.samples;
   const auto a = float(std::abs(weight));
   p.absR += a * float(L.r);
   p.absG += a * float(L.g);
   p.absB += a * float(L.b);
-  p.absAlpha += a * float(alpha);
-  p.absWeight += a;
 }
 
 void Film::Clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel()); }

@@ -38,6 +38,8 @@ class Film {
   // Adds one sample. `weight` is the filter weight (FilterSample). L must be finite. A dropped
   // sample counts as a black sample.
   void AddSample(Point2i pixel, const Spectrum& L, Real alpha, Real weight);
+  // Adds radiance to a sample that was added before with this weight.
+  void AddLight(Point2i pixel, const Spectrum& L, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
 
   // Removes all samples.

@@ -16,6 +16,10 @@ LightSampler::LightSampler(std::span<const std::unique_ptr<Light>> lights)
   }
 }
 
+LightSampler::~LightSampler() = default;
+
+int LightSampler::IndexOf(const Light& light) const { return indices_.at(&light); }
+
 double UsablePower(const Light& light) {
   const double power = double(light.Power().Y());
   return std::isfinite(power) && power > 0 ? power : 0;

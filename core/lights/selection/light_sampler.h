@@ -21,7 +21,7 @@ class LightSampler {
     Real remapped;     // u rescaled to a new uniform variate in [0,1)
   };
 
-  virtual ~LightSampler() = default;
+  virtual ~LightSampler();
 
   // Returns whether every light is provably black. Sample must not be called then.
   bool IsEmpty() const { return isEmpty_; }
@@ -37,7 +37,7 @@ class LightSampler {
   explicit LightSampler(std::span<const std::unique_ptr<Light>> lights);
 
   const Light* LightAt(int index) const { return lights_[std::size_t(index)]; }
-  int IndexOf(const Light& light) const { return indices_.at(&light); }
+  int IndexOf(const Light& light) const;
 
  private:
   std::vector<const Light*> lights_;

@@ -9,6 +9,7 @@
 #include "core/base/log.h"
 #include "core/params/suggestions.h"
 #include "core/parser/builder/graphics_state.h"
+#include "core/parser/builder/missing_renderers.h"
 #include "core/parser/film_parameters.h"
 #include "core/parser/overrides.h"
 
@@ -28,18 +29,6 @@ void RequireName(const std::string& what, const std::string& name, const SourceL
   for (const std::string& each : known) list += (list.empty() ? "\"" : ", \"") + each + "\"";
   FailAt(where, "unknown " + what + " \"" + name + "\"; known: " + list, DidYouMean(name, known));
 }
-
-// A renderer of version 2 that is not available. integrator: used in its place; null: the file's.
-struct MissingRenderer {
-  const char* name;
-  const char* integrator;
-  const char* loss;
-};
-constexpr MissingRenderer kMissingRenderers[] = {
-    {"metropolis", "path", "hidden light is noisier"},
-    {"createprobes", nullptr, "no probes are written; the picture is rendered"},
-    {"surfacepoints", nullptr, "no points are written; the picture is rendered"},
-    {"aggregatetest", nullptr, "nothing is tested; the picture is rendered"}};
 
 std::vector<std::string> KnownRenderers() {
   std::vector<std::string> names{"sampler"};

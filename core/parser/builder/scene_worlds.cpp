@@ -49,7 +49,8 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   if (parts.lights.empty() && !glows) log_.Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
   RequiredFeatures plan =
-      ChooseEffects(PlanFeatures(*setup->scene, *setup->camera), options_.effects, log_);
+      ChooseEffects(FindRequiredFeatures(*setup->scene, *setup->camera), options_.effects, log_);
+  plan.KeepComputed(setup->integrator->ComputedFeatures());
   NoteTimes(*setup->scene, *setup->camera, &plan);
   setup->scene->SetFeatures(std::move(plan), setup->camera->Shutter());
   setup->plugins = registry_->Loaded();

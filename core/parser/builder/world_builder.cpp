@@ -328,11 +328,14 @@ void WorldBuilder::AddGeometry(Placed placed, const Material* material, const Di
     placed.set.AddShape(shape, {material, lightOn(shape)});
     return;
   }
-  const std::shared_ptr<const TriangleMesh> mesh =
+  const std::shared_ptr<TriangleMesh> mesh =
       std::move(std::get<std::unique_ptr<TriangleMesh>>(placed.geometry));
   if (mesh->TriangleCount() == 0) return;
   std::shared_ptr<const EmitterSurface> surface;
   if (light && !IsInObject()) {
+    if (mesh->alpha)
+      log_.Warning("alpha does not cut holes into a shape that emits", directive.Where());
+    mesh->alpha = nullptr;
     surface = MakeMeshEmitter(*mesh);
     parts_.emitters.push_back(surface);
   }

@@ -17,4 +17,5 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 
 }  // namespace
 
-EXPHOTON_PLUGIN("throwing_constructor", "throws while it is loaded", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("throwing_constructor", "throws while it is loaded",
+                exphoton::StubFactory<Create>())

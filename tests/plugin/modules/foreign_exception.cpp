@@ -10,4 +10,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 }
 }  // namespace
 
-EXPHOTON_PLUGIN("foreign_exception", "throws a number", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("foreign_exception", "throws a number", exphoton::StubFactory<Create>())

@@ -22,4 +22,5 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 
 }  // namespace
 
-EXPHOTON_PLUGIN("marking_filter", "leaves a file when it is loaded", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("marking_filter", "leaves a file when it is loaded",
+                exphoton::StubFactory<Create>())

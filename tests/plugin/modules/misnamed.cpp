@@ -10,4 +10,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 }
 }  // namespace
 
-EXPHOTON_PLUGIN("rightly_named", "has two names", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("rightly_named", "has two names", exphoton::StubFactory<Create>())

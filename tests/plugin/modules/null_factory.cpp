@@ -9,4 +9,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 }
 }  // namespace
 
-EXPHOTON_PLUGIN("null_factory", "makes nothing", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("null_factory", "makes nothing", exphoton::StubFactory<Create>())

@@ -11,4 +11,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings& settings,
 }
 }  // namespace
 
-EXPHOTON_PLUGIN("refusing_factory", "refuses", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("refusing_factory", "refuses", exphoton::StubFactory<Create>())

@@ -26,9 +26,9 @@ class StubFilter final : public Filter {
   FilterSample Sample(Point2) const override { return {}; }
 };
 
-template <class Factory>
-PluginFactory StubFactory(Factory factory) {
-  return MakeFactory<PluginKind::Filter>(StubParameters(), factory);
+template <auto create>
+PluginFactory StubFactory() {
+  return MakeFactory<PluginKind::Filter, create>(StubParameters());
 }
 
 }  // namespace

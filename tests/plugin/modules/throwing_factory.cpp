@@ -9,4 +9,4 @@ std::unique_ptr<exphoton::Filter> Create(const exphoton::StubSettings&,
 }
 }  // namespace
 
-EXPHOTON_PLUGIN("throwing_factory", "throws", exphoton::StubFactory(Create))
+EXPHOTON_PLUGIN("throwing_factory", "throws", exphoton::StubFactory<Create>())

@@ -197,30 +197,6 @@ INSTANTIATE_TEST_SUITE_P(Integrators, LightAovsTest,
                                          "\"exphotonmap\" \"integer causticphotons\" 2000 "
                                          "\"integer indirectphotons\" 2000"));
 
-// Path tracing and photon mapping must agree on which light is caustic and which is indirect.
-TEST(LightAovs, AgreeBetweenPathTracingAndPhotonMapping) {
-  TestRenderOptions options;
-  options.aovs = kLightAovs;
-  const auto render = [&](const std::string& integrator, int samples) {
-    return RenderSceneText(TestHeader(integrator, 16, 12, samples) + World(false), options).image;
-  };
-  const Image path = render("\"path\" \"integer maxdepth\" 12", 192);
-  const Image photons = render(
-      "\"exphotonmap\" \"integer causticphotons\" 20000 \"integer maxdepth\" 12 "
-      "\"integer indirectphotons\" 10000 \"integer finalgathersamples\" 8",
-      32);
-  // The caustic of a small lamp and the light in mirrors have the most noise, about 10 %.
-  for (const auto& [aov, tolerance] : {std::pair<const char*, double>{"emission.G", .1},
-                                       {"direct.G", .06},
-                                       {"caustic.G", .3},
-                                       {"indirect.G", .06},
-                                       {"specular.G", .35}}) {
-    const double expected = MeanChannel(path, aov);
-    EXPECT_GT(expected, .0005) << aov;
-    EXPECT_NEAR(MeanChannel(photons, aov), expected, tolerance * expected) << aov;
-  }
-}
-
 TEST(SurfaceAovs, HaveTheInterpolatedNormal) {
   TestRenderOptions options;
   options.aovs = {Aov::Normal};

@@ -183,6 +183,28 @@ TEST(MipMap, EllipticalFilterThatIsLimitedGrowsAcrossOnly) {
   }
 }
 
+// Rows and columns of an uneven image are exchanged, and so are the axes of each footprint.
+TEST(MipMap, TreatsBothAxesAlike) {
+  constexpr int kWidth = 64, kHeight = 16;
+  const std::vector<Real> texels = Noise(kWidth * kHeight);
+  std::vector<Real> turned;
+  for (int x = 0; x < kWidth; ++x)
+    for (int y = 0; y < kHeight; ++y) turned.push_back(texels[std::size_t(y * kWidth + x)]);
+  const MipMap<Real> wide(kWidth, kHeight, texels, WrapMode::Repeat);
+  const MipMap<Real> tall(kHeight, kWidth, turned, WrapMode::Repeat);
+  RandomStream random(4);
+  const auto any = [&] { return (random.Uniform() - Real(.5)) * std::exp2(-6 * random.Uniform()); };
+  const auto swap = [](Point2 p) { return Point2(p.y, p.x); };
+  for (int i = 0; i < 1000; ++i) {
+    const Point2 st(any(), any()), dx(any(), any()), dy(any(), any()), none;
+    EXPECT_NEAR(wide.Lookup(st), tall.Lookup(swap(st)), 1e-5);
+    for (const auto& [a, b] : {std::pair(dx, dy), std::pair(dx, none), std::pair(none, dy)}) {
+      EXPECT_NEAR(wide.Trilinear(st, a, b), tall.Trilinear(swap(st), swap(a), swap(b)), 1e-5);
+      EXPECT_NEAR(wide.Ewa(st, a, b, 8), tall.Ewa(swap(st), swap(a), swap(b), 8), 1e-5);
+    }
+  }
+}
+
 // A long thin footprint across stripes averages them. A footprint along stripes does not.
 TEST(MipMap, EllipticalFilterIsSharpAcrossItsShortAxis) {
   const int n = 64;

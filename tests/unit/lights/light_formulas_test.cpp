@@ -153,6 +153,18 @@ double Falloff(double degrees, double total, double delta) {
   return std::pow((cosine(degrees) - cosine(total)) / (cosine(total - delta) - cosine(total)), 4);
 }
 
+void ExpectSpotEmits(const Light& light, const Point3& position, Point2 uDirection) {
+  const auto emitted = light.SampleEmission({}, uDirection, 0, kTime);
+  ASSERT_TRUE(emitted);
+  EXPECT_EQ(emitted->ray.o, position);
+  EXPECT_EQ(emitted->ray.time, kTime);
+  EXPECT_EQ(emitted->ray.tMax, kInfinity);
+  EXPECT_EQ(emitted->pdfPosition, 1);
+  ExpectClose(emitted->power, light.Power());
+  EXPECT_NEAR(double(emitted->pdfDirection),
+              double(light.PdfEmission({}, emitted->ray.d).direction), 2e-4);
+}
+
 TEST(LightFormulas, OfASpot) {
   TestPlugins plugins;
   const auto light = plugins.MakeLight(
@@ -190,15 +202,7 @@ TEST(LightFormulas, OfASpot) {
     ExpectClose(direct->Li, intensity * (Real(falloff) / LengthSquared(to)), 2e-3);
     EXPECT_EQ(direct->pdf, 1);
     ExpectReaches(direct->shadowRay, at, position);
-    const auto emitted = light->SampleEmission({}, Random2(random), 0, kTime);
-    ASSERT_TRUE(emitted);
-    EXPECT_EQ(emitted->ray.o, position);
-    EXPECT_EQ(emitted->ray.time, kTime);
-    EXPECT_EQ(emitted->ray.tMax, kInfinity);
-    EXPECT_EQ(emitted->pdfPosition, 1);
-    ExpectClose(emitted->power, light->Power());
-    EXPECT_NEAR(double(emitted->pdfDirection),
-                double(light->PdfEmission({}, emitted->ray.d).direction), 2e-4);
+    ExpectSpotEmits(*light, position, Random2(random));
   }
   EXPECT_GT(lit, 10);
   EXPECT_EQ(light->PdfEmission({}, axis).position, 0);
@@ -288,14 +292,21 @@ TEST(LightFormulas, OfAUniformSky) {
 }
 
 // A disk of radius 1.5 whose normal is turned and which is doubled: its area is 9 pi.
-TEST(LightFormulas, OfALamp) {
+class LampFormulas : public testing::Test {
+ protected:
+  LampFormulas() { light->Prepare(kWorld); }
+
   TestPlugins plugins;
-  const auto surface = plugins.MakeEmitter(R"("disk" "float radius" 1.5)", Placed());
-  const auto light = plugins.MakeAreaLight(
+  std::shared_ptr<const EmitterSurface> surface =
+      plugins.MakeEmitter(R"("disk" "float radius" 1.5)", Placed());
+  std::unique_ptr<AreaLight> light = plugins.MakeAreaLight(
       R"("area" "color L" [8 4 2] "color scale" [.5 3 2] "integer nsamples" 7)", surface);
-  light->Prepare(kWorld);
-  const Spectrum radiance(4, 12, 4);
+  const Spectrum radiance{4, 12, 4};
   const double area = 9 * M_PI;
+  RandomStream random{5};
+};
+
+TEST_F(LampFormulas, AreThoseOfItsSurface) {
   EXPECT_FALSE(light->IsDelta() || light->IsInfinite() || light->IsDistant());
   EXPECT_EQ(light->SampleCount(), 7);
   EXPECT_EQ(plugins.MakeAreaLight("\"area\"", surface)->SampleCount(), 1);
@@ -305,8 +316,9 @@ TEST(LightFormulas, OfALamp) {
   ASSERT_TRUE(light->Bounds());
   EXPECT_EQ(light->Bounds()->min, surface->Bounds().min);
   EXPECT_EQ(light->Bounds()->max, surface->Bounds().max);
-  RandomStream random(5);
-  int lit = 0, outside = 0;
+}
+
+TEST_F(LampFormulas, EmitByTheCosine) {
   for (int i = 0; i < 100; ++i) {
     const Point2 uPosition = Random2(random), uDirection = Random2(random);
     const Real part = random.Uniform();
@@ -325,11 +337,18 @@ TEST(LightFormulas, OfALamp) {
     EXPECT_NEAR(double(pdf.position), 1 / area, 1e-6);
     EXPECT_NEAR(double(pdf.direction), cosine / M_PI, 1e-4);
     EXPECT_EQ(light->PdfEmission(on, -emitted->ray.d).direction, 0);
+  }
+}
 
+TEST_F(LampFormulas, SampleTheLampFromAPoint) {
+  int lit = 0, outside = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Point2 u = Random2(random);
+    const Real part = random.Uniform();
     SurfacePoint at = RandomReceiver(random);
     at.p = at.p * 4;  // mostly outside the lamp's box
-    const auto direct = light->SampleDirect(at, uPosition, part);
-    const auto sample = surface->SampleToward(at, uPosition, part);
+    const auto direct = light->SampleDirect(at, u, part);
+    const auto sample = surface->SampleToward(at, u, part);
     if (!direct) continue;
     ++lit;
     ASSERT_TRUE(sample);

@@ -39,6 +39,28 @@ TEST_P(AcceleratorRays, EndForRaysFromFarAwayWithShortDirections) {
   }
 }
 
+// Rays that run mainly across a triangle hit it at the right distance, however large it is, as long
+// as the differences of its coordinates are finite (docs/development/robustness.md).
+TEST_P(AcceleratorRays, MeetATriangleAsLargeAsTheirNumbersAllow) {
+  TestPlugins plugins;
+  for (const int exponent : {20, 40, 60, 61, 62, 63, 64, 80, 100, 120, 124, 125, 126, 127}) {
+    const Real far = std::ldexp(Real(1), exponent);
+    const auto set =
+        TriangleSet({{Point3(-far, 2, -far), Point3(far, 2, -far), Point3(0, 2, far)}});
+    const auto tested = plugins.MakeAccelerator(GetParam(), *set);
+    for (int i = 0; i < 100; ++i) {
+      Ray ray;
+      // Powers of two, so that nothing is rounded beside the large numbers.
+      ray.o = {0, Real(i % 4) / 2, 0};
+      ray.d = {Real(i % 5 - 2) / 8, 1, Real(i % 3 - 1) / 4};
+      const Real t = (2 - ray.o.y) / ray.d.y;
+      const Hit hit = tested->Intersect(ray);
+      ASSERT_TRUE(hit.IsHit()) << "2^" << exponent;
+      ASSERT_NEAR(double(hit.t / t), 1, 1e-5) << "2^" << exponent;
+    }
+  }
+}
+
 // The lengths go down to subnormal numbers, which are few.
 TEST_P(AcceleratorRays, AgreeForDirectionsOfAnyLength) {
   TestPlugins plugins;

@@ -11,7 +11,7 @@ const std::string kLamp = "LightSource \"point\" \"point from\" [0 0 -1]\n";
 const std::string kBall = "Shape \"sphere\"\n";
 
 RequiredFeatures PlanOf(const std::string& world, const std::string& camera = R"("perspective")") {
-  const auto loaded = LoadSceneText("SurfaceIntegrator \"whitted\"\nTranslate 0 0 3\nCamera " +
+  const auto loaded = LoadSceneText("SurfaceIntegrator \"exphotonmap\"\nTranslate 0 0 3\nCamera " +
                                     camera + "\nWorldBegin\n" + world + "WorldEnd\n");
   return loaded.setup->scene->Features();
 }
@@ -138,6 +138,72 @@ TEST(RequiredFeatures, CountsBlackLightsApart) {
       PlanOf(kLamp + kLamp + "LightSource \"distant\" \"color L\" [0 0 0]\n" + kBall);
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_EQ(plan.notes[0], "lights        3 (1 black, skipped)");
+}
+
+// A scene that needs every effect but motion.
+const std::string kEverything =
+    "LightSource \"infinite\"\nVolume \"homogeneous\"\nMaterial \"glass\"\nShape \"sphere\"\n"
+    "Texture \"t\" \"color\" \"checkerboard\"\nMaterial \"translucent\" \"texture Kd\" \"t\"\n"
+    "Shape \"disk\"\n";
+
+// Returns the names of the effects that are off for an integrator.
+std::string OffWith(const std::string& integrator, const std::string& effects = "auto") {
+  LoadOptions options;
+  options.effects = effects;
+  const LoadedScene scene =
+      LoadSceneText("SurfaceIntegrator " + integrator +
+                        "\nCamera \"perspective\" \"float lensradius\" .1\nWorldBegin\n" +
+                        kEverything + "WorldEnd\n",
+                    options);
+  const RequiredFeatures& plan = scene.setup->scene->Features();
+  std::string off;
+  for (int i = 0; i < kFeatureCount; ++i) {
+    if (Feature(i) == Feature::Motion || plan.Needs(Feature(i))) continue;
+    off += (off.empty() ? "" : " ") + std::string(FeatureName(Feature(i)));
+    EXPECT_EQ(plan.Get(Feature(i)).reason.rfind("this integrator ", 0), 0u) << off;
+  }
+  return off;
+}
+
+TEST(RequiredFeatures, LeaveOutWhatTheIntegratorDoesNotCompute) {
+  const std::string direct = "caustics indirect transmission glossy";
+  const struct {
+    const char *integrator, *off;
+  } cases[] = {
+      {"\"exphotonmap\"", ""},
+      {"\"exphotonmap\" \"integer causticphotons\" 0", "caustics"},
+      {"\"exphotonmap\" \"bool radiancephotons\" \"false\"", "transmission glossy"},
+      {"\"photonmap\"", "transmission glossy"},
+      {"\"photonmap\" \"bool finalgather\" \"false\" \"integer indirectphotons\" 0",
+       "indirect transmission glossy"},
+      {"\"path\"", "transmission glossy"},
+      {"\"bidirectional\"", "transmission glossy"},
+      {"\"irradiancecache\"", "transmission glossy"},
+      {"\"irradiancecache\" \"integer maxindirectdepth\" 0", direct.c_str()},
+      {"\"igi\"", "caustics transmission glossy"},
+      {"\"igi\" \"float indirectscale\" 0", direct.c_str()},
+      {"\"directlighting\"", direct.c_str()},
+      {"\"whitted\"", direct.c_str()},
+      {"\"ambientocclusion\"", "caustics indirect transmission specular glossy media filtering"},
+      {"\"debug\"", "caustics indirect transmission specular glossy media environment"},
+  };
+  for (const auto& [integrator, off] : cases) {
+    EXPECT_EQ(OffWith(integrator), off) << integrator;
+    EXPECT_EQ(OffWith(integrator, "all"), off) << integrator;
+  }
+}
+
+TEST(RequiredFeatures, SayWhyTheIntegratorLeavesThemOut) {
+  const LoadedScene scene =
+      LoadSceneText("SurfaceIntegrator \"directlighting\"\nWorldBegin\n" + kLamp +
+                    Material("\"glass\"") + kBall + Material("\"matte\"") + kBall + "WorldEnd\n");
+  const std::string text = scene.setup->scene->Features().Describe();
+  EXPECT_NE(text.find("caustics      off  this integrator does not compute caustics\n"),
+            std::string::npos);
+  EXPECT_NE(text.find("indirect      off  this integrator does not compute indirect light\n"),
+            std::string::npos);
+  // A reason that lies in the scene comes first.
+  EXPECT_NE(text.find("glossy        off  no glossy surface\n"), std::string::npos);
 }
 
 TEST(RequiredFeatures, BeforeItIsPlannedHasEverythingOn) {
