@@ -2,6 +2,7 @@
 // These tests run the commands that do not render: help, version, plugins, info,
 // convert and compare.
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <sstream>
 
@@ -110,6 +111,33 @@ TEST_F(CommandTest, ShowHowFarAwayPhotonsAre) {
     if (!line.empty() && line[0] != '#') farthest = std::max(farthest, std::stod(line));
   EXPECT_GT(farthest, 5);
   EXPECT_LT(farthest, 6.001);
+}
+
+// At the opening of the shutter the disk is half-way. The maps hold its photons where it starts.
+TEST_F(CommandTest, ShowThePhotonsOfAMovingSurfaceWhereItIsSeen) {
+  Write(
+      "moving.pbrt",
+      "Film \"image\" \"integer xresolution\" 9 \"integer yresolution\" 9\nTransformTimes 0 1\n"
+      "LookAt 5 0 -10  5 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 5 \"float shutteropen\" "
+      ".5 \"float shutterclose\" .501\nSurfaceIntegrator \"photonmap\" \"integer directphotons\" "
+      "3000\nWorldBegin\nLightSource \"distant\" \"point from\" [0 3 -4] \"point to\" [0 0 0]\n"
+      "ActiveTransform EndTime\nTranslate 10 0 0 Rotate 80 0 0 1\nActiveTransform All\n"
+      "Shape \"disk\" \"float radius\" 1\nWorldEnd\n");
+  const ProgramResult result =
+      Run({"info", "--photons-at", "4,4", "moving.pbrt", "--count", "20", "--map", "direct"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::istringstream lines(result.out);
+  int photons = 0;
+  for (std::string line; std::getline(lines, line);) {
+    double distance, x, y, z;
+    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf", &distance, &x, &y, &z) != 4) continue;
+    ++photons;
+    EXPECT_LT(distance, .3);
+    EXPECT_NEAR(x, 0, .01);
+    EXPECT_NEAR(y, .6, .01);
+    EXPECT_NEAR(z, -.8, .01);
+  }
+  EXPECT_EQ(photons, 20) << result.out;
 }
 
 TEST_F(CommandTest, ConvertToPngAndBack) {

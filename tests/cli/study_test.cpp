@@ -2,8 +2,11 @@
 // These tests run studies as a user does. They check the folder of results, continuation after an
 // interruption, identical pictures in a second study, and a page that loads nothing from outside.
 #include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "core/app/analysis/results.h"
 #include "core/imaging/files/exr.h"
@@ -49,6 +52,24 @@ class StudyTest : public ProgramTest {
   study::Results ReadResults(const std::string& folder) const {
     return study::FromJson(Read(folder + "/results.json"));
   }
+  // Renders the rounds of a reference's first half again, and expects their mean.
+  void ExpectMeanOfRounds(const std::string& folder, const std::vector<double>& counts) const {
+    const Image half = ReadExr(Path(folder + "/" + ReadResults(folder).reference.a));
+    std::vector<double> sums(half.pixels.size());
+    double total = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      ASSERT_EQ(Run({"low.pbrt", "--integrator", "path", "--spp", std::to_string(int(counts[i])),
+                     "--footprint-spp", "16", "--seed",
+                     std::to_string(study::ReferenceSeed(int(i), 0)), "--float", "-o", "round.exr"})
+                    .status,
+                0);
+      const Image round = ReadExr(Path("round.exr"));
+      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += counts[i] * double(round.pixels[k]);
+      total += counts[i];
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      EXPECT_NEAR(double(half.pixels[k]), sums[k] / total, 1e-5);
+  }
   // Returns the bytes of every picture of a study, in the order of its rows.
   std::vector<std::string> Pictures(const std::string& folder) const {
     std::vector<std::string> bytes;
@@ -85,6 +106,20 @@ TEST_F(StudyTest, MakesRowsPicturesAndAPage) {
   EXPECT_EQ(std::count(summary.begin(), summary.end(), '\n'), 5) << summary;
   EXPECT_NE(summary.find("\r\npath,path,spp=4,3,"), std::string::npos) << summary;
   EXPECT_NE(csv.find("relMSE,trimmedRelMSE,MSE"), std::string::npos) << csv.substr(0, 500);
+}
+
+TEST_F(StudyTest, ShowsThePhasesInTheOrderOfARender) {
+  const auto result = Run({"study", "box.pbrt", "--integrators", "exphotonmap", "--seeds", "2",
+                           "--nthreads", "1", "--resolution", "8x6", "--no-maps", "--set",
+                           "SurfaceIntegrator.indirectphotons=1000", "--out", "out"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string page = Read("out/report.html");
+  std::size_t at = 0;
+  for (const char* phase : {"accelerator", "shoot", "photon maps", "radiance", "render", "write"}) {
+    const std::size_t next = page.find("\"></i>" + std::string(phase) + "</span>", at);
+    EXPECT_NE(next, std::string::npos) << phase << " is missing or too early";
+    at = next;
+  }
 }
 
 TEST_F(StudyTest, ThePageHoldsEverythingItShowsAndNoScript) {
@@ -193,6 +228,35 @@ TEST_F(StudyTest, MakesAReferenceInTwoHalvesAndGoesOnWithIt) {
   EXPECT_NE(Read("out/" + record.a), Read("out/" + record.b));
   const ProgramResult again = Run(options);
   EXPECT_EQ(again.err.find("reference: "), std::string::npos) << again.err;
+}
+
+// The sampler rounds each request to a power of two. The first one is 16. A busy machine needs more
+// time for another round.
+TEST_F(StudyTest, CountsTheRenderedSamplesOfItsReference) {
+  Write("low.pbrt", SmallScene("Sampler \"lowdiscrepancy\" \"integer pixelsamples\" 4"));
+  for (const std::string seconds : {"0.5", "2", "8", "32"}) {
+    const ProgramResult result =
+        Run({"study", "low.pbrt", "--integrators", "path", "--vary", "spp=1", "--seeds", "1",
+             "--no-maps", "--make-reference", "path", "--reference-time", seconds, "--out", "out"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    std::istringstream lines(result.err);
+    double last = 0;
+    int rounds = 0;
+    std::vector<double> counts;
+    for (std::string line; std::getline(lines, line);) {
+      double samples = 0;  // of both halves
+      if (std::sscanf(line.c_str(), "reference: %lf samples", &samples) != 1) continue;
+      const double added = (samples - last) / 2;
+      EXPECT_EQ(std::exp2(std::round(std::log2(added))), added) << line;
+      last = samples;
+      ++rounds;
+      counts.push_back(added);
+    }
+    EXPECT_EQ(ReadResults("out").reference.samplesPerPixel, last);
+    if (rounds >= 3) return ExpectMeanOfRounds("out", counts);
+    fs::remove_all(Path("out"));
+  }
+  ADD_FAILURE() << "32 seconds are not enough for three rounds";
 }
 
 TEST_F(StudyTest, StopsRendersByTimeForBudgets) {
