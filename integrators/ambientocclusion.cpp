@@ -51,6 +51,10 @@ class AmbientOcclusionIntegrator final : public SurfaceIntegrator {
     return {"light         none: the open share of the hemisphere at the first surface"};
   }
 
+  FeatureSet ComputedFeatures() const override {
+    return {Feature::Lens, Feature::Motion, Feature::Environment};
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     const auto hit = context.Intersect(ray, RayKind::Camera);
     if (!hit) {

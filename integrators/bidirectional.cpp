@@ -47,6 +47,10 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  FeatureSet ComputedFeatures() const override {
+    return FeatureSet::All().Without(kPhotonMapFeatures);
+  }
+
   std::vector<std::string> Explain(const Scene& scene) const override {
     if (!scene.Features().Needs(Feature::Indirect))
       return {"light paths   none: no indirect light"};
@@ -56,9 +60,10 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
   Spectrum Li(const RayDifferential& cameraRay, LiContext& context) const override {
     LightPath light;
     bool hasLight = false;
-    CameraPath path(lighting_, light, maxDepth_, context);
-    RandomStream random = context.Stream(kCameraStream);
-    RayDifferential ray = cameraRay;
+    CameraWalk walk{context, CameraPath(lighting_, light, maxDepth_, context),
+                    context.Stream(kCameraStream), cameraRay};
+    CameraPath& path = walk.path;
+    RayDifferential& ray = walk.ray;
     for (int depth = 0;; ++depth) {
       const RayKind kind = depth == 0              ? RayKind::Camera
                            : path.IsLastSpecular() ? RayKind::Specular
@@ -80,7 +85,7 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
         TraceLightPath(cameraRay.time, context, &light);
         hasLight = true;
       }
-      if (!AddVertex(point, depth, context, &random, &path, &ray)) break;
+      if (!AddVertex(point, depth, &walk)) break;
     }
     return path.Sum();
   }
@@ -91,6 +96,13 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
   struct VertexArrays {
     int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
+  // CameraWalk is the path of a camera sample with what its next step needs.
+  struct CameraWalk {
+    LiContext& context;
+    CameraPath path;
+    RandomStream random;
+    RayDifferential ray;  // towards the next vertex
+  };
   struct EmissionArrays {
     int choice1D = -1, position2D = -1, direction2D = -1, part1D = -1;
   };
@@ -100,27 +112,27 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
     const CameraSamples& samples = context.samples;
     lighting_.tracer.Trace(
         {samples.Array1D(emission_.choice1D)[0], samples.Array2D(emission_.position2D)[0],
-         samples.Array2D(emission_.direction2D)[0], samples.Array1D(emission_.part1D)[0]},
-        time, maxDepth_, context.Stream(kLightStream), &context.arena, &context.rays, light);
+         samples.Array2D(emission_.direction2D)[0], samples.Array1D(emission_.part1D)[0], time},
+        maxDepth_, {context.Stream(kLightStream), &context.arena, &context.rays}, light);
   }
 
   // Collects light at a point and extends the path. Returns false if the path ends.
-  bool AddVertex(const ShadingPoint& point, int depth, LiContext& context, RandomStream* random,
-                 CameraPath* path, RayDifferential* ray) const {
+  bool AddVertex(const ShadingPoint& point, int depth, CameraWalk* walk) const {
+    auto& [context, path, random, ray] = *walk;
     if (depth < kSampledVertices) {
       const VertexArrays& a = arrays_[std::size_t(depth)];
       const CameraSamples& s = context.samples;
-      path->AddDirect(point, s.Array1D(a.choice1D)[0], s.Array2D(a.light2D)[0],
-                      s.Array1D(a.part1D)[0]);
-      path->AddConnections(point);
-      return path->Continue(point, s.Array2D(a.bsdf2D)[0], s.Array1D(a.lobe1D)[0],
-                            random->Uniform(), ray);
+      path.AddDirect(point, s.Array1D(a.choice1D)[0], s.Array2D(a.light2D)[0],
+                     s.Array1D(a.part1D)[0]);
+      path.AddConnections(point);
+      return path.Continue(point, s.Array2D(a.bsdf2D)[0], s.Array1D(a.lobe1D)[0], random.Uniform(),
+                           &ray);
     }
     Real u[7];
-    for (Real& value : u) value = random->Uniform();
-    path->AddDirect(point, u[0], {u[1], u[2]}, u[3]);
-    path->AddConnections(point);
-    return path->Continue(point, {u[4], u[5]}, u[6], random->Uniform(), ray);
+    for (Real& value : u) value = random.Uniform();
+    path.AddDirect(point, u[0], {u[1], u[2]}, u[3]);
+    path.AddConnections(point);
+    return path.Continue(point, {u[4], u[5]}, u[6], random.Uniform(), &ray);
   }
 
   int maxDepth_;
@@ -137,4 +149,4 @@ std::unique_ptr<SurfaceIntegrator> Create(const Settings& settings, const Integr
 }  // namespace exphoton
 
 EXPHOTON_INTEGRATOR("bidirectional",
-                    "bidirectional path tracing: all light transport, without bias")
+                    "bidirectional path tracing, without bias; sees caustics as noisily as path")

@@ -108,6 +108,10 @@ class DebugIntegrator final : public SurfaceIntegrator {
     return {"light         none: properties of the first surface as colours"};
   }
 
+  FeatureSet ComputedFeatures() const override {
+    return {Feature::Filtering, Feature::Lens, Feature::Motion};
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     const auto hit = context.Intersect(ray, RayKind::Camera);
     if (!hit) {

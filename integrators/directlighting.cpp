@@ -51,6 +51,10 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  FeatureSet ComputedFeatures() const override {
+    return FeatureSet::All().Without(kInterreflection).Without(kPhotonMapFeatures);
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
       return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point, context);

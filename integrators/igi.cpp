@@ -40,7 +40,8 @@ const ParamTable<Settings>& Parameters() {
       Param("rrthreshold", &Settings::rouletteThreshold,
             "contributions of a virtual light below this luminance are computed with probability "
             ".1 only; 0: all are computed")
-          .Range(0, 1e6),
+          .Range(0, 1e6)
+          .InVersion2({.0001}),
       Param("indirectscale", &Settings::indirectScale, "factor on indirect light").Range(0, 1e6),
       Param("maxdepth", &Settings::maxDepth,
             "specular bounces followed, and bounces of gather rays")
@@ -53,7 +54,8 @@ const ParamTable<Settings>& Parameters() {
             "is gathered, so that corners keep their light; if absent, \"mindist\" bounds and the "
             "rest is lost")
           .Range(0, 1e15)
-          .Unit("per square scene unit")};
+          .Unit("per square scene unit")
+          .InVersion2({10})};
   return table;
 }
 
@@ -82,15 +84,17 @@ class IgiIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  FeatureSet ComputedFeatures() const override {
+    const FeatureSet some =
+        FeatureSet::All().Without(kPhotonMapFeatures).Without({Feature::Caustics});
+    return settings_.indirectScale > 0 ? some : some.Without({Feature::Indirect});
+  }
+
   std::vector<std::string> Explain(const Scene& scene) const override {
-    std::vector<std::string> lines{"caustics      not computed by igi"};
-    if (!scene.Features().Needs(Feature::Indirect)) {
-      lines.push_back("light paths   none: no indirect light");
-    } else {
-      lines.push_back("light paths   " + std::to_string(settings_.sets) + " sets of " +
-                      std::to_string(settings_.lightPaths));
-    }
-    return lines;
+    if (!scene.Features().Needs(Feature::Indirect))
+      return {"light paths   none: no indirect light"};
+    return {"light paths   " + std::to_string(settings_.sets) + " sets of " +
+            std::to_string(settings_.lightPaths)};
   }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {

@@ -67,6 +67,11 @@ class IrradianceCacheIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  FeatureSet ComputedFeatures() const override {
+    const FeatureSet some = FeatureSet::All().Without(kPhotonMapFeatures);
+    return settings_.maxIndirectDepth > 0 ? some : some.Without(kInterreflection);
+  }
+
   std::vector<std::string> Explain(const Scene& scene) const override {
     if (!IndirectRadiance(scene, settings_.maxIndirectDepth).IsNeeded())
       return {"irradiance    none: no indirect light"};
@@ -109,7 +114,7 @@ class IrradianceCacheIntegrator final : public SurfaceIntegrator {
     const auto found = cache_.Find(rest.Point(point.surface.p), rest.Normal(n));
     if (found.weight > 0) return found.irradiance;
     const int rays = std::max(settings_.rays / kFreshShare, 1);
-    return EstimateIrradiance(point.surface, n, rays, incident_,
+    return EstimateIrradiance({point.surface, n, rays}, incident_,
                               context.Stream(HashKey({kFreshStream, number})), context)
         .irradiance;
   }

@@ -129,6 +129,10 @@ class PathIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  FeatureSet ComputedFeatures() const override {
+    return FeatureSet::All().Without(kPhotonMapFeatures);
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     PathState path;
     path.ray = ray;

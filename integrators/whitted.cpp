@@ -35,6 +35,10 @@ class WhittedIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  FeatureSet ComputedFeatures() const override {
+    return FeatureSet::All().Without(kInterreflection).Without(kPhotonMapFeatures);
+  }
+
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     return SpecularTree(maxDepth_, context).Radiance(ray, [&](const ShadingPoint& point) {
       return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point, context);

@@ -30,8 +30,10 @@ class Hemisphere {
         const Real phi = 2 * kPi * (Real(k) + random->Uniform()) / Real(n_);
         const Real cosTheta = std::max(SafeSqrt(1 - sin2), kMachineEpsilon);
         const Vector3 w = frame_.ToWorld(SphericalDirection(std::sqrt(sin2), cosTheta, phi));
-        if ((Dot(w, surface.ng) > 0) != isFront) continue;
-        At(j, k) = incident.Along(spawner.Spawn(w), random, context);
+        // The opposite of a direction behind the surface lies between the normals, with the same
+        // absolute cosine.
+        const bool isOutside = (Dot(w, surface.ng) > 0) == isFront;
+        At(j, k) = incident.Along(spawner.Spawn(isOutside ? w : -w), random, context);
         // The stratum's middle, because the tangent of single rays has no bound.
         const Real middle = (Real(j) + Real(.5)) / Real(m_);
         AddRotation(At(j, k).radiance, std::sqrt(middle / (1 - middle)), phi);
@@ -101,12 +103,12 @@ class Hemisphere {
 
 }  // namespace
 
-IrradianceEstimate EstimateIrradiance(const SurfacePoint& surface, const Normal3& n, int rays,
+IrradianceEstimate EstimateIrradiance(const IrradianceQuery& query,
                                       const IndirectRadiance& incident, RandomStream random,
                                       LiContext& context) {
   const Arena::Mark mark = context.arena.GetMark();
-  Hemisphere hemisphere(n, rays, &context.arena);
-  hemisphere.Trace(surface, incident, &random, context);
+  Hemisphere hemisphere(query.n, query.rays, &context.arena);
+  hemisphere.Trace(query.surface, incident, &random, context);
   const IrradianceEstimate result = hemisphere.Result();
   context.arena.Rewind(mark);
   return result;

@@ -15,9 +15,15 @@ struct IrradianceEstimate {
   Real meanDistance = kInfinity;                 // harmonic mean of the rays' lengths
 };
 
-// n is a unit normal of the surface's shading frame; rays that would start behind ng carry nothing.
-// About `rays` rays are traced, at least 1.
-IrradianceEstimate EstimateIrradiance(const SurfacePoint& surface, const Normal3& n, int rays,
+// The place of an estimate. n is a unit normal of the surface's shading frame. Rays that would start
+// behind ng are reversed, so that diffuse lobes scatter by the absolute cosine, as in Bsdf.
+struct IrradianceQuery {
+  const SurfacePoint& surface;
+  Normal3 n;
+  int rays;  // number to trace, approximately; at least 1 is traced
+};
+
+IrradianceEstimate EstimateIrradiance(const IrradianceQuery& query,
                                       const IndirectRadiance& incident, RandomStream random,
                                       LiContext& context);
 

@@ -130,7 +130,7 @@ class Placement {
   }
 
   IrradianceRecord MakeRecord(const CachePoint& point, LiContext& li) const {
-    const IrradianceEstimate estimate = EstimateIrradiance(point.surface, point.n, settings_.rays,
+    const IrradianceEstimate estimate = EstimateIrradiance({point.surface, point.n, settings_.rays},
                                                            incident_, li.Stream(kRayStream), li);
     IrradianceRecord record;
     record.p = point.RestPoint();

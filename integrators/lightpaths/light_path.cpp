@@ -75,17 +75,17 @@ bool LightPathTracer::Begin(const Light& light, const Ray& ray, const SurfaceInt
   return densities.onLight > 0 && densities.next > 0;
 }
 
-void LightPathTracer::Trace(const EmissionVariates& emission, Real time, int mostVertices,
-                            RandomStream random, Arena* arena, RayCounters* rays,
+void LightPathTracer::Trace(const Emission& emission, int mostVertices, Workspace workspace,
                             LightPath* path) const {
+  auto& [random, arena, rays] = workspace;
   path->light = nullptr;
   path->isOnSurface = false;
   path->origin = {};
   path->vertices.clear();
   if (IsEmpty() || mostVertices < 1) return;
   const auto choice = lights_->Sample(emission.light);
-  const auto sample =
-      choice.light->SampleEmission(emission.position, emission.direction, emission.part, time);
+  const auto sample = choice.light->SampleEmission(emission.position, emission.direction,
+                                                   emission.part, emission.time);
   if (!sample) return;
   Spectrum alpha = sample->power / choice.probability;
   Ray ray = sample->ray;

@@ -48,16 +48,23 @@ class LightPathTracer {
 
   bool IsEmpty() const { return !scene_ || lights_->IsEmpty(); }
 
-  // The uniform random numbers of an emission, in [0,1).
-  struct EmissionVariates {
+  // The uniform random numbers of an emission, in [0,1), and its time.
+  struct Emission {
     Real light = 0;
     Point2 position, direction;
     Real part = 0;
+    Real time = 0;
   };
-  // Clears *path and traces a path with at most mostVertices surface points. The BSDFs live in
-  // `arena`. Russian roulette begins after three surface points.
-  void Trace(const EmissionVariates& emission, Real time, int mostVertices, RandomStream random,
-             Arena* arena, RayCounters* rays, LightPath* path) const;
+  // The data that a thread uses while it traces a path.
+  struct Workspace {
+    RandomStream random;
+    Arena* arena;  // for the BSDFs
+    RayCounters* rays;
+  };
+  // Clears *path and traces a path with at most mostVertices surface points. Russian roulette
+  // begins after three surface points.
+  void Trace(const Emission& emission, int mostVertices, Workspace workspace,
+             LightPath* path) const;
 
   // The densities of a path's beginning: of the vertex on the light, and of the next vertex x, the
   // latter per area at x. `on` is the point on an area light; null for other lights. w points from

@@ -60,9 +60,10 @@ void VirtualLights::Trace(const Scene& scene, int sets, int paths, PreprocessCon
           const Point2 choice = sampler.Next2D(), position = sampler.Next2D();
           const Point2 direction = sampler.Next2D();
           const Real time = open == close ? open : Lerp(sampler.Time(), open, close);
-          tracer_.Trace({choice.x, position, direction, choice.y}, time, kMaxBounces,
-                        RandomStream(HashKey({context.seed, kVirtualLightStream, index})),
-                        &block->arena, &block->rays, &path);
+          tracer_.Trace({choice.x, position, direction, choice.y, time}, kMaxBounces,
+                        {RandomStream(HashKey({context.seed, kVirtualLightStream, index})),
+                         &block->arena, &block->rays},
+                        &path);
           for (const LightPathVertex& vertex : path.vertices)
             if (vertex.point.bsdf.Has(LobeSet::NonSpecular)) block->lights.push_back(vertex);
         }

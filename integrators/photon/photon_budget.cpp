@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Deciding how many photons each map wants.
+// ChooseTargets decides how many photons each map needs. The other functions estimate and describe
+// these numbers.
 #include "integrators/photon/photon_budget.h"
 
 #include <algorithm>

@@ -33,6 +33,12 @@ DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scen
     return light->IsDistant() && !light->IsProvablyBlack();
   });
   if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
+  // Photons towards visible points are denser and weaker; rejection would undo both.
+  if (settings.photonRoulette == PhotonRoulette::Constant) {
+    if (settings.photonTargeting == PhotonTargeting::On)
+      context.log.Notice("photonaim has no effect with photonroulette \"constant\"");
+    return {};
+  }
   DistantLightTargeting targeting(
       VisiblePoints(scene, *context.camera, context.resolution, context.seed),
       BoundingSphere(scene.WorldBounds()), kMinPhotons / double(targets.Least()));
@@ -172,6 +178,18 @@ Spectrum PhotonIntegrator::ShownRadiance(const ShadingPoint& point) const {
   const auto entry = radianceMap_->Find({rest.Point(point.surface.p), rest.Normal(n)});
   if (!entry) return {};
   return entry->Value(AbsDot(n, point.Wo()));
+}
+
+FeatureSet PhotonIntegrator::ComputedFeatures() const {
+  FeatureSet computed = FeatureSet::All();
+  const bool showsAll = settings_.show == ShowMap::Nothing;
+  const bool hasRadiance = (showsAll && settings_.finalGather && settings_.radiancePhotons) ||
+                           settings_.show == ShowMap::Radiance;
+  if (!hasRadiance) computed = computed.Without(kPhotonMapFeatures);
+  if (settings_.CausticPhotons() == 0) computed = computed.Without({Feature::Caustics});
+  if (settings_.indirectPhotons == 0 && !settings_.finalGather)
+    computed = computed.Without({Feature::Indirect});
+  return computed;
 }
 
 std::vector<std::string> PhotonIntegrator::Explain(const Scene& scene) const {

@@ -25,8 +25,12 @@ class PhotonIntegrator final : public SurfaceIntegrator {
 
   void Preprocess(const Scene& scene, PreprocessContext& context) override;
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override;
+  bool SharesGathers(const Scene& scene) const override {
+    return settings_.sharedGather && GathersIndirectLight(settings_, scene);
+  }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override;
 
+  FeatureSet ComputedFeatures() const override;
   std::vector<std::string> Explain(const Scene& scene) const override;
   AovSet Aovs() const override;
   std::vector<std::string> PhotonMapNames() const override;

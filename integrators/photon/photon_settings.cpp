@@ -34,6 +34,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "gather rays at a shading point, both techniques together")
           .Range(1, 1 << 20)
           .DividedByQuick(4),
+      Param("sharedgather", &S::sharedGather,
+            "diffuse gathered light is shared between neighbouring pixels on one surface"),
       Param("maxdist", &S::maxDist,
             "largest radius of a density estimate; chosen from the photons if absent")
           .Range(1e-15, 1e15)
@@ -51,6 +53,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .OneOf({{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
       Param("photonroulette", &S::photonRoulette, "how photon paths end")
           .OneOf({{"luminance", PhotonRoulette::Luminance},
+                  {"constant", PhotonRoulette::Constant},
                   {"half", PhotonRoulette::Half},
                   {"maxcomponent", PhotonRoulette::MaxComponent}}),
       Param("radiancephotons", &S::radiancePhotons,

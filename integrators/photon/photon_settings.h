@@ -14,6 +14,7 @@ namespace exphoton {
 enum class PhotonRoulette {
   Luminance,     // survivors have the luminance from before the bounce
   MaxComponent,  // survivors have the largest channel from before the bounce
+  Constant,      // rejection sampling; all photons have the same luminance
   Half,          // survival probability 1/2 after three bounces; weights vary
 };
 enum class GatherSampling { Photons, Bsdf };
@@ -53,6 +54,7 @@ struct PhotonSettings {
   std::int64_t maxPhotonPaths = std::int64_t(1) << 24;
   PhotonTargeting photonTargeting = PhotonTargeting::Off;
   ShowMap show = ShowMap::Nothing;
+  bool sharedGather = false;
   bool directWithPhotons = false;  // direct light from the direct map; a parameter of photonmap
 
   std::int64_t CausticPhotons() const { return causticPhotons.value_or(20000); }

@@ -36,7 +36,7 @@ std::string LightName(const Scene& scene, std::size_t i) {
 bool HasStoredNothing(const LightTally& light, const PhotonTargets& targets) {
   if (light.shot < kSignificantPaths || light.stored > 0) return false;
   // If only caustic photons are wanted, a light without caustics is normal.
-  return light.hit + light.passedBy == 0 || targets[PhotonKind::Direct] > 0 ||
+  return light.hit + light.skipped == 0 || targets[PhotonKind::Direct] > 0 ||
          targets[PhotonKind::Indirect] > 0;
 }
 
@@ -50,7 +50,7 @@ void NoticeUnstoredLights(const PhotonPassResult& result, const PhotonTargets& t
     log.Notice(Text("light ", i + 1, origin.plugin.empty() ? "" : " (" + origin.plugin + ")",
                     " has shot ", light.shot, " photons and none was stored"),
                origin.where,
-               light.hit + light.passedBy == 0
+               light.hit + light.skipped == 0
                    ? "they hit nothing: check the light's position and direction"
                    : "they hit surfaces, but left no photons of a kind that the maps still needed");
   }
@@ -103,23 +103,30 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
   }
   context.statistics.AddToCounter("photons/shot", double(result.paths),
                                   "paths that left the lights");
-  if (result.passedBy > 0)
+  if (result.skipped > 0)
     context.statistics.AddToCounter(
-        "photons/passed by", double(result.passedBy),
+        "photons/skipped", double(result.skipped),
         "of these, paths for caustics only that were not traced because "
         "they miss all specular surfaces");
   if (result.paths > 0)
     context.statistics.SetCounter("photons/emitted power",
                                   result.emittedPower / double(result.paths),
                                   "luminance of the power that the lights emit, as shot");
+  if (settings.photonRoulette == PhotonRoulette::Constant) {
+    context.statistics.AddToCounter(
+        "photons/candidates", double(result.candidates),
+        "samples that photonroulette \"constant\" accepted or rejected");
+    context.statistics.AddToCounter("photons/beyond bound", double(result.beyondBound),
+                                    "of these, accepted with more than the constant luminance");
+  }
   if (result.cutPower > kMaxUnreportedCut * result.emittedPower)
     context.log.Warning(
         Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",
              100 * result.cutPower / result.emittedPower, " % of the emitted power"),
         {}, "raise \"maxphotondepth\", or lower reflectances that are (nearly) 1");
-  if (result.overgrownPaths > 0)
+  if (result.divergingPaths > 0)
     context.log.Warning(
-        Text(result.overgrownPaths, " photon paths were ended: their power grew without bound"), {},
+        Text(result.divergingPaths, " photon paths were ended: their power grew without bound"), {},
         "a surface reflects more light than it receives");
   if (result.droppedPhotons == 0) return;
   context.statistics.AddToCounter("photons/non-finite", double(result.droppedPhotons),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The volume integrator "single" computes emission of media and single scattering of direct light.
-// At each step it chooses one light by power (half of the choices are uniform) and samples one
-// point on it.
+// At each step it chooses one light and samples one point on it: by power (half of the choices are
+// uniform), or from 16 lights on by a tree of power and distance.
 #include "integrators/volumeintegrators/common/march.h"
 
 namespace exphoton {
@@ -14,7 +14,7 @@ class SingleScattering final : public VolumeIntegrator {
   bool ScattersLight() const override { return true; }
 
   void Preprocess(const Scene& scene) override {
-    lights_ = scene.MakeLightSampler(LightSelection::HalfPower);
+    lights_ = scene.MakeLightSampler(LightSelection::Auto);
   }
 
   Spectrum Li(const Ray& ray, LiContext& context, RandomStream random) const override {

@@ -110,6 +110,31 @@ class MaterialSampling : public testing::TestWithParam<MaterialCase> {
     }
   }
 };
+// Samples of photons must stay within the bound of the material, specular ones too. The lobe of
+// measurements knows none.
+TEST_P(MaterialSampling, StaysWithinItsThroughputBound) {
+  TestPlugins plugins;
+  const auto material = plugins.MakeMaterial(GetParam().text);
+  Arena arena;
+  SurfaceInteraction si = TiltedSurface(0);
+  const Bsdf bsdf = material->Evaluate(&si, TransportMode::Importance, &arena);
+  RandomStream random(5);
+  for (const LobeSet mask : {LobeSet::All, LobeSet::NonSpecular}) {
+    for (const Vector3& wo : Directions({1, Real(.8), Real(.3), Real(1e-2), Real(-.5)})) {
+      const auto bound = bsdf.ThroughputBound(wo, mask);
+      ASSERT_EQ(bound.has_value(), GetParam().name != "measured");
+      if (!bound) return;
+      for (int i = 0; i < 4000; ++i) {
+        const Point2 u{random.Uniform(), random.Uniform()};
+        const auto sample = bsdf.Sample(wo, u, random.Uniform(), mask, TransportMode::Importance);
+        if (!sample) continue;
+        for (int c = 0; c < 3; ++c)
+          ASSERT_LE(sample->throughput[c], (*bound)[c] * Real(1.001)) << "cos wo " << wo.z;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, MaterialSampling, testing::ValuesIn(Materials()),
                          [](const auto& info) { return info.param.name; });
 

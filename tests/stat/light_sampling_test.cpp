@@ -121,6 +121,21 @@ TEST_P(PlainLight, EmitsItsPowerInTheMean) {
   EXPECT_TRUE(IsWithin(tolerance, estimate, double(light_->Power().g)));
 }
 
+// The bound must hold, and must be near the largest power of a photon. A stretched map has none.
+TEST_P(PlainLight, EmitsWithinItsBound) {
+  const auto bound = light_->EmissionBound();
+  const bool isMap = GetParam().text.find("mapname") != std::string::npos;
+  ASSERT_EQ(bound.has_value(), !isMap || GetParam().toWorld.SimilarityScale().has_value());
+  if (!bound) return;
+  RandomStream random(11);
+  Real largest = 0;
+  for (int i = 0; i < 100000; ++i)
+    if (const auto emission = Emit(random)) largest = std::max(largest, emission->power.Y());
+  EXPECT_LE(largest, *bound * Real(1.001));
+  const bool isPlain = !isMap && !GetParam().text.starts_with("\"projection\"");
+  EXPECT_GE(largest, *bound * (isPlain ? Real(.999) : Real(.5)));
+}
+
 INSTANTIATE_TEST_SUITE_P(Lights, PlainLight, testing::ValuesIn(PlainLights()), NameOf);
 
 class SkyLight : public PlainLight {};
@@ -173,6 +188,19 @@ std::vector<Case> Skies() {
   return {lights.begin() + 4, lights.begin() + 8};
 }
 INSTANTIATE_TEST_SUITE_P(Lights, SkyLight, testing::ValuesIn(Skies()), NameOf);
+
+TEST(AreaLight, KnowsABoundUnlessItIsScaledUnevenly) {
+  TestPlugins plugins;
+  for (const char* shape : {R"("sphere")", R"("cylinder")", R"("cone")", R"("disk")",
+                            R"("paraboloid")", R"("hyperboloid")"}) {
+    const auto even = plugins.MakeAreaLight(R"("area")", plugins.MakeEmitter(shape, Tilted()));
+    ASSERT_TRUE(even->EmissionBound()) << shape;
+    EXPECT_EQ(*even->EmissionBound(), even->Power().Y());
+    if (std::string(shape) == R"("disk")") continue;  // stays uniform
+    const auto uneven = plugins.MakeAreaLight(R"("area")", plugins.MakeEmitter(shape, Stretched()));
+    EXPECT_FALSE(uneven->EmissionBound()) << shape;
+  }
+}
 
 TEST(AreaLight, EmitsByTheCosineFromItsWholeSurface) {
   TestPlugins plugins;

@@ -267,5 +267,32 @@ TEST(Media, AreFiniteAtExtremeDensities) {
   }
 }
 
+// From sixteen lights on the light of a step is chosen by power and distance. The light that a fog
+// scatters must still be the sum over the lights, and lights near the view must not be dots.
+TEST(Media, ScatterTheSumOfManyLights) {
+  std::vector<std::string> lights;
+  for (int i = 0; i < 20; ++i)
+    lights.push_back("LightSource \"point\" \"color I\" [1 1 1] \"point from\" [" +
+                     std::to_string(i % 5 - 2) + ".3 " + std::to_string(i / 5 - 2) + ".4 " +
+                     std::to_string(1 + i * 7 % 20 * .15) + "]\n");
+  const std::string header = Header("\"directlighting\"", "\"single\" \"float stepsize\" .2") +
+                             Slab("homogeneous", "\"color sigma_s\" [.1 .1 .1]");
+  const auto mean = [&](const std::string& world, int samples) {
+    return EstimateOverSeeds([&](std::uint64_t seed) {
+      TestRenderOptions options;
+      options.seed = seed;
+      options.load.samplesPerPixel = samples;
+      return MeanRadiance(RenderSceneText(header + world + "WorldEnd\n", options).image);
+    });
+  };
+  double sum = 0;
+  std::string all;
+  for (const std::string& light : lights) {
+    sum += mean(light, 16).mean;
+    all += light;
+  }
+  EXPECT_TRUE(IsWithin(.02, mean(all, 256), sum));
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -74,8 +74,6 @@ Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Aren
     }
     const Vector3 wi = rest.DirectionBack(map.Direction(photon));
     const Spectrum flux = weighted * GeometricToShading(wi, point.surface.ng, bsdf.Ns());
-    // As in the BSDF, light on different sides of the two normals is not scattered.
-    if ((Dot(wi, bsdf.Ns()) > 0) != (Dot(wi, point.surface.ng) > 0)) continue;
     if (!isDiffuse) {
       glossy += bsdf.f(point.Wo(), wi, lobes) * flux;
     } else if (Dot(wi, n) > 0) {

@@ -19,7 +19,7 @@ namespace exphoton {
 // weight share_i, its share of the wanted points. The photon then picks a position on the disk of
 // that sphere, projected along the light's direction. Let q be 1 / (sum of all weights), R the
 // radius of the world sphere, r_i the radius of disk i and d_i the distance from x to its centre.
-// The density of photon starts per area is
+// With (y)+ for the larger of y and 0, the density of photon starts per area is
 //   p(x) = q [1 / (pi R^2) + sum over spheres i of share_i 2 (1 - d_i^2 / r_i^2)+ / (pi r_i^2)].
 // The power of a photon is multiplied by 1 / (pi R^2 p). No light is lost, because p is at least
 // the first term. The enclosing spheres make p fall off roughly as 1 / distance^2 outside the

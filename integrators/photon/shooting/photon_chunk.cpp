@@ -39,7 +39,7 @@ void PhotonChunk::Clear() {
   for (auto& ofMap : photons) ofMap.clear();
   sites.clear();
   emittedPower = cutPower = 0;
-  dropped = overgrown = passedBy = 0;
+  dropped = diverging = skipped = candidates = beyondBound = 0;
   firstDropped = -1;
 }
 
@@ -68,8 +68,10 @@ void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, Th
     result->cutPower += chunk.cutPower;
     if (result->droppedPhotons == 0) result->firstDroppedPath = chunk.firstDropped;
     result->droppedPhotons += chunk.dropped;
-    result->overgrownPaths += chunk.overgrown;
-    result->passedBy += chunk.passedBy;
+    result->divergingPaths += chunk.diverging;
+    result->skipped += chunk.skipped;
+    result->candidates += chunk.candidates;
+    result->beyondBound += chunk.beyondBound;
   }
   result->paths += std::int64_t(chunks.size()) * PhotonTracer::kChunkPaths;
 }

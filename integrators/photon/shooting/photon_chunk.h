@@ -18,7 +18,8 @@ struct alignas(128) PhotonChunk {
   std::vector<RadiancePhotonSite> sites;
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; path index of the first one
-  std::int64_t overgrown = 0, passedBy = 0;
+  std::int64_t diverging = 0, skipped = 0;
+  std::int64_t candidates = 0, beyondBound = 0;  // see PhotonPassResult
 
   void Clear();  // keeps the memory
 };

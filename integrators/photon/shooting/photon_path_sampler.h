@@ -71,10 +71,7 @@ class PhotonPathSampler {
 
   // Returns the next pair, from the sequences while any are left, then from the stream.
   Point2 Next2D() {
-    if (pair_ == PhotonPathSequences::kPairs) {
-      const Real x = stream_.Uniform();
-      return {x, stream_.Uniform()};
-    }
+    if (pair_ == PhotonPathSequences::kPairs) return IndependentPair();
     return sequences_.Pair(pair_++, index_);
   }
   // Returns the time of the photon in [0,1), well distributed over the paths. All other numbers are
@@ -82,6 +79,10 @@ class PhotonPathSampler {
   Real Time() const { return sequences_.Time(index_); }
   // Always takes a number from the stream.
   Real Independent() { return stream_.Uniform(); }
+  Point2 IndependentPair() {
+    const Real x = stream_.Uniform();
+    return {x, stream_.Uniform()};
+  }
 
  private:
   static constexpr std::uint64_t kStreamKey = 0x70686f746f6e32ull;

@@ -16,6 +16,7 @@
 #include "integrators/photon/photon_settings.h"
 #include "integrators/photon/shooting/distant_light_targeting.h"
 #include "integrators/photon/shooting/media_photons.h"
+#include "integrators/photon/shooting/photon_rejection.h"
 #include "integrators/photon/shooting/specular_boxes.h"
 
 namespace exphoton {
@@ -37,15 +38,15 @@ struct PhotonTargets {
 
 // LightTally counts the results of the paths that left one light.
 struct LightTally {
-  std::int64_t shot = 0;      // paths
-  std::int64_t hit = 0;       // paths that hit a surface
-  std::int64_t passedBy = 0;  // paths that were not traced: see PhotonPassResult::passedBy
-  std::int64_t stored = 0;    // photons, in all maps together
+  std::int64_t shot = 0;     // paths
+  std::int64_t hit = 0;      // paths that hit a surface
+  std::int64_t skipped = 0;  // paths that were not traced: see PhotonPassResult::skipped
+  std::int64_t stored = 0;   // photons, in all maps together
 
   void Add(const LightTally& other) {
     shot += other.shot;
     hit += other.hit;
-    passedBy += other.passedBy;
+    skipped += other.skipped;
     stored += other.stored;
   }
 };
@@ -57,12 +58,16 @@ struct PhotonPassResult {
   std::int64_t paths = 0;          // of all lights and media
   // Paths that were counted but not traced, because only the caustic map was open and the first ray
   // missed all specular surfaces.
-  std::int64_t passedBy = 0;
+  std::int64_t skipped = 0;
   double emittedPower = 0;          // luminance, summed over the paths
   double cutPower = 0;              // luminance of the photons that the depth limit ended
   std::int64_t droppedPhotons = 0;  // their power was not finite
   std::int64_t firstDroppedPath = -1;
-  std::int64_t overgrownPaths = 0;  // ended because surfaces kept multiplying their power
+  std::int64_t divergingPaths = 0;  // ended because surfaces kept multiplying their power
+  // With photonroulette "constant": samples of lights, surfaces and media that were accepted or
+  // rejected, and accepted samples above one unit of luminance, because their bound was unknown or
+  // too low.
+  std::int64_t candidates = 0, beyondBound = 0;
 
   PhotonBuffer& operator[](PhotonKind kind) { return buffers[std::size_t(kind)]; }
   const PhotonBuffer& operator[](PhotonKind kind) const { return buffers[std::size_t(kind)]; }
@@ -88,11 +93,7 @@ class PhotonTracer {
 
  private:
   class Path;
-  struct Worker {
-    Arena arena;
-    RayCounters rays;
-    std::vector<LightTally> lights;
-  };
+  struct Worker;
 
   void TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
                   Real radianceFraction, Worker* worker, PhotonChunk* chunk) const;
@@ -108,6 +109,7 @@ class PhotonTracer {
   MediaPhotons media_;
   std::unique_ptr<const FixedLightSampler> lights_;
   Real mediaShare_;  // share of the paths that begin in a medium
+  PhotonRejection rejection_;
   SpecularBoxes specularBoxes_;
   LobeSet lobes_;  // lobes that scatter photons
   Real farthest_;  // see PhotonBuffer::farthest

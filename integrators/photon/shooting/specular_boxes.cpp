@@ -55,7 +55,7 @@ SpecularBoxes::SpecularBoxes(const Scene& scene) {
   all_ = BoundsOf(boxes_);
 }
 
-bool SpecularBoxes::PassesBy(const Ray& ray) const {
+bool SpecularBoxes::Misses(const Ray& ray) const {
   if (all_.IsEmpty() || !IntersectBox(all_, ray.o, ray.d, ray.tMax)) return true;
   return std::none_of(boxes_.begin(), boxes_.end(), [&ray](const Bounds3& box) {
     return IntersectBox(box, ray.o, ray.d, ray.tMax).has_value();

@@ -16,12 +16,12 @@ class SpecularBoxes {
   // More boxes bound the surfaces more tightly, but take longer to test.
   static constexpr int kMaxBoxes = 16;
 
-  SpecularBoxes() = default;  // no boxes: every ray passes by
+  SpecularBoxes() = default;  // no boxes: every ray misses
   explicit SpecularBoxes(const Scene& scene);
 
   // Returns true only if the ray misses all boxes. The boxes cover moving surfaces over the whole
   // shutter interval.
-  bool PassesBy(const Ray& ray) const;
+  bool Misses(const Ray& ray) const;
 
   const std::vector<Bounds3>& Boxes() const { return boxes_; }
 

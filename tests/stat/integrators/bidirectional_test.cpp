@@ -196,6 +196,37 @@ TEST(Bidirectional, FindsLightOverTheCeilingWithLessNoiseThanPathTracing) {
   EXPECT_NEAR(mean("\"bidirectional\"").mean / mean("\"path\"").mean, 1, .1);
 }
 
+TEST(Bidirectional, GivesTheSameBitsForAnyNumberOfThreadsAndAnyTiles) {
+  const std::string scene =
+      TestHeader("\"bidirectional\"", 12, 10, 4) + "WorldBegin\n" + kRoom + kLamp + "WorldEnd\n";
+  const Image one = RenderSceneText(scene).image;
+  for (const int threads : {2, 3, 8}) {
+    TestRenderOptions options;
+    options.threads = threads;
+    options.tileSize = threads;
+    options.tileOrder = TileOrder::Reversed;
+    EXPECT_EQ(RenderSceneText(scene, options).image.pixels, one.pixels) << threads;
+  }
+}
+
+// A spot light shines into a glass ball. Its rays meet the floor, which lights the ceiling that the
+// camera sees. Camera paths cannot find the light. Light paths do, unless they pass the ball again
+// on their way up (about a tenth of the light does).
+TEST(Bidirectional, FindsCausticsOfDeltaLightsOverOneMoreSurface) {
+  const std::string world =
+      "WorldBegin\nLightSource \"spot\" \"color I\" [30 30 30] \"point from\" [0 "
+      "2.5 0] \"point to\" [0 0 0] \"float coneangle\" 15 \"float conedeltaangle\" 2\nMaterial "
+      "\"matte\" \"color Kd\" [.7 .7 .7]\n" +
+      Quad("-4 0 -4  4 0 -4  4 0 4  -4 0 4") + Quad("-4 3 -4  4 3 -4  4 3 4  -4 3 4") +
+      "Material \"glass\"\nTranslate 0 2 0\nShape \"sphere\" \"float radius\" .15\nWorldEnd\n";
+  const auto mean = [&](const std::string& integrator) {
+    return Mean("LookAt 2 1 0  2 3 0  0 0 1\n" + TestHeader(integrator, 6, 6, 64) + world).mean;
+  };
+  EXPECT_EQ(mean("\"path\""), 0);
+  const double photons = mean("\"photonmap\" \"integer indirectphotons\" 20000");
+  EXPECT_NEAR(mean("\"bidirectional\" \"integer maxdepth\" 50") / photons, .9, .07);
+}
+
 TEST(Bidirectional, SplitsLightIntoTheAovsOfPathTracing) {
   const std::string world =
       "WorldBegin\n" + kRoom + kLamp +

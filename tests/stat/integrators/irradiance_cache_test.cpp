@@ -87,6 +87,7 @@ TEST(IrradianceCacheOfRecords, FindsRecordsOfAllSizesAndPlaces) {
 // rays, at the point and beside it.
 struct AirPoint {
   LoadedScene scene = LoadSceneText(
+      "SurfaceIntegrator \"irradiancecache\"\n"
       "WorldBegin\nLightSource \"point\" \"point from\" [.4 0 .3] \"color I\" [2 2 2]\n"
       "Material \"matte\" \"color Kd\" [.5 .5 .5]\nShape \"trianglemesh\" \"integer indices\" [0 1 "
       "2 0 2 "
@@ -102,7 +103,7 @@ struct AirPoint {
     SurfacePoint surface;
     surface.p = p;
     surface.ng = {0, 0, 1};
-    return EstimateIrradiance(surface, n, 65536, incident, context.Stream(1), context);
+    return EstimateIrradiance({surface, n, 65536}, incident, context.Stream(1), context);
   }
 };
 

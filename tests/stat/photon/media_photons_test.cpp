@@ -21,6 +21,10 @@ const std::string kBox =
 const std::string kGlow =
     "Volume \"homogeneous\" \"color Le\" [20 20 20] \"point p0\" [-.1 -.1 -.1] "
     "\"point p1\" [.1 .1 .1]\n";
+// Both must be chosen as often as their power says, beside a medium that glows.
+const std::string kTwoLamps =
+    "LightSource \"point\" \"color I\" [.01 .01 .01]\n"
+    "LightSource \"point\" \"color I\" [.01 .01 .01]\n";
 const std::string kPhotons =
     " \"integer indirectphotons\" 100000 \"integer finalgathersamples\" 16";
 
@@ -40,12 +44,11 @@ TEST(MediaPhotons, OfAGlowingMediumLightASphereAsItsPowerSays) {
   for (const auto& [integrator, tolerance] :
        {std::pair<std::string, double>{"\"exphotonmap\"", .01}, {"\"photonmap\"", .025}}) {
     for (const bool hasLamp : {false, true}) {
-      const std::string scene =
-          "VolumeIntegrator \"emission\"\nTranslate 0 0 -.5\n" +
-          TestHeader(integrator + kPhotons, 6, 6, 64) + "WorldBegin\n" + kGlow +
-          (hasLamp ? "LightSource \"point\" \"color I\" [.02 .02 .02]\n" : "") +
-          "Material \"matte\" \"color Kd\" [.5 .5 .5]\nReverseOrientation\n"
-          "Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
+      const std::string scene = "VolumeIntegrator \"emission\"\nTranslate 0 0 -.5\n" +
+                                TestHeader(integrator + kPhotons, 6, 6, 64) + "WorldBegin\n" +
+                                kGlow + (hasLamp ? kTwoLamps : "") +
+                                "Material \"matte\" \"color Kd\" [.5 .5 .5]\nReverseOrientation\n"
+                                "Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
       const double power = glow + (hasLamp ? lamp : 0);
       const double expected = albedo / M_PI * power / (4 * M_PI) / (1 - albedo);
       const auto measure = [&](std::uint64_t seed) { return Mean(scene, seed); };
@@ -53,6 +56,16 @@ TEST(MediaPhotons, OfAGlowingMediumLightASphereAsItsPowerSays) {
           << integrator << hasLamp;
     }
   }
+}
+
+// Most paths begin in the medium. The others begin at the lamps by their power.
+TEST(MediaPhotons, LeaveEachLampItsShareOfThePaths) {
+  const TestRender render = RenderSceneText(
+      TestHeader("\"photonmap\" \"integer indirectphotons\" 20000", 1, 1, 1) + "WorldBegin\n" +
+      kGlow + kTwoLamps + "Shape \"sphere\" \"float radius\" 3\nWorldEnd\n");
+  const double first = render.Counter("lights/1 point shot");
+  EXPECT_GT(first, 100);
+  EXPECT_NEAR(render.Counter("lights/2 point shot") / first, 1, .2);
 }
 
 // The fog is behind the camera, and a lamp outside the fog lights it. The camera sees only the

@@ -90,6 +90,18 @@ TEST_P(BothIntegrators, GiveTheSameBitsForAnyNumberOfThreadsAndAnyTiles) {
   }
 }
 
+// Paths of "constant" branch, which must not depend on threads either.
+TEST(PhotonIdentity, OfConstantPhotonsHoldsForAnyNumberOfThreads) {
+  const std::string scene = Room(
+      std::string("\"exphotonmap\" \"string photonroulette\" \"constant\"") + kCounts, 1, 1, false);
+  const Image one = Picture(scene);
+  for (int threads : {2, 5}) {
+    TestRenderOptions options;
+    options.threads = threads;
+    EXPECT_EQ(Picture(scene, options).pixels, one.pixels) << threads << " threads";
+  }
+}
+
 TEST_P(BothIntegrators, GiveTheSameBitsInACrop) {
   const std::string scene = Room(Integrator(), 1, 1, false);
   const Image whole = Picture(scene);

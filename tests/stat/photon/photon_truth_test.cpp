@@ -52,6 +52,32 @@ INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, Furnace,
                          testing::Combine(testing::Values("photonmap", "exphotonmap"),
                                           testing::Values(.5, .8, .9)));
 
+// "constant" must keep the mean, with gloss and two lobes, where it draws several candidates.
+class ConstantPhotons : public testing::TestWithParam<const char*> {};
+
+TEST_P(ConstantPhotons, ShowTheSameFurnaceAsLuminanceRoulette) {
+  const auto mean = [&](const std::string& roulette) {
+    const std::string scene =
+        TestHeader(
+            "\"photonmap\" \"integer indirectphotons\" 60000 \"integer directphotons\" "
+            "20000 \"integer causticphotons\" 0 \"bool finalgather\" \"false\" \"string "
+            "photonroulette\" \"" +
+                roulette + "\"",
+            10, 10, 4) +
+        FurnaceWorld(1, GetParam());
+    return EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  };
+  const SeedEstimate luminance = mean("luminance");
+  EXPECT_TRUE(IsWithin(.015, mean("constant"), luminance.mean));
+  EXPECT_LE(luminance.halfWidth, .008 * luminance.mean);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Materials, ConstantPhotons,
+    testing::Values(R"("matte" "color Kd" [.5 .5 .5])",
+                    R"("plastic" "color Kd" [.4 .3 .2] "color Ks" [.3 .3 .3] "float roughness" .2)",
+                    R"("substrate" "color Kd" [.4 .4 .4] "color Ks" [.2 .2 .2])"));
+
 // The guided gather must not lose or add energy at any cone angle.
 class GatherFurnace : public testing::TestWithParam<double> {};
 

@@ -10,6 +10,8 @@
 
 #include "core/math/sampling/sampling.h"
 #include "core/scattering/lobes/lambert.h"
+#include "core/scattering/lobes/microfacet.h"
+#include "core/scattering/lobes/oren_nayar.h"
 #include "core/scattering/lobes/specular.h"
 #include "tests/support/test_plugin.h"
 #include "tests/support/test_scene.h"
@@ -42,6 +44,7 @@ struct Gathered {
 struct GatherTrial {
   Real angleDegrees, rrThreshold;
   int count;
+  bool isShared = false;  // add the light that is handed over for sharing
 };
 
 // Gathers the light of the sky over `count` independent sets of gather samples. Photons from the
@@ -49,7 +52,7 @@ struct GatherTrial {
 template <class AddLobes>
 Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
                    const GatherTrial& trial, const AddLobes& addLobes) {
-  const auto& [angleDegrees, rrThreshold, count] = trial;
+  const auto& [angleDegrees, rrThreshold, count, isShared] = trial;
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   PhotonBuffer buffer;
   for (const Vector3& w : guideDirections) buffer.Add({{0, 0, 0}, w, Spectrum(1)});
@@ -83,7 +86,10 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
     ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
     addLobes(&point.bsdf, &arena);
     LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
-    const double x = double(gather.Gather(point, guide, context, sky).g);
+    GatherRecords handedOver;
+    if (isShared) context.gathers = &handedOver;
+    double x = double(gather.Gather(point, guide, context, sky).g);
+    for (const GatherRecord& record : handedOver) x += double((record.light * record.weight).g);
     sum += x;
     sum2 += x * x;
   }
@@ -123,6 +129,18 @@ std::vector<Vector3> Clusters() {
 }
 
 constexpr double kTolerance = .005;
+
+TEST(FinalGather, HandsOverTheDiffusePartForSharing) {
+  const auto plastic = [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.3), Real(.5), 0)));
+    bsdf->Add(arena->Make<OrenNayar>(Spectrum(0, Real(.1), Real(.1)), Radians(Real(20))));
+    bsdf->Add(arena->Make<Microfacet>(Spectrum(Real(.4)), Fresnel::None(), 20));
+  };
+  const Gathered whole = GatherSky(kUniform, Clusters(), {10, 0, 2000}, plastic);
+  const Gathered divided = GatherSky(kUniform, Clusters(), {10, 0, 2000, true}, plastic);
+  EXPECT_NEAR(divided.mean, whole.mean, 1e-5);
+  EXPECT_NEAR(divided.variance, whole.variance, 1e-4 * whole.variance);
+}
 
 TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {
   for (Real angle : {Real(.001), Real(.1), Real(1), Real(10), Real(45), Real(90)}) {

@@ -30,7 +30,9 @@ const char* const kPane =
 class PaneTest : public testing::Test {
  protected:
   explicit PaneTest(const std::string& world = kPane)
-      : scene_(LoadSceneText("WorldBegin\nLightSource \"point\"\n" + world + "WorldEnd\n")),
+      : scene_(
+            LoadSceneText("SurfaceIntegrator \"exphotonmap\"\nWorldBegin\nLightSource \"point\"\n" +
+                          world + "WorldEnd\n")),
         samples_(SampleLayout()),
         random_(1) {
     settings_.maxDist = 1;

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/log.h"
@@ -101,8 +104,41 @@ struct Surface {
   std::vector<const Bxdf*> lobes;
 };
 
-// Every photon adds K f alpha |wi.ns| / |wi.ng| / N, unless it is on different sides of the two
-// normals.
+// Returns the radiance that the photons of one map add. Every photon adds
+// K f alpha |wi.ns| / |wi.ng| / N, unless it is on different sides of the two normals.
+std::array<double, 3> ScatteredSum(const Estimate& estimate, DensityKernel kernel,
+                                   const ShadingPoint& point, double paths) {
+  std::array<double, 3> sum{};
+  for (const auto& [photon, distance2] : estimate.photons) {
+    const double onNs = double(Dot(photon.wi, point.bsdf.Ns())), onNg = double(photon.wi.z);
+    if ((onNs > 0) != (onNg > 0)) continue;
+    const Spectrum f = point.bsdf.f(point.Wo(), photon.wi, LobeSet::NonSpecular);
+    const double weight =
+        Kernel(kernel, distance2, estimate.radius2) * std::abs(onNs / onNg) / paths;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += weight * double(f[int(c)]) * double(photon.alpha[int(c)]);
+  }
+  return sum;
+}
+
+// Calls visit(point, isSheet) for the surface as seen from its front and from its back.
+template <class Visit>
+void SeeBothSides(const Surface& surface, const Visit& visit) {
+  for (const Vector3 wo :
+       {Normalize(Vector3(Real(.3), Real(.2), 1)), Normalize(Vector3(Real(.1), Real(-.2), -1))}) {
+    SurfaceInteraction si =
+        surface.tilt == 0 ? FlatSurface() : TiltedSurface(Radians(surface.tilt));
+    si.wo = wo;
+    Bsdf bsdf(si);
+    bool isSheet = false;
+    for (const Bxdf* lobe : surface.lobes) {
+      bsdf.Add(lobe);
+      isSheet = isSheet || lobe->Matches(LobeSet::Transmission);
+    }
+    visit(ShadingPoint{si, bsdf, {}, 0}, isSheet);
+  }
+}
+
 TEST_F(PhotonEstimates, AreSumsOfKernelTimesScatteredPower) {
   const Spectrum r(Real(.6), Real(.3), Real(.2)), t(Real(.1), Real(.5), Real(.4));
   const Lambert matte(r);
@@ -115,53 +151,33 @@ TEST_F(PhotonEstimates, AreSumsOfKernelTimesScatteredPower) {
       {"sheet", 0, {&matte, &sheet}},   {"tilted sheet", 25, {&matte, &sheet}},
       {"plastic", 0, {&matte, &gloss}}, {"tilted plastic", 25, {&matte, &gloss}},
       {"coated", 0, {&base, &coat}},    {"coated base", 25, {&base}}};
-  for (const DensityKernel kernel : {DensityKernel::Constant, DensityKernel::Simpson}) {
-    for (const int k : {30, 1000}) {
-      PhotonSettings settings;
-      settings.kernel = kernel;
-      settings.nUsed = k;
-      settings.maxDist = Real(.7);
-      const PhotonMapSet maps = MapsOf(settings);
-      for (const Surface& surface : surfaces) {
-        for (const Vector3 wo : {Normalize(Vector3(Real(.3), Real(.2), 1)),
-                                 Normalize(Vector3(Real(.1), Real(-.2), -1))}) {
-          SurfaceInteraction si = TiltedSurface(Radians(surface.tilt));
-          if (surface.tilt == 0) si = FlatSurface();
-          si.wo = wo;
-          Bsdf bsdf(si);
-          bool isSheet = false;
-          for (const Bxdf* lobe : surface.lobes) {
-            bsdf.Add(lobe);
-            isSheet = isSheet || lobe->Matches(LobeSet::Transmission);
-          }
-          const ShadingPoint point{si, bsdf, {}, 0};
-          double all[3] = {};
-          for (std::size_t m = 0; m < 3; ++m) {
-            const Normal3 n = wo.z > 0 ? Normal3(0, 0, 1) : Normal3(0, 0, -1);
-            const Estimate estimate(photons_[m], n, k, .7, !isSheet);
-            double sum[3] = {};
-            for (const auto& [photon, distance2] : estimate.photons) {
-              const double onNs = double(Dot(photon.wi, bsdf.Ns())), onNg = double(photon.wi.z);
-              if ((onNs > 0) != (onNg > 0)) continue;
-              const Spectrum f = bsdf.f(wo, photon.wi, LobeSet::NonSpecular);
-              const double weight =
-                  Kernel(kernel, distance2, estimate.radius2) * std::abs(onNs / onNg) / kPaths[m];
-              for (int c = 0; c < 3; ++c) sum[c] += weight * double(f[c]) * double(photon.alpha[c]);
-            }
-            const Spectrum radiance = maps.Radiance(PhotonKind(m), point, &arena_);
-            for (int c = 0; c < 3; ++c) {
-              EXPECT_NEAR(double(radiance[c]), sum[c], 3e-3 * sum[c] + 1e-7)
-                  << surface.name << ", map " << m << ", " << k << " photons, wo.z " << wo.z;
-              all[c] += sum[c];
-            }
-          }
-          const Spectrum radiance = maps.Radiance(point, &arena_);
-          for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(double(radiance[c]), all[c], 3e-3 * all[c] + 1e-7) << surface.name;
-          // No lobe that is left out counts.
-          EXPECT_TRUE(maps.Radiance(point, &arena_, LobeSet::Specular).IsBlack());
+  for (const auto& [kernel, k] :
+       {std::pair(DensityKernel::Constant, 30), std::pair(DensityKernel::Constant, 1000),
+        std::pair(DensityKernel::Simpson, 30), std::pair(DensityKernel::Simpson, 1000)}) {
+    PhotonSettings settings;
+    settings.kernel = kernel;
+    settings.nUsed = k;
+    settings.maxDist = Real(.7);
+    const PhotonMapSet maps = MapsOf(settings);
+    for (const Surface& surface : surfaces) {
+      SCOPED_TRACE(surface.name + (", " + std::to_string(k)) + " photons");
+      SeeBothSides(surface, [&, kernel = kernel, k = k](const ShadingPoint& point, bool isSheet) {
+        const Normal3 n(0, 0, point.Wo().z > 0 ? Real(1) : Real(-1));
+        const auto expectSum = [](const Spectrum& radiance, const std::array<double, 3>& sum) {
+          for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(double(radiance[int(c)]), sum[c], 3e-3 * sum[c] + 1e-7);
+        };
+        std::array<double, 3> all{};
+        for (std::size_t m = 0; m < 3; ++m) {
+          const auto sum = ScatteredSum(Estimate(photons_[m], n, k, .7, !isSheet), kernel, point,
+                                        double(kPaths[m]));
+          expectSum(maps.Radiance(PhotonKind(m), point, &arena_), sum);
+          for (std::size_t c = 0; c < 3; ++c) all[c] += sum[c];
         }
-      }
+        expectSum(maps.Radiance(point, &arena_), all);
+        // No lobe that is left out counts.
+        EXPECT_TRUE(maps.Radiance(point, &arena_, LobeSet::Specular).IsBlack());
+      });
     }
   }
 }
@@ -270,6 +286,31 @@ TEST_F(PhotonEstimates, MakeARadiancePhotonOfEverySite) {
     for (RadiancePhotonSite& site : sites) site.transmittance = half;
     EXPECT_EQ(RadiancePhotonMap(sites, maps, settings, true, context).Size(), 2 * count);
     EXPECT_EQ(RadiancePhotonMap(sites, maps, settings, false, context).Size(), count);
+  }
+}
+
+// A radiance photon is valid within the radius of its estimate times radiancereach.
+TEST_F(PhotonEstimates, ReachAsFarAsTheirParameterSays) {
+  PhotonSettings settings;
+  const PhotonMapSet maps = MapsOf(settings);
+  PreprocessContext context{threads_, 1, log_, progress_, statistics_, false, nullptr, {}};
+  Real radius = 0;  // of the estimate, which does not depend on the reach
+  for (const Real reach : {Real(1), Real(.5), Real(3)}) {
+    settings.radianceReach = reach;
+    std::vector<RadiancePhotonSite> sites(1, {{0, 0, 0}, {0, 0, 1}, Spectrum(1), Spectrum()});
+    const RadiancePhotonMap map(sites, maps, settings, false, context);
+    const auto find = [&](Real x) {
+      const RadiancePhotonMap::Place place{{x, 0, 0}, {0, 0, 1}};
+      std::optional<RadiancePhotonMap::Entry> found;
+      map.Find({&place, 1}, &found);
+      return found;
+    };
+    ASSERT_TRUE(find(0));
+    if (reach == 1) radius = std::sqrt(find(0)->radius2);
+    EXPECT_GT(radius, 0);
+    EXPECT_NEAR(std::sqrt(find(0)->radius2), radius, Real(1e-5) * radius) << reach;
+    EXPECT_TRUE(find(Real(.99) * reach * radius)) << reach;
+    EXPECT_FALSE(find(Real(1.01) * reach * radius)) << reach;
   }
 }
 

@@ -14,7 +14,8 @@ namespace {
 
 // A lamp behind a wall lights one side of a box, so that gather rays are guided to it.
 const char* const kBox =
-    "WorldBegin\nLightSource \"spot\" \"point from\" [0 0 0] \"point to\" [1 0 0]\n"
+    "SurfaceIntegrator \"exphotonmap\"\nWorldBegin\nLightSource \"spot\" \"point from\" [0 0 0] "
+    "\"point to\" [1 0 0]\n"
     "Shape \"sphere\" \"float radius\" 3\nWorldEnd\n";
 
 // Radiance along a few rays, after the calls in either order.

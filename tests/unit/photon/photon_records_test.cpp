@@ -245,7 +245,7 @@ TEST(PhotonRecords, OfWhiteWallsAreCutWithAllTheirPower) {
       Shoot(kLamp + "Material \"matte\" \"color Kd\" [1 1 1]\n" + kSphere, targets, settings);
   EXPECT_NEAR(result.cutPower / result.emittedPower, 1, 1e-3);
   EXPECT_EQ(result.droppedPhotons, 0);
-  EXPECT_EQ(result.overgrownPaths, 0);
+  EXPECT_EQ(result.divergingPaths, 0);
 }
 
 }  // namespace
