@@ -77,6 +77,13 @@ std::string Fill(std::string text, const Values& values) {
   return text;
 }
 
+// {beyond} in a table is a number that Real cannot hold.
+#ifdef EXPHOTON_DOUBLE
+const Values kConstants{{"beyond", "1e309"}};
+#else
+const Values kConstants{{"beyond", "1e39"}};
+#endif
+
 class Reader {
  public:
   std::vector<Group> groups;
@@ -89,7 +96,7 @@ class Reader {
       ++line_;
       const std::size_t start = line.find_first_not_of(' ');
       if (start == std::string::npos || line[start] == '#') continue;
-      Take(line.substr(start));
+      Take(Fill(line.substr(start), kConstants));
     }
     FinishRun();
   }

@@ -76,7 +76,7 @@ bool HasMaterial(const SceneModel& scene, bool (*is)(const MaterialModel&)) {
 // Whether a glossy lobe has the roughness .02, or is nearly as narrow as those of fitted materials.
 bool HasNarrowLobe(const SceneModel& scene) {
   return HasMaterial(scene, [](const MaterialModel& m) {
-    if (m.kind == MaterialKind::Fitted) return true;
+    if (m.kind == MaterialKind::Fitted || m.kind == MaterialKind::Measured) return true;
     return m.kind != MaterialKind::Matte && m.kind != MaterialKind::Mix && m.roughness == 2;
   });
 }

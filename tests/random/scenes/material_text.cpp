@@ -25,6 +25,17 @@ std::string Define(int number, const std::string& type, const std::string& rest)
   return "  Texture " + Name(number) + " \"" + type + "\" " + rest + "\n";
 }
 
+// The sum of the amplitudes of all octaves of noise, by default.
+constexpr int kOctaves = 2;
+
+// Returns a noise texture divided by the largest value that it can have.
+std::string Normalised(const std::string& noise, int largest, int* next, std::string* text) {
+  const int number = (*next)++;
+  *text += Define(number, "color", noise);
+  return "\"scale\" \"texture tex1\" " + Name(number) + " \"color tex2\" " +
+         ColourText({10, 10, 10}, 1. / largest);
+}
+
 // Returns the class of a texture and its parameters. Appends textures that it needs to `text`.
 std::string ClassText(const TextureModel& t, int* next, std::string* text) {
   const std::string first = ColourText(t.first, 1), second = ColourText(t.second, 1);
@@ -52,6 +63,17 @@ std::string ClassText(const TextureModel& t, int* next, std::string* text) {
                       "\"scale\" \"texture tex1\" " + Name(board) + " \"color tex2\" " + second);
       return "\"mix\" \"texture tex1\" " + Name(product) + " \"color tex2\" " + first;
     }
+    case TextureKind::Dots:
+      return "\"dots\" \"float uscale\" 5 \"float vscale\" 5 \"color inside\" " + first +
+             " \"color outside\" " + second;
+    case TextureKind::Fbm:
+      return Normalised(R"("fbm" "integer octaves" 6)", kOctaves, next, text);
+    case TextureKind::Wrinkled:
+      return Normalised(R"("wrinkled" "float roughness" .5)", kOctaves, next, text);
+    case TextureKind::Windy:
+      return Normalised(R"("windy")", kOctaves * kOctaves, next, text);
+    case TextureKind::Marble:
+      return R"("marble" "float scale" 4 "float variation" .6)";
     case TextureKind::Constant:
       break;
   }
@@ -114,7 +136,8 @@ std::string OpacityText(int opacity, int* next, std::string* text) {
 
 // Returns the largest value of a texture in a channel.
 double Largest(const TextureModel& t, int Colour::*channel) {
-  if (t.kind == TextureKind::Uv || t.kind == TextureKind::Image) return 1;
+  const bool isAnywhere = t.kind >= TextureKind::Fbm && t.kind <= TextureKind::Marble;
+  if (isAnywhere || t.kind == TextureKind::Uv || t.kind == TextureKind::Image) return 1;
   if (t.kind == TextureKind::Constant) return .1 * (t.first.*channel);
   return .1 * std::max(t.first.*channel, t.second.*channel);
 }
@@ -143,6 +166,7 @@ double AlbedoOf(const MaterialModel& m, int Colour::*channel) {
     case MaterialKind::Substrate:
     case MaterialKind::ShinyMetal:
     case MaterialKind::Fitted:
+    case MaterialKind::Measured:
       break;
   }
   return 1;
@@ -174,6 +198,10 @@ std::string ImageFile() {
   return std::string(EXPHOTON_SOURCE_DIR) + "/scenes/parts/tile_height.png";
 }
 
+std::string MeasurementFile() {
+  return std::string(EXPHOTON_SOURCE_DIR) + "/tests/random/glossy.brdf";
+}
+
 std::array<double, 3> LargestAlbedo(const MaterialModel& material) {
   return {AlbedoOf(material, &Colour::red), AlbedoOf(material, &Colour::green),
           AlbedoOf(material, &Colour::blue)};
@@ -189,9 +217,11 @@ class MaterialWriter {
   std::string Text(bool hasBumps) {
     constexpr std::array<const char*, kMaterialKinds> kNames{
         "matte",       "mirror", "glass",      "plastic", "metal", "substrate",
-        "translucent", "uber",   "shinymetal", "",        "mix"};
+        "translucent", "uber",   "shinymetal", "",        "mix",   "measured"};
     constexpr std::array<const char*, 6> kFits{"bluepaint", "brushedmetal", "clay",
                                                "felt",      "primer",       "skin"};
+    if (m_.kind == MaterialKind::Measured)
+      parameters_ += " \"string filename\" \"" + MeasurementFile() + "\"";
     if (m_.kind == MaterialKind::Mix) text_ += PartsOfMix(m_, next_, &parameters_);
     AddParameters();
     const bool isFitted = m_.kind == MaterialKind::Fitted;

@@ -21,6 +21,7 @@ const std::vector<std::string> kIntegrators{
     "\"photonmap\" \"bool finalgather\" \"false\"",
     "\"photonmap\" \"bool directwithphotons\" \"true\"",
     "\"exphotonmap\" \"string photonroulette\" \"maxcomponent\"",
+    "\"exphotonmap\" \"string photonroulette\" \"constant\"",
     "\"path\" \"integer maxdepth\" 20",
     "\"directlighting\" \"string strategy\" \"near\"",
     "\"exphotonmap\" \"integer directlights\" 1",

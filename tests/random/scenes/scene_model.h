@@ -26,8 +26,13 @@ enum class TextureKind {
   Uv,
   Image,
   Nested,  // a mix of a scale of a checkerboard
+  Fbm,
+  Wrinkled,
+  Windy,
+  Marble,
+  Dots,
 };
-inline constexpr int kTextureKinds = 9;
+inline constexpr int kTextureKinds = 14;
 
 struct TextureModel {
   TextureKind kind = TextureKind::Constant;
@@ -46,8 +51,9 @@ enum class MaterialKind {
   ShinyMetal,
   Fitted,  // bluepaint, brushedmetal, clay, felt, primer or skin
   Mix,     // of a matte and a mirror
+  Measured,
 };
-inline constexpr int kMaterialKinds = 11;
+inline constexpr int kMaterialKinds = 12;
 
 struct MaterialModel {
   MaterialKind kind = MaterialKind::Matte;
@@ -71,8 +77,13 @@ enum class BodyKind {
   Quad,
   SmoothMesh,  // with interpolated normals
   Subdivided,
+  Cone,
+  Paraboloid,
+  Hyperboloid,
+  HeightField,
+  Nurbs,
 };
-inline constexpr int kBodyKinds = 8;
+inline constexpr int kBodyKinds = 13;
 
 struct Place {
   int x = 0, y = 0, z = 0;  // in steps of .3 from the centre of the room

@@ -69,6 +69,20 @@ std::string ShapeText(const BodyModel& body) {
     case BodyKind::Subdivided:
       return "  Shape \"loopsubdiv\" \"integer nlevels\" 2 \"integer indices\" "
              "[0 1 2 0 2 3 0 3 1 1 3 2] \"point P\" [0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4]\n";
+    case BodyKind::Cone:
+      return "  Shape \"cone\" \"float height\" .9 \"float phimax\" 320\n";
+    case BodyKind::Paraboloid:
+      return "  Shape \"paraboloid\" \"float zmin\" .1\n";
+    case BodyKind::Hyperboloid:
+      return "  Shape \"hyperboloid\" \"point p1\" [.9 0 -.7] \"point p2\" [-.4 .6 .7]\n";
+    case BodyKind::HeightField:
+      return "  Translate -.8 -.8 0 Scale 1.6 1.6 .4\n  Shape \"heightfield\" \"integer nu\" 3 "
+             "\"integer nv\" 4 \"float Pz\" [0 .5 0  1 -.5 .2  0 .8 .3  -.4 0 1]\n";
+    case BodyKind::Nurbs:
+      return "  Shape \"nurbs\" \"integer nu\" 3 \"integer nv\" 3 \"integer uorder\" 3 \"integer "
+             "vorder\" 3 \"float uknots\" [0 0 0 1 1 1] \"float vknots\" [0 0 0 1 1 1] \"float "
+             "Pw\" [-1 -1 0 1  0 -1.4 .8 1.4  1 -1 0 1  -1 0 .5 1  0 0 2 2  1 0 .5 1  -1 1 0 1  0 "
+             ".6 .4 .6  1 1 0 1]\n";
     case BodyKind::Box:
       break;
   }

@@ -35,6 +35,7 @@ std::string MaterialText(const MaterialModel& material, bool hasBumps, int* next
 
 // Returns "[.1 .2 .3]", each channel times the factor.
 std::string ColourText(const Colour& colour, double factor);
-std::string ImageFile();  // a small image in the source tree
+std::string ImageFile();
+std::string MeasurementFile();  // of the material "measured"  // a small image in the source tree
 
 }  // namespace exphoton::random_scenes
