@@ -70,10 +70,12 @@ LoadOptions SceneOptions(const Options& options) {
 }
 
 // Place is a surface point with its frame: n points towards the viewer, s and t are tangential.
+// Photon maps hold a moving surface as it is at the start of its motion; toRest leads there.
 struct Place {
   Point3 p;
   Normal3 n;
   Vector3 s, t;
+  std::optional<Transform> toRest;  // only where the surface moves
 
   // Polar angle from the normal and azimuth about it, in degrees.
   double Polar(const Vector3& w) const {
@@ -93,12 +95,13 @@ Place FindPlace(const RenderSetup& setup, const PixelBounds& pixel) {
   const RayDifferential ray = setup.camera->GenerateRay(sample, false);
   const auto hit = setup.scene->Intersect(ray);
   if (!hit) FailUsage("no surface is visible at this pixel");
-  Place place{hit->p, FaceForward(hit->ng, -ray.d), {}, {}};
+  Place place{hit->p, FaceForward(hit->ng, -ray.d), {}, {}, {}};
   // s lies along the world's x axis, or along its z axis if the normal is nearly parallel to x.
   const Vector3 n(place.n);
   const Vector3 axis = std::abs(n.x) < Real(.9) ? Vector3(1, 0, 0) : Vector3(0, 0, 1);
   place.s = Normalize(axis - n * Dot(axis, n));
   place.t = Cross(n, place.s);
+  if (hit->motion) place.toRest = hit->motion->ToStart(hit->time);
   return place;
 }
 
@@ -158,12 +161,19 @@ std::size_t FindMap(const std::string& name, const std::vector<std::string>& map
             DidYouMean(name, maps));
 }
 
-// Returns the photons nearest to p in the map that the user chose. Preprocess must have run.
-std::vector<StoredPhoton> PhotonsAt(const Point3& p, std::size_t map, int count,
+// Returns the photons nearest to the place in the map that the user chose, as the surface is seen.
+// Preprocess must have run.
+std::vector<StoredPhoton> PhotonsAt(const Place& place, std::size_t map, int count,
                                     const RenderSetup& setup, Log& log) {
   const std::vector<std::string> maps = setup.integrator->PhotonMapNames();
+  const Point3 p = place.toRest ? place.toRest->ApplyPoint(place.p) : place.p;
   std::vector<StoredPhoton> photons;
   if (!maps.empty()) photons = setup.integrator->PhotonsNear(p, map, count);
+  if (place.toRest) {
+    const Transform fromRest = place.toRest->Inverted();
+    for (StoredPhoton& photon : photons)
+      photon.wi = NormalizeOr(fromRest.ApplyVector(photon.wi), photon.wi);
+  }
   if (photons.empty())
     log.Warning("integrator \"" + setup.integratorName + "\" has no " +
                 (maps.empty() ? "photon maps" : maps[map] + " photons in this scene"));
@@ -209,7 +219,7 @@ void PrintPhotonsAt(const std::vector<std::string>& arguments) {
                             {setup.film.xResolution, setup.film.yResolution},
                             setup.volumeIntegrator.get()};
   setup.integrator->Preprocess(*setup.scene, context);
-  const auto photons = PhotonsAt(place.p, map, options.count, setup, log);
+  const auto photons = PhotonsAt(place, map, options.count, setup, log);
   PrintOut(TableText(place, photons));
   if (!options.plotFile.empty()) WriteTextFile(options.plotFile, PlotText(place, photons));
 }

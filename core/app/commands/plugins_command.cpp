@@ -8,6 +8,7 @@
 #include "core/app/output/output_files.h"
 #include "core/app/study/study_scene.h"
 #include "core/base/log.h"
+#include "core/parser/language_page.h"
 #include "core/plugins/catalogue.h"
 
 namespace exphoton::cli {
@@ -15,7 +16,7 @@ namespace {
 
 // Overwrites an existing page only if its first line, which names the generator, matches.
 void WriteReference(const std::string& folder, PluginRegistry& registry) {
-  const auto pages = ReferencePages(registry);
+  const auto pages = AllReferencePages(registry);
   for (const auto& [file, page] : pages) {
     const std::string older = ReadTextFile(folder + "/" + file);
     if (older.empty() || older.substr(0, older.find('\n')) == page.substr(0, page.find('\n')))

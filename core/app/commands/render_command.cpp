@@ -68,7 +68,7 @@ class FileRenderer {
     }
     CheckOutputs(setups, index);
     for (std::unique_ptr<RenderSetup>& setup : setups) {
-      watch_.MustFinish() = false;
+      if (setup != setups.front()) watch_.Restart();
       RenderOne(*setup);
       setup.reset();
     }

@@ -3,10 +3,23 @@
 #include "core/app/options/option_parser.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdlib>
 
 #include "core/app/options/values.h"
 
 namespace exphoton::cli {
+namespace {
+
+// Returns a message for a number that does not fit 64 bits without a sign. CLI11 would wrap it.
+std::string FitsUnsigned(const std::string& text) {
+  errno = 0;
+  std::strtoull(text.c_str(), nullptr, 0);
+  const bool fits = text.find('-') == std::string::npos && errno != ERANGE;
+  return fits ? "" : text + " is not a whole number from 0 to 18446744073709551615";
+}
+
+}  // namespace
 
 OptionHandle& OptionHandle::TypeName(const std::string& name) {
   option_->type_name(name);
@@ -78,7 +91,7 @@ OptionHandle OptionParser::Add(const std::string& names, std::int64_t& target,
 }
 OptionHandle OptionParser::Add(const std::string& names, std::uint64_t& target,
                                const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return OptionHandle(implementation_->app.add_option(names, target, help)->check(FitsUnsigned));
 }
 OptionHandle OptionParser::Add(const std::string& names, float& target, const std::string& help) {
   return OptionHandle(implementation_->app.add_option(names, target, help));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/format.h"
+#include "core/render/sharing/sharing_plan.h"
 
 namespace exphoton::cli {
 namespace {
@@ -31,6 +32,13 @@ std::string Row(const std::string& label, const std::string& text) {
   return Format("%-13s ", label.c_str()) + text + "\n";
 }
 
+// Returns "" if sharing was not asked for.
+std::string SharingRow(const RenderSetup& setup) {
+  const SharingPlan plan = PlanSharing(*setup.integrator, *setup.scene, *setup.camera, {});
+  if (plan.reason.empty()) return "";
+  return Row("shared gather", (plan.isOn ? "on   " : "off  ") + plan.reason);
+}
+
 // Describes a phase of Statistics; "" for phases of plugins, which have descriptive names.
 const char* PhaseMeaning(const std::string& name) {
   const std::pair<const char*, const char*> meanings[] = {
@@ -40,6 +48,7 @@ const char* PhaseMeaning(const std::string& name) {
       {"photon maps", "sorting photons for searching, and choosing radii"},
       {"radiance", "computing the radiance at radiance photons"},
       {"render", "camera rays and all rays that follow from them"},
+      {"share", "sharing gathered light between neighbouring pixels"},
       {"write", "writing the picture"}};
   for (const auto& [known, meaning] : meanings)
     if (name == known) return meaning;
@@ -148,7 +157,8 @@ std::string ExplainText(const RenderSetup& setup) {
          Row("filter", setup.filterName) + Row("camera", setup.cameraName) +
          Row("accelerator", setup.acceleratorName) + Row("picture", Resolution(setup)) +
          Row("primitives", std::to_string(setup.scene->Primitives().Count())) +
-         setup.scene->Features().Describe() + computed + Row("plugins", plugins);
+         setup.scene->Features().Describe() + computed + SharingRow(setup) +
+         Row("plugins", plugins);
 }
 
 }  // namespace exphoton::cli

@@ -2,7 +2,6 @@
 // InterruptWatch polls the stop flag ten times a second, in a thread.
 #include "core/app/process/interrupt_watch.h"
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
@@ -36,6 +35,12 @@ InterruptWatch::~InterruptWatch() {
   if (thread_.joinable()) thread_.join();
 }
 
+void InterruptWatch::Restart() {
+  const std::lock_guard lock(mutex_);
+  start_ = Clock::now();
+  mustFinish_ = false;
+}
+
 void InterruptWatch::End(const char* message, int status) {
   std::fputs(message, stderr);
   RemoveTemporaryFiles();
@@ -43,12 +48,10 @@ void InterruptWatch::End(const char* message, int status) {
 }
 
 void InterruptWatch::Watch() {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
   std::unique_lock lock(mutex_);
   for (int seen = 0; !over_.wait_for(lock, kInterval, [this] { return isOver_; });) {
     if (mustFinish_) continue;
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     if (limitSeconds_ && seconds > *limitSeconds_)
       End("exphoton: error: the time limit of --limits is exceeded\n", int(ExitStatus::Resource));
     if (!StopFlag() || ++seen < kGraceIntervals) continue;

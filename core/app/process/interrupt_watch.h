@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -22,8 +23,12 @@ class InterruptWatch {
 
   // Set once there is something to write. The watch then leaves the process alone.
   std::atomic<bool>& MustFinish() { return mustFinish_; }
+  // Begins the work for the next result, with the whole time limit.
+  void Restart();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void Watch();
 
   [[noreturn]] void End(const char* message, int status);
@@ -31,7 +36,8 @@ class InterruptWatch {
   std::optional<double> limitSeconds_;
   std::atomic<bool> mustFinish_{false};
   bool isOver_ = false;
-  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;  // guards isOver_ and start_
   std::condition_variable over_;
   std::thread thread_;
 };

@@ -99,8 +99,8 @@ double FullWidth(std::vector<double> values) {
 
 // Returns the names of all phases, in the order of a render. Each phase has a colour.
 std::vector<std::string> PhaseNames(const Analysis& analysis) {
-  std::vector<std::string> names{"parse",    "accelerator", "shoot", "kd-trees",
-                                 "radiance", "render",      "write"};
+  std::vector<std::string> names{"parse",    "accelerator", "shoot", "photon maps",
+                                 "radiance", "render",      "share", "write"};
   for (const SettingResult& setting : analysis.settings)
     for (const auto& phase : setting.phases)
       if (phase.first != "other" &&
@@ -190,16 +190,16 @@ Html DoublingRows(const Results& results, const Analysis& analysis) {
                      return LineNumber(analysis, a.label) < LineNumber(analysis, b.label);
                    });
   Html rows;
-  for (const DoublingEffect& knob : costs)
+  for (const DoublingEffect& cost : costs)
     rows += Fill("doubling-row",
-                 {{"marker", LineMarker(LineNumber(analysis, knob.label))},
-                  {"label", knob.label},
-                  {"parameter", knob.parameter},
-                  {"seconds", (knob.secondsPerDoubling >= 0 ? "+" : "−") +
-                                  SecondsText(std::abs(knob.secondsPerDoubling))},
-                  {"error", (knob.errorFactor >= 1 ? "+" : "−") +
-                                ShortNumber(100 * std::abs(knob.errorFactor - 1)) + " %"},
-                  {"pairs", knob.pairs}});
+                 {{"marker", LineMarker(LineNumber(analysis, cost.label))},
+                  {"label", cost.label},
+                  {"parameter", cost.parameter},
+                  {"seconds", (cost.secondsPerDoubling >= 0 ? "+" : "−") +
+                                  SecondsText(std::abs(cost.secondsPerDoubling))},
+                  {"error", (cost.errorFactor >= 1 ? "+" : "−") +
+                                ShortNumber(100 * std::abs(cost.errorFactor - 1)) + " %"},
+                  {"pairs", cost.pairs}});
   return rows;
 }
 
@@ -291,11 +291,12 @@ Html PriceSection(const Results& results, const Analysis& analysis) {
   for (std::size_t i = 0; i < analysis.lines.size(); ++i)
     lines += Fill("price-line", {{"marker", LineMarker(i)}, {"label", analysis.lines[i].label}});
   for (const double target : results.targets) rows += PriceRow(results, analysis, target);
-  const Html knobs = DoublingRows(results, analysis);
-  return Fill("price-section",
-              {{"lines", lines},
-               {"rows", rows},
-               {"doubling", knobs.IsEmpty() ? Html() : Fill("doubling", {{"rows", knobs}})}});
+  const Html doublings = DoublingRows(results, analysis);
+  return Fill(
+      "price-section",
+      {{"lines", lines},
+       {"rows", rows},
+       {"doubling", doublings.IsEmpty() ? Html() : Fill("doubling", {{"rows", doublings}})}});
 }
 
 }  // namespace exphoton::study

@@ -98,7 +98,6 @@ class ReferenceMaker {
     const int samples = NextSamples();
     State next = state_;
     ++next.rounds;
-    next.samples += samples;
     const char halves[] = {'a', 'b'};
     Image images[2];
     for (int i = 0; i < 2; ++i) {
@@ -113,9 +112,11 @@ class ReferenceMaker {
       fs::remove(picture.path, ignored);
       next.wallSeconds += picture.row.wallSeconds;
       next.cpuSeconds += picture.row.cpuSeconds;
+      const double rendered = picture.row.samplesPerPixel;  // samplers round the requested number
+      next.samples = state_.samples + rendered;
       if (state_.rounds > 0)
         images[i] = Average(ReadExr(folder_.Path() + "/" + Half(halves[i])), state_.samples,
-                            images[i], samples);
+                            images[i], rendered);
       images[i].attributes["samplesPerPixel"] = int(next.samples);
       images[i].attributes["seed"] = std::string("several: the mean of independent renders");
     }

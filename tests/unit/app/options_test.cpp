@@ -147,6 +147,10 @@ TEST(RenderOption, RefusesValuesOutOfRange) {
         Words{"--effects", "caustics=maybe"}, Words{"--limits", "memory=2"},
         Words{"--aov", "Colour"}, Words{"--unknown"}})
     EXPECT_NE(ErrorOfOptions(words), "") << words[0] << ' ' << words.back();
+  for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999"})
+    EXPECT_EQ(
+        ErrorOfOptions({"--seed", seed}),
+        "--seed: " + std::string(seed) + " is not a whole number from 0 to 18446744073709551615");
   for (const char* error : {"0", "-1", "1e9", "nan"})
     EXPECT_EQ(ErrorOfOptions({"--target-error", error}), "--target-error takes a number above 0")
         << error;

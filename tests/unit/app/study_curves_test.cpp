@@ -57,6 +57,50 @@ TEST(StudyCurves, TheErrorOfATimeComesFromThoseOfItsPoints) {
   EXPECT_NEAR(t.seconds.error, .1 * t.seconds.value, 1e-9);
 }
 
+// A tenth of the error costs a hundredfold time, and the target is a third of the way, so that no
+// two terms are equal.
+TEST(StudyCurves, TheErrorOfATimeDependsOnTheSlope) {
+  const double target = std::pow(.1, 1. / 3);
+  const auto relative = [&](const CostPoint& a, const CostPoint& b) {
+    const TimeToError t = FindTimeToError({a, b}, target);
+    EXPECT_NEAR(t.seconds.value, std::pow(100, 1. / 3), 1e-9);
+    return t.seconds.error / t.seconds.value;
+  };
+  EXPECT_NEAR(relative(At(1, 1, .03), At(100, .1)), .02, 1e-9);
+  EXPECT_NEAR(relative(At(1, 1), At(100, .1, 3)), .01, 1e-9);
+  EXPECT_NEAR(relative(At(1, 1, 0, .03), At(100, .1)), .04, 1e-9);
+  EXPECT_NEAR(relative(At(1, 1), At(100, .1, 0, .003)), .02, 1e-9);
+  EXPECT_NEAR(relative(At(1, 1, kUnknown, .03), At(100, .1, kUnknown, kUnknown)), .04, 1e-9);
+}
+
+TEST(StudyCurves, TimeToAnErrorUsesThePartOfTheFrontThatHoldsIt) {
+  // In any order, and with a point that others beat.
+  const std::vector<CostPoint> points{At(100, .01), At(3, 1.5), At(1, 1), At(10, .5)};
+  EXPECT_NEAR(FindTimeToError(points, .5).seconds.value, 10, 1e-9);
+  EXPECT_NEAR(FindTimeToError(points, std::sqrt(.5)).seconds.value, std::sqrt(10), 1e-9);
+  EXPECT_NEAR(FindTimeToError(points, std::sqrt(.005)).seconds.value, std::sqrt(1000), 1e-9);
+  EXPECT_EQ(FindTimeToError(points, 1).kind, Kind::Reached);
+  EXPECT_EQ(FindTimeToError(points, 1).seconds.value, 1);
+}
+
+TEST(StudyCurves, AKnobsPriceLeavesOutWhatIsNotComparable) {
+  const auto setting = [](const char* label, const char* rays, const char* kernel) {
+    return Setting{label, "x", {{"rays", rays}, {"kernel", kernel}}};
+  };
+  // 16 to 4 is compared in the order of the values. "z" has no second value with the same kernel.
+  const std::vector<Setting> settings{setting("y", "16", "cone"), setting("y", "4", "cone"),
+                                      setting("y", "8", "cone"),  setting("z", "4", "cone"),
+                                      setting("z", "8", "disk"),  setting("y", "0", "cone")};
+  const std::vector<CostPoint> points{At(10, .1), At(2, .8),        At(1, kUnknown),
+                                      At(1, 1),   At(100, .000001), At(1, 1)};
+  const std::vector<DoublingEffect> costs = FindDoublingEffects(settings, points);
+  ASSERT_EQ(costs.size(), 1u);
+  EXPECT_EQ(costs[0].label, "y");
+  EXPECT_EQ(costs[0].pairs, 1);
+  EXPECT_DOUBLE_EQ(costs[0].secondsPerDoubling, 4);
+  EXPECT_NEAR(costs[0].errorFactor, std::sqrt(.125), 1e-12);
+}
+
 TEST(StudyCurves, ARatioAddsRelativeErrorsInSquares) {
   const Measured ratio = Ratio({8, .4}, {2, .1});
   EXPECT_DOUBLE_EQ(ratio.value, 4);
@@ -158,6 +202,48 @@ TEST(StudyHeadline, OfSingleSettingsNamesTheMostEfficient) {
   EXPECT_EQ(analysis.headline.find("efficient"), std::string::npos) << analysis.headline;
 }
 
+TEST(StudyHeadline, WithoutAReferenceSpeaksOfNoise) {
+  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
+  analysis.hasReference = false;
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_EQ(analysis.headline,
+            "On room, fast reaches a noise (without bias) of 0.01 in 10 s, slow in 70 s (7 ± 0×).");
+}
+
+TEST(StudyHeadline, WithoutACommonErrorNamesTheLeastOnes) {
+  Analysis analysis = TwoLines({At(1, .1), At(10, .06)}, {At(7, 4), At(70, 2)});
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_EQ(
+      analysis.headline,
+      "On room, no error was reached by two lines. Least errors: fast 0.06 in 10 s, slow 2 in "
+      "70 s.");
+}
+
+TEST(StudyHeadline, SaysWhereALineWasMoreAccurateFromTheStart) {
+  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
+  analysis.lines.push_back({"fine", {analysis.settings.size()}, {}});
+  SettingResult fine;
+  fine.cost = At(90, .005);
+  analysis.settings.push_back(fine);
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_NE(analysis.headline.find(", fine in at most 90 s."), std::string::npos)
+      << analysis.headline;
+}
+
+TEST(StudyHeadline, NamesAtMostThreeEfficiencies) {
+  Analysis analysis = TwoLines({At(1, .1)}, {At(2, .1)});
+  for (const double seconds : {4., .5, 8.}) {
+    analysis.lines.push_back({"in " + SecondsText(seconds), {analysis.settings.size()}, {}});
+    SettingResult setting;
+    setting.cost = At(seconds, .1);
+    analysis.settings.push_back(setting);
+  }
+  WriteHeadline(Titled(), &analysis);
+  EXPECT_EQ(analysis.headline,
+            "On room, “in 0.5 s” is 2 ± 0 times as efficient (1 / (error × seconds)) as fast; next "
+            "are “slow” with 0.5 ± 0, “in 4 s” with 0.25 ± 0.");
+}
+
 TEST(StudyMarkup, EncodesBase64AsRfc4648DoesInItsExamples) {
   EXPECT_EQ(Base64(""), "");
   EXPECT_EQ(Base64("f"), "Zg==");
@@ -186,6 +272,15 @@ TEST(StudyMarkup, ShortNumbersKeepTheirDigits) {
   EXPECT_EQ(ShortNumber(0), "0");
   EXPECT_EQ(SecondsText(9.83), "9.8 s");
   EXPECT_EQ(SecondsText(640), "10.7 min");
+  EXPECT_EQ(SecondsText(99), "99 s");
+  EXPECT_EQ(SecondsText(99.9), "1.7 min");
+  EXPECT_EQ(SecondsText(5950), "1.7 h");
+  EXPECT_EQ(ShortNumber(-.5), "−0.5");
+  EXPECT_EQ(ShortNumber(kUnknown), "–");
+  EXPECT_EQ(ShortNumber(.00005), "5.0e-05");
+  EXPECT_EQ(ShortNumber(.0001), "0.0001");
+  EXPECT_EQ(ShortNumber(1e5), "1.0e+05");
+  EXPECT_EQ(ShortNumber(.01264, 3), "0.0126");
 }
 
 }  // namespace

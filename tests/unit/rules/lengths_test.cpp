@@ -23,19 +23,12 @@ constexpr int kFileLines = 400, kFunctionLines = 50, kArguments = 5;
 // CONTRIBUTING.md states why each may be longer.
 const std::set<std::string> kLongFunctions{
     "integrators/photon/photon_settings.cpp PhotonParameters",  // a table of parameters
-    // Tests that write one formula out for many kinds.
-    "tests/unit/lights/light_formulas_test.cpp TEST",
-    "tests/unit/photon/photon_estimates_test.cpp TEST_F",
 };
 const std::set<std::string> kManyArguments{
     // Kernels: a struct would pass through memory what registers hold.
     "accelerators/bvh/traverse/real8.inl Push",
     "core/spatial/closest_disk.inl Descend",
     "integrators/photon/gather/cone_directions_simd.cpp Count",
-    // Integrators whose threads pass their working space piece by piece.
-    "integrators/bidirectional.cpp AddVertex",
-    "integrators/irradiance/irradiance_estimate.cpp EstimateIrradiance",
-    "integrators/lightpaths/light_path.cpp LightPathTracer::Trace",
     // The C library fixes the arguments.
     "tests/hardcases/preload/failing_allocations.cpp __libc_start_main",
 };
