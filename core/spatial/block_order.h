@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // BlockOrder sorts records so that every aligned run of 16, 256, 4096 ... records is spatially
 // compact. It splits near the median along the longest axis, as a k-d tree does (Bentley 1975).
-// Split positions are multiples of these lengths, so only the last run of a length may be short.
+// A span is split at a multiple of the longest of these lengths that is shorter than the span, so
+// only the last run of a length may be short.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +27,13 @@ class BlockOrder {
   static void Sort(std::span<Record> records, ThreadPool& threads) {
     Sort({&records, 1}, threads, [](std::span<Record>, std::size_t, std::size_t) {});
   }
-  // Sorts several sets independently. The first splits of one set offer too little work for all
-  // threads, so all sets are sorted together. finish is called once for every piece of a set, from
-  // any thread. A piece begins at a multiple of kBlockPoints and ends at a multiple or at the end
-  // of the set.
+  // Sorts several sets, each by itself, at the same time: the first splits of a single set offer
+  // too little work for all threads. finish is called once for every piece of a set, from any
+  // thread. A piece may be empty. It begins at a multiple of kBlockPoints and ends at a multiple or
+  // at the end of the set.
   static void Sort(std::span<const std::span<Record>> sets, ThreadPool& threads,
                    const Finish& finish) {
+    // Enough pieces for many threads. One set of 64 pieces needs 6 rounds.
     constexpr std::size_t kMinPieces = 64;
     std::vector<Piece> pieces;
     for (std::size_t set = 0; set < sets.size(); ++set) pieces.push_back({sets[set], set, 0});
@@ -66,8 +68,8 @@ class BlockOrder {
     }
   }
 
-  // Partitions the records at a multiple of the longest run that is shorter than the span. Returns
-  // the index of the split.
+  // Partitions the records near their median, at a multiple of the longest of the lengths 16, 256,
+  // 4096 ... that is shorter than the span. Returns the index of the split.
   static std::size_t Split(std::span<Record> records) {
     if (records.size() <= kBlockPoints) return records.size();
     std::size_t run = kBlockPoints;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Part of nearest_search_simd.cpp: the search for the closest disk that covers a point, for one
-// query (ClosestTraversal) and for batches of 16 (BatchedClosestSearch).
+// Part of nearest_search_simd.cpp: of the disks that cover a point and face the same way, the
+// search for the one with the closest centre, for one query (ClosestTraversal) and for batches of
+// 16 (BatchedClosestSearch).
 
 // The data that all queries of one call share.
 struct Disks {
   const PointTreeView& view;
   const ClosestLimits& limits;
 
-  // The initial best: no point, and the search radius as its squared distance.
+  // Returns the best result before any disk is found: no point, and the squared search radius as
+  // its distance.
   ClosestPoint None() const { return {std::min(limits.maxRadius2, kLargest), ClosestPoint::kNone}; }
 
   // Returns the block where the search begins, or kNone if nothing can be found. The block from the
@@ -67,7 +69,8 @@ class ClosestTraversal {
   ClosestTraversal(const Disks& disks, const ClosestQuery& query)
       : disks_(disks), query_(query), p_(query.p), top_(disks.view.tree->Levels() - 1) {}
 
-  // Returns the closest disk of all blocks. `best` must be the closest disk of block `first`.
+  // Returns the closest disk of all blocks. Block `first` must already be scanned; `best` is the
+  // closest disk so far.
   ClosestPoint After(std::uint32_t first, const ClosestPoint& best) {
     best_ = best;
     for (int level = 0; level <= top_; ++level, first >>= 4) {
@@ -99,7 +102,7 @@ class ClosestTraversal {
   }
 
   // Returns the lanes whose boxes may hold a better disk. A box qualifies if it is nearer than the
-  // best disk, or equally near with indices that may be lower.
+  // best disk, or equally near with indices that may be lower: ties go to the lowest index.
   unsigned Promising(int level, unsigned lanes) const {
     const Real16 best2 = Real16::All(best_.distance2);
     lanes &= LessEqualMask(boxes_[level], best2);
@@ -131,8 +134,9 @@ inline ClosestPoint ClosestToOne(const Disks& disks, const ClosestQuery& query) 
 }
 
 // Runs up to 16 queries at a time. Each query first scans its entry block. Then all queries descend
-// the BVH level by level. One list holds pairs of a query and a box no farther than its best disk.
-// Hardly any branch depends on a single query, so the processor can overlap several.
+// the BVH level by level. The list of a level holds pairs of a query and a box that is no farther
+// than the query's best disk. Hardly any branch depends on a single query, so the processor can
+// overlap several.
 class BatchedClosestSearch {
  public:
   static constexpr std::size_t kMaxQueries = 16;
@@ -151,7 +155,7 @@ class BatchedClosestSearch {
       disks.Scan(first_[i], queries[i], &best[i]);
       // In a corner, the entry block often belongs to the other wall and has no valid disk. A valid
       // disk usually lies within a quarter of the distance to the block's farthest point, so this
-      // radius is tried first. An unlimited radius would overflow the list.
+      // radius is tried first. A larger radius would put too many boxes on the list.
       if (best[i].index == ClosestPoint::kNone)
         best[i].distance2 =
             std::min(best[i].distance2, kGuess2 * disks.Farthest2(first_[i], queries[i].p));
@@ -189,7 +193,8 @@ class BatchedClosestSearch {
     std::size_t count = 0;
     for (const std::uint32_t item : from) {
       const std::uint32_t q = QueryOf(item), node = NodeOf(item);
-      // The list is full. The single-query traversal shrinks its radius as it goes.
+      // The list is full, so the query is left to the traversal for single queries. That needs no
+      // list, because it finds near disks first.
       if (count > kListCapacity) {
         unbatchedQueries_ |= 1u << q;
         continue;
@@ -206,7 +211,7 @@ class BatchedClosestSearch {
   }
 
   static constexpr std::size_t kListCapacity = 256;
-  static constexpr Real kGuess2 = Real(1) / 16;  // a factor of two changes little
+  static constexpr Real kGuess2 = Real(1) / 16;  // twice or half of it is about as fast
   std::uint32_t first_[kMaxQueries];
   unsigned unbatchedQueries_;  // bit i: query i needs a ClosestTraversal
   std::uint32_t lists_[2][kListCapacity + 2 * kBlockPoints];

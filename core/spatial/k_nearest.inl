@@ -50,8 +50,8 @@ class Candidates {
   // KthBetween then selects among the candidates left between the last two pivots.
   Real KthDistance2() const {
     constexpr int kMaxPivots = 6;
-    // The k-th distance is in (low2, high2]. Candidates kept by an earlier cut may lie one step
-    // beyond limit2_, so high2 includes them.
+    // The k-th distance is in (low2, high2]. Candidates kept by an earlier cut may lie at the next
+    // number above limit2_, so high2 includes them.
     Real low2 = -1, high2 = NextUp(limit2_);
     std::size_t below = 0, upTo = count_;
     for (int i = 0; i < kMaxPivots && upTo > k_; ++i) {
@@ -113,15 +113,16 @@ class Candidates {
   void Cut() {
     PadToVector();
     const Real kth2 = KthDistance2();
-    std::size_t spare = k_ - CountWithin(NextDownFrom(kth2));  // kept candidates at distance kth2
+    // How many of the candidates at distance kth2 are still to be kept.
+    std::size_t ties = k_ - CountWithin(NextDownFrom(kth2));
     std::size_t kept = 0;
     const Real16 kth = Real16::All(kth2);
     for (std::size_t i = 0; i < count_; i += kBlockPoints) {
       const Real16 values = Real16::LoadUnaligned(distance2_ + i);
       unsigned mask = LessMask(values, kth);
-      for (unsigned equal = EqualMask(values, kth); equal != 0 && spare > 0; equal &= equal - 1) {
+      for (unsigned equal = EqualMask(values, kth); equal != 0 && ties > 0; equal &= equal - 1) {
         mask |= equal & -equal;
-        --spare;
+        --ties;
       }
       kept += KeepLanes(values, mask, index_ + i, distance2_ + kept, index_ + kept);
     }
@@ -139,9 +140,9 @@ class Candidates {
   Real limit2_;
 };
 
-// Offers every point within the limit to the candidates. measureBoxes(node) returns the squared
-// distances of the children. measure(block, &distance2) returns the mask of the lanes that may be
-// offered.
+// Offers every point within the limit to the candidates, in the order of their indices.
+// measureBoxes(node) returns the squared distances of the children. measure(block, &distance2)
+// returns the mask of the lanes that may be offered.
 template <class MeasureBoxes, class Measure>
 inline void Collect(const PointTreeView& view, Candidates* candidates, MeasureBoxes&& measureBoxes,
                     Measure&& measure) {
@@ -211,7 +212,7 @@ inline void CollectFor(const PointTreeView& view, const NearestQuery& query, con
 }
 
 // The first radius is expected to contain somewhat more than k points. It grows until k points are
-// found, so the search rarely visits far more than k points.
+// found or the largest radius is reached, so the search rarely visits far more than k points.
 NearPoints KNearest(const PointTreeView& view, const NearestQuery& query,
                     const NearBuffer& buffer) {
   if (view.count == 0 || !IsFinite(query.p)) return {};

@@ -11,6 +11,8 @@
 namespace exphoton {
 namespace {
 
+// A run is a sequence of kSpacingPoints points that share one value of spacing2. spacing2 is the
+// squared distance to the k-th neighbour divided by k. On a surface this hardly depends on k.
 constexpr std::uint32_t kRunBlocks = PointTreeView::kSpacingPoints / kBlockPoints;
 constexpr std::uint32_t kNeighbours = 32;
 // Lower bound of spacing2, relative to the squared diagonal of all points. It keeps the first
@@ -38,8 +40,7 @@ EntryGrid::EntryGrid(const PointTreeView& view, std::size_t cells, ThreadPool& t
   const Vector3 size = bounds.Diagonal();
   const Real longest = MaxComponent(size);
   origin_ = bounds.min;
-  // Finds the largest number of cells along the longest side for which the total is at most
-  // `cells`.
+  // Sets counts_ for this number of cells along the longest side, and returns their total.
   const auto countsFor = [&](std::uint32_t along) {
     std::size_t total = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,6 +49,7 @@ EntryGrid::EntryGrid(const PointTreeView& view, std::size_t cells, ThreadPool& t
     }
     return total;
   };
+  // The largest number along the longest side for which the total is at most `cells`.
   std::uint32_t along = 0;
   const bool isExtended = longest > 0 && std::isfinite(longest) && std::isfinite(1 / longest);
   for (std::uint32_t step = std::uint32_t(1) << 12; isExtended && step > 0; step /= 2)

@@ -15,8 +15,8 @@ struct IrradianceEstimate {
   Real meanDistance = kInfinity;                 // harmonic mean of the rays' lengths
 };
 
-// The place of an estimate. n is a unit normal of the surface's shading frame. Rays that would start
-// behind ng are reversed, so that diffuse lobes scatter by the absolute cosine, as in Bsdf.
+// The place of an estimate. n is a unit normal of the surface's shading frame. Rays that would
+// start behind ng are reversed, so that diffuse lobes scatter by the absolute cosine, as in Bsdf.
 struct IrradianceQuery {
   const SurfacePoint& surface;
   Normal3 n;

@@ -37,7 +37,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const override;
 
  private:
-  // The stream of random numbers for the hits of gather rays.
+  // The stream of random numbers for the hits of gather rays ("rad" in ASCII).
   static constexpr std::uint64_t kGatherRayStream = 0x726164ull;
 
   // The steps of Preprocess.
@@ -47,13 +47,18 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   void ComputeRadiancePhotons(const Scene& scene, PhotonPassResult* photons,
                               PreprocessContext& context);
 
-  // Each function returns one term of Li: radiance that the non-specular lobes scatter towards wo.
+  // The terms of Li beside emission and specular light. Each is the radiance that the non-specular
+  // lobes scatter towards wo.
   Spectrum Direct(const ShadingPoint& point, LiContext& context) const;
   Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;
   Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
-  // Returns the radiance from the one map that the parameter "show" selects; the other terms are 0.
+
+  // If the parameter "show" selects one map, Li is this instead: the light from that map, as the
+  // term it belongs to, and no other light.
   SurfaceLight Shown(const ShadingPoint& point, LiContext& context) const;
+  // Returns the radiance of the closest radiance photon.
   Spectrum ShownRadiance(const ShadingPoint& point) const;
+
   // Writes the AOV of photon density. Only the first hit of a camera ray counts.
   void FillDensity(const ShadingPoint& point, LiContext& context) const;
 
@@ -61,7 +66,8 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   DirectLighting direct_;
   FinalGather gather_;
   bool gathers_ = false;  // whether indirect light is gathered; false: read from its map
-  std::unique_ptr<const LightSampler> lights_;  // for the glossy lobes at gather hits
+  // Samples the direct light that glossy lobes reflect where gather rays hit.
+  std::unique_ptr<const LightSampler> lights_;
   PhotonMapSet maps_;
   std::unique_ptr<RadiancePhotonMap> radianceMap_;  // null: no radiance photons
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// WriteBvh assigns a position to every node and leaf first. Upper nodes and the trees below them
-// follow each other in depth-first order, with sizes counted in advance. Threads then write the
-// trees. Upper nodes are written last, from the last to the first, because each needs the blocking
-// estimates of its children.
+// WriteBvh assigns a position to every node and leaf first. Subtrees of at most kBvhPieceItems
+// items are called trees here; the nodes above them are upper nodes. Both follow each other in
+// depth-first order, with sizes counted in advance. Threads then write the trees. Upper nodes are
+// written last, from the last to the first, because each needs the Blocking of its children: the
+// estimated chance that a child blocks a shadow ray, and the cost of finding out (child_order.h).
 #include "accelerators/bvh/build/bvh_write.h"
 
 #include <algorithm>
@@ -30,7 +31,8 @@ struct Children {
   }
 
  private:
-  // Replaces a child by at most `most` nodes below it, `share` of them from its lower half.
+  // Replaces a child by at most `most` nodes below it, `share` of them from its lower half. It
+  // stays as it is if `share` is 0.
   void Open(std::span<const BvhPlanNode> plan, int child, int most, int share) {
     if (share == 0) return;
     const std::uint32_t node = nodes[child];
@@ -86,7 +88,7 @@ class Writer {
   // Part is an upper node with its leaves, or a whole tree.
   struct Part {
     std::uint32_t node = 0;          // index in the plan
-    int depth = 1;                   // depth of its deepest node
+    int depth = 1;                   // of the upper node, or of the deepest node of the tree
     Extent extent;                   // its size; after Place(), its position
     std::vector<std::size_t> below;  // upper nodes: the part of each child that is no leaf
     Written written;
@@ -139,7 +141,7 @@ class Writer {
   }
 
   void Place() {
-    Extent end{0, 1};  // the empty list comes first
+    Extent end{0, 1};  // the list at position 0 is empty, for missing children
     for (Part& part : parts_) {
       const Extent extent = part.extent;
       part.extent = end;
@@ -221,7 +223,7 @@ class Writer {
       for (const BvhItem& item : items) *list++ = item.id;
       return {BvhChild(BvhChild::Kind::Others, std::uint32_t(place.others)), kOtherBlocking};
     }
-    // Lower ids come first: of hits at equal t, the first one found stays.
+    // Lower ids come first, because they win among hits at equal t (scene/hit_order.h).
     std::sort(items.begin(), items.end(),
               [](const BvhItem& a, const BvhItem& b) { return a.id < b.id; });
     std::array<std::uint32_t, kBvhWidth> ids;
@@ -234,8 +236,8 @@ class Writer {
     }
     new (&arrays_.lines[place.lines])
         BvhBlock(MakeBlock(primitives_, std::span(ids).first(items.size())));
-    // A random line that meets a convex body of surface area 2 h meets a flat piece inside it with
-    // probability 2 area / (2 h).
+    // A random line that meets a convex body of surface area S meets a flat piece of area A inside
+    // it with probability 2 A / S. Here S is twice the half area.
     const double halfArea = HalfArea(leaf.bounds);
     return {BvhChild(BvhChild::Kind::Triangles, std::uint32_t(place.lines)),
             {halfArea > area ? area / halfArea : 1, 1}};

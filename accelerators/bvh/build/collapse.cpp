@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
+// The recurrence for the least cost of a subtree: either it becomes a single node or leaf, or its
+// slots are divided between its halves in the best way.
 #include "accelerators/bvh/build/collapse.h"
 
 #include <limits>
@@ -22,7 +24,8 @@ Collapse CollapseLeaf(double halfArea) {
 Collapse CollapseHalves(double halfArea, bool canBeLeaf, const ForestCost& lower,
                         const ForestCost& upper) {
   Collapse best;
-  ForestCost opened;  // cost as at least two children
+  // Element k - 1: the least cost if the halves share k slots.
+  ForestCost opened;
   std::array<int, kBvhWidth> shares{};
   opened.fill(std::numeric_limits<double>::infinity());
   for (int k = 2; k <= kBvhWidth; ++k) {

@@ -4,8 +4,9 @@
 // (triangle_single.h), so it accepts the same hits and returns the same values.
 
 // BlockHits is the result for a block, with one bit per triangle in each mask. Possible: the
-// triangle may be hit. Crossed: the ray's line certainly crosses it, so the sign of the determinant
-// is right. Sure: it is certainly hit, and the values are those of HitInSingle.
+// triangle may be hit. Crossed: the ray's line certainly crosses it, so the computed determinant
+// has the right sign. Sure: it is certainly hit, and the values are those of HitInSingle. e1 and e2
+// are edge functions; divided by the determinant they are barycentric coordinates.
 struct BlockHits {
   unsigned possible = 0, crossed = 0, sure = 0;
   Real8 t, e1, e2, determinant;
@@ -22,7 +23,8 @@ struct BlockRay {
         sx(Real8::All(ray.sx)), sy(Real8::All(ray.sy)), sz(Real8::All(ray.sz)), kx(ray.kx),
         ky(ray.ky), kz(ray.kz), sureLanes(kHitsInSingle && MayHitInSingle(ray) ? ~0u : 0u) {}
 
-  // Leaves out triangles that are certainly beyond tMax or behind the origin.
+  // Returns the triangles that may be hit at t in (0, tMax]. Left out are those that the ray's line
+  // certainly misses, and those certainly beyond tMax or behind the origin.
   BlockHits Hits(const BvhBlock& block, Real tMax) const {
     Real8 x[3], y[3], z[3], e[3];
     for (int v = 0; v < 3; ++v) {
@@ -37,6 +39,8 @@ struct BlockRay {
     const Real8 zero = Real8::All(Real(0));
     const Real8 least = Min(Min(e[0], e[1]), e[2]), most = Max(Max(e[0], e[1]), e[2]);
     BlockHits hits;
+    // An edge function in single precision has the right sign or is 0 (MissesTriangle in
+    // triangle_double.h), so two of opposite signs prove a miss.
     hits.possible = PresentMask(block.ids) & ~(LessMask(least, zero) & LessMask(zero, most));
     if (hits.possible == 0) return hits;
     if (!kHitsInSingle) {  // t lies between the vertices' t
@@ -63,8 +67,9 @@ struct BlockRay {
     // This test implies t (1 - kSingleError) > tMax, whatever the rounding.
     const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
     // HitInDouble finds the same sign of the volume. The error of the volume is less than
-    // Gamma(7) 6 X Y Z plus the underflow of its products. Underflow in the edges is negligible
-    // where the line crosses the triangle, because X Y exceeds 2^-76 there.
+    // Gamma(7) 6 X Y Z plus the underflow of its products; Gamma(12) leaves room for rounding in
+    // the bound itself. Underflow in the edges is negligible where the line crosses the triangle:
+    // least * most is not 0 there, so an edge exceeds 2^-75, and an edge is at most 2 X Y.
     const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(Square(kLeastSingle));
     const unsigned isBehind = hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
     hits.possible &= ~(isBeyond | isBehind);

@@ -2,13 +2,14 @@
 // The traversal of the BVH. This file is part of traverse_simd.cpp, which defines before it the
 // vectors of a SIMD target (core/math/simd/reals.inl, real8.inl).
 //
-// Rays enter boxes wherever rounding might have put a hit. The computed hit at t may lie up to
+// A ray enters every box that a computed hit of it may lie in. The computed hit at t may lie up to
 // slope * t off the ray on each axis, with slope = kBvhMargin * |d|. The ray is thus a thin cone.
 // It crosses a plane at the earliest at (plane - o) / (|d_axis| + slope) and at the latest at
 // (plane - o) / (|d_axis| - slope). If the ray is perpendicular to an axis within the slope, planes
 // are instead moved by the cone's largest spread in the scene.
 
-// Whether SIMD code may accept hits.
+// Whether the SIMD code, which computes in single precision, may accept hits by itself. If not, it
+// only rules triangles out.
 constexpr bool kHitsInSingle = kAcceptsSinglePrecision;
 
 // Force-inline lambdas: an out-of-line call would spill the SIMD registers.
@@ -30,12 +31,14 @@ inline auto CornersOf(const BvhBlock& block, int lane) {
 constexpr std::size_t kStackSize = std::size_t(kBvhMaxDepth) * (kBvhWidth - 1) + 2 * kBvhWidth;
 
 // Visits the leaves along the ray: closest-hit rays from near to far, shadow rays in the blocking
-// order. visit(child) tests a leaf and returns the t beyond which no hit matters any more; a hit at
-// exactly this t still matters. A negative t ends the traversal.
+// order. visit(child) tests a leaf and returns the largest t at which a hit still matters. A
+// negative t ends the traversal.
 template <bool kIsAny, class BoxRay, class Visit>
 [[gnu::always_inline]] inline void Walk(const BvhArrays& arrays, const TraceRay& trace,
                                         const BoxRay& ray, const Visit& visit) {
-  // The nearest child is on top of the stack. The opposite direction reads an order backwards.
+  // The nearest child is on top of the stack. Bit i of `backward` says that the ray points down
+  // axis i. A node stores the orders of four of the eight octants of directions; the opposite
+  // octants read them backwards.
   const unsigned backward = ray.rows.backward;
   const bool isOpposite = !kIsAny && backward & 4;
   const PushOrder order(isOpposite);
@@ -85,16 +88,17 @@ template <bool kIsAny, class Visit>
   }
 }
 
-// Computes the distance that orders the nearest hit, in double precision, if it is unknown.
+// Computes the distance of the nearest hit in double precision, by which hits are ordered. It is
+// known already if low equals high.
 [[gnu::noinline]] void FindDistance(const TriangleRay& ray, NearestHit* nearest) {
   if (nearest->low == nearest->high) return;
   const auto found = HitInDouble(ray, kInfinity, CornersOf(*nearest->block, nearest->lane));
   if (found) nearest->low = nearest->high = found->t;
 }
 
-// Returns whether HitInDouble rejects a triangle, which the ray's line crosses with this
-// determinant, because it lies behind the ray's origin. Most often it is the triangle that the ray
-// starts on.
+// Returns whether a triangle lies behind the ray's origin, so that HitInDouble rejects it. The
+// ray's line must cross the triangle, with this determinant. Most often the ray starts on the
+// triangle.
 inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Real determinant) {
   return PlaneIsBehind(ray.o, CornersOf(block, lane), -double(determinant) * double(ray.sz));
 }
@@ -103,7 +107,8 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
 [[gnu::noinline]] void TestInDouble(const BvhBlock& block, int lane, const TriangleRay& ray,
                               NearestHit* nearest) {
   const std::uint32_t id = block.ids[lane];
-  if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;  // tested before
+  // The same triangle may have been found in another leaf.
+  if (id == nearest->hit.primitive && nearest->hit.instance == kNoId) return;
   const auto corners = CornersOf(block, lane);
   const auto found = HitInDouble(ray, nearest->high, corners);
   if (!found) return;
@@ -111,6 +116,8 @@ inline bool IsBehind(const BvhBlock& block, int lane, const TriangleRay& ray, Re
   Hit ordered = nearest->hit;
   ordered.t = nearest->high;
   if (!Wins(found->t, kNoId, id, ordered)) return;
+  // Hits are ordered by the distance in double precision. The reported one is in single precision
+  // where possible, as in SIMD code, so that it does not depend on which code found it.
   const TriangleHit reported = HitInSingle(ray, corners).value_or(*found);
   nearest->hit = {reported.t, {reported.b1, reported.b2}, id, kNoId};
   nearest->low = nearest->high = found->t;

@@ -12,30 +12,30 @@
 namespace exphoton {
 namespace {
 
-// Shortens v so that squared distances stay finite.
-Vector3 Within(const Vector3& v) {
+// Returns v, shortened if squared distances would not stay finite.
+Vector3 Shortened(const Vector3& v) {
   constexpr Real kFarthest = Real(1e18);
   const Real length = MaxComponent(Abs(v));
   return length > kFarthest ? v * (kFarthest / length) : v;
 }
 
-// Returns the largest expected count e that n significantly exceeds: n > 2 e + sqrt(e), which is
-// twice as many and not by chance.
-Real ClearlyExceeded(Real n) { return Square((std::sqrt(1 + 8 * n) - 1) / 4); }
+// Returns the largest expected count e that a count of n clearly exceeds. It does if n is at least
+// 2 e + sqrt(e): twice as many, and one standard deviation more, so that it is not by chance.
+Real LargestExceededCount(Real n) { return Square((std::sqrt(1 + 8 * n) - 1) / 4); }
 
-// Computes denserThan from the number of other photons within the cone about each direction. Of
-// more than kMaxCounted photons, only every n-th is counted; in Hilbert order these are well
-// distributed.
+// Computes denserThan of each photon: the largest expected number of photons in the cone about its
+// direction that the counted number clearly exceeds. Of more than kMaxCounted photons, only every
+// step-th is counted; in Hilbert order these are well distributed.
 void CompareWithOthers(const ConeDirections& axes, const Cone& cone, Arena* arena,
                        Real* denserThan) {
   constexpr std::size_t kMaxCounted = 1024;
   const std::size_t step = (axes.size() + kMaxCounted - 1) / kMaxCounted;
-  ConeDirections some(axes.size() / step + 1, arena);
-  for (std::size_t i = 0; i < axes.size(); i += step) some.Add(axes[i]);
-  some.Finish();
+  ConeDirections counted(axes.size() / step + 1, arena);
+  for (std::size_t i = 0; i < axes.size(); i += step) counted.Add(axes[i]);
+  counted.Finish();
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const int within = some.CountWithin(axes[i], cone.Chord2()) - (i % step == 0);
-    denserThan[i] = ClearlyExceeded(Real(within) * Real(step));
+    const int within = counted.CountWithin(axes[i], cone.Chord2()) - (i % step == 0);
+    denserThan[i] = LargestExceededCount(Real(within) * Real(step));
   }
 }
 
@@ -61,7 +61,7 @@ GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& center, int c
   ConeDirections axes(near.size(), scratch);
   std::size_t i = 0;
   for (const std::uint32_t photon : HilbertOrder(map, near.index, scratch)) {
-    const Vector3 origin = Within(map.Origin(photon) - center);
+    const Vector3 origin = Shortened(map.Origin(photon) - center);
     x[i] = origin.x, y[i] = origin.y, z[i] = origin.z;
     axes.Add(NormalizeOr(origin, map.Direction(photon)));
     ++i;

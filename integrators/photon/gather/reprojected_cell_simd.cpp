@@ -15,24 +15,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace exphoton::HWY_NAMESPACE {
 
-void Reproject(const GuideCacheCell& cell, const Vector3& from, const LitSide& side,
+void Reproject(const GuideCacheCell& cell, const Vector3& shadingPoint, const LitSide& side,
                ReprojectedCell* view) {
-  constexpr Real kNowhere = Real(2e-19);  // avoids 0 / 0 for an origin at p; changes no other
+  // Avoids 0 / 0 for a photon whose origin is the shading point. It is too small to change others.
+  constexpr Real kTiny = Real(2e-19);
   const Real *const x = cell.X(), *const y = cell.Y(), *const z = cell.Z();
   Real *const wx = view->x, *const wy = view->y, *const wz = view->z, *const cosine = view->cosine;
-  const Vector3 p = from;
+  // Copies, because the compiler cannot know that the stores below leave the arguments alone.
+  const Vector3 p = shadingPoint;
   const Normal3 ng = side.ng, ns = side.ns;
-  const Real horizon = side.isTwoSided ? -2 : 0;  // a one-sided surface ignores light from below
+  // A one-sided surface ignores light from below. Every cosine is above -2.
+  const Real horizon = side.isTwoSided ? -2 : 0;
   const std::size_t count = cell.size();
   int lit = 0;
   EXPHOTON_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
-    const Real dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z + kNowhere;
+    const Real dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z + kTiny;
     const Real inverse = 1 / std::sqrt(dx * dx + dy * dy + dz * dz);
     wx[i] = dx * inverse, wy[i] = dy * inverse, wz[i] = dz * inverse;
     const Real geometric = wx[i] * ng.x + wy[i] * ng.y + wz[i] * ng.z;
     const Real shading = wx[i] * ns.x + wy[i] * ns.y + wz[i] * ns.z;
     const int isLit = (geometric > horizon) & (shading > horizon);
+    // Above kUnlit for a photon that does not light this side.
     cosine[i] = std::abs(shading) + Real(1 - isLit) * (2 * ReprojectedCell::kUnlit);
     lit += isLit;
   }

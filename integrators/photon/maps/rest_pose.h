@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // RestPose maps points of moving surfaces to the pose at the start of the motion, in which the maps
 // store photons. Photons of all times then lie close together, as on a surface at rest, and a
-// lookup at any time finds them. A map thus holds the mean over the shutter interval of the light
-// that arrives at a point of the moving surface. For surfaces at rest the cost is one comparison.
+// lookup at any time finds them. The approximation: a map holds the mean, over the shutter
+// interval, of the light that arrives at a point of the moving surface. For surfaces at rest each
+// call costs one comparison.
 #pragma once
 
 #include <optional>
@@ -34,8 +35,9 @@ class RestPose {
   Vector3 DirectionBack(const Vector3& w) const {
     return fromRest_ ? NormalizeOr(fromRest_->ApplyVector(w), w) : w;
   }
-  // Factor on the power of a photon if the motion stretches the surface: rest area over current
-  // area, because density estimates divide by area in the rest pose.
+  // Returns the factor for the power of a photon on a surface that the motion stretches. It is the
+  // area at rest divided by the current area. Density estimates divide by areas at rest, so the
+  // factor turns the result into power per current area. ng is the normal in the current pose.
   Real PowerScale(const Normal3& ng) const { return toRest_ ? AreaScale(*toRest_, ng) : Real(1); }
 
  private:

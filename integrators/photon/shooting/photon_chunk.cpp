@@ -7,21 +7,23 @@
 namespace exphoton {
 namespace {
 
-// A store that holds this share of its target reserves memory for the whole target.
+// A store that is filled to this share of its target will probably be filled. It then reserves
+// memory for the whole target at once, instead of growing step by step.
 constexpr double kShareBeforeReserving = 1. / 16;
 
-// Enlarges the store by `part` of all chunks. Returns the index of each chunk's first record.
-template <class Part, class Record>
-std::vector<std::size_t> MakeRoom(std::span<const PhotonChunk> chunks, const Part& part,
+// Makes room in the store for the records that recordsOf(chunk) returns, for all chunks. Returns
+// the index of each chunk's first record.
+template <class RecordsOf, class Record>
+std::vector<std::size_t> MakeRoom(std::span<const PhotonChunk> chunks, const RecordsOf& recordsOf,
                                   double wanted, RecordStore<Record>* store) {
   std::vector<std::size_t> first(chunks.size());
   std::size_t count = store->Size();
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     first[c] = count;
-    count += part(chunks[c]).size();
+    count += recordsOf(chunks[c]).size();
   }
   if (count == store->Size()) return first;
-  // The store will probably be filled: reserve the target, and 1/64 more for the last batch.
+  // The last batch of chunks usually exceeds the target a little, so 1/64 is added.
   if (double(count) >= wanted * kShareBeforeReserving)
     store->Reserve(std::size_t(wanted * (1 + 1. / 64)));
   store->Resize(count);
@@ -66,6 +68,7 @@ void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, Th
   for (const PhotonChunk& chunk : chunks) {
     result->emittedPower += chunk.emittedPower;
     result->cutPower += chunk.cutPower;
+    // A chunk without dropped photons has firstDropped -1, so the first one with some decides.
     if (result->droppedPhotons == 0) result->firstDroppedPath = chunk.firstDropped;
     result->droppedPhotons += chunk.dropped;
     result->divergingPaths += chunk.diverging;

@@ -14,8 +14,9 @@ Bounds3 BoundsOf(std::span<const Bounds3> parts) {
   return bounds;
 }
 
-void Split(std::span<Bounds3> parts, int most, std::vector<Bounds3>* boxes) {
-  if (most == 1 || parts.size() == 1) {
+// Appends at most maxBoxes boxes, a power of two, that together contain all parts.
+void Split(std::span<Bounds3> parts, int maxBoxes, std::vector<Bounds3>* boxes) {
+  if (maxBoxes == 1 || parts.size() == 1) {
     boxes->push_back(BoundsOf(parts));
     return;
   }
@@ -26,11 +27,12 @@ void Split(std::span<Bounds3> parts, int most, std::vector<Bounds3>* boxes) {
   std::nth_element(parts.begin(), middle, parts.end(), [axis](const Bounds3& a, const Bounds3& b) {
     return a.Center()[axis] < b.Center()[axis];
   });
-  Split(parts.first(parts.size() / 2), most / 2, boxes);
-  Split(parts.subspan(parts.size() / 2), most / 2, boxes);
+  Split(parts.first(parts.size() / 2), maxBoxes / 2, boxes);
+  Split(parts.subspan(parts.size() / 2), maxBoxes / 2, boxes);
 }
 
-// Returns the margin for the distance by which a reported hit can lie off its surface.
+// Rounding lets a reported hit lie slightly off its surface. Boxes are wider by this margin, so
+// that they contain such hits too.
 Vector3 MarginOf(const Bounds3& world) {
   constexpr Real kMargin = Real(1e-4);
   return Vector3(kMargin * std::max(MaxComponent(Abs(world.min)), MaxComponent(Abs(world.max))));
@@ -55,6 +57,7 @@ SpecularBoxes::SpecularBoxes(const Scene& scene) {
   all_ = BoundsOf(boxes_);
 }
 
+// The answer may be a false "no", but never a false "yes".
 bool SpecularBoxes::Misses(const Ray& ray) const {
   if (all_.IsEmpty() || !IntersectBox(all_, ray.o, ray.d, ray.tMax)) return true;
   return std::none_of(boxes_.begin(), boxes_.end(), [&ray](const Bounds3& box) {
