@@ -32,8 +32,7 @@ std::vector<RecordedScene> RandomScenes(std::uint64_t firstSeed, std::uint64_t l
 std::vector<RecordedScene> ParameterScenes(const std::string& kinds);  // "camera, filter"
 std::vector<RecordedScene> ChosenScenes();
 
-// Replaces the directive's line, or the line after which the scene's own shapes and lights begin.
-// The text is that of a scene in which each directive is a line.
+// Replaces the line of a directive. Each directive of the text is one line.
 void ReplaceLine(const std::string& directive, const std::string& line, std::string* text);
 
 // Returns the lines of a file of tests/recorded that are neither empty nor comments.
