@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Puts deliberate defects, one at a time, into a copy of the sources and runs the tests that must
 # notice each: a suite that stays green with a defect in is no suite. The defects are in the tables
-# beside this file: defects.txt, blind.txt, blind_second.txt and blind_third.txt.
+# beside this file: defects.txt and blind*.txt.
 #   run.sh                            all of them
 #   run.sh NAME ...                   these alone
 #   run.sh --everything TABLE [NAME ...]  defects of another table, each with all that ./dev test runs

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/parser/builder/texture_table.h"
 #include "core/plugins/registry.h"
 #include "core/plugins/search.h"
 #include "tests/parser/parse_support.h"
@@ -217,6 +218,17 @@ TEST(Version2, HasItsOwnDefaultsOfMaterials) {
     EXPECT_EQ(DiffuseOf(BuildText(absent, version2)), DiffuseOf(BuildText(given))) << material;
     EXPECT_NE(DiffuseOf(BuildText(absent)), DiffuseOf(BuildText(given))) << material;
   }
+}
+
+// A name that textures of both kinds have is one name.
+TEST(Textures, OfBothKindsAreNamedOnce) {
+  TextureTable table;
+  const TextureGraph graph;
+  table.Define("a", Uniform(Real(1)), graph);
+  table.Define("b", Uniform(Real(1)), graph);
+  table.Define("b", Uniform(Spectrum(1)), graph);
+  table.Define("c", Uniform(Spectrum(1)), graph);
+  EXPECT_EQ(table.Names(), (std::vector<std::string>{"a", "b", "c"}));
 }
 
 // A texture of the same name in another block is another texture.

@@ -146,5 +146,35 @@ TEST(MixMaterial, AnnouncesTheLobesOfTheUsedParts) {
   EXPECT_FALSE(needs("0 0 0"));
 }
 
+TEST(MixMaterial, OfAmountZeroHasTheLobesOfTheSecondPart) {
+  const LoadedScene scene = LoadSceneText(
+      "WorldBegin LightSource \"point\"\nMakeNamedMaterial \"a\" \"string type\" \"matte\"\n"
+      "MakeNamedMaterial \"b\" \"string type\" \"mirror\"\n" +
+      Mix("0 0 0") + "\nShape \"sphere\"\nWorldEnd\n");
+  EXPECT_TRUE(scene.setup->scene->Features().Needs(Feature::Specular));
+}
+
+// Photon maps lower what they store on a coated base by its coat. The plain part has none.
+TEST(MixMaterial, OfACoatedAndAPlainPartIsNotCoated) {
+  const std::string coated = "MakeNamedMaterial \"c\" \"string type\" \"substrate\"\n";
+  const LoadedScene scene = LoadSceneText(
+      "WorldBegin LightSource \"point\"\n" + coated +
+      "MakeNamedMaterial \"b\" \"string type\" \"matte\"\nMaterial \"mix\" \"string "
+      "namedmaterial1\" \"c\" \"string namedmaterial2\" \"b\"\nShape \"sphere\"\nWorldEnd\n");
+  SurfaceInteraction si;
+  si.ng = si.shading.n = {0, 0, 1};
+  si.dpdu = si.shading.dpdu = {1, 0, 0};
+  si.dpdv = {0, 1, 0};
+  Arena arena;
+  const auto& materials = scene.setup->scene->Materials();
+  bool found = false;
+  for (const auto& material : materials) {
+    const Bsdf bsdf = material->Evaluate(&si, TransportMode::Radiance, &arena);
+    found = found || bsdf.Lobes().size() > 1;
+    EXPECT_FALSE(bsdf.IsCoated());
+  }
+  EXPECT_TRUE(found);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -137,6 +137,14 @@ TEST(EffectChoice, AllSwitchesEverythingOn) {
   EXPECT_EQ(log.WarningCount(), 0);
 }
 
+TEST(EffectChoice, AllKeepsTheNotesAboutTheScene) {
+  RequiredFeatures plan;
+  plan.notes = {"a lamp is far away"};
+  Log log(Log::Level::Normal, Log::Sink::Memory);
+  EXPECT_EQ(ChooseEffects(plan, "all", log).notes, plan.notes);
+  EXPECT_EQ(ChooseEffects(plan, "caustics=off", log).notes, plan.notes);
+}
+
 TEST(EffectChoice, WarnsWhereSomethingNeededIsSwitchedOff) {
   Log log(Log::Level::Normal, Log::Sink::Memory);
   RequiredFeatures plan;

@@ -250,6 +250,27 @@ TEST(WorldMessages, AreSaidInTheseWords) {
          "warning: texture \"t\" is defined again: later shapes use the new one");
 }
 
+TEST(WorldMessages, SayThatASceneIsDarkUnlessAMediumGlows) {
+  const auto warns = [](const std::string& world) {
+    const BuiltScene built = BuildText(InWorld(world + " Shape \"sphere\""));
+    EXPECT_EQ(built.error, "");
+    return built.Messages().find("the scene has no light") != std::string::npos;
+  };
+  EXPECT_TRUE(warns(""));
+  EXPECT_TRUE(warns("Volume \"homogeneous\" \"color sigma_a\" [1 1 1]"));
+  EXPECT_FALSE(warns("Volume \"homogeneous\" \"color Le\" [1 1 1]"));
+  EXPECT_FALSE(warns("LightSource \"point\""));
+}
+
+TEST(RenderSetup, InputFilesOfAWorldAreNotThoseOfTheWorldBefore) {
+  const std::string image = std::string(EXPHOTON_SOURCE_DIR) + "/scenes/parts/painting.png";
+  const BuiltScene built = BuildText("WorldBegin LightSource \"infinite\" \"string mapname\" \"" +
+                                     image + "\" WorldEnd\nWorldBegin Shape \"sphere\" WorldEnd");
+  ASSERT_EQ(built.setups.size(), 2u) << built.error;
+  EXPECT_EQ(built.setups[0]->inputFiles, (std::vector<std::string>{image, "scene.pbrt"}));
+  EXPECT_EQ(built.setups[1]->inputFiles, std::vector<std::string>{"scene.pbrt"});
+}
+
 TEST(Textures, OfBothKindsMayShareAName) {
   const BuiltScene built = BuildText(
       InWorld("Texture \"t\" \"float\" \"constant\" Texture \"t\" \"color\" \"constant\"\n"

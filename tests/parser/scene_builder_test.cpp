@@ -339,9 +339,17 @@ TEST(SceneBuilder, HashesWhatTheSceneSaysAndNotHowItIsLaidOut) {
   EXPECT_EQ(plain, hash("# comment\n" + InWorld("Shape   \"sphere\"\n\"float radius\" [2.0]")));
   EXPECT_NE(plain, hash(InWorld("Shape \"sphere\" \"float radius\" 2.5")));
   EXPECT_NE(plain, hash(InWorld("Shape \"disk\" \"float radius\" 2")));
+  EXPECT_NE(hash(InWorld("Shape \"disk\"")), hash(InWorld("Shape \"cone\"")));
   // The types say what the numbers mean.
   EXPECT_NE(hash(InWorld("LightSource \"point\" \"rgb I\" [1 2 3]")),
             hash(InWorld("LightSource \"point\" \"xyz I\" [1 2 3]")));
+}
+
+TEST(SceneBuilder, RefusesCropWindowsWithoutHeight) {
+  EXPECT_EQ(
+      ShortErrorOf("Film \"image\" \"float cropwindow\" [0 1 .5 .5]\n" + kBegin + "WorldEnd"),
+      "1:14: parameter \"cropwindow\" of film \"image\" is empty or reversed: y0 must be below "
+      "y1");
 }
 
 TEST(SceneBuilder, RefusesCropWindowsWithoutPixels) {

@@ -136,6 +136,17 @@ AttributeEnd)",
 }
 
 // "nsamples" 3 is rounded up to a power of two by this sampler: to the last bit the same as 4.
+// Neither light samples nor BSDF samples see the sky through a wall.
+TEST(DirectLighting, OfTheSkyIsNoneWithinAClosedRoom) {
+  for (const char* integrator : {"\"directlighting\"", "\"path\""})
+    EXPECT_EQ(MeanRadiance(RenderSceneText(TestHeader(integrator, 8, 8, 8) +
+                                           "WorldBegin LightSource \"infinite\"\nMaterial "
+                                           "\"matte\" Shape \"sphere\"\nWorldEnd\n")
+                               .image),
+              0)
+        << integrator;
+}
+
 TEST(DirectLighting, OfARoundedNumberOfSamplesIsTheirMean) {
   const auto pixels = [](const std::string& count) {
     return RenderSceneText(

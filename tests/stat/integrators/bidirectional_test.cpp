@@ -212,6 +212,21 @@ TEST(Bidirectional, GivesTheSameBitsForAnyNumberOfThreadsAndAnyTiles) {
 // A spot light shines into a glass ball. Its rays meet the floor, which lights the ceiling that the
 // camera sees. Camera paths cannot find the light. Light paths do, unless they pass the ball again
 // on their way up (about a tenth of the light does).
+// Fog that begins behind the wall takes nothing from light within the room.
+TEST(Bidirectional, LosesNoLightToFogBehindTheWalls) {
+  const auto mean = [](const std::string& fog) {
+    return MeanRadiance(
+        RenderSceneText(TestHeader("\"bidirectional\"", 8, 8, 16) +
+                        "WorldBegin\nLightSource \"point\" \"point from\" [.2 .3 -.2]\n" + fog +
+                        "Material \"matte\" \"color Kd\" [.8 .8 .8]\nShape \"sphere\"\nWorldEnd\n")
+            .image);
+  };
+  const double clear = mean("");
+  EXPECT_NEAR(mean("Volume \"homogeneous\" \"point p0\" [-9 1.01 -9] \"point p1\" [9 9 9] \"color "
+                   "sigma_a\" [1 1 1]\n"),
+              clear, .001 * clear);
+}
+
 TEST(Bidirectional, FindsCausticsOfDeltaLightsOverOneMoreSurface) {
   const std::string world =
       "WorldBegin\nLightSource \"spot\" \"color I\" [30 30 30] \"point from\" [0 "

@@ -75,6 +75,14 @@ TEST(Igi, TracesTheStatedNumberOfLightPaths) {
   EXPECT_NEAR(more / (1800 * 4), 1, .05);
 }
 
+// Each light path in the closed sphere leaves a virtual light at the end of each ray.
+TEST(Igi, CountsTheRaysOfItsLightPaths) {
+  const TestRender render = Render(Furnace("\"integer nlights\" 600 \"integer nsets\" 3"));
+  const double rays = double(render.rays.counts[std::size_t(RayKind::Photon)]);
+  EXPECT_GE(rays, render.Counter("igi/virtual lights") - 1800);
+  EXPECT_GT(rays, 1800);
+}
+
 TEST(Igi, GivesTheSameBitsForAnyThreadsTilesAndCrop) {
   for (const std::string parameters : {"", "\"float glimit\" .5 \"integer gathersamples\" 2"}) {
     const std::string scene = Furnace("\"integer nlights\" 100 " + parameters, 4);

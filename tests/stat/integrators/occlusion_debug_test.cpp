@@ -99,6 +99,14 @@ TEST(Debug, ShowsNormalsPositionsAndDistances) {
               .25, 1e-5);
 }
 
+// (.6, 0, .8) times the direction to the camera, (0, -.3, 1) / sqrt(1.09).
+TEST(Debug, FacingIsThatOfTheShadingNormal) {
+  const std::string leaning =
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [-1 -1 .1  1 -1 .1  0 1 .1] "
+      "\"normal N\" [.6 0 .8  .6 0 .8  .6 0 .8]\n";
+  EXPECT_NEAR(Channel("\"string blue\" \"facing\"", "B", leaning), .8 / std::sqrt(1.09), 1e-3);
+}
+
 TEST(Debug, IsTransparentBesideTheScene) {
   const auto render = RenderSceneText(TestHeader("\"debug\"", 2, 2, 1) + "WorldBegin\nWorldEnd\n");
   EXPECT_EQ(MeanChannel(render.image, "A"), 0);

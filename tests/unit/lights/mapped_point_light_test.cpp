@@ -110,6 +110,19 @@ TEST_F(MappedPointLights, PowerOfGoniometricIsTheIrradianceOfASphereAroundIt) {
   }
 }
 
+// The centres of the four rows are at 22.5, 67.5 ... degrees. An outermost row is even from its
+// centre to the pole, and fades out up to the centre of its neighbour.
+TEST_F(MappedPointLights, PowerOfTheOutermostRowsOfGoniometricIsTheClosedForm) {
+  const double a = M_PI / 8, b = 3 * M_PI / 8;
+  const double truth = 2 * M_PI * (1 - (std::sin(b) - std::sin(a)) / (b - a));
+  for (const std::size_t row : {0, 3}) {
+    std::vector<float> grey(32);
+    for (std::size_t x = 0; x < 8; ++x) grey[8 * row + x] = 1;
+    const auto light = Make("\"goniometric\"" + Map(8, 4, grey));
+    EXPECT_NEAR(double(light->Power().g), truth, 1e-4 * truth) << row;
+  }
+}
+
 TEST_F(MappedPointLights, MapOfOneColourIsAPointLight) {
   const auto light = Make("\"goniometric\"" + Map(5, 3, std::vector<float>(15, 2.f)));
   EXPECT_NEAR(double(light->Power().g), 8 * M_PI, 1e-4);

@@ -91,6 +91,37 @@ TEST(LightTally, ListsTheFirstLightsOfManyAndSumsUpTheRest) {
     shot += render.Counter("lights/" + std::to_string(i) + " point shot");
   EXPECT_EQ(shot, render.Counter("photons/shot"));
   EXPECT_TRUE(std::isnan(render.Counter("lights/65 point shot")));
+  double stored = render.Counter("lights/further stored");
+  for (int i = 1; i <= 64; ++i)
+    stored += render.Counter("lights/" + std::to_string(i) + " point stored");
+  EXPECT_EQ(stored,
+            render.Counter("photons/direct stored") + render.Counter("photons/indirect stored"));
+}
+
+// A faint light gets few paths, which may all miss by chance.
+TEST(LightTally, IsSilentAboutLightsWithFewPaths) {
+  const std::string faint =
+      "LightSource \"spot\" \"color I\" [.1 .1 .1] \"point from\" [0 2 -20] \"point to\" [0 2 "
+      "-30]\n";
+  const TestRender render = Render(kLamp + faint + kFloor);
+  EXPECT_GT(render.Counter("lights/2 spot shot"), 0);
+  EXPECT_LT(render.Counter("lights/2 spot shot"), 1000);
+  EXPECT_EQ(render.Counter("lights/2 spot stored"), 0);
+  EXPECT_FALSE(render.Says("none was stored"));
+}
+
+// About one path in 10,000 meets the disk. The map must go on to the limit of paths, though it
+// has few photons after the number of paths after which an empty map is given up.
+TEST(LightTally, GoesOnToTheLimitOfPathsWhileAMapFills) {
+  const TestRender render = Render(
+      "LightSource \"point\"\nMaterial \"matte\" Translate 0 0 6 Shape \"disk\" \"float radius\" "
+      ".12\n",
+      1,
+      "\"photonmap\" \"bool directwithphotons\" \"true\" \"bool finalgather\" \"false\" \"integer "
+      "directphotons\" 1000 \"integer indirectphotons\" 0 \"integer causticphotons\" 0 "
+      "\"integer maxphotonpaths\" 600000");
+  EXPECT_GT(render.Counter("photons/direct stored"), 0);
+  EXPECT_GE(render.Counter("photons/direct paths"), 600000);
 }
 
 // Of a point light every path carries all of its power, 4 pi I.

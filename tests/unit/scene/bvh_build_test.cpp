@@ -32,6 +32,22 @@ TEST(BvhBuild, OfManyPiecesAgreesWithBruteForce) {
   ExpectHitsOfBruteForce(*plugins.MakeAccelerator(R"("bvh")", *set, 2), *set, plugins);
 }
 
+// Shapes that are no triangles are in a list of their own.
+TEST(BvhBuild, CountsTheBytesOfLinesAndOfTheListOfShapes) {
+  TestPlugins plugins;
+  PrimitiveSet set;
+  for (int i = 0; i < 3; ++i)
+    set.AddShape(std::move(std::get<std::unique_ptr<Shape>>(
+                     plugins.MakeShape("\"sphere\"", Transform::Translate({Real(3 * i), 0, 0})))),
+                 {});
+  set.Finish();
+  ThreadPool threads(1);
+  const BvhArrays arrays = BuildBvh(set, 8, threads);
+  ASSERT_FALSE(arrays.others.empty());
+  EXPECT_EQ(plugins.MakeAccelerator(R"("bvh")", set)->MemoryBytes(),
+            arrays.lines.size() * sizeof(BvhLine) + arrays.others.size() * 4);
+}
+
 // Returns the depth of the binary tree. The eight-wide nodes are made from some of its nodes.
 int DepthOf(std::span<const BvhPlanNode> plan, std::size_t node) {
   const BvhPlanNode& at = plan[node];

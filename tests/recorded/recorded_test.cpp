@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests compare the results of tiny scenes with those that were recorded. A failure says that
+// something changed, not that it is wrong. The same program records them:
+//   test_recorded --record  writes the records anew and lists what changed
+//   test_recorded --print SCENE         prints a scene
+//   test_recorded --list                lists the scenes and the CPU seconds of each
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "core/base/statistics.h"
+#include "tests/recorded/record_file.h"
+
+namespace exphoton::recorded {
+namespace {
+
+constexpr const char* kLinesFile = "records/lines.txt";
+
+int ThreadCount() {
+  const char* threads = std::getenv("EXPHOTON_RECORDED_THREADS");
+  return threads ? std::atoi(threads) : 1;
+}
+
+std::string Advice(const RecordedScene& scene) {
+  return "To render it: build/bin/test_recorded --print '" + scene.name +
+         "' >scene.pbrt; build/bin/exphoton scene.pbrt --seed " + std::to_string(kSeed) +
+         " -o scene.exr (both in the folder of the sources)\nIf the change is meant, record it: "
+         "./dev test --record";
+}
+
+std::string Joined(const std::vector<std::string>& lines, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) text += "\n  " + lines[i];
+  if (lines.size() > most) text += "\n  and " + std::to_string(lines.size() - most) + " more";
+  return text;
+}
+
+// Returns lines of the texts that no record knows, if the texts changed.
+std::vector<std::string> NewLines(const Measurement& measurement) {
+  static const std::vector<std::string> list = LinesOf(kLinesFile);
+  static const std::set<std::string> known(list.begin(), list.end());
+  std::vector<std::string> lines;
+  for (const std::string& line : LinesWithoutNumbers(measurement))
+    if (!line.empty() && !known.contains(line)) lines.push_back("new line: " + line);
+  return lines;
+}
+
+std::vector<std::string> Compare(const Records& records, const RecordedScene& scene,
+                                 const Measurement& measurement) {
+  const auto record = records.find(scene.name);
+  if (record == records.end()) return {"was not recorded"};
+  std::vector<std::string> differences = Differences(record->second, measurement);
+  if (!differences.empty()) {
+    const std::vector<std::string> lines = NewLines(measurement);
+    differences.insert(differences.end(), lines.begin(), lines.end());
+  }
+  return differences;
+}
+
+bool IsComparable() {
+#if defined(EXPHOTON_DOUBLE) || defined(EXPHOTON_TRAPS) || defined(RECORDED_ELSEWHERE) || \
+    !defined(__x86_64__)
+  return false;
+#else
+  return true;
+#endif
+}
+
+class RecordedResults : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(RecordedResults, AreAsRecorded) {
+  if (!IsComparable()) GTEST_SKIP() << "recorded by a build for x86-64 without sanitizers";
+  const Records records = ReadRecords(GetParam());
+  std::set<std::string> names;
+  int changed = 0;
+  for (const RecordedScene& scene : ScenesOf(GetParam())) {
+    names.insert(scene.name);
+    const std::vector<std::string> differences =
+        Compare(records, scene, Measure(scene, ThreadCount()));
+    if (differences.empty()) continue;
+    if (++changed <= 5)
+      ADD_FAILURE() << scene.name << Joined(differences, 8) << "\n" << Advice(scene);
+  }
+  if (changed > 5) ADD_FAILURE() << changed << " scenes changed in all";
+  for (const auto& [name, record] : records)
+    EXPECT_TRUE(names.contains(name)) << "\"" << name << "\" was recorded and is no scene any more";
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, RecordedResults, ::testing::ValuesIn(GroupNames()),
+                         [](const auto& info) { return info.param; });
+
+// Writes the records of a group and prints what changed. Returns the number of changed scenes.
+int RecordGroup(const std::string& group, std::set<std::string>* lines) {
+  const Records before = ReadRecords(group);
+  int changed = 0;
+  std::string text = "# Written by ./dev test --record; see docs/development/testing.md.\n";
+  for (const RecordedScene& scene : ScenesOf(group)) {
+    const Measurement measurement = Measure(scene, ThreadCount());
+    text += RecordText(scene.name, measurement);
+    for (const std::string& line : LinesWithoutNumbers(measurement)) lines->insert(line);
+    const std::vector<std::string> differences = Compare(before, scene, measurement);
+    if (differences.empty()) continue;
+    ++changed;
+    std::printf("%s%s\n", scene.name.c_str(), Joined(differences, 4).c_str());
+  }
+  std::ofstream(RecordPath(group)) << text;
+  return changed;
+}
+
+int RecordAll() {
+  if (!IsComparable()) {
+    std::fprintf(stderr, "only a build for x86-64 without sanitizers records results\n");
+    return 1;
+  }
+  std::set<std::string> lines;
+  int changed = 0;
+  for (const std::string& group : GroupNames()) changed += RecordGroup(group, &lines);
+  lines.erase("");
+  std::ofstream file(std::string(EXPHOTON_SOURCE_DIR) + "/tests/recorded/" + kLinesFile);
+  file << "# The lines of explanations, messages and errors of all scenes; # is a number.\n";
+  for (const std::string& line : lines) file << (line[0] == '#' ? " " : "") << line << "\n";
+  std::printf("%d scenes changed; see the difference of tests/recorded/records\n", changed);
+  return file.good() ? 0 : 1;
+}
+
+int ListAll() {
+  for (const std::string& group : GroupNames()) {
+    for (const RecordedScene& scene : ScenesOf(group)) {
+      const double start = ProcessCpuSeconds();
+      const Measurement measurement = Measure(scene, ThreadCount());
+      const auto error = measurement.texts.find("error");
+      std::printf("%.3f %s: %s%s\n", ProcessCpuSeconds() - start, group.c_str(), scene.name.c_str(),
+                  error == measurement.texts.end() ? "" : ("\n  error: " + error->second).c_str());
+    }
+  }
+  return 0;
+}
+
+int Print(const std::string& name) {
+  for (const std::string& group : GroupNames())
+    for (const RecordedScene& scene : ScenesOf(group))
+      if (scene.name == name) return std::printf("%s", scene.text.c_str()) < 0;
+  std::fprintf(stderr, "no scene is named \"%s\"\n", name.c_str());
+  return 1;
+}
+
+}  // namespace
+}  // namespace exphoton::recorded
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  std::filesystem::current_path(EXPHOTON_SOURCE_DIR);  // scenes name files from there
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "--record") return exphoton::recorded::RecordAll();
+  if (command == "--list") return exphoton::recorded::ListAll();
+  if (command == "--print" && argc > 2) return exphoton::recorded::Print(argv[2]);
+  return RUN_ALL_TESTS();
+}
