@@ -214,26 +214,34 @@ class TileRenderer {
   Real differentialScale_;
 };
 
-// Warns if the depth limit cut more than kSilentShare of the throughput. The picture lacks this
-// light.
-void WarnOfCutPaths(const RenderJob& job, const RayCounters& rays, std::int64_t cameraSamples) {
+// Warns if a depth limit cut more than kSilentShare of the light, which the picture lacks. Cut
+// specular paths are assumed to carry the mean radiance of the paths that were not cut. Other cut
+// light is measured (core/transport/cut_light.h). `light` is the mean luminance of the picture.
+void WarnOfCutPaths(const RenderJob& job, const RayCounters& rays, double cameraSamples,
+                    double light) {
   constexpr double kSilentShare = 1e-3;
-  const auto warn = [&](double cut, double of, const std::string& what) {
-    const double share = cut / std::max(of, 1.);
+  const auto warn = [&](double share, const char* parameter, const char* of) {
     if (!(share > kSilentShare)) return;
     std::ostringstream text;
     text.precision(2);
-    text << "the depth limit cut specular paths that carry " << 100 * share << " % of what "
-         << what;
-    job.log.Warning(text.str(), {}, "raise \"maxdepth\" of the integrator");
+    text << (job.integratorName.empty() ? "the integrator"
+                                        : "integrator \"" + job.integratorName + "\"")
+         << ": the depth limit \"" << parameter << "\" cut about " << 100 * share << " % of " << of;
+    job.log.Warning(text.str(), {}, std::string("raise \"") + parameter + "\"");
   };
-  warn(rays.cutThroughput, double(cameraSamples), "the camera could see");
-  warn(rays.cutGatherThroughput, double(rays.counts[std::size_t(RayKind::Gather)]),
-       "gather rays could see");
+  const auto shareOf = [](double cut, double kept) { return cut > 0 ? cut / (cut + kept) : 0; };
+  const DepthParameters limits = job.integrator.DepthLimits();
+  const double samples = std::max(cameraSamples, 1.);
+  const double gathers =
+      std::max(double(rays.counts[std::size_t(RayKind::Gather)]), 1.);
+  warn(rays.cutThroughput / samples + shareOf(rays.cutLight, light * samples), limits.camera,
+       "the light");
+  warn(rays.cutGatherThroughput / gathers + shareOf(rays.cutGatherLight, rays.gatherLight),
+       limits.gather, "the light of gather rays");
 }
 
 RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
-                       const NonFiniteLog& log) {
+                       const NonFiniteLog& log, double light) {
   RenderResult result;
   std::int64_t cameraSamples = 0, negative = 0;
   RayCounters rays;
@@ -245,19 +253,30 @@ RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
     result.isComplete &= !worker.wasStopped;
   }
   job.statistics.AddRays(rays);
+  rays = job.statistics.Rays();  // with the rays of preprocessing
   result.nonFiniteReports = log.Texts();
   job.statistics.SetCounter("render/camera samples", double(cameraSamples), "camera rays started");
   job.statistics.SetCounter("render/non-finite samples", double(result.nonFiniteSamples),
                             "camera samples dropped, counted as black");
   job.statistics.SetCounter("render/negative samples", double(negative),
                             "camera samples with a component below 0, taken as 0");
-  WarnOfCutPaths(job, rays, cameraSamples);
+  WarnOfCutPaths(job, rays, double(cameraSamples), light);
   if (result.nonFiniteSamples == 0) return result;
   for (const std::string& text : result.nonFiniteReports)
     job.log.Warning("dropped a non-finite " + text);
   job.log.Warning(std::to_string(result.nonFiniteSamples) +
                   " non-finite camera samples were dropped and count as black");
   return result;
+}
+
+double MeanLuminance(const Film& film) {
+  double sum = 0;
+  for (std::size_t i = 0; i < film.PixelCount(); ++i) {
+    const Film::Sums s = film.SumsOf(i);
+    if (s.weight > 0)
+      sum += double(Spectrum(Real(s.r / s.weight), Real(s.g / s.weight), Real(s.b / s.weight)).Y());
+  }
+  return sum / double(film.PixelCount());
 }
 
 // Returns the pixels whose gathers the crop window needs.
@@ -330,6 +349,8 @@ struct PassRenderer::State {
   NonFiniteLog nonFinite;
   Log mutedLog{Log::Level::Quiet, Log::Sink::Memory};
   int passes = 0;
+  double light = 0;  // sum over the passes of the mean luminance, weighted by lightSamples
+  std::int64_t lightSamples = 0;
   double preprocessSeconds = 0, renderSeconds = 0;
 };
 
@@ -374,12 +395,15 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
     state.RenderPixels({pass, sampler, *film, state.job.progress, nullptr}, film->Crop());
   }
   state.renderSeconds = secondsSince(renderStart);
+  state.light += MeanLuminance(*film) * double(pass.sampleCount);
+  state.lightSamples += pass.sampleCount;
   return std::none_of(state.workers.begin(), state.workers.end(),
                       [](const Worker& worker) { return worker.wasStopped; });
 }
 
 RenderResult PassRenderer::Finish() {
-  RenderResult result = Summarize(state_->job, state_->workers, state_->nonFinite);
+  const double light = state_->light / double(std::max<std::int64_t>(state_->lightSamples, 1));
+  RenderResult result = Summarize(state_->job, state_->workers, state_->nonFinite, light);
   result.isComplete &= !state_->wasStopped;
   return result;
 }

@@ -32,7 +32,7 @@ class Passes {
         options_(options),
         quiet_(ProgressReporter::Mode::Quiet),
         quietJob_{job.scene,   job.integrator, job.sampler, job.filter,     job.camera, job.film,
-                  job.threads, job.log,        quiet_,      job.statistics, job.volume},
+                  job.threads, job.log,        quiet_,      job.statistics, job.volume, job.integratorName},
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
         noise_(job.film.Crop(), kReplicates),

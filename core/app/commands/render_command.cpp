@@ -154,7 +154,8 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   const PassesResult result =
       RenderPicture(command_,
                     {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera,
-                     films.film, threads, log_, progress, statistics, setup.volumeIntegrator.get()},
+                     films.film, threads, log_, progress, statistics, setup.volumeIntegrator.get(),
+                     setup.integratorName},
                     options, begin.wall, &films);
   watch_.MustFinish() = true;
   RunRecord run(setup, statistics);
