@@ -27,7 +27,7 @@ struct RayCounters {
   ExactSum cutGatherThroughput;  // the same for gather rays
   // Sums the luminance that the camera samples lost at a depth limit, as MeasureCutLight estimates
   // it.
-  ExactSum cutLight;
+  ExactSum cutLight, cutLightSquares;  // the latter: sum of the squares, for the standard error
   // The same for paths that gather indirect light, and the luminance that these paths found.
   ExactSum cutGatherLight, gatherLight;
 
@@ -37,6 +37,7 @@ struct RayCounters {
     cutThroughput += other.cutThroughput;
     cutGatherThroughput += other.cutGatherThroughput;
     cutLight += other.cutLight;
+    cutLightSquares += other.cutLightSquares;
     cutGatherLight += other.cutGatherLight;
     gatherLight += other.gatherLight;
   }

@@ -11,7 +11,7 @@
 namespace exphoton {
 
 // One path in this number is measured, and counts as this number of paths.
-inline constexpr int kCutLightPeriod = 64;
+inline constexpr int kCutLightPeriod = 32;
 
 // Returns whether the path with this key is measured.
 inline bool IsCutLightMeasured(std::uint64_t key) {
@@ -21,7 +21,7 @@ inline bool IsCutLightMeasured(std::uint64_t key) {
 // The last vertex of a path within the depth limit.
 struct PathEnd {
   const ShadingPoint& point;
-  Spectrum beta;    // throughput up to the point
+  Spectrum beta;     // throughput up to the point
   bool isScattered;  // whether the path has a non-specular bounce before the point
 };
 
@@ -34,7 +34,9 @@ Spectrum LightBeyond(const PathEnd& end, const LightSampler& lights, LiContext& 
 inline void MeasureCutLight(const PathEnd& end, const LightSampler& lights, LiContext& context) {
   if (!IsCutLightMeasured(context.key)) [[likely]]
     return;
-  context.rays.cutLight += kCutLightPeriod * double(LightBeyond(end, lights, context).Y());
+  const double light = kCutLightPeriod * double(LightBeyond(end, lights, context).Y());
+  context.rays.cutLight += light;
+  context.rays.cutLightSquares += light * light;
 }
 
 }  // namespace exphoton
