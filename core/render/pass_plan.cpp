@@ -10,10 +10,13 @@ namespace {
 
 constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
-constexpr double kHuge = 1e15;
+constexpr double kRounding = 1.3;  // sizes are rounded up from above 2^k / 1.3
+constexpr double kHuge = 0x1p50;
 
-std::int64_t Rounded(double samples) {
-  return std::int64_t(std::clamp(std::ceil(samples), 1., kHuge));
+// Low-discrepancy sequences are best distributed where their length is a power of two, so all
+// groups have such sizes. Returns the largest power of two up to the number, at least 1.
+std::int64_t PowerOfTwoUpTo(double samples) {
+  return std::int64_t(std::exp2(std::floor(std::log2(std::clamp(samples, 1., kHuge)))));
 }
 
 }  // namespace
@@ -50,14 +53,15 @@ std::int64_t PassPlan::GoalByTime(const State& state) const {
   const double spent = double(state.samples) * state.sample + groups_ * state.preprocess;
   const double before = std::max(state.elapsed - spent, 0.);  // reading the scene
   const double each = (time - before) / groups - state.preprocess;
-  return Rounded(std::floor(each / std::max(state.sample, 1e-9)));
+  return PowerOfTwoUpTo(each / std::max(state.sample, 1e-9));
 }
 
 std::int64_t PassPlan::FirstGoal(const State& state) const {
-  const std::int64_t most = std::min((limits_.maxSamples + 1) / 2, GoalByTime(state));
+  const std::int64_t most =
+      std::min(PowerOfTwoUpTo(double(limits_.maxSamples + 1) / 2), GoalByTime(state));
   if (!limits_.targetError) return most;
   if (!state.enough) return std::min<std::int64_t>(2, most);
-  return std::min(Rounded(*state.enough), most);
+  return std::min(PowerOfTwoUpTo(kRounding * *state.enough), most);
 }
 
 // The second group is as large as the first one. The noise of later groups may be that of photons,
@@ -67,7 +71,8 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
   if (!limits_.targetError) return most;
   if (groups_ < 2 || !state.noise) return std::min(firstSamples_, most);
   const double missing = double(state.samples) * (*state.noise / *limits_.targetError - 1);
-  return std::min({Rounded(missing), std::max<std::int64_t>(state.samples / 2, 1), most});
+  const double size = std::min(missing * kRounding, double(state.samples) / 2);
+  return std::min(PowerOfTwoUpTo(size), most);
 }
 
 PassPlan::Step PassPlan::Next(const State& state) const {
@@ -86,7 +91,10 @@ PassPlan::Step PassPlan::Next(const State& state) const {
     const double left =
         *limits_.timeLimit - state.elapsed - (step.isNewGroup ? state.preprocess : 0);
     const double fits = std::floor(left / std::max(state.sample, 1e-9));
-    step.size = std::min(step.size, std::int64_t(std::clamp(fits, 0., kHuge)));
+    if (fits < double(step.size)) step.size = fits < 1 ? 0 : PowerOfTwoUpTo(fits);
+    // Small groups at the end would spend the time on preprocessing.
+    const bool isSmall = double(step.size) * state.sample < 2 * state.preprocess;
+    if (groups_ > 1 && step.isNewGroup && isSmall) step.size = 0;
   }
   return step;
 }
