@@ -112,7 +112,7 @@ TEST_F(FilterNoiseTest, OfMitchellLeavesNoBlackDots) {
     const std::vector<double> values =
         Values(Render("mitchell", "lowdiscrepancy", {"--seed", Seed(seed)}));
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (truth[i] > .05) EXPECT_GT(values[i], .3 * truth[i]) << i / 3;
+      if (truth[i] > .1) EXPECT_GT(values[i], .2 * truth[i]) << i / 3;
   }
 }
 
@@ -136,10 +136,11 @@ TEST_F(FilterNoiseTest, IsReportedByPasses) {
     for (int seed = 1; seed <= 3; ++seed) {
       const Image image =
           Render(filter, "lowdiscrepancy", {"--target-error", ".003", "--seed", Seed(seed)});
-      reported += ReportedNoise();
+      const double noise = ReportedNoise();
+      EXPECT_LE(noise, .003) << filter;
+      EXPECT_GT(noise, .0005) << filter;
+      reported += noise;
       measured += RelMse(image, Truth(filter));
-      EXPECT_LE(ReportedNoise(), .003) << filter;
-      EXPECT_GT(ReportedNoise(), .001) << filter;
     }
     EXPECT_GT(reported, measured / 1.35) << filter;
     EXPECT_LT(reported, measured * 1.35) << filter;
