@@ -10,8 +10,11 @@ namespace {
 
 constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
-constexpr double kRounding = 1.3;  // sizes are rounded up from above 2^k / 1.3
+constexpr double kRounding = 1.5;  // sizes are rounded up from above 2^k / 1.5
 constexpr double kHuge = 0x1p50;
+constexpr std::int64_t kProbe = 2;  // samples of the first forecast
+// Beginnings of sequences that are shorter than this are not well distributed, but patterns are.
+constexpr std::int64_t kShortSequence = 16;
 
 // Low-discrepancy sequences are best distributed where their length is a power of two, so all
 // groups have such sizes. Returns the largest power of two up to the number, at least 1.
@@ -69,9 +72,10 @@ std::int64_t PassPlan::FirstGoal(const State& state) const {
 std::int64_t PassPlan::LaterGoal(const State& state) const {
   const std::int64_t most = GoalByTime(state);
   if (!limits_.targetError) return most;
-  if (groups_ < 2 || !state.noise) return std::min(firstSamples_, most);
+  if (groups_ < 2 || !state.noise) return std::min(PowerOfTwoUpTo(double(firstSamples_)), most);
   const double missing = double(state.samples) * (*state.noise / *limits_.targetError - 1);
-  const double size = std::min(missing * kRounding, double(state.samples) / 2);
+  const double size = std::clamp(missing * kRounding, double(firstSamples_) / 2,
+                                 std::max(double(state.samples), double(firstSamples_)) / 2);
   return std::min(PowerOfTwoUpTo(size), most);
 }
 
@@ -84,8 +88,11 @@ PassPlan::Step PassPlan::Next(const State& state) const {
     step.isNewGroup = isDone;
     if (isDone) goal = LaterGoal(state);
   }
-  step.size = step.isNewGroup ? goal : goal - groupSamples_;
-  if (groups_ == 1 && !step.isNewGroup) step.size = std::min(step.size, groupSamples_);
+  const bool isProbed = groups_ == 1 && groupSamples_ == kProbe && limits_.targetError;
+  step.isPattern = goal < kShortSequence && (step.isNewGroup ? groups_ > 0 : isProbed);
+  step.size = step.isNewGroup || step.isPattern ? goal : goal - groupSamples_;
+  if (groups_ == 1 && !step.isNewGroup && !step.isPattern)
+    step.size = std::min(step.size, groupSamples_);
   step.size = std::max<std::int64_t>(std::min(step.size, limits_.maxSamples - state.samples), 1);
   if (limits_.timeLimit && state.samples > 0) {
     const double left =

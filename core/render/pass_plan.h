@@ -18,7 +18,7 @@ class GroupForecast {
  public:
   explicit GroupForecast(const PixelBounds& crop) : noise_(std::in_place, crop, 2) {}
 
-  // Adds a pass of at most as many samples as the passes before it.
+  // Adds a pass. The forecast assumes that it has about as many samples as the passes before it.
   void Add(const Film& pass, std::int64_t samplesPerPixel);
   // Returns the number of samples at which the noise part of relMSE of the group is expected to
   // fall to this; nullopt before the second pass.
@@ -52,6 +52,7 @@ class PassPlan {
   struct Step {
     bool isNewGroup = true;
     std::int64_t size = 1;  // samples per pixel; 0: no sample fits into the time limit
+    bool isPattern = false;  // a complete sample pattern; otherwise the group's sequence goes on
   };
   // Returns the next pass. The first group doubles until it has about half the samples that are
   // needed. The second one takes as many. More groups follow if the noise is still too large.

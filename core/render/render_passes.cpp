@@ -79,17 +79,19 @@ class Passes {
     pass.preprocessSeed = HashKey({options_.seed, kPassSeed, group});
     pass.sampleCount = step.size;
     std::unique_ptr<Sampler> pattern;
-    if (progressiveSampler_) {
+    const bool goesOn = progressiveSampler_ && !step.isPattern;
+    if (goesOn) {
       pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group});
       pass.firstSample = groupSamples_;
     } else {
       // The pass uses a complete sample pattern with a separate seed.
-      pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group, std::uint64_t(groupSamples_)});
+      const auto first = std::uint64_t(groupSamples_);
+      pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group, first, kPassSeed});
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
     passFilm_.Clear();
     const bool isWhole =
-        renderer_.Run(pass, progressiveSampler_ ? *progressiveSampler_ : *pattern, &passFilm_);
+        renderer_.Run(pass, goesOn ? *progressiveSampler_ : *pattern, &passFilm_);
     job_.film.Add(passFilm_);
     if (isWhole) TakePass(step, int(group % kGroups));
     return isWhole;
