@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
-constexpr double kRounding = 1.5;  // sizes are rounded up from above 2^k / 1.5
+constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
 constexpr double kHuge = 0x1p50;
 constexpr std::int64_t kProbe = 2;  // samples of the first forecast
 // Beginnings of sequences that are shorter than this are not well distributed, but patterns are.
@@ -118,8 +118,8 @@ std::optional<double> PassPlan::SecondsLeft(const State& state) const {
   if (limits_.targetError) {
     isKnown = groups_ > 1 || state.enough;
     const Step step = Next(state);
-    const double goal = groups_ == 1 ? 2 * double(FirstGoal(state))
-                                     : double(state.samples + step.size);
+    const double goal =
+        groups_ == 1 ? 2 * double(FirstGoal(state)) : double(state.samples + step.size);
     const bool isNewGroup = groups_ == 1 || step.isNewGroup;
     const double needed = std::max(goal - double(state.samples), 0.) * state.sample +
                           (isNewGroup ? state.preprocess : 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PassPlan chooses the passes of a render with a stopping rule. Passes that share photon maps form a
-// group, because shooting photons again costs time. Groups are independent of each other, so their
-// differences show the noise of the camera samples and of the photons. Derivation and measurements:
-// docs/decisions/0037-groups-of-passes.md.
+// PassPlan chooses the passes of a render with a stopping rule. Passes that share photon maps form
+// a group, because shooting photons again costs time. Groups are independent of each other, so
+// their differences show the noise of the camera samples and of the photons. Derivation and
+// measurements: docs/decisions/0037-groups-of-passes.md.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class PassPlan {
 
   struct Step {
     bool isNewGroup = true;
-    std::int64_t size = 1;  // samples per pixel; 0: no sample fits into the time limit
+    std::int64_t size = 1;   // samples per pixel; 0: no sample fits into the time limit
     bool isPattern = false;  // a complete sample pattern; otherwise the group's sequence goes on
   };
   // Returns the next pass. The first group doubles until it has about half the samples that are

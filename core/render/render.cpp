@@ -151,8 +151,8 @@ class TileRenderer {
     CameraSamples& samples = worker->samples;
     target_.sampler.Generate(key, &samples);
     const Point2 half(Real(.5), Real(.5));
-    const FilterSample filter = target_.splats ? FilterSample{samples.film - half, 1}
-                                               : job_.filter.Sample(samples.film);
+    const FilterSample filter =
+        target_.splats ? FilterSample{samples.film - half, 1} : job_.filter.Sample(samples.film);
     const Point2 film = Point2(Real(key.pixel.x), Real(key.pixel.y)) + half + filter.offset;
     const RayDifferential ray = CameraRay(film, samples);
 
@@ -190,8 +190,7 @@ class TileRenderer {
       const int half = int((key.index + key.pixel.x + key.pixel.y) & 1);
       target_.gathers->At(key.pixel).Add(worker->gathers, film, filter.weight, half);
     }
-    if (target_.splats)
-      return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr});
+    if (target_.splats) return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr});
     if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
     target_.film.AddSample(key.pixel, L, alpha, filter.weight);
     if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
@@ -226,10 +225,9 @@ class TileRenderer {
 // are splatted over; those beyond the full image count, too.
 PixelBounds Enlarged(const PixelBounds& window, const PixelBounds& full, int reach) {
   const int margin = SharingMargin();
-  return {std::max(window.x0 - margin, full.x0 - reach),
-          std::max(window.y0 - margin, full.y0 - reach),
-          std::min(window.x1 + margin, full.x1 + reach),
-          std::min(window.y1 + margin, full.y1 + reach)};
+  return {
+      std::max(window.x0 - margin, full.x0 - reach), std::max(window.y0 - margin, full.y0 - reach),
+      std::min(window.x1 + margin, full.x1 + reach), std::min(window.y1 + margin, full.y1 + reach)};
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ class Passes {
         rule_(rule),
         options_(options),
         quiet_(ProgressReporter::Mode::Quiet),
-        quietJob_{job.scene,         job.integrator, job.sampler, job.filter,
-                  job.camera,        job.film,       job.threads, job.log,
-                  quiet_,            job.statistics, job.volume,  job.integratorName},
+        quietJob_{job.scene,  job.integrator, job.sampler, job.filter,
+                  job.camera, job.film,       job.threads, job.log,
+                  quiet_,     job.statistics, job.volume,  job.integratorName},
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
         noise_(job.film.Crop(), kGroups),
@@ -90,8 +90,7 @@ class Passes {
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
     passFilm_.Clear();
-    const bool isWhole =
-        renderer_.Run(pass, goesOn ? *progressiveSampler_ : *pattern, &passFilm_);
+    const bool isWhole = renderer_.Run(pass, goesOn ? *progressiveSampler_ : *pattern, &passFilm_);
     job_.film.Add(passFilm_);
     if (isWhole) TakePass(step, int(group % kGroups));
     return isWhole;
@@ -157,7 +156,7 @@ class Passes {
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   Clock::time_point begin_;
-  std::atomic<double> expectedSeconds_{0};        // since begin_; 0: unknown
+  std::atomic<double> expectedSeconds_{0};       // since begin_; 0: unknown
   std::unique_ptr<Sampler> progressiveSampler_;  // null if the sampler is not progressive
   PassesResult result_;
   std::optional<StopReason> reasonMet_;

@@ -53,9 +53,7 @@ class LongPath {
 
  private:
   bool Needs(Feature feature) const { return context_.scene.Features().Needs(feature); }
-  bool TakesEmission() const {
-    return !isScattered_ || !isSpecular_ || Needs(Feature::Caustics);
-  }
+  bool TakesEmission() const { return !isScattered_ || !isSpecular_ || Needs(Feature::Caustics); }
   bool TakesDirect() const { return !isScattered_ || Needs(Feature::Indirect); }
   LobeSet Lobes() const { return Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular; }
 

@@ -54,8 +54,7 @@ TEST_F(DepthLimitTest, CutsTheLightThatTheWarningStates) {
   for (const std::string name : {"path", "bidirectional"}) {
     const double whole = Render('"' + name + "\" \"integer maxdepth\" 200").mean;
     for (const int depth : {0, 2, 5}) {
-      const Outcome cut =
-          Render('"' + name + "\" \"integer maxdepth\" " + std::to_string(depth));
+      const Outcome cut = Render('"' + name + "\" \"integer maxdepth\" " + std::to_string(depth));
       const double share = 100 * (1 - cut.mean / whole);
       EXPECT_NEAR(WarnedShare(cut.messages, "maxdepth"), share, .2 * share) << name << depth;
       EXPECT_NE(cut.messages.find("integrator \"" + name + "\": the depth limit"),
@@ -65,9 +64,9 @@ TEST_F(DepthLimitTest, CutsTheLightThatTheWarningStates) {
 }
 
 TEST_F(DepthLimitTest, IsNotMentionedWhereItCutsLittle) {
-  for (const char* integrator : {"\"path\" \"integer maxdepth\" 60",
-                                 "\"bidirectional\" \"integer maxdepth\" 60", "\"whitted\"",
-                                 "\"directlighting\""})
+  for (const char* integrator :
+       {"\"path\" \"integer maxdepth\" 60", "\"bidirectional\" \"integer maxdepth\" 60",
+        "\"whitted\"", "\"directlighting\""})
     EXPECT_EQ(Render(integrator, {"--spp", "4"}).messages.find("depth limit"), std::string::npos)
         << integrator;
 }

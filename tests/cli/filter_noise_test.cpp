@@ -21,8 +21,8 @@ std::string Scene(const std::string& filter, const std::string& sampler,
                   const std::string& integrator = "\"directlighting\"") {
   return "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 24\n"
          "LookAt 0 2 -3  0 0 1  0 1 0 Camera \"perspective\" \"float fov\" 50\nPixelFilter \"" +
-         filter + "\"\nSampler \"" + sampler +
-         "\" \"integer pixelsamples\" 4\nSurfaceIntegrator " + integrator +
+         filter + "\"\nSampler \"" + sampler + "\" \"integer pixelsamples\" 4\nSurfaceIntegrator " +
+         integrator +
          "\nWorldBegin\n"
          "AttributeBegin AreaLightSource \"area\" \"color L\" [6 6 6] Translate .5 4 1\n"
          "Shape \"sphere\" \"float radius\" 1.2 AttributeEnd\n"
@@ -39,8 +39,8 @@ class FilterNoiseTest : public ProgramTest {
   Image Render(const std::string& filter, const std::string& sampler, Names arguments,
                const std::string& integrator = "\"directlighting\"") {
     Write("scene.pbrt", Scene(filter, sampler, integrator));
-    for (const char* word : {"scene.pbrt", "-o", "out.exr", "--float", "--quiet", "--stats-json",
-                             "stats.json"})
+    for (const char* word :
+         {"scene.pbrt", "-o", "out.exr", "--float", "--quiet", "--stats-json", "stats.json"})
       arguments.push_back(word);
     const ProgramResult result = Run(arguments);
     EXPECT_EQ(result.status, 0) << result.err;

@@ -41,9 +41,9 @@ class Film {
   // Adds radiance to a sample that was added before with this weight.
   void AddLight(Point2i pixel, const Spectrum& L, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
-  // For samples that are splatted (core/render/splat_buffer.h): adds an unweighted sample to its own
-  // pixel, and light to such a sample. The pixel shows their mean only if AddSums adds too small a
-  // weight.
+  // For samples that are splatted (core/render/splat_buffer.h): adds an unweighted sample to its
+  // own pixel, and light to such a sample. The pixel shows their mean only if AddSums adds too
+  // small a weight.
   void AddOwn(Point2i pixel, const Spectrum& L, Real alpha);
   void AddOwnLight(Point2i pixel, const Spectrum& L);
 
