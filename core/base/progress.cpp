@@ -55,6 +55,7 @@ void ProgressReporter::Begin(std::string phase, std::int64_t total) {
 
 void ProgressReporter::Advance(std::int64_t count) {
   done_.fetch_add(count, std::memory_order_relaxed);
+  if (listener_) listener_();
   if (mode_ == Mode::Quiet) return;
   // If another thread is drawing, this thread continues its work instead of waiting.
   const std::unique_lock lock(mutex_, std::try_to_lock);

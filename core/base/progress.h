@@ -6,8 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace exphoton {
 
@@ -22,11 +24,15 @@ class ProgressReporter {
   void Advance(std::int64_t count = 1);  // callable from any thread
   void SetDone(std::int64_t done);       // sets the absolute count
   void End();
+  // Calls `listener` after each change of a phase, from any thread. For phases that belong to a
+  // longer one. Must be set before the first phase.
+  void SetListener(std::function<void()> listener) { listener_ = std::move(listener); }
 
  private:
   void Draw(bool final);
 
   Mode mode_;
+  std::function<void()> listener_;
   bool isTerminal_ = false;
   std::string phase_;
   std::int64_t total_ = 0;

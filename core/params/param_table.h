@@ -58,6 +58,8 @@ struct ParamDecl {
   bool isIgnored = false;            // accepted for other programs' scenes; has no effect
   // The default in scenes of version 2, as numbers; empty if it is the same.
   std::vector<double> version2Default;
+  // The default where the command line names the integrator, as a number; absent if it is the same.
+  std::optional<double> namedDefault;
 };
 // Returns "between 0 and 90", "above 0 and at most 1" ...; "" without limits.
 std::string RangeText(const ParamDecl& decl);
@@ -169,6 +171,11 @@ class Param : public ParamDraft {
   }
   Param& Required() {
     decl.isRequired = true;
+    return *this;
+  }
+  // Integrators only: the default where the command line names the integrator.
+  Param& WhenNamed(double number) {
+    decl.namedDefault = number;
     return *this;
   }
   // The parameter is checked but has no effect. The text says why.

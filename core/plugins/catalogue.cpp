@@ -52,6 +52,12 @@ std::string RangeColumn(const ParamDecl& decl) {
   return text;
 }
 
+std::string MeaningColumn(const ParamDecl& decl) {
+  if (!decl.namedDefault) return decl.doc;
+  return decl.doc + "; default where --integrator names this integrator: " +
+         std::to_string(int(*decl.namedDefault));
+}
+
 // Breaks `text` between words into lines that begin with `indent` blanks.
 std::string Wrapped(const std::string& text, std::size_t indent) {
   std::string result, line;
@@ -89,7 +95,7 @@ std::string MarkdownTable(const ParamTableBase& table) {
     const bool isLiteral = !decl.isRequired && !decl.defaultText.empty();
     text += "| `" + decl.name + "` |" + Cell(ParamTypeName(decl.type)) + '|' +
             (isLiteral ? " `" + value + "` " : Cell(value)) + '|' + Cell(RangeColumn(decl)) + '|' +
-            Cell(decl.doc) + "|\n";
+            Cell(MeaningColumn(decl)) + "|\n";
   }
   return text;
 }
@@ -147,7 +153,7 @@ std::string DescribePlugin(PluginRegistry& registry, const std::string& name) {
         text += ParamTypeName(decl.type);
         text += ' ' + decl.name + "  " + DefaultColumn(decl);
         if (!range.empty()) text += "  (" + range + ')';
-        text += '\n' + Wrapped(decl.doc, 6);
+        text += '\n' + Wrapped(MeaningColumn(decl), 6);
       }
     }
   }

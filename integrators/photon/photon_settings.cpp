@@ -26,7 +26,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           "lights of a scene that are all sampled at each point; where there are more, this number "
           "of lights is chosen by power and distance")
           .Range(1, 1 << 20),
-      Param("maxdepth", &S::maxDepth, "specular bounces followed from the camera").Range(0, 1000),
+      Param("maxdepth", &S::maxDepth, "specular bounces followed").Range(0, 1000),
       Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),
       Param("finalgather", &S::finalGather,
             "gather indirect light over the hemisphere; false shows the maps directly"),

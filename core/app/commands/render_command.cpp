@@ -151,11 +151,11 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   options.aovs = films.aovs.get();
 
   const Clock::time_point start = Clock::now();
-  const PassesResult result =
-      RenderPicture(command_,
-                    {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera,
-                     films.film, threads, log_, progress, statistics, setup.volumeIntegrator.get()},
-                    options, begin.wall, &films);
+  const PassesResult result = RenderPicture(
+      command_,
+      {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, films.film,
+       threads, log_, progress, statistics, setup.volumeIntegrator.get(), setup.integratorName},
+      options, begin.wall, &films);
   watch_.MustFinish() = true;
   RunRecord run(setup, statistics);
   run.commandLine = command_.commandLine;

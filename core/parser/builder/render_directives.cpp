@@ -44,9 +44,10 @@ RenderDirectives::RenderDirectives(const LoadOptions& options, Dialect dialect)
   OverrideIntegrator();
 }
 
-// Replaces the name but keeps the parameters: by default, unknown parameters cause only warnings.
+// Replaces the name. KeepSharedParameters selects the parameters later, when plugins can be loaded.
 void RenderDirectives::OverrideIntegrator() {
   if (!options_.integrator) return;
+  fileIntegrator_ = integrator_.name;
   integrator_.name = *options_.integrator;
   integrator_.params.where = SourceLocation();
   integrator_.params.where.file = kCommandLineLocation;
@@ -115,7 +116,9 @@ ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choic
       registry.Find(kind, choice.name, choice.params.where).parameters->Declarations();
   ApplyOverrides(options_.parameters, directive,
                  std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", declared, &params);
-  if (kind == PluginKind::Integrator && options_.isQuick) ScaleForQuick(declared, &params);
+  if (kind != PluginKind::Integrator) return params;
+  if (options_.integrator) AddNamedDefaults(declared, &params);
+  if (options_.isQuick) ScaleForQuick(declared, &params);
   return params;
 }
 
@@ -179,6 +182,15 @@ void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderS
   if (made != *count)
     log.Notice("sampler \"" + sampler_.name + "\" takes " + std::to_string(made) +
                " samples a pixel instead of " + std::to_string(*count));
+}
+
+void RenderDirectives::KeepSharedParameters(PluginRegistry& registry, Log& log) {
+  if (fileIntegrator_ == integrator_.name || integrator_.params.IsEmpty()) return;
+  const auto* to = registry.Declarations(PluginKind::Integrator, integrator_.name);
+  if (!options_.integrator || !to) return;
+  const auto* from = registry.Declarations(PluginKind::Integrator, fileIntegrator_);
+  exphoton::KeepSharedParameters({fileIntegrator_, integrator_.name, from, *to}, log,
+                                 &integrator_.params);
 }
 
 void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,
@@ -252,6 +264,7 @@ void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
   errors->Try([&] { CreateCamera(registry, log, setup); });
   errors->Try([&] { CreateFilter(registry, log, setup); });
   errors->Try([&] { CreateSampler(registry, log, setup); });
+  errors->Try([&] { KeepSharedParameters(registry, log); });
   errors->Try([&] { CreateIntegrator(registry, log, setup); });
   setup->acceleratorName = accelerator_.name;
 }

@@ -42,6 +42,8 @@ class RenderDirectives {
   };
 
   void OverrideIntegrator();
+  // Removes parameters of the file's integrator that mean something else in the chosen one.
+  void KeepSharedParameters(PluginRegistry& registry, Log& log);
   // Chooses the integrator that takes the place of a renderer of version 2 that is not available.
   void ReplaceRenderer(Log& log);
   ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
@@ -61,6 +63,7 @@ class RenderDirectives {
   Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
       accelerator_{"bvh", {}}, integrator_{"directlighting", {}}, volumeIntegrator_{"emission", {}},
       camera_{"perspective", {}}, renderer_{"sampler", {}};
+  std::string fileIntegrator_;  // the integrator that the file names; "" without --integrator
   MovingTransform worldToCamera_;
   Interval transformTimes_{0, 1};
 };
