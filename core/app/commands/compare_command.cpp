@@ -166,10 +166,9 @@ CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
       .Positive();
   AddLimitsOption(app, &options.limits);
   app.Footer(
-      "\nrelMSE: mean over pixels and colours of (x-r)^2 / (r^2 + 0.01); trimmed: without the "
-      "worst\n"
-      "thousandth of the pixels; p99 error: 99 % of the pixels have a smaller root of their "
-      "relMSE;\n"
+      "relMSE: mean over pixels and colours of (x-r)^2 / (r^2 + 0.01); trimmed: without the "
+      "worst thousandth of the pixels; p99 error: 99 % of the pixels have a smaller root of their "
+      "relMSE; "
       "FLIP: visible difference, 0 to 1 (LDR-FLIP, mean luminance of the reference at 0.18).");
   app.Parse(arguments);
   return options;
