@@ -117,7 +117,7 @@ TEST_F(Newcomer, ExposureMultipliesAndTheFilmicCurveRollsOff) {
   EXPECT_NEAR(value({"--tone-curve", "filmic"}), .3742, .005);
 }
 
-TEST_F(Newcomer, AHintTellsOfClippedAndOfBlackPictures) {
+TEST_F(Newcomer, AHintReportsClippedAndOfBlackPictures) {
   Write("bright.pbrt", Emitter("8 8 8"));
   const ProgramResult bright = Run({"bright.pbrt", "-o", "a.png"});
   EXPECT_TRUE(Has(bright.err, "100 % of the pixels of \"a.png\" are lost: 100 % clipped"))

@@ -207,7 +207,8 @@ class Case {
       const std::string picture = dice_.Of(pictures);
       command.words.push_back(picture);
       command.inputs.push_back(picture);
-      for (const char* end : {"-difference.exr", "-difference.png"})
+      for (const char* end : {"-difference.exr", "-difference.png", "-difference-R.png",
+                              "-difference-G.png", "-difference-B.png"})
         command.outputs.push_back(folder + "/" + fs::path(picture).stem().string() + end);
     }
     command.words.insert(command.words.end(), {"--difference", folder});
