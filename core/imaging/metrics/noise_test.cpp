@@ -15,8 +15,8 @@ namespace {
 constexpr int kCellPixels = 8;      // wider than the support of every pixel filter
 constexpr int kBlockCells = 4;      // cells along the side of a block
 constexpr double kRounding = 1e-5;  // relative error of a mean of 16-bit values
-// Filters correlate neighbouring cells. A box of 3 x 3 pixels makes the variance of a mean 1.27
-// times the sum over cells: (8 / (6 + 2 (4/9 + 1/9)))^2.
+// Filters that share samples between pixels correlate neighbouring cells, too. A box of 3 x 3
+// pixels makes the variance of a mean 1.27 times the sum over cells: (8 / (6 + 2 (4/9 + 1/9)))^2.
 constexpr double kNeighbours = 1.3;
 constexpr double kMedianChiSquare1 = .4549364;
 constexpr int kMinReplicates = 3;
@@ -70,11 +70,16 @@ struct CellGrid {
 
 using CellSums = std::vector<Color>;  // by cell
 
-// One side of the comparison as layers: what is averaged, and what measures its noise.
+// The noise of a picture by cells, from an estimated variance of each pixel.
+struct CellNoise {
+  CellSums variances, squares;  // sums of the pixels' variances, and of their squares
+  CellSums differences;         // of (half1 - half2) / 2; empty if the layer Variance is used
+};
+
+// One side of the comparison. Its pictures are independent estimates of the same picture.
 struct Side {
-  std::vector<CellSums> pictures;     // each an independent estimate of the same picture
-  std::vector<CellSums> differences;  // (half1 - half2) / 2 of each picture
-  std::vector<CellSums> variances;    // sums of the layer Variance
+  std::vector<CellSums> pictures;
+  std::vector<CellNoise> noise;  // of each picture; empty for NoiseSource::Replicates
 };
 
 class CellPictures {
@@ -87,8 +92,10 @@ class CellPictures {
   const CellGrid& Cells() const { return grid_; }
   double Count(std::size_t cell) const { return counts_[cell]; }
 
-  // Returns the sums of first - second (second may be null) over the finite pixels, times a factor.
-  CellSums Sum(const ColorLayer& first, const ColorLayer* second, double factor) const {
+  // Returns the sums over the finite pixels of a power of factor * (first - second), where second
+  // may be null.
+  CellSums Sum(const ColorLayer& first, const ColorLayer* second, double factor,
+               int power = 1) const {
     CellSums sums(std::size_t(grid_.Count()), Color{});
     for (int y = 0; y < grid_.height; ++y) {
       for (int x = 0; x < grid_.width; ++x) {
@@ -97,7 +104,8 @@ class CellPictures {
         for (std::size_t c = 0; c < 3; ++c) {
           double value = double(first.image->At(x, y, first.channels[c]));
           if (second) value -= double(second->image->At(x, y, second->channels[c]));
-          sum[c] += factor * value;
+          value *= factor;
+          sum[c] += power == 1 ? value : power == 2 ? value * value : std::pow(value, power);
         }
       }
     }
@@ -131,18 +139,12 @@ class CellPictures {
   std::vector<bool> isFinite_;
 };
 
-// A variance as a sum of independent contributions, with its effective degrees of freedom
-// (Satterthwaite 1946).
+// Adds estimated variances that have one degree of freedom each: squares of normal values, whose
+// squares have the mean 3 sigma^4. The effective degrees of freedom follow Satterthwaite 1946.
+// Subtracting 2 removes the bias: one dominant variance gives 1, and n equal ones give n - 2.
 struct VarianceSum {
   double sum = 0, squares = 0, count = 0;
 
-  void Add(double contribution) {
-    sum += contribution;
-    squares += contribution * contribution;
-    ++count;
-  }
-  // Each contribution is the square of one normal value, so the mean of its square is 3 sigma^4.
-  // Subtracting 2 removes the bias: one dominant contribution gives 1, and n equal variances n - 2.
   double DegreesOfFreedom() const {
     return squares > 0 ? std::clamp(3 * sum * sum / squares - 2, 1., count) : 1;
   }
@@ -153,7 +155,7 @@ class Tester {
   Tester(const CellPictures& comparison, const Side& reference, const Side& picture,
          NoiseSource source)
       : comparison_(comparison), reference_(reference), picture_(picture), source_(source) {
-    if (source_ == NoiseSource::Variance) inflation_ = Inflation();
+    if (source_ != NoiseSource::Replicates) inflation_ = Inflation();
   }
 
   NoiseFinding Test(const PixelBounds& cells, std::size_t channel) const {
@@ -184,9 +186,12 @@ class Tester {
         sum += value(std::size_t(y * comparison_.Cells().columns + x));
     return sum;
   }
+  double SumOf(const CellSums& sums, const PixelBounds& cells, std::size_t channel) const {
+    return Over(cells, [&](std::size_t i) { return sums[i][channel]; });
+  }
   double MeanOf(const CellSums& sums, const PixelBounds& cells, std::size_t channel,
                 double count) const {
-    return Over(cells, [&](std::size_t i) { return sums[i][channel]; }) / count;
+    return SumOf(sums, cells, channel) / count;
   }
   double MeanOf(const Side& side, const PixelBounds& cells, std::size_t channel,
                 double count) const {
@@ -210,48 +215,49 @@ class Tester {
     return squares / *degrees * inverse;
   }
 
-  // Cells have independent noise. Each contributes its squared difference of halves, or its sum of
-  // variances.
   double CellVariance(const PixelBounds& cells, std::size_t channel, double count,
                       double* degrees) const {
     VarianceSum variance;
     for (const Side* side : {&reference_, &picture_}) {
-      const double scale = 1 / (count * double(side->pictures.size()));
-      for (const CellSums& sums : side->differences)
-        Over(cells, [&](std::size_t i) {
-          variance.Add(kNeighbours * std::pow(sums[i][channel] * scale, 2));
-          return 0.;
-        });
-      for (const CellSums& sums : side->variances)
-        Over(cells, [&](std::size_t i) {
-          variance.Add(sums[i][channel] * scale * scale * inflation_);
-          return 0.;
-        });
+      const double scale = 1 / (count * double(side->pictures.size())), scale2 = scale * scale;
+      for (const CellNoise& noise : side->noise) {
+        variance.sum += scale2 * SumOf(noise.variances, cells, channel);
+        variance.squares += scale2 * scale2 * SumOf(noise.squares, cells, channel);
+        variance.count += count;
+      }
     }
-    *degrees = variance.DegreesOfFreedom();
-    return variance.sum;
+    // Pixels that share samples count as fewer.
+    *degrees = std::max(1., variance.DegreesOfFreedom() / inflation_);
+    return variance.sum * inflation_;
   }
 
-  // Filters that share samples between pixels make the noise of a cell larger than the sum of its
-  // variances. The factor comes from the differences of neighbouring cells. The median ignores the
-  // few neighbours between which the pictures really differ.
+  // Returns the factor by which the variance of a mean exceeds that of independent pixels, because
+  // filters share samples between pixels. It compares cells with the sum of their pixels. The
+  // median ignores the few cells between which the pictures really differ.
   double Inflation() const {
     std::vector<double> ratios;
+    const auto add = [&ratios](double difference, double variance) {
+      if (variance > 0) ratios.push_back(difference * difference / variance);
+    };
     const int columns = comparison_.Cells().columns;
     for (int i = 0; i + 1 < comparison_.Cells().Count(); ++i) {
-      if (i % columns == columns - 1) continue;
+      const auto cell = std::size_t(i);
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto at = [&](int cell) { return DifferenceAt(std::size_t(cell), c); };
-        const auto [a, varianceA] = at(i);
-        const auto [b, varianceB] = at(i + 1);
-        if (varianceA + varianceB > 0)
-          ratios.push_back((a - b) * (a - b) / (varianceA + varianceB));
+        for (const Side* side : {&reference_, &picture_})
+          for (const CellNoise& noise : side->noise)
+            if (!noise.differences.empty())
+              add(noise.differences[cell][c], noise.variances[cell][c]);
+        if (source_ == NoiseSource::Halves || i % columns == columns - 1) continue;
+        const auto [a, varianceA] = DifferenceAt(cell, c);
+        const auto [b, varianceB] = DifferenceAt(cell + 1, c);
+        add(a - b, varianceA + varianceB);
       }
     }
     if (ratios.empty()) return 1;
     const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
     std::nth_element(ratios.begin(), middle, ratios.end());
-    return std::max(1., *middle / kMedianChiSquare1);
+    const double factor = std::max(1., *middle / kMedianChiSquare1);
+    return factor * std::min(kNeighbours, 1 + (kNeighbours - 1) * (factor - 1));
   }
   // Returns the difference of a cell's means, and its predicted variance.
   std::pair<double, double> DifferenceAt(std::size_t cell, std::size_t channel) const {
@@ -262,8 +268,8 @@ class Tester {
       const double pictures = double(side->pictures.size());
       for (const CellSums& sums : side->pictures)
         difference += sign * sums[cell][channel] / (count * pictures);
-      for (const CellSums& sums : side->variances)
-        variance += sums[cell][channel] / (count * count * pictures * pictures);
+      for (const CellNoise& noise : side->noise)
+        variance += noise.variances[cell][channel] / (count * count * pictures * pictures);
       sign = 1;
     }
     return {difference, variance};
@@ -310,9 +316,12 @@ Side MakeSide(const CellPictures& comparison, std::span<const Image> images, Noi
       side.pictures.push_back(comparison.Sum(*whole, nullptr, 1));
     }
     if (source == NoiseSource::Halves)
-      side.differences.push_back(comparison.Sum(*first, &*second, .5));
+      side.noise.push_back({comparison.Sum(*first, &*second, .5, 2),
+                            comparison.Sum(*first, &*second, .5, 4),
+                            comparison.Sum(*first, &*second, .5)});
     if (source == NoiseSource::Variance)
-      side.variances.push_back(comparison.Sum(*variance, nullptr, 1));
+      side.noise.push_back(
+          {comparison.Sum(*variance, nullptr, 1), comparison.Sum(*variance, nullptr, 1, 2), {}});
   }
   return side;
 }
