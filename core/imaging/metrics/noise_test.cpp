@@ -231,7 +231,7 @@ class Tester {
     return variance.sum * inflation_;
   }
 
-  // Returns the factor by which the variance of a mean exceeds that of independent pixels, because
+  // Returns the factor by which the variance of a mean exceeds its value for independent pixels, as
   // filters share samples between pixels. It compares cells with the sum of their pixels. The
   // median ignores the few cells between which the pictures really differ.
   double Inflation() const {
