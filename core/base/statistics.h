@@ -32,6 +32,11 @@ struct RayCounters {
   ExactSum cutGatherLight, gatherLight;
 
   void Count(RayKind kind) { ++counts[std::size_t(kind)]; }
+  std::uint64_t Total() const {
+    std::uint64_t total = 0;
+    for (const std::uint64_t count : counts) total += count;
+    return total;
+  }
   void Add(const RayCounters& other) {
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
     cutThroughput += other.cutThroughput;

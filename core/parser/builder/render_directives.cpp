@@ -42,6 +42,40 @@ RenderDirectives::RenderDirectives(const LoadOptions& options, Dialect dialect)
     : options_(options), dialect_(dialect) {
   if (dialect == Dialect::V2) filter_.name = "box";
   OverrideIntegrator();
+  OverridePlugins();
+}
+
+void RenderDirectives::OverridePlugin(Choice* choice, const std::optional<std::string>& name,
+                                      const char* option) {
+  if (!name || *name == choice->name) return;
+  if (choice == &sampler_) sceneSampler_ = sampler_;
+  choice->name = *name;
+  choice->isReplaced = true;
+  SourceLocation& where = choice->params.where;
+  where = SourceLocation();
+  where.file = kCommandLineLocation;
+  where.line = 1;
+  where.lineText = option + (' ' + *name);
+  where.column = int(where.lineText.size() - name->size()) + 1;
+}
+
+void RenderDirectives::OverridePlugins() {
+  OverridePlugin(&sampler_, options_.sampler, "--sampler");
+  OverridePlugin(&filter_, options_.filter, "--filter");
+  OverridePlugin(&camera_, options_.camera, "--camera");
+  OverridePlugin(&accelerator_, options_.accelerator, "--accelerator");
+}
+
+// Cameras share parameters of the same meaning (shutter, lens, screen window). Widths of filters
+// and counts of samplers mean different things in each plugin.
+ParamSet RenderDirectives::KnownParameters(const Choice& choice,
+                                           const std::vector<ParamDecl>& declared) const {
+  ParamSet known;
+  known.where = choice.params.where;
+  if (&choice != &camera_) return known;
+  for (const ParamDecl& decl : declared)
+    if (const ParsedParam* param = choice.params.Find(decl.name)) known.Add(*param);
+  return known;
 }
 
 // Replaces the name. KeepSharedParameters selects the parameters later, when plugins can be loaded.
@@ -92,6 +126,7 @@ void RenderDirectives::Handle(Directive directive, const MovingTransform& curren
   }
   *choice = {name, std::move(directive.params), true};
   if (choice == &integrator_) OverrideIntegrator();
+  OverridePlugins();
 }
 
 void RenderDirectives::SetDefaultLocation(const SourceLocation& where) {
@@ -111,9 +146,9 @@ BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log
 
 ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choice, PluginKind kind,
                                       PluginRegistry& registry) const {
-  ParamSet params = choice.params;
   const auto& declared =
       registry.Find(kind, choice.name, choice.params.where).parameters->Declarations();
+  ParamSet params = choice.isReplaced ? KnownParameters(choice, declared) : choice.params;
   ApplyOverrides(options_.parameters, directive,
                  std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", declared, &params);
   if (kind != PluginKind::Integrator) return params;
@@ -168,6 +203,16 @@ void RenderDirectives::CheckRenderer(Log& log) const {
   table.Bind(renderer_.params, bind);
 }
 
+// Returns the samples per pixel of the file's own sampler.
+std::int64_t RenderDirectives::SceneSamples(PluginRegistry& registry) const {
+  Log silent(Log::Level::Quiet, Log::Sink::Memory);
+  const auto sampler =
+      registry.Create<PluginKind::Sampler>(sceneSampler_.name, sceneSampler_.params,
+                                           Bind(PluginKind::Sampler, sceneSampler_.name, silent),
+                                           SamplerContext{silent, sceneSampler_.params.where});
+  return sampler->SamplesPerPixel();
+}
+
 void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
   const ParamSet params = Overridden("Sampler", sampler_, PluginKind::Sampler, registry);
   setup->samplerName = sampler_.name;
@@ -176,6 +221,7 @@ void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderS
       SamplerContext{log, sampler_.params.where});
   std::optional<std::int64_t> count = options_.samplesPerPixel;
   if (options_.isQuick && !count) count = 1;
+  if (sampler_.isReplaced && !count) count = SceneSamples(registry);
   if (!count) return;
   setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
   const std::int64_t made = setup->sampler->SamplesPerPixel();
