@@ -133,7 +133,7 @@ TEST_F(FilterNoiseTest, IsReportedByHalves) {
 TEST_F(FilterNoiseTest, IsReportedByPasses) {
   for (const char* filter : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {
     double reported = 0, measured = 0;
-    for (int seed = 1; seed <= 3; ++seed) {
+    for (int seed = 1; seed <= 8; ++seed) {
       const Image image =
           Render(filter, "lowdiscrepancy", {"--target-error", ".003", "--seed", Seed(seed)});
       const double noise = ReportedNoise();
