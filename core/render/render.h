@@ -52,7 +52,7 @@ struct RenderJob {
   ProgressReporter& progress;
   Statistics& statistics;
   VolumeIntegrator* volume = nullptr;  // light from media; null: none
-  std::string integratorName;          // for warnings
+  std::string integratorName{};        // for warnings
 };
 
 struct RenderResult {

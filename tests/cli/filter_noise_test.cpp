@@ -130,10 +130,12 @@ TEST_F(FilterNoiseTest, IsReportedByHalves) {
   }
 }
 
+// A rule that stops when an estimate is low prefers low estimates, so the bound is that of
+// TargetErrorTest.
 TEST_F(FilterNoiseTest, IsReportedByPasses) {
   for (const char* filter : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {
     double reported = 0, measured = 0;
-    for (int seed = 1; seed <= 3; ++seed) {
+    for (int seed = 1; seed <= 8; ++seed) {
       const Image image =
           Render(filter, "lowdiscrepancy", {"--target-error", ".003", "--seed", Seed(seed)});
       const double noise = ReportedNoise();
@@ -142,8 +144,8 @@ TEST_F(FilterNoiseTest, IsReportedByPasses) {
       reported += noise;
       measured += RelMse(image, Truth(filter));
     }
-    EXPECT_GT(reported, measured / 1.35) << filter;
-    EXPECT_LT(reported, measured * 1.35) << filter;
+    EXPECT_GT(reported, measured / 1.5) << filter;
+    EXPECT_LT(reported, measured * 1.5) << filter;
   }
 }
 
