@@ -4,7 +4,7 @@
 // all techniques that make the same path (Veach 1997, chapter 10). Technique 0 hits the light,
 // technique 1 is next event estimation, and the others join two surface points. No light path is
 // joined to the camera itself, because a sample contributes to its own pixel only. With maxdepth d,
-// light is collected at the first d + 1 surfaces of a path, as with "path". The estimate is
+// light is collected at the first d + 1 surfaces of a joined path, as with "path". The estimate is
 // unbiased.
 #include "core/plugin.h"
 #include "integrators/lightpaths/camera_path.h"
@@ -19,9 +19,9 @@ struct Settings {
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       Param("maxdepth", &Settings::maxDepth,
-            "bounces after the first surface, of both paths together; 0: emission and direct light "
-            "only")
-          .Range(0, 1000)};
+            "bounces after the first surface; 0: emission and direct light only")
+          .Range(0, 1000)
+          .WhenNamed(100)};
   return table;
 }
 
@@ -85,6 +85,7 @@ class BidirectionalIntegrator final : public SurfaceIntegrator {
         TraceLightPath(cameraRay.time, context, &light);
         hasLight = true;
       }
+      if (depth == maxDepth_) path.MeasureCutLight(point);
       if (!AddVertex(point, depth, &walk)) break;
     }
     return path.Sum();

@@ -65,6 +65,8 @@ class IrradianceCacheIntegrator final : public SurfaceIntegrator {
     direct_.RequestSamples(scene, sampler, layout);
   }
 
+  DepthParameters DepthLimits() const override { return {"maxspeculardepth", "maxindirectdepth"}; }
+
   AovSet Aovs() const override { return kLightAovs; }
 
   FeatureSet ComputedFeatures() const override {

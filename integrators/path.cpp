@@ -8,6 +8,7 @@
 
 #include "core/math/sampling/mis.h"
 #include "core/plugin.h"
+#include "core/transport/cut_light.h"
 #include "core/transport/light_sample.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular_bounce.h"
@@ -24,7 +25,8 @@ const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       Param("maxdepth", &Settings::maxDepth,
             "bounces after the first surface; 0: emission and direct light only")
-          .Range(0, 10000)};
+          .Range(0, 10000)
+          .WhenNamed(100)};
   return table;
 }
 
@@ -64,6 +66,7 @@ class PathHistory {
     if (bounces_++ == 0) isFirstSpecular_ = isSpecular;
     if (!isSpecular) ++scatterings_;
   }
+  bool IsScattered() const { return scatterings_ > 0; }
   // Returns whether emission at the end of the path counts.
   bool TakesEmission() const { return scatterings_ == 0 || !isLastSpecular_ || hasCaustics_; }
   // Returns whether next event estimation at the path's end counts.
@@ -167,6 +170,8 @@ class PathIntegrator final : public SurfaceIntegrator {
         sum += direct;
         history.AddDirect(direct);
       }
+      if (depth == maxDepth_)
+        MeasureCutLight({point, path.beta, history.IsScattered()}, *lights_, context);
       const bool goesOn = Continue(point, sample, history.Lobes(lobes), &path);
       history.Bounce(path.isSpecular);
       context.arena.Rewind(mark);

@@ -1,39 +1,70 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ProgressReporter shows one progress bar per phase on standard error. On a terminal it redraws the
-// bar in place. Elsewhere, and with TERM=dumb, it prints a line for every 10 % or 30 s.
+// ProgressReporter shows the progress of one picture on standard error: one bar over all phases
+// that is redrawn in place on a terminal. Elsewhere, and with TERM=dumb, it prints lines by time:
+// the first after 5 s, then one for each further tenth, at most one in 10 s.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace exphoton {
 
 class ProgressReporter {
  public:
   enum class Mode { Auto, Quiet };
-  explicit ProgressReporter(Mode mode = Mode::Auto);
+  using Seconds = std::function<double()>;  // a clock with any origin
+  // Tests pass a clock of their own.
+  explicit ProgressReporter(Mode mode = Mode::Auto, Seconds clock = {});
 
-  // Starts a phase, such as "Shooting photons", "Building photon maps", "Computing photon
-  // radiances" or "Rendering". `total` is the count at which it is complete.
+  // Starts a phase, such as "Shooting photons" or "Rendering". `total` is the count at which it is
+  // complete. "Rendering" is the last phase and has most of the bar; the earlier phases share the
+  // first fifth of it.
   void Begin(std::string phase, std::int64_t total);
   void Advance(std::int64_t count = 1);  // callable from any thread
   void SetDone(std::int64_t done);       // sets the absolute count
+  // Erases the bar. A phase of a second or more leaves a line with its time on a terminal.
   void End();
+  // Calls `listener` after each change of a phase, from any thread. For phases that belong to a
+  // longer one. Must be set before the first phase.
+  void SetListener(std::function<void()> listener) { listener_ = std::move(listener); }
+
+  // Adds traced rays, for the display of rays per second. Callable from any thread.
+  void CountRays(std::uint64_t count) { rays_.fetch_add(count, std::memory_order_relaxed); }
+  // Sets a text that the display ends with, such as "12 samples, noise 1.8 %".
+  void SetDetail(std::string detail);
 
  private:
-  void Draw(bool final);
+  struct Moment {
+    double fraction;             // of the bar
+    double elapsed;              // seconds of all phases so far
+    std::optional<double> left;  // estimated seconds to the end; known while rendering
+  };
+  Moment Now() const;
+  bool IsLineDue(const Moment& now);
+  void Draw();
+  void DrawBar(const Moment& now) const;
+  void PrintLine(const Moment& now) const;
+  std::string Rate() const;  // rays per second in this phase; "" if none were counted
 
   Mode mode_;
+  std::function<void()> listener_;
+  Seconds clock_;
   bool isTerminal_ = false;
-  std::string phase_;
+  std::string phase_, detail_;
   std::int64_t total_ = 0;
   std::atomic<std::int64_t> done_{0};
-  std::chrono::steady_clock::time_point start_, lastDraw_;
+  std::atomic<std::uint64_t> rays_{0};
+  bool hasBegun_ = false;
+  double start_ = 0, phaseStart_ = 0, lastDraw_ = 0;  // seconds
+  double phaseFrom_ = 0, phaseTo_ = 0;                // the part of the bar that this phase has
   int lastTenth_ = 0;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
 };
 
 }  // namespace exphoton

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/exact_sum.h"
+
 namespace exphoton {
 
 enum class RayKind { Camera, Shadow, Bsdf, Specular, Gather, Photon };
@@ -19,16 +21,30 @@ const char* RayKindName(RayKind kind);  // "camera"
 
 struct RayCounters {
   std::array<std::uint64_t, kRayKindCount> counts{};
-  // Sums the throughput (luminance) of camera paths that a depth limit cut. Compare it with the
-  // number of camera rays.
-  double cutThroughput = 0;
-  double cutGatherThroughput = 0;  // the same for gather rays
+  // Sums the throughput (luminance) of specular camera paths that a depth limit cut. Compare it
+  // with the number of camera rays.
+  ExactSum cutThroughput;
+  ExactSum cutGatherThroughput;  // the same for gather rays
+  // Sums the luminance that the camera samples lost at a depth limit, as MeasureCutLight estimates
+  // it.
+  ExactSum cutLight, cutLightSquares;  // the latter: sum of the squares, for the standard error
+  // The same for paths that gather indirect light, and the luminance that these paths found.
+  ExactSum cutGatherLight, gatherLight;
 
   void Count(RayKind kind) { ++counts[std::size_t(kind)]; }
+  std::uint64_t Total() const {
+    std::uint64_t total = 0;
+    for (const std::uint64_t count : counts) total += count;
+    return total;
+  }
   void Add(const RayCounters& other) {
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
     cutThroughput += other.cutThroughput;
     cutGatherThroughput += other.cutGatherThroughput;
+    cutLight += other.cutLight;
+    cutLightSquares += other.cutLightSquares;
+    cutGatherLight += other.cutGatherLight;
+    gatherLight += other.gatherLight;
   }
 };
 

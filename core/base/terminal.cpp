@@ -6,8 +6,11 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
+#include <string_view>
 
 namespace exphoton {
 namespace {
@@ -34,6 +37,37 @@ int TerminalColumns() {
   winsize size{};
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
   return size.ws_col;
+}
+
+int OutputColumns() {
+  const char* given = std::getenv("COLUMNS");
+  if (const int columns = given ? std::atoi(given) : 0; columns >= 40) return columns;
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return std::clamp<int>(size.ws_col, 40, 100);
+}
+
+namespace {
+
+// Counts the characters of UTF-8 text.
+int Characters(std::string_view text) {
+  return int(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string WrappedText(const std::string& text, int indent, int columns) {
+  const std::string blanks(std::size_t(indent), ' ');
+  std::string result, line;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!line.empty() && indent + Characters(line) + 1 + Characters(word) > columns) {
+      result += blanks + line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return line.empty() ? result : result + blanks + line + '\n';
 }
 
 std::string Colored(const std::string& diagnostic, const std::string& severity) {

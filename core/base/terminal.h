@@ -13,7 +13,14 @@ bool IsRedrawable();
 // Returns whether to use colour: on a redrawable terminal or with CLICOLOR_FORCE, but never with
 // NO_COLOR.
 bool UsesColor();
-int TerminalColumns();  // 80 if unknown
+int TerminalColumns();  // of standard error; 80 if unknown
+// Returns the columns of the terminal on standard output, at most 100, or 80 without a terminal.
+// The environment variable COLUMNS takes precedence.
+int OutputColumns();
+
+// Breaks `text` between words into lines of at most `columns` characters that begin with `indent`
+// blanks. A word that is too long gets a line of its own. Each line ends with a newline.
+std::string WrappedText(const std::string& text, int indent, int columns);
 
 // Returns `diagnostic` (from FormatDiagnostic) with its severity coloured, if colours are used.
 std::string Colored(const std::string& diagnostic, const std::string& severity);

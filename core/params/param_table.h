@@ -55,9 +55,12 @@ struct ParamDecl {
   std::vector<std::string> choices;  // Choice only
   std::string defaultText;           // in scene file syntax; "" if automatic
   int quickDivisor = 1;              // --quick divides the value by this
+  bool isBasic = false;              // among the few that most scenes need
   bool isIgnored = false;            // accepted for other programs' scenes; has no effect
   // The default in scenes of version 2, as numbers; empty if it is the same.
   std::vector<double> version2Default;
+  // The default where the command line names the integrator, as a number; absent if it is the same.
+  std::optional<double> namedDefault;
 };
 // Returns "between 0 and 90", "above 0 and at most 1" ...; "" without limits.
 std::string RangeText(const ParamDecl& decl);
@@ -171,9 +174,20 @@ class Param : public ParamDraft {
     decl.isRequired = true;
     return *this;
   }
+  // Integrators only: the default where the command line names the integrator.
+  Param& WhenNamed(double number) {
+    decl.namedDefault = number;
+    return *this;
+  }
   // The parameter is checked but has no effect. The text says why.
   Param& Ignored() {
     decl.isIgnored = true;
+    return *this;
+  }
+  // Most scenes need only the basic parameters of a plugin. The reference lists them first. A
+  // plugin without basic parameters has one list.
+  Param& Basic() {
+    decl.isBasic = true;
     return *this;
   }
   // For the counts of an integrator: --quick divides the value of the file, or the default, by

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/base/log.h"
 #include "core/params/suggestions.h"
 
 namespace exphoton {
@@ -136,6 +137,40 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
                   LocationOf(override), DidYouMean(override.parameter, known));
     }
     params->Add(ParamOf(override, declaration->type));
+  }
+}
+
+bool MeansTheSame(const ParamDecl& a, const ParamDecl& b) {
+  return a.name == b.name && a.type == b.type && a.unit == b.unit && a.doc == b.doc;
+}
+
+void KeepSharedParameters(const IntegratorChange& change, Log& log, ParamSet* params) {
+  ParamSet kept;
+  kept.where = params->where;
+  for (const ParsedParam& param : params->All()) {
+    const ParamDecl* to = FindDeclaration(change.to, param.name);
+    const ParamDecl* from = change.from ? FindDeclaration(*change.from, param.name) : nullptr;
+    if (!to || (from && MeansTheSame(*from, *to))) {
+      kept.Add(param);
+    } else {
+      log.Notice("parameter \"" + param.name + "\" of integrator \"" + change.fromName +
+                     "\" does not apply to integrator \"" + change.toName +
+                     "\", where it has another meaning",
+                 param.where, "--set SurfaceIntegrator." + param.name + "=VALUE sets it");
+    }
+  }
+  *params = std::move(kept);
+}
+
+void AddNamedDefaults(const std::vector<ParamDecl>& declared, ParamSet* params) {
+  for (const ParamDecl& declaration : declared) {
+    if (!declaration.namedDefault || params->Find(declaration.name)) continue;
+    ParsedParam param;
+    param.name = declaration.name;
+    param.type = FileType(declaration.type, true);
+    param.where = params->where;
+    param.numbers = {*declaration.namedDefault};
+    params->Add(std::move(param));
   }
 }
 

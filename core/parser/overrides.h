@@ -17,6 +17,25 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
                     const std::string& what, const std::vector<ParamDecl>& declared,
                     ParamSet* params);
 
+// Returns whether two plugins mean the same by a parameter: they declare it with the same name,
+// type, unit and meaning. "maxdepth" of "path" counts all bounces, and that of "whitted" specular
+// ones.
+bool MeansTheSame(const ParamDecl& a, const ParamDecl& b);
+
+// --integrator: removes the parameters that the file gave to its integrator, if the new one
+// declares them with another meaning. `from` is null if the file's integrator cannot be loaded.
+// Parameters that the new integrator does not declare stay. `log` receives a notice for each
+// parameter.
+struct IntegratorChange {
+  std::string fromName, toName;
+  const std::vector<ParamDecl>* from;
+  const std::vector<ParamDecl>& to;
+};
+void KeepSharedParameters(const IntegratorChange& change, Log& log, ParamSet* params);
+
+// --integrator: adds the defaults that hold where the command line names the integrator.
+void AddNamedDefaults(const std::vector<ParamDecl>& declared, ParamSet* params);
+
 // --quick: divides the counts of an integrator, both given and default values, by the divisors that
 // it declares (ParamDecl::quickDivisor). No value falls below its minimum, and none that is above 0
 // falls to 0.

@@ -41,6 +41,9 @@ struct LoadOptions {
 
   // These options replace values from the file.
   std::optional<std::string> integrator;
+  // These plugins have default parameters, except that a camera keeps the parameters that it
+  // declares and a sampler the number of samples per pixel.
+  std::optional<std::string> sampler, filter, camera, accelerator;
   std::vector<ParameterOverride> parameters;
   std::optional<std::vector<Real>> cropWindow;  // x0 x1 y0 y1
   std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window

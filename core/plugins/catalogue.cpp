@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/terminal.h"
 #include "core/params/suggestions.h"
 
 namespace exphoton {
 namespace {
 
-constexpr std::size_t kTextWidth = 96;
+constexpr int kPageColumns = 96;
 
 struct Entry {
   std::string name, summary;
@@ -52,21 +53,27 @@ std::string RangeColumn(const ParamDecl& decl) {
   return text;
 }
 
-// Breaks `text` between words into lines that begin with `indent` blanks.
-std::string Wrapped(const std::string& text, std::size_t indent) {
-  std::string result, line;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    if (!line.empty() && indent + line.size() + 1 + word.size() > kTextWidth) {
-      result += std::string(indent, ' ') + line + '\n';
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-    at = end + 1;
-  }
-  return line.empty() ? result : result + std::string(indent, ' ') + line + '\n';
+std::string MeaningColumn(const ParamDecl& decl) {
+  if (!decl.namedDefault) return decl.doc;
+  return decl.doc + "; default where --integrator names this integrator: " +
+         std::to_string(int(*decl.namedDefault));
 }
+
+// The parameters of a plugin in two parts: basic and further ones. Without basic parameters, all
+// are in the first part.
+struct Parts {
+  std::vector<ParamDecl> basic, further;
+};
+
+Parts PartsOf(const ParamTableBase& table) {
+  Parts parts;
+  for (const ParamDecl& decl : table.Declarations())
+    (decl.isBasic ? parts.basic : parts.further).push_back(decl);
+  if (parts.basic.empty()) parts.basic.swap(parts.further);
+  return parts;
+}
+
+constexpr const char* kFurther = "Further parameters, and switches for research";
 
 // Returns a cell of a Markdown table. It escapes '|', which would end the cell, and '<', which
 // would begin a tag.
@@ -79,9 +86,7 @@ std::string Cell(const std::string& text) {
   return result.empty() ? " " : ' ' + result + ' ';
 }
 
-std::string MarkdownTable(const ParamTableBase& table) {
-  const std::vector<ParamDecl>& declarations = table.Declarations();
-  if (declarations.empty()) return "No parameters.\n";
+std::string MarkdownRows(const std::vector<ParamDecl>& declarations) {
   std::string text =
       "| parameter | type | default | range | meaning |\n| --- | --- | --- | --- | --- |\n";
   for (const ParamDecl& decl : declarations) {
@@ -89,8 +94,17 @@ std::string MarkdownTable(const ParamTableBase& table) {
     const bool isLiteral = !decl.isRequired && !decl.defaultText.empty();
     text += "| `" + decl.name + "` |" + Cell(ParamTypeName(decl.type)) + '|' +
             (isLiteral ? " `" + value + "` " : Cell(value)) + '|' + Cell(RangeColumn(decl)) + '|' +
-            Cell(decl.doc) + "|\n";
+            Cell(MeaningColumn(decl)) + "|\n";
   }
+  return text;
+}
+
+std::string MarkdownTable(const ParamTableBase& table) {
+  if (table.Declarations().empty()) return "No parameters.\n";
+  const Parts parts = PartsOf(table);
+  std::string text = MarkdownRows(parts.basic);
+  if (!parts.further.empty())
+    text += std::string("\n") + kFurther + ":\n\n" + MarkdownRows(parts.further);
   return text;
 }
 
@@ -110,9 +124,24 @@ std::string PageOf(PluginRegistry& registry, const std::string& folder) {
   return text;
 }
 
+std::string ParameterList(const std::vector<ParamDecl>& declarations) {
+  const int columns = OutputColumns();
+  std::string text;
+  for (const ParamDecl& decl : declarations) {
+    const std::string range = RangeColumn(decl);
+    text += "\n  ";
+    text += ParamTypeName(decl.type);
+    text += ' ' + decl.name + "  " + DefaultColumn(decl);
+    if (!range.empty()) text += "  (" + range + ')';
+    text += '\n' + WrappedText(MeaningColumn(decl), 6, columns);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ListPlugins(PluginRegistry& registry) {
+  const int columns = OutputColumns();
   std::string text;
   for (int i = 0; i < kPluginKindCount; ++i) {
     const std::vector<Entry> entries = EntriesOf(registry, KindAt(i));
@@ -122,8 +151,9 @@ std::string ListPlugins(PluginRegistry& registry) {
     std::size_t width = 0;
     for (const Entry& entry : entries) width = std::max(width, entry.name.size());
     for (const Entry& entry : entries) {
-      text += "  " + entry.name + std::string(width - entry.name.size() + 2, ' ') + entry.summary +
-              '\n';
+      const std::string lines = WrappedText(entry.summary, int(width) + 4, columns);
+      text += "  " + entry.name + std::string(width - entry.name.size() + 2, ' ') +
+              lines.substr(std::min(lines.size(), width + 4));
     }
   }
   return text;
@@ -139,16 +169,10 @@ std::string DescribePlugin(PluginRegistry& registry, const std::string& name) {
       if (!text.empty()) text += '\n';
       text += PluginKindName(entry.kind);
       text += " \"" + name + "\": " + entry.summary + '\n';
-      const std::vector<ParamDecl>& declarations = entry.parameters->Declarations();
-      if (declarations.empty()) text += "\n  no parameters\n";
-      for (const ParamDecl& decl : declarations) {
-        const std::string range = RangeColumn(decl);
-        text += "\n  ";
-        text += ParamTypeName(decl.type);
-        text += ' ' + decl.name + "  " + DefaultColumn(decl);
-        if (!range.empty()) text += "  (" + range + ')';
-        text += '\n' + Wrapped(decl.doc, 6);
-      }
+      const Parts parts = PartsOf(*entry.parameters);
+      text += parts.basic.empty() ? "\n  no parameters\n" : ParameterList(parts.basic);
+      if (!parts.further.empty())
+        text += std::string("\n") + kFurther + ":\n" + ParameterList(parts.further);
     }
   }
   if (text.empty()) {
@@ -173,7 +197,8 @@ std::map<std::string, std::string> ReferencePages(PluginRegistry& registry) {
     }
     // The lines after the first are indented, as Markdown wants it for one item of a list.
     if (!names.empty())
-      index += Wrapped("- [" + Capitalized(Plural(KindAt(i))) + "](" + file + "): " + names, 2)
+      index += WrappedText("- [" + Capitalized(Plural(KindAt(i))) + "](" + file + "): " + names, 2,
+                           kPageColumns)
                    .substr(2);
   }
   pages["README.md"] = index;

@@ -170,6 +170,17 @@ std::vector<std::string> PluginRegistry::Available(PluginKind kind) const {
   return names;
 }
 
+const std::vector<ParamDecl>* PluginRegistry::Declarations(PluginKind kind,
+                                                           const std::string& name) const {
+  try {
+    const PluginDescriptor* plugin = TryLoad(kind, name);
+    const PluginFactory* factory = plugin ? FactoryOf(*plugin, kind) : nullptr;
+    return factory ? &factory->parameters->Declarations() : nullptr;
+  } catch (const PluginFileError&) {
+    return nullptr;
+  }
+}
+
 std::vector<std::string> PluginRegistry::Loaded() const {
   std::vector<std::string> keys;
   for (const auto& [key, plugin] : loaded_) keys.push_back(key);

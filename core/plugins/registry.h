@@ -32,6 +32,10 @@ class PluginRegistry {
   // searched), is not a library, has a wrong ABI, build tag, kind or name, or throws.
   const PluginFactory& Find(PluginKind kind, const std::string& name, const SourceLocation& where);
 
+  // Returns the declared parameters of a plugin without counting it as used, or null if it cannot
+  // be loaded.
+  const std::vector<ParamDecl>* Declarations(PluginKind kind, const std::string& name) const;
+
   template <PluginKind kind>
   std::unique_ptr<typename PluginTraits<kind>::Product> Create(
       const std::string& name, const ParamSet& params, BindContext bind,

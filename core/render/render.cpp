@@ -8,9 +8,10 @@
 #include <deque>
 #include <sstream>
 
-#include "core/render/non_finite_log.h"
+#include "core/render/render_totals.h"
 #include "core/render/sharing/shared_gathers.h"
 #include "core/render/sharing/sharing_plan.h"
+#include "core/render/splat_buffer.h"
 #include "core/render/tiles.h"
 #include "core/transport/shading_point.h"
 
@@ -26,8 +27,8 @@ struct Worker {
   GatherRecords gathers;
   PixelState pixelState;
   ThreadState threadState;
-  RayCounters rays;
-  std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
+  SplatBuffer::Pixel splat;
+  RenderTotals totals;
   bool wasStopped = false;
 };
 
@@ -88,6 +89,7 @@ class TileRenderer {
     Film& film;
     ProgressReporter& progress;
     GatherFragments* gathers;  // null if gathers are not shared
+    SplatBuffer* splats;       // null if samples contribute to their own pixels only
   };
 
   TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
@@ -101,8 +103,10 @@ class TileRenderer {
 
   void RenderTile(const PixelBounds& tile, Worker* worker) const {
     for (int y = tile.y0; y < tile.y1; ++y) {
+      const std::uint64_t raysBefore = worker->rays.Total();
       for (int x = tile.x0; x < tile.x1; ++x)
         if (!RenderPixel({x, y}, worker)) return;
+      target_.progress.CountRays(worker->rays.Total() - raysBefore);
       target_.progress.Advance(tile.Width());
     }
   }
@@ -115,7 +119,8 @@ class TileRenderer {
 
   // Returns false if rendering was stopped.
   bool RenderPixel(Point2i pixel, Worker* worker) const {
-    if (!aovs_ || !aovs_->NeedsTime()) return RenderSamples(pixel, worker);
+    const bool isInPicture = target_.film.Crop().Contains(pixel.x, pixel.y);
+    if (!aovs_ || !aovs_->NeedsTime() || !isInPicture) return RenderSamples(pixel, worker);
     const Clock::time_point start = Clock::now();
     const bool isDone = RenderSamples(pixel, worker);
     aovs_->AddTime(pixel, std::chrono::duration<double>(Clock::now() - start).count());
@@ -124,7 +129,9 @@ class TileRenderer {
 
   bool RenderSamples(Point2i pixel, Worker* worker) const {
     worker->pixelState.Reset();
+    if (target_.splats) worker->splat.Begin(target_.splats, pixel);
     const bool isWhole = RenderAllSamples(pixel, worker);
+    if (target_.splats) worker->splat.End();
     if (target_.gathers) target_.gathers->At(pixel).Finish();
     return isWhole;
   }
@@ -145,13 +152,14 @@ class TileRenderer {
   void RenderSample(const SampleKey& key, Worker* worker) const {
     CameraSamples& samples = worker->samples;
     target_.sampler.Generate(key, &samples);
-    const FilterSample filter = job_.filter.Sample(samples.film);
-    const Point2 film =
-        Point2(Real(key.pixel.x) + Real(.5), Real(key.pixel.y) + Real(.5)) + filter.offset;
+    const Point2 half(Real(.5), Real(.5));
+    const FilterSample filter =
+        target_.splats ? FilterSample{samples.film - half, 1} : job_.filter.Sample(samples.film);
+    const Point2 film = Point2(Real(key.pixel.x), Real(key.pixel.y)) + half + filter.offset;
     const RayDifferential ray = CameraRay(film, samples);
 
     worker->arena.Reset();
-    LiContext context{job_.scene, samples, worker->arena, worker->rays,
+    LiContext context{job_.scene, samples, worker->arena, worker->totals.rays,
                       HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                                std::uint64_t(key.index)})};
     context.pixelState = &worker->pixelState;
@@ -166,7 +174,7 @@ class TileRenderer {
       if (aovs_->NeedsSurface()) DescribeSurface(job_.scene, ray, &worker->arena, &aovs);
     }
     Spectrum L = job_.integrator.Li(ray, context);
-    ++worker->cameraSamples;
+    ++worker->totals.cameraSamples;
     const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
     for (const GatherRecord& gather : worker->gathers)
       if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
@@ -176,15 +184,16 @@ class TileRenderer {
       Blacken(&aovs);
       worker->gathers.clear();
     } else if (L.MinComponent() < 0) {
-      ++worker->negative;
+      ++worker->totals.negative;
       ClampNegative(&L, &aovs);
     }
     if (target_.gathers) {
       // Neighbouring samples and neighbouring pixels belong to different halves.
       const int half = int((key.index + key.pixel.x + key.pixel.y) & 1);
       target_.gathers->At(key.pixel).Add(worker->gathers, film, filter.weight, half);
-      if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
     }
+    if (target_.splats) return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr});
+    if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
     target_.film.AddSample(key.pixel, L, alpha, filter.weight);
     if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
   }
@@ -202,7 +211,7 @@ class TileRenderer {
   void Drop(const Spectrum& L, const SampleKey& key, Worker* worker) const {
     const std::string text = Describe(L, key, options_.seed);
     if (options_.isStrict) throw Error(ExitStatus::Internal, "non-finite " + text);
-    ++worker->nonFinite;
+    ++worker->totals.nonFinite;
     log_->Add(key.pixel, key.index, text);
   }
 
@@ -214,57 +223,13 @@ class TileRenderer {
   Real differentialScale_;
 };
 
-// Warns if the depth limit cut more than kSilentShare of the throughput. The picture lacks this
-// light.
-void WarnOfCutPaths(const RenderJob& job, const RayCounters& rays, std::int64_t cameraSamples) {
-  constexpr double kSilentShare = 1e-3;
-  const auto warn = [&](double cut, double of, const std::string& what) {
-    const double share = cut / std::max(of, 1.);
-    if (!(share > kSilentShare)) return;
-    std::ostringstream text;
-    text.precision(2);
-    text << "the depth limit cut specular paths that carry " << 100 * share << " % of what "
-         << what;
-    job.log.Warning(text.str(), {}, "raise \"maxdepth\" of the integrator");
-  };
-  warn(rays.cutThroughput, double(cameraSamples), "the camera could see");
-  warn(rays.cutGatherThroughput, double(rays.counts[std::size_t(RayKind::Gather)]),
-       "gather rays could see");
-}
-
-RenderResult Summarize(const RenderJob& job, const std::deque<Worker>& workers,
-                       const NonFiniteLog& log) {
-  RenderResult result;
-  std::int64_t cameraSamples = 0, negative = 0;
-  RayCounters rays;
-  for (const Worker& worker : workers) {
-    rays.Add(worker.rays);
-    cameraSamples += worker.cameraSamples;
-    negative += worker.negative;
-    result.nonFiniteSamples += worker.nonFinite;
-    result.isComplete &= !worker.wasStopped;
-  }
-  job.statistics.AddRays(rays);
-  result.nonFiniteReports = log.Texts();
-  job.statistics.SetCounter("render/camera samples", double(cameraSamples), "camera rays started");
-  job.statistics.SetCounter("render/non-finite samples", double(result.nonFiniteSamples),
-                            "camera samples dropped, counted as black");
-  job.statistics.SetCounter("render/negative samples", double(negative),
-                            "camera samples with a component below 0, taken as 0");
-  WarnOfCutPaths(job, rays, cameraSamples);
-  if (result.nonFiniteSamples == 0) return result;
-  for (const std::string& text : result.nonFiniteReports)
-    job.log.Warning("dropped a non-finite " + text);
-  job.log.Warning(std::to_string(result.nonFiniteSamples) +
-                  " non-finite camera samples were dropped and count as black");
-  return result;
-}
-
-// Returns the pixels whose gathers the crop window needs.
-PixelBounds Enlarged(const PixelBounds& crop, const PixelBounds& full) {
+// Returns the pixels whose gathers the window needs. `reach` is the number of pixels that samples
+// are splatted over; those beyond the full image count, too.
+PixelBounds Enlarged(const PixelBounds& window, const PixelBounds& full, int reach) {
   const int margin = SharingMargin();
-  return {std::max(crop.x0 - margin, full.x0), std::max(crop.y0 - margin, full.y0),
-          std::min(crop.x1 + margin, full.x1), std::min(crop.y1 + margin, full.y1)};
+  return {
+      std::max(window.x0 - margin, full.x0 - reach), std::max(window.y0 - margin, full.y0 - reach),
+      std::min(window.x1 + margin, full.x1 + reach), std::min(window.y1 + margin, full.y1 + reach)};
 }
 
 }  // namespace
@@ -273,6 +238,7 @@ struct PassRenderer::State {
   State(const RenderJob& aJob, const RenderOptions& someOptions)
       : job(aJob),
         options(someOptions),
+        splatWeights(SplatWeights::Of(job.filter)),
         sharing(PlanSharing(job.integrator, job.scene, job.camera,
                             options.aovs ? options.aovs->Wanted() : AovSet())) {
     if (!sharing.isOn && !sharing.reason.empty())
@@ -309,9 +275,9 @@ struct PassRenderer::State {
     job.progress.End();
   }
 
-  void ShareGathers(const GatherFragments& gathers, Film* film) {
+  void ShareGathers(const GatherFragments& gathers, const SharedLightTarget& target) {
     const PhaseTimer timer(job.statistics, "share");
-    const double radius = AddSharedLight(gathers, &job.threads, film, options.aovs);
+    const double radius = AddSharedLight(gathers, &job.threads, target);
     job.statistics.SetCounter("render/sharing radius", radius,
                               "pixels, mean radius of the windows of shared gathers");
   }
@@ -324,12 +290,15 @@ struct PassRenderer::State {
 
   const RenderJob& job;
   const RenderOptions& options;
+  const std::unique_ptr<const SplatWeights> splatWeights;  // null: samples are not splatted
   const SharingPlan sharing;
   std::deque<Worker> workers;
   bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;
   Log mutedLog{Log::Level::Quiet, Log::Sink::Memory};
   int passes = 0;
+  RenderTotals totals;
+  std::optional<std::uint64_t> preparedSeed;  // of the last preprocessing
   double preprocessSeconds = 0, renderSeconds = 0;
 };
 
@@ -356,7 +325,9 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   const Clock::time_point start = Clock::now();
   for (Worker& worker : state.workers) worker.threadState.Reset();
   try {
-    state.Preprocess(pass.preprocessSeed, state.job.progress);
+    if (state.preparedSeed != pass.preprocessSeed)
+      state.Preprocess(pass.preprocessSeed, state.job.progress);
+    state.preparedSeed = pass.preprocessSeed;
   } catch (const PreprocessStopped&) {
     state.job.progress.End();
     state.wasStopped = true;
@@ -366,20 +337,31 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   state.preprocessSeconds = secondsSince(start);
 
   const Clock::time_point renderStart = Clock::now();
+  std::optional<SplatBuffer> buffer;
+  if (state.splatWeights) buffer.emplace(*state.splatWeights, film, state.options.aovs);
+  SplatBuffer* const splats = buffer ? &*buffer : nullptr;
+  const PixelBounds window = splats ? splats->Window() : film->Crop();
   if (state.sharing.isOn) {
-    GatherFragments gathers(Enlarged(film->Crop(), film->Full()), pass.sampleCount);
-    state.RenderPixels({pass, sampler, *film, state.job.progress, &gathers}, gathers.Bounds());
-    state.ShareGathers(gathers, film);
+    const int reach = splats ? state.splatWeights->Reach() : 0;
+    GatherFragments gathers(Enlarged(window, film->Full(), reach), pass.sampleCount);
+    state.RenderPixels({pass, sampler, *film, state.job.progress, &gathers, splats},
+                       gathers.Bounds());
+    state.ShareGathers(gathers, {film, state.options.aovs, splats});
   } else {
-    state.RenderPixels({pass, sampler, *film, state.job.progress, nullptr}, film->Crop());
+    state.RenderPixels({pass, sampler, *film, state.job.progress, nullptr, splats}, window);
   }
+  if (splats) splats->Finish();
   state.renderSeconds = secondsSince(renderStart);
+  state.totals.AddLight(*film, pass.sampleCount);
   return std::none_of(state.workers.begin(), state.workers.end(),
                       [](const Worker& worker) { return worker.wasStopped; });
 }
 
 RenderResult PassRenderer::Finish() {
-  RenderResult result = Summarize(state_->job, state_->workers, state_->nonFinite);
+  RenderTotals totals = state_->totals;
+  for (const Worker& worker : state_->workers) totals.Add(worker.totals);
+  RenderResult result = Summarize(state_->job, totals, state_->nonFinite);
+  for (const Worker& worker : state_->workers) result.isComplete &= !worker.wasStopped;
   result.isComplete &= !state_->wasStopped;
   return result;
 }

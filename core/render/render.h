@@ -52,6 +52,7 @@ struct RenderJob {
   ProgressReporter& progress;
   Statistics& statistics;
   VolumeIntegrator* volume = nullptr;  // light from media; null: none
+  std::string integratorName{};        // for warnings
 };
 
 struct RenderResult {
@@ -64,8 +65,9 @@ RenderResult Render(const RenderJob& job, const RenderOptions& options);
 
 // One pass over the image: the range of samples of each pixel, and their seeds.
 struct RenderPass {
-  std::uint64_t preprocessSeed = 0;  // for photons
-  std::uint64_t sampleSeed = 0;      // for camera samples
+  std::uint64_t preprocessSeed =
+      0;                         // for photons; the photons of the last pass stay if it is equal
+  std::uint64_t sampleSeed = 0;  // for camera samples
   std::int64_t firstSample = 0, sampleCount = 0;
 };
 

@@ -3,21 +3,19 @@
 #include "core/render/render_passes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
+
+#include "core/render/pass_plan.h"
 
 namespace exphoton {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The number of independent replicates of the picture. Passes are assigned to replicates in turn.
-// The passes of one replicate continue the same sequences of camera samples, because longer
-// sequences are better distributed.
-constexpr int kReplicates = 8;
-constexpr int kMinPasses = 2;        // needed for a noise estimate
-constexpr std::int64_t kGrowth = 8;  // a pass adds at most 1/8 of the samples so far
-constexpr std::int64_t kMaxPassSamples = 64;
-constexpr std::uint64_t kPassSeed = 0x70617373ull, kReplicateSeed = 0x7265706cull;
+// Groups of passes are independent of each other. Later groups share the places of the first ones,
+// which limits memory.
+constexpr int kGroups = 8;
+constexpr std::uint64_t kPassSeed = 0x70617373ull, kGroupSeed = 0x7265706cull;
 constexpr std::int64_t kProgressSteps = 1000;
 
 double SecondsSince(Clock::time_point start) {
@@ -31,100 +29,112 @@ class Passes {
         rule_(rule),
         options_(options),
         quiet_(ProgressReporter::Mode::Quiet),
-        quietJob_{job.scene,   job.integrator, job.sampler, job.filter,     job.camera, job.film,
-                  job.threads, job.log,        quiet_,      job.statistics, job.volume},
+        quietJob_{job.scene,  job.integrator, job.sampler, job.filter,
+                  job.camera, job.film,       job.threads, job.log,
+                  quiet_,     job.statistics, job.volume,  job.integratorName},
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
-        noise_(job.film.Crop(), kReplicates),
-        maxPassSamples_(
-            std::clamp<std::int64_t>(job.sampler.SamplesPerPixel(), 1, kMaxPassSamples)) {
+        noise_(job.film.Crop(), kGroups),
+        forecast_(job.film.Crop()),
+        plan_({rule.targetError, rule.timeLimit, rule.maxSamples}) {
     if (job.sampler.IsProgressive())
       progressiveSampler_ = job.sampler.WithSamplesPerPixel(rule.maxSamples);
+    quiet_.SetListener([this] { ShowProgress(); });
   }
 
   PassesResult Run() {
+    begin_ = Clock::now();
     job_.progress.Begin("Rendering", kProgressSteps);
-    for (std::optional<StopReason> reason; !reason; reason = Reason()) {
-      if (!RunPass(NextSize())) {
+    PassPlan::Step step = plan_.Next({});
+    for (std::optional<StopReason> reason; !reason; reason = Reason(step)) {
+      if (!RunPass(step)) {
         result_.reason = StopReason::Signal;
         return Finish();
       }
-      job_.progress.SetDone(Progress());
+      const PassPlan::State state = State();
+      step = plan_.Next(state);
+      if (const auto left = plan_.SecondsLeft(state))
+        expectedSeconds_ = SecondsSince(begin_) + *left;
     }
     result_.reason = *reasonMet_;
     return Finish();
   }
 
  private:
-  // Passes are small at first, so that rendering stops close to the target error. Later passes add
-  // an eighth of the samples so far.
-  std::int64_t NextSize() const {
-    const std::int64_t total = result_.samplesPerPixel;
-    const std::int64_t size = std::clamp<std::int64_t>(total / kGrowth, 1, maxPassSamples_);
-    return std::min({size, SizeInTime(), rule_.maxSamples - total});
-  }
-  // Returns the pass size that the remaining time allows, judged by the times of the last pass.
-  // Returns 0 if not even one sample fits.
-  std::int64_t SizeInTime() const {
-    if (!rule_.timeLimit || result_.passes == 0) return maxPassSamples_;
-    const double left =
-        *rule_.timeLimit - SecondsSince(rule_.start) - renderer_.PreprocessSeconds();
-    const double each = renderer_.RenderSeconds() / double(lastSize_);
-    return std::int64_t(
-        std::clamp(std::floor(left / std::max(each, 1e-9)), 0., double(maxPassSamples_)));
+  PassPlan::State State() const {
+    PassPlan::State state;
+    state.samples = result_.samplesPerPixel;
+    state.noise = result_.noise;
+    if (rule_.targetError) state.enough = forecast_.SamplesFor(2 * *rule_.targetError);
+    state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
+    state.preprocess = preprocessSeconds_;
+    state.sample = renderSeconds_ / double(std::max<std::int64_t>(result_.samplesPerPixel, 1));
+    return state;
   }
 
-  bool RunPass(std::int64_t size) {
-    const int replicate = noise_.SmallestGroup();
+  bool RunPass(const PassPlan::Step& step) {
+    if (step.isNewGroup) groupSamples_ = 0;
+    const std::uint64_t group = std::uint64_t(plan_.Groups() - (step.isNewGroup ? 0 : 1));
     RenderPass pass;
-    pass.preprocessSeed = HashKey({options_.seed, kPassSeed, std::uint64_t(result_.passes)});
-    pass.sampleCount = size;
+    pass.preprocessSeed = HashKey({options_.seed, kPassSeed, group});
+    pass.sampleCount = step.size;
     std::unique_ptr<Sampler> pattern;
-    if (progressiveSampler_) {
-      pass.sampleSeed = HashKey({options_.seed, kReplicateSeed, std::uint64_t(replicate)});
-      pass.firstSample = noise_.SamplesOf(replicate);
+    const bool goesOn = progressiveSampler_ && !step.isPattern;
+    if (goesOn) {
+      pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group});
+      pass.firstSample = groupSamples_;
     } else {
       // The pass uses a complete sample pattern with a separate seed.
-      pass.sampleSeed = pass.preprocessSeed;
-      pattern = job_.sampler.WithSamplesPerPixel(size);
+      const auto first = std::uint64_t(groupSamples_);
+      pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group, first, kPassSeed});
+      pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
     passFilm_.Clear();
-    const bool isWhole =
-        renderer_.Run(pass, progressiveSampler_ ? *progressiveSampler_ : *pattern, &passFilm_);
+    const bool isWhole = renderer_.Run(pass, goesOn ? *progressiveSampler_ : *pattern, &passFilm_);
     job_.film.Add(passFilm_);
-    if (!isWhole) return false;
-    noise_.Add(replicate, passFilm_, size);
-    lastSize_ = size;
-    ++result_.passes;
-    result_.samplesPerPixel += size;
-    if (result_.passes > 1 && rule_.targetError) result_.noise = noise_.RelativeVariance();
-    return true;
+    if (isWhole) TakePass(step, int(group % kGroups));
+    return isWhole;
   }
 
-  std::optional<StopReason> Reason() {
-    if (rule_.targetError && result_.passes >= kMinPasses && *result_.noise <= *rule_.targetError)
+  void TakePass(const PassPlan::Step& step, int group) {
+    plan_.Take(step);
+    noise_.Add(group, passFilm_, step.size);
+    if (plan_.Groups() == 1 && rule_.targetError) forecast_.Add(passFilm_, step.size);
+    if (plan_.Groups() == 2) forecast_.Release();
+    if (step.isNewGroup) preprocessSeconds_ = renderer_.PreprocessSeconds();
+    renderSeconds_ += renderer_.RenderSeconds();
+    groupSamples_ += step.size;
+    ++result_.passes;
+    result_.samplesPerPixel += step.size;
+    if (plan_.Groups() > 1 && rule_.targetError) result_.noise = noise_.RelativeVariance();
+  }
+
+  // `next` is the step that would follow.
+  std::optional<StopReason> Reason(const PassPlan::Step& next) {
+    if (rule_.targetError && result_.noise && *result_.noise <= *rule_.targetError)
       reasonMet_ = StopReason::TargetError;
     else if (result_.samplesPerPixel >= rule_.maxSamples)
       reasonMet_ = StopReason::Samples;
-    else if (rule_.timeLimit && SizeInTime() < 1)
+    else if (rule_.timeLimit && next.size < 1)
       reasonMet_ = StopReason::TimeLimit;
     else if (options_.stop && *options_.stop)
       reasonMet_ = StopReason::Signal;
     return reasonMet_;
   }
 
-  std::int64_t Progress() const {
-    double done = double(result_.samplesPerPixel) / double(rule_.maxSamples);
-    if (rule_.targetError && result_.noise)
-      done = std::max(done, *rule_.targetError / *result_.noise);
-    if (rule_.timeLimit) done = std::max(done, SecondsSince(rule_.start) / *rule_.timeLimit);
-    return std::int64_t(double(kProgressSteps) * std::clamp(done, 0., 1.));
+  // Shows the share of the expected time, so that the bar moves within passes.
+  void ShowProgress() {
+    const double expected = expectedSeconds_.load(std::memory_order_relaxed);
+    if (!(expected > 0)) return;
+    const double done = std::min(SecondsSince(begin_) / expected, .99);
+    job_.progress.SetDone(std::int64_t(double(kProgressSteps) * done));
   }
 
   PassesResult Finish() {
+    if (result_.reason != StopReason::Signal) job_.progress.SetDone(kProgressSteps);
     job_.progress.End();
     result_.render = renderer_.Finish();
-    if (result_.passes > 1) {
+    if (plan_.Groups() > 1) {
       result_.noise = noise_.RelativeVariance();
       if (options_.aovs && options_.aovs->Wanted().Has(Aov::Variance))
         result_.variances = noise_.Variances();
@@ -140,8 +150,13 @@ class Passes {
   RenderJob quietJob_;
   PassRenderer renderer_;
   Film passFilm_;
-  PassNoise noise_;
-  std::int64_t maxPassSamples_, lastSize_ = 1;
+  PassNoise noise_;  // by group
+  GroupForecast forecast_;
+  PassPlan plan_;
+  std::int64_t groupSamples_ = 0;
+  double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
+  Clock::time_point begin_;
+  std::atomic<double> expectedSeconds_{0};       // since begin_; 0: unknown
   std::unique_ptr<Sampler> progressiveSampler_;  // null if the sampler is not progressive
   PassesResult result_;
   std::optional<StopReason> reasonMet_;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Filter is a pixel reconstruction filter for importance sampling (Ernst, Stamminger and Greiner
-// 2006, "Filter Importance Sampling"). The position of a camera sample is drawn from |filter|
-// around its pixel's centre. The sample contributes to this pixel only, with weight +-1. A pixel is
-// therefore a sum over its own samples, whatever the tiles or the crop.
+// Filter is a pixel reconstruction filter. A filter without negative values is importance sampled
+// (Ernst, Stamminger and Greiner 2006, "Filter Importance Sampling"): the position of a camera
+// sample is drawn from the filter around its pixel's centre, and the sample contributes to this
+// pixel only. Samples of other filters are uniform in their pixel and contribute to all pixels in
+// the filter's support (core/render/splat_weights.h).
 #pragma once
 
 #include "core/math/vec.h"

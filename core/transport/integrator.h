@@ -90,6 +90,13 @@ struct LiContext {
   }
 };
 
+// The names of the parameters that limit the length of camera paths and of the paths that gather
+// indirect light, for warnings.
+struct DepthParameters {
+  const char* camera = "maxdepth";
+  const char* gather = "maxdepth";
+};
+
 // A stored photon, for inspection by the user.
 struct StoredPhoton {
   Point3 p;
@@ -121,6 +128,7 @@ class SurfaceIntegrator {
   // Returns the AOVs that Li fills if LiContext::aovs is not null. The renderer itself fills
   // kRendererAovs. The light AOVs must sum to the result of Li, up to rounding.
   virtual AovSet Aovs() const { return {}; }
+  virtual DepthParameters DepthLimits() const { return {}; }
   // Returns whether Li fills LiContext::gathers.
   virtual bool SharesGathers(const Scene& scene) const {
     (void)scene;

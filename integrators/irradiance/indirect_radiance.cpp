@@ -3,8 +3,10 @@
 #include "integrators/irradiance/indirect_radiance.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/math/sampling/mis.h"
+#include "core/transport/cut_light.h"
 #include "core/transport/light_sample.h"
 #include "core/transport/volume_integrator.h"
 
@@ -20,6 +22,16 @@ struct IndirectRadiance::State {
   bool isLastSpecular = false;
 };
 
+namespace {
+
+// One context traces many rays.
+std::uint64_t KeyOf(const Ray& ray, const LiContext& context) {
+  const auto bits = [](Real x) { return std::uint64_t(std::bit_cast<std::uint32_t>(float(x))); };
+  return HashKey({context.key, bits(ray.d.x), bits(ray.d.y), bits(ray.d.z)});
+}
+
+}  // namespace
+
 IndirectRadiance::IndirectRadiance(const Scene& scene, int maxDepth)
     : maxDepth_(maxDepth),
       hasIndirect_(scene.Features().Needs(Feature::Indirect)),
@@ -32,6 +44,7 @@ IndirectRadiance::Incident IndirectRadiance::Along(const Ray& ray, RandomStream*
   Incident incident;
   State path;
   path.ray = ray;
+  const bool isMeasured = IsCutLightMeasured(KeyOf(ray, context));
   for (;; ++path.bounces) {
     const RayKind kind = path.bounces == 0     ? RayKind::Gather
                          : path.isLastSpecular ? RayKind::Specular
@@ -48,10 +61,14 @@ IndirectRadiance::Incident IndirectRadiance::Along(const Ray& ray, RandomStream*
     const ShadingPoint point =
         MakeShadingPoint(*hit, path.ray, path.bounces, TransportMode::Radiance, &context.arena);
     if (hasIndirect_) incident.radiance += path.beta * Direct(point, random, context);
+    if (isMeasured && path.bounces + 1 == maxDepth_)
+      context.rays.cutGatherLight +=
+          double(LightBeyond({point, path.beta, true}, *lights_, context).Y());
     const bool goesOn = Continue(point, random, &path);
     context.arena.Rewind(mark);
     if (!goesOn) break;
   }
+  if (isMeasured) context.rays.gatherLight += double(incident.radiance.Y());
   return incident;
 }
 

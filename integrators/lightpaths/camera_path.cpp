@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/transport/cut_light.h"
 #include "core/transport/specular_bounce.h"
 
 namespace exphoton {
@@ -90,6 +91,10 @@ void CameraPath::AddConnections(const ShadingPoint& point) {
   if (!point.bsdf.Has(LobeSet::NonSpecular)) return;
   const int most = maxDepth_ + 1 - count_;
   for (int m = 1; m <= most && m <= int(light_.vertices.size()); ++m) Connect(point, m);
+}
+
+void CameraPath::MeasureCutLight(const ShadingPoint& point) const {
+  exphoton::MeasureCutLight({point, beta_, scatterings_ > 0}, *lighting_.direct, context_);
 }
 
 bool CameraPath::Continue(const ShadingPoint& point, Point2 u, Real uLobe, Real uRoulette,

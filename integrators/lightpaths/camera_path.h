@@ -75,6 +75,9 @@ class CameraPath {
   // Techniques from 2 on: joins the last vertex to all points of the light path.
   void AddConnections(const ShadingPoint& point);
 
+  // Measures the light beyond the last vertex, which the depth limit leaves out.
+  void MeasureCutLight(const ShadingPoint& point) const;
+
   // Extends the path by one BSDF sample. Returns false if it ends. The last vertex takes the ray.
   bool Continue(const ShadingPoint& point, Point2 u, Real uLobe, Real uRoulette,
                 RayDifferential* ray);

@@ -9,6 +9,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
   static const ParamTable<S> table{
       Param("causticphotons", &S::causticPhotons,
             "photons wanted in the caustic map; 20000 if absent")
+          .Basic()
           .Range(0, 1e9)
           .DividedByQuick(10),
       Param("directphotons", &S::directPhotons,
@@ -16,9 +17,11 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .Range(0, 1e9)
           .DividedByQuick(10),
       Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")
+          .Basic()
           .Range(0, 1e9)
           .DividedByQuick(10),
       Param("nused", &S::nUsed, "photons used in a density estimate")
+          .Basic()
           .Range(2, 100000)
           .DividedByQuick(10),
       Param(
@@ -26,12 +29,13 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           "lights of a scene that are all sampled at each point; where there are more, this number "
           "of lights is chosen by power and distance")
           .Range(1, 1 << 20),
-      Param("maxdepth", &S::maxDepth, "specular bounces followed from the camera").Range(0, 1000),
+      Param("maxdepth", &S::maxDepth, "specular bounces followed").Basic().Range(0, 1000),
       Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),
       Param("finalgather", &S::finalGather,
             "gather indirect light over the hemisphere; false shows the maps directly"),
       Param("finalgathersamples", &S::finalGatherSamples,
             "gather rays at a shading point, both techniques together")
+          .Basic()
           .Range(1, 1 << 20)
           .DividedByQuick(4),
       Param("sharedgather", &S::sharedGather,

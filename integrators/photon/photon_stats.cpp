@@ -185,7 +185,7 @@ void ReportMaps(const PhotonMapSet& maps, const RadiancePhotonMap* radianceMap,
     context.statistics.SetCounter("photons/radiance photons", double(radianceMap->Size()),
                                   "places with precomputed radiance");
   }
-  context.statistics.SetCounter("photons/memory", bytes, "bytes held by all photon maps");
+  context.statistics.SetCounter("photons/memory", bytes, "memory of all photon maps");
 }
 
 }  // namespace exphoton

@@ -121,13 +121,14 @@ TEST_F(OutputFiles, TwoOutputsOfARunAreTwoFiles) {
 }
 
 TEST_F(OutputFiles, OfOneSceneAreNotInputsOfALaterOne) {
+  Write("inc.exr", "Shape \"disk\"\n");
   Write("reads.pbrt",
         "Film \"image\" \"string filename\" \"b.exr\" \"integer xresolution\" 4\n"
-        "WorldBegin Include \"inc.pbrt\" LightSource \"point\" WorldEnd\n");
+        "WorldBegin Include \"inc.exr\" LightSource \"point\" WorldEnd\n");
   Write("writes.pbrt",
-        "Film \"image\" \"string filename\" \"inc.pbrt\"\nWorldBegin LightSource "
+        "Film \"image\" \"string filename\" \"inc.exr\"\nWorldBegin LightSource "
         "\"point\" WorldEnd\n");
-  ExpectRefused({"writes.pbrt", "reads.pbrt"}, {"inc.pbrt", "writes.pbrt", "reads.pbrt"});
+  ExpectRefused({"writes.pbrt", "reads.pbrt"}, {"inc.exr", "writes.pbrt", "reads.pbrt"});
 }
 
 TEST_F(OutputFiles, ScenesFromPipesAreComparedToo) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/parser/effect_choice.h"
+#include "core/plugins/registry.h"
 #include "tests/parser/parse_support.h"
 
 namespace exphoton {
@@ -57,6 +58,39 @@ TEST(Overrides, SwapTheIntegratorAndOnlyNoticeItsOldParameters) {
                                   "\"path\"; another plugin of this kind has it"),
             std::string::npos)
       << built.Messages();
+}
+
+// Returns the declaration of an integrator's parameter. The registry must outlive the result.
+const ParamDecl* Declared(PluginRegistry& registry, const std::string& integrator,
+                          const std::string& parameter) {
+  const auto* all = registry.Declarations(PluginKind::Integrator, integrator);
+  if (!all) return nullptr;
+  for (const ParamDecl& decl : *all)
+    if (decl.name == parameter) return &decl;
+  return nullptr;
+}
+
+// A changed description of a parameter may change this list.
+TEST(Overrides, KnowWhichParametersMeanTheSame) {
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
+  PluginRegistry registry(PluginRegistry::DefaultFolders({}), &log);
+  const auto meansTheSame = [&](const char* parameter, const char* a, const char* b) {
+    const ParamDecl* const first = Declared(registry, a, parameter);
+    const ParamDecl* const second = Declared(registry, b, parameter);
+    EXPECT_TRUE(first && second) << parameter << a << b;
+    return first && second && MeansTheSame(*first, *second);
+  };
+  for (const char* name : {"maxdepth", "nused", "maxdist", "rrthreshold", "finalgathersamples"})
+    EXPECT_TRUE(meansTheSame(name, "exphotonmap", "photonmap")) << name;
+  for (const char* name : {"whitted", "directlighting", "photonmap"})
+    EXPECT_TRUE(meansTheSame("maxdepth", "exphotonmap", name)) << name;
+  EXPECT_TRUE(meansTheSame("maxdepth", "path", "bidirectional"));
+  for (const char* name : {"whitted", "directlighting", "photonmap", "exphotonmap", "igi"})
+    EXPECT_FALSE(meansTheSame("maxdepth", "path", name)) << name;
+  EXPECT_FALSE(meansTheSame("maxdist", "exphotonmap", "ambientocclusion"));
+  EXPECT_FALSE(meansTheSame("mindist", "igi", "ambientocclusion"));
+  EXPECT_FALSE(meansTheSame("rrthreshold", "igi", "exphotonmap"));
+  EXPECT_FALSE(meansTheSame("nsamples", "irradiancecache", "ambientocclusion"));
 }
 
 TEST(Overrides, OfAnUnknownIntegratorAreErrorsOfTheCommandLine) {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/app/options/app.h"
+#include "core/app/output/png_output.h"
 #include "core/imaging/files/exr.h"
 #include "tests/support/process.h"
 
@@ -172,7 +173,8 @@ class Case {
       for (int world = dice_.OneIn(6) ? 2 : 1; world > 0; --world) {
         const std::string picture = dice_.OneIn(8) ? "" : Name();
         text += SceneText(picture, &command.inputs);
-        if (!isNamed) command.sceneOutputs.push_back(picture.empty() ? "pbrt.exr" : picture);
+        if (!isNamed)
+          command.sceneOutputs.push_back(picture.empty() ? "pbrt.exr" : cli::ExrName(picture));
       }
       WriteFile(name, text);
       command.words.push_back(Spelt(name));
@@ -205,7 +207,8 @@ class Case {
       const std::string picture = dice_.Of(pictures);
       command.words.push_back(picture);
       command.inputs.push_back(picture);
-      for (const char* end : {"-difference.exr", "-difference.png"})
+      for (const char* end : {"-difference.exr", "-difference.png", "-difference-R.png",
+                              "-difference-G.png", "-difference-B.png"})
         command.outputs.push_back(folder + "/" + fs::path(picture).stem().string() + end);
     }
     command.words.insert(command.words.end(), {"--difference", folder});

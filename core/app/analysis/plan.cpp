@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/params/suggestions.h"
+
 namespace exphoton::study {
 namespace {
 
@@ -69,6 +71,25 @@ void Multiply(const std::string& parameter, const std::vector<std::string>& valu
     }
   }
   *settings = std::move(product);
+}
+
+[[noreturn]] void FailUnused(const VariedParameter& varied, const StudyPlan& plan,
+                             const ParameterLookup& oracle) {
+  std::vector<std::string> integrators, parameters{"spp"};
+  bool isKnown = varied.integrator.empty();
+  for (const Setting& base : plan.bases) {
+    integrators.insert(integrators.end(), {base.integrator, base.label});
+    const bool isMeant = varied.integrator == base.integrator || varied.integrator == base.label;
+    isKnown = isKnown || isMeant;
+    if (!isMeant && !varied.integrator.empty()) continue;
+    const std::vector<std::string> names = oracle.Names(base.integrator);
+    parameters.insert(parameters.end(), names.begin(), names.end());
+  }
+  const std::string hint = isKnown ? DidYouMean(varied.parameter, parameters)
+                                   : DidYouMean(varied.integrator, integrators);
+  throw std::invalid_argument("no setting has the varied parameter \"" + varied.parameter + "\"" +
+                              (varied.integrator.empty() ? "" : " for " + varied.integrator) +
+                              (hint.empty() ? "" : "; " + hint));
 }
 
 }  // namespace
@@ -178,9 +199,7 @@ std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& or
   }
   for (const VariedParameter& varied : plan.varied)
     if (std::find(used.begin(), used.end(), &varied) == used.end())
-      throw std::invalid_argument("no setting has the varied parameter \"" + varied.parameter +
-                                  "\"" +
-                                  (varied.integrator.empty() ? "" : " for " + varied.integrator));
+      FailUnused(varied, plan, oracle);
   return all;
 }
 

@@ -52,6 +52,8 @@ class ParameterLookup {
  public:
   virtual ~ParameterLookup() = default;
   virtual bool Has(const std::string& integrator, const std::string& parameter) const = 0;
+  // Returns the integrator's parameters, for "did you mean".
+  virtual std::vector<std::string> Names(const std::string& /*integrator*/) const { return {}; }
 };
 
 // Returns every base in every combination of its varied parameters and of the budgets. A varied

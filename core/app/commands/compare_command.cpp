@@ -4,10 +4,12 @@
 #include "core/app/commands/compare_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
+#include "core/app/commands/compare_verdict.h"
 #include "core/app/options/errors.h"
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
@@ -29,17 +31,11 @@ namespace fs = std::filesystem;
 struct CompareOptions {
   std::string reference;
   std::vector<std::string> pictures;
-  double maxRelMse = -1, maxMean = -1;  // < 0: no bound
-  std::string differenceFolder;         // "": no difference images
+  std::vector<std::string> moreReferences;
+  CompareLimits bounds;
+  std::string differenceFolder;  // "": no difference images
   double fullScale = .5;
   std::string limits;
-};
-
-struct Comparison {
-  std::string name;
-  bool isIdentical = false;
-  ImageDifference difference;
-  double flip = 0;
 };
 
 std::string Row(const std::string& label, const std::vector<std::string>& cells) {
@@ -76,10 +72,17 @@ std::string Table(const std::vector<Comparison>& all) {
     return Format("%+.6g %%", c.difference.relativeMeanError * 100);
   });
   text += number("mean of reference", &ImageDifference::meanReference);
+  for (std::size_t i = 0; i < 3; ++i)
+    text += row((std::string("relative mean of ") + "RGB"[i]).c_str(),
+                [i](const Comparison& c) { return Format("%+.4g %%", c.relativeMeans[i] * 100); });
   text += row("FLIP", [](const Comparison& c) { return Format("%.6g", c.flip); });
   text += row("not finite", [](const Comparison& c) {
     return std::to_string(c.difference.nonFinitePixels) + " pixels";
   });
+  if (std::any_of(all.begin(), all.end(), [](const Comparison& c) { return c.noise.has_value(); }))
+    text += row("noise test", [](const Comparison& c) {
+      return NoiseText(c).empty() ? std::string("none") : NoiseText(c);
+    });
   return text;
 }
 
@@ -89,22 +92,48 @@ bool AreIdentical(const Image& a, const Image& b) {
          std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(), isSame);
 }
 
+// Returns the relative difference of the mean of each channel, over pixels that are finite.
+std::array<double, 3> RelativeMeans(const Image& reference, const Image& picture) {
+  const auto from = FindColors(reference, "the reference"), to = FindColors(picture, "the picture");
+  std::array<double, 3> sums{}, differences{};
+  for (int y = 0; y < picture.Height(); ++y) {
+    for (int x = 0; x < picture.Width(); ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double r = double(reference.At(x, y, from[c])), v = double(picture.At(x, y, to[c]));
+        if (!std::isfinite(r) || !std::isfinite(v)) continue;
+        sums[c] += r;
+        differences[c] += v - r;
+      }
+    }
+  }
+  std::array<double, 3> relative{};
+  for (std::size_t c = 0; c < 3; ++c)
+    if (differences[c] != 0) relative[c] = sums[c] != 0 ? differences[c] / sums[c] : HUGE_VAL;
+  return relative;
+}
+
 // Errors name the files, because the command reads several.
-Comparison Compare(const std::string& referenceName, const Image& reference,
+Comparison Compare(const CompareOptions& options, const std::vector<Image>& references,
                    const std::string& name, const Image& picture) {
-  FindColors(reference, referenceName);
+  const Image& reference = references.front();
+  FindColors(reference, options.reference);
   FindColors(picture, name);
   Comparison result;
   result.name = fs::path(name).filename().string();
   try {
     result.difference = CompareImages(reference, picture);
+    result.noise = TestNoise(references, picture, name, options.bounds);
   } catch (const ImageError& error) {
-    throw ImageError(name + ": " + error.what());
+    const std::string text = error.what();
+    throw ImageError(text.starts_with(name + ": ") ? text : name + ": " + text);
   }
   result.isIdentical = AreIdentical(reference, picture);
+  result.relativeMeans = RelativeMeans(reference, picture);
   result.flip = FlipError(reference, picture);
   return result;
 }
+
+constexpr const char* kDifferenceEndings[] = {".exr", ".png", "-R.png", "-G.png", "-B.png"};
 
 // Returns the path without extension.
 std::string DifferenceName(const CompareOptions& options, const std::string& picture) {
@@ -118,10 +147,11 @@ void CheckFiles(const CompareOptions& options) {
   MakeFolder(options.differenceFolder);
   RunFiles files;
   files.AddInput(options.reference, "this command");
+  for (const std::string& name : options.moreReferences) files.AddInput(name, "this command");
   for (std::size_t i = 0; i < options.pictures.size(); ++i) {
     const std::string& picture = options.pictures[i];
     files.AddInput(picture, "this command");
-    for (const char* ending : {".exr", ".png"})
+    for (const char* ending : kDifferenceEndings)
       files.AddOutput(
           std::to_string(i) + ending,
           {DifferenceName(options, picture) + ending, "the difference image of \"" + picture + '"',
@@ -136,42 +166,58 @@ void WriteDifference(const CompareOptions& options, const Image& reference, cons
   const std::string base = DifferenceName(options, name);
   WriteExr(base + ".exr", DifferenceImage(reference, picture), false);
   WritePng(base + ".png", SignedErrorImage(reference, picture, options.fullScale));
+  for (int c = 0; c < 3; ++c)
+    WritePng(base + kDifferenceEndings[2 + c],
+             SignedErrorImage(reference, picture, options.fullScale, c));
 }
 
-bool IsWithin(const CompareOptions& options, const Comparison& one) {
-  if (one.isIdentical) return one.difference.nonFinitePixels == 0;
-  const bool isBounded = options.maxRelMse >= 0 || options.maxMean >= 0;
-  const ImageDifference& d = one.difference;
-  return isBounded && d.nonFinitePixels == 0 &&
-         (options.maxRelMse < 0 || d.relMse <= options.maxRelMse) &&
-         (options.maxMean < 0 || std::abs(d.relativeMeanError) <= options.maxMean);
+void CheckSignificance(double significance) {
+  if (!(significance > 0 && significance <= .5))
+    FailUsage("--significance takes a probability above 0 and at most 0.5");
 }
 
 CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
   CompareOptions options;
   OptionParser app(
-      "Measures how far pictures are from a reference (R, G and B). Exit status: 0 all the same, "
-      "1 one differs, 2 they cannot be compared.",
+      "Measures how far pictures are from a reference (R, G and B), and tests whether they differ "
+      "by more than their noise. The last line is the verdict. Exit status: 0 all pass, 1 one "
+      "fails, 2 they cannot be compared.",
       "exphoton compare");
   app.Add("reference", options.reference, "EXR or PNG").Required();
   app.Add("pictures", options.pictures, "EXR or PNG files of the same size").Required();
-  app.Add("--max-relmse", options.maxRelMse, "largest relMSE of pictures that count as the same")
+  app.Group("Limits");
+  app.Add("--max-relmse", options.bounds.maxRelMse, "largest relMSE of pictures that pass")
       .AtLeastZero();
-  app.Add("--max-mean", options.maxMean, "largest relative error of their means").AtLeastZero();
+  app.Add("--max-mean", options.bounds.maxMean,
+          "largest relative error of the mean of R, G and B: 0.01 is 1 %")
+      .AtLeastZero();
+  app.Group("Noise");
+  app.AddFlag("--z-test", options.bounds.requiresNoiseTest,
+              "require that no difference exceeds the noise; without limits this is done anyway "
+              "where the pictures say how noisy they are (render --two-halves, or --aov Variance)");
+  app.Add("--significance", options.bounds.significance,
+          "probability that pictures that differ by noise alone fail (default 0.01)");
+  app.Add("--more-reference", options.moreReferences,
+          "another render of the reference by another seed; each one sharpens the noise test")
+      .TypeName("FILE")
+      .OnePerUse();
+  app.Group("Difference pictures");
   app.Add("--difference", options.differenceFolder,
-          "write NAME-difference.exr (layers: signed, relative, squared error, FLIP) and "
-          "NAME-difference.png (red: too bright, blue: too dark) to this folder")
+          "write NAME-difference.exr (layers: signed, relative, squared error, FLIP), "
+          "NAME-difference.png (red: too bright, blue: too dark) and the same for each channel "
+          "(NAME-difference-R.png) to this folder")
       .TypeName("DIR");
   app.Add("--scale", options.fullScale, "relative error of full red or blue (default 0.5)")
       .Positive();
+  app.Group("Files");
   AddLimitsOption(app, &options.limits);
   app.Footer(
-      "\nrelMSE: mean over pixels and colours of (x-r)^2 / (r^2 + 0.01); trimmed: without the "
-      "worst\n"
-      "thousandth of the pixels; p99 error: 99 % of the pixels have a smaller root of their "
-      "relMSE;\n"
+      "relMSE: mean over pixels and colours of (x-r)^2 / (r^2 + 0.01); trimmed: without the "
+      "worst thousandth of the pixels; p99 error: 99 % of the pixels have a smaller root of their "
+      "relMSE; "
       "FLIP: visible difference, 0 to 1 (LDR-FLIP, mean luminance of the reference at 0.18).");
   app.Parse(arguments);
+  CheckSignificance(options.bounds.significance);
   return options;
 }
 
@@ -186,15 +232,20 @@ int RunCompare(const std::vector<std::string>& arguments) {
     LimitMemory(limits);
     const InterruptWatch watch(limits.seconds);
     CheckFiles(options);
-    const Image reference = ReadImage(options.reference);
+    std::vector<Image> references{ReadImage(options.reference)};
+    for (const std::string& name : options.moreReferences) references.push_back(ReadImage(name));
     std::vector<Comparison> all;
+    std::string verdicts;
     for (const std::string& name : options.pictures) {
       const Image picture = ReadImage(name);
-      all.push_back(Compare(options.reference, reference, name, picture));
-      isSame &= IsWithin(options, all.back());
-      if (!options.differenceFolder.empty()) WriteDifference(options, reference, name, picture);
+      all.push_back(Compare(options, references, name, picture));
+      const Verdict verdict = Judge(all.back(), options.bounds);
+      isSame &= verdict.isPass;
+      verdicts += (options.pictures.size() > 1 ? all.back().name + ": " : "") + verdict.text + "\n";
+      if (!options.differenceFolder.empty())
+        WriteDifference(options, references.front(), name, picture);
     }
-    PrintOut(Table(all));
+    PrintOut(Table(all) + verdicts);
   });
   if (status != 0) return kTrouble;
   return isSame ? 0 : kDifferent;

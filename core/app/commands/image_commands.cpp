@@ -3,6 +3,7 @@
 #include "core/app/commands/image_commands.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -13,13 +14,14 @@
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
 #include "core/app/output/output_files.h"
+#include "core/app/output/png_output.h"
 #include "core/app/output/run_files.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/base/error.h"
 #include "core/base/format.h"
 #include "core/base/log.h"
 #include "core/imaging/files/exr.h"
-#include "core/imaging/files/png.h"
+#include "core/params/suggestions.h"
 
 namespace exphoton::cli {
 namespace {
@@ -82,8 +84,42 @@ std::string InfoText(const std::string& path, const Image& image) {
   return text;
 }
 
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+// Returns the names of the layers: the parts of channel names before the last dot.
+std::vector<std::string> LayerNames(const Image& image) {
+  std::vector<std::string> names;
+  for (const std::string& channel : image.channels) {
+    const std::string name = channel.substr(0, channel.rfind('.'));
+    if (channel.rfind('.') == std::string::npos) continue;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+// Returns a picture with the channels R, G, B of a layer. A layer of one channel becomes grey.
+Image LayerOf(const Image& image, const std::string& layer, const std::string& path) {
+  std::vector<int> from;
+  for (int c = 0; c < image.ChannelCount(); ++c)
+    if (image.channels[std::size_t(c)].starts_with(layer + ".")) from.push_back(c);
+  const auto channel = [&](const char* name) { return image.FindChannel(layer + "." + name); };
+  for (const auto& names : {std::array{"R", "G", "B"}, std::array{"X", "Y", "Z"}}) {
+    const std::vector<int> three{channel(names[0]), channel(names[1]), channel(names[2])};
+    if (std::find(three.begin(), three.end(), -1) == three.end()) from = three;
+  }
+  if (from.size() != 1 && from.size() != 3) {
+    std::string list;
+    for (const std::string& name : LayerNames(image)) list += (list.empty() ? "" : ", ") + name;
+    throw Error(ExitStatus::CommandLine,
+                "\"" + path + "\" has no layer \"" + layer + "\"; " +
+                    (list.empty() ? "it has no layers" : "its layers are " + list),
+                {}, DidYouMean(layer, LayerNames(image)));
+  }
+  Image result(image.data, image.display, {"R", "G", "B"});
+  result.attributes = image.attributes;
+  for (int y = 0; y < image.Height(); ++y)
+    for (int x = 0; x < image.Width(); ++x)
+      for (int c = 0; c < 3; ++c)
+        result.At(x, y, c) = image.At(x, y, from[from.size() == 1 ? 0 : std::size_t(c)]);
+  return result;
 }
 
 }  // namespace
@@ -113,20 +149,23 @@ int RunConvert(const std::vector<std::string>& arguments) {
   return Guarded([&] {
     OptionParser app("Converts between EXR (linear) and PNG (sRGB), by the names' endings.",
                      "exphoton convert");
-    std::string from, to, limitsText;
-    float exposure = 0;
+    std::string from, to, layer, limitsText;
+    PngOptions png;
     bool asFloat = false;
     app.Add("from", from, "picture to read").Required();
     app.Add("to", to, "picture to write: NAME.exr or NAME.png").Required();
-    app.Add("--exposure", exposure, "for PNG: multiply by 2 to this power")
-        .Between(-100.0, 100.0)
-        .DefaultText("0");
+    app.Add("--layer", layer, "take only this layer, such as Albedo, direct or half1")
+        .TypeName("NAME");
+    AddPngOptions(app, &png);
     app.AddFlag("--float", asFloat, "for EXR: 32-bit channels");
     AddLimitsOption(app, &limitsText);
     app.Parse(arguments);
-    const bool isPng = EndsWith(to, ".png");
-    if (!isPng && !EndsWith(to, ".exr")) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
-    if (!isPng && exposure != 0) FailUsage("--exposure is for PNG: an EXR stays linear");
+    CheckPngOptions(png);
+    const bool isPng = IsPngName(to);
+    if (!isPng && !IsExrName(to)) FailUsage("\"" + to + "\" ends neither in .exr nor .png");
+    if (!isPng && png.IsGiven())
+      FailUsage("--exposure and --tone-curve are for PNG: an EXR stays linear");
+    if (isPng && asFloat) FailUsage("--float is for EXR: a PNG has 8 bits");
     RunFiles files;
     files.AddInput(from, "this command");
     files.AddOutput("to", {to, "the picture", "another name keeps both pictures"});
@@ -135,9 +174,10 @@ int RunConvert(const std::vector<std::string>& arguments) {
     const Limits limits = ParseLimits(limitsText);
     LimitMemory(limits);
     const InterruptWatch watch(limits.seconds);
-    const Image image = ReadImage(from);
+    Image image = ReadImage(from);
+    if (!layer.empty()) image = LayerOf(image, layer, from);
     if (isPng)
-      WritePng(to, image, exposure);
+      WritePngPicture(to, image, png, log);
     else
       WriteExr(to, image, !asFloat);
   });

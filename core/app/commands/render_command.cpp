@@ -3,9 +3,13 @@
 // after the other.
 #include "core/app/commands/render_command.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <new>
 
@@ -13,6 +17,7 @@
 #include "core/app/output/output_files.h"
 #include "core/app/output/output_names.h"
 #include "core/app/output/picture.h"
+#include "core/app/output/png_output.h"
 #include "core/app/output/run_files.h"
 #include "core/app/output/run_record.h"
 #include "core/app/process/interrupt_watch.h"
@@ -20,7 +25,7 @@
 #include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/imaging/files/exr.h"
-#include "core/imaging/files/png.h"
+#include "core/params/suggestions.h"
 #include "core/parser/scene_files.h"
 
 namespace exphoton::cli {
@@ -123,16 +128,20 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
     names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
   }
   run_.files.Check(log_);
+  names_.CheckEndings();
   for (const auto& setup : setups) {
-    const std::string output = names_.Picture(setup->film.filename);
-    if (std::filesystem::path(output).extension() != ".exr")
-      log_.Warning("the picture \"" + output + "\" is written as OpenEXR, regardless of its name");
+    const std::string& name = setup->film.filename;
+    if (names_.NameFromUser() || IsExrName(name)) continue;
+    log_.Warning("the film's file \"" + name + "\" becomes \"" + ExrName(name) +
+                     "\", because pictures of scenes are OpenEXR files",
+                 {}, "-o NAME.png writes a PNG");
   }
 }
 
 void FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
-  log_.Notice("effects:\n" + setup.scene->Features().Describe());
+  log_.Notice("effects: " + EffectNames(setup));
+  log_.Verbose("effects:\n" + setup.scene->Features().Describe());
   PictureFilms films(command_, setup);
   ThreadPool threads(command_.threadCount);
   if (threads.Count() < command_.threadCount)
@@ -151,11 +160,11 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   options.aovs = films.aovs.get();
 
   const Clock::time_point start = Clock::now();
-  const PassesResult result =
-      RenderPicture(command_,
-                    {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera,
-                     films.film, threads, log_, progress, statistics, setup.volumeIntegrator.get()},
-                    options, begin.wall, &films);
+  const PassesResult result = RenderPicture(
+      command_,
+      {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, films.film,
+       threads, log_, progress, statistics, setup.volumeIntegrator.get(), setup.integratorName},
+      options, begin.wall, &films);
   watch_.MustFinish() = true;
   RunRecord run(setup, statistics);
   run.commandLine = command_.commandLine;
@@ -169,7 +178,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
     run.wallSeconds = SecondsSince(begin.wall);
     run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
     run.peakMemory = PeakMemoryBytes();
-    statistics.SetCounter("memory/peak", run.peakMemory, "peak memory in bytes");
+    statistics.SetCounter("memory/peak", run.peakMemory, "largest memory of the process");
     Report(run);
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::Resource, "out of memory after the picture \"" + picture.path +
@@ -207,6 +216,10 @@ FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
   const PhaseTimer timer(statistics, "write");
   Picture picture{names_.Picture(run.setup.film.filename), std::move(image), {}};
   if (!run.isComplete) picture.path = run_.files.PartialPicture(picture.path);
+  if (IsPngName(picture.path)) {
+    WritePngPicture(picture.path, picture.image, command_.png, log_);
+    return picture;
+  }
   picture.image.attributes = PictureAttributes(run, command_.isReproducible);
   picture.report = WriteExr(picture.path, picture.image, command_.asHalf);
   return picture;
@@ -218,7 +231,7 @@ void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
     log_.Warning(std::to_string(picture.report.clampedToHalf) +
                  " values above 65504 were written as 65504; --float stores them as they are");
   if (!command_.previewFile.empty() && run.isComplete)
-    WritePng(command_.previewFile, picture.image);
+    WritePngPicture(command_.previewFile, picture.image, command_.png, log_);
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", run.renderSeconds);
   log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") +
@@ -254,6 +267,41 @@ void CheckAllFiles(const RenderCommand& command, Run& run, Log& log) {
   run.files.Check(log);
 }
 
+// Suggests a command for a word without a folder and an ending, else a scene in the same folder.
+std::string HintForMissing(const std::string& name) {
+  const std::filesystem::path path(name);
+  const bool isWord = !path.has_parent_path() && !path.has_extension();
+  if (isWord) return DidYouMean(name, CommandNames());
+  std::vector<std::string> scenes;
+  std::error_code error;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error))
+    if (it->path().extension() == ".pbrt") scenes.push_back(it->path().filename().string());
+  std::sort(scenes.begin(), scenes.end());
+  return DidYouMean(path.filename().string(), scenes);
+}
+
+// A word that is no file may be a mistyped command, so nothing is rendered before all are readable.
+void CheckScenesExist(const RenderCommand& command) {
+  for (const std::string& scene : command.scenes) {
+    if (scene == "-") continue;
+    std::error_code error;
+    const auto status = std::filesystem::status(scene, error);
+    std::string why;
+    if (!std::filesystem::exists(status))
+      why =
+          error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file";
+    else if (std::filesystem::is_directory(status))
+      why = "is a directory";
+    else if (access(scene.c_str(), R_OK) != 0)
+      why = std::strerror(errno);
+    if (why.empty()) continue;
+    throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": " + why, {},
+                HintForMissing(scene));
+  }
+}
+
 // Renders one file after the other. Returns the status of the first file that failed.
 int RenderFiles(const RenderCommand& command, Run& run) {
   int status = 0;
@@ -277,6 +325,7 @@ int RenderFiles(const RenderCommand& command, Run& run) {
 
 int RunRender(const RenderCommand& command) {
   LimitMemory(command.limits);
+  CheckScenesExist(command);
   Run run;
   run.files.AddPluginFolders(command.load.pluginFolders);
   Log log(command.logLevel);

@@ -3,6 +3,10 @@
 // render.
 #include "core/app/options/app.h"
 
+#include <unistd.h>
+
+#include <cstdio>
+
 #include "core/app/commands/compare_command.h"
 #include "core/app/commands/image_commands.h"
 #include "core/app/commands/plugins_command.h"
@@ -10,8 +14,10 @@
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
 #include "core/app/options/options.h"
+#include "core/app/options/values.h"
 #include "core/app/process/signals.h"
 #include "core/app/study/study_command.h"
+#include "core/base/error.h"
 
 namespace exphoton::cli {
 namespace {
@@ -35,6 +41,13 @@ int RunProgram(const std::vector<std::string>& arguments) {
   const std::vector<std::string> rest(
       arguments.begin() + std::min<std::ptrdiff_t>(2, std::ptrdiff_t(arguments.size())),
       arguments.end());
+  // Without arguments, a terminal would seem to hang: the program would wait for a typed scene.
+  if (arguments.size() == 1 && isatty(STDIN_FILENO)) {
+    Guarded([] { FailUsage("no scene and no command is given", "exphoton --help explains both"); });
+    std::fputs(ShortUsage(), stderr);
+    return int(ExitStatus::CommandLine);
+  }
+  if (command == "help") return RunScenes(arguments, {"--help"}, RenderMode::Render);
   if (command == "render") return RunScenes(arguments, rest, RenderMode::Render);
   if (command == "explain") return RunScenes(arguments, rest, RenderMode::Explain);
   if (command == "plugins") return RunPlugins(rest);

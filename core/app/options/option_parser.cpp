@@ -3,10 +3,14 @@
 #include "core/app/options/option_parser.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <sstream>
 
 #include "core/app/options/values.h"
+#include "core/base/terminal.h"
+#include "core/params/suggestions.h"
 
 namespace exphoton::cli {
 namespace {
@@ -17,6 +21,16 @@ std::string FitsUnsigned(const std::string& text) {
   std::strtoull(text.c_str(), nullptr, 0);
   const bool fits = text.find('-') == std::string::npos && errno != ERANGE;
   return fits ? "" : text + " is not a whole number from 0 to 18446744073709551615";
+}
+
+constexpr int kHelpColumn = 28;
+
+std::string WrappedLines(const std::string& text, int columns) {
+  std::string result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    result += line.empty() || line[0] == ' ' ? line + '\n' : WrappedText(line, 0, columns);
+  return result;
 }
 
 }  // namespace
@@ -42,82 +56,168 @@ OptionHandle& OptionHandle::OnePerUse() {
   return *this;
 }
 OptionHandle& OptionHandle::OneOf(const std::vector<std::string>& words) {
-  option_->check(CLI::IsMember(words));
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : "|") + word;
+  option_->type_name(list);
+  option_->check([words, list](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+    const std::string hint = DidYouMean(text, words);
+    return "\"" + text + "\" is none of " + list + (hint.empty() ? "" : "; " + hint);
+  });
   return *this;
 }
 OptionHandle& OptionHandle::Between(int least, int greatest) {
-  option_->check(CLI::Range(least, greatest));
+  option_->check(CLI::Range(least, greatest).description(""));
   return *this;
 }
 OptionHandle& OptionHandle::Between(std::int64_t least, std::int64_t greatest) {
-  option_->check(CLI::Range(least, greatest));
+  option_->check(CLI::Range(least, greatest).description(""));
   return *this;
 }
 OptionHandle& OptionHandle::Between(double least, double greatest) {
-  option_->check(CLI::Range(least, greatest));
+  option_->check(CLI::Range(least, greatest).description(""));
   return *this;
 }
 OptionHandle& OptionHandle::AtLeastZero() {
-  option_->check(CLI::NonNegativeNumber);
+  option_->check(CLI::Validator(CLI::NonNegativeNumber).description(""));
   return *this;
 }
 OptionHandle& OptionHandle::Positive() {
-  option_->check(CLI::PositiveNumber);
+  option_->check(CLI::Validator(CLI::PositiveNumber).description(""));
   return *this;
 }
 
 struct OptionParser::Implementation {
-  Implementation(const std::string& description, const std::string& name)
-      : app(description, name) {}
+  Implementation(const std::string& aDescription, const std::string& aName)
+      : app(aDescription, aName), description(aDescription), name(aName) {}
+
+  std::string Help() const;
+  std::string HelpOf(const CLI::Option& option, int columns) const;
+  // Returns "did you mean" for the first unknown option of the arguments.
+  std::string HintFor(const std::vector<std::string>& unknown) const;
+  // Records an option that was added to the current group.
+  OptionHandle Keep(CLI::Option* option) {
+    option->group(group);
+    return OptionHandle(option);
+  }
 
   CLI::App app;
-  std::string version;
+  std::string description, name, version, header, footer;
+  std::string group = "Options";
+  std::vector<std::string> groups{"Options"};  // in their order in --help
 };
 
 OptionParser::OptionParser(const std::string& description, const std::string& name)
-    : implementation_(new Implementation(description, name)) {}
+    : implementation_(new Implementation(description, name)) {
+  implementation_->app.set_help_flag("-h,--help", "print this text")->group("Options");
+}
 OptionParser::~OptionParser() = default;
 
 OptionHandle OptionParser::Add(const std::string& names, std::string& target,
                                const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::Add(const std::string& names, int& target, const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::int64_t& target,
                                const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::uint64_t& target,
                                const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help)->check(FitsUnsigned));
+  return implementation_->Keep(
+      implementation_->app.add_option(names, target, help)->check(FitsUnsigned));
 }
 OptionHandle OptionParser::Add(const std::string& names, float& target, const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::Add(const std::string& names, double& target, const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::optional<double>& target,
                                const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+}
+OptionHandle OptionParser::Add(const std::string& names, std::optional<std::string>& target,
+                               const std::string& help) {
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::vector<std::string>& target,
                                const std::string& help) {
-  return OptionHandle(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(implementation_->app.add_option(names, target, help));
 }
 OptionHandle OptionParser::AddFlag(const std::string& name, bool& target, const std::string& help) {
-  return OptionHandle(implementation_->app.add_flag(name, target, help));
+  return implementation_->Keep(implementation_->app.add_flag(name, target, help));
 }
 void OptionParser::AddVersion(const std::string& text) {
   implementation_->version = text;
-  implementation_->app.set_version_flag("--version", text);
+  implementation_->Keep(
+      implementation_->app.set_version_flag("-V,--version", text, "print the version"));
 }
-void OptionParser::Footer(const std::string& text) { implementation_->app.footer(text); }
+void OptionParser::Group(const std::string& title) {
+  implementation_->group = title;
+  implementation_->groups.push_back(title);
+}
+void OptionParser::Header(const std::string& text) { implementation_->header = text; }
+void OptionParser::Footer(const std::string& text) { implementation_->footer = text; }
+
+std::vector<std::string> OptionParser::Names() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : implementation_->app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  return names;
+}
 
 bool OptionParser::Has(const std::string& name) const {
   return implementation_->app.get_option_no_throw(name) != nullptr;
+}
+
+std::string OptionParser::Implementation::HintFor(const std::vector<std::string>& unknown) const {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& word : option->get_lnames()) known.push_back("--" + word);
+  for (const std::string& word : unknown)
+    if (word.starts_with("-")) return DidYouMean(word.substr(0, word.find('=')), known);
+  return "";
+}
+
+std::string OptionParser::Implementation::HelpOf(const CLI::Option& option, int columns) const {
+  std::string text;
+  for (const std::string& word : option.get_snames()) text += (text.empty() ? "-" : ", -") + word;
+  for (const std::string& word : option.get_lnames()) text += (text.empty() ? "--" : ", --") + word;
+  if (option.get_positional()) text = option.get_name(true);
+  const std::string type = option.get_type_size() == 0 ? "" : option.get_type_name();
+  const bool isWhole = type == "INT" || type == "UINT", isText = type.empty() || type == "TEXT";
+  if (!isText) text += isWhole ? " N" : type == "FLOAT" ? " X" : ' ' + type;
+  std::string label = "  " + text;
+  const std::string help = WrappedText(option.get_description(), kHelpColumn, columns);
+  if (int(label.size()) + 2 > kHelpColumn) return label + '\n' + help;
+  label.resize(kHelpColumn, ' ');
+  return label + help.substr(std::min(help.size(), std::size_t(kHelpColumn)));
+}
+
+std::string OptionParser::Implementation::Help() const {
+  const int columns = OutputColumns();
+  std::string usage = "Usage: " + name + " [options]";
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_positional())
+      usage += option->get_required() ? ' ' + option->get_name(true)
+                                      : " [" + option->get_name(true) + ']';
+  std::string text = WrappedText(description, 0, columns) + usage + '\n' +
+                     (header.empty() ? "" : '\n' + WrappedLines(header, columns));
+  std::string positionals;
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_positional()) positionals += HelpOf(*option, columns);
+  if (!positionals.empty()) text += "\nArguments:\n" + positionals;
+  for (const std::string& title : groups) {
+    std::string list;
+    for (const CLI::Option* option : app.get_options())
+      if (!option->get_positional() && option->get_group() == title)
+        list += HelpOf(*option, columns);
+    if (!list.empty()) text += '\n' + title + ":\n" + list;
+  }
+  return text + (footer.empty() ? "" : '\n' + WrappedLines(footer, columns));
 }
 
 void OptionParser::Parse(const std::vector<std::string>& arguments) {
@@ -125,9 +225,12 @@ void OptionParser::Parse(const std::vector<std::string>& arguments) {
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
-    throw TextRequest{app.help()};
+    throw TextRequest{implementation_->Help()};
   } catch (const CLI::CallForVersion&) {
     throw TextRequest{implementation_->version + "\n"};
+  } catch (const CLI::ExtrasError& error) {
+    const std::string hint = implementation_->HintFor(app.remaining());
+    FailUsage(error.what(), hint.empty() ? "--help lists the options" : hint);
   } catch (const CLI::ParseError& error) {
     FailUsage(error.what(), "--help lists the options");
   }

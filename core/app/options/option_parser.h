@@ -57,12 +57,20 @@ class OptionParser {
   OptionHandle Add(const std::string& names, double& target, const std::string& help);
   OptionHandle Add(const std::string& names, std::optional<double>& target,
                    const std::string& help);
+  OptionHandle Add(const std::string& names, std::optional<std::string>& target,
+                   const std::string& help);
   OptionHandle Add(const std::string& names, std::vector<std::string>& target,
                    const std::string& help);
   OptionHandle AddFlag(const std::string& name, bool& target, const std::string& help);
-  void AddVersion(const std::string& text);  // declares --version
-  void Footer(const std::string& text);      // text below the list of --help
-  bool Has(const std::string& name) const;   // takes the full name: "--outfile"
+  void AddVersion(const std::string& text);  // declares -V and --version
+  // Begins a group: the options that are added next appear under this title in --help.
+  void Group(const std::string& title);
+  // Texts of --help above and below the options, wrapped to the terminal. A line that begins with
+  // a blank is kept as it is.
+  void Header(const std::string& text);
+  void Footer(const std::string& text);
+  bool Has(const std::string& name) const;  // takes the full name: "--outfile"
+  std::vector<std::string> Names() const;   // full names without dashes
 
   // Fills the targets. Throws TextRequest for --help and --version, and a usage error for invalid
   // arguments.

@@ -2,7 +2,10 @@
 // ParseRenderCommand declares and evaluates the options of `exphoton render`.
 #include "core/app/options/options.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <tuple>
 
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
@@ -16,26 +19,48 @@ namespace {
 constexpr int kMaxThreads = 4096;
 constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
 
+constexpr const char* kCommands =
+    "Commands (each has --help):\n"
+    "  exphoton [render] SCENE ...       render pictures\n"
+    "  exphoton explain SCENE            print what would be computed and why\n"
+    "  exphoton plugins [NAME ...]       list plugins, or the parameters of one\n"
+    "  exphoton info PICTURE ...         print size, channels and attributes\n"
+    "  exphoton convert FROM TO          convert between EXR and PNG\n"
+    "  exphoton compare REFERENCE NEW    test whether pictures differ\n"
+    "  exphoton study SCENE --out DIR    compare integrators and settings\n"
+    "  exphoton report DIR               make a study's page again\n"
+    "\n"
+    "Examples:\n"
+    "  exphoton room.pbrt --quick -o room.png\n"
+    "  exphoton room.pbrt --spp 64 --resolution 1920x1080 -o room.exr\n"
+    "  exphoton room.pbrt --time-limit 5m --preview room.png --exposure auto\n"
+    "  exphoton room.pbrt --integrator path --set SurfaceIntegrator.maxdepth=20\n";
+
 // RawOptions holds option values that TakeRaw converts and checks after parsing.
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "auto";
   std::vector<std::string> sets, pluginFolders;
-  std::string integrator, aovs, timeLimit, limits;
+  std::string resolution, aovs, timeLimit, limits;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
 };
 
-void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
-  app.Add("scenes", command.scenes, "scene files; none or \"-\": standard input").TypeName("FILE");
-  app.Add("--integrator", raw.integrator, "use this surface integrator instead of the scene's")
-      .TypeName("NAME");
-  app.Add("--set", raw.sets, "set a parameter, for example SurfaceIntegrator.maxdist=1.5")
-      .TypeName("Directive.parameter=value")
-      .OnePerUse();
-  app.Add("--spp", raw.samplesPerPixel, "samples a pixel")
-      .Between(std::int64_t(1), kMaxSamplesPerPixel)
-      .TypeName("N");
+void AddPictureOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Add("scenes", command.scenes, "scene files; \"-\" or a pipe: standard input");
+  app.Group("Picture");
+  app.Add("-o,--outfile", command.outfile,
+          "the picture's file instead of the scene's: NAME.exr or NAME.png")
+      .TypeName("FILE");
+  app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
+  AddPngOptions(app, &command.png);
+  app.Add("--aov", raw.aovs, "also write these AOVs: " + AllAovNames()).TypeName("LIST");
+  app.AddFlag("--half", raw.asHalf, "16-bit channels (default)");
+  app.AddFlag("--float", raw.asFloat, "32-bit channels");
+  app.AddFlag("--reproducible", command.isReproducible,
+              "leave times, dates, threads and command line out of the picture's file");
+  app.Group("Part and size");
+  app.Add("--resolution", raw.resolution, "size of the picture in pixels").TypeName("WxH");
   app.Add("--cropwindow", raw.cropWindow, "a part of the picture, in fractions of it")
       .TypeName("x0,x1,y0,y1");
   app.Add("--pixelbounds", raw.pixelBounds, "a part in pixels, the upper ones excluded")
@@ -43,36 +68,13 @@ void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw)
   app.Add("--pixel", raw.pixel, "one pixel").TypeName("x,y");
   app.AddFlag("--quick", command.load.isQuick,
               "a quarter of the resolution, 1 sample a pixel, a tenth of the photons");
-  app.Add("--effects", command.load.effects,
-          "what to compute: auto, all, or a list such as caustics=off,lens=on")
-      .TypeName("LIST");
-  app.Add("--dialect", raw.dialect,
-          "version of the scene language: v1, v2, or auto (default: by its directives)")
-      .OneOf({"auto", "v1", "v2"})
-      .TypeName("");
-  app.AddFlag("--strict", command.load.isStrict,
-              "unknown parameters and samples that are not finite are errors");
-  app.Add("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
-      .TypeName("DIR")
-      .OnePerUse();
-  AddScenePluginsOption(app, &command.load.allowsScenePlugins);
-  AddLimitsOption(app, &raw.limits);
 }
 
-void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
-  app.Add("-o,--outfile", command.outfile, "the picture's file instead of the scene's")
-      .TypeName("FILE");
-  app.Add("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
-      .Between(0, kMaxThreads)
-      .TypeName("N");
-  app.Add("--seed", command.seed, "seed of the random numbers").TypeName("N");
-  app.Add("--footprint-spp", command.footprintSamples,
-          "filter textures and bumps as with N samples a pixel, regardless of --spp; for renders "
-          "that are compared")
+void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Group("How much to render");
+  app.Add("--spp", raw.samplesPerPixel, "samples a pixel")
       .Between(std::int64_t(1), kMaxSamplesPerPixel)
       .TypeName("N");
-  app.AddFlag("--half", raw.asHalf, "16-bit channels (default)");
-  app.AddFlag("--float", raw.asFloat, "32-bit channels");
   app.Add("--time-limit", raw.timeLimit, "render whole passes for this time: 90, 90s, 2m, 1h")
       .TypeName("TIME");
   app.Add("--target-error", command.targetError,
@@ -80,10 +82,47 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
       .TypeName("X");
   app.AddFlag("--two-halves", command.asTwoHalves,
               "render two independent halves, print their difference, write both into the file");
-  app.Add("--aov", raw.aovs, "also write these AOVs: " + AllAovNames()).TypeName("LIST");
-  app.Add("--preview", command.previewFile, "also write the picture as PNG").TypeName("FILE.png");
-  app.AddFlag("--reproducible", command.isReproducible,
-              "leave times, dates, threads and command line out of the picture's file");
+  app.Add("--seed", command.seed, "seed of the random numbers").TypeName("N");
+  app.Add("--footprint-spp", command.footprintSamples,
+          "filter textures and bumps as with N samples a pixel, regardless of --spp; for renders "
+          "that are compared")
+      .Between(std::int64_t(1), kMaxSamplesPerPixel)
+      .TypeName("N");
+}
+
+void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Group("Instead of what the scene says");
+  for (const auto& [name, target, what] :
+       {std::tuple{"--integrator", &command.load.integrator, "surface integrator"},
+        {"--sampler", &command.load.sampler, "sampler, with as many samples a pixel"},
+        {"--filter", &command.load.filter, "pixel filter, with its own widths"},
+        {"--camera", &command.load.camera, "camera"},
+        {"--accelerator", &command.load.accelerator, "acceleration structure"}})
+    app.Add(name, *target, what).TypeName("NAME");
+  app.Add("--set", raw.sets, "set a parameter, for example SurfaceIntegrator.maxdist=1.5")
+      .TypeName("Directive.parameter=value")
+      .OnePerUse();
+  app.Add("--effects", command.load.effects,
+          "what to compute: auto, all, or a list such as caustics=off,lens=on")
+      .TypeName("LIST");
+  app.Add("--dialect", raw.dialect,
+          "version of the scene language (default auto: by its directives)")
+      .OneOf({"auto", "v1", "v2"});
+  app.AddFlag("--strict", command.load.isStrict,
+              "unknown parameters and samples that are not finite are errors");
+}
+
+void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Group("Running");
+  app.Add("--nthreads,--ncores", command.threadCount, "threads; 0: as many as cores")
+      .Between(0, kMaxThreads)
+      .TypeName("N");
+  app.Add("--plugin-dir", raw.pluginFolders, "look for plugins in this folder first")
+      .TypeName("DIR")
+      .OnePerUse();
+  AddScenePluginsOption(app, &command.load.allowsScenePlugins);
+  AddLimitsOption(app, &raw.limits);
+  app.Group("Messages");
   app.AddFlag("--check", raw.checks, "read the scene, report errors, render nothing");
   app.AddFlag("--explain", raw.explains, "print what would be computed and why, render nothing");
   app.AddFlag("--stats", command.printsStatistics, "print times, rays and counts at the end");
@@ -98,6 +137,18 @@ void Exclude(bool first, bool second, const char* text) {
   if (first && second) FailUsage(text);
 }
 
+// A PNG has neither layers nor 32-bit channels, and an EXR no tone curve.
+void CheckPng(const RawOptions& raw, const RenderCommand& command) {
+  const bool isPng = IsPngName(command.outfile);
+  Exclude(isPng, !raw.aovs.empty(), "a PNG has no layers for --aov: use -o NAME.exr");
+  Exclude(isPng, command.asTwoHalves, "a PNG has no layers for --two-halves: use -o NAME.exr");
+  Exclude(isPng, raw.asFloat || raw.asHalf, "--half and --float are for EXR: a PNG has 8 bits");
+  CheckPngOptions(command.png);
+  if (command.png.IsGiven() && !isPng && command.previewFile.empty())
+    FailUsage("--exposure and --tone-curve are for PNG: an EXR stays linear",
+              "-o NAME.png or --preview NAME.png writes one");
+}
+
 void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   LoadOptions& load = command->load;
   Exclude(raw.asHalf, raw.asFloat, "--half and --float exclude each other");
@@ -110,7 +161,8 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.pixelBounds.empty()) load.pixelBounds = ParsePixelBounds(raw.pixelBounds);
   if (!raw.pixel.empty()) load.pixelBounds = ParsePixel(raw.pixel);
   for (const std::string& text : raw.sets) load.parameters.push_back(ParseOverride(text));
-  if (!raw.integrator.empty()) load.integrator = raw.integrator;
+  if (!raw.resolution.empty()) AddResolution(raw.resolution, &load.parameters);
+  CheckPng(raw, *command);
   if (raw.samplesPerPixel > 0) load.samplesPerPixel = raw.samplesPerPixel;
   if (raw.dialect != "auto") load.dialect = raw.dialect == "v2" ? Dialect::V2 : Dialect::V1;
   load.pluginFolders = PluginRegistry::DefaultFolders(raw.pluginFolders);
@@ -128,7 +180,11 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (raw.isVerbose) command->logLevel = Log::Level::Verbose;
   if (raw.checks) command->mode = RenderMode::Check;
   if (raw.explains) command->mode = RenderMode::Explain;
-  if (command->scenes.empty()) command->scenes.push_back("-");
+  if (command->scenes.empty()) {
+    if (isatty(STDIN_FILENO))
+      FailUsage("no scene is named", "name scene files, or \"-\" to type a scene");
+    command->scenes.push_back("-");
+  }
   if (std::count(command->scenes.begin(), command->scenes.end(), "-") > 1)
     FailUsage("standard input (-) is named twice");
   if (!command->outfile.empty() && command->scenes.size() > 1)
@@ -143,13 +199,14 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   RenderCommand command;
   command.mode = mode;
   RawOptions raw;
-  OptionParser app("Renders scenes in the language of pbrt, versions 1 and 2, to OpenEXR pictures.",
-                   "exphoton [render]");
+  OptionParser app("Renders scenes in the language of pbrt, versions 1 and 2.",
+                   mode == RenderMode::Explain ? "exphoton explain" : "exphoton [render]");
+  app.Header(kCommands);
   app.Footer(
-      "\nOther commands: exphoton study | report | compare | info | convert | plugins | "
-      "explain,\neach with --help.\n"
-      "Exit status: 0 complete, 1 command line, 2 scene, 3 files, 4 resources, 5 internal,\n"
-      "128 + n on signal n.");
+      "Exit status: 0 complete, 1 command line, 2 scene, 3 files, 4 resources, 5 internal, 128 + n "
+      "on signal n.");
+  AddPictureOptions(app, command, raw);
+  AddAmountOptions(app, command, raw);
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);
   app.AddVersion(VersionText());
@@ -157,6 +214,12 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   TakeRaw(raw, &command);
   return command;
 }
+
+std::vector<std::string> CommandNames() {
+  return {"render", "explain", "plugins", "info", "convert", "compare", "study", "report", "help"};
+}
+
+const char* ShortUsage() { return kCommands; }
 
 std::string VersionText() { return "exphoton " EXPHOTON_VERSION; }
 

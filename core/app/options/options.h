@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/app/options/limits.h"
+#include "core/app/output/png_output.h"
 #include "core/base/log.h"
 #include "core/imaging/film/aovs.h"
 #include "core/parser/render_setup.h"
@@ -23,6 +24,7 @@ struct RenderCommand {
   LoadOptions load;
   std::string outfile;                           // "": the name from the scene
   std::string previewFile;                       // "": none
+  PngOptions png;                                // for the picture, if it is a PNG, and the preview
   std::string statsFile;                         // "": none; "-": standard output
   AovSet aovs;                                   // --aov
   std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
@@ -43,6 +45,11 @@ struct RenderCommand {
 
 // `arguments` exclude the names of program and command. Throws Error(CommandLine), TextRequest.
 RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, RenderMode mode);
+
+// Returns the names of all commands.
+std::vector<std::string> CommandNames();
+// Lists the commands and some examples.
+const char* ShortUsage();
 
 std::string VersionText();
 

@@ -69,6 +69,18 @@ PixelBounds ParsePixel(const std::string& text) {
   return {v[0], v[1], v[0] + 1, v[1] + 1};
 }
 
+void AddResolution(const std::string& text, std::vector<ParameterOverride>* overrides) {
+  const std::size_t x = text.find('x');
+  const auto isNumber = [](const std::string& part) {
+    return !part.empty() && part.size() < 7 &&
+           part.find_first_not_of("0123456789") == std::string::npos && part != "0";
+  };
+  if (x == std::string::npos || !isNumber(text.substr(0, x)) || !isNumber(text.substr(x + 1)))
+    FailUsage("--resolution takes WIDTHxHEIGHT, for example 128x96, not \"" + text + "\"");
+  overrides->push_back({"Film", "xresolution", text.substr(0, x)});
+  overrides->push_back({"Film", "yresolution", text.substr(x + 1)});
+}
+
 ParameterOverride ParseOverride(const std::string& text) {
   const std::size_t dot = text.find('.');
   const std::size_t equals = text.find('=');

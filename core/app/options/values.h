@@ -19,6 +19,8 @@ std::vector<Real> ParseCropWindow(const std::string& text);
 PixelBounds ParsePixelBounds(const std::string& text);
 // "x,y": bounds of one pixel.
 PixelBounds ParsePixel(const std::string& text);
+// "1920x1080": adds the overrides of the film's resolution.
+void AddResolution(const std::string& text, std::vector<ParameterOverride>* overrides);
 // "SurfaceIntegrator.maxdist=1.5".
 ParameterOverride ParseOverride(const std::string& text);
 

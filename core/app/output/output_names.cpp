@@ -3,6 +3,8 @@
 #include "core/app/output/output_names.h"
 
 #include "core/app/options/arguments.h"
+#include "core/app/output/png_output.h"
+#include "core/base/error.h"
 
 namespace exphoton::cli {
 
@@ -14,8 +16,19 @@ std::optional<std::string> OutputNames::NameFromUser() const {
   return name;
 }
 
+void OutputNames::CheckEndings() const {
+  const std::string picture = NameFromUser().value_or("out.exr");
+  if (!IsPngName(picture) && !IsExrName(picture))
+    throw Error(ExitStatus::CommandLine,
+                "the picture \"" + picture + "\" ends neither in .exr nor in .png", {},
+                "NAME.exr keeps all values, NAME.png is for viewing");
+  const std::string& preview = command_.previewFile;
+  if (!preview.empty() && !IsPngName(preview))
+    throw Error(ExitStatus::CommandLine, "the preview \"" + preview + "\" does not end in .png");
+}
+
 std::string OutputNames::Picture(const std::string& name) const {
-  return FollowLinks(NameFromUser().value_or(name));
+  return FollowLinks(NameFromUser().value_or(ExrName(name)));
 }
 
 // Suggests a command with -o NAME: the original one if it renders one scene, else one for `scene`.
@@ -29,11 +42,11 @@ void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& 
   const std::string& scene = command_.scenes[place.file];
   const std::string key = std::to_string(place.file) + ":" + std::to_string(place.picture);
   const std::string of = scene == "-" ? " of standard input" : " of \"" + scene + '"';
-  OutputFile picture{NameFromUser().value_or(name), "the picture" + of,
+  OutputFile picture{NameFromUser().value_or(ExrName(name)), "the picture" + of,
                      "-o FILE names another file for the picture"};
   if (!NameFromUser()) {
     picture.namedBy = scene;
-    picture.remedy = "to name the file yourself: " + LineWithOutput(scene, name);
+    picture.remedy = "to name the file yourself: " + LineWithOutput(scene, ExrName(name));
   }
   files.AddOutput("1 " + key, picture);
   if (!command_.previewFile.empty())

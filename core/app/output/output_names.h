@@ -22,11 +22,15 @@ class OutputNames {
   // Adds the picture's output files. `name` is the file name from Film, or empty.
   void AddTo(RunFiles& files, const Place& place, const std::string& name) const;
 
-  // Returns the picture's file, with links resolved.
+  // Throws Error(CommandLine) if the user names a picture or preview with an unknown ending.
+  void CheckEndings() const;
+
+  // Returns the picture's file, with links resolved. A name from the scene becomes one that ends
+  // in .exr.
   std::string Picture(const std::string& name) const;
+  std::optional<std::string> NameFromUser() const;  // from -o or --set Film.filename
 
  private:
-  std::optional<std::string> NameFromUser() const;  // from -o or --set Film.filename
   std::string LineWithOutput(const std::string& scene, const std::string& name) const;
 
   const RenderCommand& command_;

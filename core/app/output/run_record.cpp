@@ -9,10 +9,17 @@
 #include <utility>
 
 #include "core/base/format.h"
+#include "core/base/terminal.h"
 #include "core/render/sharing/sharing_plan.h"
 
 namespace exphoton::cli {
 namespace {
+
+// The widths of the first two columns of a table of --stats.
+struct TableColumns {
+  int name, value;
+};
+constexpr TableColumns kPhaseColumns{14, 29}, kRayColumns{10, 24}, kCounterColumns{25, 14};
 
 // Prints integers without decimals and other values with six significant digits.
 std::string Number(double value) {
@@ -73,10 +80,39 @@ const char* RayMeaning(RayKind kind) {
   return "";
 }
 
+// Inserts a comma after each group of three digits before the decimal point: "1,234,567".
+std::string Grouped(std::string digits) {
+  const std::size_t begin = digits.starts_with('-') ? 1 : 0;
+  const std::size_t end = std::min(digits.find_first_of(".e"), digits.size());
+  for (std::size_t at = end; at > begin + 3;) digits.insert(at -= 3, ",");
+  return digits;
+}
+
+// Scales bytes to "13.2 MB" and similar.
+std::string Bytes(double bytes) {
+  const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
+  return Format(unit == 0 ? "%.0f %s" : "%.1f %s", bytes, units[unit]);
+}
+
+// The meaning wraps to the terminal, under itself.
+std::string TableRow(const TableColumns& columns, const std::string& name, const std::string& value,
+                     const std::string& meaning) {
+  std::string line = name;
+  line.resize(std::max(std::size_t(columns.name), name.size() + 1), ' ');
+  line +=
+      Format("%*s  ", std::max(0, columns.name + columns.value - int(line.size())), value.c_str());
+  const std::string lines = WrappedText(meaning, int(line.size()), OutputColumns());
+  return lines.empty() ? line + '\n' : line + lines.substr(line.size());
+}
+
 std::string PhaseTable(const RunRecord& run) {
-  std::string text = Format("\n%-30s %12s %12s  meaning\n", "phase", "seconds", "CPU seconds");
-  const auto row = [&text](const char* name, double wall, double cpu, const char* meaning) {
-    text += Format("%-30s %12.3f %12.3f  ", name, wall, cpu) + meaning + "\n";
+  std::string text = '\n' + TableRow(kPhaseColumns, "phase", "time    CPU time   share", "meaning");
+  const auto row = [&](const char* name, double wall, double cpu, const char* meaning) {
+    const double share = run.wallSeconds > 0 ? 100 * wall / run.wallSeconds : 0;
+    text += TableRow(kPhaseColumns, name, Format("%.3f s  %8.3f s  %4.1f %%", wall, cpu, share),
+                     meaning);
   };
   for (const Statistics::Phase& phase : run.statistics.Phases())
     row(phase.name.c_str(), phase.wallSeconds, phase.cpuSeconds, PhaseMeaning(phase.name));
@@ -84,26 +120,33 @@ std::string PhaseTable(const RunRecord& run) {
   return text;
 }
 
-std::string RayTable(const RayCounters& rays) {
-  std::string text = Format("\n%-30s %12s  meaning\n", "rays", "count");
-  std::uint64_t total = 0;
-  const auto row = [&text](const char* name, std::uint64_t count, const char* meaning) {
-    text += Format("%-30s %12llu  ", name, static_cast<unsigned long long>(count)) + meaning + "\n";
+std::string RayTable(const RunRecord& run) {
+  const RayCounters rays = run.statistics.Rays();
+  const double total = double(std::max<std::uint64_t>(rays.Total(), 1));
+  std::string text = '\n' + TableRow(kRayColumns, "rays", "count   share", "meaning");
+  const auto row = [&](const char* name, std::uint64_t count, const std::string& meaning) {
+    text +=
+        TableRow(kRayColumns, name,
+                 Grouped(std::to_string(count)) + Format("  %5.1f %%", 100 * double(count) / total),
+                 meaning);
   };
-  for (int i = 0; i < kRayKindCount; ++i) {
-    total += rays.counts[std::size_t(i)];
+  for (int i = 0; i < kRayKindCount; ++i)
     row(RayKindName(RayKind(i)), rays.counts[std::size_t(i)], RayMeaning(RayKind(i)));
-  }
-  row("all", total, "rays that were traced");
+  const double rate = run.renderSeconds > 0 ? double(rays.Total()) / run.renderSeconds : 0;
+  row("all", rays.Total(),
+      "rays that were traced, " + Grouped(Format("%.0f", rate)) + " per second");
   return text;
 }
 
 std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
   std::string text;
-  if (!counters.empty()) text = Format("\n%-30s %12s  meaning\n", "counter", "value");
-  for (const Statistics::Counter& counter : counters)
-    text += Format("%-30s %12s  ", counter.name.c_str(), Number(counter.value).c_str()) +
-            counter.meaning + "\n";
+  if (!counters.empty()) text = '\n' + TableRow(kCounterColumns, "counter", "value", "meaning");
+  for (const Statistics::Counter& counter : counters) {
+    const bool isMemory = counter.name.find("memory") != std::string::npos;
+    text +=
+        TableRow(kCounterColumns, counter.name,
+                 isMemory ? Bytes(counter.value) : Grouped(Number(counter.value)), counter.meaning);
+  }
   return text;
 }
 
@@ -123,8 +166,7 @@ std::string StatisticsTable(const RunRecord& run) {
   if (run.noise)
     text += Row("noise", Format("%.3g", *run.noise) +
                              " of relMSE, estimated between passes (bias not included)");
-  return text + PhaseTable(run) + RayTable(run.statistics.Rays()) +
-         CounterTable(run.statistics.Counters());
+  return text + PhaseTable(run) + RayTable(run) + CounterTable(run.statistics.Counters());
 }
 
 std::string StoppingText(const RunRecord& run) {
@@ -143,6 +185,14 @@ std::string StoppingText(const RunRecord& run) {
   if (!run.noise) return text + ", which give no estimate of the noise";
   return text + Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
                        100 * std::sqrt(*run.noise), *run.noise);
+}
+
+std::string EffectNames(const RenderSetup& setup) {
+  std::string names;
+  for (int i = 0; i < kFeatureCount; ++i)
+    if (setup.scene->Features().Needs(Feature(i)))
+      names += (names.empty() ? "" : ", ") + std::string(FeatureName(Feature(i)));
+  return names.empty() ? "none" : names;
 }
 
 std::string ExplainText(const RenderSetup& setup) {

@@ -48,6 +48,9 @@ std::string StatisticsJson(const RunRecord& run);  // one line
 // Returns one line: the result of a stopping rule, or the difference between two halves.
 std::string StoppingText(const RunRecord& run);
 
+// Returns the effects that the scene requires: "indirect, filtering"; "none".
+std::string EffectNames(const RenderSetup& setup);
+
 // Describes scene, plugins and effects without rendering.
 std::string ExplainText(const RenderSetup& setup);
 

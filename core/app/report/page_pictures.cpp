@@ -19,7 +19,7 @@ namespace {
 constexpr int kMaxWidth = 420;
 
 Html Element(const Image& image, float exposure, const std::string& alt, bool isPixelated) {
-  return Fill("picture", {{"data", Base64(EncodePng(image, exposure))},
+  return Fill("picture", {{"data", Base64(EncodePng(image, {exposure}))},
                           {"width", image.Width()},
                           {"height", image.Height()},
                           {"alt", alt},

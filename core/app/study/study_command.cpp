@@ -13,6 +13,7 @@
 #include "core/app/output/run_files.h"
 #include "core/app/process/signals.h"
 #include "core/app/report/report.h"
+#include "core/app/study/study_forecast.h"
 #include "core/app/study/study_runner.h"
 #include "core/base/error.h"
 #include "core/imaging/metrics/metrics.h"
@@ -111,8 +112,7 @@ void CheckReference(const StudyOptions& options, const SceneFacts& scene,
 }
 
 std::string PlanText(const StudyOptions& options, const std::vector<study::Setting>& settings) {
-  std::string text = std::to_string(settings.size()) + " settings, " +
-                     std::to_string(options.seeds) + " seeds each\n";
+  std::string text;
   for (const study::Setting& setting : settings)
     text += setting.label + ": " +
             CommandText(RenderArguments(options, options.scene, setting, 1)) + "\n";
@@ -142,7 +142,10 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   const ProgramFacts program = ExamineProgram(options);
   study::Results results = Describe(options, scene, program);
   results.settings = PlanSettings(options);
-  if (options.onlyPlans) return PrintOut(PlanText(options, results.settings));
+  if (options.onlyPlans) {
+    PrintOut(PlanText(options, results.settings));
+    return PrintOut(ForecastText(options, scene, results.settings));
+  }
   StudyFolder folder(options.folder);
   ClaimResults(options, scene, folder);
   MakeFolder(options.folder + "/images");

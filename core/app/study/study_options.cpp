@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/files/file_identity.h"
 #include "core/files/input_file.h"
+#include "core/params/suggestions.h"
 #include "core/parser/syntax/tokenizer.h"
 
 namespace exphoton::cli {
@@ -82,7 +83,8 @@ std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::strin
     if (name[0] == '-')
       throw Error(ExitStatus::CommandLine, place + "options in a study file have no dashes");
     if (!app.Has("--" + name))
-      throw Error(ExitStatus::CommandLine, place + "there is no option \"" + Printable(name) + '"');
+      throw Error(ExitStatus::CommandLine, place + "there is no option \"" + Printable(name) + '"',
+                  SourceLocation(), DidYouMean(name, app.Names()));
     CheckAllowedInStudyFile(name, value, place);
     if (name == "out") CheckFolder(value, path, place);
     if (NamesAFile(name) && fs::path(value).is_relative())
@@ -155,20 +157,17 @@ void AddRender(OptionParser& app, StudyOptions& options, RawOptions& raw) {
   AddLimitsOption(app, &options.limits);
   app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
   app.AddFlag("--quiet", options.isQuiet, "no progress");
-  app.AddFlag("--plan", options.onlyPlans, "print what would be rendered, and render nothing");
+  app.AddFlag(
+      "--plan", options.onlyPlans,
+      "print what would be rendered and about how long it takes, estimated from small parts");
 }
 
 void TakeResolution(const std::string& text, StudyOptions* options) {
   if (text.empty()) return;
-  const std::size_t x = text.find('x');
-  const auto isNumber = [](const std::string& part) {
-    return !part.empty() && part.size() < 7 &&
-           part.find_first_not_of("0123456789") == std::string::npos && part != "0";
-  };
-  if (x == std::string::npos || !isNumber(text.substr(0, x)) || !isNumber(text.substr(x + 1)))
-    FailUsage("--resolution takes WIDTHxHEIGHT, for example 128x96, not \"" + text + "\"");
-  options->sets.push_back("Film.xresolution=" + text.substr(0, x));
-  options->sets.push_back("Film.yresolution=" + text.substr(x + 1));
+  std::vector<ParameterOverride> overrides;
+  AddResolution(text, &overrides);
+  for (const ParameterOverride& set : overrides)
+    options->sets.push_back(set.directive + "." + set.parameter + "=" + set.value);
 }
 
 std::vector<double> ParseTargets(const std::string& text) {

@@ -22,6 +22,8 @@
 #include "core/app/process/signals.h"
 #include "core/base/log.h"
 #include "core/files/input_file.h"
+#include "core/params/suggestions.h"
+#include "core/parser/overrides.h"
 #include "core/parser/render_setup.h"
 #include "core/plugins/registry.h"
 
@@ -77,11 +79,15 @@ class PluginParameterLookup final : public study::ParameterLookup {
     registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
   }
   bool Has(const std::string& integrator, const std::string& parameter) const override {
+    const std::vector<std::string> names = Names(integrator);
+    return std::find(names.begin(), names.end(), parameter) != names.end();
+  }
+  std::vector<std::string> Names(const std::string& integrator) const override {
     const PluginFactory& factory =
         registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
-    const auto& declared = factory.parameters->Declarations();
-    return std::any_of(declared.begin(), declared.end(),
-                       [&](const ParamDecl& decl) { return decl.name == parameter; });
+    std::vector<std::string> names;
+    for (const ParamDecl& decl : factory.parameters->Declarations()) names.push_back(decl.name);
+    return names;
   }
 
  private:
@@ -151,11 +157,15 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
   const auto check = [&](const study::Setting& setting) {
     oracle.Check(setting.integrator);
     for (const auto& [name, value] : setting.parameters) {
-      const bool isKnown = name == "spp" || name == "time" || name.find('.') != std::string::npos ||
-                           oracle.Has(setting.integrator, name);
-      if (!isKnown)
-        FailUsage("integrator \"" + setting.integrator + "\" has no parameter \"" + name + "\"",
-                  "exphoton plugins " + setting.integrator + " lists them");
+      if (name == "spp" || name == "time") continue;
+      if (name.find('.') != std::string::npos) {
+        CheckOverrides({ParseOverride(name + "=" + value)});
+        continue;
+      }
+      if (oracle.Has(setting.integrator, name)) continue;
+      const std::string hint = DidYouMean(name, oracle.Names(setting.integrator));
+      FailUsage("integrator \"" + setting.integrator + "\" has no parameter \"" + name + "\"",
+                hint.empty() ? "exphoton plugins " + setting.integrator + " lists them" : hint);
     }
   };
   try {

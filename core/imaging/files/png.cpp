@@ -82,16 +82,14 @@ Image Read(const std::string& path) {
 }
 
 std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& from,
-                                  std::size_t channels, float exposure) {
-  const double scale = std::exp2(double(exposure));
+                                  std::size_t channels, const ToneMapping& tone) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(std::size_t(image.Width()) * std::size_t(image.Height()) * channels);
   for (int y = 0; y < image.Height(); ++y) {
     for (int x = 0; x < image.Width(); ++x) {
       for (std::size_t c = 0; c < channels; ++c) {
-        double v = image.At(x, y, from[c]);
-        if (!(v > 0)) v = 0;  // also for NaN
-        bytes.push_back(ToByte(c == 3 ? v : EncodeSrgb(std::min(v * scale, 1.))));
+        const double v = image.At(x, y, from[c]);
+        bytes.push_back(ToByte(c == 3 ? (v > 0 ? v : 0) : EncodeSrgb(tone.Apply(v))));
       }
     }
   }
@@ -100,14 +98,14 @@ std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& 
 
 }  // namespace
 
-std::string EncodePng(const Image& image, float exposure) {
+std::string EncodePng(const Image& image, const ToneMapping& tone) {
   const UntrappedLibraryCall guard;
   const std::array<int, 4> from = {image.FindChannel("R"), image.FindChannel("G"),
                                    image.FindChannel("B"), image.FindChannel("A")};
   if (from[0] < 0 || from[1] < 0 || from[2] < 0)
     throw Error(ExitStatus::File, "no channels R, G, B for a PNG");
   const std::size_t channels = from[3] >= 0 ? 4 : 3;
-  const std::vector<std::uint8_t> bytes = ToneMap(image, from, channels, exposure);
+  const std::vector<std::uint8_t> bytes = ToneMap(image, from, channels, tone);
 
   PngImage png;
   png.image.width = png_uint_32(image.Width());
@@ -121,10 +119,10 @@ std::string EncodePng(const Image& image, float exposure) {
   return encoded;
 }
 
-void WritePng(const std::string& path, const Image& image, float exposure) {
+void WritePng(const std::string& path, const Image& image, const ToneMapping& tone) {
   std::string encoded;
   try {
-    encoded = EncodePng(image, exposure);
+    encoded = EncodePng(image, tone);
   } catch (const Error& error) {
     throw Error(error.Status(), "cannot write \"" + path + "\": " + error.what());
   }

@@ -4,15 +4,16 @@
 
 #include <string>
 
+#include "core/imaging/files/tone.h"
 #include "core/imaging/image.h"
 
 namespace exphoton {
 
-// Writes the channels R, G, B (and A if present). R, G, B are multiplied by 2^exposure, clamped and
-// sRGB-encoded. The write is atomic, as in WriteExr. Throws Error(File).
-void WritePng(const std::string& path, const Image& image, float exposure = 0);
+// Writes the channels R, G, B (and A if present). R, G, B are tone-mapped and sRGB-encoded. The
+// write is atomic, as in WriteExr. Throws Error(File).
+void WritePng(const std::string& path, const Image& image, const ToneMapping& tone = {});
 // Returns the bytes that WritePng writes.
-std::string EncodePng(const Image& image, float exposure = 0);
+std::string EncodePng(const Image& image, const ToneMapping& tone = {});
 Image ReadPng(const std::string& path);  // throws ImageError
 
 }  // namespace exphoton

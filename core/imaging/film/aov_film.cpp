@@ -12,7 +12,7 @@ namespace {
 constexpr AovSet kAveraged = kSurfaceAovs | kLightAovs | AovSet{Aov::PhotonDensity};
 
 // Writes the values of an averaged AOV at one sample to `out`. Returns their number.
-std::size_t ValuesOf(Aov aov, const AovSample& sample, double* out) {
+std::size_t WriteValues(Aov aov, const AovSample& sample, double* out) {
   const auto color = [out](const Spectrum& s) {
     out[0] = double(s.r), out[1] = double(s.g), out[2] = double(s.b);
     return std::size_t(3);
@@ -74,11 +74,11 @@ void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& 
   weights.sum += w;
   weights.sumOfSquares += w * w;
   weights.absSum += float(std::abs(w));
-  ++weights.samples;
+  CountSample(at, sample);
   Value* value = values_.data() + at * valueCount_;
   for (const Aov aov : averaged_) {
     double x[3];
-    const std::size_t count = ValuesOf(aov, sample, x);
+    const std::size_t count = WriteValues(aov, sample, x);
     for (std::size_t c = 0; c < count; ++c, ++value) {
       value->sum += w * x[c];
       value->absSum += float(std::abs(w) * x[c]);
@@ -93,9 +93,57 @@ void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& 
       m.wwLL += w * w * l[c] * l[c];
     }
   }
-  if (!reads_.empty()) {
-    distances_[at] += sample.radianceDistance;
-    reads_[at] += sample.radiancePhotonsRead;
+}
+
+void AovFilm::CountSample(std::size_t pixel, const AovSample& sample) {
+  ++weights_[pixel].samples;
+  if (reads_.empty()) return;
+  distances_[pixel] += sample.radianceDistance;
+  reads_[pixel] += sample.radiancePhotonsRead;
+}
+
+void AovFilm::ValuesOf(const AovSample& sample, double* out) const {
+  for (const Aov aov : averaged_) out += WriteValues(aov, sample, out);
+}
+
+std::optional<std::size_t> AovFilm::FirstValueOf(Aov aov) const {
+  std::size_t at = 0;
+  for (const Aov each : averaged_) {
+    if (each == aov) return at;
+    at += GetAovInfo(each).channels.size();
+  }
+  return std::nullopt;
+}
+
+void AovFilm::AddOwn(Point2i pixel, const AovSample& sample) {
+  const std::size_t at = IndexOf(pixel);
+  weights_[at].absSum += 1;
+  CountSample(at, sample);
+  Value* value = values_.data() + at * valueCount_;
+  for (const Aov aov : averaged_) {
+    double x[3];
+    const std::size_t count = WriteValues(aov, sample, x);
+    for (std::size_t c = 0; c < count; ++c, ++value) value->absSum += float(x[c]);
+  }
+}
+
+void AovFilm::AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L) {
+  Value* value = values_.data() + IndexOf(pixel) * valueCount_ + firstValue;
+  for (int c = 0; c < 3; ++c) value[c].absSum += float(L[c]);
+}
+
+void AovFilm::AddSums(std::size_t pixel, const double* film, const double* values,
+                      const double* squares) {
+  isSplatted_ = true;
+  weights_[pixel].sum += film[4];
+  for (std::size_t i = 0; i < valueCount_; ++i) values_[pixel * valueCount_ + i].sum += values[i];
+  if (moments_.empty()) return;
+  weights_[pixel].sumOfSquares += squares[0];
+  for (std::size_t c = 0; c < 3; ++c) {
+    Moments& m = moments_[pixel * 3 + c];
+    m.wL += film[c];
+    m.wwL += squares[1 + c];
+    m.wwLL += squares[4 + c];
   }
 }
 
@@ -125,14 +173,16 @@ double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
 }
 
 // Returns the variance of the quotient R = sum(w L) / sum(w), to first order: the sum of (w (L -
-// R))^2, divided by sum(w)^2. The samples are assumed to be independent.
+// R))^2, divided by sum(w)^2. The samples are assumed to be independent. Splatted samples come with
+// covariances that are unbiased already.
 double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
   const Weights& weights = weights_[pixel];
   const double n = double(weights.samples), sum = std::max(std::abs(weights.sum), .5 * n);
-  if (weights.samples < 2) return 0;
+  if (weights.samples < 2 && !isSplatted_) return 0;
   const Moments& m = moments_[pixel * 3 + channel];
   const double mean = m.wL / sum;
   const double squares = m.wwLL - 2 * mean * m.wwL + mean * mean * weights.sumOfSquares;
+  if (isSplatted_) return sum > 0 ? std::max(squares, 0.) / (sum * sum) : 0;
   return std::max(squares, 0.) * n / ((n - 1) * sum * sum);
 }
 

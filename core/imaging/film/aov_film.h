@@ -4,6 +4,7 @@
 // requested.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/imaging/film/aovs.h"
@@ -25,6 +26,19 @@ class AovFilm {
   // Adds radiance to a light AOV of a sample that was added before with this weight.
   void AddLight(Point2i pixel, Aov aov, const Spectrum& L, Real weight);
   void AddTime(Point2i pixel, double seconds);
+
+  // For samples that are splatted (core/render/splat_buffer.h). ValuesOf writes the AveragedCount()
+  // values of a sample. FirstValueOf returns the place of an AOV's values among them.
+  std::size_t AveragedCount() const { return valueCount_; }
+  void ValuesOf(const AovSample& sample, double* out) const;
+  std::optional<std::size_t> FirstValueOf(Aov aov) const;
+  // Adds an unweighted sample to its own pixel, and light to such a sample.
+  void AddOwn(Point2i pixel, const AovSample& sample);
+  void AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L);
+  // Adds sums over samples: of w (r, g, b, alpha, 1), of w x for the averaged values x, and, if the
+  // variance is wanted, the covariances of w, w L and w L (1, then w L w and w L w L by channel).
+  void AddSums(std::size_t pixel, const double* film, const double* values, const double* squares);
+  static constexpr std::size_t kSquares = 7;
 
   // Appends the channels to the film's picture. Light AOVs are scaled like the picture, so that
   // they sum to it. If the picture shows a negative channel as 0, the channel is 0 in all light
@@ -52,8 +66,11 @@ class AovFilm {
   void Collect(std::size_t pixel, const std::array<double, 4>& beauty, double lightScale,
                float* out) const;
 
+  void CountSample(std::size_t pixel, const AovSample& sample);
+
   PixelBounds crop_;
   AovSet wanted_;
+  bool isSplatted_ = false;
   std::vector<Aov> aovs_, averaged_;
   std::size_t valueCount_ = 0;  // averaged channels per pixel
   std::vector<Weights> weights_;

@@ -71,6 +71,30 @@ void Film::AddLight(Point2i pixel, const Spectrum& L, Real weight) {
   p.absB += a * float(L.b);
 }
 
+void Film::AddOwn(Point2i pixel, const Spectrum& L, Real alpha) {
+  AddOwnLight(pixel, L);
+  Pixel& p = pixels_[IndexOf(pixel)];
+  p.absAlpha += float(alpha);
+  p.absWeight += 1;
+  ++p.samples;
+}
+
+void Film::AddOwnLight(Point2i pixel, const Spectrum& L) {
+  Pixel& p = pixels_[IndexOf(pixel)];
+  p.absR += float(L.r);
+  p.absG += float(L.g);
+  p.absB += float(L.b);
+}
+
+void Film::AddSums(std::size_t index, const Sums& sums, double alpha) {
+  Pixel& p = pixels_[index];
+  p.r += sums.r;
+  p.g += sums.g;
+  p.b += sums.b;
+  p.alpha += alpha;
+  p.weight += sums.weight;
+}
+
 void Film::Clear() { std::fill(pixels_.begin(), pixels_.end(), Pixel()); }
 
 void Film::Add(const Film& other) {

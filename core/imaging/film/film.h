@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Film accumulates the samples of each pixel in double precision, in the order of the sample index.
-// Only one thread at a time may fill a pixel. A pixel never depends on its neighbours.
+// Only one thread at a time may fill a pixel.
 #pragma once
 
 #include <array>
@@ -41,6 +41,11 @@ class Film {
   // Adds radiance to a sample that was added before with this weight.
   void AddLight(Point2i pixel, const Spectrum& L, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
+  // For samples that are splatted (core/render/splat_buffer.h): adds an unweighted sample to its
+  // own pixel, and light to such a sample. The pixel shows their mean only if AddSums adds too
+  // small a weight.
+  void AddOwn(Point2i pixel, const Spectrum& L, Real alpha);
+  void AddOwnLight(Point2i pixel, const Spectrum& L);
 
   // Removes all samples.
   void Clear();
@@ -57,6 +62,8 @@ class Film {
     const Pixel& p = pixels_[index];
     return {p.r, p.g, p.b, p.weight};
   }
+  // Adds the sums of splatted samples. `alpha` is sum(w alpha).
+  void AddSums(std::size_t index, const Sums& sums, double alpha);
   std::size_t PixelCount() const { return pixels_.size(); }
   // Returns r, g, b, alpha before ToImage clamps and premultiplies them.
   std::array<double, 4> MeanOf(Point2i pixel) const { return pixels_[IndexOf(pixel)].Mean(); }
@@ -68,8 +75,8 @@ class Film {
 
  private:
   // sum(w) is close to the number of samples, except by chance after the first few samples of a
-  // filter with negative lobes. Such pixels use the mean weighted by |w|, which needs little
-  // precision.
+  // filter with negative lobes. Such pixels use the mean weighted by |w|, or the plain mean of the
+  // pixel's own samples where samples are splatted. It needs little precision.
   struct Pixel {
     double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
     std::int64_t samples = 0;

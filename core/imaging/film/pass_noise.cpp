@@ -64,8 +64,16 @@ void PassNoise::Add(int group, const Film& pass, std::int64_t samplesPerPixel) {
   samples_[std::size_t(group)] += samplesPerPixel;
 }
 
-int PassNoise::SmallestGroup() const {
-  return int(std::min_element(samples_.begin(), samples_.end()) - samples_.begin());
+void PassNoise::Join() {
+  const std::vector<Group> groups = Groups();
+  for (std::size_t i = 0; i < pixelCount_ && !groups.empty(); ++i) {
+    const Sums total = TotalOf(groups, i);
+    for (std::vector<Sums>& group : sums_)
+      if (!group.empty()) group[i] = Sums();
+    sums_[0][i] = total;
+  }
+  samples_[0] = std::int64_t(SampleCount());
+  std::fill(samples_.begin() + 1, samples_.end(), 0);
 }
 
 double PassNoise::SampleCount() const {

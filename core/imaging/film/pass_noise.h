@@ -17,8 +17,8 @@ class PassNoise {
   // Adds a pass with samplesPerPixel samples per pixel to a group.
   void Add(int group, const Film& pass, std::int64_t samplesPerPixel);
   std::int64_t SamplesOf(int group) const { return samples_[std::size_t(group)]; }
-  // Returns the group with the fewest samples; ties go to the first.
-  int SmallestGroup() const;
+  // Moves the samples of all groups to the first one.
+  void Join();
 
   // Estimates the mean over pixels and channels of var / (r^2 + 0.01), the noise part of relMSE.
   // var is the variance of the picture of all passes, and r is the true picture. The mean of 5 x 5

@@ -129,12 +129,16 @@ Image DifferenceImage(const Image& reference, const Image& image) {
   return result;
 }
 
-Image SignedErrorImage(const Image& reference, const Image& image, double fullScale) {
+Image SignedErrorImage(const Image& reference, const Image& image, double fullScale,
+                       std::optional<int> channel) {
   const Pair pair(reference, image);
   Image result(image.data, image.display, {"R", "G", "B"});
   pair.ForPixels([&](int x, int y, const auto& r, const auto& v, bool isFinite) {
     double error = 0;
-    for (std::size_t c = 0; c < 3; ++c) error += (v[c] - r[c]) * std::sqrt(RelMseWeight(r[c])) / 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double weight = !channel ? 1. / 3 : *channel == int(c) ? 1 : 0;
+      error += weight * (v[c] - r[c]) * std::sqrt(RelMseWeight(r[c]));
+    }
     const double t = std::clamp(error / fullScale, -1., 1.);
     // Blends from white to a pure hue, in linear light.
     const std::array<double, 3> color =

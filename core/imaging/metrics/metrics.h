@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/imaging/image.h"
 
@@ -39,9 +40,11 @@ ImageDifference CompareImages(const Image& reference, const Image& image);
 // "comments" describes them.
 Image DifferenceImage(const Image& reference, const Image& image);
 
-// Returns a picture of the signed relative error, averaged over the colours: red where x is
+// Returns a picture of the signed relative error, averaged over the colours or of one channel (0 to
+// 2): red where x is
 // brighter than r, blue where it is darker, white where both are equal. The colour saturates at an
 // error of `fullScale`. Non-finite pixels are yellow. Values are linear, for WritePng.
-Image SignedErrorImage(const Image& reference, const Image& image, double fullScale);
+Image SignedErrorImage(const Image& reference, const Image& image, double fullScale,
+                       std::optional<int> channel = {});
 
 }  // namespace exphoton

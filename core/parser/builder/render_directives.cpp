@@ -42,11 +42,46 @@ RenderDirectives::RenderDirectives(const LoadOptions& options, Dialect dialect)
     : options_(options), dialect_(dialect) {
   if (dialect == Dialect::V2) filter_.name = "box";
   OverrideIntegrator();
+  OverridePlugins();
 }
 
-// Replaces the name but keeps the parameters: by default, unknown parameters cause only warnings.
+void RenderDirectives::OverridePlugin(Choice* choice, const std::optional<std::string>& name,
+                                      const char* option) {
+  if (!name || *name == choice->name) return;
+  if (choice == &sampler_) sceneSampler_ = sampler_;
+  choice->name = *name;
+  choice->isReplaced = true;
+  SourceLocation& where = choice->params.where;
+  where = SourceLocation();
+  where.file = kCommandLineLocation;
+  where.line = 1;
+  where.lineText = option + (' ' + *name);
+  where.column = int(where.lineText.size() - name->size()) + 1;
+}
+
+void RenderDirectives::OverridePlugins() {
+  OverridePlugin(&sampler_, options_.sampler, "--sampler");
+  OverridePlugin(&filter_, options_.filter, "--filter");
+  OverridePlugin(&camera_, options_.camera, "--camera");
+  OverridePlugin(&accelerator_, options_.accelerator, "--accelerator");
+}
+
+// Cameras share parameters of the same meaning (shutter, lens, screen window). Widths of filters
+// and counts of samplers mean different things in each plugin.
+ParamSet RenderDirectives::KnownParameters(const Choice& choice,
+                                           const std::vector<ParamDecl>& declared) const {
+  ParamSet known;
+  known.where = choice.params.where;
+  if (&choice != &camera_) return known;
+  for (const ParamDecl& decl : declared)
+    if (const ParsedParam* param = choice.params.Find(decl.name)) known.Add(*param);
+  return known;
+}
+
+// Replaces the name. KeepSharedParameters selects the parameters later, when plugins can be loaded.
 void RenderDirectives::OverrideIntegrator() {
   if (!options_.integrator) return;
+  fileIntegrator_ = integrator_.name;
   integrator_.name = *options_.integrator;
   integrator_.params.where = SourceLocation();
   integrator_.params.where.file = kCommandLineLocation;
@@ -91,6 +126,7 @@ void RenderDirectives::Handle(Directive directive, const MovingTransform& curren
   }
   *choice = {name, std::move(directive.params), true};
   if (choice == &integrator_) OverrideIntegrator();
+  OverridePlugins();
 }
 
 void RenderDirectives::SetDefaultLocation(const SourceLocation& where) {
@@ -110,12 +146,14 @@ BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log
 
 ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choice, PluginKind kind,
                                       PluginRegistry& registry) const {
-  ParamSet params = choice.params;
   const auto& declared =
       registry.Find(kind, choice.name, choice.params.where).parameters->Declarations();
+  ParamSet params = choice.isReplaced ? KnownParameters(choice, declared) : choice.params;
   ApplyOverrides(options_.parameters, directive,
                  std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", declared, &params);
-  if (kind == PluginKind::Integrator && options_.isQuick) ScaleForQuick(declared, &params);
+  if (kind != PluginKind::Integrator) return params;
+  if (options_.integrator) AddNamedDefaults(declared, &params);
+  if (options_.isQuick) ScaleForQuick(declared, &params);
   return params;
 }
 
@@ -165,6 +203,16 @@ void RenderDirectives::CheckRenderer(Log& log) const {
   table.Bind(renderer_.params, bind);
 }
 
+// Returns the samples per pixel of the file's own sampler.
+std::int64_t RenderDirectives::SceneSamples(PluginRegistry& registry) const {
+  Log silent(Log::Level::Quiet, Log::Sink::Memory);
+  const auto sampler =
+      registry.Create<PluginKind::Sampler>(sceneSampler_.name, sceneSampler_.params,
+                                           Bind(PluginKind::Sampler, sceneSampler_.name, silent),
+                                           SamplerContext{silent, sceneSampler_.params.where});
+  return sampler->SamplesPerPixel();
+}
+
 void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
   const ParamSet params = Overridden("Sampler", sampler_, PluginKind::Sampler, registry);
   setup->samplerName = sampler_.name;
@@ -173,12 +221,22 @@ void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderS
       SamplerContext{log, sampler_.params.where});
   std::optional<std::int64_t> count = options_.samplesPerPixel;
   if (options_.isQuick && !count) count = 1;
+  if (sampler_.isReplaced && !count) count = SceneSamples(registry);
   if (!count) return;
   setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
   const std::int64_t made = setup->sampler->SamplesPerPixel();
   if (made != *count)
     log.Notice("sampler \"" + sampler_.name + "\" takes " + std::to_string(made) +
                " samples a pixel instead of " + std::to_string(*count));
+}
+
+void RenderDirectives::KeepSharedParameters(PluginRegistry& registry, Log& log) {
+  if (fileIntegrator_ == integrator_.name || integrator_.params.IsEmpty()) return;
+  const auto* to = registry.Declarations(PluginKind::Integrator, integrator_.name);
+  if (!options_.integrator || !to) return;
+  const auto* from = registry.Declarations(PluginKind::Integrator, fileIntegrator_);
+  exphoton::KeepSharedParameters({fileIntegrator_, integrator_.name, from, *to}, log,
+                                 &integrator_.params);
 }
 
 void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,
@@ -252,6 +310,7 @@ void RenderDirectives::Create(PluginRegistry& registry, Log& log, bool hasMedia,
   errors->Try([&] { CreateCamera(registry, log, setup); });
   errors->Try([&] { CreateFilter(registry, log, setup); });
   errors->Try([&] { CreateSampler(registry, log, setup); });
+  errors->Try([&] { KeepSharedParameters(registry, log); });
   errors->Try([&] { CreateIntegrator(registry, log, setup); });
   setup->acceleratorName = accelerator_.name;
 }

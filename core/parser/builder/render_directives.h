@@ -39,9 +39,16 @@ class RenderDirectives {
     std::string name;
     ParamSet params;
     bool isGiven = false;
+    bool isReplaced = false;  // by a plugin that the command line names
   };
 
   void OverrideIntegrator();
+  // Removes parameters of the file's integrator that mean something else in the chosen one.
+  void KeepSharedParameters(PluginRegistry& registry, Log& log);
+  // Replaces the plugin of the file by the one that the command line names, if it is another one.
+  void OverridePlugin(Choice* choice, const std::optional<std::string>& name, const char* option);
+  void OverridePlugins();
+  ParamSet KnownParameters(const Choice& choice, const std::vector<ParamDecl>& declared) const;
   // Chooses the integrator that takes the place of a renderer of version 2 that is not available.
   void ReplaceRenderer(Log& log);
   ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
@@ -51,6 +58,7 @@ class RenderDirectives {
   void CreateFilm(Log& log, RenderSetup* setup) const;
   void CreateCamera(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateFilter(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
+  std::int64_t SceneSamples(PluginRegistry& registry) const;
   void CreateSampler(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateIntegrator(PluginRegistry& registry, Log& log, RenderSetup* setup) const;
   void CreateVolumeIntegrator(PluginRegistry& registry, Log& log, bool hasMedia,
@@ -61,7 +69,9 @@ class RenderDirectives {
   Choice filter_{"mitchell", {}}, film_{"image", {}}, sampler_{"lowdiscrepancy", {}},
       accelerator_{"bvh", {}}, integrator_{"directlighting", {}}, volumeIntegrator_{"emission", {}},
       camera_{"perspective", {}}, renderer_{"sampler", {}};
+  std::string fileIntegrator_;  // the integrator that the file names; "" without --integrator
   MovingTransform worldToCamera_;
+  Choice sceneSampler_;  // the file's sampler, if the command line names another one
   Interval transformTimes_{0, 1};
 };
 

@@ -41,17 +41,18 @@ class FragmentLight {
 
 int SharingMargin() { return SharingWindows::kReach; }
 
-double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads, Film* film,
-                      AovFilm* aovs) {
+double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
+                      const SharedLightTarget& target) {
   const FragmentRows rows(gathers);
   const SharingWindows windows(gathers, rows, threads);
-  const PixelBounds& crop = film->Crop();
+  const PixelBounds window = target.splats ? target.splats->Window() : target.film->Crop();
   std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));
-  std::vector<double> radii(std::size_t(crop.Height())), fragments(radii.size());
-  threads->For(crop.Height(), [&](std::int64_t row, int worker) {
+  std::vector<double> radii(std::size_t(window.Height())), fragments(radii.size());
+  threads->For(window.Height(), [&](std::int64_t row, int worker) {
     std::vector<FragmentLight> lights;
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const Point2i pixel{x, crop.y0 + int(row)};
+    SplatBuffer::Pixel splat;
+    for (int x = window.x0; x < window.x1; ++x) {
+      const Point2i pixel{x, window.y0 + int(row)};
       const GatherFragments::Pixel& gathered = gathers.At(pixel);
       lights.clear();
       for (const GatherFragment& fragment : gathered.fragments) {
@@ -60,13 +61,18 @@ double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads, Film*
         radii[std::size_t(row)] += double(radius);
         fragments[std::size_t(row)] += 1;
       }
+      if (target.splats) splat.Begin(target.splats, pixel);
       for (const GatherSample& sample : gathered.samples) {
         const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
-        film->AddLight(pixel, L, sample.filterWeight);
-        if (aovs)
-          aovs->AddLight(pixel, sample.depth == 0 ? Aov::Indirect : Aov::Specular, L,
-                         sample.filterWeight);
+        const Aov aov = sample.depth == 0 ? Aov::Indirect : Aov::Specular;
+        if (target.splats) {
+          splat.AddLight(sample.film - Point2(Real(x), Real(pixel.y)), L, aov);
+          continue;
+        }
+        target.film->AddLight(pixel, L, sample.filterWeight);
+        if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.filterWeight);
       }
+      if (target.splats) splat.End();
     }
   });
   const double count = std::accumulate(fragments.begin(), fragments.end(), 0.);

@@ -9,15 +9,21 @@
 #include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/film.h"
 #include "core/render/sharing/gather_fragments.h"
+#include "core/render/splat_buffer.h"
 
 namespace exphoton {
 
 // The light of a pixel depends on the gathers within this number of pixels.
 int SharingMargin();
 
-// Adds the light of all gathers to the film and, if not null, to the AOVs. Returns the mean radius
-// of the windows in pixels.
-double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads, Film* film,
-                      AovFilm* aovs);
+// Adds the light of all gathers to the film and, if not null, to the AOVs. If `splats` is not null,
+// it receives the light instead. Returns the mean radius of the windows in pixels.
+struct SharedLightTarget {
+  Film* film;
+  AovFilm* aovs;
+  SplatBuffer* splats;
+};
+double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
+                      const SharedLightTarget& target);
 
 }  // namespace exphoton

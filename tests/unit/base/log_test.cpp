@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "core/base/progress.h"
 #include "core/base/statistics.h"
@@ -133,19 +135,55 @@ TEST(Terminal, ColorsFollowTheEnvironment) {
   EXPECT_FALSE(IsRedrawable());
 }
 
-TEST(Progress, WritesALineForEveryTenthWhereNothingCanBeRedrawn) {
+// A render of 100 s, of which photons take 10 s, with an advance in each tenth of a second.
+std::string LinesOf(double seconds) {
   setenv("TERM", "dumb", 1);
+  double now = 1000;
   ::testing::internal::CaptureStderr();
-  ProgressReporter progress;
-  progress.Begin("Rendering", 1000);
-  for (int i = 0; i < 1000; ++i) progress.Advance();
-  progress.End();
-  const std::string text = ::testing::internal::GetCapturedStderr();
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10);
-  EXPECT_EQ(text.find("Rendering:  10 %, "), 0u);
-  EXPECT_NE(text.find(" elapsed, "), std::string::npos);
-  EXPECT_NE(text.find("Rendering: 100 %, "), std::string::npos);
+  ProgressReporter progress(ProgressReporter::Mode::Auto, [&now] { return now; });
+  for (const auto& [phase, share] : {std::pair{"Shooting photons", .1}, {"Rendering", .9}}) {
+    progress.Begin(phase, 1000);
+    for (int i = 0; i < 1000; ++i) {
+      now += seconds * share / 1000;
+      progress.CountRays(1000);
+      progress.Advance();
+    }
+    progress.End();
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, WritesLinesByTimeWhereNothingCanBeRedrawn) {
+  const std::string text = LinesOf(100);
+  EXPECT_EQ(text.find("Shooting photons:   5 %, 5.0 s elapsed, 100 k rays/s\n"), 0u) << text;
+  EXPECT_NE(text.find("\nRendering:  "), std::string::npos) << text;
+  EXPECT_NE(text.find(" left, 11 k rays/s\n"), std::string::npos) << text;
   EXPECT_EQ(text.find('\r'), std::string::npos);
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  EXPECT_GE(lines, 8) << text;
+  EXPECT_LE(lines, 10) << text;
+}
+
+TEST(Progress, WritesNothingForShortRenders) {
+  EXPECT_EQ(LinesOf(4.9), "");
+  const std::string text = LinesOf(12);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+TEST(Progress, EstimatesTheTimeLeft) {
+  const std::string text = LinesOf(1000);
+  int checked = 0;
+  for (std::size_t at = 0; (at = text.find("Rendering:", at)) != std::string::npos; ++at) {
+    double minutes = 0, seconds = 0, minutesLeft = 0, secondsLeft = 0;
+    int percent = 0;
+    if (std::sscanf(text.c_str() + at,
+                    "Rendering: %d %%, %lf min %lf s elapsed, %lf min %lf s left", &percent,
+                    &minutes, &seconds, &minutesLeft, &secondsLeft) != 5)
+      continue;
+    ++checked;
+    EXPECT_NEAR(60 * (minutes + minutesLeft) + seconds + secondsLeft, 1000, 3) << text.substr(at);
+  }
+  EXPECT_GT(checked, 3) << text;
 }
 
 TEST(Progress, SaysNothingWhenQuiet) {

@@ -40,7 +40,7 @@ TEST(Png, ExposureIsInStopsAndOddValuesAreClamped) {
   image.pixels = {0.25f, 0.1f, 0.3f, 1, 5, -1, std::numeric_limits<float>::quiet_NaN(), 0.5f, 0, 0,
                   0,     2,    1,    1, 1, 0};
   const std::string path = TemporaryPath("exposure.png");
-  WritePng(path, image, 1);
+  WritePng(path, image, {1});
   const Image read = ReadPng(path);
   ASSERT_EQ(read.ChannelCount(), 4);
   EXPECT_NEAR(read.At(0, 0, 0), .5, .004);

@@ -145,19 +145,19 @@ TEST_F(RenderCounts, OfCutPathsBecomeWarnings) {
     exphoton::Render(job, {});
     return log.Messages();
   };
-  const std::string hint = "\n    hint: raise \"maxdepth\" of the integrator\n";
+  const std::string hint = "\n    hint: raise \"maxdepth\"\n";
   const auto saidOf = [&](const std::string& share, const std::string& what) {
-    return "exphoton: warning: the depth limit cut specular paths that carry " + share +
-           " % of what " + what + hint;
+    return "exphoton: warning: the integrator: the depth limit \"maxdepth\" cut about " + share +
+           " % of " + what + hint;
   };
   using Texts = std::vector<std::string>;
   EXPECT_EQ(messages(0, 0, 0), Texts{});
   EXPECT_EQ(messages(.0059, 0, 0), Texts{});
-  EXPECT_EQ(messages(.0061, 0, 0), Texts{saidOf("0.1", "the camera could see")});
-  EXPECT_EQ(messages(1.5, 0, 0), Texts{saidOf("25", "the camera could see")});
+  EXPECT_EQ(messages(.0061, 0, 0), Texts{saidOf("0.1", "the light")});
+  EXPECT_EQ(messages(1.5, 0, 0), Texts{saidOf("25", "the light")});
   EXPECT_EQ(messages(0, .009, 10), Texts{});
-  EXPECT_EQ(messages(0, 2, 10), Texts{saidOf("20", "gather rays could see")});
-  EXPECT_EQ(messages(0, .5, 0), Texts{saidOf("50", "gather rays could see")});
+  EXPECT_EQ(messages(0, 2, 10), Texts{saidOf("20", "the light of gather rays")});
+  EXPECT_EQ(messages(0, .5, 0), Texts{saidOf("50", "the light of gather rays")});
 }
 
 TEST_F(RenderCounts, OfASeedOfAPassNameTheUsersSeedFirst) {

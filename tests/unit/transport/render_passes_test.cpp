@@ -133,22 +133,13 @@ TEST_F(RenderPassesTest, ATargetAloneGivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(RenderPassesTest, EveryPassHasItsOwnSeed) {
+TEST_F(RenderPassesTest, GroupsOfPassesSharePhotons) {
   StoppingRule rule;
   rule.targetError = .002;
   rule.maxSamples = 1 << 14;  // ends a run whose noise does not fall
   const PassesResult result = Run(rule);
-  EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
-}
-
-// More passes than there are replicates, and an end that does not depend on the noise.
-TEST_F(RenderPassesTest, EveryPassUpToALimitHasItsOwnSeed) {
-  StoppingRule rule;
-  rule.targetError = 1e-9;
-  rule.maxSamples = 16;
-  const PassesResult result = Run(rule);
-  EXPECT_GE(result.passes, 16);
-  EXPECT_EQ(integrator_.seeds.size(), std::size_t(result.passes));
+  EXPECT_GE(integrator_.seeds.size(), 2u);
+  EXPECT_LT(integrator_.seeds.size(), std::size_t(result.passes));
 }
 
 TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
@@ -178,7 +169,7 @@ TEST_F(RenderPassesTest, TakesNoCameraSampleTwice) {
   rule.maxSamples = 64;
   integrator_.keepsRays = true;
   const PassesResult result = Run(rule);
-  EXPECT_GT(result.passes, 16);
+  EXPECT_GT(result.passes, 4);
   auto& rays = integrator_.rays;
   ASSERT_EQ(rays.size(), 48u * 36 * 64);
   std::sort(rays.begin(), rays.end());

@@ -172,6 +172,7 @@ TEST_F(RenderTest, UnderStrictANonFiniteSampleEndsTheRender) {
 }
 
 TEST_F(RenderTest, StopsWithinAPixelAndKeepsWhatIsThere) {
+  filter_ = plugins_.MakeFilter(R"("box")");
   sampler_ = sampler_->WithSamplesPerPixel(1 << 30);
   std::atomic<bool> stop = false;
   int samples = 0;
@@ -188,7 +189,8 @@ TEST_F(RenderTest, CountsRaysAndSamples) {
   Outcome outcome;
   Render({.threads = 4}, &outcome);
   EXPECT_TRUE(outcome.result.isComplete);
-  EXPECT_EQ(outcome.statistics.Rays().counts[std::size_t(RayKind::Camera)], 37u * 29 * 4);
+  EXPECT_EQ(outcome.statistics.Rays().counts[std::size_t(RayKind::Camera)],
+            41u * 33 * 4);  // the filter reaches two pixels beyond the picture
   ASSERT_EQ(outcome.statistics.Phases().size(), 1u);
   EXPECT_EQ(outcome.statistics.Phases()[0].name, "render");
 }

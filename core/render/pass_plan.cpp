@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PassPlan: without a time limit, all decisions follow from pixel values.
+#include "core/render/pass_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace exphoton {
+namespace {
+
+constexpr double kMaxGroupsInTime = 8;
+constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
+constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
+constexpr double kHuge = 0x1p50;
+constexpr std::int64_t kProbe = 2;  // samples of the first forecast
+// Beginnings of sequences that are shorter than this are not well distributed, but patterns are.
+constexpr std::int64_t kShortSequence = 16;
+
+// Low-discrepancy sequences are best distributed where their length is a power of two, so all
+// groups have such sizes. Returns the largest power of two up to the number, at least 1.
+std::int64_t PowerOfTwoUpTo(double samples) {
+  return std::int64_t(std::exp2(std::floor(std::log2(std::clamp(samples, 1., kHuge)))));
+}
+
+}  // namespace
+
+void GroupForecast::Add(const Film& pass, std::int64_t samplesPerPixel) {
+  noise_->Add(samples_ == 0 ? 0 : 1, pass, samplesPerPixel);
+  const std::int64_t before = samples_;
+  samples_ += samplesPerPixel;
+  if (before == 0) return;
+  const double difference = noise_->RelativeVariance();
+  if (difference_ > 0 && difference > 0) {
+    const double octaves = std::log2(double(samples_) / double(before));
+    slope_ = std::clamp(std::log2(difference_ / difference) / octaves, 1., 2.);
+  }
+  difference_ = difference;
+  noise_->Join();
+}
+
+// If n samples have the error n^-s, then the errors of the two halves of a sequence partly cancel.
+// The difference of the halves suggests the error 1 - 2^-s for their mean, whose error is 2^-s.
+std::optional<double> GroupForecast::SamplesFor(double noise) const {
+  if (!(difference_ > 0)) return std::nullopt;
+  const double q = std::exp2(-slope_);
+  const double error = difference_ * q / (1 - q);
+  return double(samples_) * std::pow(error / noise, 1 / slope_);
+}
+
+// Returns the samples of a group, if all groups share the time equally.
+std::int64_t PassPlan::GoalByTime(const State& state) const {
+  if (!limits_.timeLimit || state.samples == 0) return std::int64_t(kHuge);
+  const double time = *limits_.timeLimit;
+  const double share = kPreprocessShare * time / std::max(state.preprocess, 1e-9);
+  const double groups = std::floor(std::clamp(share, 2., kMaxGroupsInTime));
+  const double spent = double(state.samples) * state.sample + groups_ * state.preprocess;
+  const double before = std::max(state.elapsed - spent, 0.);  // reading the scene
+  const double each = (time - before) / groups - state.preprocess;
+  return PowerOfTwoUpTo(each / std::max(state.sample, 1e-9));
+}
+
+std::int64_t PassPlan::FirstGoal(const State& state) const {
+  const std::int64_t most =
+      std::min(PowerOfTwoUpTo(double(limits_.maxSamples + 1) / 2), GoalByTime(state));
+  if (!limits_.targetError) return most;
+  if (!state.enough) return std::min<std::int64_t>(2, most);
+  return std::min(PowerOfTwoUpTo(kRounding * *state.enough), most);
+}
+
+// The second group is as large as the first one. The noise of later groups may be that of photons,
+// which larger groups would not reduce.
+std::int64_t PassPlan::LaterGoal(const State& state) const {
+  const std::int64_t most = GoalByTime(state);
+  if (!limits_.targetError) return most;
+  if (groups_ < 2 || !state.noise) return std::min(PowerOfTwoUpTo(double(firstSamples_)), most);
+  const double missing = double(state.samples) * (*state.noise / *limits_.targetError - 1);
+  const double size = std::clamp(missing * kRounding, double(firstSamples_) / 2,
+                                 std::max(double(state.samples), double(firstSamples_)) / 2);
+  return std::min(PowerOfTwoUpTo(size), most);
+}
+
+PassPlan::Step PassPlan::Next(const State& state) const {
+  Step step;
+  std::int64_t goal = 1;
+  if (groups_ > 0) {
+    goal = groups_ == 1 ? FirstGoal(state) : GoalByTime(state);
+    const bool isDone = groupSamples_ >= goal || (groups_ > 1 && limits_.targetError);
+    step.isNewGroup = isDone;
+    if (isDone) goal = LaterGoal(state);
+  }
+  const bool isProbed = groups_ == 1 && groupSamples_ == kProbe && limits_.targetError;
+  step.isPattern = goal < kShortSequence && (step.isNewGroup ? groups_ > 0 : isProbed);
+  step.size = step.isNewGroup || step.isPattern ? goal : goal - groupSamples_;
+  if (groups_ == 1 && !step.isNewGroup && !step.isPattern)
+    step.size = std::min(step.size, groupSamples_);
+  step.size = std::max<std::int64_t>(std::min(step.size, limits_.maxSamples - state.samples), 1);
+  if (limits_.timeLimit && state.samples > 0) {
+    const double left =
+        *limits_.timeLimit - state.elapsed - (step.isNewGroup ? state.preprocess : 0);
+    const double fits = std::floor(left / std::max(state.sample, 1e-9));
+    if (fits < double(step.size)) step.size = fits < 1 ? 0 : PowerOfTwoUpTo(fits);
+    // Small groups at the end would spend the time on preprocessing.
+    const bool isSmall = double(step.size) * state.sample < 2 * state.preprocess;
+    if (groups_ > 1 && step.isNewGroup && isSmall) step.size = 0;
+  }
+  return step;
+}
+
+void PassPlan::Take(const Step& step) {
+  if (step.isNewGroup) ++groups_, groupSamples_ = 0;
+  groupSamples_ += step.size;
+  if (groups_ == 1) firstSamples_ = groupSamples_;
+}
+
+std::optional<double> PassPlan::SecondsLeft(const State& state) const {
+  double seconds = double(limits_.maxSamples - state.samples) * state.sample;
+  bool isKnown = limits_.maxSamples < kHuge;
+  if (limits_.targetError) {
+    isKnown = groups_ > 1 || state.enough;
+    const Step step = Next(state);
+    const double goal =
+        groups_ == 1 ? 2 * double(FirstGoal(state)) : double(state.samples + step.size);
+    const bool isNewGroup = groups_ == 1 || step.isNewGroup;
+    const double needed = std::max(goal - double(state.samples), 0.) * state.sample +
+                          (isNewGroup ? state.preprocess : 0);
+    seconds = std::min(seconds, needed);
+  }
+  if (limits_.timeLimit) {
+    const double left = std::max(*limits_.timeLimit - state.elapsed, 0.);
+    seconds = isKnown ? std::min(seconds, left) : left;
+    isKnown = true;
+  }
+  return isKnown ? std::optional(seconds) : std::nullopt;
+}
+
+}  // namespace exphoton

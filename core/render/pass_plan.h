@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PassPlan chooses the passes of a render with a stopping rule. Passes that share photon maps form
+// a group, because shooting photons again costs time. Groups are independent of each other, so
+// their differences show the noise of the camera samples and of the photons. Derivation and
+// measurements: docs/decisions/0037-groups-of-passes.md.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/imaging/film/pass_noise.h"
+
+namespace exphoton {
+
+// GroupForecast predicts the noise of the first group from its own passes. They continue one
+// sequence of camera samples. The noise of the photons does not show.
+class GroupForecast {
+ public:
+  explicit GroupForecast(const PixelBounds& crop) : noise_(std::in_place, crop, 2) {}
+
+  // Adds a pass. The forecast assumes that it has about as many samples as the passes before it.
+  void Add(const Film& pass, std::int64_t samplesPerPixel);
+  // Returns the number of samples at which the noise part of relMSE of the group is expected to
+  // fall to this; nullopt before the second pass.
+  std::optional<double> SamplesFor(double noise) const;
+  void Release() { noise_.reset(); }  // frees the memory
+
+ private:
+  std::optional<PassNoise> noise_;
+  std::int64_t samples_ = 0;
+  double difference_ = 0;  // estimate from the difference of the last pass to those before it
+  double slope_ = 1.25;    // the error falls as samples^-slope
+};
+
+class PassPlan {
+ public:
+  struct Limits {
+    std::optional<double> targetError, timeLimit;  // as in StoppingRule
+    std::int64_t maxSamples = 0;                   // per pixel
+  };
+  // The state of the render. Times are in seconds and used only with a time limit.
+  struct State {
+    std::int64_t samples = 0;      // per pixel, so far
+    std::optional<double> noise;   // of the picture; known if there are two groups
+    std::optional<double> enough;  // samples that the first group needs to reach twice the target
+    double elapsed = 0;            // since the start of the time limit
+    double preprocess = 0;         // for one preprocessing
+    double sample = 0;             // for one sample per pixel
+  };
+  explicit PassPlan(const Limits& limits) : limits_(limits) {}
+
+  struct Step {
+    bool isNewGroup = true;
+    std::int64_t size = 1;   // samples per pixel; 0: no sample fits into the time limit
+    bool isPattern = false;  // a complete sample pattern; otherwise the group's sequence goes on
+  };
+  // Returns the next pass. The first group doubles until it has about half the samples that are
+  // needed. The second one takes as many. More groups follow if the noise is still too large.
+  Step Next(const State& state) const;
+  void Take(const Step& step);  // the pass was rendered
+
+  // Returns the expected time until the render stops, if it is known.
+  std::optional<double> SecondsLeft(const State& state) const;
+
+  int Groups() const { return groups_; }
+
+ private:
+  std::int64_t GoalByTime(const State& state) const;
+  std::int64_t FirstGoal(const State& state) const;
+  std::int64_t LaterGoal(const State& state) const;
+
+  Limits limits_;
+  int groups_ = 0;
+  std::int64_t groupSamples_ = 0, firstSamples_ = 0;  // of the last group and of the first one
+};
+
+}  // namespace exphoton

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// RenderTotals counts what the threads of a render did. Summarize turns the counts of all passes
+// into statistics and warnings.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/base/statistics.h"
+#include "core/render/non_finite_log.h"
+#include "core/render/render.h"
+
+namespace exphoton {
+
+struct RenderTotals {
+  RayCounters rays;
+  std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
+
+  void Add(const RenderTotals& other);  // all counts, but not the light
+  // Adds the picture of a pass.
+  void AddLight(const Film& film, std::int64_t samplesPerPixel);
+  // Returns the mean luminance of the picture.
+  double MeanLight() const { return light_ / double(std::max<std::int64_t>(lightSamples_, 1)); }
+
+ private:
+  double light_ = 0;  // sum over the passes of the mean luminance times lightSamples_
+  std::int64_t lightSamples_ = 0;
+};
+
+// Fills the job's statistics, logs warnings and returns the non-finite samples.
+RenderResult Summarize(const RenderJob& job, const RenderTotals& totals, const NonFiniteLog& log);
+
+}  // namespace exphoton

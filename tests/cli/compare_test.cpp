@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// `exphoton compare` gives verdicts: the limit that a picture breaks, and whether pictures differ
+// by more than their noise. The rates of false alarms are tested in tests/unit/imaging.
+#include "core/imaging/files/exr.h"
+#include "core/imaging/files/png.h"
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+class CompareTest : public ProgramTest {
+ protected:
+  void WriteColor(const std::string& name, float r, float g, float b) const {
+    Image image(3, 2, {"R", "G", "B"});
+    for (int i = 0; i < 6; ++i) image.At(i % 3, i / 3, 0) = r;
+    for (int i = 0; i < 6; ++i) image.At(i % 3, i / 3, 1) = g;
+    for (int i = 0; i < 6; ++i) image.At(i % 3, i / 3, 2) = b;
+    WriteExr(Path(name), image, false);
+  }
+  static std::string LastLine(const std::string& text) {
+    const std::size_t end = text.find_last_of('\n');
+    const std::size_t begin = text.find_last_of('\n', end - 1);
+    return text.substr(begin + 1, end - begin - 1);
+  }
+  // A box that is lit through its own light, with walls of this green.
+  void WriteRoom(const std::string& name, const std::string& green) const {
+    Write(name,
+          "Film \"image\" \"integer xresolution\" 48 \"integer yresolution\" 32 \"string "
+          "filename\" \"out.exr\"\nSampler \"random\" \"integer pixelsamples\" 16\nPixelFilter "
+          "\"gaussian\"\nCamera \"perspective\"\nSurfaceIntegrator \"path\"\nWorldBegin\n"
+          "AttributeBegin Translate 0 2 3 AreaLightSource \"area\" \"color L\" [9 9 9]\n"
+          "Shape \"sphere\" \"float radius\" .3 AttributeEnd\n"
+          "Material \"matte\" \"color Kd\" [.6 " +
+              green + " .6]\nReverseOrientation Shape \"sphere\" \"float radius\" 5\nWorldEnd\n");
+  }
+};
+
+TEST_F(CompareTest, TheVerdictNamesTheLimitThatIsBroken) {
+  WriteColor("a.exr", .5f, .5f, .5f);
+  WriteColor("b.exr", .5f, .495f, .5f);
+  const auto verdict = [&](const std::vector<std::string>& limits) {
+    std::vector<std::string> words{"compare", "a.exr", "b.exr"};
+    words.insert(words.end(), limits.begin(), limits.end());
+    return LastLine(Run(words).out);
+  };
+  EXPECT_EQ(verdict({"--max-mean", ".005"}), "FAIL: mean of G -1 % > 0.5 %");
+  EXPECT_EQ(verdict({"--max-mean", ".02"}), "PASS: within the limits");
+  EXPECT_EQ(verdict({"--max-relmse", "1e-6"}), "FAIL: relMSE 3.21e-05 > 1e-06");
+  EXPECT_EQ(LastLine(Run({"compare", "a.exr", "a.exr"}).out), "PASS: identical");
+  EXPECT_EQ(verdict({}).substr(0, 19), "FAIL: not identical");
+}
+
+TEST_F(CompareTest, EachChannelHasADifferencePicture) {
+  WriteColor("a.exr", .5f, .5f, .5f);
+  WriteColor("b.exr", .7f, .5f, .3f);
+  Run({"compare", "a.exr", "b.exr", "--difference", "d"});
+  const auto color = [&](const char* channel) {
+    const Image image = ReadPng(Path(std::string("d/b-difference-") + channel + ".png"));
+    return std::pair(image.At(1, 1, 0) - image.At(1, 1, 2), image.At(1, 1, 1));
+  };
+  EXPECT_GT(color("R").first, .3f);   // red: too bright
+  EXPECT_LT(color("B").first, -.3f);  // blue: too dark
+  EXPECT_NEAR(double(color("G").first), 0, .01);
+  EXPECT_NEAR(double(color("G").second), 1, .01);
+}
+
+TEST_F(CompareTest, AnotherSeedPassesAndAnotherPaintFails) {
+  WriteRoom("room.pbrt", ".6");
+  WriteRoom("painted.pbrt", ".57");
+  const auto render = [&](const std::string& scene, const char* seed, const std::string& picture,
+                          const std::vector<std::string>& layers) {
+    std::vector<std::string> words{scene, "--seed", seed, "-o", picture, "--float"};
+    words.insert(words.end(), layers.begin(), layers.end());
+    ASSERT_EQ(Run(words).status, 0);
+  };
+  for (const std::vector<std::string>& layers :
+       {std::vector<std::string>{"--two-halves"}, {"--aov", "Variance"}}) {
+    render("room.pbrt", "1", "a.exr", layers);
+    render("room.pbrt", "2", "b.exr", layers);
+    render("painted.pbrt", "3", "c.exr", layers);
+    const ProgramResult same = Run({"compare", "a.exr", "b.exr", "--z-test"});
+    EXPECT_EQ(same.status, 0) << same.out << same.err;
+    EXPECT_EQ(LastLine(same.out).substr(0, 37), "PASS: no difference beyond noise (9 t")
+        << same.out;
+    const ProgramResult painted = Run({"compare", "a.exr", "c.exr"});
+    EXPECT_EQ(painted.status, 1) << painted.out;
+    EXPECT_EQ(LastLine(painted.out).substr(0, 13), "FAIL: G in x ") << painted.out;
+  }
+}
+
+TEST_F(CompareTest, AnUnknownNoiseIsNoPass) {
+  WriteColor("a.exr", .5f, .5f, .5f);
+  WriteColor("b.exr", .5f, .495f, .5f);
+  const ProgramResult result = Run({"compare", "a.exr", "b.exr", "--z-test"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("b.exr: --z-test does not know the noise"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(Run({"compare", "a.exr", "b.exr", "--significance", "2"}).status, 2);
+}
+
+}  // namespace
+}  // namespace exphoton
