@@ -103,10 +103,10 @@ class TileRenderer {
 
   void RenderTile(const PixelBounds& tile, Worker* worker) const {
     for (int y = tile.y0; y < tile.y1; ++y) {
-      const std::uint64_t raysBefore = worker->rays.Total();
+      const std::uint64_t raysBefore = worker->totals.rays.Total();
       for (int x = tile.x0; x < tile.x1; ++x)
         if (!RenderPixel({x, y}, worker)) return;
-      target_.progress.CountRays(worker->rays.Total() - raysBefore);
+      target_.progress.CountRays(worker->totals.rays.Total() - raysBefore);
       target_.progress.Advance(tile.Width());
     }
   }
