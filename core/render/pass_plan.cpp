@@ -114,7 +114,7 @@ void PassPlan::Take(const Step& step) {
 
 std::optional<double> PassPlan::SecondsLeft(const State& state) const {
   double seconds = double(limits_.maxSamples - state.samples) * state.sample;
-  bool isKnown = limits_.maxSamples < kHuge;
+  bool isKnown = double(limits_.maxSamples) < kHuge;
   if (limits_.targetError) {
     isKnown = groups_ > 1 || state.enough;
     const Step step = Next(state);

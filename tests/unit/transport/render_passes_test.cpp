@@ -129,7 +129,7 @@ TEST_F(RenderPassesTest, ATargetAloneGivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(image_.pixels, expected) << sampler;
     EXPECT_EQ(one.passes, three.passes);
     EXPECT_EQ(*one.noise, *three.noise);
-    EXPECT_GT(one.passes, 8);
+    EXPECT_GT(one.passes, 4);
   }
 }
 
@@ -196,7 +196,8 @@ TEST_F(RenderPassesTest, BeginsNoPassWhosePreprocessingIsTooLong) {
   StoppingRule rule;
   rule.timeLimit = 1;
   rule.start = std::chrono::steady_clock::now();
-  EXPECT_LE(Run(rule).passes, 3);
+  Run(rule);
+  EXPECT_LE(integrator_.seeds.size(), 3u);
 }
 
 TEST_F(RenderPassesTest, RendersOnePassWhereThereIsNoTimeAtAll) {
