@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace exphoton {
 
@@ -24,6 +25,41 @@ class ExactSum {
  private:
   __extension__ using Fixed = __int128;
   Fixed sum_ = 0;
+};
+
+// WideExactSum is an ExactSum for values of any size, such as light in scenes with very bright or
+// very dim lamps. Values from 2^-40 to 2^40 are rounded to multiples of 2^-64. Smaller and larger
+// ones, which are rare, have sums of their own, with steps of 2^-148 and 2^17: a value keeps 24
+// bits, unless it is below 2^-124. Up to 2^22 values fit, each below 2^121.
+class WideExactSum {
+ public:
+  void Add(double value) {
+    const double size = std::abs(value);
+    if (size >= 0x1p-40 && size < 0x1p40) {
+      middle_ += Round(value * 0x1p64);
+    } else if (size > 0) {  // no NaN
+      if (!others_) others_ = std::make_unique<Others>();
+      if (size < 1)
+        others_->small += Round(value * 0x1p148);
+      else
+        others_->large += Round(std::clamp(value, -0x1p121, 0x1p121) * 0x1p-17);
+    }
+  }
+  double Total() const {
+    const double middle = double(middle_) * 0x1p-64;
+    if (!others_) return middle;
+    return double(others_->large) * 0x1p17 + (middle + double(others_->small) * 0x1p-148);
+  }
+
+ private:
+  __extension__ using Fixed = __int128;
+  struct Others {
+    Fixed small = 0, large = 0;
+  };
+  static Fixed Round(double value) { return Fixed(std::nearbyint(value)); }
+
+  Fixed middle_ = 0;
+  std::unique_ptr<Others> others_;  // null: no such value was added
 };
 
 }  // namespace exphoton

@@ -114,7 +114,7 @@ void SplatBuffer::Finish() {
   const std::size_t stride = Stride();
   std::vector<double> sums(stride);
   for (std::size_t at = 0; at < film_->PixelCount(); ++at) {
-    for (std::size_t i = 0; i < stride; ++i) sums[i] = double(sums_[at * stride + i]);
+    for (std::size_t i = 0; i < stride; ++i) sums[i] = sums_[at * stride + i].Total();
     film_->AddSums(at, {sums[0], sums[1], sums[2], sums[4]}, sums[3]);
     if (aovs_)
       aovs_->AddSums(at, sums.data(), sums.data() + kFilmValues, sums.data() + valueCount_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SplatBuffer accumulates the samples of one pass where each sample adds to all pixels within the
-// filter's support. Sums are exact (ExactSum), so the picture does not depend on tiles, threads or
+// filter's support. Sums are exact (WideExactSum), so the picture does not depend on tiles, threads or
 // the crop window.
 #pragma once
 
@@ -60,7 +60,7 @@ class SplatBuffer {
   Film* film_;
   AovFilm* aovs_;
   std::size_t valueCount_, squareCount_;
-  std::vector<ExactSum> sums_;
+  std::vector<WideExactSum> sums_;
   std::vector<std::mutex> rows_;  // each protects a row of sums_
 };
 
