@@ -5,7 +5,7 @@
 // "weighted" picks it in proportion to power; "near" picks one per point, by power and distance.
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
-#include "core/transport/specular_tree.h"
+#include "core/transport/specular/specular_tree.h"
 
 namespace exphoton {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/light_sample.h"
-#include "core/transport/specular_tree.h"
+#include "core/transport/specular/specular_tree.h"
 #include "integrators/lightpaths/virtual_lights.h"
 
 namespace exphoton {

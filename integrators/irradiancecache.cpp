@@ -6,7 +6,7 @@
 // picture is biased: interpolation blurs indirect light within the error bound.
 #include "core/plugin.h"
 #include "core/transport/direct_lighting.h"
-#include "core/transport/specular_tree.h"
+#include "core/transport/specular/specular_tree.h"
 #include "integrators/irradiance/record_placement.h"
 #include "integrators/photon/maps/rest_pose.h"
 

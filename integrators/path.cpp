@@ -11,7 +11,7 @@
 #include "core/transport/cut_light.h"
 #include "core/transport/light_sample.h"
 #include "core/transport/shading_point.h"
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
 
 namespace exphoton {

@@ -5,7 +5,7 @@
 // surfaces. Source: Whitted 1980, "An Improved Illumination Model for Shaded Display".
 #include "core/plugin.h"
 #include "core/transport/shading_point.h"
-#include "core/transport/specular_tree.h"
+#include "core/transport/specular/specular_tree.h"
 
 namespace exphoton {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/huge_pages.h"
+#include "accelerators/bvh/huge_pages.h"
 #include "core/scene/primitive.h"
 
 namespace exphoton {

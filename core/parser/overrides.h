@@ -18,7 +18,7 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
                     ParamSet* params);
 
 // Returns whether two plugins mean the same by a parameter: they declare it with the same name,
-// type, unit and meaning. "maxdepth" of "path" counts all bounces, and that of "whitted" specular
+// type, unit and meaning. "maxdepth" of "path" counts all bounces, and for "whitted" specular
 // ones.
 bool MeansTheSame(const ParamDecl& a, const ParamDecl& b);
 

@@ -67,7 +67,7 @@ std::int64_t PassPlan::FirstGoal(const State& state) const {
   return std::min(PowerOfTwoUpTo(kRounding * *state.enough), most);
 }
 
-// The second group is as large as the first one. The noise of later groups may be that of photons,
+// The second group is as large as the first one. The noise may then come from photons,
 // which larger groups would not reduce.
 std::int64_t PassPlan::LaterGoal(const State& state) const {
   const std::int64_t most = GoalByTime(state);

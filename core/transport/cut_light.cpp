@@ -7,7 +7,7 @@
 
 #include "core/math/sampling/mis.h"
 #include "core/transport/light_sample.h"
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
 
 namespace exphoton {

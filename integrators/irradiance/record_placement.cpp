@@ -10,7 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/imaging/film/camera.h"
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 #include "integrators/photon/maps/rest_pose.h"
 
 namespace exphoton {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/transport/cut_light.h"
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 
 namespace exphoton {
 

@@ -10,7 +10,7 @@
 #include "core/lights/selection/light_sampler.h"
 #include "core/transport/direct_lighting.h"
 #include "core/transport/integrator.h"
-#include "core/transport/specular_tree.h"
+#include "core/transport/specular/specular_tree.h"
 #include "integrators/photon/gather/final_gather.h"
 #include "integrators/photon/maps/photon_map_set.h"
 #include "integrators/photon/maps/radiance_photon_map.h"

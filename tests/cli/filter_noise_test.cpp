@@ -130,7 +130,7 @@ TEST_F(FilterNoiseTest, IsReportedByHalves) {
   }
 }
 
-// A rule that stops when an estimate is low prefers low estimates, so the bound is that of
+// A rule that stops when an estimate is low prefers low estimates, so the bound is the one of
 // TargetErrorTest.
 TEST_F(FilterNoiseTest, IsReportedByPasses) {
   for (const char* filter : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {

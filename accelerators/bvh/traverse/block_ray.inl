@@ -39,8 +39,7 @@ struct BlockRay {
     const Real8 zero = Real8::All(Real(0));
     const Real8 least = Min(Min(e[0], e[1]), e[2]), most = Max(Max(e[0], e[1]), e[2]);
     BlockHits hits;
-    // An edge function in single precision has the right sign or is 0 (MissesTriangle in
-    // triangle_double.h), so two of opposite signs prove a miss.
+    // Edge functions have the right sign or are 0 (MissesTriangle): opposite signs prove a miss.
     hits.possible = PresentMask(block.ids) & ~(LessMask(least, zero) & LessMask(zero, most));
     if (hits.possible == 0) return hits;
     if (!kHitsInSingle) {  // t lies between the vertices' t
@@ -67,9 +66,8 @@ struct BlockRay {
     // This test implies t (1 - kSingleError) > tMax, whatever the rounding.
     const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
     // HitInDouble finds the same sign of the volume. The error of the volume is less than
-    // Gamma(7) 6 X Y Z plus the underflow of its products; Gamma(12) leaves room for rounding in
-    // the bound itself. Underflow in the edges is negligible where the line crosses the triangle:
-    // least * most is not 0 there, so an edge exceeds 2^-75, and an edge is at most 2 X Y.
+    // Gamma(7) 6 X Y Z plus the underflow of its products (12: room for rounding of the bound).
+    // Underflow in the edges is negligible: least * most is not 0, so an edge exceeds 2^-75.
     const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(Square(kLeastSingle));
     const unsigned isBehind = hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
     hits.possible &= ~(isBeyond | isBehind);

@@ -7,11 +7,14 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 
 namespace exphoton::cli {
 namespace {
 
 ChildResult RunTest(const std::string& name) {
+  for (const char* variable : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"})
+    unsetenv(variable);  // no share
   const std::atomic<bool> stop = false;
   return RunSelf({"--gtest_filter=" + name, "--gtest_also_run_disabled_tests"},
                  testing::TempDir() + "exphoton_child_" + std::to_string(getpid()), stop);

@@ -57,35 +57,36 @@ TEST_F(RunRecordTest, SaysWhatItIsInATable) {
   statistics.SetCounter("parts", 1. / 3, "of a whole");
   run.noise = .01234;
   EXPECT_EQ(StatisticsTable(run),
-            "scene         test.pbrt\n"
-            "integrator    directlighting\n"
-            "picture       20 x 10\n"
-            "samples       12 a pixel in 4 passes\n"
-            "threads       3\n"
-            "noise         0.0123 of relMSE, estimated between passes (bias not included)\n"
-            "\n"
-            "phase                               seconds  CPU seconds  meaning\n"
-            "parse                                 0.250        0.500  reading the scene: files, "
-            "plugins, textures, meshes\n"
-            "own phase                             1.000        2.000  \n"
-            "all                                   2.500        4.250  from reading the scene to "
-            "writing the picture\n"
-            "\n"
-            "rays                                  count  meaning\n"
-            "camera                                    1  from the camera\n"
-            "shadow                                   20  from a surface to a point on a light\n"
-            "bsdf                                    300  from a surface, in a direction sampled "
-            "from its BSDF\n"
-            "specular                               4000  over mirrors and through glass, on the "
-            "camera's side\n"
-            "gather                                50000  of the final gather, over the hemisphere "
-            "of a surface\n"
-            "photon                               600000  that carried a photon\n"
-            "all                                  654321  rays that were traced\n"
-            "\n"
-            "counter                               value  meaning\n"
-            "things                             12345678  that were counted\n"
-            "parts                              0.333333  of a whole\n");
+            R"(scene         test.pbrt
+integrator    directlighting
+picture       20 x 10
+samples       12 a pixel in 4 passes
+threads       3
+noise         0.0123 of relMSE, estimated between passes (bias not included)
+
+phase              time    CPU time   share  meaning
+parse           0.250 s     0.500 s  10.0 %  reading the scene: files, plugins,
+                                             textures, meshes
+own phase       1.000 s     2.000 s  40.0 %  
+all            2.500 s     4.250 s  100.0 %  from reading the scene to writing
+                                             the picture
+
+rays                 count   share  meaning
+camera                  1    0.0 %  from the camera
+shadow                 20    0.0 %  from a surface to a point on a light
+bsdf                  300    0.0 %  from a surface, in a direction sampled from
+                                    its BSDF
+specular            4,000    0.6 %  over mirrors and through glass, on the
+                                    camera's side
+gather             50,000    7.6 %  of the final gather, over the hemisphere of
+                                    a surface
+photon            600,000   91.7 %  that carried a photon
+all               654,321  100.0 %  rays that were traced, 436,214 per second
+
+counter                           value  meaning
+things                       12,345,678  that were counted
+parts                          0.333333  of a whole
+)");
   run.passes = 1;
   run.noise.reset();
   Loaded().crop = {2, 3, 8, 7};
@@ -101,17 +102,10 @@ TEST_F(RunRecordTest, ExplainsEveryPhaseOfTheRenderer) {
     statistics.AddPhase(name, 1, 2);
   const std::string table = StatisticsTable(run);
   for (const char* row :
-       {"accelerator                           1.000        2.000  building the acceleration "
-        "structure\n",
-        "shoot                                 1.000        2.000  tracing photons from the "
-        "lights\n",
-        "photon maps                           1.000        2.000  sorting photons for searching, "
-        "and choosing radii\n",
-        "radiance                              1.000        2.000  computing the radiance at "
-        "radiance photons\n",
-        "render                                1.000        2.000  camera rays and all rays that "
-        "follow from them\n",
-        "write                                 1.000        2.000  writing the picture\n"})
+       {"40.0 %  building the acceleration structure\n",
+        "40.0 %  tracing photons from the lights\n", "40.0 %  sorting photons for searching, and",
+        "40.0 %  computing the radiance at radiance",
+        "40.0 %  camera rays and all rays that", "40.0 %  writing the picture\n"})
     EXPECT_NE(table.find(row), std::string::npos) << row;
 }
 

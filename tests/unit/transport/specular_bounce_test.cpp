@@ -4,7 +4,7 @@
 // where they would not be finite.
 #include <gtest/gtest.h>
 
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {

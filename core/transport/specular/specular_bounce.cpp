@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SampleSpecularRay: samples the ray of one specular lobe and propagates its ray differentials.
 // Source: Igehy 1999, "Tracing Ray Differentials", section 3.
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 
 namespace exphoton {
 namespace {

@@ -6,7 +6,7 @@
 // trees (Arvo and Kirk 1990), which keeps the mean unchanged.
 #pragma once
 
-#include "core/transport/specular_bounce.h"
+#include "core/transport/specular/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
 
 namespace exphoton {
