@@ -15,7 +15,7 @@ namespace {
 // The same program gives the same bits, so this is for the digits that a record leaves out.
 constexpr double kTolerance = 6e-5;  // of the number, or of the mean over the picture
 
-// Stands for the channels R, G and B, where they are equal. A channel A that is 1 is not written.
+// The label of the channels R, G and B if they are equal. A channel A that is 1 is not written.
 constexpr const char* kGrey = "RGB";
 
 // The other labels are written small.
