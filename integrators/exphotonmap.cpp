@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. It is photonmap
-// with five improvements switched on: photons of nearly constant weight, precomputed radiance, a
-// final gather that is guided by photons, a smooth kernel, and lights chosen by power. Two more
-// defaults differ: roulette of paths begins earlier, and photons are aimed at what can be seen.
-// docs/theory/exphotonmap.md derives it; integrators/photon/photon_integrator.h is the algorithm.
+// with six improvements switched on: photons of nearly constant weight, precomputed radiance, a
+// final gather that is guided by photons, a smooth kernel, lights chosen by power, and gathers that
+// neighbouring pixels share. Two more defaults differ: roulette of paths begins earlier, and
+// photons are aimed at what can be seen. docs/theory/exphotonmap.md derives it;
+// integrators/photon/photon_integrator.h is the algorithm.
 #include "core/plugin.h"
 #include "integrators/photon/photon_integrator.h"
 
@@ -12,12 +13,13 @@ namespace {
 
 struct Settings : PhotonSettings {
   Settings() {
-    // The five improvements; each is a parameter of photonmap too.
+    // The six improvements; each is a parameter of photonmap too.
     photonRoulette = PhotonRoulette::Luminance;  // photons of nearly constant weight
     radiancePhotons = true;
     gatherSampling = GatherSampling::Photons;
     kernel = DensityKernel::Simpson;
     lightSelection = LightSelection::Power;
+    sharedGather = true;
     // The other two defaults
     rrThreshold = Real(.05);
     photonTargeting = PhotonTargeting::Auto;

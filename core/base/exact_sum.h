@@ -21,6 +21,11 @@ class ExactSum {
   ExactSum& operator+=(double value) { return Add(value), *this; }
   ExactSum& operator+=(const ExactSum& other) { return sum_ += other.sum_, *this; }
   operator double() const { return double(sum_) * 0x1p-44; }
+  // Saves or loads the sum without rounding (core/files/byte_archive.h).
+  template <class Archive>
+  void Transfer(Archive* archive) {
+    archive->Values(&sum_);
+  }
 
  private:
   __extension__ using Fixed = __int128;
@@ -33,6 +38,12 @@ class ExactSum {
 // bits, unless it is below 2^-124. Up to 2^22 values fit, each below 2^121.
 class WideExactSum {
  public:
+  WideExactSum() = default;
+  WideExactSum(const WideExactSum& other)
+      : middle_(other.middle_),
+        others_(other.others_ ? std::make_unique<Others>(*other.others_) : nullptr) {}
+  WideExactSum& operator=(const WideExactSum&) = delete;
+
   void Add(double value) {
     const double size = std::abs(value);
     if (size >= 0x1p-40 && size < 0x1p40) {
@@ -49,6 +60,14 @@ class WideExactSum {
     const double middle = double(middle_) * 0x1p-64;
     if (!others_) return middle;
     return double(others_->large) * 0x1p17 + (middle + double(others_->small) * 0x1p-148);
+  }
+  // Saves or loads the sum without rounding (core/files/byte_archive.h).
+  template <class Archive>
+  void Transfer(Archive* archive) {
+    char hasOthers = others_ ? 1 : 0;
+    archive->Values(&middle_, &hasOthers);
+    if (archive->IsLoading()) others_ = hasOthers ? std::make_unique<Others>() : nullptr;
+    if (others_) archive->Values(&others_->small, &others_->large);
   }
 
  private:

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/files/byte_archive.h"
 #include "core/math/vec.h"
 
 namespace exphoton {
@@ -26,6 +27,20 @@ class NonFiniteLog {
     std::vector<std::string> texts;
     for (const auto& report : reports_) texts.push_back(report.second);
     return texts;
+  }
+
+  // Saves or loads the descriptions.
+  void Transfer(ByteArchive* archive) {
+    const std::lock_guard lock(mutex_);
+    auto report = reports_.begin();
+    for (std::size_t left = archive->Count(reports_.size(), 24); left > 0; --left) {
+      std::tuple<int, int, std::int64_t> key;
+      std::string text;
+      if (!archive->IsLoading()) std::tie(key, text) = *report++;
+      archive->Values(&std::get<0>(key), &std::get<1>(key), &std::get<2>(key));
+      archive->Text(&text);
+      if (archive->IsLoading()) reports_.emplace(key, text);
+    }
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/camera.h"
 #include "core/imaging/film/film.h"
+#include "core/render/sharing/sharing_estimate.h"
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/transport/integrator.h"
@@ -24,7 +26,20 @@
 
 namespace exphoton {
 
+class Checkpoints;
+class StateFile;
+class StateWriter;
+
 enum class TileOrder { Scanline, Reversed };
+
+// RenderView sees parts of a picture that are rendered, while others are not.
+class RenderView {
+ public:
+  virtual ~RenderView() = default;
+  // Called by any thread that renders, so it must return soon. The sums of the pixels in `part` do
+  // not change meanwhile. Light that pixels get from others comes with the last call.
+  virtual void Show(const Film& film, const PixelBounds& part) = 0;
+};
 
 struct RenderOptions {
   std::uint64_t seed = 0;
@@ -38,6 +53,12 @@ struct RenderOptions {
   // takes this number of samples. 0 means the number of the sampler. Renders that are compared with
   // each other need the same footprint.
   std::int64_t footprintSamples = 0;
+  // The memory for the gathers of one band of rows (core/render/sharing/sharing_bands.h), in bytes.
+  double sharingMemory = 0x1p28;
+  Checkpoints* checkpoints = nullptr;  // receives the state of the render; null: none
+  // The state of a stopped render that this one continues. The render releases it.
+  StateFile* resumed = nullptr;
+  RenderView* view = nullptr;  // sees finished tiles and passes; null: none
 };
 
 struct RenderJob {
@@ -59,6 +80,7 @@ struct RenderResult {
   bool isComplete = true;                     // false if stopped
   std::int64_t nonFiniteSamples = 0;          // dropped, counted as black
   std::vector<std::string> nonFiniteReports;  // the first few: pixel, sample, seed
+  std::optional<SharingBias> sharingBias;     // of shared gathers; the mean of all passes
 };
 
 RenderResult Render(const RenderJob& job, const RenderOptions& options);
@@ -85,6 +107,9 @@ class PassRenderer {
   bool Run(const RenderPass& pass, const Sampler& sampler, Film* film);
   // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
+
+  // Saves what all passes have in common.
+  void SaveTotals(StateWriter* writer) const;
 
   double PreprocessSeconds() const;  // wall-clock time of the last pass
   double RenderSeconds() const;      // the same, for rendering without preprocessing

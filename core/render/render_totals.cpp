@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/files/byte_archive.h"
+
 namespace exphoton {
 namespace {
 
@@ -59,9 +61,31 @@ void RenderTotals::Add(const RenderTotals& other) {
   negative += other.negative;
 }
 
+void RenderTotals::Transfer(ByteArchive* archive) {
+  for (std::uint64_t& count : rays.counts) archive->Values(&count);
+  for (ExactSum* sum : {&rays.cutThroughput, &rays.cutGatherThroughput, &rays.cutLight,
+                        &rays.cutLightSquares, &rays.cutGatherLight, &rays.gatherLight})
+    sum->Transfer(archive);
+  archive->Values(&cameraSamples, &nonFinite, &negative, &light_, &lightSamples_);
+  archive->Values(&bias_, &biasVariance_, &biasSamples_);
+}
+
 void RenderTotals::AddLight(const Film& film, std::int64_t samplesPerPixel) {
   light_ += MeanLuminance(film) * double(samplesPerPixel);
   lightSamples_ += samplesPerPixel;
+}
+
+void RenderTotals::AddSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel) {
+  const auto weight = double(samplesPerPixel);
+  bias_ += bias.squared * weight;
+  biasVariance_ += bias.standardError * bias.standardError * weight * weight;
+  biasSamples_ += samplesPerPixel;
+}
+
+std::optional<SharingBias> RenderTotals::MeanSharingBias() const {
+  if (biasSamples_ == 0) return std::nullopt;
+  const auto total = double(biasSamples_);
+  return SharingBias{bias_ / total, std::sqrt(biasVariance_) / total};
 }
 
 RenderResult Summarize(const RenderJob& job, const RenderTotals& totals, const NonFiniteLog& log) {
@@ -69,6 +93,10 @@ RenderResult Summarize(const RenderJob& job, const RenderTotals& totals, const N
   result.nonFiniteSamples = totals.nonFinite;
   job.statistics.AddRays(totals.rays);
   result.nonFiniteReports = log.Texts();
+  result.sharingBias = totals.MeanSharingBias();
+  if (result.sharingBias)
+    job.statistics.SetCounter("render/sharing bias", result.sharingBias->squared,
+                              "relMSE, estimated squared bias of shared gathers");
   job.statistics.SetCounter("render/camera samples", double(totals.cameraSamples),
                             "camera rays started");
   job.statistics.SetCounter("render/non-finite samples", double(result.nonFiniteSamples),

@@ -12,6 +12,8 @@
 
 namespace exphoton {
 
+class ByteArchive;
+
 struct RenderTotals {
   RayCounters rays;
   std::int64_t cameraSamples = 0, nonFinite = 0, negative = 0;
@@ -19,12 +21,19 @@ struct RenderTotals {
   void Add(const RenderTotals& other);  // all counts, but not the light
   // Adds the picture of a pass.
   void AddLight(const Film& film, std::int64_t samplesPerPixel);
+  // Adds the estimate of a pass.
+  void AddSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
+  // Returns the mean of all passes; nullopt if no pass has an estimate.
+  std::optional<SharingBias> MeanSharingBias() const;
+  void Transfer(ByteArchive* archive);  // saves or loads everything
   // Returns the mean luminance of the picture.
   double MeanLight() const { return light_ / double(std::max<std::int64_t>(lightSamples_, 1)); }
 
  private:
   double light_ = 0;  // sum over the passes of the mean luminance times lightSamples_
   std::int64_t lightSamples_ = 0;
+  double bias_ = 0, biasVariance_ = 0;  // sums over passes, weighted by samples
+  std::int64_t biasSamples_ = 0;
 };
 
 // Fills the job's statistics, logs warnings and returns the non-finite samples.

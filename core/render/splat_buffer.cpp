@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/files/byte_archive.h"
+
 namespace exphoton {
 namespace {
 
@@ -16,10 +18,31 @@ SplatBuffer::SplatBuffer(const SplatWeights& weights, Film* film, AovFilm* aovs)
     : weights_(weights),
       film_(film),
       aovs_(aovs),
-      valueCount_(kFilmValues + (aovs ? aovs->AveragedCount() : 0)),
+      valueCount_(kFilmValues + (aovs ? aovs->LightCount() : 0)),
       squareCount_(aovs && aovs->Wanted().Has(Aov::Variance) ? AovFilm::kSquares : 0),
       sums_(film->PixelCount() * Stride()),
       rows_(std::size_t(film->Crop().Height())) {}
+
+SplatBuffer::SplatBuffer(const SplatBuffer& other, Film* film, AovFilm* aovs)
+    : weights_(other.weights_),
+      film_(film),
+      aovs_(aovs),
+      valueCount_(other.valueCount_),
+      squareCount_(other.squareCount_),
+      sums_(other.sums_),
+      rows_(other.rows_.size()) {}
+
+void SplatBuffer::Transfer(ByteArchive* archive) {
+  archive->Same(std::uint64_t(sums_.size()));
+  // A pixel without samples takes one byte, so that a render which stops early writes little.
+  for (std::size_t at = 0; at < sums_.size(); at += Stride()) {
+    const auto begin = sums_.begin() + std::ptrdiff_t(at);
+    char isUsed = std::any_of(begin, begin + std::ptrdiff_t(Stride()),
+                              [](const WideExactSum& sum) { return sum.Total() != 0; });
+    archive->Values(&isUsed);
+    for (std::size_t i = 0; isUsed && i < Stride(); ++i) sums_[at + i].Transfer(archive);
+  }
+}
 
 PixelBounds SplatBuffer::Window() const {
   const PixelBounds& crop = film_->Crop();
@@ -45,8 +68,10 @@ void SplatBuffer::Pixel::Add(const SplatSample& sample) {
   values_[4] = 1;
   if (sample.aovs) buffer_->aovs_->ValuesOf(*sample.aovs, values_.data() + kFilmValues);
   if (!squares_.empty()) {
+    const Spectrum own = L + sample.aovs->ownGathers;
+    const double v[3] = {double(own.r), double(own.g), double(own.b)};
     squares_[0] = 1;
-    for (std::size_t c = 0; c < 3; ++c) squares_[1 + c] = l[c], squares_[4 + c] = l[c] * l[c];
+    for (std::size_t c = 0; c < 3; ++c) squares_[1 + c] = v[c], squares_[4 + c] = v[c] * v[c];
   }
   AddValues(sample.place);
   ++samples_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SplatBuffer accumulates the samples of one pass where each sample adds to all pixels within the
-// filter's support. Sums are exact (WideExactSum), so the picture does not depend on tiles, threads or
-// the crop window.
+// filter's support. Sums are exact (WideExactSum), so the picture does not depend on tiles, threads
+// or the crop window.
 #pragma once
 
 #include <mutex>
@@ -26,6 +26,8 @@ class SplatBuffer {
  public:
   // The film and the AOVs (null: none) receive the sums. All arguments must outlive this object.
   SplatBuffer(const SplatWeights& weights, Film* film, AovFilm* aovs);
+  // Copies the sums of another buffer, for another film with the same windows.
+  SplatBuffer(const SplatBuffer& other, Film* film, AovFilm* aovs);
 
   // Returns the pixels whose samples reach the film's crop window. It may exceed the full image.
   PixelBounds Window() const;
@@ -52,6 +54,7 @@ class SplatBuffer {
 
   // Adds the sums to the film and to the AOVs. Must be called once, after all pixels.
   void Finish();
+  void Transfer(ByteArchive* archive);  // saves or loads the sums
 
  private:
   std::size_t Stride() const { return valueCount_ + squareCount_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/render/passes/render_halves.h"
 
 namespace exphoton::cli {
 namespace {
@@ -24,7 +25,7 @@ PassesResult RenderFixed(const RenderJob& job, const RenderOptions& options) {
 // maps, so the variance between passes includes the noise of the photons.
 void ReplaceVariance(const std::vector<float>& variances, const Film& film, bool premultiplyAlpha,
                      Image* image) {
-  const int channel = image->FindChannel("Variance.R");
+  const int channel = image->FindChannel("variance.R");
   if (channel < 0 || variances.empty()) return;
   const PixelBounds& crop = film.Crop();
   std::size_t at = 0;
@@ -78,6 +79,14 @@ Image MakeImage(const PictureFilms& films, const PassesResult& result, bool prem
   ReplaceVariance(result.variances, films.film, premultiplyAlpha, &image);
   for (int i = 0; i < 2; ++i)
     if (films.halves[i]) AppendHalf(kHalfNames[i], *films.halves[i], premultiplyAlpha, &image);
+  return image;
+}
+
+Image MakeImage(const PictureSoFar& picture, bool premultiplyAlpha) {
+  Image image = picture.film.ToImage(premultiplyAlpha);
+  if (picture.aovs) picture.aovs->AppendTo(picture.film, premultiplyAlpha, &image);
+  for (std::size_t i = 0; i < picture.halves.size(); ++i)
+    AppendHalf(kHalfNames[i], picture.halves[i], premultiplyAlpha, &image);
   return image;
 }
 

@@ -7,7 +7,8 @@
 
 #include "core/app/options/options.h"
 #include "core/imaging/film/aov_film.h"
-#include "core/render/render_passes.h"
+#include "core/render/passes/render_passes.h"
+#include "core/render/state/checkpoints.h"
 
 namespace exphoton::cli {
 
@@ -29,10 +30,13 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 // Returns an image with the channels of the picture and of all AOVs, without attributes.
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha);
 
+// Returns the same for a picture that is not finished.
+Image MakeImage(const PictureSoFar& picture, bool premultiplyAlpha);
+
 // Throws Error(CommandLine) for an AOV that the scene's integrator does not provide.
 void CheckAovs(const RenderCommand& command, const RenderSetup& setup);
 
-// "Albedo, N, half1, half2".
+// "albedo, N, half1, half2".
 std::string AovNames(const RenderCommand& command);
 
 }  // namespace exphoton::cli

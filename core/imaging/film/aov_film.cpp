@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/files/byte_archive.h"
+
 namespace exphoton {
 namespace {
 
-// AOVs that are weighted means over the samples.
-constexpr AovSet kAveraged = kSurfaceAovs | kLightAovs | AovSet{Aov::PhotonDensity};
+// AOVs that are means over a pixel's own samples.
+constexpr AovSet kOwn = kSurfaceAovs | AovSet{Aov::PhotonDensity};
+constexpr AovSet kIds{Aov::ObjectId, Aov::MaterialId};
 
-// Writes the values of an averaged AOV at one sample to `out`. Returns their number.
+// Writes the values of a light AOV, or of an AOV in kOwn, at one sample to `out`. Returns their
+// number. Ids have no values to average.
 std::size_t WriteValues(Aov aov, const AovSample& sample, double* out) {
   const auto color = [out](const Spectrum& s) {
     out[0] = double(s.r), out[1] = double(s.g), out[2] = double(s.b);
@@ -26,8 +30,16 @@ std::size_t WriteValues(Aov aov, const AovSample& sample, double* out) {
       return color(sample.albedo);
     case Aov::Normal:
       return vector(sample.n);
+    case Aov::GeometricNormal:
+      return vector(sample.ng);
     case Aov::Position:
       return vector(sample.p);
+    case Aov::Depth:
+      out[0] = double(sample.depth);
+      return 1;
+    case Aov::TexCoords:
+      out[0] = double(sample.uv.x), out[1] = double(sample.uv.y);
+      return 2;
     case Aov::Emission:
       return color(sample.emission);
     case Aov::Direct:
@@ -49,11 +61,20 @@ std::size_t WriteValues(Aov aov, const AovSample& sample, double* out) {
 }  // namespace
 
 AovFilm::AovFilm(const PixelBounds& crop, AovSet wanted)
-    : crop_(crop), wanted_(wanted), aovs_(wanted.List()), averaged_((wanted & kAveraged).List()) {
+    : crop_(crop),
+      wanted_(wanted),
+      aovs_(wanted.List()),
+      lights_((wanted & kLightAovs).List()),
+      surfaces_((wanted & kOwn).Without(kIds).List()) {
   const std::size_t pixels = std::size_t(crop.Width()) * std::size_t(crop.Height());
-  for (const Aov aov : averaged_) valueCount_ += GetAovInfo(aov).channels.size();
+  for (const Aov aov : lights_) valueCount_ += GetAovInfo(aov).channels.size();
+  for (const Aov aov : surfaces_) surfaceCount_ += GetAovInfo(aov).channels.size();
   weights_.resize(pixels);
   values_.resize(pixels * valueCount_);
+  surfaceValues_.resize(pixels * surfaceCount_);
+  if (surfaceCount_ > 0) surfaceWeights_.resize(pixels);
+  if (wanted.Has(Aov::ObjectId)) objects_.resize(pixels);
+  if (wanted.Has(Aov::MaterialId)) materials_.resize(pixels);
   if (wanted.Has(Aov::Variance)) moments_.resize(pixels * 3);
   if (wanted.Has(Aov::Time)) seconds_.resize(pixels);
   if (wanted.Has(Aov::RadianceDistance)) {
@@ -74,9 +95,9 @@ void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& 
   weights.sum += w;
   weights.sumOfSquares += w * w;
   weights.absSum += float(std::abs(w));
-  CountSample(at, sample);
+  AddSurface(at, sample, std::abs(w));
   Value* value = values_.data() + at * valueCount_;
-  for (const Aov aov : averaged_) {
+  for (const Aov aov : lights_) {
     double x[3];
     const std::size_t count = WriteValues(aov, sample, x);
     for (std::size_t c = 0; c < count; ++c, ++value) {
@@ -85,7 +106,8 @@ void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& 
     }
   }
   if (!moments_.empty()) {
-    const double l[3] = {double(L.r), double(L.g), double(L.b)};
+    const Spectrum own = L + sample.ownGathers;
+    const double l[3] = {double(own.r), double(own.g), double(own.b)};
     for (std::size_t c = 0; c < 3; ++c) {
       Moments& m = moments_[at * 3 + c];
       m.wL += w * l[c];
@@ -95,20 +117,43 @@ void AovFilm::AddSample(Point2i pixel, const AovSample& sample, const Spectrum& 
   }
 }
 
-void AovFilm::CountSample(std::size_t pixel, const AovSample& sample) {
+void AovFilm::Majority::Add(std::uint32_t vote, double weight) {
+  if (vote == id) {
+    lead += weight;
+  } else if (lead >= weight) {
+    lead -= weight;
+  } else {
+    id = vote;
+    lead = weight - lead;
+  }
+}
+
+void AovFilm::AddSurface(std::size_t pixel, const AovSample& sample, double weight) {
   ++weights_[pixel].samples;
+  if (!objects_.empty()) objects_[pixel].Add(sample.objectId, weight);
+  if (!materials_.empty()) materials_[pixel].Add(sample.materialId, weight);
+  double* sum = surfaceValues_.data() + pixel * surfaceCount_;
+  for (const Aov aov : surfaces_) {
+    double x[3];
+    const std::size_t count = WriteValues(aov, sample, x);
+    for (std::size_t c = 0; c < count; ++c) *sum++ += weight * x[c];
+  }
+  if (!surfaceWeights_.empty()) {
+    surfaceWeights_[pixel].all += weight;
+    if (sample.isHit) surfaceWeights_[pixel].hit += weight;
+  }
   if (reads_.empty()) return;
   distances_[pixel] += sample.radianceDistance;
   reads_[pixel] += sample.radiancePhotonsRead;
 }
 
 void AovFilm::ValuesOf(const AovSample& sample, double* out) const {
-  for (const Aov aov : averaged_) out += WriteValues(aov, sample, out);
+  for (const Aov aov : lights_) out += WriteValues(aov, sample, out);
 }
 
 std::optional<std::size_t> AovFilm::FirstValueOf(Aov aov) const {
   std::size_t at = 0;
-  for (const Aov each : averaged_) {
+  for (const Aov each : lights_) {
     if (each == aov) return at;
     at += GetAovInfo(each).channels.size();
   }
@@ -118,9 +163,9 @@ std::optional<std::size_t> AovFilm::FirstValueOf(Aov aov) const {
 void AovFilm::AddOwn(Point2i pixel, const AovSample& sample) {
   const std::size_t at = IndexOf(pixel);
   weights_[at].absSum += 1;
-  CountSample(at, sample);
+  AddSurface(at, sample, 1);
   Value* value = values_.data() + at * valueCount_;
-  for (const Aov aov : averaged_) {
+  for (const Aov aov : lights_) {
     double x[3];
     const std::size_t count = WriteValues(aov, sample, x);
     for (std::size_t c = 0; c < count; ++c, ++value) value->absSum += float(x[c]);
@@ -149,7 +194,7 @@ void AovFilm::AddSums(std::size_t pixel, const double* film, const double* value
 
 void AovFilm::AddLight(Point2i pixel, Aov lightAov, const Spectrum& L, Real weight) {
   Value* value = values_.data() + IndexOf(pixel) * valueCount_;
-  for (const Aov aov : averaged_) {
+  for (const Aov aov : lights_) {
     if (aov == lightAov) {
       for (std::size_t c = 0; c < 3; ++c) {
         const double x = double(L[int(c)]);
@@ -163,6 +208,89 @@ void AovFilm::AddLight(Point2i pixel, Aov lightAov, const Spectrum& L, Real weig
 }
 
 void AovFilm::AddTime(Point2i pixel, double seconds) { seconds_[IndexOf(pixel)] += seconds; }
+
+void AovFilm::Clear() {
+  isSplatted_ = false;
+  std::ranges::fill(weights_, Weights());
+  std::ranges::fill(values_, Value());
+  std::ranges::fill(surfaceValues_, 0.);
+  std::ranges::fill(surfaceWeights_, SurfaceWeights());
+  std::ranges::fill(objects_, Majority());
+  std::ranges::fill(materials_, Majority());
+  std::ranges::fill(moments_, Moments());
+  std::ranges::fill(seconds_, 0.);
+  std::ranges::fill(distances_, 0.);
+  std::ranges::fill(reads_, 0);
+}
+
+void AovFilm::ClearPixel(Point2i pixel) {
+  const std::size_t at = IndexOf(pixel);
+  weights_[at] = Weights();
+  std::fill_n(values_.begin() + std::ptrdiff_t(at * valueCount_), valueCount_, Value());
+  std::fill_n(surfaceValues_.begin() + std::ptrdiff_t(at * surfaceCount_), surfaceCount_, 0.);
+  if (!surfaceWeights_.empty()) surfaceWeights_[at] = SurfaceWeights();
+  if (!objects_.empty()) objects_[at] = Majority();
+  if (!materials_.empty()) materials_[at] = Majority();
+  if (!moments_.empty()) std::fill_n(moments_.begin() + std::ptrdiff_t(at * 3), 3, Moments());
+  if (!seconds_.empty()) seconds_[at] = 0;
+  if (!reads_.empty()) distances_[at] = 0, reads_[at] = 0;
+}
+
+void AovFilm::Add(const AovFilm& other) {
+  isSplatted_ = isSplatted_ || other.isSplatted_;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    weights_[i].sum += other.weights_[i].sum;
+    weights_[i].sumOfSquares += other.weights_[i].sumOfSquares;
+    weights_[i].samples += other.weights_[i].samples;
+    weights_[i].absSum += other.weights_[i].absSum;
+  }
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    values_[i].sum += other.values_[i].sum;
+    values_[i].absSum += other.values_[i].absSum;
+  }
+  for (std::size_t i = 0; i < surfaceValues_.size(); ++i)
+    surfaceValues_[i] += other.surfaceValues_[i];
+  for (std::size_t i = 0; i < surfaceWeights_.size(); ++i) {
+    surfaceWeights_[i].all += other.surfaceWeights_[i].all;
+    surfaceWeights_[i].hit += other.surfaceWeights_[i].hit;
+  }
+  const auto addVotes = [](std::vector<Majority>* ids, const std::vector<Majority>& others) {
+    for (std::size_t i = 0; i < ids->size(); ++i) (*ids)[i].Add(others[i].id, others[i].lead);
+  };
+  addVotes(&objects_, other.objects_);
+  addVotes(&materials_, other.materials_);
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    moments_[i].wwLL += other.moments_[i].wwLL;
+    moments_[i].wwL += other.moments_[i].wwL;
+    moments_[i].wL += other.moments_[i].wL;
+  }
+  for (std::size_t i = 0; i < seconds_.size(); ++i) seconds_[i] += other.seconds_[i];
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    distances_[i] += other.distances_[i];
+    reads_[i] += other.reads_[i];
+  }
+}
+
+void AovFilm::Transfer(ByteArchive* archive) {
+  for (const std::size_t size :
+       {weights_.size(), values_.size(), surfaceValues_.size(), surfaceWeights_.size(),
+        objects_.size(), materials_.size(), moments_.size(), seconds_.size(), distances_.size(),
+        reads_.size()})
+    archive->Same(std::uint64_t(size));
+  char isSplatted = isSplatted_ ? 1 : 0;
+  archive->Values(&isSplatted);
+  isSplatted_ = isSplatted != 0;
+  for (Weights& w : weights_) archive->Values(&w.sum, &w.sumOfSquares, &w.samples, &w.absSum);
+  for (Value& value : values_) archive->Values(&value.sum, &value.absSum);
+  for (double& sum : surfaceValues_) archive->Values(&sum);
+  for (SurfaceWeights& w : surfaceWeights_) archive->Values(&w.all, &w.hit);
+  for (std::vector<Majority>* ids : {&objects_, &materials_})
+    for (Majority& majority : *ids) archive->Values(&majority.id, &majority.lead);
+  for (Moments& m : moments_) archive->Values(&m.wwLL, &m.wwL, &m.wL);
+  for (double& seconds : seconds_) archive->Values(&seconds);
+  for (double& distance : distances_) archive->Values(&distance);
+  for (std::int64_t& reads : reads_) archive->Values(&reads);
+}
 
 double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
   const Weights& weights = weights_[pixel];
@@ -186,16 +314,35 @@ double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
   return std::max(squares, 0.) * n / ((n - 1) * sum * sum);
 }
 
+// Normals are averaged to a direction. Properties of a surface are means over the samples that hit
+// one.
+void AovFilm::CollectSurface(Aov aov, std::size_t pixel, const double* sums, float* out) const {
+  const std::size_t count = GetAovInfo(aov).channels.size();
+  double weight = surfaceWeights_[pixel].hit;
+  if (aov == Aov::Albedo || aov == Aov::PhotonDensity) weight = surfaceWeights_[pixel].all;
+  if (aov == Aov::Normal || aov == Aov::GeometricNormal)
+    weight = std::hypot(sums[0], sums[1], sums[2]);
+  for (std::size_t c = 0; c < count; ++c) out[c] = weight > 0 ? float(sums[c] / weight) : 0;
+}
+
 void AovFilm::Collect(std::size_t pixel, const std::array<double, 4>& beauty, double lightScale,
                       float* out) const {
   std::size_t value = 0;
+  const double* sums = surfaceValues_.data() + pixel * surfaceCount_;
   for (const Aov aov : aovs_) {
     const std::size_t channels = GetAovInfo(aov).channels.size();
+    if (kOwn.Without(kIds).Has(aov)) {
+      CollectSurface(aov, pixel, sums, out);
+      sums += channels;
+      out += channels;
+      continue;
+    }
     for (std::size_t c = 0; c < channels; ++c) {
       double x = 0;
-      if (kAveraged.Has(aov)) {
-        x = MeanOf(pixel, value++);
-        if (kLightAovs.Has(aov)) x *= beauty[c] < 0 ? 0 : lightScale;
+      if (kLightAovs.Has(aov)) {
+        x = MeanOf(pixel, value++) * (beauty[c] < 0 ? 0 : lightScale);
+      } else if (kIds.Has(aov)) {
+        x = (aov == Aov::ObjectId ? objects_ : materials_)[pixel].id;
       } else if (aov == Aov::Variance) {
         x = VarianceOf(pixel, c) * lightScale * lightScale;
       } else if (aov == Aov::Time) {
@@ -215,6 +362,7 @@ void AovFilm::AppendTo(const Film& film, bool premultiplyAlpha, Image* image) co
   for (const Aov aov : aovs_) {
     const auto& channels = GetAovInfo(aov).channels;
     names.insert(names.end(), channels.begin(), channels.end());
+    if (GetAovInfo(aov).isExact) image->exactChannels.insert(channels.begin(), channels.end());
   }
   std::vector<float> values(names.size() * weights_.size());
   std::size_t at = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AovFilm accumulates the requested AOVs beside a Film, with the same weights. A pixel of an
-// averaged AOV is sum(w x) / sum(w) over the pixel's samples. The object exists only if AOVs are
+// AovFilm accumulates the requested AOVs beside a Film. Light AOVs have the weights of the picture,
+// so that they sum to it: a pixel is sum(w x) / sum(w). Surface AOVs and the photon density are
+// means over the pixel's own samples with positive weights, so that they stay in their ranges with
+// every filter (docs/decisions/0042-aovs-in-range.md). The object exists only if AOVs are
 // requested.
 #pragma once
 
@@ -27,16 +29,25 @@ class AovFilm {
   void AddLight(Point2i pixel, Aov aov, const Spectrum& L, Real weight);
   void AddTime(Point2i pixel, double seconds);
 
-  // For samples that are splatted (core/render/splat_buffer.h). ValuesOf writes the AveragedCount()
-  // values of a sample. FirstValueOf returns the place of an AOV's values among them.
-  std::size_t AveragedCount() const { return valueCount_; }
+  // Removes all samples, or those of one pixel.
+  void Clear();
+  void ClearPixel(Point2i pixel);
+  // Adds the samples of another film with the same pixels and AOVs.
+  void Add(const AovFilm& other);
+  // Saves or loads all sums. Throws ArchiveError if the saved film had other AOVs or pixels.
+  void Transfer(ByteArchive* archive);
+
+  // For samples that are splatted (core/render/splat_buffer.h). ValuesOf writes the LightCount()
+  // values of a sample's light AOVs. FirstValueOf returns the place of an AOV among them.
+  std::size_t LightCount() const { return valueCount_; }
   void ValuesOf(const AovSample& sample, double* out) const;
   std::optional<std::size_t> FirstValueOf(Aov aov) const;
   // Adds an unweighted sample to its own pixel, and light to such a sample.
   void AddOwn(Point2i pixel, const AovSample& sample);
   void AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L);
-  // Adds sums over samples: of w (r, g, b, alpha, 1), of w x for the averaged values x, and, if the
-  // variance is wanted, the covariances of w, w L and w L (1, then w L w and w L w L by channel).
+  // Adds sums over samples: of w (r, g, b, alpha, 1), of w x for the values x of light AOVs, and,
+  // if the variance is wanted, the covariances of w, w L and w L (1, then w L w and w L w L by
+  // channel).
   void AddSums(std::size_t pixel, const double* film, const double* values, const double* squares);
   static constexpr std::size_t kSquares = 7;
 
@@ -56,6 +67,18 @@ class AovFilm {
     double sum = 0;
     float absSum = 0;
   };
+  // Sums over a pixel's own samples, with positive weights: of all, and of samples that hit
+  // a surface.
+  struct SurfaceWeights {
+    double all = 0, hit = 0;
+  };
+  // The number that more than half of the samples have, or else one that some sample has. Source:
+  // Boyer and Moore 1981, "MJRTY - A Fast Majority Vote Algorithm".
+  struct Majority {
+    std::uint32_t id = 0;
+    double lead = 0;
+    void Add(std::uint32_t vote, double weight);
+  };
   struct Moments {  // for Variance, one channel
     double wwLL = 0, wwL = 0, wL = 0;
   };
@@ -66,15 +89,20 @@ class AovFilm {
   void Collect(std::size_t pixel, const std::array<double, 4>& beauty, double lightScale,
                float* out) const;
 
-  void CountSample(std::size_t pixel, const AovSample& sample);
+  // Adds what does not depend on the picture's weights. `weight` is positive.
+  void AddSurface(std::size_t pixel, const AovSample& sample, double weight);
+  void CollectSurface(Aov aov, std::size_t pixel, const double* sums, float* out) const;
 
   PixelBounds crop_;
   AovSet wanted_;
   bool isSplatted_ = false;
-  std::vector<Aov> aovs_, averaged_;
-  std::size_t valueCount_ = 0;  // averaged channels per pixel
+  std::vector<Aov> aovs_, lights_, surfaces_;
+  std::size_t valueCount_ = 0, surfaceCount_ = 0;  // channels per pixel
   std::vector<Weights> weights_;
-  std::vector<Value> values_;
+  std::vector<Value> values_;          // of the light AOVs
+  std::vector<double> surfaceValues_;  // sums of w x
+  std::vector<SurfaceWeights> surfaceWeights_;
+  std::vector<Majority> objects_, materials_;
   std::vector<Moments> moments_;  // three per pixel
   std::vector<double> seconds_;
   std::vector<double> distances_;  // sums of radianceDistance

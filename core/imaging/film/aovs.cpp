@@ -29,28 +29,33 @@ bool Matches(const std::string& item, const AovInfo& info) {
   if (item == name) return true;
   std::string suffix;
   for (const std::string& channel : info.channels)
-    suffix += Lower(std::string_view(channel).substr(name.size() + 1));
-  return item == name + "." + suffix;
+    if (channel.size() > name.size()) suffix += Lower(channel.substr(name.size() + 1));
+  return !suffix.empty() && item == name + "." + suffix;
 }
 
 }  // namespace
 
 const AovInfo& GetAovInfo(Aov aov) {
   static const std::array<AovInfo, kAovCount> infos{{
-      {"Albedo", Colors("Albedo"), "reflectance and transmittance of the first surface"},
+      {"albedo", Colors("albedo"), "reflectance and transmittance of the first surface"},
       {"N", Axes("N"), "its shading normal, turned to the camera, in world space"},
-      {"P", Axes("P"), "where it was hit, in world space"},
-      {"Variance", Colors("Variance"), "estimated variance of the pixel"},
+      {"Ng", Axes("Ng"), "its geometric normal, turned to the camera, in world space"},
+      {"P", Axes("P"), "where it was hit, in world space", true},
+      {"Z", {"Z"}, "its depth along the view axis, in camera units", true},
+      {"uv", {"uv.U", "uv.V"}, "its texture coordinates", true},
+      {"objectId", {"objectId.id"}, "number of its shape or instance", true},
+      {"materialId", {"materialId.id"}, "number of its material", true},
+      {"variance", Colors("variance"), "estimated variance of the pixel"},
       {"emission", Colors("emission"), "light that the first surface emits, and the background"},
       {"direct", Colors("direct"), "direct light that it scatters"},
       {"caustic", Colors("caustic"), "light that it scatters, from lights over specular surfaces"},
       {"indirect", Colors("indirect"), "all other light that it scatters"},
       {"specular", Colors("specular"), "light over its own specular lobes"},
-      {"time", {"time.ms"}, "milliseconds that the pixel took, of one thread"},
-      {"samples", {"samples.count"}, "camera samples"},
-      {"photondensity", {"photondensity.Y"}, "photons of all maps per unit of area"},
-      {"radiancedistance",
-       {"radiancedistance.Y"},
+      {"time", {"time.ms"}, "milliseconds that the pixel took, of one thread", true},
+      {"samples", {"samples.count"}, "camera samples", true},
+      {"photonDensity", {"photonDensity.Y"}, "photons of all maps per unit of area"},
+      {"radianceDistance",
+       {"radianceDistance.Y"},
        "mean distance from gather hits to the radiance photons they read"},
   }};
   return infos[std::size_t(aov)];

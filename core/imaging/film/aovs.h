@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Aov lists the quantities that a picture can hold besides its radiance. The names are those of
-// pbrt-v4 and tev. AovSample holds the values of one camera sample. The renderer and the integrator
-// fill them; AovFilm (aov_film.h) accumulates them.
+// Aov lists the quantities that a picture can hold besides its radiance. Names are written as words
+// in lower case ("photonDensity"), except the symbols N, Ng, P and Z. AovSample holds the values of
+// one camera sample. The renderer and the integrator fill them; AovFilm (aov_film.h) accumulates
+// them.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,15 @@
 namespace exphoton {
 
 enum class Aov {
-  Albedo,    // hemispherical reflectance and transmittance of the first surface
-  Normal,    // its shading normal, turned to the camera, in world space
-  Position,  // position of the first hit, in world space
-  Variance,  // variance of the pixel value
+  Albedo,           // hemispherical reflectance and transmittance of the first surface
+  Normal,           // its shading normal, turned to the camera, in world space
+  GeometricNormal,  // its geometric normal, turned to the camera, in world space
+  Position,         // position of the first hit, in world space
+  Depth,            // its depth along the view axis (Camera::Depth), in camera units
+  TexCoords,        // its texture coordinates
+  ObjectId,         // number of its shape or instance in the scene; 0 where nothing was hit
+  MaterialId,       // number of its material
+  Variance,         // variance of the pixel value
   // The light AOVs divide the light that leaves the first surface. They sum to the picture.
   Emission,          // emitted by the first surface, and the background
   Direct,            // scattered by non-specular lobes, directly from a light
@@ -32,12 +38,13 @@ enum class Aov {
   PhotonDensity,     // photons of all maps per unit area at the first surface
   RadianceDistance,  // mean distance from gather hits to the radiance photons they read
 };
-inline constexpr int kAovCount = 13;
+inline constexpr int kAovCount = 18;
 
 struct AovInfo {
-  const char* name;                   // for example "Albedo", as in --aov
-  std::vector<std::string> channels;  // for example "Albedo.R"
+  const char* name;                   // for example "albedo", as in --aov
+  std::vector<std::string> channels;  // for example "albedo.R"
   const char* meaning;
+  bool isExact = false;  // 16 bits would be too few; EXR files always have 32
 };
 const AovInfo& GetAovInfo(Aov aov);
 
@@ -56,7 +63,7 @@ class AovSet {
   friend constexpr bool operator==(AovSet, AovSet) = default;
 
   std::vector<Aov> List() const;  // in the order of the enumeration
-  std::string Names() const;      // for example "Albedo, N"
+  std::string Names() const;      // for example "albedo, N"
 
  private:
   constexpr explicit AovSet(std::uint32_t bits) : bits_(bits) {}
@@ -65,13 +72,15 @@ class AovSet {
 
 inline constexpr AovSet kLightAovs{Aov::Emission, Aov::Direct, Aov::Caustic, Aov::Indirect,
                                    Aov::Specular};
-inline constexpr AovSet kSurfaceAovs{Aov::Albedo, Aov::Normal, Aov::Position};
+inline constexpr AovSet kSurfaceAovs{Aov::Albedo,   Aov::Normal,    Aov::GeometricNormal,
+                                     Aov::Position, Aov::Depth,     Aov::TexCoords,
+                                     Aov::ObjectId, Aov::MaterialId};
 // The AOVs that the renderer fills for every integrator.
 inline constexpr AovSet kRendererAovs =
     kSurfaceAovs | AovSet{Aov::Variance, Aov::Time, Aov::Samples};
 
-// Parses a list such as "Albedo,N,direct". "light" selects all light AOVs. Case is ignored, and
-// "Albedo.RGB" is the same as "Albedo". Returns nullopt if a name is unknown and stores that name
+// Parses a list such as "albedo,N,direct". "light" selects all light AOVs. Case is ignored, and
+// "albedo.RGB" is the same as "albedo". Returns nullopt if a name is unknown and stores that name
 // in *unknown.
 std::optional<AovSet> ParseAovs(std::string_view list, std::string* unknown);
 
@@ -82,11 +91,18 @@ struct AovSample {
 
   Spectrum emission, direct, caustic, indirect, specular;
   Spectrum albedo;
-  Normal3 n;  // 0 if the ray escaped
-  Point3 p;   // 0 if the ray escaped
+  bool isHit = false;  // whether the ray hit a surface; if not, its data are 0
+  Normal3 n, ng;
+  Point3 p;
+  Real depth = 0;
+  Point2 uv;
+  std::uint32_t objectId = 0, materialId = 0;
   double photonDensity = 0;
   double radianceDistance = 0;           // sum over the reads
   std::int64_t radiancePhotonsRead = 0;  // number of reads
+  // The sample's own part of the light that pixels share after all pixels are rendered. It is not
+  // in the sample's radiance, but Variance counts it. Variance is then an upper bound.
+  Spectrum ownGathers;
 };
 
 }  // namespace exphoton

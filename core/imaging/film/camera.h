@@ -34,6 +34,11 @@ class Camera {
   // Returns whether the camera moves during the interval.
   virtual bool MovesWithin(Interval interval) const { return (void)interval, false; }
   virtual const Transform& CameraToWorld() const = 0;  // at shutter open
+  // Returns the depth of a point in world space at this time, in camera units: z in camera space,
+  // or the distance if the camera sees all directions.
+  virtual Real Depth(const Point3& p, Real time) const {
+    return (void)time, CameraToWorld().Inverted().ApplyPoint(p).z;
+  }
   // World to normalised device coordinates, for the EXR attribute; identity if there is none.
   virtual Matrix4 WorldToNdc() const { return {}; }
 };

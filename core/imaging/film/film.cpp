@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/files/byte_archive.h"
 
 namespace exphoton {
 
@@ -112,6 +113,18 @@ void Film::Add(const Film& other) {
     p.absB += q.absB;
     p.absAlpha += q.absAlpha;
     p.absWeight += q.absWeight;
+  }
+}
+
+void Film::Transfer(ByteArchive* archive) {
+  for (const PixelBounds& bounds : {full_, crop_})
+    for (const int edge : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) archive->Same(edge);
+  for (Pixel& p : pixels_) {
+    char isUsed = p.samples != 0 || p.weight != 0;  // one byte for pixels without samples
+    archive->Values(&isUsed);
+    if (!isUsed) continue;
+    archive->Values(&p.r, &p.g, &p.b, &p.alpha, &p.weight, &p.samples);
+    archive->Values(&p.absR, &p.absG, &p.absB, &p.absAlpha, &p.absWeight);
   }
 }
 

@@ -15,6 +15,8 @@
 
 namespace exphoton {
 
+class ByteArchive;
+
 // The parameters of Film "image". Their table is in core/parser/film_parameters.h.
 struct FilmSettings {
   std::string filename = "pbrt.exr";
@@ -49,6 +51,7 @@ class Film {
 
   // Removes all samples.
   void Clear();
+  void ClearPixel(Point2i pixel) { pixels_[IndexOf(pixel)] = Pixel(); }
   // Adds the samples of another film with the same windows, as if they followed this film's
   // samples.
   void Add(const Film& other);
@@ -72,6 +75,9 @@ class Film {
   // alpha is at most 1. Pixels without samples are 0. premultiplyAlpha multiplies R, G, B by A, as
   // in pbrt v1.
   Image ToImage(bool premultiplyAlpha) const;
+
+  // Saves or loads the sums of all pixels. Throws ArchiveError if the saved film had another size.
+  void Transfer(ByteArchive* archive);
 
  private:
   // sum(w) is close to the number of samples, except by chance after the first few samples of a

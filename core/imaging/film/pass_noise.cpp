@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/files/byte_archive.h"
 #include "core/imaging/metrics/metrics.h"
 
 namespace exphoton {
@@ -74,6 +75,22 @@ void PassNoise::Join() {
   }
   samples_[0] = std::int64_t(SampleCount());
   std::fill(samples_.begin() + 1, samples_.end(), 0);
+}
+
+void PassNoise::Transfer(ByteArchive* archive) {
+  archive->Same(std::uint64_t(pixelCount_));
+  archive->Same(std::uint64_t(sums_.size()));
+  for (std::int64_t& samples : samples_) archive->Values(&samples);
+  for (std::vector<Sums>& group : sums_) {
+    const std::size_t count = archive->Count(group.size(), sizeof(Sums));
+    if (count != 0 && count != pixelCount_) throw ArchiveError("a group has other pixels");
+    group.resize(count);
+    for (Sums& sums : group)
+      archive->Values(&sums.rgb[0], &sums.rgb[1], &sums.rgb[2], &sums.weight);
+  }
+  for (std::size_t g = 0; g < sums_.size(); ++g)
+    if (samples_[g] < 0 || (samples_[g] > 0 && sums_[g].empty()))
+      throw ArchiveError("a group has no pixels");
 }
 
 double PassNoise::SampleCount() const {

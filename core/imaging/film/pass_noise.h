@@ -19,6 +19,8 @@ class PassNoise {
   std::int64_t SamplesOf(int group) const { return samples_[std::size_t(group)]; }
   // Moves the samples of all groups to the first one.
   void Join();
+  // Saves or loads the samples. Throws ArchiveError if the saved pixels or groups were others.
+  void Transfer(ByteArchive* archive);
 
   // Estimates the mean over pixels and channels of var / (r^2 + 0.01), the noise part of relMSE.
   // var is the variance of the picture of all passes, and r is the true picture. The mean of 5 x 5

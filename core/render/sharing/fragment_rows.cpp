@@ -16,16 +16,21 @@ FragmentRows::FragmentRows(const GatherFragments& gathers) : bounds_(gathers.Bou
   for (int y = bounds_.y0; y < bounds_.y1; ++y) {
     for (int x = bounds_.x0; x < bounds_.x1; ++x) {
       for (const GatherFragment& f : gathers.At({x, y}).fragments) {
-        const Real values[kColumns] = {f.film.x,   f.film.y,      f.p.x,         f.p.y,
-                                       f.p.z,      f.ng.x,        f.ng.y,        f.ng.z,
-                                       f.n.x,      f.n.y,         f.n.z,         Real(f.depth),
-                                       f.count[0], f.lights[0].r, f.lights[0].g, f.lights[0].b,
-                                       f.count[1], f.lights[1].r, f.lights[1].g, f.lights[1].b};
-        for (std::size_t c = 0; c < kColumns; ++c) columns_[c][at] = values[c];
+        const Real values[Group0] = {f.film.x, f.film.y, f.p.x, f.p.y, f.p.z, f.ng.x,
+                                     f.ng.y,   f.ng.z,   f.n.x, f.n.y, f.n.z, Real(f.depth)};
+        for (std::size_t c = 0; c < Group0; ++c) columns_[c][at] = values[c];
+        for (int group = 0; group < kGatherGroups; ++group)
+          SetRecords(OfGroup(group), at, f.count[std::size_t(group)], f.lights[std::size_t(group)]);
+        SetRecords(All, at, f.Count(), f.Light());
         ++at;
       }
     }
   }
+}
+
+void FragmentRows::SetRecords(Column first, std::size_t at, Real count, const Spectrum& light) {
+  const Real values[] = {count, light.r, light.g, light.b};
+  for (std::size_t c = 0; c < 4; ++c) columns_[std::size_t(first) + c][at] = values[c];
 }
 
 FragmentRows::Range FragmentRows::Fragments(int x0, int x1, int y) const {

@@ -28,16 +28,13 @@ class FragmentRows {
     Ny,
     Nz,
     Depth,
-    Count0,
-    R0,
-    G0,
-    B0,
-    Count1,
-    R1,
-    G1,
-    B1,
-    kColumns
+    Group0,  // number of records, and R, G, B of their sum; each of the four groups has four
+             // columns
+    All = Group0 + 4 * kGatherGroups,  // the same for all groups together
+    kColumns = All + 4
   };
+  // Returns the first column of a group.
+  static Column OfGroup(int group) { return Column(Group0 + 4 * group); }
 
   explicit FragmentRows(const GatherFragments& gathers);
 
@@ -50,6 +47,7 @@ class FragmentRows {
   std::size_t First(Point2i pixel) const { return first_[IndexOf(pixel)]; }
 
  private:
+  void SetRecords(Column first, std::size_t at, Real count, const Spectrum& light);
   std::size_t IndexOf(Point2i pixel) const {
     return std::size_t(pixel.y - bounds_.y0) * std::size_t(bounds_.Width()) +
            std::size_t(pixel.x - bounds_.x0);

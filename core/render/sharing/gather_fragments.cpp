@@ -8,23 +8,25 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/files/byte_archive.h"
 
 namespace exphoton {
 namespace {
 
 // Before Finish, positions are sums over all records; ng is the normal of the first record.
-Point3 MeanPosition(const GatherFragment& fragment) {
-  return fragment.p / (fragment.count[0] + fragment.count[1]);
-}
+Point3 MeanPosition(const GatherFragment& fragment) { return fragment.p / fragment.Count(); }
 
 }  // namespace
 
+// A fragment is kept in its pixel and in the columns of FragmentRows. Most pixels have one.
+double GatherFragments::BytesPerPixel(std::int64_t samplesPerPixel) {
+  return double(sizeof(Pixel) + 2 * sizeof(GatherFragment)) +
+         double(samplesPerPixel) * double(sizeof(GatherSample));
+}
+
 GatherFragments::GatherFragments(const PixelBounds& bounds, std::int64_t samplesPerPixel)
     : bounds_(bounds) {
-  // A fragment is kept in its pixel and in the columns of FragmentRows. Most pixels have one.
-  const double perPixel = double(sizeof(Pixel) + 2 * sizeof(GatherFragment)) +
-                          double(samplesPerPixel) * double(sizeof(GatherSample));
-  const double need = double(bounds.Width()) * bounds.Height() * perPixel;
+  const double need = double(bounds.Width()) * bounds.Height() * BytesPerPixel(samplesPerPixel);
   const std::string text = "shared gathers of " + std::to_string(bounds.Width()) + " x " +
                            std::to_string(bounds.Height()) + " pixels need " + Megabytes(need);
   const std::string hint = "render parts of the picture, or set \"sharedgather\" to false";
@@ -37,8 +39,22 @@ GatherFragments::GatherFragments(const PixelBounds& bounds, std::int64_t samples
   }
 }
 
+void GatherFragments::MoveDown(int y0, int y1) {
+  const auto width = std::size_t(bounds_.Width());
+  const auto dropped = std::size_t(std::clamp(y0 - bounds_.y0, 0, bounds_.Height())) * width;
+  // The pixels of dropped rows are used again below, with the memory that they hold.
+  std::rotate(pixels_.begin(), pixels_.begin() + std::ptrdiff_t(dropped), pixels_.end());
+  for (std::size_t i = pixels_.size() - dropped; i < pixels_.size(); ++i) {
+    pixels_[i].fragments.clear();
+    pixels_[i].samples.clear();
+  }
+  bounds_.y0 = y0;
+  bounds_.y1 = y1;
+  pixels_.resize(width * std::size_t(bounds_.Height()));
+}
+
 void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real filterWeight,
-                                 int half) {
+                                 int group) {
   for (const GatherRecord& record : records) {
     const auto isOnSurface = [&](const GatherFragment& fragment) {
       return fragment.depth == record.depth &&
@@ -54,16 +70,37 @@ void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real
     fragment->film = fragment->film + film;
     fragment->p += record.p;
     fragment->n += record.n;
-    fragment->lights[std::size_t(half)] += record.light;
-    fragment->count[std::size_t(half)] += 1;
+    fragment->lights[std::size_t(group)] += record.light;
+    fragment->count[std::size_t(group)] += 1;
     samples.push_back({film, record.n, record.light, record.weight, filterWeight,
                        std::uint32_t(fragment - fragments.begin()), record.depth});
   }
 }
 
+void GatherFragments::Pixel::Transfer(ByteArchive* archive) {
+  const auto vector = [archive](auto* v) { archive->Values(&v->x, &v->y, &v->z); };
+  const auto color = [archive](Spectrum* s) { archive->Values(&s->r, &s->g, &s->b); };
+  fragments.resize(archive->Count(fragments.size(), 27 * sizeof(Real)));
+  for (GatherFragment& fragment : fragments) {
+    archive->Values(&fragment.film.x, &fragment.film.y, &fragment.depth);
+    vector(&fragment.p), vector(&fragment.n), vector(&fragment.ng);
+    for (std::size_t group = 0; group < kGatherGroups; ++group) {
+      archive->Values(&fragment.count[group]);
+      color(&fragment.lights[group]);
+    }
+  }
+  samples.resize(archive->Count(samples.size(), 12 * sizeof(Real)));
+  for (GatherSample& sample : samples) {
+    archive->Values(&sample.film.x, &sample.film.y, &sample.filterWeight, &sample.fragment,
+                    &sample.depth);
+    vector(&sample.n), color(&sample.light), color(&sample.weight);
+    if (sample.fragment >= fragments.size()) throw ArchiveError("a gather has no fragment");
+  }
+}
+
 void GatherFragments::Pixel::Finish() {
   for (GatherFragment& fragment : fragments) {
-    const Real scale = 1 / (fragment.count[0] + fragment.count[1]);
+    const Real scale = 1 / fragment.Count();
     fragment.film = fragment.film * scale;
     fragment.p = fragment.p * scale;
     fragment.n = fragment.n * scale;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // GatherFragments stores the gathers of a picture. The records of a pixel that lie on one surface
-// form a fragment. The camera samples are divided into two halves, so that the gathers of one half
-// can be judged against those of the other half.
+// form a fragment. The camera samples are divided into four groups with independent gathers. The
+// first two groups choose how far gathers are shared, and the other two check the choice.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 
 namespace exphoton {
 
+class ByteArchive;
+
 // Two points lie on one smooth surface if the cosine of their normals is at least this, and if the
 // line between them makes at most this sine, squared, with both tangent planes (26 and 6 degrees).
 constexpr Real kSurfaceMinCosine = Real(.9), kSurfaceMaxSlope2 = Real(.01);
@@ -25,18 +27,33 @@ inline bool LieOnOneSurface(const Point3& p, const Normal3& pn, const Point3& q,
   return Square(Dot(d, pn)) <= limit && Square(Dot(d, qn)) <= limit;
 }
 
+constexpr int kGatherGroups = 4;
+constexpr std::array<int, 2> kChoosingGroups{0, 1}, kCheckingGroups{2, 3};
+
+// Returns the group of a camera sample. Of two samples in a pixel, both choose or both check, in
+// squares of four pixels like the fields of a chessboard. Each pixel has both choosing groups, but
+// only one of the checking groups: low-discrepancy samples of one pixel are not independent of each
+// other, while those of different pixels are.
+inline int GatherGroup(Point2i pixel, std::int64_t sample) {
+  const std::int64_t pair = ((sample >> 1) + (pixel.x >> 2) + (pixel.y >> 2)) & 1;
+  const std::int64_t parity = (pixel.x + pixel.y) & 1;
+  return int(pair == 0 ? (sample + parity) & 1 : 2 + parity);
+}
+
 struct GatherFragment {
   Point2 film;  // mean position, in pixels
   Point3 p;     // mean
   Normal3 n, ng;
   int depth = 0;
-  std::array<Real, 2> count{};       // of records, by half
-  std::array<Spectrum, 2> lights{};  // their sums, by half
+  std::array<Real, kGatherGroups> count{};       // of records, by group
+  std::array<Spectrum, kGatherGroups> lights{};  // their sums, by group
 
-  Spectrum Mean(int half) const {
-    return lights[std::size_t(half)] / std::max(count[std::size_t(half)], Real(1));
+  Real Count() const { return (count[0] + count[1]) + (count[2] + count[3]); }
+  Spectrum Light() const { return (lights[0] + lights[1]) + (lights[2] + lights[3]); }
+  Spectrum Mean(int group) const {
+    return lights[std::size_t(group)] / std::max(count[std::size_t(group)], Real(1));
   }
-  bool HasBothHalves() const { return count[0] > 0 && count[1] > 0; }
+  bool HasGroup(int group) const { return count[std::size_t(group)] > 0; }
 };
 
 // A record as it is kept until its shared light is known.
@@ -57,12 +74,19 @@ class GatherFragments {
     std::vector<GatherSample> samples;
 
     // Adds the records of one camera sample.
-    void Add(const GatherRecords& records, Point2 film, Real filterWeight, int half);
-    void Finish();  // turns sums into means
+    void Add(const GatherRecords& records, Point2 film, Real filterWeight, int group);
+    void Finish();                        // turns sums into means
+    void Transfer(ByteArchive* archive);  // saves or loads
   };
 
   // Throws Error(Resource) if memory is insufficient for this number of samples a pixel.
   GatherFragments(const PixelBounds& bounds, std::int64_t samplesPerPixel);
+
+  static double BytesPerPixel(std::int64_t samplesPerPixel);  // including FragmentRows
+
+  // Moves the bounds down, to rows y0 to y1 - 1. Rows that stay within the bounds keep their
+  // gathers, and the others are empty.
+  void MoveDown(int y0, int y1);
 
   const PixelBounds& Bounds() const { return bounds_; }
   Pixel& At(Point2i pixel) { return pixels_[IndexOf(pixel)]; }

@@ -77,22 +77,23 @@ void FitNeighbours::Reserve(std::size_t count) {
     if (column.size() < size + count) column.resize(2 * (size + count));
 }
 
-void LocalFit::Collect(const FragmentRows& rows, const FitTarget& target, Point2i pixel,
-                       Real radius, FitNeighbours* out) {
+void LocalFit::Collect(const FragmentRows& rows, const Place& place,
+                       std::span<const FragmentRows::Column> sets, FitNeighbours* out) {
   const LocalFitLoops& loops = *Loops().back();
   out->Clear();
-  const int reach = int(std::ceil(radius));
+  const int reach = int(std::ceil(place.radius));
+  const Point2i pixel = place.pixel;
   for (int y = pixel.y - reach; y <= pixel.y + reach; ++y) {
     const FragmentRows::Range range = rows.Fragments(pixel.x - reach, pixel.x + reach + 1, y);
     if (range.begin == range.end) continue;
     out->Reserve(range.end - range.begin + FitNeighbours::kRun);
-    loops.describe(rows, range, target, out);
+    loops.describe(rows, range, place.target, sets, out);
   }
 }
 
-LocalFit::LocalFit(const FitNeighbours& neighbours, Real radius, int half) {
+LocalFit::LocalFit(const FitNeighbours& neighbours, Real radius, int set) {
   FitMoments moments;
-  Loops().back()->accumulate(neighbours, radius, half, &moments);
+  Loops().back()->accumulate(neighbours, radius, set, &moments);
   total_ = moments.matrix[0];
   if (IsEmpty()) return;
   Matrix matrix = NormalMatrix(moments, double(Square(radius * FitTarget::kFilmScale)));

@@ -31,7 +31,8 @@ struct FitTarget {
   Real depth;
 };
 
-// FitNeighbours lists the fragments around a target, as a structure of arrays.
+// FitNeighbours lists the fragments around a target, as a structure of arrays, with the records of
+// one set or of two sets.
 struct FitNeighbours {
   static constexpr std::size_t kRun = 8;
   enum Column { Distance2, U1, U2, U3, U4, Count0, R0, G0, B0, Count1, R1, G1, B1, kColumns };
@@ -56,19 +57,25 @@ struct LocalFitLoops {
   // Appends the fragments of a range. Those on another surface, and padding, get an infinite
   // distance.
   void (*describe)(const FragmentRows& rows, FragmentRows::Range range, const FitTarget& target,
-                   FitNeighbours* out);
-  // Adds up the records of one half (0 or 1) within the radius, or of both (2).
-  void (*accumulate)(const FitNeighbours& from, Real radius, int half, FitMoments* moments);
+                   std::span<const FragmentRows::Column> sets, FitNeighbours* out);
+  // Adds up the records of one set (0 or 1) within the radius.
+  void (*accumulate)(const FitNeighbours& from, Real radius, int set, FitMoments* moments);
 };
 
 class LocalFit {
  public:
-  // Collects the fragments within `radius` pixels of the target.
-  static void Collect(const FragmentRows& rows, const FitTarget& target, Point2i pixel, Real radius,
-                      FitNeighbours* out);
+  // Collects the fragments within `radius` pixels of the target. `sets` are the first columns of
+  // one or two sets of records.
+  struct Place {
+    const FitTarget& target;
+    Point2i pixel;
+    Real radius;
+  };
+  static void Collect(const FragmentRows& rows, const Place& place,
+                      std::span<const FragmentRows::Column> sets, FitNeighbours* out);
 
-  // Fits the records of one half (0 or 1) or of both (2). The neighbours must reach to `radius`.
-  LocalFit(const FitNeighbours& neighbours, Real radius, int half);
+  // Fits the records of one set (0 or 1). The neighbours must reach to `radius`.
+  LocalFit(const FitNeighbours& neighbours, Real radius, int set);
 
   bool IsEmpty() const { return !(total_ > 0); }  // no record had a weight
   Spectrum At(const FitFeatures& features) const;

@@ -54,7 +54,7 @@ HWY_INLINE Real8 Dot(const Vector8& a, const Vector8& b) {
 }
 
 void Describe(const FragmentRows& rows, FragmentRows::Range range, const FitTarget& target,
-              FitNeighbours* out) {
+              std::span<const FragmentRows::Column> sets, FitNeighbours* out) {
   using F = FragmentRows;
   using N = FitNeighbours;
   const Real8 x = Real8::All(target.film.x), y = Real8::All(target.film.y);
@@ -81,8 +81,10 @@ void Describe(const FragmentRows& rows, FragmentRows::Range range, const FitTarg
     store(N::U2, dy * scale);
     store(N::U3, Dot(tilt, s));
     store(N::U4, Dot(tilt, t));
-    for (int c = 0; c < 8; ++c)
-      store(N::Count0 + c, Real8::LoadUnaligned(rows.At(F::Column(F::Count0 + c)) + i));
+    for (std::size_t set = 0; set < sets.size(); ++set)
+      for (int c = 0; c < 4; ++c)
+        store(N::Count0 + 4 * int(set) + c,
+              Real8::LoadUnaligned(rows.At(F::Column(sets[set] + c)) + i));
     out->size += N::kRun;
   }
 }
@@ -99,14 +101,11 @@ HWY_INLINE void ForRuns(const FitNeighbours& from, Real radius, const Use& use) 
   }
 }
 
-void Accumulate(const FitNeighbours& from, Real radius, int half, FitMoments* moments) {
+void Accumulate(const FitNeighbours& from, Real radius, int set, FitMoments* moments) {
   using N = FitNeighbours;
-  // Returns the records of the chosen half, or of both. `column` belongs to half 0.
-  const auto records = [&](int column, std::size_t i) HWY_ATTR {
-    if (half < 2) return Real8::LoadUnaligned(from.At(column + 4 * half) + i);
-    return Real8::LoadUnaligned(from.At(column) + i) +
-           Real8::LoadUnaligned(from.At(column + 4) + i);
-  };
+  // Returns the records of the set. `column` belongs to set 0.
+  const auto records = [&](int column, std::size_t i)
+                           HWY_ATTR { return Real8::LoadUnaligned(from.At(column + 4 * set) + i); };
   const auto feature = [&](int f, std::size_t i)
                            HWY_ATTR { return Real8::LoadUnaligned(from.At(N::U1 + f) + i); };
   Real8 matrix[15];

@@ -3,9 +3,9 @@
 #include "core/render/sharing/shared_gathers.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
+#include "core/files/byte_archive.h"
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/local_fit.h"
 #include "core/render/sharing/sharing_windows.h"
@@ -17,12 +17,12 @@ namespace {
 class FragmentLight {
  public:
   FragmentLight(const FragmentRows& rows, Point2i pixel, const GatherFragment& fragment,
-                Real radius, FitNeighbours* scratch)
-      : target_(fragment), share_(std::min(radius / SharingWindows::kRadii[1], Real(1))) {
+                const SharingWindows::Window& window, FitNeighbours* scratch)
+      : target_(fragment), share_(window.share) {
     if (!(share_ > 0)) return;
-    radius = std::max(radius, SharingWindows::kRadii[1]);
-    LocalFit::Collect(rows, target_, pixel, radius, scratch);
-    fit_.emplace(*scratch, radius, 2);
+    static constexpr FragmentRows::Column kAll[] = {FragmentRows::All};
+    LocalFit::Collect(rows, {target_, pixel, window.radius}, kAll, scratch);
+    fit_.emplace(*scratch, window.radius, 0);
   }
 
   Spectrum At(const GatherSample& sample) const {
@@ -39,15 +39,25 @@ class FragmentLight {
 
 }  // namespace
 
+void SharingTotals::Transfer(ByteArchive* archive) {
+  archive->Values(&radii, &fragments);
+  checked.resize(archive->Count(checked.size(), 2 * sizeof(int) + 3 * sizeof(double)));
+  for (CheckedPixel& pixel : checked) {
+    archive->Values(&pixel.pixel.x, &pixel.pixel.y);
+    archive->Values(&pixel.product[0], &pixel.product[1], &pixel.product[2]);
+  }
+}
+
 int SharingMargin() { return SharingWindows::kReach; }
 
-double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
-                      const SharedLightTarget& target) {
+SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
+                             const SharedLightTarget& target) {
   const FragmentRows rows(gathers);
   const SharingWindows windows(gathers, rows, threads);
-  const PixelBounds window = target.splats ? target.splats->Window() : target.film->Crop();
+  const SharingChecker checker(gathers, rows, windows, target.samplesPerPixel);
+  const PixelBounds& window = target.window;
   std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));
-  std::vector<double> radii(std::size_t(window.Height())), fragments(radii.size());
+  std::vector<SharingTotals> totals(std::size_t(window.Height()));  // by row
   threads->For(window.Height(), [&](std::int64_t row, int worker) {
     std::vector<FragmentLight> lights;
     SplatBuffer::Pixel splat;
@@ -56,11 +66,13 @@ double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
       const GatherFragments::Pixel& gathered = gathers.At(pixel);
       lights.clear();
       for (const GatherFragment& fragment : gathered.fragments) {
-        const Real radius = windows.RadiusAt(pixel, fragment);
-        lights.emplace_back(rows, pixel, fragment, radius, &scratch[std::size_t(worker)]);
-        radii[std::size_t(row)] += double(radius);
-        fragments[std::size_t(row)] += 1;
+        const SharingWindows::Window chosen = windows.At(pixel, fragment);
+        lights.emplace_back(rows, pixel, fragment, chosen, &scratch[std::size_t(worker)]);
+        totals[std::size_t(row)].radii += double(chosen.radius * chosen.share);
+        totals[std::size_t(row)].fragments += 1;
       }
+      if (const auto checked = checker.Check(pixel, &scratch[std::size_t(worker)]))
+        totals[std::size_t(row)].checked.push_back(*checked);
       if (target.splats) splat.Begin(target.splats, pixel);
       for (const GatherSample& sample : gathered.samples) {
         const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
@@ -75,8 +87,9 @@ double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
       if (target.splats) splat.End();
     }
   });
-  const double count = std::accumulate(fragments.begin(), fragments.end(), 0.);
-  return std::accumulate(radii.begin(), radii.end(), 0.) / std::max(count, 1.);
+  SharingTotals total;
+  for (const SharingTotals& row : totals) total.Add(row);
+  return total;
 }
 
 }  // namespace exphoton

@@ -9,6 +9,7 @@
 #include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/film.h"
 #include "core/render/sharing/gather_fragments.h"
+#include "core/render/sharing/sharing_bias.h"
 #include "core/render/splat_buffer.h"
 
 namespace exphoton {
@@ -16,14 +17,28 @@ namespace exphoton {
 // The light of a pixel depends on the gathers within this number of pixels.
 int SharingMargin();
 
-// Adds the light of all gathers to the film and, if not null, to the AOVs. If `splats` is not null,
-// it receives the light instead. Returns the mean radius of the windows in pixels.
+// Adds the light of the gathers in the window to the film and, if not null, to the AOVs. If
+// `splats` is not null, it receives the light instead.
 struct SharedLightTarget {
   Film* film;
   AovFilm* aovs;
   SplatBuffer* splats;
+  PixelBounds window;
+  double samplesPerPixel;
 };
-double AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
-                      const SharedLightTarget& target);
+// SharingTotals adds up the radii of the windows, in pixels.
+struct SharingTotals {
+  double radii = 0, fragments = 0;
+  std::vector<CheckedPixel> checked;
+  void Add(const SharingTotals& other) {
+    radii += other.radii;
+    fragments += other.fragments;
+    checked.insert(checked.end(), other.checked.begin(), other.checked.end());
+  }
+  void Transfer(ByteArchive* archive);  // saves or loads
+  double MeanRadius() const { return fragments > 0 ? radii / fragments : 0; }
+};
+SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
+                             const SharedLightTarget& target);
 
 }  // namespace exphoton

@@ -6,13 +6,14 @@
 namespace exphoton {
 
 SharingPlan PlanSharing(const SurfaceIntegrator& integrator, const Scene& scene,
-                        const Camera& camera, AovSet aovs) {
+                        const Camera& camera) {
   if (!integrator.SharesGathers(scene)) return {};
+  const auto& features = scene.Features();
+  if (features.Needs(Feature::Lens) && camera.HasLens()) return {false, "the camera has a lens"};
   const Interval shutter = camera.Shutter();
-  if (camera.HasLens()) return {false, "the camera has a lens"};
-  if (camera.MovesWithin(shutter)) return {false, "the camera moves"};
-  if (scene.Primitives().MovesWithin(shutter)) return {false, "a shape moves"};
-  if (aovs.Has(Aov::Variance)) return {false, "the variance AOV needs independent pixels"};
+  const bool hasMotion = features.Needs(Feature::Motion);
+  if (hasMotion && camera.MovesWithin(shutter)) return {false, "the camera moves"};
+  if (hasMotion && scene.Primitives().MovesWithin(shutter)) return {false, "a shape moves"};
   return {true, "between neighbouring pixels on one surface"};
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SharingPlan decides whether a picture shares its gathers, and why. The decision depends on the
-// scene itself and not on --effects, so that switching an effect on never changes the picture.
+// SharingPlan decides whether a picture shares its gathers, and why. An effect that the scene does
+// not require never changes the decision, so switching all effects on does not change the picture.
+// A scene without motion, or with motion switched off, shares.
 #pragma once
 
 #include <string>
 
-#include "core/imaging/film/aovs.h"
 #include "core/imaging/film/camera.h"
 #include "core/scene/scene.h"
 #include "core/transport/integrator.h"
@@ -18,6 +18,6 @@ struct SharingPlan {
 };
 
 SharingPlan PlanSharing(const SurfaceIntegrator& integrator, const Scene& scene,
-                        const Camera& camera, AovSet aovs);
+                        const Camera& camera);
 
 }  // namespace exphoton

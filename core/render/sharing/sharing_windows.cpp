@@ -15,9 +15,14 @@ constexpr Real kChoiceRadius = 12, kBlendRadius = 6;  // pixels
 int FloorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 int CeilDivide(int a, int b) { return -FloorDivide(-a, b); }
 
+// In double precision, because the square of faint or bright light leaves the range of float.
 double SquaredDifference(const Spectrum& a, const Spectrum& b) {
-  const Spectrum d = a - b;
-  return double(d.r * d.r + d.g * d.g + d.b * d.b);
+  double sum = 0;
+  for (int c = 0; c < Spectrum::kChannels; ++c) {
+    const double d = double(a[c]) - double(b[c]);
+    sum += d * d;
+  }
+  return sum;
 }
 
 // Statistics of the differences between two windows' errors.
@@ -62,19 +67,22 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
                                             const GatherFragment& fragment,
                                             FitNeighbours* scratch) {
   Place place(pixel, fragment);
-  if (!fragment.HasBothHalves()) return place;
-  LocalFit::Collect(rows, FitTarget(fragment), pixel, kMaxRadius, scratch);
-  const Spectrum smooth = LocalFit(*scratch, kMaxRadius, 2).At({1, 0, 0, 0, 0});
+  if (!fragment.HasGroup(kChoosingGroups[0]) || !fragment.HasGroup(kChoosingGroups[1]))
+    return place;
+  const FragmentRows::Column sets[] = {FragmentRows::OfGroup(kChoosingGroups[0]),
+                                       FragmentRows::OfGroup(kChoosingGroups[1])};
+  LocalFit::Collect(rows, {FitTarget(fragment), pixel, kMaxRadius}, sets, scratch);
+  std::array<std::array<Spectrum, kRadii.size()>, 2> fitted;
+  for (int set = 0; set < 2; ++set)
+    for (std::size_t w = 0; w < kRadii.size(); ++w)
+      fitted[std::size_t(set)][w] = w == 0 ? fragment.Mean(kChoosingGroups[std::size_t(set)])
+                                           : LocalFit(*scratch, kRadii[w], set).At({1, 0, 0, 0, 0});
+  const Spectrum smooth = (fitted[0].back() + fitted[1].back()) * Real(.5);
   const double scale = SquaredDifference(smooth, Spectrum());
   if (!(scale > 0)) return place;
-  for (int half = 0; half < 2; ++half) {
-    const Spectrum other = fragment.Mean(1 - half);
-    for (std::size_t w = 0; w < kRadii.size(); ++w) {
-      const Spectrum fitted =
-          w == 0 ? fragment.Mean(half) : LocalFit(*scratch, kRadii[w], half).At({1, 0, 0, 0, 0});
-      place.errors[std::size_t(half)][w] = float(SquaredDifference(fitted, other) / scale);
-    }
-  }
+  for (std::size_t set = 0; set < 2; ++set)
+    for (std::size_t w = 0; w < kRadii.size(); ++w)
+      place.errors[set][w] = float(SquaredDifference(fitted[set][w], fitted[1 - set][0]) / scale);
   place.isJudged = true;
   return place;
 }
@@ -115,6 +123,11 @@ Real SharingWindows::Choose(const Place& place) const {
     if (isBetter(window)) best = window;
   if (best == 1 && isBetter(0)) best = 0;
   return kRadii[best];
+}
+
+SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {
+  const Real radius = RadiusAt(pixel, fragment);
+  return {std::max(radius, kRadii[1]), std::min(radius / kRadii[1], Real(1))};
 }
 
 Real SharingWindows::RadiusAt(Point2i pixel, const GatherFragment& fragment) const {

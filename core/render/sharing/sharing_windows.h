@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SharingWindows chooses how far gathers are shared, by cross-validation: light that is fitted to
-// the gathers of one half of the samples is compared with the gathers of the other half. Their mean
+// the gathers of one choosing group of samples is compared with those of the other one. Their mean
 // squared difference is the error of the fit, bias included, plus noise that is the same for all
 // windows. Windows are chosen on a grid of every fourth pixel, which is anchored at pixel 0,0.
 #pragma once
@@ -27,11 +27,18 @@ class SharingWindows {
 
   SharingWindows(const GatherFragments& gathers, const FragmentRows& rows, ThreadPool* threads);
 
+  // The radius of a fit in pixels, and the share of the fit in the light. The rest is the sample's
+  // own light. The share is 1 except where windows are smaller than the smallest fit.
+  struct Window {
+    Real radius, share;
+  };
+  Window At(Point2i pixel, const GatherFragment& fragment) const;
+
+ private:
   // Returns the radius for a fragment of the pixel: the mean of the radii chosen nearby on its
   // surface.
   Real RadiusAt(Point2i pixel, const GatherFragment& fragment) const;
 
- private:
   struct Place {  // a fragment of a pixel, mostly of a grid pixel
     Place(Point2i aPixel, const GatherFragment& fragment)
         : pixel(aPixel),
@@ -44,7 +51,7 @@ class SharingWindows {
     Point3 p;
     Normal3 ng;
     int depth;
-    // Squared relative differences between the fit of each window and the other half; by half of
+    // Squared relative differences between the fit of each window and the other group; by group of
     // the fit.
     std::array<std::array<float, kRadii.size()>, 2> errors{};
     bool isJudged = false;

@@ -65,6 +65,21 @@ TEST(Film, WeightsThatCancelGiveTheSamePixelInASumOfFilms) {
   EXPECT_EQ(sum.SampleCount({0, 0}), 4);
 }
 
+TEST(Film, ASumOfFilmsHasTheMeanOfAllSamples) {
+  Film sum(kOnePixel, kOnePixel);
+  const Real alphas[] = {1, 0, Real(.5)};
+  for (int i = 0; i < 3; ++i) {
+    Film film(kOnePixel, kOnePixel);
+    film.AddSample({0, 0}, Spectrum(Real(i), Real(2 * i), Real(4 * i)), alphas[i], 1);
+    sum.Add(film);
+  }
+  const Image image = sum.ToImage(false);
+  EXPECT_EQ(image.At(0, 0, 0), 1);
+  EXPECT_EQ(image.At(0, 0, 1), 2);
+  EXPECT_EQ(image.At(0, 0, 2), 4);
+  EXPECT_EQ(image.At(0, 0, 3), .5f);
+}
+
 // If less than half of the total weight remains, the mean uses the weights' absolute values.
 TEST(Film, WeightsThatNearlyCancelDoNotScaleThePixel) {
   const auto pixel = [](int positive, int negative) {

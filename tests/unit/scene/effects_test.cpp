@@ -43,6 +43,17 @@ TEST(RequiredFeatures, HasIndirectLightUnderAGlowingMediumAlone) {
   EXPECT_TRUE(PlanOf(medium + Material(R"("plastic")") + kBall).Needs(Feature::Glossy));
 }
 
+TEST(RequiredFeatures, HasIndirectLightUnderAnyOfSeveralMediaThatGlows) {
+  const auto medium = [](const std::string& color) {
+    return "Volume \"homogeneous\" \"point p1\" [1 1 1] \"color " + color + "\" [1 1 1]\n";
+  };
+  const std::string glow = medium("Le"), fog = medium("sigma_s"), ball = kBall;
+  EXPECT_TRUE(PlanOf(glow + fog + ball).Needs(Feature::Indirect));
+  EXPECT_TRUE(PlanOf(fog + glow + ball).Needs(Feature::Indirect));
+  EXPECT_TRUE(PlanOf(fog + glow + fog + ball).Needs(Feature::Indirect));
+  EXPECT_FALSE(PlanOf(fog + fog + ball).Needs(Feature::Indirect));
+}
+
 TEST(RequiredFeatures, OfSpecularSurfacesOnlyHasNoIndirectLight) {
   const RequiredFeatures plan = PlanOf(kLamp + Material(R"("mirror")") + kBall);
   EXPECT_FALSE(plan.Needs(Feature::Indirect));
@@ -61,6 +72,14 @@ TEST(RequiredFeatures, TakesABlackCoefficientForNoLobeButATextureForOne) {
 
 TEST(RequiredFeatures, HasTransmissionWithATranslucentSurface) {
   EXPECT_TRUE(PlanOf(kLamp + Material(R"("translucent")") + kBall).Needs(Feature::Transmission));
+}
+
+TEST(RequiredFeatures, HasTransmissionWithASurfaceThatReflectsNothing) {
+  const auto plan = [](const std::string& parameters) {
+    return PlanOf(kLamp + Material("\"translucent\" \"color Ks\" [0 0 0] " + parameters) + kBall);
+  };
+  EXPECT_TRUE(plan("\"color reflect\" [0 0 0]").Needs(Feature::Transmission));
+  EXPECT_FALSE(plan("\"color transmit\" [0 0 0]").Needs(Feature::Transmission));
 }
 
 TEST(RequiredFeatures, SamplesGlossyLobesOnlyWithAGlossySurfaceAndALight) {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/render/render.h"
-#include "core/render/render_passes.h"
+#include "core/render/passes/render_halves.h"
 #include "tests/support/test_plugin.h"
 #include "tests/support/test_scene.h"
 
@@ -202,7 +202,7 @@ TEST_F(RenderCounts, OfTwoHalvesRoundUp) {
 TEST(SurfaceAovs, AreThoseOfTheFirstSurface) {
   TestRenderOptions options;
   std::string unknown;
-  options.aovs = *ParseAovs("Albedo,N,P", &unknown);
+  options.aovs = *ParseAovs("albedo,N,P", &unknown);
   const TestRender render = RenderSceneText(
       TestHeader("\"directlighting\"", 9, 9, 1) +
           "WorldBegin LightSource \"point\" Material \"matte\" \"color Kd\" [.2 .4 .6]\n"
@@ -215,12 +215,12 @@ TEST(SurfaceAovs, AreThoseOfTheFirstSurface) {
     return Vec3(render.image.At(x, y, first), render.image.At(x, y, first + 1),
                 render.image.At(x, y, first + 2));
   };
-  EXPECT_LT(Distance(at(4, 4, "Albedo.R"), {Real(.2), Real(.4), Real(.6)}), Real(.01));
+  EXPECT_LT(Distance(at(4, 4, "albedo.R"), {Real(.2), Real(.4), Real(.6)}), Real(.01));
   const Point3 p = at(4, 4, "P.X");
   EXPECT_NEAR(double(Distance(p, {0, 0, 5})), 1, 1e-3);
   EXPECT_LT(p.z, Real(4.3));
   EXPECT_LT(Distance(at(4, 4, "N.X"), p - Point3(0, 0, 5)), Real(2e-3));
-  for (const char* name : {"Albedo.R", "N.X", "P.X"}) EXPECT_EQ(at(0, 0, name), Vec3()) << name;
+  for (const char* name : {"albedo.R", "N.X", "P.X"}) EXPECT_EQ(at(0, 0, name), Vec3()) << name;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests render in passes with an integrator of known noise. One part of the noise belongs to
 // each camera sample, and one part to each pass, as with photons.
-#include "core/render/render_passes.h"
+#include "core/render/passes/render_halves.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PassPlan: without a time limit, all decisions follow from pixel values.
-#include "core/render/pass_plan.h"
+#include "core/render/passes/pass_plan.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/files/byte_archive.h"
 
 namespace exphoton {
 namespace {
@@ -45,6 +47,17 @@ std::optional<double> GroupForecast::SamplesFor(double noise) const {
   const double q = std::exp2(-slope_);
   const double error = difference_ * q / (1 - q);
   return double(samples_) * std::pow(error / noise, 1 / slope_);
+}
+
+void GroupForecast::Transfer(ByteArchive* archive) {
+  char hasNoise = noise_ ? 1 : 0;
+  archive->Values(&hasNoise, &samples_, &difference_, &slope_);
+  if (!hasNoise) noise_.reset();
+  if (noise_) noise_->Transfer(archive);
+}
+
+void PassPlan::Transfer(ByteArchive* archive) {
+  archive->Values(&groups_, &groupSamples_, &firstSamples_);
 }
 
 // Returns the samples of a group, if all groups share the time equally.

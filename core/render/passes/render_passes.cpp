@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // RenderInPasses: pass sizes, seeds and stopping rules.
-#include "core/render/render_passes.h"
+#include "core/render/passes/render_passes.h"
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
-#include "core/render/pass_plan.h"
+#include "core/render/passes/pass_parts.h"
+#include "core/render/passes/pass_plan.h"
 
 namespace exphoton {
 namespace {
@@ -15,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 // Groups of passes are independent of each other. Later groups share the places of the first ones,
 // which limits memory.
 constexpr int kGroups = 8;
-constexpr std::uint64_t kPassSeed = 0x70617373ull, kGroupSeed = 0x7265706cull;
+constexpr std::uint64_t kGroupSeed = 0x7265706cull;
 constexpr std::int64_t kProgressSteps = 1000;
 
 double SecondsSince(Clock::time_point start) {
@@ -27,7 +29,8 @@ class Passes {
   Passes(const RenderJob& job, const RenderOptions& options, const StoppingRule& rule)
       : job_(job),
         rule_(rule),
-        options_(options),
+        parts_(job, options, [this](const Checkpoint& inner) { return WrapCheckpoint(inner); }),
+        options_(parts_.Options()),
         quiet_(ProgressReporter::Mode::Quiet),
         quietJob_{job.scene,  job.integrator, job.sampler, job.filter,
                   job.camera, job.film,       job.threads, job.log,
@@ -45,22 +48,85 @@ class Passes {
   PassesResult Run() {
     begin_ = Clock::now();
     job_.progress.Begin("Rendering", kProgressSteps);
-    PassPlan::Step step = plan_.Next({});
-    for (std::optional<StopReason> reason; !reason; reason = Reason(step)) {
-      if (!RunPass(step)) {
+    step_ = plan_.Next({});
+    if (options_.resumed) Resume();
+    for (std::optional<StopReason> reason; !reason; reason = Reason(step_)) {
+      if (!RunPass(step_)) {
         result_.reason = StopReason::Signal;
         return Finish();
       }
       const PassPlan::State state = State();
-      step = plan_.Next(state);
+      step_ = plan_.Next(state);
       if (const auto left = plan_.SecondsLeft(state))
         expectedSeconds_ = SecondsSince(begin_) + *left;
     }
     result_.reason = *reasonMet_;
+    if (result_.reason == StopReason::Signal) SaveBetweenPasses();
     return Finish();
   }
 
  private:
+  // Saves or loads the passes that are complete, and the step of the next one.
+  void Transfer(ByteArchive* archive) {
+    plan_.Transfer(archive);
+    char isNewGroup = step_.isNewGroup ? 1 : 0, isPattern = step_.isPattern ? 1 : 0;
+    archive->Values(&isNewGroup, &step_.size, &isPattern);
+    step_.isNewGroup = isNewGroup != 0;
+    step_.isPattern = isPattern != 0;
+    archive->Values(&groupSamples_, &preprocessSeconds_, &renderSeconds_, &result_.passes,
+                    &result_.samplesPerPixel);
+    double noise = result_.noise.value_or(std::numeric_limits<double>::quiet_NaN());
+    archive->Values(&noise);
+    result_.noise = noise == noise ? std::optional(noise) : std::nullopt;
+    const bool isPossible = step_.size >= 1 && step_.size <= rule_.maxSamples &&
+                            result_.passes >= 0 && plan_.Groups() >= 0 &&
+                            plan_.Groups() <= result_.passes && result_.samplesPerPixel >= 0 &&
+                            result_.samplesPerPixel <= rule_.maxSamples && groupSamples_ >= 0 &&
+                            groupSamples_ <= rule_.maxSamples;
+    if (!isPossible) throw ArchiveError("its counts of passes contradict each other");
+  }
+
+  Checkpoint WrapCheckpoint(const Checkpoint& inner) {
+    Checkpoint outer;
+    outer.hasWork = inner.hasWork || result_.passes > 0;
+    outer.save = [this, inner](StateWriter* writer) {
+      inner.save(writer);
+      ByteArchive passes;
+      Transfer(&passes);
+      writer->Add("passes", passes.Take());
+      SaveSection("film", job_.film, writer);
+      parts_.SaveAovs(writer);
+      SaveSection("noise", noise_, writer);
+      SaveSection("forecast", forecast_, writer);
+    };
+    if (!inner.picture) return outer;
+    outer.picture = [this, inner] {
+      PictureSoFar pass = inner.picture();
+      PictureSoFar picture{job_.film, std::move(pass.aovs), {}};
+      picture.film.Add(pass.film);
+      parts_.AddAovs(&picture);
+      return picture;
+    };
+    return outer;
+  }
+
+  void SaveBetweenPasses() {
+    Checkpoint between;
+    between.save = [this](StateWriter* writer) { renderer_.SaveTotals(writer); };
+    parts_.TakeLast(between);
+  }
+
+  void Resume() {
+    const StateFile& file = *options_.resumed;
+    file.Read("passes", [this](ByteArchive* archive) { Transfer(archive); });
+    LoadSection("film", &job_.film, file);
+    parts_.LoadAovs(file);
+    LoadSection("noise", &noise_, file);
+    LoadSection("forecast", &forecast_, file);
+    job_.log.Notice("continuing \"" + file.Path() + "\" after " + std::to_string(result_.passes) +
+                    (result_.passes == 1 ? " pass" : " passes"));
+  }
+
   PassPlan::State State() const {
     PassPlan::State state;
     state.samples = result_.samplesPerPixel;
@@ -92,6 +158,8 @@ class Passes {
     passFilm_.Clear();
     const bool isWhole = renderer_.Run(pass, goesOn ? *progressiveSampler_ : *pattern, &passFilm_);
     job_.film.Add(passFilm_);
+    parts_.TakeAovs();
+    parts_.Show(job_.film);
     if (isWhole) TakePass(step, int(group % kGroups));
     return isWhole;
   }
@@ -136,8 +204,7 @@ class Passes {
     result_.render = renderer_.Finish();
     if (plan_.Groups() > 1) {
       result_.noise = noise_.RelativeVariance();
-      if (options_.aovs && options_.aovs->Wanted().Has(Aov::Variance))
-        result_.variances = noise_.Variances();
+      if (parts_.NeedsVariances()) result_.variances = noise_.Variances();
     }
     if (result_.reason == StopReason::Signal) result_.render.isComplete = false;
     return std::move(result_);
@@ -145,14 +212,16 @@ class Passes {
 
   const RenderJob& job_;
   const StoppingRule& rule_;
-  RenderOptions options_;
-  ProgressReporter quiet_;  // hides the phases of each pass, which would be many lines
+  PassParts parts_;
+  const RenderOptions& options_;  // of one pass
+  ProgressReporter quiet_;        // hides the phases of each pass, which would be many lines
   RenderJob quietJob_;
   PassRenderer renderer_;
   Film passFilm_;
   PassNoise noise_;  // by group
   GroupForecast forecast_;
   PassPlan plan_;
+  PassPlan::Step step_;  // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   Clock::time_point begin_;
@@ -181,32 +250,6 @@ const char* StopReasonName(StopReason reason) {
 PassesResult RenderInPasses(const RenderJob& job, const RenderOptions& options,
                             const StoppingRule& rule) {
   return Passes(job, options, rule).Run();
-}
-
-PassesResult RenderTwoHalves(const RenderJob& job, const RenderOptions& options, Film* first,
-                             Film* second) {
-  const std::int64_t count = std::max<std::int64_t>((job.sampler.SamplesPerPixel() + 1) / 2, 1);
-  const std::unique_ptr<Sampler> sampler = job.sampler.WithSamplesPerPixel(count);
-  const std::int64_t samples = sampler->SamplesPerPixel();
-  PassRenderer renderer(job, options);
-  PassNoise noise(job.film.Crop(), 2);
-  PassesResult result;
-  bool isWhole = true;
-  for (Film* half : {first, second}) {
-    if (!isWhole) break;
-    const std::uint64_t seed = HashKey({options.seed, kPassSeed, std::uint64_t(result.passes)});
-    isWhole = renderer.Run({seed, seed, 0, samples}, *sampler, half);
-    job.film.Add(*half);
-    if (!isWhole) break;
-    noise.Add(result.passes++, *half, samples);
-    result.samplesPerPixel += samples;
-  }
-  result.render = renderer.Finish();
-  if (!isWhole) result.reason = StopReason::Signal;
-  if (result.passes == 2) result.noise = noise.RelativeVariance();
-  if (result.passes == 2 && options.aovs && options.aovs->Wanted().Has(Aov::Variance))
-    result.variances = noise.Variances();
-  return result;
 }
 
 }  // namespace exphoton

@@ -23,7 +23,8 @@ class GroupForecast {
   // Returns the number of samples at which the noise part of relMSE of the group is expected to
   // fall to this; nullopt before the second pass.
   std::optional<double> SamplesFor(double noise) const;
-  void Release() { noise_.reset(); }  // frees the memory
+  void Release() { noise_.reset(); }    // frees the memory
+  void Transfer(ByteArchive* archive);  // saves or loads
 
  private:
   std::optional<PassNoise> noise_;
@@ -63,6 +64,7 @@ class PassPlan {
   std::optional<double> SecondsLeft(const State& state) const;
 
   int Groups() const { return groups_; }
+  void Transfer(ByteArchive* archive);  // saves or loads, without the limits
 
  private:
   std::int64_t GoalByTime(const State& state) const;

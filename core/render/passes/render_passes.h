@@ -39,9 +39,4 @@ struct PassesResult {
 PassesResult RenderInPasses(const RenderJob& job, const RenderOptions& options,
                             const StoppingRule& rule);
 
-// Renders two passes, each with half the samples (rounded up), into `first` and `second`. The job's
-// film receives the samples of both.
-PassesResult RenderTwoHalves(const RenderJob& job, const RenderOptions& options, Film* first,
-                             Film* second);
-
 }  // namespace exphoton

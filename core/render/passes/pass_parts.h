@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PassParts adds up the AOVs of the passes of one picture and gives a pass the options it renders
+// with: a film of its own for AOVs, and checkpoints that contain the whole picture.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/render/render.h"
+#include "core/render/state/checkpoints.h"
+
+namespace exphoton {
+
+// Seeds of passes differ by this key.
+constexpr std::uint64_t kPassSeed = 0x70617373ull;
+
+class PassParts {
+ public:
+  // `options` are those of the whole picture. `wrap` adds the other passes to a checkpoint.
+  PassParts(const RenderJob& job, const RenderOptions& options, OuterCheckpoints::Wrap wrap);
+  PassParts(const PassParts&) = delete;
+  PassParts& operator=(const PassParts&) = delete;
+
+  const RenderOptions& Options() const { return options_; }  // of one pass
+
+  bool NeedsVariances() const { return all_ && all_->Wanted().Has(Aov::Variance); }
+  void TakeAovs();                            // adds the AOVs of a pass, which end with it
+  void AddAovs(PictureSoFar* picture) const;  // adds the AOVs of earlier passes
+  void SaveAovs(StateWriter* writer);
+  void LoadAovs(const StateFile& file);
+
+  // Shows the picture of all passes so far. Tiles of later passes are not shown: one pass is
+  // noisier than the picture.
+  void Show(const Film& film);
+  // Hands over the state of a render that is stopped between passes.
+  void TakeLast(const Checkpoint& between);
+
+ private:
+  AovFilm* all_;                  // of all passes; null: no AOVs
+  std::unique_ptr<AovFilm> one_;  // of one pass
+  OuterCheckpoints checkpoints_;
+  RenderView* view_;
+  RenderOptions options_;
+};
+
+}  // namespace exphoton

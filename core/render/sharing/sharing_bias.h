@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SharingBias estimates the error that shared gathers add to a picture. The windows depend on the
+// choosing groups of samples only. In a pixel of a checking group, the difference between the fit
+// to this group and the pixel's own gathers is the bias of the fit plus noise. The noise of
+// neighbouring pixels is independent, because they belong to different checking groups. The product
+// of their differences therefore has the squared bias as its expected value, where the bias of the
+// two pixels is equal.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/imaging/film/film.h"
+#include "core/render/sharing/fragment_rows.h"
+#include "core/render/sharing/gather_fragments.h"
+#include "core/render/sharing/local_fit.h"
+#include "core/render/sharing/sharing_estimate.h"
+#include "core/render/sharing/sharing_windows.h"
+
+namespace exphoton {
+
+// The product of the differences in a pixel and in its neighbour, in radiance squared. It may be
+// negative.
+struct CheckedPixel {
+  Point2i pixel;
+  std::array<double, 3> product;  // by channel
+};
+
+// Checks a pixel and the next one of its row. Only every fourth pixel of every fourth row is
+// checked, because a check takes two fits. Returns nullopt for other pixels and where a checking
+// group has no record. `samples` is the number of camera samples of a pixel.
+class SharingChecker {
+ public:
+  SharingChecker(const GatherFragments& gathers, const FragmentRows& rows,
+                 const SharingWindows& windows, double samples)
+      : gathers_(gathers), rows_(rows), windows_(windows), samples_(samples) {}
+
+  std::optional<CheckedPixel> Check(Point2i pixel, FitNeighbours* scratch) const;
+
+ private:
+  // Returns fit minus own gathers of a pixel, in radiance.
+  std::optional<Spectrum> Difference(Point2i pixel, int group, FitNeighbours* scratch) const;
+
+  const GatherFragments& gathers_;
+  const FragmentRows& rows_;
+  const SharingWindows& windows_;
+  double samples_;
+};
+
+// Returns nullopt if fewer than two squares hold checked pixels. The film has the picture.
+std::optional<SharingBias> EstimateSharingBias(const std::vector<CheckedPixel>& checked,
+                                               const Film& film);
+
+}  // namespace exphoton

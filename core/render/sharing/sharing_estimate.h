@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SharingBias is an estimate of the error that shared gathers add to a picture (sharing_bias.h).
+#pragma once
+
+namespace exphoton {
+
+// The mean over the picture of squared bias / (L^2 + 0.01), the unit of relMSE. The estimate may be
+// negative by chance.
+struct SharingBias {
+  double squared = 0;
+  double standardError = 0;  // from the differences between squares of 32 pixels
+};
+
+}  // namespace exphoton

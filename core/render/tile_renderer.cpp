@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// TileRenderer: from the camera sample to the film. A tile is only a unit of work.
+#include "core/render/tile_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+#include "core/transport/shading_point.h"
+
+namespace exphoton {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options) {
+  if (options.footprintSamples > 0) return options.footprintSamples;
+  return std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1);
+}
+
+// Scales the ray differentials from the pixel spacing to the mean spacing of a pixel's samples.
+void ScaleDifferentials(RayDifferential* ray, Real scale) {
+  ray->xOrigin = ray->o + (ray->xOrigin - ray->o) * scale;
+  ray->yOrigin = ray->o + (ray->yOrigin - ray->o) * scale;
+  ray->xDirection = ray->d + (ray->xDirection - ray->d) * scale;
+  ray->yDirection = ray->d + (ray->yDirection - ray->d) * scale;
+}
+
+// `seed` is the user's seed. The seed of a pass is derived from it.
+std::string Describe(const Spectrum& L, const SampleKey& key, std::uint64_t seed) {
+  std::ostringstream text;
+  text << "radiance (" << L.r << ", " << L.g << ", " << L.b << ") at pixel " << key.pixel.x << ","
+       << key.pixel.y << ", sample " << key.index << ", seed " << seed;
+  if (key.seed != seed) text << " (of a pass: " << key.seed << ")";
+  return text.str();
+}
+
+// Fills the AOVs of the first surface without the integrator.
+void DescribeSurface(const RenderJob& job, const RayDifferential& ray, Arena* arena,
+                     AovSample* sample) {
+  const auto surface = job.scene.Intersect(ray);
+  if (!surface) return;
+  const Arena::Mark mark = arena->GetMark();
+  const ShadingPoint point = MakeShadingPoint(*surface, ray, 0, TransportMode::Radiance, arena);
+  sample->isHit = true;
+  sample->albedo = Clamp(point.bsdf.Rho(LobeSet::All), 0, 1);  // some measured lobes exceed 1
+  sample->n = FaceForward(point.bsdf.Ns(), point.Wo());
+  sample->ng = FaceForward(point.surface.ng, point.Wo());
+  sample->p = point.surface.p;
+  sample->depth = job.camera.Depth(point.surface.p, ray.time);
+  sample->uv = point.surface.uv;
+  sample->objectId = point.surface.objectId;
+  sample->materialId = point.surface.materialId;
+  arena->Rewind(mark);
+}
+
+void Blacken(AovSample* sample) {
+  sample->emission = sample->direct = sample->caustic = sample->indirect = sample->specular = {};
+}
+
+// Sets negative components of L to 0, and the same components of the light AOVs.
+void ClampNegative(Spectrum* L, AovSample* sample) {
+  for (Real Spectrum::*channel : {&Spectrum::r, &Spectrum::g, &Spectrum::b}) {
+    if (!(L->*channel < 0)) continue;
+    for (Spectrum* part : {L, &sample->emission, &sample->direct, &sample->caustic,
+                           &sample->indirect, &sample->specular})
+      part->*channel = 0;
+  }
+}
+
+}  // namespace
+
+TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
+                           NonFiniteLog* log)
+    : job_(job),
+      options_(options),
+      target_(target),
+      log_(log),
+      aovs_(options.aovs),
+      differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))) {}
+
+void TileRenderer::RenderTile(const PixelBounds& tile, RenderWorker* worker) const {
+  for (int y = tile.y0; y < tile.y1; ++y)
+    if (worker->wasStopped || !RenderRow(tile, y, worker)) return;
+  if (!options_.view) return;
+  const PixelBounds& crop = target_.film.Crop();
+  const PixelBounds part{std::max(tile.x0, crop.x0), std::max(tile.y0, crop.y0),
+                         std::min(tile.x1, crop.x1), std::min(tile.y1, crop.y1)};
+  if (!part.IsEmpty()) options_.view->Show(target_.film, part);
+}
+
+bool TileRenderer::RenderRow(const PixelBounds& tile, int y, RenderWorker* worker) const {
+  const std::uint64_t raysBefore = worker->totals.rays.Total();
+  int rendered = 0;
+  bool goesOn = true;
+  for (int x = tile.x0; x < tile.x1 && goesOn; ++x) {
+    if (target_.done->Has({x, y})) continue;
+    goesOn = !IsPaused() && RenderPixel({x, y}, worker);
+    if (!goesOn) break;
+    worker->wholeTotals = worker->totals;
+    target_.done->Set({x, y});
+    ++rendered;
+  }
+  if (rendered == 0) return goesOn;
+  target_.progress.CountRays(worker->totals.rays.Total() - raysBefore);
+  target_.progress.Advance(rendered);
+  return goesOn;
+}
+
+bool TileRenderer::RenderPixel(Point2i pixel, RenderWorker* worker) const {
+  const bool isInPicture = target_.film.Crop().Contains(pixel.x, pixel.y);
+  if (!aovs_ || !aovs_->NeedsTime() || !isInPicture) return RenderSamples(pixel, worker);
+  const Clock::time_point start = Clock::now();
+  const bool isDone = RenderSamples(pixel, worker);
+  aovs_->AddTime(pixel, std::chrono::duration<double>(Clock::now() - start).count());
+  return isDone;
+}
+
+bool TileRenderer::RenderSamples(Point2i pixel, RenderWorker* worker) const {
+  worker->pixelState.Reset();
+  if (target_.splats) worker->splat.Begin(target_.splats, pixel);
+  const bool isWhole = RenderAllSamples(pixel, worker);
+  // The samples of an unfinished pixel join the picture after the last checkpoint.
+  if (target_.splats && isWhole) worker->splat.End();
+  if (target_.gathers) target_.gathers->At(pixel).Finish();
+  return isWhole;
+}
+
+bool TileRenderer::RenderAllSamples(Point2i pixel, RenderWorker* worker) const {
+  const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
+  for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
+    if (IsStopped()) {
+      worker->wasStopped = true;
+      return false;
+    }
+    RenderSample({target_.pass.sampleSeed, pixel, i}, worker);
+  }
+  return true;
+}
+
+void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) const {
+  CameraSamples& samples = worker->samples;
+  target_.sampler.Generate(key, &samples);
+  const Point2 half(Real(.5), Real(.5));
+  const FilterSample filter =
+      target_.splats ? FilterSample{samples.film - half, 1} : job_.filter.Sample(samples.film);
+  const Point2 film = Point2(Real(key.pixel.x), Real(key.pixel.y)) + half + filter.offset;
+  const RayDifferential ray = CameraRay(film, samples);
+
+  worker->arena.Reset();
+  LiContext context{job_.scene, samples, worker->arena, worker->totals.rays,
+                    HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
+                             std::uint64_t(key.index)})};
+  context.pixelState = &worker->pixelState;
+  context.threadState = &worker->threadState;
+  context.volume = job_.volume;
+  worker->gathers.clear();
+  if (target_.gathers) context.gathers = &worker->gathers;
+  AovSample aovs;
+  if (aovs_) {
+    aovs.wanted = aovs_->Wanted();
+    context.aovs = &aovs;
+    if (aovs_->NeedsSurface()) DescribeSurface(job_, ray, &worker->arena, &aovs);
+  }
+  Spectrum L = job_.integrator.Li(ray, context);
+  ++worker->totals.cameraSamples;
+  const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
+  for (const GatherRecord& gather : worker->gathers)
+    if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
+  if (!L.IsFinite()) {
+    Drop(L, key, worker);
+    L = Spectrum();
+    Blacken(&aovs);
+    worker->gathers.clear();
+  } else if (L.MinComponent() < 0) {
+    ++worker->totals.negative;
+    ClampNegative(&L, &aovs);
+  }
+  if (target_.gathers) {
+    const int group = GatherGroup(key.pixel, key.index);
+    target_.gathers->At(key.pixel).Add(worker->gathers, film, filter.weight, group);
+    for (const GatherRecord& gather : worker->gathers)
+      aovs.ownGathers += gather.light * gather.weight;
+  }
+  if (target_.splats) return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr});
+  if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
+  target_.film.AddSample(key.pixel, L, alpha, filter.weight);
+  if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
+}
+
+RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& samples) const {
+  CameraSample sample;
+  sample.film = film;
+  sample.lens = Needs(Feature::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
+  sample.time = Needs(Feature::Motion) ? samples.time : 0;
+  RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
+  if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
+  return ray;
+}
+
+void TileRenderer::Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const {
+  const std::string text = Describe(L, key, options_.seed);
+  if (options_.isStrict) throw Error(ExitStatus::Internal, "non-finite " + text);
+  ++worker->totals.nonFinite;
+  log_->Add(key.pixel, key.index, text);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// TileRenderer renders the samples of the pixels of a tile. Every camera sample is a function of
+// (seed, pixel, sample index). One thread adds up a pixel's samples in the order of their index.
+#pragma once
+
+#include "core/render/done_pixels.h"
+#include "core/render/render.h"
+#include "core/render/render_totals.h"
+#include "core/render/sharing/gather_fragments.h"
+#include "core/render/splat_buffer.h"
+
+namespace exphoton {
+
+// The state of one thread. The alignment of its Arena keeps workers on separate cache lines.
+struct RenderWorker {
+  explicit RenderWorker(const SampleLayout& layout) : samples(layout) {}
+
+  // Adds the samples of the pixel that was not finished to the picture, if there is one.
+  void EndPartialPixel(bool isSplatted) {
+    if (isSplatted && wasStopped) splat.End();
+  }
+
+  CameraSamples samples;
+  Arena arena;
+  GatherRecords gathers;
+  PixelState pixelState;
+  ThreadState threadState;
+  SplatBuffer::Pixel splat;
+  RenderTotals totals;
+  RenderTotals wholeTotals;  // without the pixel that is not finished
+  bool wasStopped = false;
+};
+
+class TileRenderer {
+ public:
+  struct Target {
+    const RenderPass& pass;
+    const Sampler& sampler;
+    Film& film;
+    ProgressReporter& progress;
+    GatherFragments* gathers;  // null if gathers are not shared
+    SplatBuffer* splats;       // null if samples contribute to their own pixels only
+    DonePixels* done;          // pixels that are left out; receives the finished ones
+  };
+
+  // All arguments must outlive this object.
+  TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
+               NonFiniteLog* log);
+
+  // Returns early if the render is stopped or paused.
+  void RenderTile(const PixelBounds& tile, RenderWorker* worker) const;
+
+ private:
+  bool Needs(Feature feature) const { return job_.scene.Features().Needs(feature); }
+  bool IsStopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+  bool IsPaused() const { return options_.checkpoints && options_.checkpoints->IsDue(); }
+
+  // These return false if rendering was stopped or paused.
+  bool RenderRow(const PixelBounds& tile, int y, RenderWorker* worker) const;
+  bool RenderPixel(Point2i pixel, RenderWorker* worker) const;
+  bool RenderSamples(Point2i pixel, RenderWorker* worker) const;
+  bool RenderAllSamples(Point2i pixel, RenderWorker* worker) const;
+
+  void RenderSample(const SampleKey& key, RenderWorker* worker) const;
+  RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const;
+  void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
+
+  const RenderJob& job_;
+  const RenderOptions& options_;
+  Target target_;
+  NonFiniteLog* log_;
+  AovFilm* aovs_;
+  Real differentialScale_;
+};
+
+}  // namespace exphoton

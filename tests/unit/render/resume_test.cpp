@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests stop renders at chosen pixels, in process, and continue them from their state. The
+// sums must be those of a render that nothing stopped.
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/render/passes/render_halves.h"
+#include "core/render/state/checkpoints.h"
+#include "tests/support/process.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+// Stops a render, or lets it pause, after n camera samples, and writes the state.
+class CheckpointAt : public Checkpoints {
+ public:
+  CheckpointAt(int sample, bool stops, std::string path)
+      : sample_(sample), stops_(stops), path_(std::move(path)) {}
+
+  void CountSample() {
+    if (++samples_ == sample_ && stops_) stop = true;
+  }
+  bool IsDue() const override { return !stops_ && samples_ >= sample_ && !isTaken_; }
+  void Take(const Checkpoint& checkpoint, bool isLast) override {
+    EXPECT_EQ(isLast, stops_);
+    isTaken_ = true;
+    if (!checkpoint.hasWork) return;
+    StateWriter writer(path_);
+    checkpoint.save(&writer);
+    writer.Commit();
+    if (!isLast) picture = checkpoint.picture().film.ToImage(true).pixels;
+  }
+
+  std::atomic<bool> stop{false};
+  std::vector<float> picture;
+
+ private:
+  const int sample_;
+  const bool stops_;
+  const std::string path_;
+  std::atomic<int> samples_{0};
+  std::atomic<bool> isTaken_{false};
+};
+
+// Another integrator that counts its camera samples.
+class CountingIntegrator : public SurfaceIntegrator {
+ public:
+  CountingIntegrator(SurfaceIntegrator& other, CheckpointAt* checkpoint)
+      : other_(other), checkpoint_(checkpoint) {}
+  void Preprocess(const Scene& scene, PreprocessContext& context) override {
+    other_.Preprocess(scene, context);
+  }
+  void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override {
+    other_.RequestSamples(scene, sampler, layout);
+  }
+  AovSet Aovs() const override { return other_.Aovs(); }
+  DepthParameters DepthLimits() const override { return other_.DepthLimits(); }
+  bool SharesGathers(const Scene& scene) const override { return other_.SharesGathers(scene); }
+  Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
+    if (checkpoint_) checkpoint_->CountSample();
+    return other_.Li(ray, context);
+  }
+
+ private:
+  SurfaceIntegrator& other_;
+  CheckpointAt* checkpoint_;
+};
+
+enum class Mode { Plain, Halves, Target };
+struct Case {
+  Mode mode;
+  const char* options;
+  AovSet aovs;
+};
+constexpr const char* kShared =
+    R"(SurfaceIntegrator "exphotonmap" "integer indirectphotons" 2000 "integer causticphotons" 100
+       "integer finalgathersamples" 4 "bool sharedgather" "true")";
+constexpr const char* kPath = R"(SurfaceIntegrator "path")";
+constexpr const char* kMitchell = R"(SurfaceIntegrator "path" PixelFilter "mitchell")";
+
+const Case kCases[] = {
+    {Mode::Plain, kPath, {}},
+    {Mode::Plain, kMitchell, {Aov::Variance, Aov::Albedo, Aov::Samples}},
+    {Mode::Plain, kShared, {Aov::Indirect, Aov::RadianceDistance}},
+    {Mode::Halves, kPath, {Aov::Variance}},
+    {Mode::Halves, kMitchell, {Aov::Normal}},
+    {Mode::Target, kPath, {Aov::Variance, Aov::Direct}},
+    {Mode::Target, kShared, {Aov::Indirect}},
+};
+
+class ResumeTest : public testing::TestWithParam<int> {
+ protected:
+  static const Case& Param() { return kCases[GetParam()]; }
+
+  struct Output {
+    std::string sums;  // of the picture and its AOVs
+    std::vector<float> variances;
+    PassesResult result;
+    std::vector<Statistics::Counter> counters;
+    friend bool operator==(const Output& a, const Output& b) {
+      return a.sums == b.sums && a.variances == b.variances &&
+             a.result.samplesPerPixel == b.result.samplesPerPixel &&
+             a.result.noise == b.result.noise && CameraSamples(a) == CameraSamples(b);
+    }
+    static double CameraSamples(const Output& output) {
+      for (const Statistics::Counter& counter : output.counters)
+        if (counter.name == "render/camera samples") return counter.value;
+      return -1;
+    }
+  };
+
+  static LoadedScene Scene() {
+    return LoadSceneText(TestHeader("\"path\"", 20, 14, 4) + Param().options + R"(
+      WorldBegin
+      AttributeBegin AreaLightSource "area" "color L" [ 20 18 15 ]
+        Translate 0 .9 2 Rotate 90 1 0 0 Shape "disk" "float radius" [ .3 ] AttributeEnd
+      Shape "trianglemesh" "integer indices" [ 0 1 2 0 2 3 ]
+        "point P" [ -1 -1 0  1 -1 0  1 -1 3  -1 -1 3 ]
+      Translate 0 -.5 2.5 Shape "sphere" "float radius" .5
+      WorldEnd)");
+  }
+
+  Output Render(CheckpointAt* checkpoints, StateFile* resumed, int threads) {
+    LoadedScene scene = Scene();
+    RenderSetup& setup = *scene.setup;
+    Film film(setup.film.Full(), setup.crop), halves[2] = {film, film};
+    AovFilm aovs(setup.crop, Param().aovs);
+    ThreadPool pool(threads);
+    ProgressReporter progress(ProgressReporter::Mode::Quiet);
+    Statistics statistics;
+    RenderOptions options;
+    options.seed = 7;
+    options.aovs = Param().aovs.IsEmpty() ? nullptr : &aovs;
+    options.checkpoints = checkpoints;
+    options.resumed = resumed;
+    if (checkpoints) options.stop = &checkpoints->stop;
+    CountingIntegrator integrator(*setup.integrator, checkpoints);
+    const RenderJob job{*setup.scene, integrator, *setup.sampler, *setup.filter, *setup.camera,
+                        film,         pool,       *scene.log,     progress,      statistics};
+    Output output;
+    StoppingRule rule;
+    rule.targetError = .01;
+    rule.maxSamples = 32;
+    if (Param().mode == Mode::Plain) output.result.render = exphoton::Render(job, options);
+    if (Param().mode == Mode::Halves)
+      output.result = RenderTwoHalves(job, options, &halves[0], &halves[1]);
+    if (Param().mode == Mode::Target) output.result = RenderInPasses(job, options, rule);
+    output.variances = output.result.variances;
+    output.counters = statistics.Counters();
+    ByteArchive archive;
+    film.Transfer(&archive);
+    for (Film& half : halves) half.Transfer(&archive);
+    if (options.aovs) aovs.Transfer(&archive);
+    output.sums = archive.Take();
+    return output;
+  }
+
+  std::string Path() const { return folder_.File("a.state"); }
+
+  const TestFolder folder_;
+};
+
+TEST_P(ResumeTest, AStoppedRenderEndsWithTheSameSums) {
+  const Output whole = Render(nullptr, nullptr, 1);
+  int resumed = 0;
+  for (const int sample : {5, 6, 243, 1110, 1122, 1603, 2247, 2801, 4805, 8003, 12002}) {
+    CheckpointAt stop(sample, true, Path());
+    const Output part = Render(&stop, nullptr, 1);
+    if (part.result.render.isComplete) break;  // fewer samples than that
+    StateFile state(Path());
+    const Output again = Render(nullptr, &state, 2);
+    EXPECT_TRUE(again.result.render.isComplete);
+    EXPECT_TRUE(again == whole) << "stopped at sample " << sample;
+    ++resumed;
+  }
+  EXPECT_GE(resumed, 3);
+}
+
+TEST_P(ResumeTest, APauseChangesNothing) {
+  const Output whole = Render(nullptr, nullptr, 1);
+  for (const int sample : {100, 700}) {
+    CheckpointAt pause(sample, false, Path());
+    EXPECT_TRUE(Render(&pause, nullptr, 2) == whole) << sample;
+    ASSERT_FALSE(pause.picture.empty());
+    EXPECT_EQ(pause.picture.size(), 20u * 14 * 4);
+    StateFile state(Path());
+    EXPECT_TRUE(Render(nullptr, &state, 1) == whole) << sample;
+  }
+}
+
+// A checksum does not protect against files that are made on purpose.
+TEST_P(ResumeTest, ContradictoryStatesGiveErrorsOrPictures) {
+  CheckpointAt stop(700, true, Path());
+  ASSERT_FALSE(Render(&stop, nullptr, 1).result.render.isComplete);
+  const StateFile whole(Path());
+  const char* const names[] = {"pass",         "pass film", "pass aovs", "pass splats",
+                               "pass gathers", "totals",    "passes",    "film",
+                               "aovs",         "noise",     "forecast",  "first half"};
+  int errors = 0;
+  std::uint64_t random = 1;
+  for (const char* damaged : names) {
+    if (!whole.Has(damaged)) continue;
+    for (int i = 0; i < 12; ++i) {
+      StateWriter writer(folder_.File("b.state"));
+      writer.Add("non-finite samples", whole.Get("non-finite samples"));
+      for (const char* name : names) {
+        if (!whole.Has(name)) continue;
+        std::string bytes(whole.Get(name));
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        const std::size_t at = std::size_t(random >> 33) %
+                               (i < 6 ? std::min<std::size_t>(bytes.size(), 48) : bytes.size());
+        if (name == damaged && i % 3 == 0) bytes.resize(at);
+        if (name == damaged && i % 3 != 0) bytes[at] = char(bytes[at] ^ (1 << (random >> 60) % 8));
+        writer.Add(name, bytes);
+      }
+      writer.Commit();
+      try {
+        StateFile state(folder_.File("b.state"));
+        Render(nullptr, &state, 1);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.Status(), ExitStatus::File) << error.what();
+        ++errors;
+      }
+    }
+  }
+  EXPECT_GE(errors, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, ResumeTest, testing::Range(0, int(std::size(kCases))));
+
+}  // namespace
+}  // namespace exphoton

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check the estimate of the bias of shared gathers against light whose bias is known.
+#include "core/render/sharing/sharing_bias.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/math/sampling/random.h"
+#include "core/render/sharing/shared_gathers.h"
+
+namespace exphoton {
+namespace {
+
+using LightAt = std::function<double(double x, double y)>;
+
+constexpr int kSize = 96, kSamples = 4, kRuns = 16;
+
+struct Shared {
+  SharingBias bias;             // as estimated
+  std::vector<double> picture;  // radiance
+};
+
+// Returns the result of sharing the gathers of a plane that receives this light. The noise of each
+// sample is uniform, and this is its largest relative value.
+Shared ShareLight(const LightAt& light, double noise, std::uint64_t seed) {
+  const PixelBounds bounds{0, 0, kSize, kSize};
+  GatherFragments gathers(bounds, kSamples);
+  Film film(bounds, bounds);
+  RandomStream random(seed);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      for (int i = 0; i < kSamples; ++i) {
+        const Point2 at{Real(x) + random.Uniform(), Real(y) + random.Uniform()};
+        const double factor = 1 + noise * (2 * double(random.Uniform()) - 1);
+        const GatherRecord record{{at.x / 100, at.y / 100, 0},
+                                  {0, 0, 1},
+                                  {0, 0, 1},
+                                  Spectrum(Real(light(x + .5, y + .5) * factor)),
+                                  Spectrum(1)};
+        gathers.At({x, y}).Add({record}, at, 1, GatherGroup({x, y}, i));
+        film.AddSample({x, y}, Spectrum(), 1, 1);
+      }
+      gathers.At({x, y}).Finish();
+    }
+  }
+  ThreadPool threads(1);
+  const SharingTotals totals =
+      AddSharedLight(gathers, &threads, {&film, nullptr, nullptr, bounds, kSamples});
+  Shared result{EstimateSharingBias(totals.checked, film).value(), {}};
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) result.picture.push_back(film.MeanOf({x, y})[1]);
+  return result;
+}
+
+struct Comparison {
+  double estimate = 0, standardError = 0;  // mean of the estimates of all runs
+  double squaredBias = 0, variance = 0;    // of the pictures, in relMSE; squaredBias without noise
+};
+
+Comparison CompareRuns(const LightAt& light, double noise) {
+  Comparison result;
+  std::vector<double> sums(std::size_t(kSize * kSize)), squares(sums.size());
+  for (int run = 0; run < kRuns; ++run) {
+    const Shared shared = ShareLight(light, noise, std::uint64_t(run));
+    result.estimate += shared.bias.squared / kRuns;
+    result.standardError += shared.bias.standardError * shared.bias.standardError;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i] += shared.picture[i];
+      squares[i] += shared.picture[i] * shared.picture[i];
+    }
+  }
+  result.standardError = std::sqrt(result.standardError) / kRuns;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double mean = sums[i] / kRuns;
+    const double wanted = light(double(i % kSize) + .5, double(i / kSize) + .5);
+    const double variance = (squares[i] / kRuns - mean * mean) * kRuns / (kRuns - 1);
+    const double scale = 1 / ((wanted * wanted + .01) * double(sums.size()));
+    result.squaredBias += ((mean - wanted) * (mean - wanted) - variance / kRuns) * scale;
+    result.variance += variance * scale;
+  }
+  return result;
+}
+
+TEST(SharingBias, IsZeroForConstantLight) {
+  const Comparison runs = CompareRuns([](double, double) { return 1; }, .9);
+  EXPECT_LT(std::abs(runs.estimate), 4 * runs.standardError);
+}
+
+// Sharing flattens light that waves quickly. The noise is so large that it pays all the same.
+TEST(SharingBias, IsTheBiasOfThePicturesWhereLightWaves) {
+  const Comparison runs = CompareRuns([](double, double y) { return 1 + .3 * std::sin(y); }, 1);
+  EXPECT_GT(runs.squaredBias, 8 * runs.standardError) << "the test could not fail";
+  EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
+}
+
+}  // namespace
+}  // namespace exphoton
