@@ -171,12 +171,11 @@ std::string Damaged(std::string bytes, Luck* luck) {
 
 std::string BadImage(Luck* luck, const TestFolder& folder) {
   const std::string source = EXPHOTON_SOURCE_DIR;
-  const bool isPng = luck->OneIn(2);
-  const std::string name = isPng ? "map.png" : "map.exr";
-  WriteFile(folder.File(name),
-            Damaged(ReadFile(source + (isPng ? "/scenes/parts/tile_height.png"
-                                             : "/tests/fuzz/seeds/exr/small.exr")),
-                    luck));
+  const std::string good =
+      luck->Of({"/scenes/parts/tile_height.png", "/tests/fuzz/seeds/exr/small.exr",
+                "/tests/unit/imaging/files/progressive.jpg"});
+  const std::string name = "map" + good.substr(good.rfind('.'));
+  WriteFile(folder.File(name), Damaged(ReadFile(source + good), luck));
   if (luck->OneIn(2))
     return kSmall + "LightSource \"infinite\" \"string mapname\" \"" + name +
            "\"\nShape \"sphere\"\nWorldEnd\n";
@@ -184,7 +183,17 @@ std::string BadImage(Luck* luck, const TestFolder& folder) {
          "\"\nMaterial \"matte\" \"texture Kd\" \"t\"\nShape \"sphere\"\nWorldEnd\n";
 }
 
+std::string BadObj(Luck* luck, const TestFolder& folder) {
+  const std::string source = EXPHOTON_SOURCE_DIR;
+  const std::string more = luck->Of({"", "f 1 2 99999999\n", "f -99 1 2\n", "v 1e99 nan 0\n",
+                                     "t x 2000000000/2000000000/2000000000\n"});
+  WriteFile(folder.File("mesh.obj"),
+            Damaged(ReadFile(source + "/tests/recorded/mesh.obj") + more, luck));
+  return kSmall + "Shape \"obj\" \"string filename\" \"mesh.obj\"\nWorldEnd\n";
+}
+
 std::string BadPly(Luck* luck, const TestFolder& folder) {
+  if (luck->OneIn(3)) return BadObj(luck, folder);
   const std::string format =
       luck->Of({"ascii", "binary_little_endian", "binary_big_endian", "odd"});
   const std::string count = luck->Of({"4", "4", "4", "0", "-1", "1000000000", "99999999999", "x"});

@@ -183,6 +183,9 @@ class Case {
     if (isNamed) AddOutput(dice_.OneIn(2) ? "-o" : "--outfile", &command);
     if (dice_.OneIn(4)) AddOutput("--preview", &command);
     if (dice_.OneIn(4)) AddOutput("--stats-json", &command);
+    if (dice_.OneIn(10)) AddOutput("--state", &command);
+    if (dice_.OneIn(10)) command.words.push_back("--resume");
+    if (dice_.OneIn(10)) command.words.insert(command.words.end(), {"--write-every", ".001s"});
     if (dice_.OneIn(20)) command.words.push_back("--check");
     command.words.insert(command.words.end(), {"--nthreads", "1", "--no-progress"});
     return command;

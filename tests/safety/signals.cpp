@@ -85,7 +85,8 @@ class Experiment {
     const ProcessResult result = Interrupt(Command(kRender), signal, renderSeconds_);
     for (const std::string& name : folder_.Names())
       if (name != "study" && name != "scene.pbrt" && name != "older.exr" && name != "out.exr" &&
-          name != "p.png" && name != "s.json" && !(name == "out.partial.exr" && AsksToStop(signal)))
+          name != "p.png" && name != "s.json" &&
+          !((name == "out.partial.exr" || name == "out.exr.state") && AsksToStop(signal)))
         return name + " is left";
     if (result.status != 0 && result.status != 128 + signal)
       return "status " + std::to_string(result.status) + "\n" + result.err;
@@ -136,7 +137,7 @@ class Experiment {
   }
 
   void ResetRender() const {
-    for (const char* name : {"out.exr", "out.partial.exr", "p.png", "s.json"})
+    for (const char* name : {"out.exr", "out.partial.exr", "out.exr.state", "p.png", "s.json"})
       fs::remove(folder_.File(name));
     fs::copy_file(folder_.File("older.exr"), folder_.File("out.exr"));
   }

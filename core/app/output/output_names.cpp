@@ -31,6 +31,10 @@ std::string OutputNames::Picture(const std::string& name) const {
   return FollowLinks(NameFromUser().value_or(ExrName(name)));
 }
 
+std::string OutputNames::State(const std::string& name) const {
+  return command_.stateFile.empty() ? Picture(name) + ".state" : FollowLinks(command_.stateFile);
+}
+
 // Suggests a command with -o NAME: the original one if it renders one scene, else one for `scene`.
 std::string OutputNames::LineWithOutput(const std::string& scene, const std::string& name) const {
   const bool isAlone = command_.scenes.size() == 1 && !command_.commandLine.empty();
@@ -52,6 +56,9 @@ void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& 
   if (!command_.previewFile.empty())
     files.AddOutput("2 " + key, {command_.previewFile, "the preview" + of,
                                  "--preview FILE.png names another file, for one picture"});
+  if (command_.resumes || command_.writeEvery || !command_.stateFile.empty())
+    files.AddOutput("4 " + key, {State(name), "the state" + of,
+                                 "--state FILE names another file for the state"});
   if (!command_.statsFile.empty() && command_.statsFile != "-")
     files.AddOutput("3", {command_.statsFile, "the statistics",
                           "--stats-json FILE names another file for them"});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PictureAttributes makes the attributes of an EXR picture. The names follow pbrt-v4 and the
 // OpenEXR standard.
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
@@ -19,15 +18,13 @@ std::vector<float> MatrixAttribute(const Matrix4& matrix) {
   return values;
 }
 
-std::string PhaseTimes(const Statistics& statistics) {
-  std::string text;
-  char line[160];
-  for (const Statistics::Phase& phase : statistics.Phases()) {
-    std::snprintf(line, sizeof line, "%s%s %.3f s (%.3f s CPU)", text.empty() ? "" : "; ",
-                  phase.name.c_str(), phase.wallSeconds, phase.cpuSeconds);
-    text += line;
-  }
-  return text;
+// The meaning of the values of R, G and B. Spectrum has the primaries of Rec. 709 and the white
+// point D65. The luminance takes values as W/(m^2 sr), with the luminous efficacy of white light
+// that Radiance uses, in lm/W.
+void AddColorMeaning(std::map<std::string, ImageAttribute>* attributes) {
+  (*attributes)["chromaticities"] =
+      std::vector<float>{.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f};
+  (*attributes)["whiteLuminance"] = 179.f;
 }
 
 void AddTimes(const RunRecord& run, std::map<std::string, ImageAttribute>* attributes) {
@@ -40,7 +37,10 @@ void AddTimes(const RunRecord& run, std::map<std::string, ImageAttribute>* attri
   (*attributes)["utcOffset"] = float(-local.tm_gmtoff);  // seconds to add to get UTC
   if (const char* user = std::getenv("USER")) (*attributes)["owner"] = std::string(user);
   (*attributes)["commandLine"] = run.commandLine;
-  (*attributes)["phaseTimes"] = PhaseTimes(run.statistics);
+  for (const Statistics::Phase& phase : run.statistics.Phases()) {
+    (*attributes)["time/" + phase.name] = float(phase.wallSeconds);
+    (*attributes)["cpuTime/" + phase.name] = float(phase.cpuSeconds);
+  }
   (*attributes)["renderTimeSeconds"] = float(run.renderSeconds);
   (*attributes)["threads"] = run.threads;
   if (run.timeLimit) (*attributes)["timeLimit"] = float(*run.timeLimit);
@@ -55,17 +55,24 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   attributes["scene"] = setup.sceneName;
   attributes["sceneHash"] = HashText(setup.sceneHash);
   attributes["integrator"] = setup.integratorName;
-  attributes["effects"] = setup.scene->Features().Describe();
+  attributes["effects"] = EffectNames(setup);
   attributes["seed"] = std::to_string(run.seed);
   attributes["samplesPerPixel"] = int(run.samplesPerPixel);
   if (run.footprintSamples > 0) attributes["footprintSamplesPerPixel"] = int(run.footprintSamples);
   attributes["passes"] = run.passes;
   attributes["stoppedBy"] = run.stoppedBy;
   if (run.noise) attributes["noise"] = float(*run.noise);  // estimated noise part of relMSE
+  if (run.sharingBias) {  // estimated squared bias of shared gathers, as a part of relMSE
+    attributes["sharingBias"] = float(run.sharingBias->squared);
+    attributes["sharingBiasError"] = float(run.sharingBias->standardError);
+  }
   if (run.targetError) attributes["targetError"] = float(*run.targetError);
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
                            "sampler " + setup.samplerName + ", filter " + setup.filterName +
                            ", camera " + setup.cameraName;
+  AddColorMeaning(&attributes);
+  const Interval shutter = setup.camera->Shutter();
+  attributes["expTime"] = float(shutter.max - shutter.min);
   attributes["worldToCamera"] = MatrixAttribute(setup.camera->CameraToWorld().InverseMatrix());
   attributes["worldToNDC"] = MatrixAttribute(setup.camera->WorldToNdc());
   if (!isReproducible) AddTimes(run, &attributes);

@@ -41,7 +41,7 @@ std::string Row(const std::string& label, const std::string& text) {
 
 // Returns "" if sharing was not asked for.
 std::string SharingRow(const RenderSetup& setup) {
-  const SharingPlan plan = PlanSharing(*setup.integrator, *setup.scene, *setup.camera, {});
+  const SharingPlan plan = PlanSharing(*setup.integrator, *setup.scene, *setup.camera);
   if (plan.reason.empty()) return "";
   return Row("shared gather", (plan.isOn ? "on   " : "off  ") + plan.reason);
 }
@@ -166,6 +166,10 @@ std::string StatisticsTable(const RunRecord& run) {
   if (run.noise)
     text += Row("noise", Format("%.3g", *run.noise) +
                              " of relMSE, estimated between passes (bias not included)");
+  if (run.sharingBias)
+    text += Row("sharing bias",
+                Format("%.2g \u00b1 %.2g of relMSE, estimated between groups of samples",
+                       run.sharingBias->squared, run.sharingBias->standardError));
   return text + PhaseTable(run) + RayTable(run) + CounterTable(run.statistics.Counters());
 }
 
@@ -183,8 +187,11 @@ std::string StoppingText(const RunRecord& run) {
   text += Format(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
                  run.passes, run.passes == 1 ? "pass" : "passes");
   if (!run.noise) return text + ", which give no estimate of the noise";
-  return text + Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
-                       100 * std::sqrt(*run.noise), *run.noise);
+  text += Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
+                 100 * std::sqrt(*run.noise), *run.noise);
+  if (!run.sharingBias) return text;
+  return text + Format(", of the bias of shared gathers %.2g \u00b1 %.2g", run.sharingBias->squared,
+                       run.sharingBias->standardError);
 }
 
 std::string EffectNames(const RenderSetup& setup) {

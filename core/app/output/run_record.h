@@ -11,6 +11,7 @@
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
+#include "core/render/sharing/sharing_estimate.h"
 
 namespace exphoton::cli {
 
@@ -33,8 +34,9 @@ struct RunRecord {
   int passes = 1;
   std::string stoppedBy;        // from StopReasonName
   std::optional<double> noise;  // estimated noise part of relMSE
+  std::optional<SharingBias> sharingBias;
   std::optional<double> timeLimit, targetError;
-  std::string aovs;  // "Albedo, N"
+  std::string aovs;  // "albedo, N"
   std::string commandLine;
 };
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// StateIdentity: settings have the names of their options, so that messages can name them.
+#include "core/app/output/state_identity.h"
+
+#include <array>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "core/app/output/picture.h"
+#include "core/base/error.h"
+#include "core/files/input_file.h"
+
+namespace exphoton::cli {
+namespace {
+
+std::string Text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string Text(const PixelBounds& bounds) {
+  std::string text;
+  for (const int edge : {bounds.x0, bounds.x1, bounds.y0, bounds.y1})
+    text += (text.empty() ? "" : ",") + std::to_string(edge);
+  return text;
+}
+
+// Directives have a hash that does not depend on their layout, so scene files are left out here.
+bool IsSceneFile(const std::string& name) {
+  return name.ends_with(".pbrt") || name.ends_with(".pbrt.gz");
+}
+
+std::uint64_t HashOfFile(const std::string& path) {
+  try {
+    const Descriptor file(OpenRegularFile(path));
+    std::vector<char> block(std::size_t(1) << 20);
+    std::uint64_t hash = 0;
+    for (;;) {
+      std::size_t filled = 0;
+      ssize_t count = 1;
+      while (filled < block.size() && count > 0) {
+        count = read(file.Get(), block.data() + filled, block.size() - filled);
+        if (count > 0) filled += std::size_t(count);
+      }
+      hash = StateChecksum(hash, {block.data(), filled});
+      if (filled < block.size()) return hash;
+    }
+  } catch (const InputFileError&) {
+    return 0;
+  }
+}
+
+}  // namespace
+
+StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& setup)
+    : program_(VersionText()) {
+  inputs_.push_back({setup.sceneName, setup.sceneHash});
+  for (const std::string& name : setup.inputFiles)
+    if (name != setup.sceneName && !IsSceneFile(name)) inputs_.push_back({name, HashOfFile(name)});
+
+  const LoadOptions& load = command.load;
+  const auto add = [this](const char* name, const std::string& value) {
+    settings_.push_back({name, value});
+  };
+  add("the size",
+      std::to_string(setup.film.xResolution) + "x" + std::to_string(setup.film.yResolution));
+  add("the part in pixels", Text(setup.crop));
+  add("--integrator", setup.integratorName);
+  add("--sampler", setup.samplerName);
+  add("--filter", setup.filterName);
+  add("--camera", setup.cameraName);
+  add("--accelerator", setup.acceleratorName);
+  add("--spp", load.samplesPerPixel ? std::to_string(*load.samplesPerPixel) : "");
+  add("--seed", std::to_string(command.seed));
+  add("--footprint-spp", std::to_string(command.footprintSamples));
+  add("--quick", load.isQuick ? "on" : "off");
+  add("--effects", load.effects);
+  add("--dialect", !load.dialect ? "auto" : *load.dialect == Dialect::V2 ? "v2" : "v1");
+  add("--aov", AovNames(command));
+  add("--two-halves", command.asTwoHalves ? "on" : "off");
+  add("--target-error", command.targetError ? Text(*command.targetError) : "");
+  add("--time-limit", command.timeLimit ? "on" : "off");  // more time may be given
+  std::map<std::string, std::string> sets;
+  for (const ParameterOverride& set : load.parameters)
+    if (set.directive != "Film" || set.parameter != "filename")
+      sets["--set " + set.directive + "." + set.parameter] = set.value;
+  for (const auto& [name, value] : sets) add(name.c_str(), value);
+}
+
+void StateIdentity::Transfer(ByteArchive* archive) {
+  archive->Text(&program_);
+  inputs_.resize(archive->Count(inputs_.size(), 16));
+  for (Input& input : inputs_) {
+    archive->Text(&input.name);
+    archive->Values(&input.hash);
+  }
+  settings_.resize(archive->Count(settings_.size(), 16));
+  for (Setting& setting : settings_) {
+    archive->Text(&setting.name);
+    archive->Text(&setting.value);
+  }
+}
+
+void StateIdentity::Save(StateWriter* writer) const {
+  ByteArchive archive;
+  StateIdentity(*this).Transfer(&archive);
+  writer->Add("identity", archive.Take());
+}
+
+// `other` is the identity in the file.
+std::string StateIdentity::Differences(const StateIdentity& other) const {
+  if (other.program_ != program_) return "it is by " + other.program_ + ", this is " + program_;
+  if (other.inputs_.empty()) return "it names no scene";
+  const Input& scene = inputs_.front();
+  const Input& otherScene = other.inputs_.front();
+  if (otherScene.hash != scene.hash && otherScene.name != scene.name)
+    return "it is of another scene: \"" + otherScene.name + "\" there, \"" + scene.name + "\" here";
+  if (otherScene.hash != scene.hash) return "the scene \"" + scene.name + "\" has changed since";
+  std::string texts;
+  const auto add = [&texts](const std::string& text) {
+    texts += (texts.empty() ? "" : "; ") + text;
+  };
+  if (other.inputs_.size() != inputs_.size()) add("the scene's files are not the same");
+  for (std::size_t i = 1; i < std::min(inputs_.size(), other.inputs_.size()); ++i)
+    if (inputs_[i].hash != other.inputs_[i].hash)
+      add("the file \"" + inputs_[i].name + "\" has changed since");
+  std::map<std::string, std::array<std::string, 2>> values;
+  for (const Setting& setting : other.settings_) values[setting.name][0] = setting.value;
+  for (const Setting& setting : settings_) values[setting.name][1] = setting.value;
+  const auto shown = [](const std::string& value) {
+    return value.empty() ? std::string("not given") : value;
+  };
+  for (const auto& [name, both] : values)
+    if (both[0] != both[1])
+      add(name + " is " + shown(both[0]) + " there, " + shown(both[1]) + " here");
+  return texts;
+}
+
+void StateIdentity::Check(const StateFile& file) const {
+  StateIdentity other;
+  file.Read("identity", [&other](ByteArchive* archive) { other.Transfer(archive); });
+  const std::string differences = Differences(other);
+  if (differences.empty()) return;
+  throw Error(ExitStatus::CommandLine,
+              "cannot continue from \"" + file.Path() + "\": " + differences, {},
+              "repeat the command of the stopped render with --resume, or leave --resume out to "
+              "start from the beginning");
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// StateIdentity describes the program, scene and settings that decide the bytes of a picture. A
+// stopped render can be continued only if all of them are the same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/app/options/options.h"
+#include "core/render/state/state_file.h"
+
+namespace exphoton::cli {
+
+class StateIdentity {
+ public:
+  // Reads the files that the scene names, to know their contents.
+  StateIdentity(const RenderCommand& command, const RenderSetup& setup);
+
+  void Save(StateWriter* writer) const;
+  // Throws Error(CommandLine), which names everything that differs.
+  void Check(const StateFile& file) const;
+
+ private:
+  struct Input {
+    std::string name;
+    std::uint64_t hash = 0;  // of the scene's directives, or of a file's bytes
+  };
+  struct Setting {
+    std::string name, value;  // "--spp", "16"
+  };
+  StateIdentity() = default;
+  void Transfer(ByteArchive* archive);
+  std::string Differences(const StateIdentity& other) const;
+
+  std::string program_;
+  std::vector<Input> inputs_;  // the scene comes first
+  std::vector<Setting> settings_;
+};
+
+}  // namespace exphoton::cli

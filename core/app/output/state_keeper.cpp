@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// StateKeeper: a thread says when a checkpoint is due, and the render's own thread writes it.
+#include "core/app/output/state_keeper.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <system_error>
+
+#include "core/base/error.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr double kLargestShare = .1;  // of the time for writing
+
+bool FileExists(const std::string& path) {
+  struct stat status;
+  return lstat(path.c_str(), &status) == 0;
+}
+
+}  // namespace
+
+StateKeeper::StateKeeper(const Settings& settings, const StateIdentity& identity, Log& log)
+    : settings_(settings), identity_(identity), log_(log), pause_(settings.interval.value_or(0)) {
+  if (!FileExists(settings.picturePath)) ownPicture_ = settings.picturePath;
+  if (!settings.interval) return;
+  try {
+    watch_ = std::thread([this] { Watch(); });
+  } catch (const std::system_error&) {
+    log_.Warning("--write-every has no effect: no thread could be started");
+  }
+}
+
+StateKeeper::~StateKeeper() {
+  {
+    const std::lock_guard lock(mutex_);
+    isOver_ = true;
+  }
+  changed_.notify_all();
+  if (watch_.joinable()) watch_.join();
+}
+
+void StateKeeper::Watch() {
+  std::unique_lock lock(mutex_);
+  while (!isOver_) {
+    const Clock::time_point next =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                           std::chrono::duration<double>(std::min(pause_, 1e8)));
+    if (changed_.wait_until(lock, next, [this] { return isOver_; })) return;
+    isDue_ = true;
+    changed_.wait(lock, [this] { return isOver_ || !isDue_; });
+  }
+}
+
+StateFile* StateKeeper::Resume() {
+  if (!settings_.resumes) {
+    if (IsStateFile(settings_.path))
+      log_.Warning("\"" + settings_.path +
+                       "\" is the state of a stopped render, which this command does not continue",
+                   {}, "--resume continues it");
+    return nullptr;
+  }
+  if (!FileExists(settings_.path)) {
+    log_.Notice("there is no state \"" + settings_.path + "\": rendering from the start");
+    return nullptr;
+  }
+  resumed_.emplace(settings_.path);
+  identity_.Check(*resumed_);
+  resumed_->Read("run", [this](ByteArchive* archive) { TransferRun(archive); });
+  return &*resumed_;
+}
+
+void StateKeeper::TransferRun(ByteArchive* archive) {
+  const std::chrono::duration<double> now = Clock::now() - settings_.start;
+  double seconds = earlierSeconds_ + now.count();
+  archive->Values(&seconds);
+  archive->Text(&ownPicture_);
+  if (!archive->IsLoading()) return;
+  if (!(seconds >= 0)) throw ArchiveError("its time is negative");
+  earlierSeconds_ = seconds;
+  if (ownPicture_ != settings_.picturePath) ownPicture_.clear();
+}
+
+void StateKeeper::Save(const Checkpoint& checkpoint) {
+  if (FileExists(settings_.path) && !IsStateFile(settings_.path))
+    throw Error(ExitStatus::File, "\"" + settings_.path + "\" exists and is not a state");
+  if (!hasWritten_ && !resumed_) KeepOlderState();
+  StateWriter writer(settings_.path);
+  identity_.Save(&writer);
+  ByteArchive run;
+  TransferRun(&run);
+  writer.Add("run", run.Take());
+  checkpoint.save(&writer);
+  writer.Commit();
+  hasWritten_ = true;
+}
+
+// The state of a render that is not continued may be hours of work.
+void StateKeeper::KeepOlderState() {
+  if (!FileExists(settings_.path)) return;
+  const std::string name = settings_.path + ".old";
+  if (FileExists(name) && !IsStateFile(name))
+    throw Error(ExitStatus::File, "\"" + name + "\" exists and is not a state");
+  if (std::rename(settings_.path.c_str(), name.c_str()) != 0)
+    throw Error(ExitStatus::File, "cannot rename \"" + settings_.path + "\"");
+  log_.Notice("the older state is kept as \"" + name + "\"");
+}
+
+void StateKeeper::Take(const Checkpoint& checkpoint, bool isLast) {
+  const Clock::time_point start = Clock::now();
+  try {
+    if (checkpoint.hasWork) {
+      Save(checkpoint);
+      if (!isLast && checkpoint.picture) settings_.writePicture(checkpoint.picture());
+    }
+  } catch (const std::bad_alloc&) {
+    if (!hasWarned_) log_.Warning("too little memory to write the state of this render");
+    hasWarned_ = true;
+  } catch (const Error& error) {
+    if (!hasWarned_)
+      log_.Warning(std::string("the state of this render is not written: ") + error.what());
+    hasWarned_ = true;
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  {
+    const std::lock_guard lock(mutex_);
+    pause_ = std::max(settings_.interval.value_or(0), seconds * (1 / kLargestShare - 1));
+    isDue_ = false;
+  }
+  changed_.notify_all();
+}
+
+void StateKeeper::Remove() {
+  if (!hasWritten_ && !resumed_) return;
+  if (IsStateFile(settings_.path)) unlink(settings_.path.c_str());
+  if (!ownPicture_.empty()) unlink(ownPicture_.c_str());
+}
+
+}  // namespace exphoton::cli
