@@ -20,11 +20,11 @@ struct Settings : MappedPointLightSettings {
 
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
-      MappedPointLightParameters(),
-      Param("mapname", &Settings::mapName,
-            "latitude-longitude map of the intensity (EXR or PNG); top row is +y of the light; 1 "
-            "everywhere if absent")
-          .As(ParamType::File)};
+      MappedPointLightParameters(), Param("mapname", &Settings::mapName,
+                                          "latitude-longitude map of the intensity (an image file, "
+                                          "as for imagemap); top row is +y of the light; 1 "
+                                          "everywhere if absent")
+                                        .As(ParamType::File)};
   return table;
 }
 

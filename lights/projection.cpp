@@ -30,7 +30,7 @@ const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       MappedPointLightParameters(),
       Param("mapname", &Settings::mapName,
-            "image (EXR or PNG); first row is -y of the light; a white square if absent")
+            "image file, as for imagemap; first row is -y of the light; a white square if absent")
           .As(ParamType::File),
       Param("fov", &Settings::fov, "angle of the shorter axis of the image")
           .Above(0)

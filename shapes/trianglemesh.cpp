@@ -59,15 +59,6 @@ bool HasDegenerateUvs(const TriangleMesh& mesh) {
   });
 }
 
-// Drops a constant alpha: a mesh is whole, or it has no triangles.
-void SetAlpha(const TexturePtr<Real>& alpha, TriangleMesh* mesh) {
-  const std::optional<Real> constant = alpha->ConstantValue();
-  if (!constant)
-    mesh->alpha = alpha;
-  else if (*constant == 0)
-    mesh->indices.clear();
-}
-
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
   auto mesh = std::make_unique<TriangleMesh>();
   mesh->indices = CheckedTriangles(settings.indices, settings.positions.size(), "indices");

@@ -10,6 +10,11 @@ class EnvironmentCamera final : public CameraBase {
  public:
   using CameraBase::CameraBase;
 
+  Real Depth(const Point3& p, Real time) const override {
+    const Point3 local = ToCamera(p, time);
+    return std::hypot(local.x, local.y, local.z);
+  }
+
  private:
   CameraSpaceRay Generate(Point2 film, Point2) const override {
     const double theta = M_PI * double(film.y) / YResolution();

@@ -36,6 +36,8 @@ struct SurfaceInteraction : SurfacePoint {  // p, pError, ng, time
   const Material* material = nullptr;    // null: the surface does not scatter
   const AreaLight* areaLight = nullptr;  // null: the surface emits nothing
   const Motion* motion = nullptr;        // of the surface; null if it does not move
+  // Numbers of the shape or instance and of its material, from 1 in the order of the file.
+  std::uint32_t objectId = 0, materialId = 0;
 
   // Computes the footprint from the ray's differentials. Clears it if anything is not finite.
   void ComputeDifferentials(const RayDifferential& ray);

@@ -13,8 +13,10 @@
 #include "core/base/memory.h"
 #include "core/files/input_file.h"
 #include "core/imaging/files/exr.h"
+#include "core/imaging/files/jpeg.h"
 #include "core/imaging/files/pfm.h"
 #include "core/imaging/files/png.h"
+#include "core/imaging/files/radiance.h"
 #include "core/imaging/files/tga.h"
 
 namespace exphoton {
@@ -42,6 +44,12 @@ float Image::At(int x, int y, int channel) const {
   return const_cast<Image*>(this)->At(x, y, channel);
 }
 
+void CheckPixelCount(const std::string& path, std::int64_t width, std::int64_t height) {
+  constexpr std::int64_t kLongest = std::int64_t(1) << 30;
+  if (width > kLongest || height > kLongest || width * height > kMaxImagePixels)
+    throw ImageError(path + ": more than 2^28 pixels");
+}
+
 void CheckImageFile(const std::string& path) {
   try {
     RequireRegularFile(path);
@@ -63,18 +71,26 @@ std::string BytesOf(const std::string& path, std::FILE* file, long from, std::si
   return bytes;
 }
 
-// Reads the formats that this program parses itself from bytes in memory.
-Image ReadPlainImage(const std::string& path, const std::string& magic, std::FILE* file) {
+using ImageParser = Image (*)(const std::string& path, std::string_view bytes);
+
+// Returns the parser of a format that has a mark at its beginning; null if there is none.
+ImageParser ParserFor(std::string_view magic) {
+  if (IsPfm(magic)) return ParsePfm;
+  if (IsJpeg(magic)) return ParseJpeg;
+  return IsRadiance(magic) ? ParseRadiance : nullptr;
+}
+
+// Reads the formats that are parsed from bytes in memory.
+Image ReadFromMemory(const std::string& path, const std::string& magic, std::FILE* file) {
   std::fseek(file, 0, SEEK_END);
   const long size = std::ftell(file);
-  const bool isPfm = IsPfm(magic);
-  if (!isPfm && !IsTga(path, BytesOf(path, file, std::max(size - 26, 0l), 26)))
-    throw ImageError(path + ": not an OpenEXR, PNG, PFM or TGA file");
-  constexpr long kMaxBytes = 1l << 33;  // above the size of 2^28 pixels in any format
+  ImageParser parse = ParserFor(magic);
+  if (!parse && IsTga(path, BytesOf(path, file, std::max(size - 26, 0l), 26))) parse = ParseTga;
+  if (!parse) throw ImageError(path + ": not an OpenEXR, PNG, JPEG, TGA, Radiance HDR or PFM file");
+  constexpr long kMaxBytes = 1l << 33;  // above the size of kMaxImagePixels in any format
   if (size > kMaxBytes) throw ImageError(path + ": more than 8 GiB");
   try {
-    const std::string bytes = BytesOf(path, file, 0, std::size_t(size));
-    return isPfm ? ParsePfm(path, bytes) : ParseTga(path, bytes);
+    return parse(path, BytesOf(path, file, 0, std::size_t(size)));
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::Resource,
                 "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());
@@ -87,11 +103,11 @@ Image ReadImage(const std::string& path) {
   CheckImageFile(path);
   const OpenImage file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw ImageError(path + ": " + std::strerror(errno));
-  const std::string magic = BytesOf(path, file.get(), 0, 8);
+  const std::string magic = BytesOf(path, file.get(), 0, 10);
   if (magic.empty()) throw ImageError(path + ": the file is empty");
   if (magic.starts_with("\x76\x2f\x31\x01")) return ReadExr(path);
-  if (magic == "\x89PNG\r\n\x1a\n") return ReadPng(path);
-  return ReadPlainImage(path, magic, file.get());
+  if (magic.starts_with("\x89PNG\r\n\x1a\n")) return ReadPng(path);
+  return ReadFromMemory(path, magic, file.get());
 }
 
 }  // namespace exphoton

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Image is a rectangle of float pixels with named channels, in memory. exr.h and png.h read and
-// write files; tga.h and pfm.h read them. ReadImage detects the format.
+// write files; tga.h, pfm.h, jpeg.h and radiance.h read them. ReadImage detects the format.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -21,15 +23,16 @@ struct PixelBounds {
   friend bool operator==(const PixelBounds&, const PixelBounds&) = default;
 };
 
-using ImageAttribute =
-    std::variant<std::string, float, int, std::vector<float>>;  // 16 floats: m44f
+// 16 floats are a matrix. The eight of "chromaticities" are the x and y of red, green, blue, white.
+using ImageAttribute = std::variant<std::string, float, int, std::vector<float>>;
 
 struct Image {
   PixelBounds data;                   // position of the pixels in the full frame
   PixelBounds display;                // the full frame
-  std::vector<std::string> channels;  // for example "R", "G", "B", "A", "Albedo.R"
+  std::vector<std::string> channels;  // for example "R", "G", "B", "A", "albedo.R"
   std::vector<float> pixels;          // row by row, with the channels of a pixel adjacent
   std::map<std::string, ImageAttribute> attributes;
+  std::set<std::string> exactChannels;  // written with 32 bits to every EXR file
   bool isFromSrgb = false;  // whether the values were decoded from sRGB when the file was read
 
   Image() = default;
@@ -51,10 +54,14 @@ class ImageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Reads EXR and PFM (linear), PNG (8 or 16 bit) or TGA files. sRGB is decoded to linear. All but
-// EXR have the channels R, G, B, and A if present; grey becomes R, G, B. EXR channels keep their
-// names; Y alone becomes R, G, B. Throws ImageError, also for more than 2^28 pixels or 64 channels,
-// which are checked before allocation.
+// Pictures that are read have at most 2^28 pixels. Throws ImageError for larger ones.
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t(1) << 28;
+void CheckPixelCount(const std::string& path, std::int64_t width, std::int64_t height);
+
+// Reads EXR, PFM and Radiance HDR files (linear), and PNG (8 or 16 bit), JPEG and TGA files, which
+// are decoded from sRGB to linear. All but EXR have the channels R, G, B, and A if present; grey
+// becomes R, G, B. EXR channels keep their names; Y alone becomes R, G, B. Throws ImageError, also
+// for more than kMaxImagePixels or 64 channels, which are checked before allocation.
 Image ReadImage(const std::string& path);
 
 // Throws ImageError if `path` is not a readable regular file.

@@ -152,6 +152,10 @@ std::string LanguagePage(PluginRegistry& registry) {
 std::map<std::string, std::string> AllReferencePages(PluginRegistry& registry) {
   auto pages = ReferencePages(registry);
   pages[kLanguageFile] = LanguagePage(registry);
+  std::string& materials = pages["materials.md"];
+  materials.insert(materials.find("## "),
+                   "![One object in every "
+                   "material](../../scenes/material-gallery/images/labelled.jpg)\n\n");
   pages["README.md"] +=
       "- [The plugins and parameters of pbrt](pbrt.md), and what becomes of them\n\n"
       "![Shapes, materials, textures and lights](../../scenes/language-tour/images/sheet.jpg)\n";

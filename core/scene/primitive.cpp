@@ -208,6 +208,8 @@ SurfaceInteraction PrimitiveSet::Surface(const Ray& ray, const Hit& hit) const {
   surface.time = ray.time;
   surface.material = attributes.material;
   surface.areaLight = attributes.areaLight;
+  surface.objectId = attributes.objectId;
+  surface.materialId = attributes.materialId;
   return surface;
 }
 
@@ -223,6 +225,7 @@ SurfaceInteraction PrimitiveSet::InstanceSurface(const Ray& ray, const Hit& hit)
       SurfaceToWorld(motion ? motion->At(ray.time) : instance.instanceToWorld, local);
   surface.wo = NormalizeOr(-ray.d, Vector3());
   surface.motion = motion;
+  if (instance.objectId != 0) surface.objectId = instance.objectId;
   return surface;
 }
 

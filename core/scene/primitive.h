@@ -39,6 +39,7 @@ struct TraceRay {
 struct PrimitiveAttributes {
   const Material* material = nullptr;
   const AreaLight* areaLight = nullptr;
+  std::uint32_t objectId = 0, materialId = 0;  // see SurfaceInteraction
 };
 
 // An object's geometry, placed in the world by a transformation.
@@ -46,6 +47,7 @@ struct Instance {
   Transform instanceToWorld;  // if it moves: at the start of the motion
   const class ObjectGeometry* object = nullptr;
   std::shared_ptr<const Motion> motion = nullptr;  // null: the instance does not move
+  std::uint32_t objectId = 0;                      // 0: its shapes have their own
 };
 
 class PrimitiveSet {

@@ -103,7 +103,7 @@ const ParamTable<InfiniteLightSettings>& InfiniteLightParameters() {
           .Unit("W/(m^2 sr)"),
       Param("scale", &Settings::scale, "factor on L").AtLeast(0),
       Param("mapname", &Settings::mapName,
-            "latitude-longitude map (EXR or PNG); top row is +z of the light")
+            "latitude-longitude map (an image file, as for imagemap); top row is +z of the light")
           .As(ParamType::File),
       Param("nsamples", &Settings::sampleCount, "shadow rays at a shading point")
           .Range(1, 1 << 20)};

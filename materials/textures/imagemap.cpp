@@ -33,7 +33,7 @@ struct ImageSettings : MappingSettings {
 const ParamTable<ImageSettings>& ImageParameters() {
   static const ParamTable<ImageSettings> table{
       MappingParameters(),
-      Param("filename", &ImageSettings::filename, "image file: EXR, PNG, PFM or TGA")
+      Param("filename", &ImageSettings::filename, "image file: EXR, HDR, JPEG, PFM, PNG or TGA")
           .As(ParamType::File)
           .Required(),
       Param("wrap", &ImageSettings::wrap, "the image outside the unit square")
@@ -46,7 +46,8 @@ const ParamTable<ImageSettings>& ImageParameters() {
       Param("trilinear", &ImageSettings::trilinear,
             "square footprints instead of elliptical ones: faster and more blurred"),
       Param("gamma", &ImageSettings::gamma,
-            "exponent of the stored values; if absent, PNG and TGA files are decoded from sRGB; 1 "
+            "exponent of the stored values; if absent, JPEG, PNG and TGA files are decoded from "
+            "sRGB; 1 "
             "in scenes of version 2")
           .Above(0)
           .AtMost(100)

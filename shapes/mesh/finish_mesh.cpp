@@ -5,6 +5,7 @@
 #include "core/base/log.h"
 #include "core/geometry/vec3d.h"
 #include "core/params/param_table.h"
+#include "core/scattering/texture.h"
 
 namespace exphoton {
 namespace {
@@ -43,6 +44,14 @@ std::size_t CountUselessTangents(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+void SetAlpha(const std::shared_ptr<const Texture<Real>>& alpha, TriangleMesh* mesh) {
+  const std::optional<Real> constant = alpha->ConstantValue();
+  if (!constant)
+    mesh->alpha = alpha;
+  else if (*constant == 0)
+    mesh->indices.clear();
+}
 
 std::vector<std::array<std::uint32_t, 3>> CheckedTriangles(const std::vector<int>& indices,
                                                            std::size_t vertexCount,

@@ -17,6 +17,10 @@ std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,
                                           const ShapeContext& context,
                                           const std::string& positionParam);
 
+// Cuts holes where `alpha` is 0. A constant alpha is dropped: the mesh is whole, or it has no
+// triangles.
+void SetAlpha(const std::shared_ptr<const Texture<Real>>& alpha, TriangleMesh* mesh);
+
 // Returns the triangles. Throws ParamError{param} unless indices come in threes and each names one
 // of `vertexCount` vertices.
 std::vector<std::array<std::uint32_t, 3>> CheckedTriangles(const std::vector<int>& indices,

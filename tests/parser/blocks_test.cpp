@@ -105,6 +105,15 @@ TEST(TransformEnd, LeavesOrientationAndMaterialAsTheBlockSetThem) {
   EXPECT_NE(after->material, before->material);
 }
 
+TEST(ReverseOrientation, GivenTwiceChangesNothing) {
+  const BuiltScene built =
+      BuildText(InWorld("Shape \"disk\" ReverseOrientation ReverseOrientation Translate 10 0 0 "
+                        "Shape \"disk\""));
+  const auto before = SeenAt(built, 0), after = SeenAt(built, 10);
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->ng, before->ng);
+}
+
 TEST(ObjectEnd, BringsBackWhatAttributeEndDoes) {
   const BuiltScene built = BuildText(
       InWorld("Shape \"disk\" ObjectBegin \"o\" Translate 0 5 0 ReverseOrientation "

@@ -84,6 +84,28 @@ TEST(Includes, ThatDoubleAtEachLevelEnd) {
   EXPECT_NE(error.find("--limits includes=N allows N"), std::string::npos);
 }
 
+TEST(Includes, MayBeAsManyAsTheLimit) {
+  const auto isAllowed = [](int count, std::int64_t limit) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "Include \"part\"\n";
+    MemorySource source({{"scene.pbrt", text}, {"part", "Identity"}});
+    DirectiveList list;
+    Log quiet(Log::Level::Normal, Log::Sink::Memory);
+    SceneLimits limits;
+    limits.includes = limit;
+    try {
+      ParseScene(source, "scene.pbrt", list, quiet, limits);
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(isAllowed(3, 3));
+  EXPECT_FALSE(isAllowed(4, 3));
+  EXPECT_TRUE(isAllowed(1, 1));
+  EXPECT_FALSE(isAllowed(1, 0));
+}
+
 TEST(Includes, OfOneFileManyTimesOverAreNoError) {
   std::string text;
   for (int i = 0; i < 20'000; ++i) text += "Include \"empty\"\n";

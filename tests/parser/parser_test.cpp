@@ -93,9 +93,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"qqqq", "1:1: unknown directive qqqq"},
         Case{"shape \"sphere\"", "1:1: unknown directive shape | did you mean \"Shape\"?"},
         Case{"MakeNamedMedium \"m\"",
-             "1:1: this is a pbrt-v4 scene (MakeNamedMedium): versions 1 and 2 are read"},
+             "1:1: this is a scene of pbrt version 3 or 4, recognised by MakeNamedMedium: versions "
+             "1 "
+             "and 2 are read | directives, materials and colours have other names; "
+             "docs/guide/scene-format.md lists the replacements"},
         Case{"\nIntegrator \"path\"",
-             "2:1: this is a pbrt-v3 scene (Integrator): versions 1 and 2 are read"},
+             "2:1: this is a scene of pbrt version 3 or 4, recognised by Integrator: versions 1 "
+             "and 2 "
+             "are read | directives, materials and colours have other names; "
+             "docs/guide/scene-format.md lists the replacements"},
         Case{"12", "1:1: expected a directive, found a number"},
         Case{"\"x\"", "1:1: expected a directive, found the string \"x\""},
         Case{"]", "1:1: expected a directive, found ']'"},

@@ -182,6 +182,17 @@ TEST(RenderSetup, SaysHowManySamplesASamplerTakesInstead) {
   EXPECT_EQ(BuildText(InWorld(""), options).Messages().find("instead of"), std::string::npos);
 }
 
+TEST(RenderSetup, CropsByPixelsAtTheHeightOfTallAndWidePictures) {
+  LoadOptions options;
+  options.pixelBounds = PixelBounds{0, 0, 50, 50};
+  for (const auto& [width, height] : {std::pair(4, 9), std::pair(9, 4)}) {
+    const std::string film = "Film \"image\" \"integer xresolution\" " + std::to_string(width) +
+                             " \"integer yresolution\" " + std::to_string(height) + "\n";
+    EXPECT_EQ(Only(BuildText(film + "WorldBegin WorldEnd", options)).crop,
+              (PixelBounds{0, 0, width, height}));
+  }
+}
+
 TEST(RenderSetup, CropsByPixelsOnEverySide) {
   LoadOptions options;
   options.pixelBounds = PixelBounds{-5, -6, 3, 2};

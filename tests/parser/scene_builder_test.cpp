@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{kBegin + "Texture \"t\" \"colour\" \"constant\"",
              "2:1: texture \"t\" has type \"colour\"; types of textures are \"float\" and "
              "\"color\""},
-        Case{"Film \"rgb\"", "1:1: unknown film \"rgb\"; known: \"image\""},
+        Case{"Film \"rgbx\"", "1:1: unknown film \"rgbx\"; known: \"image\""},
         Case{"Renderer \"metropolitan\"",
              "1:1: unknown renderer \"metropolitan\"; known: \"sampler\", \"metropolis\", "
              "\"createprobes\", \"surfacepoints\", \"aggregatetest\" | did you mean "

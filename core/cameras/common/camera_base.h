@@ -88,6 +88,7 @@ class CameraBase : public Camera {
   Interval Shutter() const override { return {settings_.shutterOpen, settings_.shutterClose}; }
   bool MovesWithin(Interval interval) const override { return motion_.MovesWithin(interval); }
   const Transform& CameraToWorld() const override { return cameraToWorld_; }
+  Real Depth(const Point3& p, Real time) const override { return ToCamera(p, time).z; }
 
  protected:
   virtual CameraSpaceRay Generate(Point2 film, Point2 lens) const = 0;
@@ -135,6 +136,11 @@ class CameraBase : public Camera {
     return matrix;
   }
 
+  // Returns a point of world space in camera space.
+  Point3 ToCamera(const Point3& p, Real time) const {
+    const Transform toWorld = motion_.Moves() ? motion_.At(time) : cameraToWorld_;
+    return toWorld.Inverted().ApplyPoint(p);
+  }
   const CameraSettings& Common() const { return settings_; }
   int XResolution() const { return xResolution_; }
   int YResolution() const { return yResolution_; }

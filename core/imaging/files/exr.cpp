@@ -6,6 +6,7 @@
 #include <IexErrnoExc.h>
 #include <IlmThreadPool.h>
 #include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -70,7 +71,11 @@ void InsertAttribute(const std::string& name, const ImageAttribute& value, Imf::
     header->insert(name, Imf::IntAttribute(*integer));
   } else {
     const auto& list = std::get<std::vector<float>>(value);
-    if (list.size() == 16) {
+    if (name == "chromaticities" && list.size() == 8) {
+      const auto at = [&](std::size_t i) { return Imath::V2f(list[i], list[i + 1]); };
+      header->insert(name,
+                     Imf::ChromaticitiesAttribute(Imf::Chromaticities(at(0), at(2), at(4), at(6))));
+    } else if (list.size() == 16) {
       Imath::M44f matrix;
       std::memcpy(matrix.getValue(), list.data(), 16 * sizeof(float));
       header->insert(name, Imf::M44fAttribute(matrix));
@@ -83,22 +88,36 @@ void InsertAttribute(const std::string& name, const ImageAttribute& value, Imf::
 Imf::Header MakeHeader(const Image& image, bool asHalf) {
   Imf::Header header(ToBox(image.display), ToBox(image.data));
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (const std::string& channel : image.channels)
-    header.channels().insert(channel, Imf::Channel(asHalf ? Imf::HALF : Imf::FLOAT));
+  for (const std::string& channel : image.channels) {
+    const bool isHalf = asHalf && !image.exactChannels.contains(channel);
+    header.channels().insert(channel, Imf::Channel(isHalf ? Imf::HALF : Imf::FLOAT));
+  }
   for (const auto& [name, value] : image.attributes) InsertAttribute(name, value, &header);
   return header;
 }
 
-// Returns a frame buffer for the lines from y on. Their interleaved values begin at `values`.
-template <class T>
-Imf::FrameBuffer MakeFrameBuffer(const Image& image, T* values, int y, int lines) {
+// Lines of the picture, from y on. Channels of 16 bits are interleaved at `halves`, the others are
+// those of the picture. If `halves` is null, all have 32 bits.
+struct LineBlock {
+  int y, count;
+  half* halves;
+};
+
+Imf::FrameBuffer MakeFrameBuffer(const Image& image, const LineBlock& lines) {
   Imf::FrameBuffer buffer;
-  const std::size_t pixelBytes = image.channels.size() * sizeof(T);
-  for (std::size_t c = 0; c < image.channels.size(); ++c) {
+  const std::size_t channels = image.channels.size(), width = std::size_t(image.Width());
+  // The library only reads through this pointer.
+  auto* const floats = const_cast<float*>(image.pixels.data()) +
+                       channels * width * std::size_t(lines.y - image.data.y0);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const bool isHalf = lines.halves && !image.exactChannels.contains(image.channels[c]);
+    const std::size_t pixelBytes = channels * (isHalf ? sizeof(half) : sizeof(float));
+    char* const values =
+        isHalf ? reinterpret_cast<char*>(lines.halves + c) : reinterpret_cast<char*>(floats + c);
     buffer.insert(image.channels[c],
-                  Imf::Slice::Make(sizeof(T) == 2 ? Imf::HALF : Imf::FLOAT, values + c,
-                                   Imath::V2i(image.data.x0, y), image.Width(), lines, pixelBytes,
-                                   pixelBytes * std::size_t(image.Width())));
+                  Imf::Slice::Make(isHalf ? Imf::HALF : Imf::FLOAT, values,
+                                   Imath::V2i(image.data.x0, lines.y), image.Width(), lines.count,
+                                   pixelBytes, pixelBytes * width));
   }
   return buffer;
 }
@@ -113,15 +132,19 @@ half ToHalf(float value, long long* clamped) {
 
 // Converts one block of lines at a time, so that the half values need little memory.
 long long WriteHalves(const Image& image, Imf::OutputFile* out) {
-  const std::size_t lineValues = std::size_t(image.Width()) * image.channels.size();
+  const std::size_t channels = image.channels.size();
+  const std::size_t lineValues = std::size_t(image.Width()) * channels;
   std::vector<half> block(lineValues * kLinesPerBlock);
+  std::vector<bool> isExact;
+  for (const std::string& channel : image.channels)
+    isExact.push_back(image.exactChannels.contains(channel));
   long long clamped = 0;
   for (int y = 0; y < image.Height(); y += kLinesPerBlock) {
     const int lines = std::min(kLinesPerBlock, image.Height() - y);
     const float* from = image.pixels.data() + lineValues * std::size_t(y);
     for (std::size_t i = 0; i < lineValues * std::size_t(lines); ++i)
-      block[i] = ToHalf(from[i], &clamped);
-    out->setFrameBuffer(MakeFrameBuffer(image, block.data(), image.data.y0 + y, lines));
+      if (!isExact[i % channels]) block[i] = ToHalf(from[i], &clamped);
+    out->setFrameBuffer(MakeFrameBuffer(image, {image.data.y0 + y, lines, block.data()}));
     out->writePixels(lines);
   }
   return clamped;
@@ -144,9 +167,7 @@ ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf
       if (asHalf) {
         report.clampedToHalf = WriteHalves(image, &out);
       } else {
-        // The library only reads through this pointer.
-        auto* const pixels = const_cast<float*>(image.pixels.data());
-        out.setFrameBuffer(MakeFrameBuffer(image, pixels, image.data.y0, image.Height()));
+        out.setFrameBuffer(MakeFrameBuffer(image, {image.data.y0, image.Height(), nullptr}));
         out.writePixels(image.Height());
       }
     }  // the destructor writes the table of line offsets

@@ -4,6 +4,7 @@
 // are checked on the header alone, before any allocation in proportion to the picture.
 #include <IexErrnoExc.h>
 #include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -28,7 +29,6 @@
 namespace exphoton {
 namespace {
 
-constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
 constexpr int kMaxChannels = 64;
 
 struct Window {
@@ -67,7 +67,7 @@ std::vector<std::string> ChannelNames(const Imf::ChannelList& list) {
 Image DescribeImage(const Imf::Header& header) {
   if (header.hasType() && Imf::isDeepData(header.type())) throw ImageError("deep data");
   const Window data = CheckWindow(header.dataWindow());
-  if (data.pixels > kMaxPixels) throw ImageError("more than 2^28 pixels");
+  if (data.pixels > kMaxImagePixels) throw ImageError("more than 2^28 pixels");
   Image image;
   image.channels = ChannelNames(header.channels());
   image.data = data.bounds;
@@ -104,6 +104,10 @@ std::map<std::string, ImageAttribute> ReadAttributes(const Imf::Header& header) 
     } else if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&value)) {
       const float* m = matrix->value().getValue();
       attributes[name] = std::vector<float>(m, m + 16);
+    } else if (const auto* primaries = dynamic_cast<const Imf::ChromaticitiesAttribute*>(&value)) {
+      const Imf::Chromaticities& c = primaries->value();
+      attributes[name] = std::vector<float>{c.red.x,  c.red.y,  c.green.x, c.green.y,
+                                            c.blue.x, c.blue.y, c.white.x, c.white.y};
     }
   }
   return attributes;

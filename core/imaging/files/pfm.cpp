@@ -11,8 +11,6 @@
 namespace exphoton {
 namespace {
 
-constexpr std::uint64_t kMaxPfmPixels = std::uint64_t(1) << 28;
-
 [[noreturn]] void FailPfm(const std::string& path, const std::string& text) {
   throw ImageError(path + ": " + text);
 }
@@ -61,8 +59,7 @@ Image ParsePfm(const std::string& path, std::string_view bytes) {
   const int height = PfmNumber<int>(path, &bytes, "height");
   const float scale = PfmNumber<float>(path, &bytes, "scale");
   if (width < 1 || height < 1) FailPfm(path, "the PFM picture has no pixels");
-  if (std::uint64_t(width) * std::uint64_t(height) > kMaxPfmPixels)
-    FailPfm(path, "more than 2^28 pixels");
+  CheckPixelCount(path, width, height);
   if (scale == 0 || !std::isfinite(scale)) FailPfm(path, "the scale of a PFM file must not be 0");
   const std::size_t channels = isColor ? 3 : 1, pixel = channels * sizeof(float);
   if (bytes.size() < pixel * std::size_t(width) * std::size_t(height))

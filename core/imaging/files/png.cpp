@@ -20,8 +20,6 @@
 namespace exphoton {
 namespace {
 
-constexpr std::uint64_t kMaxPixels = std::uint64_t(1) << 28;
-
 std::uint8_t ToByte(double v) { return std::uint8_t(std::lround(std::clamp(v, 0., 1.) * 255)); }
 
 // Frees the library's memory whenever the scope ends.
@@ -39,8 +37,7 @@ Image Read8(const std::string& path, png_image* png, int channels, Image result)
   png->format = channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   std::vector<std::uint8_t> bytes(result.pixels.size());
   if (!png_image_finish_read(png, nullptr, bytes.data(), 0, nullptr)) Fail(path, *png);
-  std::array<float, 256> linear;
-  for (std::size_t i = 0; i < 256; ++i) linear[i] = float(DecodeSrgb(double(i) / 255));
+  const std::array<float, 256> linear = SrgbTable();
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const bool isAlpha = channels == 4 && i % 4 == 3;
     result.pixels[i] = isAlpha ? float(bytes[i]) / 255.f : linear[bytes[i]];
@@ -67,9 +64,7 @@ Image Read(const std::string& path) {
   CheckImageFile(path);
   PngImage png;
   if (!png_image_begin_read_from_file(&png.image, path.c_str())) Fail(path, png.image);
-  const std::uint64_t pixels = std::uint64_t(png.image.width) * png.image.height;
-  if (pixels > kMaxPixels || png.image.width > (1u << 30) || png.image.height > (1u << 30))
-    throw ImageError(path + ": more than 2^28 pixels");
+  CheckPixelCount(path, png.image.width, png.image.height);
   const bool hasAlpha = png.image.format & PNG_FORMAT_FLAG_ALPHA;
   std::vector<std::string> names = {"R", "G", "B"};
   if (hasAlpha) names.push_back("A");

@@ -12,7 +12,6 @@
 namespace exphoton {
 namespace {
 
-constexpr std::uint64_t kMaxTgaPixels = std::uint64_t(1) << 28;
 constexpr std::size_t kTgaHeaderSize = 18;
 constexpr std::string_view kTgaSignature{"TRUEVISION-XFILE.\0", 18};
 
@@ -44,8 +43,7 @@ TgaHeader ReadTgaHeader(const std::string& path, std::string_view bytes) {
   if (std::find(std::begin(kTypes), std::end(kTypes), header.imageType) == std::end(kTypes))
     FailTga(path, "TGA pictures of type " + std::to_string(header.imageType) + " are not read");
   if (header.width == 0 || header.height == 0) FailTga(path, "the TGA picture has no pixels");
-  if (std::uint64_t(header.width) * std::uint64_t(header.height) > kMaxTgaPixels)
-    FailTga(path, "more than 2^28 pixels");
+  CheckPixelCount(path, header.width, header.height);
   const int pixel = header.bits;
   const bool isKnown = header.IsMapped() ? pixel == 8 || pixel == 16
                        : header.IsGrey() ? pixel == 8
@@ -146,8 +144,7 @@ Image ParseTga(const std::string& path, std::string_view bytes) {
   if (header.HasAlpha()) names.push_back("A");
   Image image(header.width, header.height, names);
   image.isFromSrgb = true;
-  std::array<float, 256> linear;
-  for (std::size_t i = 0; i < 256; ++i) linear[i] = float(DecodeSrgb(double(i) / 255));
+  const std::array<float, 256> linear = SrgbTable();
   const bool isFromRight = header.flags & 16, isFromTop = header.flags & 32;
   for (int row = 0; row < header.height; ++row) {
     for (int column = 0; column < header.width; ++column) {

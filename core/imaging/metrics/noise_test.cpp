@@ -29,7 +29,12 @@ struct ColorLayer {
   std::array<int, 3> channels;
 };
 
+constexpr const char* kVariance = "variance";
+
 std::optional<ColorLayer> FindLayer(const Image& image, const std::string& name) {
+  // pbrt and older pictures write the layer with a capital.
+  if (name == kVariance && image.FindChannel("Variance.R") >= 0)
+    return FindLayer(image, "Variance");
   const std::string prefix = name.empty() ? "" : name + ".";
   ColorLayer layer{&image, {}};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -73,7 +78,7 @@ using CellSums = std::vector<Color>;  // by cell
 // The noise of a picture by cells, from an estimated variance of each pixel.
 struct CellNoise {
   CellSums variances, squares;  // sums of the pixels' variances, and of their squares
-  CellSums differences;         // of (half1 - half2) / 2; empty if the layer Variance is used
+  CellSums differences;         // of (half1 - half2) / 2; empty if the layer variance is used
 };
 
 // One side of the comparison. Its pictures are independent estimates of the same picture.
@@ -118,7 +123,7 @@ class CellPictures {
     std::vector<const Image*> all{&picture};
     for (const Image& reference : references) all.push_back(&reference);
     for (const Image* image : all) {
-      for (const char* name : {"", "half1", "half2", "Variance"}) {
+      for (const char* name : {"", "half1", "half2", kVariance}) {
         const std::optional<ColorLayer> layer = FindLayer(*image, name);
         if (!layer) continue;
         for (int y = 0; y < grid_.height; ++y)
@@ -293,9 +298,9 @@ NoiseSource ChooseSource(std::span<const Image> references, const Image& picture
       HaveLayer(references, picture, "half1") && HaveLayer(references, picture, "half2");
   if (haveHalves) return options.sharesNoise ? NoiseSource::Replicates : NoiseSource::Halves;
   if (references.size() >= kMinReplicates) return NoiseSource::Replicates;
-  const bool haveVariance = HaveLayer(references, picture, "Variance");
+  const bool haveVariance = HaveLayer(references, picture, kVariance);
   if (haveVariance && !options.sharesNoise) return NoiseSource::Variance;
-  *reason = haveVariance ? "the layer Variance lacks noise that pixels share, such as the noise of "
+  *reason = haveVariance ? "the layer variance lacks noise that pixels share, such as the noise of "
                            "photons: render with --two-halves"
                          : "the pictures have no layers of halves or variance: render with "
                            "--two-halves";
@@ -307,7 +312,7 @@ Side MakeSide(const CellPictures& comparison, std::span<const Image> images, Noi
   for (const Image& image : images) {
     const std::optional<ColorLayer> whole = FindLayer(image, ""), first = FindLayer(image, "half1"),
                                     second = FindLayer(image, "half2"),
-                                    variance = FindLayer(image, "Variance");
+                                    variance = FindLayer(image, kVariance);
     const bool splits = source == NoiseSource::Replicates && first && second;
     if (splits) {
       side.pictures.push_back(comparison.Sum(*first, nullptr, 1));

@@ -16,7 +16,7 @@ enum class NoiseSource {
   None,        // unknown: see NoiseTest::reason
   Halves,      // differences of the layers half1 and half2, cell by cell
   Replicates,  // independent pictures: halves, or at least three references
-  Variance,    // the layer Variance
+  Variance,    // the layer variance
 };
 
 struct NoiseTestOptions {

@@ -7,6 +7,7 @@
 #include "core/parser/builder/scene_builder.h"
 #include "core/parser/dialect.h"
 #include "core/parser/effect_choice.h"
+#include "core/parser/later_version.h"
 
 namespace exphoton {
 
@@ -94,7 +95,9 @@ void ParseAll(SceneSource& source, const std::string& path, const LoadOptions& o
 std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
                                                      const LoadOptions& options, Log& log) {
   try {
-    const Dialect dialect = options.dialect.value_or(RecogniseDialect(source, path, options, log));
+    RefuseLaterVersion(source, path, options);
+    const Dialect dialect =
+        options.dialect ? *options.dialect : RecogniseDialect(source, path, options, log);
     SceneBuilder builder(path == "-" ? "<stdin>" : path, options, dialect, log);
     ParseAll(source, path, options, log, &builder);
     std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();

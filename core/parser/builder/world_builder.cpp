@@ -221,6 +221,7 @@ const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& sh
   if (spec.listed != material.get()) {
     parts_.materials.push_back(material);
     spec.listed = material.get();
+    materialIds_.try_emplace(material.get(), std::uint32_t(materialIds_.size() + 1));
   }
   return material.get();
 }
@@ -283,6 +284,7 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
 
 void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
   const std::string& name = directive.strings[0];
+  if (!object_) ++objectCount_;
   const Material* material = MaterialFor(*state.material, directive.params, state);
   const SourceLocation where = directive.Where();
   const ParamSet params =
@@ -318,6 +320,7 @@ std::shared_ptr<const Motion> WorldBuilder::MotionFor(const Directive& directive
 void WorldBuilder::AddGeometry(Placed placed, const Material* material, const Directive& directive,
                                const GraphicsState& state) {
   const AreaLightSpec* light = state.areaLight.get();
+  const std::uint32_t objectId = object_ ? 0 : objectCount_;  // in an object: of the instance
   const auto lightOn = [&](std::shared_ptr<const EmitterSurface> surface) {
     if (light && placed.motion && !IsInObject())
       surface = std::make_shared<MovingEmitter>(std::move(surface), *placed.motion);
@@ -325,7 +328,7 @@ void WorldBuilder::AddGeometry(Placed placed, const Material* material, const Di
   };
   if (auto* owned = std::get_if<std::unique_ptr<Shape>>(&placed.geometry)) {
     const std::shared_ptr<const Shape> shape = std::move(*owned);
-    placed.set.AddShape(shape, {material, lightOn(shape)});
+    placed.set.AddShape(shape, {material, lightOn(shape), objectId, materialIds_[material]});
     return;
   }
   const std::shared_ptr<TriangleMesh> mesh =
@@ -339,7 +342,7 @@ void WorldBuilder::AddGeometry(Placed placed, const Material* material, const Di
     surface = MakeMeshEmitter(*mesh);
     parts_.emitters.push_back(surface);
   }
-  placed.set.AddMesh(mesh, {material, lightOn(surface)});
+  placed.set.AddMesh(mesh, {material, lightOn(surface), objectId, materialIds_[material]});
 }
 
 }  // namespace exphoton

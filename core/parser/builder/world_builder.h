@@ -97,6 +97,9 @@ class WorldBuilder {
   SceneParts parts_;
   std::map<std::string, ObjectDefinition> objects_;
   ObjectDefinition* object_ = nullptr;  // the object being defined; null outside ObjectBegin
+  // Numbers for the AOVs objectId and materialId.
+  std::uint32_t objectCount_ = 0;
+  std::map<const Material*, std::uint32_t> materialIds_;
   int textureGenerations_ = 0;
   int materialDepth_ = 0;  // materials that are being made, each for the one before
   SharedCache shared_;

@@ -46,13 +46,14 @@ void WorldBuilder::AddInstance(const Directive& directive, const GraphicsState& 
   if (!object.geometry) object.geometry = MakeObject(std::move(object.set));
   const AnimatedTransform place =
       MotionBetween(state.transform, transformTimes_, "\"" + name + "\"", directive.Where(), log_);
+  const std::uint32_t id = ++objectCount_;
   if (object.geometry->Set().Count() > 0)
-    parts_.primitives->AddInstance(
-        {place.Start(), object.geometry,
-         place.Moves() ? std::make_shared<const Motion>(place) : nullptr});
+    parts_.primitives->AddInstance({place.Start(), object.geometry,
+                                    place.Moves() ? std::make_shared<const Motion>(place) : nullptr,
+                                    id});
   for (const Instance& part : object.moving) {
     const auto motion = std::make_shared<const Motion>(part.motion->PlacedBy(place));
-    parts_.primitives->AddInstance({motion->Start(), part.object, motion});
+    parts_.primitives->AddInstance({motion->Start(), part.object, motion, id});
   }
 }
 

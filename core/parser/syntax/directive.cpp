@@ -67,9 +67,8 @@ const std::array kDirectives{
 };
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kLaterDirectives{{
-    {"Attribute", "pbrt-v4"}, {"ColorSpace", "pbrt-v4"}, {"Import", "pbrt-v4"},
-    {"Integrator", "pbrt-v3"}, {"MakeNamedMedium", "pbrt-v4"}, {"MediumInterface", "pbrt-v4"},
-    {"Option", "pbrt-v4"},
+    {"Attribute", "4"}, {"ColorSpace", "4"}, {"Import", "4"}, {"Integrator", "3 or 4"},
+    {"MakeNamedMedium", "3 or 4"}, {"MediumInterface", "3 or 4"}, {"Option", "4"},
 }};
 // clang-format on
 
@@ -91,6 +90,17 @@ std::string_view LaterVersionOf(std::string_view name) {
   for (const auto& [directive, version] : kLaterDirectives)
     if (directive == name) return version;
   return {};
+}
+
+Error LaterVersionError(std::string_view version, const std::string& sign,
+                        const SourceLocation& where) {
+  const std::string page = "docs/guide/scene-format.md lists the replacements";
+  return {ExitStatus::Scene,
+          "this is a scene of pbrt version " + std::string(version) + ", recognised by " + sign +
+              ": versions 1 and 2 are read",
+          where,
+          version == "3" ? "replace Integrator by SurfaceIntegrator, and media by Volume; " + page
+                         : "directives, materials and colours have other names; " + page};
 }
 
 }  // namespace exphoton

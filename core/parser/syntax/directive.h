@@ -77,7 +77,10 @@ struct Directive {
 // Returns nullptr if there is no directive of that name.
 const DirectiveSpec* FindDirective(std::string_view name);
 std::vector<std::string> DirectiveNames();
-// Returns "pbrt-v4" or "pbrt-v3" for a directive of that later version, "" for any other word.
+// Returns "4" or "3 or 4" for a directive of these later versions alone, "" for any other word.
 std::string_view LaterVersionOf(std::string_view name);
+// Returns the error about a scene of a later version that `sign` (such as: Film "rgb") shows.
+Error LaterVersionError(std::string_view version, const std::string& sign,
+                        const SourceLocation& where);
 
 }  // namespace exphoton

@@ -98,7 +98,7 @@ class Parser {
 void Parser::FailUnknown() const {
   const std::string name = Printable(token_.text);
   if (const std::string_view version = LaterVersionOf(token_.text); !version.empty())
-    Fail("this is a " + std::string(version) + " scene (" + name + "): versions 1 and 2 are read");
+    throw LaterVersionError(version, name, Here());
   Fail("unknown directive " + name, DidYouMean(token_.text, DirectiveNames()));
 }
 

@@ -21,7 +21,7 @@ AovSet Parsed(const std::string& text) {
 }
 
 TEST(Aovs, AreNamedWithOrWithoutTheirChannelsAndInAnyCase) {
-  EXPECT_EQ(Parsed("Albedo"), AovSet{Aov::Albedo});
+  EXPECT_EQ(Parsed("Albedo,VARIANCE"), (AovSet{Aov::Albedo, Aov::Variance}));
   EXPECT_EQ(Parsed("albedo.RGB,n.xyz"), (AovSet{Aov::Albedo, Aov::Normal}));
   EXPECT_EQ(Parsed("light"), kLightAovs);
   EXPECT_EQ(Parsed("time.ms,P"), (AovSet{Aov::Time, Aov::Position}));
@@ -47,7 +47,7 @@ TEST(AovFilm, AveragesAsTheFilmDoesAndCountsSamples) {
   aovs.AppendTo(film, true, &image);
   EXPECT_EQ(image.channels,
             (std::vector<std::string>{"R", "G", "B", "A", "direct.R", "direct.G", "direct.B",
-                                      "samples.count", "radiancedistance.Y"}));
+                                      "samples.count", "radianceDistance.Y"}));
   for (int c = 0; c < 3; ++c) EXPECT_EQ(image.At(0, 0, 4 + c), image.At(0, 0, c));
   EXPECT_EQ(image.At(0, 0, 7), 3);
   EXPECT_EQ(image.At(0, 0, 8), 1.5f);
@@ -82,9 +82,9 @@ TEST(AovFilm, EstimatesTheVarianceOfAPixel) {
   Image image = film.ToImage(true);
   aovs.AppendTo(film, true, &image);
   // Each channel is the mean of 4000 estimates, which is accurate to 0.5 %.
-  EXPECT_NEAR(MeanChannel(image, "Variance.R") * kSamples * 12, 1, .03);
-  EXPECT_NEAR(MeanChannel(image, "Variance.G") * kSamples * 3, 1, .03);
-  EXPECT_NEAR(MeanChannel(image, "Variance.B"), 0, 1e-12);
+  EXPECT_NEAR(MeanChannel(image, "variance.R") * kSamples * 12, 1, .03);
+  EXPECT_NEAR(MeanChannel(image, "variance.G") * kSamples * 3, 1, .03);
+  EXPECT_NEAR(MeanChannel(image, "variance.B"), 0, 1e-12);
 }
 
 TEST(AovFilm, SeesNoVarianceInEqualSamplesOfUnequalWeights) {
@@ -96,7 +96,7 @@ TEST(AovFilm, SeesNoVarianceInEqualSamplesOfUnequalWeights) {
   }
   Image image = film.ToImage(true);
   aovs.AppendTo(film, true, &image);
-  EXPECT_NEAR(MeanChannel(image, "Variance.G"), 0, 1e-12);
+  EXPECT_NEAR(MeanChannel(image, "variance.G"), 0, 1e-12);
 }
 
 // Half of the samples have alpha 1 and half have alpha 0. Premultiplied, the values are scaled by
@@ -112,7 +112,7 @@ TEST(AovFilm, ScalesTheVarianceByTheSquareOfAlpha) {
   const auto variance = [&](bool premultiplyAlpha) {
     Image image = film.ToImage(premultiplyAlpha);
     aovs.AppendTo(film, premultiplyAlpha, &image);
-    return MeanChannel(image, "Variance.G");
+    return MeanChannel(image, "variance.G");
   };
   EXPECT_NEAR(variance(false), 6. / 8, 1e-5);  // values 0 to 7: 42 / 7 over 8 samples
   EXPECT_NEAR(variance(true), 6. / 8 / 4, 1e-5);
@@ -225,7 +225,7 @@ TEST(SurfaceAovs, HaveNoPhotonDensityOfWhatAMirrorShows) {
           options)
           .image;
   EXPECT_GT(image.At(2, 2, image.FindChannel("G")), 0);  // the mirror shows the lit disk
-  EXPECT_EQ(image.At(2, 2, image.FindChannel("photondensity.Y")), 0);
+  EXPECT_EQ(image.At(2, 2, image.FindChannel("photonDensity.Y")), 0);
 }
 
 TEST(SurfaceAovs, TellWhatTheCameraSees) {
@@ -238,12 +238,12 @@ TEST(SurfaceAovs, TellWhatTheCameraSees) {
                           "\"float radius\" 2\nWorldEnd\n",
                       options)
           .image;
-  EXPECT_NEAR(image.At(4, 4, image.FindChannel("Albedo.R")), .25, 1e-6);
-  EXPECT_NEAR(image.At(4, 4, image.FindChannel("Albedo.B")), .75, 1e-6);
+  EXPECT_NEAR(image.At(4, 4, image.FindChannel("albedo.R")), .25, 1e-6);
+  EXPECT_NEAR(image.At(4, 4, image.FindChannel("albedo.B")), .75, 1e-6);
   EXPECT_NEAR(image.At(4, 4, image.FindChannel("N.Z")), -1, 1e-6);
   EXPECT_NEAR(image.At(4, 4, image.FindChannel("P.Z")), 4, 1e-5);
-  EXPECT_GT(image.At(4, 4, image.FindChannel("photondensity.Y")), 0);
-  EXPECT_EQ(image.At(0, 0, image.FindChannel("Albedo.R")), 0);
+  EXPECT_GT(image.At(4, 4, image.FindChannel("photonDensity.Y")), 0);
+  EXPECT_EQ(image.At(0, 0, image.FindChannel("albedo.R")), 0);
 }
 
 // Parallel light spreads photons evenly over a disk of radius 2.
@@ -259,7 +259,7 @@ TEST(SurfaceAovs, HaveThePhotonDensityOfADiskUnderParallelLight) {
           "Material \"matte\" Translate 0 0 4 Shape \"disk\" \"float radius\" 2\nWorldEnd\n",
       options);
   const double expected = render.Counter("photons/direct stored") / (4 * 3.14159265358979);
-  const int channel = render.image.FindChannel("photondensity.Y");
+  const int channel = render.image.FindChannel("photonDensity.Y");
   double mean = 0;
   for (int y = 3; y < 6; ++y)
     for (int x = 3; x < 6; ++x) mean += double(render.image.At(x, y, channel)) / 9;

@@ -95,7 +95,7 @@ TEST_F(ExrTest, ACropWindowIsTheDataWindow) {
 
 TEST_F(ExrTest, LayersKeepTheirNames) {
   const Image image =
-      RandomImage({0, 0, 5, 40}, {0, 0, 5, 40}, {"R", "G", "B", "A", "Albedo.R", "N.X", "time.ms"});
+      RandomImage({0, 0, 5, 40}, {0, 0, 5, 40}, {"R", "G", "B", "A", "albedo.R", "N.X", "time.ms"});
   WriteExr(Path("a.exr"), image, false);
   ExpectSameBits(image, ReadExr(Path("a.exr")));
 }
@@ -105,12 +105,30 @@ TEST_F(ExrTest, AttributesComeBack) {
   image.attributes["software"] = std::string("a renderer");
   image.attributes["seed"] = 17;
   image.attributes["renderTimeSeconds"] = 1.5f;
+  image.attributes["time/photon maps"] = .25f;
+  image.attributes["chromaticities"] =
+      std::vector<float>{.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f};
   std::vector<float> matrix(16);
   for (std::size_t i = 0; i < 16; ++i) matrix[i] = float(i);
   image.attributes["worldToCamera"] = matrix;
   image.attributes["aNameOfMoreThanThirtyOneCharacters"] = std::string();
   WriteExr(Path("a.exr"), image, true);
   EXPECT_EQ(ReadExr(Path("a.exr")).attributes, image.attributes);
+}
+
+TEST_F(ExrTest, ExactChannelsKeepAllTheirBits) {
+  Image image = RandomImage({3, 5, 8, 45}, {0, 0, 50, 50}, {"R", "G", "B", "A", "Z", "N.X"});
+  image.exactChannels = {"Z"};
+  for (int y = 0; y < image.Height(); ++y) image.At(1, y, 4) = 100001.f + float(y);
+  EXPECT_EQ(WriteExr(Path("a.exr"), image, true).clampedToHalf, 0);
+  const Image read = ReadExr(Path("a.exr"));
+  for (int y = 0; y < image.Height(); ++y) {
+    for (int x = 0; x < image.Width(); ++x) {
+      ASSERT_EQ(read.At(x, y, read.FindChannel("Z")), image.At(x, y, 4));
+      ASSERT_NEAR(read.At(x, y, read.FindChannel("N.X")) / image.At(x, y, 5), 1, .001);
+      ASSERT_NEAR(read.At(x, y, 1) / image.At(x, y, 1), 1, .001);
+    }
+  }
 }
 
 TEST_F(ExrTest, HalvesAreClampedAndCountedButNanIsKept) {

@@ -26,7 +26,7 @@ class Renderer {
 
   Image Render() {
     std::vector<std::string> names{"R", "G", "B"};
-    for (const char* layer : {"half1", "half2", "Variance"})
+    for (const char* layer : {"half1", "half2", "variance"})
       for (const char* channel : {".R", ".G", ".B"})
         if (layer[0] == 'h' ? hasHalves : hasVariance)
           names.push_back(layer + std::string(channel));

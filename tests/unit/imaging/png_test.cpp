@@ -80,6 +80,23 @@ TEST(Png, SixteenBitsAreFinerThanEight) {
   EXPECT_EQ(read.At(2, 0, 1), 0);
 }
 
+TEST(Png, ColoursOfSixteenBitsDoNotFadeWithAlpha) {
+  const std::string path = TemporaryPath("sixteen_alpha.png");
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = 2, png.height = 1;
+  png.format = PNG_FORMAT_LINEAR_RGB_ALPHA;  // colours times alpha
+  const std::uint16_t values[] = {8192, 16384, 4096, 16384, 0, 0, 0, 0};
+  ASSERT_TRUE(png_image_write_to_file(&png, path.c_str(), 0, values, 0, nullptr));
+  const Image read = ReadPng(path);
+  ASSERT_EQ(read.ChannelCount(), 4);
+  EXPECT_NEAR(read.At(0, 0, 0), .5, 1e-4);
+  EXPECT_NEAR(read.At(0, 0, 1), 1, 1e-4);
+  EXPECT_NEAR(read.At(0, 0, 2), .25, 1e-4);
+  EXPECT_NEAR(read.At(0, 0, 3), .25, 1e-4);
+  for (int c = 0; c < 4; ++c) EXPECT_EQ(read.At(1, 0, c), 0);
+}
+
 TEST(Png, TruncatedFilesAreErrors) {
   const std::string path = TemporaryPath("good.png");
   Image image(64, 64, {"R", "G", "B"});
