@@ -20,10 +20,12 @@ std::string ReadText(const std::string& path) {
 
 TEST(ExamplePlugin, IsQuotedInTheDocumentationAsItIs) {
   const std::string page = ReadText(EXPHOTON_SOURCE_DIR "/docs/development/writing-a-plugin.md");
-  const std::string code = ReadText(EXPHOTON_SOURCE_DIR "/tests/plugin/example/openness.cpp");
-  ASSERT_FALSE(code.empty());
-  EXPECT_NE(page.find("```cpp\n" + code + "```\n"), std::string::npos)
-      << "docs/development/writing-a-plugin.md does not quote tests/plugin/example/openness.cpp";
+  for (const std::string& name : {std::string("openness"), std::string("velvet")}) {
+    const std::string code = ReadText(EXPHOTON_SOURCE_DIR "/tests/plugin/example/" + name + ".cpp");
+    ASSERT_FALSE(code.empty());
+    EXPECT_NE(page.find("```cpp\n" + code + "```\n"), std::string::npos)
+        << "docs/development/writing-a-plugin.md does not quote tests/plugin/example/" << name;
+  }
 }
 
 #ifndef EXPHOTON_STATIC_PLUGINS

@@ -15,12 +15,6 @@ constexpr int kTests = 400;
 const std::vector<Real> kCosines{1,          Real(.9),   Real(.5),   Real(.2),  Real(.1),
                                  Real(1e-2), Real(1e-3), Real(1e-6), Real(-.7), -1};
 
-// Moves a direction off the horizon if rounding may count it to the wrong cell.
-Vector3 OffHorizon(const Vector3& w) {
-  if (std::abs(w.z) > Real(1e-3)) return w;
-  return Normalize(Vector3(w.x, w.y, std::copysign(Real(1e-3), w.z)));
-}
-
 class LobeSampling : public testing::TestWithParam<NamedLobe> {};
 INSTANTIATE_TEST_SUITE_P(All, LobeSampling, testing::ValuesIn(SmoothLobes()),
                          [](const auto& info) { return info.param.name; });

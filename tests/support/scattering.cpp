@@ -12,18 +12,6 @@
 
 namespace exphoton {
 
-SurfaceInteraction FlatSurface() {
-  SurfaceInteraction si;
-  si.ng = {0, 0, 1};
-  si.uv = {Real(.25), Real(.75)};
-  si.dpdu = {1, 0, 0};
-  si.dpdv = {0, 1, 0};
-  si.shading.n = si.ng;
-  si.shading.dpdu = si.dpdu;
-  si.shading.dpdv = si.dpdv;
-  return si;
-}
-
 SurfaceInteraction TiltedSurface(Real angle) {
   SurfaceInteraction si = FlatSurface();
   si.shading.n = {std::sin(angle), 0, std::cos(angle)};
@@ -64,15 +52,6 @@ std::vector<NamedLobe> SmoothLobes() {
   add("TransmittedGloss", Transmitted<Microfacet>(Microfacet(color, physical, 40)));
   add("TransmittedBlend", Transmitted<BlendedGloss>(BlendedGloss(Spectrum(Real(.3)), 10, 100)));
   return lobes;
-}
-
-std::vector<Vector3> Directions(const std::vector<Real>& cosines) {
-  std::vector<Vector3> directions;
-  for (Real cosine : cosines) {
-    const Real sine = SafeSqrt((1 - cosine) * (1 + cosine));
-    directions.push_back({sine * std::cos(Real(.7)), sine * std::sin(Real(.7)), cosine});
-  }
-  return directions;
 }
 
 Spectrum Albedo(const Bxdf& lobe, const Vector3& wo, int side) {

@@ -9,12 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "core/app/checks/flat_surface.h"
 #include "core/scattering/bsdf.h"
 
 namespace exphoton {
 
-// Returns the plane z = 0 at the origin: normal +z, dpdu = x, uv = (.25, .75), no differentials.
-SurfaceInteraction FlatSurface();
 // Returns FlatSurface with a shading normal tilted by `angle` (radians) from z towards x.
 SurfaceInteraction TiltedSurface(Real angle);
 
@@ -27,9 +26,6 @@ struct NamedLobe {
 // Returns every non-specular BSDF lobe, with coefficients of at most 1, at ordinary and extreme
 // roughness.
 std::vector<NamedLobe> SmoothLobes();
-
-// Returns unit vectors with these cosines to z, at an azimuth off the axes.
-std::vector<Vector3> Directions(const std::vector<Real>& cosines);
 
 // Returns the integral of lobe.f |cos wi| over all wi. It is the mean throughput of Sample on a
 // stratified grid of side x side.

@@ -42,6 +42,7 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
   RenderOptions renderOptions;
   renderOptions.seed = options.seed;
   renderOptions.tileSize = options.tileSize;
+  renderOptions.sharingMemory = options.sharingMemory;
   renderOptions.tileOrder = options.tileOrder;
   renderOptions.isStrict = options.isStrict;
   renderOptions.footprintSamples = options.footprintSamples;
@@ -83,6 +84,7 @@ double MeanRadiance(const Image& image) {
 
 double MeanChannel(const Image& image, const std::string& channel) {
   const int index = image.FindChannel(channel);
+  if (index < 0) throw std::invalid_argument("the picture has no channel " + channel);
   double sum = 0;
   for (int y = 0; y < image.Height(); ++y)
     for (int x = 0; x < image.Width(); ++x) sum += double(image.At(x, y, index));

@@ -22,6 +22,7 @@ struct TestRenderOptions {
   int threads = 1;
   LoadOptions load;  // integrator, samplesPerPixel, effects ...; the plugin folder is added
   int tileSize = 16;
+  double sharingMemory = 0x1p28;
   TileOrder tileOrder = TileOrder::Scanline;
   std::int64_t footprintSamples = 0;  // as in RenderOptions
   bool isStrict = true;               // a non-finite sample throws

@@ -60,7 +60,7 @@ const std::string kPlain =
     std::string(
         "\"exphotonmap\" \"string lightselection\" \"uniform\" \"string photonroulette\" "
         "\"half\" \"bool radiancephotons\" \"false\" \"string gathersampling\" \"bsdf\" "
-        "\"string kernel\" \"constant\" \"float rrthreshold\" 0") +
+        "\"string kernel\" \"constant\" \"float rrthreshold\" 0 \"bool sharedgather\" \"false\"") +
     kCounts;
 
 TEST(PhotonIdentity, ExphotonmapWithPlainSwitchesIsPhotonmapBitForBit) {
