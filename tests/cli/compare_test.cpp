@@ -50,6 +50,15 @@ TEST_F(CompareTest, TheVerdictNamesTheLimitThatIsBroken) {
   EXPECT_EQ(verdict({}).substr(0, 19), "FAIL: not identical");
 }
 
+TEST_F(CompareTest, EveryPictureMustPass) {
+  WriteColor("a.exr", .5f, .5f, .5f);
+  WriteColor("b.exr", .5f, .4f, .5f);
+  WriteColor("c.exr", .5f, .5f, .5f);
+  EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "a.exr"}).status, 0);
+  EXPECT_EQ(Run({"compare", "a.exr", "b.exr", "c.exr"}).status, 1);
+  EXPECT_EQ(Run({"compare", "a.exr", "c.exr", "b.exr"}).status, 1);
+}
+
 TEST_F(CompareTest, EachChannelHasADifferencePicture) {
   WriteColor("a.exr", .5f, .5f, .5f);
   WriteColor("b.exr", .7f, .5f, .3f);
@@ -74,7 +83,7 @@ TEST_F(CompareTest, AnotherSeedPassesAndAnotherPaintFails) {
     ASSERT_EQ(Run(words).status, 0);
   };
   for (const std::vector<std::string>& layers :
-       {std::vector<std::string>{"--two-halves"}, {"--aov", "Variance"}}) {
+       {std::vector<std::string>{"--two-halves"}, {"--aov", "variance"}}) {
     render("room.pbrt", "1", "a.exr", layers);
     render("room.pbrt", "2", "b.exr", layers);
     render("painted.pbrt", "3", "c.exr", layers);

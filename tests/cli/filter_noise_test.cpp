@@ -155,9 +155,9 @@ TEST_F(FilterNoiseTest, IsInTheVarianceAov) {
     double reported = 0, measured = 0;
     for (int seed = 1; seed <= 3; ++seed) {
       const Image image =
-          Render(filter, "random", {"--aov", "Variance", "--spp", "8", "--seed", Seed(seed)});
+          Render(filter, "random", {"--aov", "variance", "--spp", "8", "--seed", Seed(seed)});
       measured += MeanSquare(image, Truth(filter));
-      for (const double variance : Values(image, "Variance."))
+      for (const double variance : Values(image, "variance."))
         reported += variance / (3 * kWidth * kHeight);
     }
     EXPECT_GT(reported, measured / 1.2) << filter;

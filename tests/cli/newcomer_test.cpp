@@ -72,6 +72,15 @@ TEST_F(Newcomer, TheEndingOfTheNameChoosesTheFormat) {
   EXPECT_EQ(Files(), (Names{"a.PNG", "a.exr", "scene.pbrt"}));
 }
 
+TEST_F(Newcomer, OfSeveralNamesSetForThePictureTheLastCounts) {
+  EXPECT_EQ(
+      Run({"scene.pbrt", "--set", "Film.filename=a.exr", "--set", "Film.filename=b.exr"}).status,
+      0);
+  EXPECT_EQ(Files(), (Names{"b.exr", "scene.pbrt"}));
+  EXPECT_EQ(Run({"scene.pbrt", "--set", "Film.filename=b.exr", "-o", "c.exr"}).status, 0);
+  EXPECT_EQ(Files(), (Names{"b.exr", "c.exr", "scene.pbrt"}));
+}
+
 TEST_F(Newcomer, ASceneThatNamesAPngGetsAnExr) {
   Write("scene.pbrt", SmallScene("Film \"image\" \"string filename\" \"room.png\" "
                                  "\"integer xresolution\" 4 \"integer yresolution\" 4"));
@@ -131,20 +140,20 @@ TEST_F(Newcomer, AHintReportsClippedAndOfBlackPictures) {
 }
 
 TEST_F(Newcomer, ConvertTakesOneLayer) {
-  ASSERT_EQ(Run({"scene.pbrt", "--aov", "Albedo,N,samples", "--float"}).status, 0);
+  ASSERT_EQ(Run({"scene.pbrt", "--aov", "albedo,N,samples", "--float"}).status, 0);
   const Image whole = ReadExr(Path("out.exr"));
-  for (const char* layer : {"Albedo", "N", "samples"}) {
+  for (const char* layer : {"albedo", "N", "samples"}) {
     ASSERT_EQ(Run({"convert", "out.exr", "l.exr", "--layer", layer, "--float"}).status, 0) << layer;
     const Image one = ReadExr(Path("l.exr"));
     EXPECT_EQ(one.ChannelCount(), 3);
-    const std::string first = std::string(layer) + (layer[0] == 'A'   ? ".R"
+    const std::string first = std::string(layer) + (layer[0] == 'a'   ? ".R"
                                                     : layer[0] == 'N' ? ".X"
                                                                       : ".count");
     EXPECT_EQ(one.At(4, 3, one.FindChannel("R")), whole.At(4, 3, whole.FindChannel(first)));
   }
   const ProgramResult wrong = Run({"convert", "out.exr", "l.png", "--layer", "Albdo"});
   EXPECT_EQ(wrong.status, 1);
-  EXPECT_TRUE(Has(wrong.err, "did you mean \"Albedo\"?")) << wrong.err;
+  EXPECT_TRUE(Has(wrong.err, "did you mean \"albedo\"?")) << wrong.err;
   EXPECT_EQ(Run({"convert", "out.exr", "l.jpg"}).status, 1);
 }
 
@@ -170,7 +179,7 @@ TEST_F(Newcomer, ATypingMistakeGetsASuggestion) {
   for (const auto& [arguments, hint] : std::vector<std::pair<Names, std::string>>{
            {{"scene.pbrt", "--intergrator", "path"}, "--integrator"},
            {{"scene.pbrt", "--integrator", "pth"}, "path"},
-           {{"scene.pbrt", "--aov", "Albdo"}, "Albedo"},
+           {{"scene.pbrt", "--aov", "Albdo"}, "albedo"},
            {{"scene.pbrt", "--dialect", "v3"}, "v1"},
            {{"scene.pbrt", "--set", "Sampelr.pixelsamples=1"}, "Sampler"},
            {{"scene.pbrt", "--set", "Sampler.pixelsampels=1"}, "pixelsamples"},

@@ -65,7 +65,7 @@ TEST_F(RenderCommandTest, PutsAttributesIntoThePicture) {
   EXPECT_EQ(std::get<int>(attributes.at("samplesPerPixel")), 2);
   EXPECT_EQ(std::get<std::string>(attributes.at("scene")), "scene.pbrt");
   EXPECT_EQ(std::get<std::vector<float>>(attributes.at("worldToCamera")).size(), 16u);
-  for (const char* name : {"software", "sceneHash", "effects", "commandLine", "phaseTimes",
+  for (const char* name : {"software", "sceneHash", "effects", "commandLine", "time/parse",
                            "renderTimeSeconds", "capDate", "worldToNDC"})
     EXPECT_TRUE(attributes.contains(name)) << name;
 }
@@ -154,7 +154,7 @@ TEST_F(RenderCommandTest, CallsWrongUsageStatus1) {
                                  Names{"--two-halves", "--time-limit", "3"},
                                  Names{"--aov", "albeido"},
                                  Names{"--aov", "N,"},
-                                 Names{"--aov", "photondensity"}}) {
+                                 Names{"--aov", "photonDensity"}}) {
     const ProgramResult result = RunText(scene, arguments);
     EXPECT_EQ(result.status, 1) << arguments[0] << "\n" << result.err;
     EXPECT_NE(result.err.find("error: "), std::string::npos) << result.err;

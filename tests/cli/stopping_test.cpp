@@ -71,6 +71,28 @@ TEST_F(StoppingTest, SaysWhatATargetReached) {
   EXPECT_GE(std::get<int>(attributes.at("passes")), 2);
 }
 
+// A picture is multiplied by alpha, so its variance is multiplied by the square of alpha.
+TEST_F(StoppingTest, StatesTheVarianceOfThePictureThatItWrites) {
+  Write("ball.pbrt", SmallScene("Sampler \"random\" \"integer pixelsamples\" 16"));
+  const auto render = [&](const std::string& isPremultiplied) {
+    const ProgramResult result = Run({"ball.pbrt", "--two-halves", "--float", "--aov", "Variance",
+                                      "--set", "Film.premultiplyalpha=" + isPremultiplied});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return ReadExr(Path("out.exr"));
+  };
+  const Image plain = render("false"), multiplied = render("true");
+  const int v = plain.FindChannel("variance.G"), a = plain.FindChannel("A");
+  int partial = 0;
+  for (int y = 0; y < plain.Height(); ++y) {
+    for (int x = 0; x < plain.Width(); ++x) {
+      const double alpha = plain.At(x, y, a), variance = plain.At(x, y, v);
+      partial += alpha > .1 && alpha < .9 && variance > 0;
+      EXPECT_NEAR(multiplied.At(x, y, v), variance * alpha * alpha, 1e-5 * variance);
+    }
+  }
+  EXPECT_GE(partial, 3);
+}
+
 TEST_F(StoppingTest, GivesEqualFilesForEqualTargets) {
   for (const char* integrator :
        {"\"path\"",
@@ -109,7 +131,7 @@ TEST_F(StoppingTest, KeepsThePassesThatAreDoneWhenInterrupted) {
   const ProgramResult result = Wait(process);
   EXPECT_EQ(result.status, 130) << result.err;
   ExpectIn("stopped by a signal", result.err);
-  EXPECT_EQ(Files(), (Names{"out.partial.exr", "scene.pbrt"}));
+  EXPECT_EQ(Files(), (Names{"out.exr.state", "out.partial.exr", "scene.pbrt"}));
 }
 
 TEST_F(StoppingTest, WritesTwoHalves) {
@@ -136,10 +158,10 @@ TEST_F(StoppingTest, WritesTwoHalves) {
 
 TEST_F(StoppingTest, WritesLayersInHalfAndFloat) {
   for (const char* format : {"--half", "--float"}) {
-    EXPECT_EQ(RunScene({"--aov", "Albedo,N,P,Variance,light,time,samples", format}).status, 0);
+    EXPECT_EQ(RunScene({"--aov", "albedo,N,P,variance,light,time,samples", format}).status, 0);
     const Image image = ReadExr(Path("out.exr"));
     for (const char* channel :
-         {"R", "A", "Albedo.G", "N.Z", "P.X", "Variance.B", "emission.R", "direct.G", "caustic.B",
+         {"R", "A", "albedo.G", "N.Z", "P.X", "variance.B", "emission.R", "direct.G", "caustic.B",
           "indirect.R", "specular.R", "time.ms", "samples.count"})
       EXPECT_GE(image.FindChannel(channel), 0) << channel;
   }
@@ -147,7 +169,7 @@ TEST_F(StoppingTest, WritesLayersInHalfAndFloat) {
 
 // Rows 6 and 7 show the sphere. The last two rows of the window show nothing.
 TEST_F(StoppingTest, ScalesTheVarianceBetweenPassesByThePixelsOwnAlpha) {
-  EXPECT_EQ(RunScene({"--aov", "Variance", "--target-error", "0.01", "--pixelbounds", "0,24,6,16",
+  EXPECT_EQ(RunScene({"--aov", "variance", "--target-error", "0.01", "--pixelbounds", "0,24,6,16",
                       "--float"})
                 .status,
             0);
@@ -156,7 +178,7 @@ TEST_F(StoppingTest, ScalesTheVarianceBetweenPassesByThePixelsOwnAlpha) {
   EXPECT_EQ(image.At(12, 8, image.FindChannel("A")), 0);
   double sum = 0;
   for (int x = 0; x < 24; ++x)
-    for (int y = 0; y < 2; ++y) sum += double(image.At(x, y, image.FindChannel("Variance.R")));
+    for (int y = 0; y < 2; ++y) sum += double(image.At(x, y, image.FindChannel("variance.R")));
   EXPECT_GT(sum, 1e-5);
 }
 
@@ -164,11 +186,11 @@ TEST_F(StoppingTest, NamesTheAvailableAovs) {
   ProgramResult result = RunScene({"--aov", "dirct"});
   EXPECT_EQ(result.status, 1);
   ExpectIn("unknown AOV \"dirct\"", result.err);
-  ExpectIn("radiancedistance", result.err);
+  ExpectIn("radianceDistance", result.err);
   ExpectIn("direct", result.err);
-  result = RunScene({"--aov", "photondensity,N"});
+  result = RunScene({"--aov", "photonDensity,N"});
   EXPECT_EQ(result.status, 1);
-  ExpectIn("integrator \"path\" with these parameters has no AOV photondensity", result.err);
+  ExpectIn("integrator \"path\" with these parameters has no AOV photonDensity", result.err);
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
 }
 

@@ -122,13 +122,27 @@ TEST_F(StudyTest, ShowsThePhasesInTheOrderOfARender) {
   }
 }
 
+// The pictures of one sample a pixel are the cheapest, and their times are noise.
+TEST_F(StudyTest, ShowsMapsOfASettingThatIsAccurate) {
+  MakeReference();
+  ASSERT_EQ(Run({"study", "box.pbrt", "--integrators", "path", "--vary", "spp=1,16,64", "--seeds",
+                 "2", "--reference", "half-a.exr", "--reference", "half-b.exr", "--out", "out"})
+                .status,
+            0);
+  const study::Results results = ReadResults("out");
+  ASSERT_FALSE(results.maps.empty());
+  EXPECT_NE(results.maps[0].title.find("(path, spp="), std::string::npos) << results.maps[0].title;
+  EXPECT_EQ(results.maps[0].title.find("spp=1)"), std::string::npos) << results.maps[0].title;
+  EXPECT_TRUE(results.maps[0].image.ends_with("_maps.exr")) << results.maps[0].image;
+}
+
 TEST_F(StudyTest, ThePageHoldsEverythingItShowsAndNoScript) {
   MakeReference();
   ASSERT_EQ(Run(Options("out")).status, 0);
   const std::string page = Read("out/report.html");
-  for (const char* part :
-       {"<h1>On box,", "<svg class=\"chart\"", "data:image/png;base64,", "What each second bought",
-        "Price list", "prefers-color-scheme:dark", "@media print", "width=device-width"})
+  for (const char* part : {"<h1>On box,", "<svg class=\"chart wide\"", "data:image/png;base64,",
+                           "What each second bought", "Price list", "prefers-color-scheme:dark",
+                           "@media print", "width=device-width"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   for (const char* part : {"http:", "https:", "<script", "url(", "@import", "javascript:", "NaN<"})
     EXPECT_EQ(page.find(part), std::string::npos) << part;
@@ -190,10 +204,13 @@ TEST_F(StudyTest, ASceneThatChangedIsRenderedAnew) {
   ASSERT_EQ(
       Run({"study", "box.pbrt", "--integrators", "path", "--seeds", "1", "--out", "out"}).status,
       0);
+  const std::vector<std::string> before = Pictures("out");
   Write("box.pbrt", SmallScene("", "Scale 2 2 2"));
   const ProgramResult again =
       Run({"study", "box.pbrt", "--integrators", "path", "--seeds", "1", "--out", "out"});
+  EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.err.find("there already"), std::string::npos) << again.err;
+  EXPECT_NE(Pictures("out"), before);
 }
 
 TEST_F(StudyTest, WithoutAReferenceSpeaksOfNoiseOnly) {

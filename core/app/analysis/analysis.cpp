@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 
-#include "core/app/report/headline.h"
+#include "core/app/analysis/headline.h"
 #include "core/imaging/files/exr.h"
 #include "core/imaging/metrics/flip.h"
 
@@ -110,7 +111,9 @@ std::vector<Line> MakeLines(const Results& results, const std::vector<SettingRes
     const std::string& label = results.settings[settings[i].setting].label;
     auto found = std::find_if(lines.begin(), lines.end(),
                               [&](const Line& line) { return line.label == label; });
-    if (found == lines.end()) found = lines.insert(lines.end(), Line{label, {}, {}});
+    if (found == lines.end())
+      found = lines.insert(lines.end(),
+                           Line{label, {}, {}, results.settings[settings[i].setting].integrator});
     found->settings.push_back(i);
   }
   return lines;
@@ -118,16 +121,23 @@ std::vector<Line> MakeLines(const Results& results, const std::vector<SettingRes
 
 }  // namespace
 
-std::vector<CostPoint> Analysis::Points(const Line& line) const {
+std::vector<CostPoint> Analysis::Points(const std::vector<std::size_t>& indices) const {
   std::vector<CostPoint> points;
-  for (const std::size_t i : line.settings) points.push_back(settings[i].cost);
+  for (const std::size_t i : indices) points.push_back(settings[i].cost);
   return points;
 }
 
-std::vector<CostPoint> Analysis::Points() const {
-  std::vector<CostPoint> points;
-  for (const SettingResult& setting : settings) points.push_back(setting.cost);
-  return points;
+std::vector<std::size_t> Analysis::Front(const std::vector<std::size_t>& indices) const {
+  std::vector<std::size_t> front;
+  for (const std::size_t i : ParetoFront(Points(indices)))
+    if (settings[indices[i]].cost.error.value <= usefulError) front.push_back(indices[i]);
+  return front;
+}
+
+std::vector<std::size_t> Analysis::Front() const {
+  std::vector<std::size_t> all(settings.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  return Front(all);
 }
 
 void MeasureRuns(const std::string& folder, Results* results) {
@@ -150,6 +160,8 @@ Analysis Analyse(const std::string& folder, const Results& results) {
     if (!setting.runs.empty()) analysis.settings.push_back(std::move(setting));
   }
   analysis.lines = MakeLines(results, analysis.settings);
+  constexpr double kUsefulShare = .5;
+  if (analysis.hasReference) analysis.usefulError = kUsefulShare * BlackError(analysis.reference);
   WriteHeadline(results, &analysis);
   return analysis;
 }

@@ -2,6 +2,7 @@
 // Analysis holds the error and time of each setting of a study, and a headline that sums them up.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,18 @@ struct Line {
   std::string label;
   std::vector<std::size_t> settings;  // indices of Analysis::settings
   TimeToError toTarget;               // time to the headline's error
+  std::string integrator;
+};
+
+// Contender is an integrator in the headline. An integrator may have several lines. The headline then
+// compares the line that has the integrator's name, and the other lines are its variants. If all
+// lines are of one integrator, each line is a contender.
+struct Contender {
+  std::string name;
+  std::size_t line = 0;               // index of Analysis::lines
+  std::vector<std::size_t> settings;  // indices of Analysis::settings
+  std::vector<std::size_t> variants;  // indices of Analysis::lines
+  TimeToError toTarget;
 };
 
 struct Analysis {
@@ -39,14 +52,21 @@ struct Analysis {
   Reference reference;
   std::vector<SettingResult> settings;
   std::vector<Line> lines;
-  // The headline's error; empty if no two lines can be compared.
+  std::vector<Contender> contenders;
+  // Only pictures with at most this error are useful: half the error of a black picture.
+  double usefulError = std::numeric_limits<double>::infinity();
+  // The headline's error; empty if no two contenders can be compared.
   std::optional<double> target;
   // True if the reference is too noisy to compare any error.
   bool targetIsTooFine = false;
-  std::string headline;  // one or a few sentences
+  std::string headline;  // one sentence
+  std::string details;   // the error of the headline, with the times and their ratios
 
-  std::vector<CostPoint> Points(const Line& line) const;
-  std::vector<CostPoint> Points() const;  // of all settings
+  std::vector<CostPoint> Points(const std::vector<std::size_t>& indices) const;
+  // Returns the Pareto front of these settings, without pictures that are not useful, in order of
+  // increasing seconds. The result holds indices of `settings`.
+  std::vector<std::size_t> Front(const std::vector<std::size_t>& indices) const;
+  std::vector<std::size_t> Front() const;  // of all settings
 };
 
 // Reads and analyses all pictures of the study in `folder`. Throws ImageError.
@@ -54,12 +74,5 @@ Analysis Analyse(const std::string& folder, const Results& results);
 
 // Fills `metrics` and `flip` of every row if there is a reference.
 void MeasureRuns(const std::string& folder, Results* results);
-
-// Format numbers for people: "9.8 s", "1.3 min"; "0.012".
-std::string SecondsText(double seconds);
-std::string ShortNumber(double value, int digits = 2);
-
-// Returns round errors in descending order: 1, 0.5, 0.3, 0.2, 0.1 and so on.
-std::vector<double> RoundErrors();
 
 }  // namespace exphoton::study

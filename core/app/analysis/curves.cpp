@@ -38,6 +38,41 @@ struct Step {
   std::size_t point;
 };
 
+// EffectSum adds up the pairs of one parameter. Neighbouring pairs share a setting, so each
+// setting's weight is summed first: the mean is linear in the seconds and the logarithms of errors.
+class EffectSum {
+ public:
+  explicit EffectSum(const std::vector<CostPoint>& points) : points_(points) {}
+  void Add(const Step& from, const Step& to) {
+    const double doublings = std::log2(to.value / from.value);
+    if (!(doublings > 0)) return;
+    weights_[to.point] += 1 / doublings;
+    weights_[from.point] -= 1 / doublings;
+    ++pairs_;
+  }
+  int Pairs() const { return pairs_; }
+  void Store(DoublingEffect* effect) const {
+    double seconds = 0, logs = 0, secondsVariance = 0, logVariance = 0;
+    for (const auto& [point, sum] : weights_) {
+      const CostPoint& cost = points_[point];
+      const double weight = sum / pairs_;
+      seconds += weight * cost.seconds.value;
+      logs += weight * std::log(cost.error.value);
+      secondsVariance += std::pow(weight * cost.seconds.error, 2);
+      logVariance += std::pow(weight * cost.error.error / cost.error.value, 2);
+    }
+    const double factor = std::exp(logs);
+    effect->secondsPerDoubling = {seconds, std::sqrt(secondsVariance)};
+    effect->errorFactor = {factor, factor * std::sqrt(logVariance)};
+    effect->pairs = pairs_;
+  }
+
+ private:
+  const std::vector<CostPoint>& points_;
+  std::map<std::size_t, double> weights_;
+  int pairs_ = 0;
+};
+
 }  // namespace
 
 std::vector<std::size_t> ParetoFront(const std::vector<CostPoint>& points) {
@@ -105,27 +140,16 @@ std::vector<DoublingEffect> FindDoublingEffects(const std::vector<Setting>& sett
   }
   std::vector<DoublingEffect> costs;
   for (auto& [key, groups] : all) {
-    DoublingEffect cost;
-    cost.label = key.first;
-    cost.parameter = key.second;
-    double logFactors = 0;
+    EffectSum sum(points);
     for (auto& group : groups) {
       std::vector<Step>& steps = group.second;
       std::sort(steps.begin(), steps.end(),
                 [](const Step& a, const Step& b) { return a.value < b.value; });
-      for (std::size_t i = 1; i < steps.size(); ++i) {
-        const double doublings = std::log2(steps[i].value / steps[i - 1].value);
-        if (!(doublings > 0)) continue;
-        const CostPoint &from = points[steps[i - 1].point], &to = points[steps[i].point];
-        cost.secondsPerDoubling += (to.seconds.value - from.seconds.value) / doublings;
-        logFactors += std::log(to.error.value / from.error.value) / doublings;
-        ++cost.pairs;
-      }
+      for (std::size_t i = 1; i < steps.size(); ++i) sum.Add(steps[i - 1], steps[i]);
     }
-    if (cost.pairs == 0) continue;
-    cost.secondsPerDoubling /= cost.pairs;
-    cost.errorFactor = std::exp(logFactors / cost.pairs);
-    costs.push_back(cost);
+    if (sum.Pairs() == 0) continue;
+    costs.push_back({key.first, key.second, {}, {}, 0});
+    sum.Store(&costs.back());
   }
   return costs;
 }

@@ -37,11 +37,12 @@ TimeToError FindTimeToError(const std::vector<CostPoint>& points, double error);
 Measured Ratio(const Measured& a, const Measured& b);
 
 // DoublingEffect is the effect of doubling a numeric parameter. It is averaged over neighbouring
-// pairs of settings that differ only in that parameter.
+// pairs of settings that differ only in that parameter. The standard errors are those of the
+// settings, propagated to first order; the pairs may differ by more.
 struct DoublingEffect {
   std::string label, parameter;
-  double secondsPerDoubling = 0;
-  double errorFactor = 1;  // factor on the error per doubling (geometric mean)
+  Measured secondsPerDoubling;
+  Measured errorFactor;  // factor on the error per doubling (geometric mean)
   int pairs = 0;
 };
 std::vector<DoublingEffect> FindDoublingEffects(const std::vector<Setting>& settings,

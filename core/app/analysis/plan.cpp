@@ -3,8 +3,10 @@
 #include "core/app/analysis/plan.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
 
@@ -90,6 +92,23 @@ void Multiply(const std::string& parameter, const std::vector<std::string>& valu
   throw std::invalid_argument("no setting has the varied parameter \"" + varied.parameter + "\"" +
                               (varied.integrator.empty() ? "" : " for " + varied.integrator) +
                               (hint.empty() ? "" : "; " + hint));
+}
+
+// Returns whether no name or value contains the separators of RunName.
+bool HasPlainParts(const Setting& setting) {
+  if (setting.integrator.find_first_of("_=") != std::string::npos) return false;
+  return std::all_of(setting.parameters.begin(), setting.parameters.end(), [](const Parameter& p) {
+    return (p.first + p.second).find_first_of("_=") == std::string::npos;
+  });
+}
+
+// Returns eight digits that differ for different texts (FNV-1a).
+std::string Digest(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  char digits[20];
+  std::snprintf(digits, sizeof digits, "%08x", unsigned(hash ^ hash >> 32));
+  return digits;
 }
 
 }  // namespace
@@ -201,6 +220,18 @@ std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& or
     if (std::find(used.begin(), used.end(), &varied) == used.end())
       FailUnused(varied, plan, oracle);
   return all;
+}
+
+std::string RunName(const Setting& setting, std::uint64_t seed) {
+  constexpr std::size_t kLongest = 150;  // file systems allow 255 bytes
+  std::string exact = setting.integrator;
+  for (const auto& [name, value] : setting.parameters) exact += "_" + name + "=" + value;
+  std::string safe = exact.substr(0, kLongest);
+  for (char& c : safe)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && !std::strchr("=_.+-", c)) c = '-';
+  const std::string part =
+      HasPlainParts(setting) && safe == exact ? safe : safe + "_" + Digest(exact);
+  return part + "_seed=" + std::to_string(seed);
 }
 
 }  // namespace exphoton::study

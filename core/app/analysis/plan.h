@@ -61,6 +61,11 @@ class ParameterLookup {
 // varied. Throws std::invalid_argument if a varied parameter applies to no base.
 std::vector<Setting> ExpandPlan(const StudyPlan& plan, const ParameterLookup& oracle);
 
+// Returns the name of a run's files, without an ending: "path_maxdepth=100_spp=16_seed=1". Settings
+// with different integrators or parameters have different names, also where a value has characters
+// that are replaced because file names should not contain them.
+std::string RunName(const Setting& setting, std::uint64_t seed);
+
 // Returns the seed of a reference half (0 or 1) in a round. Runs of a setting have the seeds 1, 2
 // and so on, so the halves are independent of each other and of the runs.
 constexpr std::uint64_t ReferenceSeed(int round, int half) {

@@ -149,6 +149,12 @@ Reference MakeReference(const Image& a, const Image& b) {
   return reference;
 }
 
+double BlackError(const Reference& reference) {
+  Image black = reference.mean;
+  std::fill(black.pixels.begin(), black.pixels.end(), 0.f);
+  return CompareImages(reference.mean, black).relMse;
+}
+
 Separation Separate(const std::vector<Image>& pictures, const Reference& reference) {
   Separation result;
   result.seeds = int(pictures.size());

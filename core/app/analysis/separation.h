@@ -32,6 +32,9 @@ struct Reference {
 Reference MakeReference(Image a);
 Reference MakeReference(const Image& a, const Image& b);  // throws ImageError like CompareImages
 
+// Returns the relMSE of a black picture.
+double BlackError(const Reference& reference);
+
 // Separation holds error, noise and bias, measured from K pictures x with independent seeds. With
 // s^2 the variance between the pictures,
 //     relMse = mean w (x - r)^2,  variance = mean w s^2,  bias2 = relMse - variance - var(r),

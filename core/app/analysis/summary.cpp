@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/app/report/cost_chart.h"
-#include "core/app/report/headline.h"
+#include "core/app/analysis/headline.h"
 
 namespace exphoton::study {
 namespace {
@@ -19,19 +18,19 @@ std::string Number(double value) {
   return text;
 }
 
-std::string Field(const Measured& m) { return Number(m.value) + "," + Number(m.error); }
+std::string ColumnsOf(const Measured& m) { return Number(m.value) + "," + Number(m.error); }
 
 std::string Row(const Results& results, const Analysis& analysis, std::size_t index) {
   const SettingResult& s = analysis.settings[index];
   const Setting& setting = results.settings[s.setting];
-  const std::vector<std::size_t> front = FrontOf(analysis);
+  const std::vector<std::size_t> front = analysis.Front();
   const bool isFront = std::find(front.begin(), front.end(), index) != front.end();
   std::string text = CsvField(setting.label) + "," + CsvField(setting.integrator) + "," +
                      CsvField(setting.Text()) + "," + std::to_string(s.runs.size());
   for (const Measured& m :
        {s.cpu, s.wall, s.cost.error, s.separation.relMse, s.separation.variance, s.separation.bias2,
         RelativeEfficiency(analysis, s, analysis.settings.front())})
-    text += "," + Field(m);
+    text += "," + ColumnsOf(m);
   for (const double value :
        {s.trimmed, s.mse, s.meanError, s.relativeMean, s.p99, s.flip, double(s.nonFinite),
         s.samplesPerPixel, s.photonPaths, s.photonsStored, s.peakMemory})

@@ -194,7 +194,7 @@ CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
   app.Group("Noise");
   app.AddFlag("--z-test", options.bounds.requiresNoiseTest,
               "require that no difference exceeds the noise; without limits this is done anyway "
-              "where the pictures say how noisy they are (render --two-halves, or --aov Variance)");
+              "where the pictures say how noisy they are (render --two-halves, or --aov variance)");
   app.Add("--significance", options.bounds.significance,
           "probability that pictures that differ by noise alone fail (default 0.01)");
   app.Add("--more-reference", options.moreReferences,

@@ -84,28 +84,31 @@ std::string InfoText(const std::string& path, const Image& image) {
   return text;
 }
 
-// Returns the names of the layers: the parts of channel names before the last dot.
+// Returns the names of the layers: the parts of channel names before the last dot, and Z.
 std::vector<std::string> LayerNames(const Image& image) {
   std::vector<std::string> names;
   for (const std::string& channel : image.channels) {
     const std::string name = channel.substr(0, channel.rfind('.'));
-    if (channel.rfind('.') == std::string::npos) continue;
+    if (channel.rfind('.') == std::string::npos && channel != "Z") continue;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
 }
 
-// Returns a picture with the channels R, G, B of a layer. A layer of one channel becomes grey.
+// Returns a picture with the channels R, G, B of a layer. A layer of one channel becomes grey, and
+// one of two channels has no blue.
 Image LayerOf(const Image& image, const std::string& layer, const std::string& path) {
   std::vector<int> from;
   for (int c = 0; c < image.ChannelCount(); ++c)
-    if (image.channels[std::size_t(c)].starts_with(layer + ".")) from.push_back(c);
+    if (image.channels[std::size_t(c)].starts_with(layer + ".") ||
+        (layer == "Z" && image.channels[std::size_t(c)] == layer))
+      from.push_back(c);
   const auto channel = [&](const char* name) { return image.FindChannel(layer + "." + name); };
   for (const auto& names : {std::array{"R", "G", "B"}, std::array{"X", "Y", "Z"}}) {
     const std::vector<int> three{channel(names[0]), channel(names[1]), channel(names[2])};
     if (std::find(three.begin(), three.end(), -1) == three.end()) from = three;
   }
-  if (from.size() != 1 && from.size() != 3) {
+  if (from.empty() || from.size() > 3) {
     std::string list;
     for (const std::string& name : LayerNames(image)) list += (list.empty() ? "" : ", ") + name;
     throw Error(ExitStatus::CommandLine,
@@ -115,10 +118,11 @@ Image LayerOf(const Image& image, const std::string& layer, const std::string& p
   }
   Image result(image.data, image.display, {"R", "G", "B"});
   result.attributes = image.attributes;
+  if (from.size() == 1) from.assign(3, from[0]);
   for (int y = 0; y < image.Height(); ++y)
     for (int x = 0; x < image.Width(); ++x)
-      for (int c = 0; c < 3; ++c)
-        result.At(x, y, c) = image.At(x, y, from[from.size() == 1 ? 0 : std::size_t(c)]);
+      for (std::size_t c = 0; c < from.size(); ++c)
+        result.At(x, y, int(c)) = image.At(x, y, from[c]);
   return result;
 }
 
@@ -154,7 +158,7 @@ int RunConvert(const std::vector<std::string>& arguments) {
     bool asFloat = false;
     app.Add("from", from, "picture to read").Required();
     app.Add("to", to, "picture to write: NAME.exr or NAME.png").Required();
-    app.Add("--layer", layer, "take only this layer, such as Albedo, direct or half1")
+    app.Add("--layer", layer, "take only this layer, such as albedo, direct or half1")
         .TypeName("NAME");
     AddPngOptions(app, &png);
     app.AddFlag("--float", asFloat, "for EXR: 32-bit channels");

@@ -14,12 +14,14 @@
 #include <new>
 
 #include "core/app/options/errors.h"
+#include "core/app/output/live_view.h"
 #include "core/app/output/output_files.h"
 #include "core/app/output/output_names.h"
 #include "core/app/output/picture.h"
 #include "core/app/output/png_output.h"
 #include "core/app/output/run_files.h"
 #include "core/app/output/run_record.h"
+#include "core/app/output/state_keeper.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
 #include "core/base/memory.h"
@@ -36,6 +38,10 @@ using Setups = std::vector<std::unique_ptr<RenderSetup>>;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Clock::duration AsDuration(double seconds) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 // Begin holds the start times of the work for a picture, and the seconds spent on loading the
@@ -89,10 +95,14 @@ class FileRenderer {
 
   Setups Load(const std::string& path);
   void CheckOutputs(const Setups& setups, std::size_t index);
+  RenderOptions MakeOptions(const PictureFilms& films);
   void RenderOne(const RenderSetup& setup);
   void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
   Picture Write(const RunRecord& run, Image image, Statistics& statistics);
+  void Conclude(RunRecord* run, const Picture& picture, const Begin& begin, Statistics* statistics);
+  void WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFar, Statistics& statistics);
+  void EndState(const RunRecord& run, StateKeeper* keeper);
   void Announce(const RunRecord& run, const Picture& picture);
   void Report(const RunRecord& run);
 
@@ -118,10 +128,12 @@ Setups FileRenderer::Load(const std::string& path) {
 
 void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   const std::string& scenePath = command_.scenes[index];
-  if (!command_.outfile.empty() && setups.size() > 1)
-    throw Error(ExitStatus::CommandLine, "--outfile names one picture, but \"" + scenePath +
-                                             "\" holds " + std::to_string(setups.size()) +
-                                             " scenes");
+  for (const auto& [option, name] : {std::pair("--outfile names one picture", command_.outfile),
+                                     std::pair("--state names one file", command_.stateFile)})
+    if (!name.empty() && setups.size() > 1)
+      throw Error(ExitStatus::CommandLine, std::string(option) + ", but \"" + scenePath +
+                                               "\" holds " + std::to_string(setups.size()) +
+                                               " scenes");
   for (std::size_t i = 0; i < setups.size(); ++i) {
     CheckAovs(command_, *setups[i]);
     run_.files.AddScene(*setups[i]);
@@ -138,6 +150,17 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   }
 }
 
+RenderOptions FileRenderer::MakeOptions(const PictureFilms& films) {
+  RenderOptions options;
+  options.seed = command_.seed;
+  options.isStrict = command_.load.isStrict;
+  options.footprintSamples = command_.footprintSamples;
+  options.stop = &StopFlag();
+  options.pixelsBegun = &watch_.MustFinish();
+  options.aovs = films.aovs.get();
+  return options;
+}
+
 void FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
   log_.Notice("effects: " + EffectNames(setup));
@@ -151,21 +174,28 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;
   AddLoadingTimes(setup, begin, &statistics);
-  RenderOptions options;
-  options.seed = command_.seed;
-  options.isStrict = command_.load.isStrict;
-  options.footprintSamples = command_.footprintSamples;
-  options.stop = &StopFlag();
-  options.pixelsBegun = &watch_.MustFinish();
-  options.aovs = films.aovs.get();
-
+  RenderOptions options = MakeOptions(films);
   const Clock::time_point start = Clock::now();
+  const StateIdentity identity(command_, setup);
+  const std::string picturePath = names_.Picture(setup.film.filename);
+  StateKeeper keeper({names_.State(setup.film.filename), command_.resumes, command_.writeEvery,
+                      begin.wall, run_.files.PartialPicture(picturePath),
+                      [&](const PictureSoFar& soFar) { WriteSoFar(setup, soFar, statistics); }},
+                     identity, log_);
+  options.resumed = keeper.Resume();
+  std::optional<LiveView> view;
+  if (command_.display)
+    view.emplace(*command_.display,
+                 LiveView::Picture{picturePath, setup.crop, setup.film.premultiplyAlpha}, log_);
+  options.view = view ? &*view : nullptr;
+  options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
       command_,
       {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, films.film,
        threads, log_, progress, statistics, setup.volumeIntegrator.get(), setup.integratorName},
-      options, begin.wall, &films);
+      options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
   watch_.MustFinish() = true;
+  if (view) view->Show(films.film, setup.crop);
   RunRecord run(setup, statistics);
   run.commandLine = command_.commandLine;
   run.threads = threads.Count();
@@ -173,18 +203,47 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   TakeResult(result, &run);
   const Picture picture =
       Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
+  Conclude(&run, picture, begin, &statistics);
+  EndState(run, &keeper);
+  if (!run.isComplete) throw Interrupted();
+}
+
+// Reports a picture that has been written.
+void FileRenderer::Conclude(RunRecord* run, const Picture& picture, const Begin& begin,
+                            Statistics* statistics) {
   try {
-    Announce(run, picture);
-    run.wallSeconds = SecondsSince(begin.wall);
-    run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
-    run.peakMemory = PeakMemoryBytes();
-    statistics.SetCounter("memory/peak", run.peakMemory, "largest memory of the process");
-    Report(run);
+    Announce(*run, picture);
+    run->wallSeconds = SecondsSince(begin.wall);
+    run->cpuSeconds = ProcessCpuSeconds() - begin.cpu;
+    run->peakMemory = PeakMemoryBytes();
+    statistics->SetCounter("memory/peak", run->peakMemory, "largest memory of the process");
+    Report(*run);
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::Resource, "out of memory after the picture \"" + picture.path +
                                           "\" was written; " + MemoryLimit());
   }
-  if (!run.isComplete) throw Interrupted();
+}
+
+// Writes a picture that is not finished (--write-every).
+void FileRenderer::WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFar,
+                              Statistics& statistics) {
+  RunRecord run(setup, statistics);
+  run.commandLine = command_.commandLine;
+  run.seed = command_.seed;
+  run.isComplete = false;
+  run.passes = 0;
+  run.stoppedBy = "not stopped yet";
+  run.aovs = AovNames(command_);
+  Write(run, MakeImage(soFar, setup.film.premultiplyAlpha), statistics);
+}
+
+// A complete picture needs neither its state nor the picture so far.
+void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
+  if (run.isComplete) {
+    keeper->Remove();
+  } else if (keeper->HasWritten()) {
+    log_.Notice("the same command with --resume continues from \"" + keeper->Path() + "\"");
+  }
 }
 
 // Loading the scene file counts towards its first picture.
@@ -205,6 +264,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->passes = result.passes;
   run->stoppedBy = StopReasonName(result.reason);
   run->noise = result.noise;
+  run->sharingBias = result.render.sharingBias;
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
   run->aovs = AovNames(command_);

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 
+#include "core/app/commands/check_plugin_command.h"
 #include "core/app/commands/compare_command.h"
 #include "core/app/commands/image_commands.h"
 #include "core/app/commands/plugins_command.h"
@@ -51,6 +52,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "render") return RunScenes(arguments, rest, RenderMode::Render);
   if (command == "explain") return RunScenes(arguments, rest, RenderMode::Explain);
   if (command == "plugins") return RunPlugins(rest);
+  if (command == "check-plugin") return RunCheckPlugin(rest);
   if (command == "info") return RunInfo(rest);
   if (command == "convert") return RunConvert(rest);
   if (command == "compare") return RunCompare(rest);

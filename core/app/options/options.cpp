@@ -24,6 +24,7 @@ constexpr const char* kCommands =
     "  exphoton [render] SCENE ...       render pictures\n"
     "  exphoton explain SCENE            print what would be computed and why\n"
     "  exphoton plugins [NAME ...]       list plugins, or the parameters of one\n"
+    "  exphoton check-plugin NAME        check a material, a light or a sampler\n"
     "  exphoton info PICTURE ...         print size, channels and attributes\n"
     "  exphoton convert FROM TO          convert between EXR and PNG\n"
     "  exphoton compare REFERENCE NEW    test whether pictures differ\n"
@@ -40,7 +41,7 @@ constexpr const char* kCommands =
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "auto";
   std::vector<std::string> sets, pluginFolders;
-  std::string resolution, aovs, timeLimit, limits;
+  std::string resolution, aovs, timeLimit, limits, writeEvery, display;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -88,6 +89,19 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
           "that are compared")
       .Between(std::int64_t(1), kMaxSamplesPerPixel)
       .TypeName("N");
+}
+
+void AddResumeOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
+  app.Group("Long renders");
+  app.AddFlag("--resume", command.resumes,
+              "continue a stopped render from its state, PICTURE.state; without one, begin");
+  app.Add("--state", command.stateFile, "the file of the state, instead of PICTURE.state")
+      .TypeName("FILE");
+  app.Add("--write-every", raw.writeEvery,
+          "write the picture so far and the state at this interval: 30s, 2m, 1h")
+      .TypeName("TIME");
+  app.Add("--display", raw.display, "show the picture in the viewer tev while it is rendered")
+      .TypeName("HOST:PORT");
 }
 
 void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
@@ -167,6 +181,8 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (raw.dialect != "auto") load.dialect = raw.dialect == "v2" ? Dialect::V2 : Dialect::V1;
   load.pluginFolders = PluginRegistry::DefaultFolders(raw.pluginFolders);
   if (!raw.timeLimit.empty()) command->timeLimit = ParseDuration("--time-limit", raw.timeLimit);
+  if (!raw.writeEvery.empty()) command->writeEvery = ParseDuration("--write-every", raw.writeEvery);
+  if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
   Exclude(command->asTwoHalves, command->HasStoppingRule(),
@@ -189,6 +205,8 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
     FailUsage("standard input (-) is named twice");
   if (!command->outfile.empty() && command->scenes.size() > 1)
     FailUsage("--outfile names one picture, but there are several scenes");
+  if (!command->stateFile.empty() && command->scenes.size() > 1)
+    FailUsage("--state names one file, but there are several scenes");
   Log quiet(Log::Level::Quiet, Log::Sink::Memory);
   ChooseEffects(RequiredFeatures(), load.effects, quiet);  // throws if the value is invalid
 }
@@ -207,6 +225,7 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
       "on signal n.");
   AddPictureOptions(app, command, raw);
   AddAmountOptions(app, command, raw);
+  AddResumeOptions(app, command, raw);
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);
   app.AddVersion(VersionText());
@@ -216,7 +235,8 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render", "explain", "plugins", "info", "convert", "compare", "study", "report", "help"};
+  return {"render",  "explain", "plugins", "check-plugin", "info",
+          "convert", "compare", "study",   "report",       "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

@@ -10,6 +10,7 @@
 
 #include "core/app/options/limits.h"
 #include "core/app/output/png_output.h"
+#include "core/app/process/viewer_connection.h"
 #include "core/base/log.h"
 #include "core/imaging/film/aovs.h"
 #include "core/parser/render_setup.h"
@@ -29,6 +30,10 @@ struct RenderCommand {
   AovSet aovs;                                   // --aov
   std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
   bool asTwoHalves = false;
+  bool resumes = false;              // --resume
+  std::string stateFile;             // "": the picture's name with ".state"
+  std::optional<double> writeEvery;  // seconds
+  std::optional<ViewerAddress> display;
   Limits limits;
 
   bool HasStoppingRule() const { return timeLimit || targetError; }

@@ -26,7 +26,7 @@ ParameterOverride ParseOverride(const std::string& text);
 
 // "90", "90s", "1.5m", "1h": positive duration, in seconds.
 double ParseDuration(const std::string& option, const std::string& text);
-// "Albedo,N,direct".
+// "albedo,N,direct".
 AovSet ParseAovList(const std::string& text);
 std::string AllAovNames();
 

@@ -93,6 +93,11 @@ Html SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                {"title", title}});
 }
 
+Html LineMarker(std::size_t line) {
+  return Fill("line-marker",
+              {{"shape", SvgMarker(int(line), {}, 5, "point " + ColorClass(line), "")}});
+}
+
 LogScale::LogScale(double low, double high, double pixelLow, double pixelHigh)
     : pixelLow_(pixelLow), pixelHigh_(pixelHigh) {
   constexpr double kSpace = .06;

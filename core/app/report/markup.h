@@ -34,6 +34,8 @@ std::string ColorClass(std::size_t line);  // "c0" for line 0
 Html SvgMarker(int shape, Point2d at, double size, const std::string& classes,
                const std::string& title);
 
+Html LineMarker(std::size_t line);  // colour and shape of a line, to be put into a text
+
 // LogScale maps data to pixels logarithmically, with ticks at 1, 2 and 5 per decade, or denser.
 class LogScale {
  public:

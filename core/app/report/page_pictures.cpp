@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/app/analysis/analysis.h"
+#include "core/app/analysis/numbers.h"
 #include "core/app/report/markup.h"
 #include "core/base/format.h"
 #include "core/imaging/files/png.h"
@@ -16,7 +16,7 @@
 namespace exphoton::study {
 namespace {
 
-constexpr int kMaxWidth = 420;
+constexpr int kMaxWidth = 640;
 
 Html Element(const Image& image, float exposure, const std::string& alt, bool isPixelated) {
   return Fill("picture", {{"data", Base64(EncodePng(image, {exposure}))},
@@ -48,16 +48,6 @@ float Decode(double v) {
   return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
 }
 
-// Returns the colours of a CSS gradient.
-std::string GradientStops() {
-  std::string stops;
-  for (int i = 0; i <= 10; ++i) {
-    const auto c = FalseColor(i / 10.);
-    stops += Format("%srgb(%.0f %.0f %.0f)", i ? "," : "", 255 * c[0], 255 * c[1], 255 * c[2]);
-  }
-  return stops;
-}
-
 struct MapScale {
   double low, high;
 };
@@ -75,6 +65,46 @@ std::optional<MapScale> FindScale(const Image& image, int channel) {
   };
   const double low = quantile(.01);
   return MapScale{low, std::max(quantile(.99), low * 1.01)};
+}
+
+// Returns the width of a window: an eighth of the picture's, at least 32 pixels and at most a
+// third.
+int WindowWidth(int width) {
+  constexpr int kFewest = 32;
+  return std::max(1, std::min(width / 3, std::max(width / 8, kFewest)));
+}
+
+// Returns the sum of the relMSE terms of each pixel over all pictures, each term at most 1.
+std::vector<double> ErrorsOf(const std::vector<Image>& images, const Image& reference) {
+  std::vector<double> errors(std::size_t(reference.Width()) * std::size_t(reference.Height()));
+  const auto from = FindColors(reference, "the reference");
+  for (const Image& image : images) {
+    const auto to = FindColors(image, "the picture");
+    std::size_t i = 0;
+    for (int y = 0; y < reference.Height(); ++y)
+      for (int x = 0; x < reference.Width(); ++x, ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double r = reference.At(x, y, from[c]), v = image.At(x, y, to[c]);
+          const double error = (v - r) * (v - r) * RelMseWeight(r);
+          if (std::isfinite(error)) errors[i] += std::min(error, 1.);
+        }
+  }
+  return errors;
+}
+
+double SumOver(const PixelBounds& window, const std::vector<double>& values, int width) {
+  double sum = 0;
+  for (int y = window.y0; y < window.y1; ++y)
+    for (int x = window.x0; x < window.x1; ++x) sum += values[std::size_t(y * width + x)];
+  return sum;
+}
+
+// Returns whether a window is less than this many times its own size away from one of the others.
+bool IsNearAny(const PixelBounds& a, const std::vector<PixelBounds>& others, double sizes) {
+  const int x = int(sizes * a.Width()), y = int(sizes * a.Height());
+  return std::any_of(others.begin(), others.end(), [&](const PixelBounds& b) {
+    return a.x0 - x < b.x1 && b.x0 < a.x1 + x && a.y0 - y < b.y1 && b.y0 < a.y1 + y;
+  });
 }
 
 }  // namespace
@@ -125,6 +155,25 @@ Html PictureElement(const Image& image, double scale, const std::string& alt, bo
   return Element(Shrink(colors, kMaxWidth), float(std::log2(scale)), alt, isPixelated);
 }
 
+std::string FalseColorStops() {
+  std::string stops;
+  for (int i = 0; i <= 10; ++i) {
+    const auto c = FalseColor(i / 10.);
+    stops += Format("%srgb(%.0f %.0f %.0f)", i ? "," : "", 255 * c[0], 255 * c[1], 255 * c[2]);
+  }
+  return stops;
+}
+
+Html ScalarPicture(const std::vector<float>& values, const Image& like, double high,
+                   const std::string& alt) {
+  Image shown(like.Width(), like.Height(), {"R", "G", "B"});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto color = FalseColor(double(values[i]) / high);
+    for (std::size_t c = 0; c < 3; ++c) shown.pixels[3 * i + c] = Decode(color[c]);
+  }
+  return Element(Shrink(shown, kMaxWidth), 0, alt, true);
+}
+
 Html MapFigure(const Image& image, const MapRecord& map) {
   const int from = image.FindChannel(map.channel);
   const auto scale = from < 0 ? std::nullopt : FindScale(image, from);
@@ -141,34 +190,37 @@ Html MapFigure(const Image& image, const MapRecord& map) {
     }
   }
   return Fill("map", {{"picture", Element(Shrink(shown, kMaxWidth), 0, map.channel, false)},
-                      {"low", ShortNumber(low)},
-                      {"stops", GradientStops()},
-                      {"high", ShortNumber(high) + " " + map.unit},
+                      {"legend", Fill("legend", {{"name", ""},
+                                                 {"low", ShortNumber(low)},
+                                                 {"stops", FalseColorStops()},
+                                                 {"high", ShortNumber(high) + " " + map.unit}})},
                       {"title", map.title}});
 }
 
-std::array<double, 4> WorstWindow(const Image& image, const Image& reference) {
-  const int width = std::max(1, image.Width() / 4), height = std::max(1, image.Height() / 4);
-  const auto from = FindColors(reference, "the reference"), to = FindColors(image, "the picture");
-  std::array<double, 4> worst{0, .25, 0, .25};
-  double most = -1;
-  for (int y0 = 0; y0 + height <= image.Height(); y0 += std::max(1, height / 2)) {
-    for (int x0 = 0; x0 + width <= image.Width(); x0 += std::max(1, width / 2)) {
-      double sum = 0;
-      for (int y = y0; y < y0 + height; ++y)
-        for (int x = x0; x < x0 + width; ++x)
-          for (std::size_t c = 0; c < 3; ++c) {
-            const double r = reference.At(x, y, from[c]), v = image.At(x, y, to[c]);
-            const double error = (v - r) * (v - r) * RelMseWeight(r);
-            if (std::isfinite(error)) sum += std::min(error, 1.);
-          }
-      if (sum <= most) continue;
-      most = sum;
-      worst = {double(x0) / image.Width(), double(x0 + width) / image.Width(),
-               double(y0) / image.Height(), double(y0 + height) / image.Height()};
-    }
-  }
-  return worst;
+std::vector<std::array<double, 4>> WorstWindows(const std::vector<Image>& images,
+                                                const Image& reference, std::size_t count) {
+  const std::vector<double> errors = ErrorsOf(images, reference);
+  const int width = WindowWidth(reference.Width());
+  const int height = std::max(1, width * reference.Height() / reference.Width());
+  std::vector<PixelBounds> windows;
+  for (int y = 0; y + height <= reference.Height(); y += std::max(1, height / 4))
+    for (int x = 0; x + width <= reference.Width(); x += std::max(1, width / 4))
+      windows.push_back({x, y, x + width, y + height});
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < windows.size(); ++i)
+    order.emplace_back(-SumOver(windows[i], errors, reference.Width()), i);
+  std::sort(order.begin(), order.end());
+  std::vector<PixelBounds> chosen;
+  // Small pictures have no room for windows that are far apart.
+  for (const double sizes : {1., .5, 0.})
+    for (const auto& [sum, i] : order)
+      if (chosen.size() < count && !IsNearAny(windows[i], chosen, sizes))
+        chosen.push_back(windows[i]);
+  std::vector<std::array<double, 4>> fractions;
+  for (const PixelBounds& w : chosen)
+    fractions.push_back({double(w.x0) / reference.Width(), double(w.x1) / reference.Width(),
+                         double(w.y0) / reference.Height(), double(w.y1) / reference.Height()});
+  return fractions;
 }
 
 }  // namespace exphoton::study

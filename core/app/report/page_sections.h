@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These functions make the sections of a study's report, in page order. Each returns a <section>.
+// These functions make the sections of a study's report, in page order. The opening is what the
+// first screen shows; each other section is a <details> that the reader opens.
 #pragma once
 
 #include <string>
@@ -9,16 +10,14 @@
 
 namespace exphoton::study {
 
-Html HeadlineSection(const Results& results, const Analysis& analysis);
-Html CurveSection(const Results& results, const Analysis& analysis);
-Html BarSection(const Results& results, const Analysis& analysis);
+Html Opening(const std::string& folder, const Results& results, const Analysis& analysis);
+Html FrontSection(const Results& results, const Analysis& analysis);
 Html PictureSection(const std::string& folder, const Results& results, const Analysis& analysis);
 Html PriceSection(const Results& results, const Analysis& analysis);
+Html DoublingSection(const Results& results, const Analysis& analysis);
+Html BarSection(const Results& results, const Analysis& analysis);
 Html MapSection(const std::string& folder, const Results& results);
-Html DataSection(const Results& results, const Analysis& analysis);
-
-Html MeasuredText(const Measured& measured);  // "0.012 ± 0.001"
-Html LineMarker(std::size_t line);            // colour and shape of a line
-std::string CountText(double count);          // "120 k"
+Html SettingSection(const Results& results, const Analysis& analysis);
+Html MachineSection(const Results& results, const Analysis& analysis);
 
 }  // namespace exphoton::study

@@ -9,12 +9,14 @@ namespace exphoton::study {
 
 std::string MakeReport(const std::string& folder, const Results& results,
                        const Analysis& analysis) {
-  const Html sections = HeadlineSection(results, analysis) + CurveSection(results, analysis) +
-                        BarSection(results, analysis) + PictureSection(folder, results, analysis) +
-                        PriceSection(results, analysis) + MapSection(folder, results) +
-                        DataSection(results, analysis);
+  const Html sections = PictureSection(folder, results, analysis) +
+                        FrontSection(results, analysis) + PriceSection(results, analysis) +
+                        DoublingSection(results, analysis) + BarSection(results, analysis) +
+                        MapSection(folder, results) + SettingSection(results, analysis) +
+                        MachineSection(results, analysis);
   return Fill("page", {{"title", results.title},
                        {"style", PageStyle()},
+                       {"opening", Opening(folder, results, analysis)},
                        {"sections", sections},
                        {"program", results.program}})
       .Markup();

@@ -3,6 +3,7 @@
 #include "core/app/study/study_command.h"
 
 #include <filesystem>
+#include <tuple>
 
 #include "core/app/analysis/summary.h"
 #include "core/app/options/errors.h"
@@ -55,21 +56,37 @@ study::Results Describe(const StudyOptions& options, const SceneFacts& scene,
   return results;
 }
 
-// Renders AOVs of time and photon density with the first exphotonmap setting, or the first setting.
-std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
-                                       const std::vector<study::Setting>& settings,
+// Returns the setting whose maps are shown: the one of exphotonmap, or else of any integrator, that
+// reaches the headline's error in the shortest time. Without such a setting it is the most accurate
+// one. Maps of a faster setting would show the noise of the clock.
+const study::Setting* SettingForMaps(const study::Results& results,
+                                     const study::Analysis& analysis) {
+  const study::SettingResult* chosen = nullptr;
+  const auto isMapped = [&](const study::SettingResult& s) {
+    return results.settings[s.setting].integrator == "exphotonmap";
+  };
+  const auto rank = [&](const study::SettingResult& s) {
+    const double error = s.cost.error.value;
+    const bool isReached = analysis.target && error <= *analysis.target;
+    return std::tuple(!isMapped(s), !isReached, isReached ? s.cost.seconds.value : error);
+  };
+  for (const study::SettingResult& s : analysis.settings)
+    if (s.cost.error.IsKnown() && (!chosen || rank(s) < rank(*chosen))) chosen = &s;
+  if (chosen) return &results.settings[chosen->setting];
+  return results.settings.empty() ? nullptr : &results.settings.front();
+}
+
+// Renders AOVs of time and photon density.
+std::vector<study::MapRecord> MakeMaps(const StudyOptions& options, const study::Results& results,
                                        StudyRunner& runner) {
   if (!options.makesMaps) return {};
-  const study::Setting* chosen = nullptr;
-  for (const study::Setting& setting : settings)
-    if (!chosen && setting.integrator == "exphotonmap") chosen = &setting;
-  if (!chosen && !settings.empty()) chosen = &settings.front();
+  const study::Setting* chosen = SettingForMaps(results, study::Analyse(options.folder, results));
   if (!chosen) return {};
   study::Setting setting = *chosen;
   std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
   // Only some integrators, with some parameters, provide AOVs of photons.
   study::RunRow row;
-  for (const char* aovs : {"time,photondensity,radiancedistance", "time,photondensity", "time"}) {
+  for (const char* aovs : {"time,photonDensity,radianceDistance", "time,photonDensity", "time"}) {
     try {
       row = runner.RunOne(setting, 1, {"--aov", aovs});
       break;
@@ -79,8 +96,8 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options,
   }
   const std::string of = " (" + setting.label + ", " + setting.Text() + ")";
   return {{row.image, "time.ms", "Cost of each pixel" + of, "ms"},
-          {row.image, "photondensity.Y", "Photon density" + of, "photons per unit of area"},
-          {row.image, "radiancedistance.Y",
+          {row.image, "photonDensity.Y", "Photon density" + of, "photons per unit of area"},
+          {row.image, "radianceDistance.Y",
            "Distance from gather hits to the radiance photon used" + of, "units of length"}};
 }
 
@@ -93,7 +110,8 @@ void WriteResults(StudyFolder& folder, study::Results* results) {
   WriteTextFile(folder.Claim("results.csv"), study::ToCsv(*results));
   WriteTextFile(folder.Claim("summary.csv"), study::SummaryCsv(*results, analysis));
   WriteTextFile(folder.Claim("report.html"), study::MakeReport(path, *results, analysis));
-  PrintOut(analysis.headline + "\n" + path + "/report.html\n");
+  PrintOut(analysis.headline + "\n" + (analysis.details.empty() ? "" : analysis.details + "\n") +
+           path + "/report.html\n");
 }
 
 // Checks the reference before hours of rendering: it needs the size of the renders, and R, G and B.
@@ -153,7 +171,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   results.reference = PrepareReference(options, runner);
   CheckReference(options, scene, results.reference);
   results.runs = runner.RunAll(results.settings);
-  results.maps = MakeMaps(options, results.settings, runner);
+  results.maps = MakeMaps(options, results, runner);
   WriteResults(folder, &results);
 }
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The estimate renders a rectangle in the centre of the picture, a sixteenth of its pixels. The
-// phase "render" is scaled to the whole picture; all other phases, such as shooting photons, are
-// counted as they are.
+// The estimate renders a rectangle in the centre of the picture, a sixteenth of its pixels, with
+// one sample a pixel. The phase "render" is scaled to the whole picture and to the setting's
+// samples; all other phases, such as shooting photons, are counted as they are. Settings that
+// differ only in their samples share a probe. No probe starts after a few seconds.
 #include "core/app/study/study_forecast.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "core/app/analysis/results.h"
 #include "core/app/options/values.h"
@@ -24,8 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPart = 16;             // the probe renders 1/16 of the pixels
-constexpr double kMaxProbeSeconds = 60;  // then the rest is estimated by the mean
+constexpr double kPart = 16;            // the probe renders 1/16 of the pixels
+constexpr double kMaxProbeSeconds = 4;  // then the rest is estimated by the mean
 constexpr std::uint64_t kProbeSeed = 1;
 
 // A folder that is removed with its files.
@@ -58,11 +62,27 @@ std::string CentralPart(const StudyOptions& options) {
                 y - share * (y1 - y0), y + share * (y1 - y0));
 }
 
-// Returns the estimated wall seconds of one render. Returns nullopt if the probe failed; the study
-// itself will then explain the failure.
-std::optional<double> Probe(const StudyOptions& options, const study::Setting& setting,
-                            const ScratchFolder& folder) {
-  if (const std::string* time = setting.Find("time")) return std::strtod(time->c_str(), nullptr);
+// Cost is the wall time of a render of the whole picture.
+struct Cost {
+  double fixed = 0;      // seconds that do not depend on the samples
+  double perSample = 0;  // seconds for one sample a pixel, or for the scene's number of samples
+};
+
+double SamplesOf(const study::Setting& setting) {
+  const std::string* spp = setting.Find("spp");
+  return spp ? std::max(1., std::strtod(spp->c_str(), nullptr)) : 1;
+}
+
+// Returns the setting with one sample a pixel, or as it is if the scene gives the samples.
+study::Setting WithOneSample(study::Setting setting) {
+  for (auto& [name, value] : setting.parameters)
+    if (name == "spp") value = "1";
+  return setting;
+}
+
+// Returns nullopt if the probe failed; the study itself will then explain the failure.
+std::optional<Cost> Probe(const StudyOptions& options, const study::Setting& setting,
+                          const ScratchFolder& folder) {
   StudyOptions part = options;
   part.cropWindow = CentralPart(options);
   std::vector<std::string> arguments = RenderArguments(part, part.scene, setting, kProbeSeed);
@@ -74,11 +94,67 @@ std::optional<double> Probe(const StudyOptions& options, const study::Setting& s
   if (child.status != 0) return {};
   study::RunRow row;
   study::AddRunStatistics(ReadTextFile(folder.File("probe.json")), &row);
-  double seconds = child.wallSeconds;
+  Cost cost{child.wallSeconds, 0};
   for (const auto& [name, wall] : row.phaseWall)
-    if (name == "render") seconds += wall * (kPart - 1);
-  return seconds;
+    if (name == "render") cost = {child.wallSeconds - wall, wall * kPart};
+  return cost;
 }
+
+// Probes holds the costs that are known, and estimates the others by their means.
+class Probes {
+ public:
+  explicit Probes(const StudyOptions& options) : options_(options) {}
+
+  // Integrators take turns, so that each has a probe before the time is up.
+  void Run(const std::vector<study::Setting>& settings) {
+    const auto start = std::chrono::steady_clock::now();
+    std::map<std::string, std::size_t> turns;
+    std::vector<std::pair<std::size_t, const study::Setting*>> order;
+    for (const study::Setting& setting : settings)
+      if (!setting.Find("time")) order.emplace_back(turns[setting.integrator]++, &setting);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [turn, setting] : order) {
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+      if (spent.count() > kMaxProbeSeconds) return;
+      const study::Setting probed = WithOneSample(*setting);
+      const std::string name = study::RunName(probed, kProbeSeed);
+      if (known_.contains(name)) continue;
+      const std::optional<Cost> cost = Probe(options_, probed, folder_);
+      if (!cost) continue;
+      known_[name] = *cost;
+      byIntegrator_[setting->integrator].push_back(*cost);
+      all_.push_back(*cost);
+    }
+  }
+
+  bool IsEmpty() const { return all_.empty(); }
+  double SecondsOf(const study::Setting& setting) const {
+    if (const std::string* time = setting.Find("time")) return std::strtod(time->c_str(), nullptr);
+    const auto own = known_.find(study::RunName(WithOneSample(setting), kProbeSeed));
+    const auto similar = byIntegrator_.find(setting.integrator);
+    const Cost cost = own != known_.end()              ? own->second
+                      : similar != byIntegrator_.end() ? Mean(similar->second)
+                                                       : Mean(all_);
+    return cost.fixed + SamplesOf(setting) * cost.perSample;
+  }
+
+ private:
+  static Cost Mean(const std::vector<Cost>& costs) {
+    Cost mean;
+    for (const Cost& cost : costs) {
+      mean.fixed += cost.fixed / double(costs.size());
+      mean.perSample += cost.perSample / double(costs.size());
+    }
+    return mean;
+  }
+
+  const StudyOptions& options_;
+  ScratchFolder folder_;
+  std::map<std::string, Cost> known_;
+  std::map<std::string, std::vector<Cost>> byIntegrator_;
+  std::vector<Cost> all_;
+};
 
 std::string About(double seconds) {
   if (seconds < 100) return Format("%.0f s", std::ceil(seconds));
@@ -90,25 +166,16 @@ std::string About(double seconds) {
 
 std::string ForecastText(const StudyOptions& options, const SceneFacts& scene,
                          const std::vector<study::Setting>& settings) {
-  const ScratchFolder folder;
-  const auto start = std::chrono::steady_clock::now();
-  const auto spent = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  double sum = 0;
-  std::size_t known = 0;
-  for (const study::Setting& setting : settings) {
-    if (spent() > kMaxProbeSeconds && !setting.Find("time")) continue;
-    const std::optional<double> seconds = Probe(options, setting, folder);
-    if (!seconds) continue;
-    sum += *seconds;
-    ++known;
-  }
+  Probes probes(options);
+  probes.Run(settings);
   const std::size_t renders = settings.size() * std::size_t(options.seeds);
   std::string text = Format("%zu renders of %d x %d pixels (%zu settings, %d seeds each)", renders,
                             scene.width, scene.height, settings.size(), options.seeds);
-  if (known == 0) return text + "\n";
-  double all = sum / double(known) * double(renders);
+  const bool allHaveLimits = std::all_of(settings.begin(), settings.end(),
+                                         [](const auto& setting) { return setting.Find("time"); });
+  if (probes.IsEmpty() && !allHaveLimits) return text + "\n";
+  double all = 0;
+  for (const study::Setting& setting : settings) all += options.seeds * probes.SecondsOf(setting);
   text += ", about " + About(all) + "\n";
   if (!options.makeReference.empty()) {
     all += options.referenceSeconds;

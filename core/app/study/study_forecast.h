@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ForecastText estimates how long a study takes, by rendering small parts of its pictures.
+// ForecastText estimates how long a study takes, by rendering small parts of some of its pictures
+// for a few seconds.
 #pragma once
 
 #include <string>

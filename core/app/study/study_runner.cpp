@@ -101,11 +101,6 @@ std::string StudyRunner::KeyOf(const std::vector<std::string>& arguments) const 
   return HashOfText(text);
 }
 
-std::string StudyRunner::NameOf(const study::Setting& setting, std::uint64_t seed,
-                                const std::string& key) const {
-  return "images/" + setting.integrator + "-" + key.substr(0, 12) + "-seed" + std::to_string(seed);
-}
-
 bool StudyRunner::FindDone(const std::string& name, const std::string& key,
                            study::RunRow* row) const {
   const std::string base = folder_.Path() + "/" + name;
@@ -124,7 +119,9 @@ study::RunRow StudyRunner::RunOne(const study::Setting& setting, std::uint64_t s
                                   const std::vector<std::string>& extra) {
   std::vector<std::string> arguments = RenderArguments(options_, options_.scene, setting, seed);
   arguments.insert(arguments.end(), extra.begin(), extra.end());
-  const std::string key = KeyOf(arguments), name = NameOf(setting, seed, key);
+  const std::string key = KeyOf(arguments);
+  const std::string name =
+      "images/" + study::RunName(setting, seed) + (extra.empty() ? "" : "_maps");
   study::RunRow row;
   wasFound_ = FindDone(name, key, &row);
   if (wasFound_) return row;

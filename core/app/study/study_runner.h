@@ -51,8 +51,6 @@ class StudyRunner {
   std::string KeyOf(const std::vector<std::string>& arguments) const;
   // Returns false if there is no such run or its files cannot be read.
   bool FindDone(const std::string& name, const std::string& key, study::RunRow* row) const;
-  std::string NameOf(const study::Setting& setting, std::uint64_t seed,
-                     const std::string& key) const;
 
   const StudyOptions& options_;
   StudyFolder& folder_;

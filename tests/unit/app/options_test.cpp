@@ -107,7 +107,7 @@ TEST(RenderOption, OfTheRunArrivesInItsField) {
   EXPECT_EQ(Parse({"--target-error", ".125"}).targetError, .125);
   EXPECT_TRUE(Parse({"--target-error", ".125"}).HasStoppingRule());
   EXPECT_TRUE(Parse({"--two-halves"}).asTwoHalves);
-  EXPECT_EQ(Parse({"--aov", "Albedo,N"}).aovs.Names(), "Albedo, N");
+  EXPECT_EQ(Parse({"--aov", "albedo,N"}).aovs.Names(), "albedo, N");
   EXPECT_EQ(Parse({"--preview", "x.png"}).previewFile, "x.png");
   EXPECT_TRUE(Parse({"--reproducible"}).isReproducible);
   EXPECT_EQ(Parse({"--check"}).mode, RenderMode::Check);

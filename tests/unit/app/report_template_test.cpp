@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 TEST(ReportTemplate, EscapesTextButNotMarkup) {
   EXPECT_EQ(Fill("alarm", {{"text", "a < b & \"c\""}}).Markup(),
             "<span class=\"alarm\">a &lt; b &amp; &quot;c&quot;</span>");
-  EXPECT_EQ(Fill("alarm", {{"text", Fill("cut-bar")}}).Markup(),
-            "<span class=\"alarm\">" + Fill("cut-bar").Markup() + "</span>");
+  EXPECT_EQ(Fill("alarm", {{"text", Fill("no-chart")}}).Markup(),
+            "<span class=\"alarm\">" + Fill("no-chart").Markup() + "</span>");
 }
 
 TEST(ReportTemplate, ReplacesNoNamesInValues) {
@@ -70,7 +70,7 @@ TEST(ReportTemplate, TheSourcesFillEveryTemplateAndNoOther) {
 TEST(ReportTemplate, NoSourceOfTheReportWritesMarkup) {
   const fs::path report = fs::path(EXPHOTON_SOURCE_DIR) / "core/app/report";
   int checked = 0;
-  for (const auto& entry : fs::directory_iterator(report)) {
+  for (const auto& entry : fs::recursive_directory_iterator(report)) {
     if (entry.path().extension() != ".cpp" || entry.path().filename() == "template.cpp") continue;
     ++checked;
     std::set<std::string> found;

@@ -321,8 +321,21 @@ TEST_F(StudyAnalysis, JoinsSettingsOfALabelToALine) {
   const Analysis analysis = AnalyseIt(results);
   ASSERT_EQ(analysis.lines.size(), 1u);
   EXPECT_EQ(analysis.lines[0].settings, (std::vector<std::size_t>{0, 1}));
-  EXPECT_DOUBLE_EQ(analysis.Points(analysis.lines[0])[1].seconds.value, 100);
-  EXPECT_DOUBLE_EQ(analysis.Points()[0].seconds.value, 10);
+  EXPECT_EQ(analysis.lines[0].integrator, "path");
+  EXPECT_DOUBLE_EQ(analysis.Points({1})[0].seconds.value, 100);
+}
+
+TEST_F(StudyAnalysis, AFrontHasNoPictureWithHalfTheErrorOfABlackOne) {
+  Results results = TwoSettings();
+  // The reference is .5, so a black picture has an error of .25 / .26.
+  const Analysis analysis = AnalyseIt(results);
+  EXPECT_NEAR(analysis.usefulError, .5 * .25 / .26, 1e-6);
+  EXPECT_EQ(analysis.Front(), (std::vector<std::size_t>{0, 1}));
+  WritePicture("images/0-1.exr", 0);
+  WritePicture("images/0-2.exr", 0);
+  EXPECT_EQ(AnalyseIt(results).Front(), (std::vector<std::size_t>{1}));
+  results.reference = {};
+  EXPECT_TRUE(std::isinf(AnalyseIt(results).usefulError));
 }
 
 TEST_F(StudyAnalysis, HasItsMeansUnderTheRightHeadingsOfTheSummary) {

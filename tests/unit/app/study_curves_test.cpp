@@ -7,8 +7,6 @@
 
 #include <cmath>
 
-#include "core/app/analysis/analysis.h"
-#include "core/app/report/headline.h"
 #include "core/app/report/markup.h"
 
 namespace exphoton::study {
@@ -97,8 +95,8 @@ TEST(StudyCurves, AKnobsPriceLeavesOutWhatIsNotComparable) {
   ASSERT_EQ(costs.size(), 1u);
   EXPECT_EQ(costs[0].label, "y");
   EXPECT_EQ(costs[0].pairs, 1);
-  EXPECT_DOUBLE_EQ(costs[0].secondsPerDoubling, 4);
-  EXPECT_NEAR(costs[0].errorFactor, std::sqrt(.125), 1e-12);
+  EXPECT_DOUBLE_EQ(costs[0].secondsPerDoubling.value, 4);
+  EXPECT_NEAR(costs[0].errorFactor.value, std::sqrt(.125), 1e-12);
 }
 
 TEST(StudyCurves, ARatioAddsRelativeErrorsInSquares) {
@@ -119,129 +117,23 @@ TEST(StudyCurves, AKnobsPriceIsThatOfOneDoubling) {
   const std::vector<DoublingEffect> costs = FindDoublingEffects(settings, points);
   ASSERT_EQ(costs.size(), 2u);
   EXPECT_EQ(costs[0].parameter, "photons");
-  EXPECT_DOUBLE_EQ(costs[0].secondsPerDoubling, 0);
-  EXPECT_DOUBLE_EQ(costs[0].errorFactor, 1);
+  EXPECT_DOUBLE_EQ(costs[0].secondsPerDoubling.value, 0);
+  EXPECT_DOUBLE_EQ(costs[0].errorFactor.value, 1);
   EXPECT_EQ(costs[1].parameter, "rays");
-  EXPECT_DOUBLE_EQ(costs[1].secondsPerDoubling, 1.5);
-  EXPECT_NEAR(costs[1].errorFactor, .5, 1e-12);
+  EXPECT_DOUBLE_EQ(costs[1].secondsPerDoubling.value, 1.5);
+  EXPECT_NEAR(costs[1].errorFactor.value, .5, 1e-12);
   EXPECT_EQ(costs[1].pairs, 2);
 }
 
-Analysis TwoLines(std::vector<CostPoint> a, std::vector<CostPoint> b) {
-  Analysis analysis;
-  analysis.hasReference = true;
-  analysis.lines = {{"fast", {}, {}}, {"slow", {}, {}}};
-  for (std::size_t line = 0; line < 2; ++line) {
-    for (const CostPoint& point : line == 0 ? a : b) {
-      SettingResult setting;
-      setting.cost = point;
-      analysis.lines[line].settings.push_back(analysis.settings.size());
-      analysis.settings.push_back(setting);
-    }
-  }
-  return analysis;
-}
-
-Results Titled() {
-  Results results;
-  results.title = "room";
-  return results;
-}
-
-TEST(StudyHeadline, NamesTimesAndTheRatioAtEqualError) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(analysis.headline, "On room, fast reaches relMSE 0.01 in 10 s, slow in 70 s (7 ± 0×).");
-}
-
-TEST(StudyHeadline, GivesErrorsOfRatiosADigitThatIsNotZero) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01, .05)}, {At(7, .1), At(19, .01, .1)});
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(analysis.headline,
-            "On room, fast reaches relMSE 0.01 in 10 s, slow in 19 s (1.9 ± 0.01×).");
-  analysis = TwoLines({At(1, .1)}, {At(20, .1, .4)});
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_NE(analysis.headline.find("“slow” is 0.05 ± 0.001 times as efficient"), std::string::npos)
-      << analysis.headline;
-}
-
-TEST(StudyHeadline, SaysWhereALineNeverGotThere) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
-  analysis.lines.push_back({"black", {analysis.settings.size()}, {}});
-  SettingResult black;
-  black.cost = At(.5, .9);
-  analysis.settings.push_back(black);
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_NE(analysis.headline.find("black never gets there (at best 0.9, in 0.5 s)"),
-            std::string::npos)
-      << analysis.headline;
-}
-
-TEST(StudyHeadline, RefusesRatiosThatTheReferencesNoiseDoesNotAllow) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
-  analysis.reference.variance = {.004, .0001};  // 10 % of .04: .05 is comparable, .03 is not
-  WriteHeadline(Titled(), &analysis);
-  ASSERT_TRUE(analysis.target);
-  EXPECT_DOUBLE_EQ(*analysis.target, .05);
-  analysis.reference.variance = {.02, .001};
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_FALSE(analysis.target);
-  EXPECT_NE(analysis.headline.find("too noisy"), std::string::npos) << analysis.headline;
-  EXPECT_EQ(ShortfallText(analysis.reference, .01),
-            "the reference's noise is 200 % of this; one rendered 20 times as long would do");
-}
-
-TEST(StudyHeadline, OfSingleSettingsNamesTheMostEfficient) {
-  Analysis analysis = TwoLines({At(1, .1)}, {At(2, .01)});
-  analysis.reference.variance = {.0001, .00001};
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(analysis.headline,
-            "On room, “slow” is 5 ± 0 times as efficient (1 / (error × seconds)) as fast.");
-  analysis.reference.variance = {.002, .0001};  // 20 % of the second error
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(analysis.headline.find("efficient"), std::string::npos) << analysis.headline;
-}
-
-TEST(StudyHeadline, WithoutAReferenceSpeaksOfNoise) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
-  analysis.hasReference = false;
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(analysis.headline,
-            "On room, fast reaches a noise (without bias) of 0.01 in 10 s, slow in 70 s (7 ± 0×).");
-}
-
-TEST(StudyHeadline, WithoutACommonErrorNamesTheLeastOnes) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .06)}, {At(7, 4), At(70, 2)});
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(
-      analysis.headline,
-      "On room, no error was reached by two lines. Least errors: fast 0.06 in 10 s, slow 2 in "
-      "70 s.");
-}
-
-TEST(StudyHeadline, SaysWhereALineWasMoreAccurateFromTheStart) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)});
-  analysis.lines.push_back({"fine", {analysis.settings.size()}, {}});
-  SettingResult fine;
-  fine.cost = At(90, .005);
-  analysis.settings.push_back(fine);
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_NE(analysis.headline.find(", fine in at most 90 s."), std::string::npos)
-      << analysis.headline;
-}
-
-TEST(StudyHeadline, NamesAtMostThreeEfficiencies) {
-  Analysis analysis = TwoLines({At(1, .1)}, {At(2, .1)});
-  for (const double seconds : {4., .5, 8.}) {
-    analysis.lines.push_back({"in " + SecondsText(seconds), {analysis.settings.size()}, {}});
-    SettingResult setting;
-    setting.cost = At(seconds, .1);
-    analysis.settings.push_back(setting);
-  }
-  WriteHeadline(Titled(), &analysis);
-  EXPECT_EQ(analysis.headline,
-            "On room, “in 0.5 s” is 2 ± 0 times as efficient (1 / (error × seconds)) as fast; next "
-            "are “slow” with 0.5 ± 0, “in 4 s” with 0.25 ± 0.");
+TEST(StudyCurves, TheErrorOfADoublingCountsSharedSettingsOnce) {
+  const auto setting = [](const char* spp) { return Setting{"x", "x", {{"spp", spp}}}; };
+  // Two pairs share the middle setting, so its errors cancel: only the ends are left.
+  const std::vector<Setting> settings{setting("1"), setting("2"), setting("4")};
+  const std::vector<CostPoint> points{At(1, 1, .3, .1), At(2, .5, 100, 10), At(4, .25, .4, .05)};
+  const std::vector<DoublingEffect> costs = FindDoublingEffects(settings, points);
+  ASSERT_EQ(costs.size(), 1u);
+  EXPECT_NEAR(costs[0].secondsPerDoubling.error, std::hypot(.3, .4) / 2, 1e-12);
+  EXPECT_NEAR(costs[0].errorFactor.error, .5 * std::hypot(.1, .05 / .25) / 2, 1e-12);
 }
 
 TEST(StudyMarkup, EncodesBase64AsRfc4648DoesInItsExamples) {
@@ -262,25 +154,6 @@ TEST(StudyMarkup, ALogScaleHasTicksAtOneTwoAndFive) {
   for (const LogScale::Tick& tick : scale.Ticks()) values.push_back(tick.value);
   EXPECT_EQ(values, (std::vector<double>{1, 2, 5, 10}));
   EXPECT_NEAR(scale(std::sqrt(10)), 50, 1e-9);
-}
-
-TEST(StudyMarkup, ShortNumbersKeepTheirDigits) {
-  EXPECT_EQ(ShortNumber(.0123), "0.012");
-  EXPECT_EQ(ShortNumber(7), "7");
-  EXPECT_EQ(ShortNumber(1234), "1234");
-  EXPECT_EQ(ShortNumber(.1), "0.1");
-  EXPECT_EQ(ShortNumber(0), "0");
-  EXPECT_EQ(SecondsText(9.83), "9.8 s");
-  EXPECT_EQ(SecondsText(640), "10.7 min");
-  EXPECT_EQ(SecondsText(99), "99 s");
-  EXPECT_EQ(SecondsText(99.9), "1.7 min");
-  EXPECT_EQ(SecondsText(5950), "1.7 h");
-  EXPECT_EQ(ShortNumber(-.5), "−0.5");
-  EXPECT_EQ(ShortNumber(kUnknown), "–");
-  EXPECT_EQ(ShortNumber(.00005), "5.0e-05");
-  EXPECT_EQ(ShortNumber(.0001), "0.0001");
-  EXPECT_EQ(ShortNumber(1e5), "1.0e+05");
-  EXPECT_EQ(ShortNumber(.01264, 3), "0.0126");
 }
 
 }  // namespace

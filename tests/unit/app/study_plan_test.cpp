@@ -162,5 +162,31 @@ TEST(StudyResults, TakeWhatARenderSaysAndIgnoreTheRest) {
   EXPECT_THROW(AddRunStatistics("", &row), std::runtime_error);
 }
 
+TEST(StudyPlan, FilesHaveTheNamesOfTheirSettings) {
+  EXPECT_EQ(RunName({"fast", "path", {{"maxdepth", "100"}, {"spp", "16"}}}, 3),
+            "path_maxdepth=100_spp=16_seed=3");
+  EXPECT_EQ(RunName({"x", "path", {}}, 1), "path_seed=1");
+  EXPECT_EQ(RunName({"x", "path", {{"Sampler.jitter", "-1.5e+2"}}}, 1),
+            "path_Sampler.jitter=-1.5e+2_seed=1");
+}
+
+TEST(StudyPlan, FilesOfDifferentSettingsHaveDifferentSafeNames) {
+  const std::vector<Setting> settings{{"x", "path", {{"a", "b/c"}}},
+                                      {"x", "path", {{"a", "b c"}}},
+                                      {"x", "path", {{"a", "b-c"}}},
+                                      {"x", "path", {{"a", "1_b=2"}}},
+                                      {"x", "path", {{"a", "1"}, {"b", "2"}}},
+                                      {"x", "path", {{"a", std::string(300, 'y')}}},
+                                      {"x", "path", {{"a", std::string(301, 'y')}}}};
+  std::set<std::string> names;
+  for (const Setting& setting : settings) {
+    const std::string name = RunName(setting, 1);
+    EXPECT_EQ(name.find_first_of("/ "), std::string::npos) << name;
+    EXPECT_LT(name.size(), 200u);
+    names.insert(name);
+  }
+  EXPECT_EQ(names.size(), settings.size());
+}
+
 }  // namespace
 }  // namespace exphoton::study

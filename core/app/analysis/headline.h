@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// WriteHeadline sums up a study in a sentence: the time that each line takes to reach one error.
+// WriteHeadline sums up a study in a sentence: the share of time that the fastest integrator needs
+// for the same error as the others.
 #pragma once
 
 #include "core/app/analysis/analysis.h"
 
 namespace exphoton::study {
 
-// Chooses the error and each line's time to reach it. Fills target, toTarget and headline.
+// Chooses the contenders, the error that most of them reach, and the times to it. Fills
+// contenders, target, toTarget, headline and details of the analysis.
 void WriteHeadline(const Results& results, Analysis* analysis);
 
 // Returns 1 / (error x seconds) relative to another setting, or unknown if the reference is too
