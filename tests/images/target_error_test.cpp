@@ -4,7 +4,7 @@
 // measurement (docs/decisions/0007-stopping-rules.md), so caustics are path traced here.
 #include <gtest/gtest.h>
 
-#include "core/render/render_passes.h"
+#include "core/render/passes/render_passes.h"
 #include "tests/images/reference.h"
 
 namespace exphoton {
@@ -76,7 +76,7 @@ TEST_P(TargetErrorTest, IsTheNoiseBetweenSeeds) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TargetErrorTest,
                          testing::Values(Target{"skylight-room/exphotonmap",
-                                                .02,
+                                                .005,
                                                 {{"SurfaceIntegrator", "indirectphotons",
                                                   "30000"}}},
                                          Target{"cornell-caustic/path", .05, {}}),

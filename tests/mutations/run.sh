@@ -9,7 +9,9 @@
 #                                     then a remark
 #   run.sh --texts                    only looks whether the texts to replace are still there
 #   run.sh --list                     prints name, file and tests of each
-# Works in build-mutations/, a copy with its own build; the sources here are not touched.
+# Works in build-mutations/, a copy with its own build; the sources here are not touched. With JOBS
+# above 1 the defects are tried in parts, side by side, where the system allows mounts in a namespace
+# of a user.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -18,7 +20,8 @@ copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
 . "$here/everything.sh"
 
-everything=
+everything= part=
+if [ "${1:-}" = --part ]; then part=yes; shift; fi  # try_in_parts uses this
 tables=("$here"/*.txt)
 if [ "${1:-}" = --everything ]; then
   everything=yes tables=("${2:?run.sh --everything TABLE}")
@@ -226,10 +229,45 @@ try() {  # INDEX
   take_out
 }
 
+# Tries the defects with these indices, each part of them with a copy of the build of its own. A
+# part sees its copy at the place of the original, so that nothing is compiled again for it.
+try_in_parts() {  # INDEX ...
+  local number index=0 processes=() counts
+  for ((number = 0; number < jobs; ++number)); do
+    local names_of_part=()
+    for ((index = number + 1; index <= $#; index += jobs)); do
+      names_of_part+=("${names[${!index}]}")
+    done
+    [ ${#names_of_part[@]} -gt 0 ] || continue
+    rm -rf "$folder/part$number"
+    mkdir "$folder/part$number"
+    cp -a "$copy" "$build" "$folder/stamp" "$folder/part$number"
+    cp -al "$clean" "$folder/part$number"
+    unshare -rm bash -c 'mount --bind "$0" "$1" && shift && JOBS=1 exec "$@"' \
+      "$folder/part$number" "$folder" "$here/run.sh" --part "${names_of_part[@]}" &
+    processes+=($!)
+  done
+  for number in "${processes[@]}"; do wait "$number" || missed=1; done
+  for counts in "$folder"/part*/noticed; do noticed=$((noticed + $(cat "$counts"))); done
+  rm -rf "$folder"/part*/
+}
+
+if [ "$part" ]; then
+  rm -rf "$folder/originals"
+  for i in "${chosen[@]}"; do try "$i"; done
+  echo "$noticed" >"$folder/noticed"
+  exit $missed
+fi
 prepare
+wanted=()
 for i in "${chosen[@]}"; do
-  [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ] || try "$i"
+  [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ] || wanted+=("$i")
 done
+if [ ! "$everything" ] && [ "$jobs" -gt 1 ] && unshare -rm true 2>/dev/null; then
+  try_in_parts "${wanted[@]}"
+else
+  for i in "${wanted[@]}"; do try "$i"; done
+fi
 if [ "$everything" ]; then try_together "${left[@]}"; fi
 times >"$folder/times"
 read -r user system < <(tail -n 1 "$folder/times")

@@ -50,8 +50,8 @@ const std::vector<std::string> kFilters{
     "\"sinc\"",
 };
 
-const std::array<const char*, 2> kAovs{"Albedo,N,P,Variance,samples",
-                                       "light,photondensity,radiancedistance"};
+const std::array<const char*, 2> kAovs{"albedo,N,P,variance,samples",
+                                       "light,photonDensity,radianceDistance"};
 
 template <class List>
 auto InTurn(const List& list, std::uint64_t seed) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests compare the results of tiny scenes with those that were recorded. A failure says that
-// something changed, not that it is wrong. The same program records them:
-//   test_recorded --record  writes the records anew and lists what changed
+// These tests compare the results of tiny scenes and the outputs of commands with those that were
+// recorded. A failure says that something changed, not that it is wrong. The same program records:
+//   test_recorded --record              writes the records anew and lists what changed
+//   test_recorded --record-outputs      the same for the outputs of commands alone
 //   test_recorded --print SCENE         prints a scene
 //   test_recorded --list                lists the scenes and the CPU seconds of each
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <set>
 
 #include "core/base/statistics.h"
+#include "tests/recorded/command_outputs.h"
 #include "tests/recorded/record_file.h"
 
 namespace exphoton::recorded {
@@ -94,6 +96,44 @@ TEST_P(RecordedResults, AreAsRecorded) {
 INSTANTIATE_TEST_SUITE_P(Groups, RecordedResults, ::testing::ValuesIn(GroupNames()),
                          [](const auto& info) { return info.param; });
 
+// Returns the differences between two outputs, as lines that are missing and lines that are new.
+std::vector<std::string> Compare(const CommandOutput& before, const CommandOutput& now) {
+  std::vector<std::string> differences;
+  const std::size_t count = std::max(before.lines.size(), now.lines.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool isOld = i < before.lines.size(), isNew = i < now.lines.size();
+    if (isOld && isNew && before.lines[i] == now.lines[i]) continue;
+    if (isOld) differences.push_back("recorded: " + before.lines[i]);
+    if (isNew) differences.push_back("now:      " + now.lines[i]);
+  }
+  return differences;
+}
+
+TEST(RecordedOutputs, AreAsRecorded) {
+  if (!IsComparable()) GTEST_SKIP() << "recorded by a build for x86-64 without sanitizers";
+  const std::vector<CommandOutput> before = ReadOutputs(), now = CommandOutputs();
+  ASSERT_EQ(before.size(), now.size()) << "the commands are not those that were recorded";
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    ASSERT_EQ(before[i].command, now[i].command);
+    const std::vector<std::string> differences = Compare(before[i], now[i]);
+    if (!differences.empty())
+      ADD_FAILURE() << now[i].command << Joined(differences, 8)
+                    << "\nIf the change is meant, record it: ./dev test --record";
+  }
+}
+
+// Writes the outputs of the commands and prints what changed.
+void RecordOutputs() {
+  const std::vector<CommandOutput> before = ReadOutputs(), now = CommandOutputs();
+  std::ofstream(OutputsPath()) << OutputsText(now);
+  for (const CommandOutput& output : now) {
+    const auto same = std::find_if(before.begin(), before.end(), [&](const CommandOutput& old) {
+      return old.command == output.command && old.lines == output.lines;
+    });
+    if (same == before.end()) std::printf("%s: changed\n", output.command.c_str());
+  }
+}
+
 // Writes the records of a group and prints what changed. Returns the number of changed scenes.
 int RecordGroup(const std::string& group, std::set<std::string>* lines) {
   const Records before = ReadRecords(group);
@@ -120,6 +160,7 @@ int RecordAll() {
   std::set<std::string> lines;
   int changed = 0;
   for (const std::string& group : GroupNames()) changed += RecordGroup(group, &lines);
+  RecordOutputs();
   lines.erase("");
   std::ofstream file(std::string(EXPHOTON_SOURCE_DIR) + "/tests/recorded/" + kLinesFile);
   file << "# The lines of explanations, messages and errors of all scenes; # is a number.\n";
@@ -157,6 +198,7 @@ int main(int argc, char** argv) {
   std::filesystem::current_path(EXPHOTON_SOURCE_DIR);  // scenes name files from there
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "--record") return exphoton::recorded::RecordAll();
+  if (command == "--record-outputs") return exphoton::recorded::RecordOutputs(), 0;
   if (command == "--list") return exphoton::recorded::ListAll();
   if (command == "--print" && argc > 2) return exphoton::recorded::Print(argv[2]);
   return RUN_ALL_TESTS();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <thread>
 #include <utility>
 
@@ -215,6 +216,16 @@ TEST(Statistics, AddUpByName) {
   statistics.AddToCounter("photons", 5, "stored");
   statistics.AddToCounter("photons", 6, "stored");
   EXPECT_EQ(statistics.Counters()[0].value, 15);
+}
+
+// The kernel's own report is the oracle.
+TEST(Statistics, ThePeakOfMemoryIsInBytes) {
+  double kibibytes = 0;
+  std::ifstream file("/proc/self/status");
+  for (std::string word; file >> word;)
+    if (word == "VmHWM:") file >> kibibytes;
+  if (kibibytes == 0) GTEST_SKIP() << "the system does not report its peak of memory";
+  EXPECT_NEAR(PeakMemoryBytes() / (1024 * kibibytes), 1, .1);
 }
 
 TEST(Statistics, AddUpEveryCounterOfRays) {

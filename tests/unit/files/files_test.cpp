@@ -200,6 +200,16 @@ TEST_F(Files, OneFileHasOneIdentityHoweverItIsSpelt) {
   EXPECT_FALSE(IdentifyFile(Path("nowhere/new")));
 }
 
+TEST_F(Files, HaveAFolderAndAName) {
+  EXPECT_EQ(FolderOf("sub/deep/a"), "sub/deep");
+  EXPECT_EQ(FolderOf("/sub/a"), "/sub");
+  EXPECT_EQ(FolderOf("/a"), "/");
+  EXPECT_EQ(FolderOf("a"), ".");
+  EXPECT_EQ(NameOf("/a"), "a");
+  EXPECT_EQ(NameOf("sub/a"), "a");
+  EXPECT_EQ(NameOf("sub/"), "");
+}
+
 TEST_F(Files, LieInAFolderByWhereTheyAre) {
   fs::create_directories(Path("sub/deep"));
   fs::create_directory(Path("subway"));

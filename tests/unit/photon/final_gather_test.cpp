@@ -41,18 +41,31 @@ struct Gathered {
   double error;  // 4 standard errors of the mean
 };
 
+// The light that a trial returns: of a gather that is not shared, or of the parts of a shared one.
+enum class Part { Unshared, Sum, Own, HandedOver };
+
 struct GatherTrial {
   Real angleDegrees, rrThreshold;
   int count;
-  bool isShared = false;  // add the light that is handed over for sharing
+  Part part = Part::Unshared;
+  Real throughput = 1;  // of the path to the surface
 };
+
+SurfaceInteraction SeenFloor() {
+  SurfaceInteraction surface;
+  surface.ng = surface.shading.n = {0, 0, 1};
+  surface.dpdu = surface.shading.dpdu = {1, 0, 0};
+  surface.dpdv = surface.shading.dpdv = {0, 1, 0};
+  surface.wo = Normalize(Vector3(Real(.3), Real(.2), 1));
+  return surface;
+}
 
 // Gathers the light of the sky over `count` independent sets of gather samples. Photons from the
 // given directions guide the gather.
 template <class AddLobes>
 Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
                    const GatherTrial& trial, const AddLobes& addLobes) {
-  const auto& [angleDegrees, rrThreshold, count, isShared] = trial;
+  const auto& [angleDegrees, rrThreshold, count, part, throughput] = trial;
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   PhotonBuffer buffer;
   for (const Vector3& w : guideDirections) buffer.Add({{0, 0, 0}, w, Spectrum(1)});
@@ -78,17 +91,16 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
   for (int i = 0; i < count; ++i) {
     arena.Reset();
     sampler->Generate({0, {0, 0}, i}, &samples);
-    SurfaceInteraction surface;
-    surface.ng = surface.shading.n = {0, 0, 1};
-    surface.dpdu = surface.shading.dpdu = {1, 0, 0};
-    surface.dpdv = surface.shading.dpdv = {0, 1, 0};
-    surface.wo = Normalize(Vector3(Real(.3), Real(.2), 1));
+    const SurfaceInteraction surface = SeenFloor();
     ShadingPoint point{surface, Bsdf(surface), RayDifferential(), 0};
+    point.throughput = Spectrum(throughput);
     addLobes(&point.bsdf, &arena);
     LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
     GatherRecords handedOver;
-    if (isShared) context.gathers = &handedOver;
+    if (part != Part::Unshared) context.gathers = &handedOver;
     double x = double(gather.Gather(point, guide, context, sky).g);
+    if (part == Part::HandedOver) x = 0;
+    if (part == Part::Own) handedOver.clear();
     for (const GatherRecord& record : handedOver) x += double((record.light * record.weight).g);
     sum += x;
     sum2 += x * x;
@@ -137,9 +149,34 @@ TEST(FinalGather, HandsOverTheDiffusePartForSharing) {
     bsdf->Add(arena->Make<Microfacet>(Spectrum(Real(.4)), Fresnel::None(), 20));
   };
   const Gathered whole = GatherSky(kUniform, Clusters(), {10, 0, 2000}, plastic);
-  const Gathered divided = GatherSky(kUniform, Clusters(), {10, 0, 2000, true}, plastic);
+  const Gathered divided = GatherSky(kUniform, Clusters(), {10, 0, 2000, Part::Sum}, plastic);
   EXPECT_NEAR(divided.mean, whole.mean, 1e-5);
   EXPECT_NEAR(divided.variance, whole.variance, 1e-4 * whole.variance);
+}
+
+TEST(FinalGather, KeepsTheGlossyPartForThePixelAlone) {
+  const auto gloss = [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Microfacet>(Spectrum(Real(.8)), Fresnel::None(), 20));
+  };
+  const auto plastic = [&](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.3), Real(.5), 0)));
+    gloss(bsdf, arena);
+  };
+  const Gathered glossy = GatherSky(kUniform, {}, {10, 0, 2000}, gloss);
+  const Gathered own = GatherSky(kUniform, {}, {10, 0, 2000, Part::Own}, plastic);
+  const Gathered shared = GatherSky(kUniform, {}, {10, 0, 2000, Part::HandedOver}, plastic);
+  EXPECT_NEAR(own.mean, glossy.mean, own.error + glossy.error);
+  EXPECT_LT(own.error + glossy.error, .02);
+  EXPECT_NEAR(shared.mean, .5, shared.error);
+  EXPECT_LT(shared.error, .02);
+}
+
+TEST(FinalGather, HandsOverTheThroughputOfThePath) {
+  const auto matte = [](Bsdf* bsdf, Arena* arena) {
+    bsdf->Add(arena->Make<Lambert>(Spectrum(Real(.5))));
+  };
+  const Gathered seen = GatherSky(kUniform, {}, {10, 0, 100, Part::HandedOver, Real(.25)}, matte);
+  EXPECT_NEAR(seen.mean, .25 * .5, 1e-5);
 }
 
 TEST(FinalGather, OfADiffuseSurfaceBringsItsReflectanceAtEveryAngle) {

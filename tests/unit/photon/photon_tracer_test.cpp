@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/imaging/film/film.h"
-#include "core/render/render_passes.h"
+#include "core/render/passes/render_halves.h"
 #include "tests/support/photon_shots.h"
 #include "tests/support/test_scene.h"
 

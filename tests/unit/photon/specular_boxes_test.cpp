@@ -68,6 +68,19 @@ TEST(SpecularBoxes, HoldAllThatRaysMeetOfSpecularSurfaces) {
   EXPECT_GT(passed, 100000);
 }
 
+TEST(PrimitiveSet, HasTheLobesOfAllItsInstances) {
+  const std::string object = "ObjectBegin \"o\" Shape \"sphere\" ObjectEnd ObjectInstance \"o\"\n";
+  for (const std::string materials : {"mirror matte", "matte mirror"}) {
+    const std::size_t blank = materials.find(' ');
+    const LoadedScene loaded = LoadSceneText(
+        "WorldBegin\nMaterial \"" + materials.substr(0, blank) + "\" " + object + "Material \"" +
+        materials.substr(blank + 1) + "\" Translate 5 0 0 " + object + "WorldEnd\n");
+    const LobeSet lobes = loaded.setup->scene->Primitives().PossibleLobes();
+    EXPECT_TRUE(Intersects(lobes, LobeSet::Specular)) << materials;
+    EXPECT_TRUE(Intersects(lobes, LobeSet::Diffuse)) << materials;
+  }
+}
+
 TEST(SpecularBoxes, OfASceneWithoutSpecularSurfacesLetEveryRayPass) {
   const LoadedScene loaded = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   const SpecularBoxes boxes(*loaded.setup->scene);

@@ -116,6 +116,16 @@ TEST_F(Measured, TableHasItsCellsAtTheHalfAngleAndTheDifference) {
   }
 }
 
+// Light in the plane of incidence lies between the last and the first azimuth.
+TEST_F(Measured, TheFirstAzimuthFollowsTheLast) {
+  const Bsdf bsdf = Evaluate(WriteTable("azimuths", [](int, int, int k) {
+    return k == 0 ? .3 : k == 179 ? .1 : .9;
+  }));
+  const Vector3 wo(Real(.6), 0, Real(.8));
+  for (const Vector3& wi : {Vector3(Real(-.28), 0, Real(.96)), Vector3(Real(.8), 0, Real(.6))})
+    EXPECT_NEAR(double(bsdf.f(wo, wi).g), .2, 1e-3) << wi.x;
+}
+
 TEST_F(Measured, MissingCellsAreLeftOutOfTheInterpolation) {
   const std::string path =
       WriteTable("missing", [](int i, int j, int) { return (i + j) % 2 == 0 ? -1 : .6 / M_PI; });

@@ -12,11 +12,22 @@
 namespace exphoton {
 namespace {
 
-const char* const kMedia[] = {
-    "\"homogeneous\"", "\"exponential\" \"float a\" 2 \"float b\" .7 \"vector updir\" [.3 .5 .8]",
+// Returns a grid that has 40 cells of uneven densities along one axis ("nx") and one along others.
+std::string LongGrid(const std::string& axis) {
+  std::string text = "\"volumegrid\" \"integer " + axis + "\" 40 \"float density\" [";
+  for (int i = 0; i < 40; ++i) text += std::to_string(1 + i * 7 % 10) + " ";
+  return text + "]";
+}
+
+const std::string kMedia[] = {
+    "\"homogeneous\"",
+    "\"exponential\" \"float a\" 2 \"float b\" .7 \"vector updir\" [.3 .5 .8]",
     "\"volumegrid\" \"integer nx\" 2 \"integer ny\" 3 \"integer nz\" 4 \"float density\" [1 2 3 4 "
     "5 6 "
-    "2 4 6 1 3 5  9 7 5 3 1 8  6 4 2 9 8 7]"};
+    "2 4 6 1 3 5  9 7 5 3 1 8  6 4 2 9 8 7]",
+    LongGrid("nx"),
+    LongGrid("ny"),
+    LongGrid("nz")};
 
 LoadedScene SceneOf(const std::string& medium) {
   return LoadSceneText("WorldBegin\nTranslate 1 2 3 Rotate 30 1 1 0 Scale 2 1 .5\nVolume " +
@@ -27,7 +38,7 @@ LoadedScene SceneOf(const std::string& medium) {
 
 // The expected value is the integral of the coefficient over the length, by the midpoint rule.
 TEST(Medium, OpticalDepthIsTheIntegralOfItsDensityOverLength) {
-  for (const char* text : kMedia) {
+  for (const std::string& text : kMedia) {
     const LoadedScene loaded = SceneOf(text);
     const Medium& medium = *loaded.setup->scene->Media().front();
     RandomStream random(2);

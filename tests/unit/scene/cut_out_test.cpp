@@ -66,6 +66,20 @@ TEST(CutOut, LetsRaysPassWithEveryAccelerator) {
   }
 }
 
+TEST(CutOut, IsMetNearEachOfItsCorners) {
+  const std::string opaque =
+      "Texture \"opaque\" \"float\" \"checkerboard\" \"float tex1\" 1 \"float tex2\" .5\n";
+  for (const char* order : {"0 1 2", "1 2 0", "2 0 1"}) {
+    const LoadedScene scene = SceneOf(opaque +
+                                      "Shape \"trianglemesh\" \"point P\" [-1 -1 0 1 -1 0 0 1 0] "
+                                      "\"texture alpha\" \"opaque\" \"integer indices\" [" +
+                                      order + "]\n");
+    for (const Ray& ray :
+         {Down(Real(-.9), Real(-.98)), Down(Real(.9), Real(-.98)), Down(0, Real(.9)), Down(0, 0)})
+      EXPECT_TRUE(scene.setup->scene->Intersect(ray)) << order << ": " << ray.o.x << ' ' << ray.o.y;
+  }
+}
+
 TEST(CutOut, ShowsWhatLiesBehind) {
   const LoadedScene scene = SceneOf(kHoles + "Translate 0 0 -1\n" + Square(""));
   EXPECT_NEAR(scene.setup->scene->Intersect(Down(Real(-.5), Real(.5)))->p.z, -1, 1e-6);

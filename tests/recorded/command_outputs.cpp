@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// CommandOutputs: a line of commands.txt that begins with "$ " is a command, one with "> " names a
+// file that holds the following lines, and one with "? " names a text file to print. The line
+// "@ FOLDER" gives the runs of a study fixed times, so that its page can be made again and
+// compared. Words of a command that contain blanks are in quotes.
+#include "tests/recorded/command_outputs.h"
+
+#include <filesystem>
+#include <iomanip>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+#include "core/app/analysis/results.h"
+#include "tests/recorded/scene_list.h"
+#include "tests/support/process.h"
+
+namespace exphoton::recorded {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> Lines(const std::string& text, const std::string& prefix) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.pop_back();
+    lines.push_back(prefix + line);
+  }
+  return lines;
+}
+
+// Replaces each part that begins with `begin` and ends before `end`.
+std::string WithoutParts(std::string text, const std::string& begin, const std::string& end) {
+  for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    text.erase(at, text.find(end, at) - at);
+  }
+  return text;
+}
+
+// Leaves out what differs from build to build and from run to run, embedded pictures and style
+// sheets. Times are fixed in what "report" prints, and in nothing else.
+std::string Normalized(std::string text, const std::string& folder, bool hasTimes) {
+  for (const std::string& path : {folder + "/", std::string(EXPHOTON_BINARY_DIR "/bin/"),
+                                  std::string(EXPHOTON_BINARY_DIR "/")})
+    for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
+  text = WithoutParts(std::move(text), "data:image/png;base64,", "\"");
+  text = WithoutParts(std::move(text), "<style>", "</style>");
+  static const std::regex version(R"(exphoton \d+\.\d+\.\d+)"),
+      seconds(R"(\b[0-9.e+-]+ (s|min|h)\b)"),
+      headline(R"(^(On \w+,|At relMSE |At noise |Least errors:).*)");  // compares times
+  std::istringstream lines(text);
+  std::string normalized;
+  for (std::string line; std::getline(lines, line);) {
+    line = std::regex_replace(line, version, "exphoton VERSION");
+    if (hasTimes && std::regex_match(line, headline)) continue;
+    normalized += (hasTimes ? std::regex_replace(line, seconds, "TIME") : line) + "\n";
+  }
+  return normalized;
+}
+
+void FixTimes(study::NamedValues* values, double from) {
+  for (auto& value : *values) value.second = from += .125;
+}
+
+// Replaces times, memory, keys and names of files in the results of a study.
+void FixStudy(const std::string& folder) {
+  const std::string path = folder + "/results.json";
+  study::Results results = study::FromJson(ReadFile(path));
+  results.program = "exphoton VERSION";
+  results.fingerprint = results.processor = results.system = "";
+  results.command = "exphoton study";
+  results.cores = 1;
+  results.reference.seconds = 10;
+  double number = 0;
+  for (study::RunRow& row : results.runs) {
+    ++number;
+    const std::string name = "images/run" + std::to_string(int(number)) + ".exr";
+    fs::copy_file(study::PathOf(folder, row.image), folder + "/" + name);
+    row.key = "run" + std::to_string(int(number));
+    row.image = name;
+    row.wallSeconds = 2 + number / 4 + double(row.setting);
+    row.cpuSeconds = 1 + number / 8 + 2 * double(row.setting);
+    row.peakMemory = 1e6 * number;
+    FixTimes(&row.phases, number);
+    FixTimes(&row.phaseWall, number + .5);
+    std::erase_if(row.counters, [](const auto& counter) {
+      return counter.first.find("memory") != std::string::npos;
+    });
+  }
+  WriteFile(path, study::ToJson(results));
+}
+
+class CommandRunner {
+ public:
+  std::vector<CommandOutput> Run() {
+    std::string file, content;
+    for (const std::string& line : LinesOf("commands.txt")) {
+      const std::string rest = line.size() > 2 ? line.substr(2) : "";
+      if (line.starts_with("> ") || line.starts_with("$ ") || line.starts_with("? ") ||
+          line.starts_with("@ ")) {
+        if (!file.empty()) WriteInFolder(file, std::exchange(content, ""));
+        file.clear();
+      }
+      if (line.starts_with("> "))
+        file = rest;
+      else if (line.starts_with("$ "))
+        RunCommand(rest);
+      else if (line.starts_with("? "))
+        Add(line, Lines(Normalized(ReadFile(folder_.File(rest)), folder_.Path(), false), ""));
+      else if (line.starts_with("@ "))
+        FixStudy(folder_.File(rest));
+      else
+        content += line + "\n";
+    }
+    return std::move(outputs_);
+  }
+
+ private:
+  void WriteInFolder(const std::string& name, const std::string& content) const {
+    const std::string path = folder_.File(name);
+    fs::create_directories(fs::path(path).parent_path());
+    WriteFile(path, content);
+  }
+  void RunCommand(const std::string& command) {
+    ProcessCommand process;
+    process.words = {EXPHOTON_BINARY_DIR "/bin/exphoton"};
+    std::istringstream words(command);
+    for (std::string word; words >> std::quoted(word);) process.words.push_back(word);
+    process.folder = folder_.Path();
+    const ProcessResult result = RunProcess(process);
+    std::vector<std::string> lines;
+    const bool hasTimes = !command.starts_with("report ");
+    const auto add = [&](const std::string& text, const std::string& prefix) {
+      for (const std::string& line : Lines(Normalized(text, folder_.Path(), hasTimes), prefix))
+        lines.push_back(line);
+    };
+    add(result.out, "");
+    add(result.err, "! ");
+    if (result.status != 0) lines.push_back("status " + std::to_string(result.status));
+    Add("$ " + command, std::move(lines));
+  }
+  void Add(const std::string& command, std::vector<std::string> lines) {
+    outputs_.push_back({command, std::move(lines)});
+  }
+
+  TestFolder folder_;
+  std::vector<CommandOutput> outputs_;
+};
+
+}  // namespace
+
+std::vector<CommandOutput> CommandOutputs() { return CommandRunner().Run(); }
+
+std::string OutputsPath() {
+  return std::string(EXPHOTON_SOURCE_DIR) + "/tests/recorded/records/outputs.txt";
+}
+
+// A line of output begins with a blank, a command does not.
+std::string OutputsText(const std::vector<CommandOutput>& outputs) {
+  std::string text = "# Written by ./dev test --record; see docs/development/testing.md.\n";
+  for (const CommandOutput& output : outputs) {
+    text += output.command + "\n";
+    for (const std::string& line : output.lines) text += " " + line + "\n";
+  }
+  return text;
+}
+
+std::vector<CommandOutput> ReadOutputs() {
+  std::vector<CommandOutput> outputs;
+  std::istringstream file(ReadFile(OutputsPath()));
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("#")) continue;
+    if (!line.starts_with(" "))
+      outputs.push_back({line, {}});
+    else if (!outputs.empty())
+      outputs.back().lines.push_back(line.substr(1));
+  }
+  return outputs;
+}
+
+}  // namespace exphoton::recorded
