@@ -4,24 +4,16 @@
 Run it in this folder: python3 make_cloister.py. Its output is kept beside it. Metres; y points up.
 A bay is 3 m long (z from -1.5 to 1.5) and 3.2 m wide (x from 0, the wall, to 3.2, the arcade)."""
 import math
+import os
+import sys
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "parts"))
+from meshes import cross, sub, unit
 
 WIDTH, HALF_BAY = 3.2, 1.5
 ARCH_RADIUS, ARCH_SPRING = 1.22, 2.75
 ARCADE_NEAR, ARCADE_FAR, WALL_TOP = 3.2, 3.7, 5.3
 VAULT_SPRING, VAULT_RISE = 3.1, 1.75
-
-
-def unit(a):
-    length = math.sqrt(sum(x * x for x in a)) or 1
-    return tuple(x / length for x in a)
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def sub(a, b):
-    return tuple(x - y for x, y in zip(a, b))
 
 
 class Mesh:

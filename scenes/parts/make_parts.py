@@ -9,33 +9,7 @@ import re
 import struct
 import zlib
 
-TAU = 2 * math.pi
-
-
-def sub(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def unit(a):
-    length = math.sqrt(sum(x * x for x in a))
-    return tuple(x / length for x in a)
-
-
-def spline(points, t):
-    """Catmull-Rom through the points, t in [0, 1]; a point given twice is a crease."""
-    x = min(max(t, 0), 1) * (len(points) - 1)
-    i = min(int(x), len(points) - 2)
-    x -= i
-    p = [points[min(max(j, 0), len(points) - 1)] for j in range(i - 1, i + 3)]
-    if p[1] == p[2]:
-        return p[1]
-    p[0], p[3] = (p[1] if p[0] == p[1] else p[0]), (p[2] if p[3] == p[2] else p[3])
-    return tuple(.5 * (2 * b + (c - a) * x + (2 * a - 5 * b + 4 * c - d) * x * x
-                       + (3 * b - a - 3 * c + d) * x ** 3) for a, b, c, d in zip(*p))
+from meshes import TAU, cross, spline, sub, unit
 
 
 def write_surface(name, comment, surface, columns, rows):

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""Renders the pictures of the gallery and writes them as JPEG. It needs Pillow.
+
+    scenes/make_pictures.py build/bin/exphoton [SCENE ...]
+
+Without names it renders all of them. Each line that it prints has a scene and its CPU seconds.
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+from PIL import Image
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+# The samples a pixel, and the exposure of the picture.
+PICTURES = {
+    "glass-still-life": (32, .4),
+    "spiral-staircase": (32, -.1),
+    "swimming-hall": (32, -.2),
+    "night-corridor": (32, 0),
+    "blinds-and-haze": (32, .5),
+    "dusk-motion": (64, .4),
+    "material-gallery": (32, 0),
+}
+
+
+def make(program, scene, temporary):
+    samples, exposure = PICTURES[scene]
+    variant = os.path.join(FOLDER, scene, "exphotonmap.pbrt")
+    exr, png, figures = (os.path.join(temporary, "picture." + end) for end in ("exr", "png", "json"))
+    subprocess.run([program, "render", variant, "--quiet", "--spp", str(samples), "-o", exr,
+                    "--stats-json", figures], check=True)
+    subprocess.run([program, "convert", exr, png, "--exposure", str(exposure), "--tone-curve", "filmic"],
+                   check=True)
+    name = os.path.join(FOLDER, scene, "images", "exphotonmap.jpg")
+    Image.open(png).convert("RGB").save(name, quality=90, optimize=True, progressive=True)
+    if scene == "material-gallery":
+        labels = os.path.join(FOLDER, scene, "make_labels.py")
+        subprocess.run([sys.executable, labels, png, name.replace("exphotonmap", "labelled")], check=True)
+    with open(figures) as file:
+        print("%s %.0f" % (scene, json.loads(file.readline())["cpuSeconds"]), flush=True)
+
+
+def main():
+    for scene in sys.argv[2:] or PICTURES:
+        with tempfile.TemporaryDirectory() as temporary:
+            make(sys.argv[1], scene, temporary)
+
+
+main()
