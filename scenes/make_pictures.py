@@ -20,6 +20,7 @@ PICTURES = {
     "glass-still-life": (32, .4),
     "spiral-staircase": (32, -.1),
     "swimming-hall": (32, -.2),
+    "sculpture-hall": (32, -1),
     "night-corridor": (32, 0),
     "blinds-and-haze": (32, .5),
     "dusk-motion": (64, .4),

@@ -68,7 +68,7 @@ def wheel():
 
 def moving():
     """Lamps, which turn with the wheel, and gondolas, which stay upright."""
-    colours = {"warm": (42, 24, 9.5), "rose": (40, 9, 15), "sea": (6, 22, 26)}
+    colours = {"warm": (15, 7.6, 2.6), "rose": (15, 2.6, 4.6), "sea": (1.6, 7.4, 9.4)}
     lamps = []
     for i in range(SPOKES):
         for radius, size, name in ((RADIUS, .15, "warm"), (8.1, .11, "sea"), (5.6, .11, "rose"),
@@ -121,7 +121,7 @@ def shore():
                        % (x, -12 + draw.uniform(-2, 2), size, size * draw.uniform(.9, 1.2), size))
         for i in range(14):
             x = -58.5 + 9 * i
-            file.write('AttributeBegin AreaLightSource "area" "color L" [ 60 30 9 ] '
+            file.write('AttributeBegin AreaLightSource "area" "color L" [ 26 12.5 3.6 ] '
                        'Translate %.2f 3.4 -7 Shape "sphere" "float radius" .16 AttributeEnd\n' % x)
             file.write('AttributeBegin Translate %.2f .5 -7 Rotate -90 1 0 0 Shape "cylinder" '
                        '"float radius" .05 "float zmin" 0 "float zmax" 2.8 AttributeEnd\n' % x)

@@ -160,8 +160,34 @@ TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
   }
   ASSERT_TRUE(fs::is_directory(folder));
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() == "images") continue;
     EXPECT_TRUE(files.count(entry.path().filename())) << entry.path() << " belongs to no plugin";
   }
+}
+
+TEST_F(EveryPlugin, HasTheParametersAndPicturesOfItsStrips) {
+  const fs::path folder = EXPHOTON_SOURCE_DIR "/docs/reference/images";
+  const std::string script = ReadText(folder / "make_strips.py");
+  auto pages = AllReferencePages(registry_);
+  std::set<std::string> names;
+  for (const ParameterStrip& strip : ParameterStrips()) {
+    const std::string name = std::string(strip.plugin) + '-' + strip.parameter;
+    SCOPED_TRACE(name);
+    names.insert(name + ".jpg");
+    EXPECT_NE(script.find('"' + name + "\": (\"" + strip.values + '"'), std::string::npos);
+    EXPECT_TRUE(fs::is_regular_file(folder / (name + ".jpg")));
+    EXPECT_LE(fs::file_size(folder / (name + ".jpg")), 40000u);
+    const std::string& page = pages[strip.page];
+    const std::size_t heading =
+        page.find(std::string("## ") + strip.kind + " `" + strip.plugin + '`');
+    ASSERT_NE(heading, std::string::npos);
+    const std::string section = page.substr(heading, page.find("\n## ", heading) - heading);
+    EXPECT_NE(section.find(std::string("\n| `") + strip.parameter + "` |"), std::string::npos);
+    EXPECT_NE(section.find("](images/" + name + ".jpg)"), std::string::npos);
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    EXPECT_TRUE(entry.path().extension() != ".jpg" || names.count(entry.path().filename()))
+        << entry.path() << " is on no page";
 }
 
 std::optional<PluginKind> KindOfWord(const std::string& word) {
