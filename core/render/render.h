@@ -30,7 +30,9 @@ class Checkpoints;
 class StateFile;
 class StateWriter;
 
-enum class TileOrder { Scanline, Reversed };
+// Scattered: successive tiles lie all over the picture, so that the tiles so far show how long the
+// others take.
+enum class TileOrder { Scanline, Reversed, Scattered };
 
 // RenderView sees parts of a picture that are rendered, while others are not.
 class RenderView {
@@ -44,7 +46,7 @@ class RenderView {
 struct RenderOptions {
   std::uint64_t seed = 0;
   int tileSize = 16;
-  TileOrder tileOrder = TileOrder::Scanline;
+  TileOrder tileOrder = TileOrder::Scattered;
   bool isStrict = false;                     // a non-finite sample throws Error(Internal)
   const std::atomic<bool>* stop = nullptr;   // set from outside (a signal): stop at the next pixel
   std::atomic<bool>* pixelsBegun = nullptr;  // Render sets it once there may be pixels to keep
