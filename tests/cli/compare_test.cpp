@@ -97,6 +97,37 @@ TEST_F(CompareTest, AnotherSeedPassesAndAnotherPaintFails) {
   }
 }
 
+// Pixels of exphotonmap share the noise of photons and of shared gathers. Four references with
+// halves show it. tests/noise/compare_rates.py measures the rates with 100 seeds.
+TEST_F(CompareTest, KnowsTheNoiseThatPixelsShare) {
+  WriteRoom("room.pbrt", ".6");
+  WriteRoom("painted.pbrt", ".5");
+  const auto render = [&](const std::string& scene, int seed, const std::string& picture) {
+    const ProgramResult result = Run({scene, "--integrator", "exphotonmap", "--two-halves",
+                                      "--float", "--seed", std::to_string(seed), "-o", picture});
+    ASSERT_EQ(result.status, 0) << result.err;
+  };
+  std::vector<std::string> more;
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "reference" + std::to_string(i) + ".exr";
+    render("room.pbrt", 100 + i, name);
+    if (i > 0) more.insert(more.end(), {"--more-reference", name});
+  }
+  const auto verdict = [&] {
+    std::vector<std::string> words{"compare", "reference0.exr", "picture.exr", "--z-test"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Run(words);
+  };
+  for (int seed = 1; seed <= 3; ++seed) {
+    render("room.pbrt", seed, "picture.exr");
+    const ProgramResult same = verdict();
+    EXPECT_EQ(same.status, 0) << same.out << same.err;
+    render("painted.pbrt", 10 + seed, "picture.exr");
+    const ProgramResult painted = verdict();
+    EXPECT_EQ(painted.status, 1) << painted.out << painted.err;
+  }
+}
+
 TEST_F(CompareTest, AnUnknownNoiseIsNoPass) {
   WriteColor("a.exr", .5f, .5f, .5f);
   WriteColor("b.exr", .5f, .495f, .5f);
