@@ -115,8 +115,9 @@ LoadedScene LoadSceneFile(const std::string& variant, LoadOptions options) {
   LoadedScene loaded;
   loaded.log = std::make_unique<Log>(Log::Level::Normal, Log::Sink::Memory);
   options.pluginFolders.push_back(std::string(EXPHOTON_BINARY_DIR) + "/plugins");
-  options.parameters.push_back({"Film", "xresolution", "64"});
-  options.parameters.push_back({"Film", "yresolution", "48"});
+  const std::vector<ParameterOverride> size{{"Film", "xresolution", "64"},
+                                            {"Film", "yresolution", "48"}};
+  options.parameters.insert(options.parameters.begin(), size.begin(), size.end());
   FileSource source;
   const std::string path = std::string(EXPHOTON_SOURCE_DIR) + "/scenes/" + variant + ".pbrt";
   loaded.setup = std::move(LoadScenes(source, path, options, *loaded.log).at(0));

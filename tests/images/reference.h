@@ -31,8 +31,8 @@ struct Reference {
 };
 Reference LoadReference(const std::string& name);
 
-// Loads a scene at the references' size; "cornell-caustic/path" is
-// scenes/cornell-caustic/path.pbrt.
+// Loads a scene, at the size of the references unless the options name one. "cornell-caustic/path"
+// is scenes/cornell-caustic/path.pbrt.
 LoadedScene LoadSceneFile(const std::string& variant, LoadOptions options = {});
 
 // RegionResult is the result for the picture or one block, in units of radiance.

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// This program measures what --target-error costs. It renders a scene plainly with several numbers
+// of samples, and to several targets, with several seeds. It prints the true noise of each render
+// and its cost, and the ratio to the cost of the plain render that has the noise of the target.
+//   stopping_cost SCENE WIDTHxHEIGHT SEEDS SAMPLES,SAMPLES... TARGET,TARGET...
+// A negative target -N renders two halves with N samples together.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/render/passes/render_halves.h"
+#include "core/render/passes/render_passes.h"
+#include "tests/images/reference.h"
+
+namespace exphoton {
+namespace {
+
+struct Measured {
+  Image image;
+  double cpuSeconds = 0, rays = 0, samples = 0, photonRays = 0;
+  int passes = 0;
+  double estimate = 0;  // of the noise
+};
+
+struct Scene {
+  std::string variant;
+  LoadOptions load;
+};
+
+Measured RenderOnce(const Scene& scene, std::uint64_t seed, std::int64_t samples, double target) {
+  LoadOptions load = scene.load;
+  if (samples > 0) load.samplesPerPixel = samples;
+  LoadedScene loaded = LoadSceneFile(scene.variant, load);
+  RenderSetup& setup = *loaded.setup;
+  Film film(setup.film.Full(), setup.crop);
+  ThreadPool threads(2);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  RenderOptions options;
+  options.seed = seed;
+  options.footprintSamples = 4;
+  const RenderJob job{*setup.scene,
+                      *setup.integrator,
+                      *setup.sampler,
+                      *setup.filter,
+                      *setup.camera,
+                      film,
+                      threads,
+                      *loaded.log,
+                      progress,
+                      statistics,
+                      setup.volumeIntegrator.get()};
+  Measured measured;
+  const double start = ProcessCpuSeconds();
+  if (target < 0) {
+    Film first(setup.film.Full(), setup.crop), second(setup.film.Full(), setup.crop);
+    const PassesResult result = RenderTwoHalves(job, options, &first, &second);
+    measured.samples = double(result.samplesPerPixel);
+    measured.passes = 2;
+    measured.estimate = result.noise.value_or(0);
+  } else if (target > 0) {
+    StoppingRule rule;
+    rule.targetError = target;
+    const PassesResult result = RenderInPasses(job, options, rule);
+    measured.samples = double(result.samplesPerPixel);
+    measured.passes = result.passes;
+    measured.estimate = result.noise.value_or(0);
+  } else {
+    Render(job, options);
+    measured.samples = double(setup.sampler->SamplesPerPixel());
+    measured.passes = 1;
+  }
+  measured.cpuSeconds = ProcessCpuSeconds() - start;
+  measured.rays = double(statistics.Rays().Total());
+  measured.photonRays = double(statistics.Rays().counts[std::size_t(RayKind::Photon)]);
+  measured.image = film.ToImage(setup.film.premultiplyAlpha);
+  return measured;
+}
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+template <class Get>
+double MedianOf(const std::vector<Measured>& all, const Get& get) {
+  std::vector<double> values;
+  for (const Measured& one : all) values.push_back(get(one));
+  return Median(values);
+}
+
+// The converged picture: the mean of all plain renders, weighted by their samples.
+class Converged {
+ public:
+  void Add(const Measured& plain) {
+    if (sum_.empty()) sum_.resize(plain.image.pixels.size());
+    for (std::size_t i = 0; i < sum_.size(); ++i)
+      sum_[i] += plain.samples * double(plain.image.pixels[i]);
+    samples_ += plain.samples;
+  }
+  // Returns relMSE. `own` is the part of the picture in the sums.
+  double Error(const Measured& render, double own) const {
+    double error = 0, count = 0;
+    const int channels = render.image.ChannelCount();
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      if (int(i) % channels > 2) continue;
+      const double r = (sum_[i] - own * double(render.image.pixels[i])) / (samples_ - own);
+      const double difference = double(render.image.pixels[i]) - r;
+      error += difference * difference / (r * r + .01);
+      ++count;
+    }
+    return error / count;
+  }
+
+ private:
+  std::vector<double> sum_;
+  double samples_ = 0;
+};
+
+// One number of samples, or one target.
+struct Row {
+  double setting = 0;
+  std::vector<Measured> renders;
+  std::vector<double> errors;
+};
+
+// Returns the cost of the plain render with this error, between the measured ones.
+double CostOf(const std::vector<double>& errors, const std::vector<double>& costs, double error) {
+  std::size_t i = 1;
+  while (i + 1 < errors.size() && errors[i] > error) ++i;
+  const double t = std::log(error / errors[i - 1]) / std::log(errors[i] / errors[i - 1]);
+  return costs[i - 1] * std::pow(costs[i] / costs[i - 1], t);
+}
+
+std::vector<double> Numbers(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream in(text);
+  for (std::string one; std::getline(in, one, ',');) numbers.push_back(std::atof(one.c_str()));
+  return numbers;
+}
+
+// The median errors and costs of the plain renders, by samples.
+struct PlainCosts {
+  std::vector<double> errors, seconds, rays;
+};
+
+std::vector<Row> RenderRows(const Scene& scene, int seeds, const std::string& settings,
+                            bool isPlain) {
+  std::vector<Row> rows;
+  for (const double setting : Numbers(settings)) {
+    Row row{setting, {}, {}};
+    const auto samples = std::int64_t(isPlain ? setting : std::max(-setting, 0.));
+    for (int seed = 1; seed <= seeds; ++seed)
+      row.renders.push_back(RenderOnce(scene, std::uint64_t(seed), samples, isPlain ? 0 : setting));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+PlainCosts PrintPlain(const Converged& converged, std::vector<Row>* rows) {
+  PlainCosts costs;
+  std::printf("plain: samples  noise  CPU s  rays  photon rays\n");
+  for (Row& row : *rows) {
+    for (const Measured& one : row.renders) row.errors.push_back(converged.Error(one, one.samples));
+    costs.errors.push_back(Median(row.errors));
+    costs.seconds.push_back(MedianOf(row.renders, [](const Measured& m) { return m.cpuSeconds; }));
+    costs.rays.push_back(MedianOf(row.renders, [](const Measured& m) { return m.rays; }));
+    std::printf("%g  %.5f  %.2f  %.0f  %.0f\n", row.setting, costs.errors.back(),
+                costs.seconds.back(), costs.rays.back(),
+                MedianOf(row.renders, [](const Measured& m) { return m.photonRays; }));
+  }
+  return costs;
+}
+
+void PrintTarget(const Converged& converged, const PlainCosts& plain, Row* row) {
+  for (const Measured& one : row->renders) row->errors.push_back(converged.Error(one, 0));
+  const auto [least, most] = std::minmax_element(row->errors.begin(), row->errors.end());
+  const double cpu = MedianOf(row->renders, [](const Measured& m) { return m.cpuSeconds; });
+  const double rays = MedianOf(row->renders, [](const Measured& m) { return m.rays; });
+  const double error = row->setting > 0 ? row->setting : Median(row->errors);
+  std::printf("%g  %.5f [%.5f %.5f]  %.5f  %g  %g  %.2f  %.2f  %.2f\n", row->setting,
+              Median(row->errors), *least, *most,
+              MedianOf(row->renders, [](const Measured& m) { return m.estimate; }),
+              MedianOf(row->renders, [](const Measured& m) { return m.samples; }),
+              MedianOf(row->renders, [](const Measured& m) { return double(m.passes); }), cpu,
+              cpu / CostOf(plain.errors, plain.seconds, error),
+              rays / CostOf(plain.errors, plain.rays, error));
+}
+
+int Main(int argc, char** argv) {
+  if (argc != 6) {
+    std::fprintf(stderr, "usage: stopping_cost SCENE WxH SEEDS SAMPLES,... TARGET,...\n");
+    return 2;
+  }
+  Scene scene{argv[1], {}};
+  const std::string size = argv[2];
+  const std::size_t x = size.find('x');
+  scene.load.parameters = {{"Film", "xresolution", size.substr(0, x)},
+                           {"Film", "yresolution", size.substr(x + 1)}};
+  const int seeds = std::atoi(argv[3]);
+  std::vector<Row> plain = RenderRows(scene, seeds, argv[4], true);
+  Converged converged;
+  for (const Row& row : plain)
+    for (const Measured& one : row.renders) converged.Add(one);
+  const PlainCosts costs = PrintPlain(converged, &plain);
+  std::printf("target  noise [min max]  estimate  samples  passes  CPU s  ratio  rays ratio\n");
+  for (Row& row : RenderRows(scene, seeds, argv[5], false)) PrintTarget(converged, costs, &row);
+  return 0;
+}
+
+}  // namespace
+}  // namespace exphoton
+
+int main(int argc, char** argv) { return exphoton::Main(argc, argv); }
