@@ -21,7 +21,7 @@ PICTURES = {
     "spiral-staircase": (32, -.1),
     "swimming-hall": (32, -.2),
     "sculpture-hall": (32, -1),
-    "night-corridor": (32, 0),
+    "night-corridor": (32, -.3),
     "blinds-and-haze": (32, .5),
     "dusk-motion": (64, .4),
     "material-gallery": (32, 0),
