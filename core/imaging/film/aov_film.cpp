@@ -292,6 +292,30 @@ void AovFilm::Transfer(ByteArchive* archive) {
   for (std::int64_t& reads : reads_) archive->Values(&reads);
 }
 
+void AovFilm::TransferPixel(ByteArchive* archive, Point2i pixel) {
+  const std::size_t at = IndexOf(pixel);
+  Weights& w = weights_[at];
+  archive->Values(&w.sum, &w.sumOfSquares, &w.samples, &w.absSum);
+  for (std::size_t i = 0; i < valueCount_; ++i) {
+    Value& value = values_[at * valueCount_ + i];
+    archive->Values(&value.sum, &value.absSum);
+  }
+  for (std::size_t i = 0; i < surfaceCount_; ++i)
+    archive->Values(&surfaceValues_[at * surfaceCount_ + i]);
+  if (!surfaceWeights_.empty()) archive->Values(&surfaceWeights_[at].all, &surfaceWeights_[at].hit);
+  for (std::vector<Majority>* ids : {&objects_, &materials_})
+    if (!ids->empty()) archive->Values(&(*ids)[at].id, &(*ids)[at].lead);
+  for (std::size_t c = 0; c < 3 && !moments_.empty(); ++c) {
+    Moments& m = moments_[at * 3 + c];
+    archive->Values(&m.wwLL, &m.wwL, &m.wL);
+  }
+  if (!reads_.empty()) archive->Values(&distances_[at], &reads_[at]);
+}
+
+void AovFilm::TransferTime(ByteArchive* archive, Point2i pixel) {
+  if (!seconds_.empty()) archive->Values(&seconds_[IndexOf(pixel)]);
+}
+
 double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
   const Weights& weights = weights_[pixel];
   const Value& v = values_[pixel * valueCount_ + value];
