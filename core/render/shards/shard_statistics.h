@@ -31,8 +31,8 @@ class ShardStatistics {
   }
 
   // All shards do the same preprocessing, so its rays and counters come from one of them.
-  void AddCounts(Statistics* statistics) const {
-    statistics->AddRays(rays_);
+  void AddRays(Statistics* statistics) const { statistics->AddRays(rays_); }
+  void SetCounters(Statistics* statistics) const {
     for (const Statistics::Counter& counter : counters_)
       statistics->SetCounter(counter.name, counter.value, counter.meaning);
   }

@@ -167,7 +167,8 @@ StateFile::StateFile(const std::string& path, StateUse use) : path_(path), use_(
       Fail("it is not the state of a stopped render");
     }
     Scanner scanner(*this);
-    const std::string start = scanner.Take(kSignature.size()) + scanner.Take(sizeof kStateVersion);
+    std::string start = scanner.Take(kSignature.size());
+    start += scanner.Take(sizeof kStateVersion);
     std::uint32_t version;
     std::memcpy(&version, start.data() + kSignature.size(), sizeof version);
     if (version != kStateVersion)
