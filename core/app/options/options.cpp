@@ -30,6 +30,7 @@ constexpr const char* kCommands =
     "  exphoton convert FROM TO          convert between EXR and PNG\n"
     "  exphoton compare REFERENCE NEW    test whether pictures differ\n"
     "  exphoton merge PARTS -o PICTURE   make a picture from parts (--shard)\n"
+    "  exphoton cluster SCENE --shards N write scripts that render with Slurm\n"
     "  exphoton study SCENE --out DIR    compare integrators and settings\n"
     "  exphoton report DIR               make a study's page again\n"
     "\n"
@@ -279,8 +280,8 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render",  "explain", "plugins", "check-plugin", "info", "convert",
-          "compare", "merge",   "study",   "report",       "help"};
+  return {"render",  "explain", "plugins", "check-plugin", "info",   "convert",
+          "compare", "merge",   "cluster", "study",        "report", "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

@@ -88,7 +88,7 @@ class Merger {
   void AddPass(int pass, Film* film, AovFilm* aovs) {
     const ShardLayout& layout = merge_.layout;
     const PassBuffers::Layout inner{layout.isSplatted ? merge_.splatWeights : nullptr,
-                                    layout.isShared, layout.samplesPerPixel};
+                                    layout.isShared, layout.samplesPerPixel, merge_.sharingMemory};
     PassBuffers buffers(inner, film, aovs);
     const std::vector<ShardTile> tiles = ShardTiles(PassBuffers::Rendered(inner, *film));
     ForTiles(pass, "tile", tiles, [&](const ShardTile& tile, ByteArchive* archive) {

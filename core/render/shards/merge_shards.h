@@ -19,6 +19,7 @@ struct ShardMerge {
   ShardLayout layout;                   // of the picture; the shard has no meaning
   PicturePasses passes;
   const SplatWeights* splatWeights = nullptr;  // required if samples are splatted
+  double sharingMemory = 0x1p28;               // as in RenderOptions
 };
 
 // The films of the whole picture.
