@@ -77,48 +77,56 @@ struct PassRenderer::State {
     return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory};
   }
 
+  ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {
+    ShardLayout layout;
+    layout.full = film.Full();
+    layout.crop = film.Crop();
+    if (options.aovs) layout.aovs = options.aovs->Wanted();
+    layout.samplesPerPixel = pass.sampleCount;
+    layout.isShared = sharing.isOn;
+    layout.isSplatted = splatWeights != nullptr;
+    return layout;
+  }
+
+  // Returns the first tiles, in whole rows, whose gathers fit into options.sharingMemory.
+  // `rowBytes` is the memory for one row of the shard's pixels.
+  std::span<const ShardTile> FirstRows(std::span<const ShardTile> tiles, double rowBytes) const {
+    const int top = tiles.front().bounds.y0;
+    const auto isTooLow = [&](const ShardTile& tile) {
+      return sharing.isOn && tile.bounds.y0 > top &&
+             rowBytes * (tile.bounds.y1 - top) > options.sharingMemory;
+    };
+    const auto end = std::find_if(tiles.begin(), tiles.end(), isTooLow);
+    return tiles.first(std::size_t(end - tiles.begin()));
+  }
+
   // Renders the tiles of a shard in rows of tiles, so that only the gathers of some rows are in
   // memory at once.
   void RunShardPass(const RenderPass& pass, const Sampler& sampler, Film* film) {
     ShardWriter& writer = *options.shard;
-    const PassBuffers::Layout layout = LayoutOf(pass);
-    writer.BeginPass({{},
-                      film->Full(),
-                      film->Crop(),
-                      options.aovs ? options.aovs->Wanted() : AovSet(),
-                      pass.sampleCount,
-                      1,
-                      sharing.isOn,
-                      splatWeights != nullptr});
-    const PixelBounds rendered = PassBuffers::Rendered(layout, *film);
+    writer.BeginPass(ShardLayoutOf(pass, *film));
+    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass), *film);
     const std::vector<ShardTile> tiles = TilesOf(writer.Of(), rendered);
     std::optional<SplatBuffer> splats;
     if (splatWeights) splats.emplace(*splatWeights, film, options.aovs);
     std::optional<GatherFragments> gathers;
     DonePixels done(rendered);
-    const TileRenderer::Target target{
+    TileRenderer::Target target{
         pass, sampler, *film, job.progress, nullptr, splats ? &*splats : nullptr, &done};
     const double rowBytes =
         GatherFragments::BytesPerPixel(pass.sampleCount) * rendered.Width() / writer.Of().count;
     if (options.pixelsBegun) *options.pixelsBegun = true;
-    std::int64_t pixels = 0;
-    for (const ShardTile& tile : tiles)
-      pixels += std::int64_t(tile.bounds.Width()) * tile.bounds.Height();
-    job.progress.Begin("Rendering", pixels);
-    for (std::size_t first = 0; first < tiles.size() && !IsStopped();) {
-      // The tiles from `first` to `end` are rendered together.
+    job.progress.Begin("Rendering", CountPixels(tiles));
+    for (std::span<const ShardTile> open = tiles; !open.empty() && !IsStopped();) {
+      const std::span<const ShardTile> part = FirstRows(open, rowBytes);
       PixelBounds rows = rendered;
-      rows.y0 = tiles[first].bounds.y0;
-      std::size_t end = first;
-      while (end < tiles.size() &&
-             (tiles[end].bounds.y0 == rows.y0 || !sharing.isOn ||
-              rowBytes * (tiles[end].bounds.y1 - rows.y0) <= options.sharingMemory))
-        rows.y1 = tiles[end++].bounds.y1;
-      TileRenderer::Target part = target;
-      if (sharing.isOn) part.gathers = &gathers.emplace(rows, 1);
-      RenderTiles(part, {tiles.data() + first, end - first});
+      rows.y0 = part.front().bounds.y0;
+      rows.y1 = part.back().bounds.y1;
+      if (sharing.isOn) target.gathers = &gathers.emplace(rows, 1);
+      RenderTiles(target, part);
       if (IsStopped()) break;
-      for (; first < end; ++first) writer.AddTile(tiles[first], film, options.aovs, part.gathers);
+      for (const ShardTile& tile : part) writer.AddTile(tile, film, options.aovs, target.gathers);
+      open = open.subspan(part.size());
     }
     job.progress.End();
     if (IsStopped()) return;

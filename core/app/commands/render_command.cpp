@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <new>
 
+#include "core/app/commands/picture_begin.h"
 #include "core/app/commands/scene_names.h"
 #include "core/app/options/errors.h"
 #include "core/app/output/live_view.h"
@@ -44,14 +45,6 @@ double SecondsSince(Clock::time_point start) {
 Clock::duration AsDuration(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
-
-// Begin holds the start times of the work for a picture, and the seconds spent on loading the
-// scene.
-struct Begin {
-  Clock::time_point wall = Clock::now();
-  double cpu = ProcessCpuSeconds();
-  double loadWall = 0, loadCpu = 0;
-};
 
 // Thrown after an interrupted picture has been written.
 struct Interrupted {};
@@ -97,9 +90,11 @@ class FileRenderer {
   Setups Load(const std::string& path);
   void CheckOutputs(const Setups& setups, std::size_t index);
   RenderOptions MakeOptions(const PictureFilms& films);
+  RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
+                    ProgressReporter& progress, Statistics& statistics);
   void RenderOne(const RenderSetup& setup);
   void RenderPart(const PartJob& part, const Begin& begin);
-  void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
+  RunRecord NewRecord(const RenderSetup& setup, const Statistics& statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
   Picture Write(const RunRecord& run, Image image, Statistics& statistics);
   void Conclude(RunRecord* run, const Picture& picture, const Begin& begin, Statistics* statistics);
@@ -124,8 +119,7 @@ Setups FileRenderer::Load(const std::string& path) {
   options.threads = command_.threadCount;
   FileSource source(&run_.streams);
   Setups setups = LoadScenes(source, path, options, log_);
-  begin.loadWall = SecondsSince(begin.wall);
-  begin.loadCpu = ProcessCpuSeconds() - begin.cpu;
+  begin.EndLoading();
   return setups;
 }
 
@@ -169,6 +163,22 @@ RenderOptions FileRenderer::MakeOptions(const PictureFilms& films) {
   return options;
 }
 
+RenderJob FileRenderer::MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
+                                ProgressReporter& progress, Statistics& statistics) {
+  return {*setup.scene,
+          *setup.integrator,
+          *setup.sampler,
+          *setup.filter,
+          *setup.camera,
+          films->film,
+          threads,
+          log_,
+          progress,
+          statistics,
+          setup.volumeIntegrator.get(),
+          setup.integratorName};
+}
+
 void FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
   filmName_ = setup.film.filename;
@@ -182,25 +192,13 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;
-  AddLoadingTimes(setup, begin, &statistics);
+  begin.AddLoadingTimes(setup, &statistics);
   RenderOptions options = MakeOptions(films);
   const Clock::time_point start = Clock::now();
   const StateIdentity identity(command_, setup);
-  if (command_.shard) {
-    const RenderJob job{*setup.scene,
-                        *setup.integrator,
-                        *setup.sampler,
-                        *setup.filter,
-                        *setup.camera,
-                        films.film,
-                        threads,
-                        log_,
-                        progress,
-                        statistics,
-                        setup.volumeIntegrator.get(),
-                        setup.integratorName};
+  const RenderJob job = MakeJob(setup, &films, threads, progress, statistics);
+  if (command_.shard)
     return RenderPart({command_, setup, job, options, identity, names_.Part(), log_}, begin);
-  }
   const std::string picturePath = names_.Picture(setup.film.filename);
   StateKeeper keeper({names_.State(setup.film.filename), command_.resumes, command_.writeEvery,
                       begin.wall, run_.files.PartialPicture(picturePath),
@@ -214,14 +212,10 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   options.view = view ? &*view : nullptr;
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
-      command_,
-      {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, films.film,
-       threads, log_, progress, statistics, setup.volumeIntegrator.get(), setup.integratorName},
-      options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
+      command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
-  RunRecord run(setup, statistics);
-  run.commandLine = command_.commandLine;
+  RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = SecondsSince(start);
   TakeResult(result, &run);
@@ -232,18 +226,24 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   if (!run.isComplete) throw Interrupted();
 }
 
+// Returns a record of the command's settings.
+RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& statistics) const {
+  RunRecord run(setup, statistics);
+  run.commandLine = command_.commandLine;
+  run.seed = command_.seed;
+  run.footprintSamples = command_.footprintSamples;
+  run.aovs = AovNames(command_);
+  return run;
+}
+
 // Renders one shard (--shard).
 void FileRenderer::RenderPart(const PartJob& part, const Begin& begin) {
   if (!WritePart(part, [&] { watch_.MustFinish() = true; })) return;
-  RunRecord run(part.setup, part.job.statistics);
-  run.commandLine = command_.commandLine;
-  run.seed = command_.seed;
+  RunRecord run = NewRecord(part.setup, part.job.statistics);
   run.threads = part.job.threads.Count();
   run.samplesPerPixel = part.job.sampler.SamplesPerPixel();
-  run.footprintSamples = command_.footprintSamples;
   run.passes = PassesOf(command_).count;
   run.stoppedBy = StopReasonName(StopReason::Samples);
-  run.aovs = AovNames(command_);
   run.wallSeconds = run.renderSeconds = SecondsSince(begin.wall);
   run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
   run.peakMemory = PeakMemoryBytes();
@@ -269,13 +269,10 @@ void FileRenderer::Conclude(RunRecord* run, const Picture& picture, const Begin&
 // Writes a picture that is not finished (--write-every).
 void FileRenderer::WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFar,
                               Statistics& statistics) {
-  RunRecord run(setup, statistics);
-  run.commandLine = command_.commandLine;
-  run.seed = command_.seed;
+  RunRecord run = NewRecord(setup, statistics);
   run.isComplete = false;
   run.passes = 0;
   run.stoppedBy = "not stopped yet";
-  run.aovs = AovNames(command_);
   Write(run, MakeImage(soFar, setup.film.premultiplyAlpha), statistics);
 }
 
@@ -288,28 +285,16 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
   }
 }
 
-// Loading the scene file counts towards its first picture.
-void FileRenderer::AddLoadingTimes(const RenderSetup& setup, const Begin& begin,
-                                   Statistics* statistics) const {
-  const double wall = begin.loadWall - setup.acceleratorSeconds;
-  const double cpu = begin.loadCpu - setup.acceleratorCpuSeconds;
-  statistics->AddPhase("parse", std::max(wall, 0.), std::max(cpu, 0.));
-  statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
-}
-
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
-  run->seed = command_.seed;
   run->isComplete = result.render.isComplete;
   run->nonFiniteSamples = result.render.nonFiniteSamples;
   run->samplesPerPixel = result.samplesPerPixel;
-  run->footprintSamples = command_.footprintSamples;
   run->passes = result.passes;
   run->stoppedBy = StopReasonName(result.reason);
   run->noise = result.noise;
   run->sharingBias = result.render.sharingBias;
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
-  run->aovs = AovNames(command_);
   if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
 }
 

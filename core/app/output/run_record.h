@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "core/app/output/scene_record.h"
+#include "core/app/shards/scene_record.h"
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/app/options/options.h"
-#include "core/app/output/scene_record.h"
+#include "core/app/shards/scene_record.h"
 #include "core/params/param_set.h"
 #include "core/render/shards/picture_passes.h"
 #include "core/transport/integrator.h"

@@ -46,4 +46,11 @@ std::vector<ShardTile> TilesOf(const Shard& shard, const PixelBounds& window) {
   return tiles;
 }
 
+std::int64_t CountPixels(const std::vector<ShardTile>& tiles) {
+  std::int64_t pixels = 0;
+  for (const ShardTile& tile : tiles)
+    pixels += std::int64_t(tile.bounds.Width()) * tile.bounds.Height();
+  return pixels;
+}
+
 }  // namespace exphoton

@@ -33,4 +33,6 @@ std::vector<ShardTile> ShardTiles(const PixelBounds& window);
 // Returns the tiles of one shard, in the same order.
 std::vector<ShardTile> TilesOf(const Shard& shard, const PixelBounds& window);
 
+std::int64_t CountPixels(const std::vector<ShardTile>& tiles);
+
 }  // namespace exphoton

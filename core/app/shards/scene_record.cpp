@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/app/output/scene_record.h"
+#include "core/app/shards/scene_record.h"
 
 #include "core/base/format.h"
 #include "core/files/byte_archive.h"
