@@ -8,6 +8,7 @@
 
 #include "core/render/shards/merge_shards.h"
 #include "core/render/shards/shard_writer.h"
+#include "core/render/sharing/sharing_bands.h"
 #include "tests/support/process.h"
 #include "tests/support/test_scene.h"
 
