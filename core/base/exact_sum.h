@@ -56,6 +56,13 @@ class WideExactSum {
         others_->large += Round(std::clamp(value, -0x1p121, 0x1p121) * 0x1p-17);
     }
   }
+  void Add(const WideExactSum& other) {
+    middle_ += other.middle_;
+    if (!other.others_) return;
+    if (!others_) others_ = std::make_unique<Others>();
+    others_->small += other.others_->small;
+    others_->large += other.others_->large;
+  }
   double Total() const {
     const double middle = double(middle_) * 0x1p-64;
     if (!others_) return middle;

@@ -40,11 +40,8 @@ void Log::Say(const char* severity, const std::string& text,
   if (kind == "warning") ++warnings_;
   if (++counts_[kind + ": " + text] > 1) return;
   const std::string message = FormatDiagnostic(kind, text, where, hint);
-  if (sink_ == Sink::Memory) {
-    messages_.push_back(message);
-  } else {
-    Print(message, kind);
-  }
+  messages_.push_back(message);
+  if (sink_ == Sink::StandardError) Print(message, kind);
 }
 
 void Log::Summarize() {

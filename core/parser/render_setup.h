@@ -12,6 +12,7 @@
 
 #include "core/imaging/film/camera.h"
 #include "core/imaging/film/film.h"
+#include "core/params/param_set.h"
 #include "core/params/param_table.h"
 #include "core/parser/syntax/scene_limits.h"
 #include "core/parser/syntax/source.h"
@@ -64,6 +65,7 @@ struct RenderSetup {
   std::unique_ptr<Camera> camera;
   FilmSettings film;
   PixelBounds crop;  // the pixels to render
+  ParamSet filterParameters;  // to make the filter again
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
   // The scene file, its included files and the files that parameters name; sorted.
   std::vector<std::string> inputFiles;

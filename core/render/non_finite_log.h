@@ -29,7 +29,7 @@ class NonFiniteLog {
     return texts;
   }
 
-  // Saves or loads the descriptions.
+  // Saves the descriptions, or adds saved ones.
   void Transfer(ByteArchive* archive) {
     const std::lock_guard lock(mutex_);
     auto report = reports_.begin();
@@ -40,6 +40,7 @@ class NonFiniteLog {
       archive->Values(&std::get<0>(key), &std::get<1>(key), &std::get<2>(key));
       archive->Text(&text);
       if (archive->IsLoading()) reports_.emplace(key, text);
+      if (reports_.size() > kKept) reports_.erase(std::prev(reports_.end()));
     }
   }
 

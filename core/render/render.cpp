@@ -6,11 +6,12 @@
 #include <chrono>
 #include <deque>
 #include <optional>
+#include <span>
 
+#include "core/render/pass_buffers.h"
 #include "core/render/render_totals.h"
-#include "core/render/sharing/sharing_bands.h"
+#include "core/render/shards/shard_writer.h"
 #include "core/render/sharing/sharing_plan.h"
-#include "core/render/splat_buffer.h"
 #include "core/render/state/pass_state.h"
 #include "core/render/tile_renderer.h"
 #include "core/render/tiles.h"
@@ -63,48 +64,104 @@ struct PassRenderer::State {
 
   // Renders the pixels band by band. A band gets its shared light as soon as the gathers of its
   // pixels and of a margin about them are there.
-  void RenderShared(const TileRenderer::Target& target, SharingBands* bands, PassState* pass) {
+  void RenderShared(const TileRenderer::Target& target, PassBuffers* buffers, PassState* pass) {
+    SharingBands* const bands = buffers->Bands();
     for (; !bands->IsAtEnd(); bands->GoToNext()) {
       RenderPixels(target, bands->Current().gathered, pass);
-      const PhaseTimer timer(job.statistics, "share");
-      bands->AddLight(&job.threads, {&target.film, options.aovs, target.splats,
-                                     bands->Current().window, double(target.pass.sampleCount)});
+      buffers->AddSharedLight(&job.threads, &job.statistics);
       if (IsStopped()) break;
     }
-    job.statistics.SetCounter("render/sharing radius", bands->Totals().MeanRadius(),
-                              "pixels, mean radius of the windows of shared gathers");
+  }
+
+  PassBuffers::Layout LayoutOf(const RenderPass& pass) const {
+    return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory};
+  }
+
+  ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {
+    ShardLayout layout;
+    layout.full = film.Full();
+    layout.crop = film.Crop();
+    if (options.aovs) layout.aovs = options.aovs->Wanted();
+    layout.samplesPerPixel = pass.sampleCount;
+    layout.isShared = sharing.isOn;
+    layout.isSplatted = splatWeights != nullptr;
+    return layout;
+  }
+
+  // Returns the first tiles, in whole rows, whose gathers fit into options.sharingMemory.
+  // `rowBytes` is the memory for one row of the shard's pixels.
+  std::span<const ShardTile> FirstRows(std::span<const ShardTile> tiles, double rowBytes) const {
+    const int top = tiles.front().bounds.y0;
+    const auto isTooLow = [&](const ShardTile& tile) {
+      return sharing.isOn && tile.bounds.y0 > top &&
+             rowBytes * (tile.bounds.y1 - top) > options.sharingMemory;
+    };
+    const auto end = std::find_if(tiles.begin(), tiles.end(), isTooLow);
+    return tiles.first(std::size_t(end - tiles.begin()));
+  }
+
+  // Renders the tiles of a shard in rows of tiles, so that only the gathers of some rows are in
+  // memory at once.
+  void RunShardPass(const RenderPass& pass, const Sampler& sampler, Film* film) {
+    ShardWriter& writer = *options.shard;
+    writer.BeginPass(ShardLayoutOf(pass, *film));
+    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass), *film);
+    const std::vector<ShardTile> tiles = TilesOf(writer.Of(), rendered);
+    std::optional<SplatBuffer> splats;
+    if (splatWeights) splats.emplace(*splatWeights, film, options.aovs);
+    std::optional<GatherFragments> gathers;
+    DonePixels done(rendered);
+    TileRenderer::Target target{
+        pass, sampler, *film, job.progress, nullptr, splats ? &*splats : nullptr, &done};
+    const double rowBytes =
+        GatherFragments::BytesPerPixel(pass.sampleCount) * rendered.Width() / writer.Of().count;
+    if (options.pixelsBegun) *options.pixelsBegun = true;
+    job.progress.Begin("Rendering", CountPixels(tiles));
+    for (std::span<const ShardTile> open = tiles; !open.empty() && !IsStopped();) {
+      const std::span<const ShardTile> part = FirstRows(open, rowBytes);
+      PixelBounds rows = rendered;
+      rows.y0 = part.front().bounds.y0;
+      rows.y1 = part.back().bounds.y1;
+      if (sharing.isOn) target.gathers = &gathers.emplace(rows, 1);
+      RenderTiles(target, part);
+      if (IsStopped()) break;
+      for (const ShardTile& tile : part) writer.AddTile(tile, film, options.aovs, target.gathers);
+      open = open.subspan(part.size());
+    }
+    job.progress.End();
+    if (IsStopped()) return;
+    if (splats) writer.AddSplats(*splats, film->Crop());
+    writer.EndPass(job.statistics, AllTotals(), &nonFinite);
+  }
+
+  void RenderTiles(const TileRenderer::Target& target, std::span<const ShardTile> tiles) {
+    const PhaseTimer timer(job.statistics, "render");
+    const TileRenderer renderer(job, options, target, &nonFinite);
+    job.threads.For(std::int64_t(tiles.size()), [&](std::int64_t number, int worker) {
+      renderer.RenderTile(tiles[std::size_t(number)].bounds, &workers[std::size_t(worker)]);
+    });
   }
 
   // Renders a pass after its preprocessing.
   void RunPass(const RenderPass& pass, const Sampler& sampler, Film* film) {
-    std::optional<SplatBuffer> buffer;
-    if (splatWeights) buffer.emplace(*splatWeights, film, options.aovs);
-    SplatBuffer* const splats = buffer ? &*buffer : nullptr;
-    const PixelBounds window = splats ? splats->Window() : film->Crop();
-    PixelBounds rendered = window;
-    std::optional<SharingBands> bands;
-    if (sharing.isOn) {
-      rendered = WithSharingMargin(window, film->Full(), splats ? splatWeights->Reach() : 0);
-      bands.emplace(window, rendered, pass.sampleCount, options.sharingMemory);
-    }
-    SharingBands* const shared = bands ? &*bands : nullptr;
-    PassState passState({pass, film, options.aovs, splats, shared}, rendered);
+    if (options.shard) return RunShardPass(pass, sampler, film);
+    PassBuffers buffers(LayoutOf(pass), film, options.aovs);
+    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass), *film);
+    SharingBands* const shared = buffers.Bands();
+    PassState passState({pass, film, options.aovs, buffers.Splats(), shared}, rendered);
     Resume(&passState);
     const TileRenderer::Target target{
-        pass,   sampler,          *film, job.progress, shared ? &shared->Gathers() : nullptr,
-        splats, &passState.Done()};
+        pass, sampler, *film, job.progress, buffers.Gathers(), buffers.Splats(), &passState.Done()};
     if (options.pixelsBegun) *options.pixelsBegun = true;
     job.progress.Begin("Rendering", target.done->CountOpen(rendered.y0, rendered.y1));
     if (shared)
-      RenderShared(target, shared, &passState);
+      RenderShared(target, &buffers, &passState);
     else
       RenderPixels(target, rendered, &passState);
     job.progress.End();
-    if (splats) splats->Finish();
-    if (shared)
-      if (const auto bias = EstimateSharingBias(shared->Totals().checked, *film))
-        totals.AddSharingBias(*bias, pass.sampleCount);
-    if (options.view && (shared || splats)) options.view->Show(*film, film->Crop());
+    if (const auto bias = buffers.Finish(&job.statistics))
+      totals.AddSharingBias(*bias, pass.sampleCount);
+    if (options.view && (shared || buffers.Splats())) options.view->Show(*film, film->Crop());
   }
 
   // The first pass continues where a stopped render was, if there is one.
@@ -131,9 +188,14 @@ struct PassRenderer::State {
     options.checkpoints->Take(checkpoint, wasStopped || IsStopped());
   }
 
-  void SaveTotals(StateWriter* writer) {
+  RenderTotals AllTotals() const {
     RenderTotals all = totals;
     for (const RenderWorker& worker : workers) all.Add(worker.wholeTotals);
+    return all;
+  }
+
+  void SaveTotals(StateWriter* writer) {
+    RenderTotals all = AllTotals();
     SaveSection("totals", all, writer);
     SaveSection("non-finite samples", nonFinite, writer);
   }
@@ -211,9 +273,15 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
 void PassRenderer::SaveTotals(StateWriter* writer) const { state_->SaveTotals(writer); }
 
 RenderResult PassRenderer::Finish() {
+  const RenderJob& job = state_->job;
   RenderTotals totals = state_->totals;
   for (const RenderWorker& worker : state_->workers) totals.Add(worker.totals);
-  RenderResult result = Summarize(state_->job, totals, state_->nonFinite);
+  RenderResult result;
+  result.nonFiniteSamples = totals.nonFinite;
+  // The light of a shard says nothing about the picture.
+  if (!state_->options.shard)
+    result = Summarize({job.statistics, job.log, job.integratorName, job.integrator.DepthLimits()},
+                       totals, state_->nonFinite);
   for (const RenderWorker& worker : state_->workers) result.isComplete &= !worker.wasStopped;
   result.isComplete &= !state_->wasStopped;
   return result;

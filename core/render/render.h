@@ -27,6 +27,7 @@
 namespace exphoton {
 
 class Checkpoints;
+class ShardWriter;
 class StateFile;
 class StateWriter;
 
@@ -60,6 +61,9 @@ struct RenderOptions {
   Checkpoints* checkpoints = nullptr;  // receives the state of the render; null: none
   // The state of a stopped render that this one continues. The render releases it.
   StateFile* resumed = nullptr;
+  // If not null, the render is one shard of a picture, and its sums go here. The films are not
+  // complete then.
+  ShardWriter* shard = nullptr;
   RenderView* view = nullptr;  // sees finished tiles and passes; null: none
 };
 

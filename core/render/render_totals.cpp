@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/files/byte_archive.h"
+#include "core/render/shards/shard_statistics.h"
 
 namespace exphoton {
 namespace {
@@ -24,7 +25,7 @@ double MeanLuminance(const Film& film) {
 // Warns if a depth limit cut more than kSilentShare of the light, which the picture lacks. Cut
 // specular paths are assumed to carry the mean radiance of the paths that were not cut. Other cut
 // light is measured (core/transport/cut_light.h).
-void WarnOfCutPaths(const RenderJob& job, const RenderTotals& totals) {
+void WarnOfCutPaths(const SummaryTarget& job, const RenderTotals& totals) {
   const RayCounters& camera = totals.rays;
   const RayCounters gather = job.statistics.Rays();  // with the rays of preprocessing
   constexpr double kSilentShare = 1e-3;
@@ -40,7 +41,7 @@ void WarnOfCutPaths(const RenderJob& job, const RenderTotals& totals) {
     job.log.Warning(text.str(), {}, std::string("raise \"") + parameter + "\"");
   };
   const auto shareOf = [](double cut, double kept) { return cut > 0 ? cut / (cut + kept) : 0; };
-  const DepthParameters limits = job.integrator.DepthLimits();
+  const DepthParameters& limits = job.limits;
   const double samples = double(std::max<std::int64_t>(totals.cameraSamples, 1));
   const double gathers = std::max(double(gather.counts[std::size_t(RayKind::Gather)]), 1.);
   const double light = samples * totals.MeanLight();
@@ -62,10 +63,7 @@ void RenderTotals::Add(const RenderTotals& other) {
 }
 
 void RenderTotals::Transfer(ByteArchive* archive) {
-  for (std::uint64_t& count : rays.counts) archive->Values(&count);
-  for (ExactSum* sum : {&rays.cutThroughput, &rays.cutGatherThroughput, &rays.cutLight,
-                        &rays.cutLightSquares, &rays.cutGatherLight, &rays.gatherLight})
-    sum->Transfer(archive);
+  ShardStatistics::TransferRays(archive, &rays);
   archive->Values(&cameraSamples, &nonFinite, &negative, &light_, &lightSamples_);
   archive->Values(&bias_, &biasVariance_, &biasSamples_);
 }
@@ -88,7 +86,8 @@ std::optional<SharingBias> RenderTotals::MeanSharingBias() const {
   return SharingBias{bias_ / total, std::sqrt(biasVariance_) / total};
 }
 
-RenderResult Summarize(const RenderJob& job, const RenderTotals& totals, const NonFiniteLog& log) {
+RenderResult Summarize(const SummaryTarget& job, const RenderTotals& totals,
+                       const NonFiniteLog& log) {
   RenderResult result;
   result.nonFiniteSamples = totals.nonFinite;
   job.statistics.AddRays(totals.rays);

@@ -36,7 +36,14 @@ struct RenderTotals {
   std::int64_t biasSamples_ = 0;
 };
 
-// Fills the job's statistics, logs warnings and returns the non-finite samples.
-RenderResult Summarize(const RenderJob& job, const RenderTotals& totals, const NonFiniteLog& log);
+struct SummaryTarget {
+  Statistics& statistics;
+  Log& log;
+  std::string integratorName;
+  DepthParameters limits;
+};
+// Fills the statistics, logs warnings and returns the non-finite samples.
+RenderResult Summarize(const SummaryTarget& job, const RenderTotals& totals,
+                       const NonFiniteLog& log);
 
 }  // namespace exphoton

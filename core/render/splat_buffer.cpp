@@ -44,6 +44,41 @@ void SplatBuffer::Transfer(ByteArchive* archive) {
   }
 }
 
+void SplatBuffer::SaveRow(ByteArchive* archive, int y) const {
+  const PixelBounds& crop = film_->Crop();
+  const auto width = std::size_t(crop.Width());
+  const auto first = sums_.begin() + std::ptrdiff_t(std::size_t(y - crop.y0) * width * Stride());
+  std::vector<std::uint32_t> used;
+  for (std::size_t x = 0; x < width; ++x) {
+    const auto begin = first + std::ptrdiff_t(x * Stride());
+    if (std::any_of(begin, begin + std::ptrdiff_t(Stride()),
+                    [](const WideExactSum& sum) { return sum.Total() != 0; }))
+      used.push_back(std::uint32_t(x));
+  }
+  archive->List(&used);
+  for (const std::uint32_t x : used) {
+    for (std::size_t i = 0; i < Stride(); ++i) {
+      WideExactSum sum(first[std::ptrdiff_t(x * Stride() + i)]);
+      sum.Transfer(archive);
+    }
+  }
+}
+
+void SplatBuffer::AddRow(ByteArchive* archive, int y) {
+  const PixelBounds& crop = film_->Crop();
+  std::vector<std::uint32_t> used;
+  archive->List(&used);
+  for (const std::uint32_t x : used) {
+    if (x >= std::uint32_t(crop.Width())) throw ArchiveError("a pixel is outside the picture");
+    const std::size_t at = std::size_t(y - crop.y0) * std::size_t(crop.Width()) + x;
+    for (std::size_t i = 0; i < Stride(); ++i) {
+      WideExactSum sum;
+      sum.Transfer(archive);
+      sums_[at * Stride() + i].Add(sum);
+    }
+  }
+}
+
 PixelBounds SplatBuffer::Window() const {
   const PixelBounds& crop = film_->Crop();
   const int reach = weights_.Reach();

@@ -55,6 +55,9 @@ class SplatBuffer {
   // Adds the sums to the film and to the AOVs. Must be called once, after all pixels.
   void Finish();
   void Transfer(ByteArchive* archive);  // saves or loads the sums
+  // Saves the sums of the pixels of row y that have any. AddRow adds saved sums to the row.
+  void SaveRow(ByteArchive* archive, int y) const;
+  void AddRow(ByteArchive* archive, int y);
 
  private:
   std::size_t Stride() const { return valueCount_ + squareCount_; }

@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <new>
 
+#include "core/app/commands/picture_begin.h"
+#include "core/app/commands/scene_names.h"
 #include "core/app/options/errors.h"
 #include "core/app/output/live_view.h"
 #include "core/app/output/output_files.h"
@@ -24,10 +26,10 @@
 #include "core/app/output/state_keeper.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
+#include "core/app/shards/part_writer.h"
 #include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/imaging/files/exr.h"
-#include "core/params/suggestions.h"
 #include "core/parser/scene_files.h"
 
 namespace exphoton::cli {
@@ -43,14 +45,6 @@ double SecondsSince(Clock::time_point start) {
 Clock::duration AsDuration(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
-
-// Begin holds the start times of the work for a picture, and the seconds spent on loading the
-// scene.
-struct Begin {
-  Clock::time_point wall = Clock::now();
-  double cpu = ProcessCpuSeconds();
-  double loadWall = 0, loadCpu = 0;
-};
 
 // Thrown after an interrupted picture has been written.
 struct Interrupted {};
@@ -96,8 +90,11 @@ class FileRenderer {
   Setups Load(const std::string& path);
   void CheckOutputs(const Setups& setups, std::size_t index);
   RenderOptions MakeOptions(const PictureFilms& films);
+  RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
+                    ProgressReporter& progress, Statistics& statistics);
   void RenderOne(const RenderSetup& setup);
-  void AddLoadingTimes(const RenderSetup& setup, const Begin& begin, Statistics* statistics) const;
+  void RenderPart(const PartJob& part, const Begin& begin);
+  RunRecord NewRecord(const RenderSetup& setup, const Statistics& statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
   Picture Write(const RunRecord& run, Image image, Statistics& statistics);
   void Conclude(RunRecord* run, const Picture& picture, const Begin& begin, Statistics* statistics);
@@ -111,6 +108,7 @@ class FileRenderer {
   Run& run_;
   Log& log_;
   InterruptWatch watch_;
+  std::string filmName_;        // of the picture that is being rendered
   std::optional<Begin> begin_;  // set by Load, taken by the first picture
 };
 
@@ -121,8 +119,7 @@ Setups FileRenderer::Load(const std::string& path) {
   options.threads = command_.threadCount;
   FileSource source(&run_.streams);
   Setups setups = LoadScenes(source, path, options, log_);
-  begin.loadWall = SecondsSince(begin.wall);
-  begin.loadCpu = ProcessCpuSeconds() - begin.cpu;
+  begin.EndLoading();
   return setups;
 }
 
@@ -134,6 +131,11 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
       throw Error(ExitStatus::CommandLine, std::string(option) + ", but \"" + scenePath +
                                                "\" holds " + std::to_string(setups.size()) +
                                                " scenes");
+  if (command_.shard && setups.size() > 1)
+    throw Error(ExitStatus::CommandLine, "--shard renders one picture, but \"" + scenePath +
+                                             "\" holds " + std::to_string(setups.size()) +
+                                             " scenes");
+  if (command_.shard) MakeFolder(command_.outfile);
   for (std::size_t i = 0; i < setups.size(); ++i) {
     CheckAovs(command_, *setups[i]);
     run_.files.AddScene(*setups[i]);
@@ -143,7 +145,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   names_.CheckEndings();
   for (const auto& setup : setups) {
     const std::string& name = setup->film.filename;
-    if (names_.NameFromUser() || IsExrName(name)) continue;
+    if (command_.shard || names_.NameFromUser() || IsExrName(name)) continue;
     log_.Warning("the film's file \"" + name + "\" becomes \"" + ExrName(name) +
                      "\", because pictures of scenes are OpenEXR files",
                  {}, "-o NAME.png writes a PNG");
@@ -161,8 +163,25 @@ RenderOptions FileRenderer::MakeOptions(const PictureFilms& films) {
   return options;
 }
 
+RenderJob FileRenderer::MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
+                                ProgressReporter& progress, Statistics& statistics) {
+  return {*setup.scene,
+          *setup.integrator,
+          *setup.sampler,
+          *setup.filter,
+          *setup.camera,
+          films->film,
+          threads,
+          log_,
+          progress,
+          statistics,
+          setup.volumeIntegrator.get(),
+          setup.integratorName};
+}
+
 void FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
+  filmName_ = setup.film.filename;
   log_.Notice("effects: " + EffectNames(setup));
   log_.Verbose("effects:\n" + setup.scene->Features().Describe());
   PictureFilms films(command_, setup);
@@ -173,10 +192,13 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;
-  AddLoadingTimes(setup, begin, &statistics);
+  begin.AddLoadingTimes(setup, &statistics);
   RenderOptions options = MakeOptions(films);
   const Clock::time_point start = Clock::now();
   const StateIdentity identity(command_, setup);
+  const RenderJob job = MakeJob(setup, &films, threads, progress, statistics);
+  if (command_.shard)
+    return RenderPart({command_, setup, job, options, identity, names_.Part(), log_}, begin);
   const std::string picturePath = names_.Picture(setup.film.filename);
   StateKeeper keeper({names_.State(setup.film.filename), command_.resumes, command_.writeEvery,
                       begin.wall, run_.files.PartialPicture(picturePath),
@@ -190,14 +212,10 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   options.view = view ? &*view : nullptr;
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
-      command_,
-      {*setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, films.film,
-       threads, log_, progress, statistics, setup.volumeIntegrator.get(), setup.integratorName},
-      options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
+      command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
-  RunRecord run(setup, statistics);
-  run.commandLine = command_.commandLine;
+  RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = SecondsSince(start);
   TakeResult(result, &run);
@@ -206,6 +224,30 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   Conclude(&run, picture, begin, &statistics);
   EndState(run, &keeper);
   if (!run.isComplete) throw Interrupted();
+}
+
+// Returns a record of the command's settings.
+RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& statistics) const {
+  RunRecord run(setup, statistics);
+  run.commandLine = command_.commandLine;
+  run.seed = command_.seed;
+  run.footprintSamples = command_.footprintSamples;
+  run.aovs = AovNames(command_);
+  return run;
+}
+
+// Renders one shard (--shard).
+void FileRenderer::RenderPart(const PartJob& part, const Begin& begin) {
+  if (!WritePart(part, [&] { watch_.MustFinish() = true; })) return;
+  RunRecord run = NewRecord(part.setup, part.job.statistics);
+  run.threads = part.job.threads.Count();
+  run.samplesPerPixel = part.job.sampler.SamplesPerPixel();
+  run.passes = PassesOf(command_).count;
+  run.stoppedBy = StopReasonName(StopReason::Samples);
+  run.wallSeconds = run.renderSeconds = SecondsSince(begin.wall);
+  run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
+  run.peakMemory = PeakMemoryBytes();
+  Report(run);
 }
 
 // Reports a picture that has been written.
@@ -227,13 +269,10 @@ void FileRenderer::Conclude(RunRecord* run, const Picture& picture, const Begin&
 // Writes a picture that is not finished (--write-every).
 void FileRenderer::WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFar,
                               Statistics& statistics) {
-  RunRecord run(setup, statistics);
-  run.commandLine = command_.commandLine;
-  run.seed = command_.seed;
+  RunRecord run = NewRecord(setup, statistics);
   run.isComplete = false;
   run.passes = 0;
   run.stoppedBy = "not stopped yet";
-  run.aovs = AovNames(command_);
   Write(run, MakeImage(soFar, setup.film.premultiplyAlpha), statistics);
 }
 
@@ -246,35 +285,23 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
   }
 }
 
-// Loading the scene file counts towards its first picture.
-void FileRenderer::AddLoadingTimes(const RenderSetup& setup, const Begin& begin,
-                                   Statistics* statistics) const {
-  const double wall = begin.loadWall - setup.acceleratorSeconds;
-  const double cpu = begin.loadCpu - setup.acceleratorCpuSeconds;
-  statistics->AddPhase("parse", std::max(wall, 0.), std::max(cpu, 0.));
-  statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
-}
-
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
-  run->seed = command_.seed;
   run->isComplete = result.render.isComplete;
   run->nonFiniteSamples = result.render.nonFiniteSamples;
   run->samplesPerPixel = result.samplesPerPixel;
-  run->footprintSamples = command_.footprintSamples;
   run->passes = result.passes;
   run->stoppedBy = StopReasonName(result.reason);
   run->noise = result.noise;
   run->sharingBias = result.render.sharingBias;
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
-  run->aovs = AovNames(command_);
   if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
 }
 
 FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
                                           Statistics& statistics) {
   const PhaseTimer timer(statistics, "write");
-  Picture picture{names_.Picture(run.setup.film.filename), std::move(image), {}};
+  Picture picture{names_.Picture(filmName_), std::move(image), {}};
   if (!run.isComplete) picture.path = run_.files.PartialPicture(picture.path);
   if (IsPngName(picture.path)) {
     WritePngPicture(picture.path, picture.image, command_.png, log_);
@@ -325,41 +352,6 @@ void CheckAllFiles(const RenderCommand& command, Run& run, Log& log) {
       names.AddTo(run.files, {index, i}, files.pictures[i]);
   }
   run.files.Check(log);
-}
-
-// Suggests a command for a word without a folder and an ending, else a scene in the same folder.
-std::string HintForMissing(const std::string& name) {
-  const std::filesystem::path path(name);
-  const bool isWord = !path.has_parent_path() && !path.has_extension();
-  if (isWord) return DidYouMean(name, CommandNames());
-  std::vector<std::string> scenes;
-  std::error_code error;
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
-       it.increment(error))
-    if (it->path().extension() == ".pbrt") scenes.push_back(it->path().filename().string());
-  std::sort(scenes.begin(), scenes.end());
-  return DidYouMean(path.filename().string(), scenes);
-}
-
-// A word that is no file may be a mistyped command, so nothing is rendered before all are readable.
-void CheckScenesExist(const RenderCommand& command) {
-  for (const std::string& scene : command.scenes) {
-    if (scene == "-") continue;
-    std::error_code error;
-    const auto status = std::filesystem::status(scene, error);
-    std::string why;
-    if (!std::filesystem::exists(status))
-      why =
-          error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file";
-    else if (std::filesystem::is_directory(status))
-      why = "is a directory";
-    else if (access(scene.c_str(), R_OK) != 0)
-      why = std::strerror(errno);
-    if (why.empty()) continue;
-    throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": " + why, {},
-                HintForMissing(scene));
-  }
 }
 
 // Renders one file after the other. Returns the status of the first file that failed.

@@ -17,6 +17,8 @@
 #include "core/app/options/options.h"
 #include "core/app/options/values.h"
 #include "core/app/process/signals.h"
+#include "core/app/shards/cluster_command.h"
+#include "core/app/shards/merge_command.h"
 #include "core/app/study/study_command.h"
 #include "core/base/error.h"
 
@@ -56,6 +58,8 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "info") return RunInfo(rest);
   if (command == "convert") return RunConvert(rest);
   if (command == "compare") return RunCompare(rest);
+  if (command == "merge") return RunMerge(rest, CommandLineText(arguments));
+  if (command == "cluster") return RunCluster(rest);
   if (command == "study") return RunStudy(rest, CommandLineText(arguments));
   if (command == "report") return RunReport(rest);
   const std::vector<std::string> all(

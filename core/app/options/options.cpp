@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kMaxThreads = 4096;
 constexpr std::int64_t kMaxSamplesPerPixel = 1 << 30;
+constexpr int kMaxPasses = 100000;
 
 constexpr const char* kCommands =
     "Commands (each has --help):\n"
@@ -28,6 +29,8 @@ constexpr const char* kCommands =
     "  exphoton info PICTURE ...         print size, channels and attributes\n"
     "  exphoton convert FROM TO          convert between EXR and PNG\n"
     "  exphoton compare REFERENCE NEW    test whether pictures differ\n"
+    "  exphoton merge PARTS -o PICTURE   make a picture from parts (--shard)\n"
+    "  exphoton cluster SCENE --shards N write scripts that render with Slurm\n"
     "  exphoton study SCENE --out DIR    compare integrators and settings\n"
     "  exphoton report DIR               make a study's page again\n"
     "\n"
@@ -41,7 +44,7 @@ constexpr const char* kCommands =
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "auto";
   std::vector<std::string> sets, pluginFolders;
-  std::string resolution, aovs, timeLimit, limits, writeEvery, display;
+  std::string shard, resolution, aovs, timeLimit, limits, writeEvery, display;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -81,6 +84,10 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
   app.Add("--target-error", command.targetError,
           "render whole passes until the noise part of relMSE is estimated below this")
       .TypeName("X");
+  app.Add("--max-passes", command.maxPasses,
+          "with --target-error: at most N whole passes, each with the samples a pixel of --spp")
+      .Between(1, kMaxPasses)
+      .TypeName("N");
   app.AddFlag("--two-halves", command.asTwoHalves,
               "render two independent halves, print their difference, write both into the file");
   app.Add("--seed", command.seed, "seed of the random numbers").TypeName("N");
@@ -102,6 +109,14 @@ void AddResumeOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
       .TypeName("TIME");
   app.Add("--display", raw.display, "show the picture in the viewer tev while it is rendered")
       .TypeName("HOST:PORT");
+}
+
+void AddShardOptions(OptionParser& app, RawOptions& raw) {
+  app.Group("Beyond one machine");
+  app.Add("--shard", raw.shard,
+          "render share I of N into the folder -o, as part-I-of-N.state; exphoton merge makes the "
+          "picture")
+      .TypeName("I/N");
 }
 
 void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
@@ -163,6 +178,34 @@ void CheckPng(const RawOptions& raw, const RenderCommand& command) {
               "-o NAME.png or --preview NAME.png writes one");
 }
 
+// How many passes a time limit allows differs between machines, and a part belongs to no picture
+// of its own.
+void TakeShard(const RawOptions& raw, RenderCommand* command) {
+  Exclude(command->maxPasses > 0, !command->targetError, "--max-passes needs --target-error");
+  Exclude(command->maxPasses > 0, bool(command->timeLimit),
+          "--max-passes and --time-limit exclude each other");
+  if (raw.shard.empty()) return;
+  command->shard = ParseShard(raw.shard);
+  if (command->timeLimit)
+    FailUsage("--shard and --time-limit exclude each other: machines differ in speed",
+              "--target-error X --max-passes N stops all shards after the same passes");
+  if (command->targetError && command->maxPasses == 0)
+    FailUsage(
+        "--shard with --target-error needs --max-passes N",
+        "each shard renders all N passes, and exphoton merge drops those that are not needed");
+  Exclude(command->resumes || command->writeEvery || !command->stateFile.empty(), true,
+          "--shard excludes --resume, --state and --write-every: a part is rendered as a whole");
+  Exclude(command->display.has_value(), true, "--shard and --display exclude each other");
+  Exclude(!command->previewFile.empty(), true,
+          "--shard and --preview exclude each other: exphoton merge makes the picture");
+  if (command->outfile.empty())
+    FailUsage("--shard needs -o FOLDER, the folder of the parts", "for example -o parts/");
+  if (command->scenes.size() > 1) FailUsage("--shard renders one scene, but several are named");
+  if (IsPngName(command->outfile) || IsExrName(command->outfile))
+    FailUsage("with --shard, -o names the folder of the parts and not a picture",
+              "for example -o parts/");
+}
+
 void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   LoadOptions& load = command->load;
   Exclude(raw.asHalf, raw.asFloat, "--half and --float exclude each other");
@@ -187,6 +230,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
     FailUsage("--target-error takes a number above 0");
   Exclude(command->asTwoHalves, command->HasStoppingRule(),
           "--two-halves and --time-limit or --target-error exclude each other");
+  TakeShard(raw, command);
   command->limits = ParseLimits(raw.limits);
   load.limits = command->limits.scene;
   if (!raw.aovs.empty()) command->aovs = ParseAovList(raw.aovs);
@@ -226,6 +270,7 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   AddPictureOptions(app, command, raw);
   AddAmountOptions(app, command, raw);
   AddResumeOptions(app, command, raw);
+  AddShardOptions(app, raw);
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);
   app.AddVersion(VersionText());
@@ -235,8 +280,8 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render",  "explain", "plugins", "check-plugin", "info",
-          "convert", "compare", "study",   "report",       "help"};
+  return {"render",  "explain", "plugins", "check-plugin", "info",   "convert",
+          "compare", "merge",   "cluster", "study",        "report", "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

@@ -14,6 +14,7 @@
 #include "core/base/log.h"
 #include "core/imaging/film/aovs.h"
 #include "core/parser/render_setup.h"
+#include "core/render/shards/shard_tiles.h"
 
 namespace exphoton::cli {
 
@@ -30,6 +31,8 @@ struct RenderCommand {
   AovSet aovs;                                   // --aov
   std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
   bool asTwoHalves = false;
+  int maxPasses = 0;                 // --max-passes; 0: not given
+  std::optional<Shard> shard;        // --shard: outfile is a folder
   bool resumes = false;              // --resume
   std::string stateFile;             // "": the picture's name with ".state"
   std::optional<double> writeEvery;  // seconds

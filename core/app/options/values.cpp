@@ -111,6 +111,23 @@ std::string AllAovNames() {
   return all.Names() + ", light (all light AOVs)";
 }
 
+Shard ParseShard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto number = [&](std::size_t begin, std::size_t end) {
+    const std::string digits = text.substr(begin, end - begin);
+    const bool isNumber = !digits.empty() && digits.size() < 10 &&
+                          digits.find_first_not_of("0123456789") == std::string::npos;
+    return isNumber ? std::stoi(digits) : 0;
+  };
+  Shard shard{0, 0};
+  if (slash != std::string::npos) shard = {number(0, slash), number(slash + 1, text.size())};
+  if (shard.index < 1 || shard.count > Shard::kMaxCount || shard.index > shard.count)
+    FailUsage("--shard takes I/N with 1 <= I <= N <= " + std::to_string(Shard::kMaxCount) +
+                  ", not \"" + text + '"',
+              "--shard 3/16 renders the third of 16 shares");
+  return shard;
+}
+
 AovSet ParseAovList(const std::string& text) {
   std::string unknown;
   if (const auto aovs = ParseAovs(text, &unknown)) return *aovs;

@@ -10,6 +10,7 @@
 #include "core/imaging/film/aovs.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
+#include "core/render/shards/shard_tiles.h"
 
 namespace exphoton::cli {
 
@@ -26,6 +27,8 @@ ParameterOverride ParseOverride(const std::string& text);
 
 // "90", "90s", "1.5m", "1h": positive duration, in seconds.
 double ParseDuration(const std::string& option, const std::string& text);
+// "3/16": the third of 16 shards.
+Shard ParseShard(const std::string& text);
 // "albedo,N,direct".
 AovSet ParseAovList(const std::string& text);
 std::string AllAovNames();

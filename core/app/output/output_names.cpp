@@ -2,8 +2,11 @@
 // OutputNames prefers names from the command line to names from scene files.
 #include "core/app/output/output_names.h"
 
+#include <filesystem>
+
 #include "core/app/options/arguments.h"
 #include "core/app/output/png_output.h"
+#include "core/app/shards/part_record.h"
 #include "core/base/error.h"
 
 namespace exphoton::cli {
@@ -17,6 +20,7 @@ std::optional<std::string> OutputNames::NameFromUser() const {
 }
 
 void OutputNames::CheckEndings() const {
+  if (command_.shard) return;
   const std::string picture = NameFromUser().value_or("out.exr");
   if (!IsPngName(picture) && !IsExrName(picture))
     throw Error(ExitStatus::CommandLine,
@@ -29,6 +33,11 @@ void OutputNames::CheckEndings() const {
 
 std::string OutputNames::Picture(const std::string& name) const {
   return FollowLinks(NameFromUser().value_or(ExrName(name)));
+}
+
+std::string OutputNames::Part() const {
+  const std::string name = PartName(*command_.shard);
+  return (std::filesystem::path(command_.outfile) / name).string();
 }
 
 std::string OutputNames::State(const std::string& name) const {
@@ -46,6 +55,13 @@ void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& 
   const std::string& scene = command_.scenes[place.file];
   const std::string key = std::to_string(place.file) + ":" + std::to_string(place.picture);
   const std::string of = scene == "-" ? " of standard input" : " of \"" + scene + '"';
+  if (command_.shard) {
+    files.AddOutput("1 " + key, {Part(), "the part" + of, "-o FOLDER names another folder"});
+    if (!command_.statsFile.empty() && command_.statsFile != "-")
+      files.AddOutput("3", {command_.statsFile, "the statistics",
+                            "--stats-json FILE names another file for them"});
+    return;
+  }
   OutputFile picture{NameFromUser().value_or(ExrName(name)), "the picture" + of,
                      "-o FILE names another file for the picture"};
   if (!NameFromUser()) {

@@ -28,6 +28,8 @@ class OutputNames {
   // Returns the picture's file, with links resolved. A name from the scene becomes one that ends
   // in .exr.
   std::string Picture(const std::string& name) const;
+  // Returns the file of the part that --shard names.
+  std::string Part() const;
   // Returns the file for the state of the picture `name`.
   std::string State(const std::string& name) const;
   std::optional<std::string> NameFromUser() const;  // from -o or --set Film.filename

@@ -53,10 +53,14 @@ void AppendHalf(const char* name, const Film& half, bool premultiplyAlpha, Image
 }  // namespace
 
 PictureFilms::PictureFilms(const RenderCommand& command, const RenderSetup& setup)
-    : film(setup.film.Full(), setup.crop) {
-  if (!command.aovs.IsEmpty()) aovs = std::make_unique<AovFilm>(setup.crop, command.aovs);
-  if (!command.asTwoHalves) return;
-  for (auto& half : halves) half = std::make_unique<Film>(setup.film.Full(), setup.crop);
+    : PictureFilms(setup.film.Full(), setup.crop, command.aovs, command.asTwoHalves) {}
+
+PictureFilms::PictureFilms(const PixelBounds& full, const PixelBounds& crop, AovSet wanted,
+                           bool asTwoHalves)
+    : film(full, crop) {
+  if (!wanted.IsEmpty()) aovs = std::make_unique<AovFilm>(crop, wanted);
+  if (!asTwoHalves) return;
+  for (auto& half : halves) half = std::make_unique<Film>(full, crop);
 }
 
 PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
@@ -70,7 +74,17 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   rule.timeLimit = command.timeLimit;
   rule.start = start;
   if (command.load.samplesPerPixel) rule.maxSamples = *command.load.samplesPerPixel;
+  if (command.maxPasses > 0) {
+    rule.passSamples = job.sampler.SamplesPerPixel();
+    rule.maxSamples = rule.passSamples * command.maxPasses;
+  }
   return RenderInPasses(job, options, rule);
+}
+
+PicturePasses PassesOf(const RenderCommand& command) {
+  if (command.asTwoHalves) return {PicturePasses::Kind::TwoHalves, 2, 0};
+  if (!command.targetError) return {};
+  return {PicturePasses::Kind::TargetError, command.maxPasses, *command.targetError};
 }
 
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha) {

@@ -8,6 +8,7 @@
 #include "core/app/options/options.h"
 #include "core/imaging/film/aov_film.h"
 #include "core/render/passes/render_passes.h"
+#include "core/render/shards/picture_passes.h"
 #include "core/render/state/checkpoints.h"
 
 namespace exphoton::cli {
@@ -16,6 +17,7 @@ namespace exphoton::cli {
 // them.
 struct PictureFilms {
   PictureFilms(const RenderCommand& command, const RenderSetup& setup);
+  PictureFilms(const PixelBounds& full, const PixelBounds& crop, AovSet wanted, bool asTwoHalves);
 
   Film film;
   std::unique_ptr<AovFilm> aovs;
@@ -26,6 +28,9 @@ struct PictureFilms {
 PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                            const RenderOptions& options,
                            std::chrono::steady_clock::time_point start, PictureFilms* films);
+
+// Returns the passes of a picture that is rendered in shards.
+PicturePasses PassesOf(const RenderCommand& command);
 
 // Returns an image with the channels of the picture and of all AOVs, without attributes.
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha);

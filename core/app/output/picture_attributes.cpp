@@ -10,14 +10,6 @@
 namespace exphoton::cli {
 namespace {
 
-// OpenEXR uses row vectors, so its matrices are the transpose of ours.
-std::vector<float> MatrixAttribute(const Matrix4& matrix) {
-  std::vector<float> values;
-  for (std::size_t column = 0; column < 4; ++column)
-    for (std::size_t row = 0; row < 4; ++row) values.push_back(float(matrix.m[row][column]));
-  return values;
-}
-
 // The meaning of the values of R, G and B. Spectrum has the primaries of Rec. 709 and the white
 // point D65. The luminance takes values as W/(m^2 sr), with the luminous efficacy of white light
 // that Radiance uses, in lm/W.
@@ -49,13 +41,13 @@ void AddTimes(const RunRecord& run, std::map<std::string, ImageAttribute>* attri
 }  // namespace
 
 std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bool isReproducible) {
-  const RenderSetup& setup = run.setup;
+  const SceneRecord& scene = run.scene;
   std::map<std::string, ImageAttribute> attributes;
   attributes["software"] = VersionText();
-  attributes["scene"] = setup.sceneName;
-  attributes["sceneHash"] = HashText(setup.sceneHash);
-  attributes["integrator"] = setup.integratorName;
-  attributes["effects"] = EffectNames(setup);
+  attributes["scene"] = scene.name;
+  attributes["sceneHash"] = HashText(scene.hash);
+  attributes["integrator"] = scene.integrator;
+  attributes["effects"] = scene.EffectNames();
   attributes["seed"] = std::to_string(run.seed);
   attributes["samplesPerPixel"] = int(run.samplesPerPixel);
   if (run.footprintSamples > 0) attributes["footprintSamplesPerPixel"] = int(run.footprintSamples);
@@ -68,13 +60,12 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   }
   if (run.targetError) attributes["targetError"] = float(*run.targetError);
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
-                           "sampler " + setup.samplerName + ", filter " + setup.filterName +
-                           ", camera " + setup.cameraName;
+                           "sampler " + scene.sampler + ", filter " + scene.filter + ", camera " +
+                           scene.camera;
   AddColorMeaning(&attributes);
-  const Interval shutter = setup.camera->Shutter();
-  attributes["expTime"] = float(shutter.max - shutter.min);
-  attributes["worldToCamera"] = MatrixAttribute(setup.camera->CameraToWorld().InverseMatrix());
-  attributes["worldToNDC"] = MatrixAttribute(setup.camera->WorldToNdc());
+  attributes["expTime"] = scene.exposureTime;
+  attributes["worldToCamera"] = scene.worldToCamera;
+  attributes["worldToNDC"] = scene.worldToNdc;
   if (!isReproducible) AddTimes(run, &attributes);
   return attributes;
 }

@@ -72,28 +72,27 @@ class JsonWriter {
 };
 
 void AddScene(const RunRecord& run, JsonWriter* json) {
-  const RenderSetup& setup = run.setup;
-  json->Key("scene"), json->Text(setup.sceneName);
-  json->Key("sceneHash"), json->Text(HashText(setup.sceneHash));
-  json->Key("integrator"), json->Text(setup.integratorName);
-  json->Key("sampler"), json->Text(setup.samplerName);
-  json->Key("accelerator"), json->Text(setup.acceleratorName);
+  const SceneRecord& scene = run.scene;
+  json->Key("scene"), json->Text(scene.name);
+  json->Key("sceneHash"), json->Text(HashText(scene.hash));
+  json->Key("integrator"), json->Text(scene.integrator);
+  json->Key("sampler"), json->Text(scene.sampler);
+  json->Key("accelerator"), json->Text(scene.accelerator);
   json->Key("resolution"), json->Open('[');
-  for (const int size : {setup.film.xResolution, setup.film.yResolution}) json->Integer(size);
+  for (const int size : {scene.full.x1, scene.full.y1}) json->Integer(size);
   json->Close(']');
   json->Key("pixelBounds"), json->Open('[');
-  for (const int edge : {setup.crop.x0, setup.crop.x1, setup.crop.y0, setup.crop.y1})
+  for (const int edge : {scene.crop.x0, scene.crop.x1, scene.crop.y0, scene.crop.y1})
     json->Integer(edge);
   json->Close(']');
   json->Key("samplesPerPixel"), json->Integer(run.samplesPerPixel);
   if (run.footprintSamples > 0)
     json->Key("footprintSamplesPerPixel"), json->Integer(run.footprintSamples);
   json->Key("effects"), json->Open('{');
-  for (int i = 0; i < kFeatureCount; ++i) {
-    const RequiredFeatures::Row& row = setup.scene->Features().Get(Feature(i));
-    json->Key(FeatureName(Feature(i))), json->Open('{');
-    json->Key("on"), json->Bool(row.on);
-    json->Key("reason"), json->Text(row.reason);
+  for (const SceneRecord::Effect& effect : scene.effects) {
+    json->Key(effect.name), json->Open('{');
+    json->Key("on"), json->Bool(effect.on);
+    json->Key("reason"), json->Text(effect.reason);
     json->Close('}');
   }
   json->Close('}');

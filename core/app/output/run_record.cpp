@@ -27,8 +27,7 @@ std::string Number(double value) {
                                                               : Format("%.6g", value);
 }
 
-std::string Resolution(const RenderSetup& setup) {
-  const PixelBounds &full = setup.film.Full(), &crop = setup.crop;
+std::string Resolution(const PixelBounds& full, const PixelBounds& crop) {
   std::string text = Format("%d x %d", full.Width(), full.Height());
   if (!(crop == full))
     text += Format(", of which x %d to %d, y %d to %d", crop.x0, crop.x1 - 1, crop.y0, crop.y1 - 1);
@@ -152,14 +151,10 @@ std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
 
 }  // namespace
 
-std::string HashText(std::uint64_t hash) {
-  return Format("%016llx", static_cast<unsigned long long>(hash));
-}
-
 std::string StatisticsTable(const RunRecord& run) {
   std::string text =
-      Row("scene", run.setup.sceneName) + Row("integrator", run.setup.integratorName) +
-      Row("picture", Resolution(run.setup)) +
+      Row("scene", run.scene.name) + Row("integrator", run.scene.integrator) +
+      Row("picture", Resolution(run.scene.full, run.scene.crop)) +
       Row("samples", std::to_string(run.samplesPerPixel) + " a pixel in " +
                          std::to_string(run.passes) + (run.passes == 1 ? " pass" : " passes")) +
       Row("threads", std::to_string(run.threads));
@@ -194,14 +189,6 @@ std::string StoppingText(const RunRecord& run) {
                        run.sharingBias->standardError);
 }
 
-std::string EffectNames(const RenderSetup& setup) {
-  std::string names;
-  for (int i = 0; i < kFeatureCount; ++i)
-    if (setup.scene->Features().Needs(Feature(i)))
-      names += (names.empty() ? "" : ", ") + std::string(FeatureName(Feature(i)));
-  return names.empty() ? "none" : names;
-}
-
 std::string ExplainText(const RenderSetup& setup) {
   std::string plugins = std::to_string(setup.plugins.size()) + " loaded";
   for (std::size_t i = 0; i < setup.plugins.size(); ++i)
@@ -212,7 +199,8 @@ std::string ExplainText(const RenderSetup& setup) {
          Row("integrator", setup.integratorName) + Row("sampler", setup.samplerName) +
          Row("samples", std::to_string(setup.sampler->SamplesPerPixel()) + " a pixel") +
          Row("filter", setup.filterName) + Row("camera", setup.cameraName) +
-         Row("accelerator", setup.acceleratorName) + Row("picture", Resolution(setup)) +
+         Row("accelerator", setup.acceleratorName) +
+         Row("picture", Resolution(setup.film.Full(), setup.crop)) +
          Row("primitives", std::to_string(setup.scene->Primitives().Count())) +
          setup.scene->Features().Describe() + computed + SharingRow(setup) +
          Row("plugins", plugins);

@@ -7,7 +7,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "core/app/shards/scene_record.h"
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
@@ -17,9 +19,11 @@ namespace exphoton::cli {
 
 struct RunRecord {
   RunRecord(const RenderSetup& aSetup, const Statistics& someStatistics)
-      : setup(aSetup), statistics(someStatistics) {}
+      : RunRecord(SceneRecord(aSetup), someStatistics) {}
+  RunRecord(SceneRecord aScene, const Statistics& someStatistics)
+      : scene(std::move(aScene)), statistics(someStatistics) {}
 
-  const RenderSetup& setup;
+  SceneRecord scene;
   const Statistics& statistics;
   std::uint64_t seed = 0;
   int threads = 1;
@@ -50,12 +54,7 @@ std::string StatisticsJson(const RunRecord& run);  // one line
 // Returns one line: the result of a stopping rule, or the difference between two halves.
 std::string StoppingText(const RunRecord& run);
 
-// Returns the effects that the scene requires: "indirect, filtering"; "none".
-std::string EffectNames(const RenderSetup& setup);
-
 // Describes scene, plugins and effects without rendering.
 std::string ExplainText(const RenderSetup& setup);
-
-std::string HashText(std::uint64_t hash);  // 16 hexadecimal digits
 
 }  // namespace exphoton::cli

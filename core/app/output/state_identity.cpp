@@ -81,6 +81,7 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--aov", AovNames(command));
   add("--two-halves", command.asTwoHalves ? "on" : "off");
   add("--target-error", command.targetError ? Text(*command.targetError) : "");
+  add("--max-passes", command.maxPasses > 0 ? std::to_string(command.maxPasses) : "");
   add("--time-limit", command.timeLimit ? "on" : "off");  // more time may be given
   std::map<std::string, std::string> sets;
   for (const ParameterOverride& set : load.parameters)
@@ -138,10 +139,14 @@ std::string StateIdentity::Differences(const StateIdentity& other) const {
   return texts;
 }
 
+StateIdentity StateIdentity::Of(const StateFile& file) {
+  StateIdentity identity;
+  file.Read("identity", [&identity](ByteArchive* archive) { identity.Transfer(archive); });
+  return identity;
+}
+
 void StateIdentity::Check(const StateFile& file) const {
-  StateIdentity other;
-  file.Read("identity", [&other](ByteArchive* archive) { other.Transfer(archive); });
-  const std::string differences = Differences(other);
+  const std::string differences = Differences(Of(file));
   if (differences.empty()) return;
   throw Error(ExitStatus::CommandLine,
               "cannot continue from \"" + file.Path() + "\": " + differences, {},

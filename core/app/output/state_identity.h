@@ -18,8 +18,12 @@ class StateIdentity {
   StateIdentity(const RenderCommand& command, const RenderSetup& setup);
 
   void Save(StateWriter* writer) const;
+  static StateIdentity Of(const StateFile& file);
   // Throws Error(CommandLine), which names everything that differs.
   void Check(const StateFile& file) const;
+  // Names everything that differs in `other`; "" if nothing does.
+  std::string Differences(const StateIdentity& other) const;
+  const std::string& Program() const { return program_; }  // "exphoton 0.1.0"
 
  private:
   struct Input {
@@ -31,7 +35,6 @@ class StateIdentity {
   };
   StateIdentity() = default;
   void Transfer(ByteArchive* archive);
-  std::string Differences(const StateIdentity& other) const;
 
   std::string program_;
   std::vector<Input> inputs_;  // the scene comes first

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/files/byte_archive.h"
-
 namespace exphoton {
 namespace {
 
@@ -269,27 +267,6 @@ void AovFilm::Add(const AovFilm& other) {
     distances_[i] += other.distances_[i];
     reads_[i] += other.reads_[i];
   }
-}
-
-void AovFilm::Transfer(ByteArchive* archive) {
-  for (const std::size_t size :
-       {weights_.size(), values_.size(), surfaceValues_.size(), surfaceWeights_.size(),
-        objects_.size(), materials_.size(), moments_.size(), seconds_.size(), distances_.size(),
-        reads_.size()})
-    archive->Same(std::uint64_t(size));
-  char isSplatted = isSplatted_ ? 1 : 0;
-  archive->Values(&isSplatted);
-  isSplatted_ = isSplatted != 0;
-  for (Weights& w : weights_) archive->Values(&w.sum, &w.sumOfSquares, &w.samples, &w.absSum);
-  for (Value& value : values_) archive->Values(&value.sum, &value.absSum);
-  for (double& sum : surfaceValues_) archive->Values(&sum);
-  for (SurfaceWeights& w : surfaceWeights_) archive->Values(&w.all, &w.hit);
-  for (std::vector<Majority>* ids : {&objects_, &materials_})
-    for (Majority& majority : *ids) archive->Values(&majority.id, &majority.lead);
-  for (Moments& m : moments_) archive->Values(&m.wwLL, &m.wwL, &m.wL);
-  for (double& seconds : seconds_) archive->Values(&seconds);
-  for (double& distance : distances_) archive->Values(&distance);
-  for (std::int64_t& reads : reads_) archive->Values(&reads);
 }
 
 double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {

@@ -18,6 +18,7 @@ class AovFilm {
  public:
   AovFilm(const PixelBounds& crop, AovSet wanted);
 
+  const PixelBounds& Crop() const { return crop_; }
   AovSet Wanted() const { return wanted_; }
   bool NeedsSurface() const { return !(wanted_ & kSurfaceAovs).IsEmpty(); }
   bool NeedsTime() const { return wanted_.Has(Aov::Time); }
@@ -36,6 +37,9 @@ class AovFilm {
   void Add(const AovFilm& other);
   // Saves or loads all sums. Throws ArchiveError if the saved film had other AOVs or pixels.
   void Transfer(ByteArchive* archive);
+  // The same for one pixel: all sums but its time, and its time.
+  void TransferPixel(ByteArchive* archive, Point2i pixel);
+  void TransferTime(ByteArchive* archive, Point2i pixel);
 
   // For samples that are splatted (core/render/splat_buffer.h). ValuesOf writes the LightCount()
   // values of a sample's light AOVs. FirstValueOf returns the place of an AOV among them.

@@ -119,13 +119,15 @@ void Film::Add(const Film& other) {
 void Film::Transfer(ByteArchive* archive) {
   for (const PixelBounds& bounds : {full_, crop_})
     for (const int edge : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) archive->Same(edge);
-  for (Pixel& p : pixels_) {
-    char isUsed = p.samples != 0 || p.weight != 0;  // one byte for pixels without samples
-    archive->Values(&isUsed);
-    if (!isUsed) continue;
-    archive->Values(&p.r, &p.g, &p.b, &p.alpha, &p.weight, &p.samples);
-    archive->Values(&p.absR, &p.absG, &p.absB, &p.absAlpha, &p.absWeight);
-  }
+  for (Pixel& p : pixels_) TransferSums(archive, &p);
+}
+
+void Film::TransferSums(ByteArchive* archive, Pixel* p) {
+  char isUsed = p->samples != 0 || p->weight != 0;  // one byte for pixels without samples
+  archive->Values(&isUsed);
+  if (!isUsed) return;
+  archive->Values(&p->r, &p->g, &p->b, &p->alpha, &p->weight, &p->samples);
+  archive->Values(&p->absR, &p->absG, &p->absB, &p->absAlpha, &p->absWeight);
 }
 
 std::int64_t Film::SampleCount(Point2i pixel) const { return pixels_[IndexOf(pixel)].samples; }

@@ -78,6 +78,10 @@ class Film {
 
   // Saves or loads the sums of all pixels. Throws ArchiveError if the saved film had another size.
   void Transfer(ByteArchive* archive);
+  // Saves or loads the sums of one pixel.
+  void TransferPixel(ByteArchive* archive, Point2i pixel) {
+    TransferSums(archive, &pixels_[IndexOf(pixel)]);
+  }
 
  private:
   // sum(w) is close to the number of samples, except by chance after the first few samples of a
@@ -91,6 +95,7 @@ class Film {
     std::array<double, 4> Mean() const;
   };
   std::size_t IndexOf(Point2i pixel) const;
+  static void TransferSums(ByteArchive* archive, Pixel* p);
 
   PixelBounds full_, crop_;
   std::vector<Pixel> pixels_;

@@ -279,6 +279,7 @@ void RenderDirectives::CreateCamera(PluginRegistry& registry, Log& log, RenderSe
 void RenderDirectives::CreateFilter(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
   const ParamSet filter = Overridden("PixelFilter", filter_, PluginKind::Filter, registry);
   setup->filterName = filter_.name;
+  setup->filterParameters = filter;
   setup->filter = registry.Create<PluginKind::Filter>(
       filter_.name, filter, Bind(PluginKind::Filter, filter_.name, log), NoContext{});
 }

@@ -5,6 +5,12 @@
 
 namespace exphoton {
 
+RenderPass PatternPass(std::uint64_t seed, std::uint64_t group, std::int64_t first,
+                       std::int64_t count) {
+  return {HashKey({seed, kPassSeed, group}),
+          HashKey({seed, kGroupSeed, group, std::uint64_t(first), kPassSeed}), 0, count};
+}
+
 PassParts::PassParts(const RenderJob& job, const RenderOptions& options,
                      OuterCheckpoints::Wrap wrap)
     : all_(options.aovs),

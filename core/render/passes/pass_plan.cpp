@@ -93,6 +93,7 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
 }
 
 PassPlan::Step PassPlan::Next(const State& state) const {
+  if (limits_.passSamples > 0) return {true, limits_.passSamples, true};
   Step step;
   std::int64_t goal = 1;
   if (groups_ > 0) {

@@ -38,6 +38,7 @@ class PassPlan {
   struct Limits {
     std::optional<double> targetError, timeLimit;  // as in StoppingRule
     std::int64_t maxSamples = 0;                   // per pixel
+    std::int64_t passSamples = 0;                  // of each pass; 0: chosen by the noise
   };
   // The state of the render. Times are in seconds and used only with a time limit.
   struct State {

@@ -14,10 +14,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Groups of passes are independent of each other. Later groups share the places of the first ones,
-// which limits memory.
-constexpr int kGroups = 8;
-constexpr std::uint64_t kGroupSeed = 0x7265706cull;
 constexpr std::int64_t kProgressSteps = 1000;
 
 double SecondsSince(Clock::time_point start) {
@@ -39,7 +35,7 @@ class Passes {
         passFilm_(job.film.Full(), job.film.Crop()),
         noise_(job.film.Crop(), kGroups),
         forecast_(job.film.Crop()),
-        plan_({rule.targetError, rule.timeLimit, rule.maxSamples}) {
+        plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples}) {
     if (job.sampler.IsProgressive())
       progressiveSampler_ = job.sampler.WithSamplesPerPixel(rule.maxSamples);
     quiet_.SetListener([this] { ShowProgress(); });
@@ -151,8 +147,7 @@ class Passes {
       pass.firstSample = groupSamples_;
     } else {
       // The pass uses a complete sample pattern with a separate seed.
-      const auto first = std::uint64_t(groupSamples_);
-      pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group, first, kPassSeed});
+      pass = PatternPass(options_.seed, group, groupSamples_, step.size);
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
     passFilm_.Clear();

@@ -17,6 +17,9 @@ struct StoppingRule {
   std::optional<double> timeLimit;    // seconds from `start`, including preprocessing
   std::chrono::steady_clock::time_point start;
   std::int64_t maxSamples = kMaxSamples;  // per pixel
+  // If positive, every pass is a group of its own with this number of samples per pixel, so that
+  // passes do not depend on the pixels of earlier ones.
+  std::int64_t passSamples = 0;
 
   static constexpr std::int64_t kMaxSamples = std::int64_t(1) << 20;
 };

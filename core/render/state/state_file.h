@@ -6,9 +6,12 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/base/error.h"
 #include "core/files/atomic_file.h"
 #include "core/files/byte_archive.h"
 
@@ -30,30 +33,58 @@ class StateWriter {
   std::uint64_t checksum_ = 0;
 };
 
+// The purpose of reading a state, for messages.
+enum class StateUse {
+  Resume,  // to continue a stopped render
+  Part,    // to merge the part of a picture that one process rendered
+};
+
+// Thrown for a file that has been read but is no complete state.
+class DamagedState : public Error {
+ public:
+  using Error::Error;
+};
+
 class StateFile {
  public:
-  // Reads a whole file and checks it. Errors throw Error(File): the text says whether the file is
-  // of another kind, of another version, cut off or damaged.
-  explicit StateFile(const std::string& path);
+  // Reads a whole file and checks it. Only the places of the sections stay in memory. Errors throw
+  // Error(File): the text says whether the file cannot be read, is of another kind or version, is
+  // cut off or is damaged. The last two are a DamagedState.
+  explicit StateFile(const std::string& path, StateUse use = StateUse::Resume);
 
   const std::string& Path() const { return path_; }
-  void Release() { bytes_ = {}, sections_.clear(); }  // frees the memory
+  void Release() { Close(), sections_.clear(); }  // frees the memory
+  // Closes the file until a section is read again.
+  void Close() const { file_.reset(); }
   bool Has(const std::string& name) const { return sections_.contains(name); }
-  // Returns the bytes of a section. Throws Error(File) if it is missing.
-  std::string_view Get(const std::string& name) const;
+  std::vector<std::string> Names() const;  // of all sections, sorted
+  // Returns the bytes of a section. Throws Error(File) if it is missing or has changed since.
+  std::string Get(const std::string& name) const;
+  // Returns a checksum of a section's name and bytes.
+  std::uint64_t Digest(const std::string& name) const;
   // Loads a section. A section that does not fit throws Error(File).
   template <class Load>
   void Read(const std::string& name, const Load& load) const;
 
  private:
-  [[noreturn]] void Fail(const std::string& why) const;
+  struct Section {
+    std::uint64_t offset = 0, size = 0;
+    std::uint64_t digest = 0;  // the checksum of the bytes alone
+  };
+  class Scanner;
+  [[noreturn]] void Fail(const std::string& why, bool isDamaged = false) const;
 
-  std::string path_, bytes_;
-  std::map<std::string, std::string_view> sections_;
+  std::string path_;
+  StateUse use_;
+  mutable std::unique_ptr<Descriptor> file_;  // null: closed
+  std::map<std::string, Section> sections_;
 };
 
 // Returns whether the file begins with the signature of a state.
 bool IsStateFile(const std::string& path);
+// Returns whether the file is a state or may have been one: it is empty, cut off within the
+// signature, or one byte of the signature is another one.
+bool MayBeStateFile(const std::string& path);
 
 // The checksum of some bytes that follow bytes with the checksum `before`. A change of any single
 // byte changes it.
@@ -61,8 +92,9 @@ std::uint64_t StateChecksum(std::uint64_t before, std::string_view bytes);
 
 template <class Load>
 void StateFile::Read(const std::string& name, const Load& load) const {
+  const std::string bytes = Get(name);
   try {
-    ByteArchive archive(Get(name));
+    ByteArchive archive(bytes);
     load(&archive);
     archive.CheckEnd();
   } catch (const ArchiveError& error) {

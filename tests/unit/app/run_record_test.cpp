@@ -204,7 +204,7 @@ TEST_F(RunRecordTest, IsInTheAttributesOfThePicture) {
   EXPECT_EQ(text("scene"), "test.pbrt");
   EXPECT_EQ(text("sceneHash"), HashText(Loaded().sceneHash));
   EXPECT_EQ(text("integrator"), "directlighting");
-  EXPECT_EQ(text("effects"), EffectNames(run.setup));
+  EXPECT_EQ(text("effects"), run.scene.EffectNames());
   EXPECT_EQ(text("seed"), "18446744073709551615");
   EXPECT_EQ(text("stoppedBy"), "samples");
   EXPECT_EQ(text("comments"), "sampler stratified, filter triangle, camera orthographic");

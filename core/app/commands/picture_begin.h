@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Begin holds the start times of the work for a picture, and the seconds spent on loading the
+// scene.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/base/statistics.h"
+#include "core/parser/render_setup.h"
+
+namespace exphoton::cli {
+
+struct Begin {
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  double cpu = ProcessCpuSeconds();
+  double loadWall = 0, loadCpu = 0;
+
+  void EndLoading() {
+    loadWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+    loadCpu = ProcessCpuSeconds() - cpu;
+  }
+  // Loading the scene file counts towards its first picture.
+  void AddLoadingTimes(const RenderSetup& setup, Statistics* statistics) const {
+    const double seconds = loadWall - setup.acceleratorSeconds;
+    const double cpuSeconds = loadCpu - setup.acceleratorCpuSeconds;
+    statistics->AddPhase("parse", std::max(seconds, 0.), std::max(cpuSeconds, 0.));
+    statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
+  }
+};
+
+}  // namespace exphoton::cli

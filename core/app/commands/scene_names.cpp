@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/commands/scene_names.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/params/suggestions.h"
+
+namespace exphoton::cli {
+namespace {
+
+// Suggests a command for a word without a folder and an ending, else a scene in the same folder.
+std::string HintForMissing(const std::string& name) {
+  const std::filesystem::path path(name);
+  const bool isWord = !path.has_parent_path() && !path.has_extension();
+  if (isWord) return DidYouMean(name, CommandNames());
+  std::vector<std::string> scenes;
+  std::error_code error;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error))
+    if (it->path().extension() == ".pbrt") scenes.push_back(it->path().filename().string());
+  std::sort(scenes.begin(), scenes.end());
+  return DidYouMean(path.filename().string(), scenes);
+}
+
+}  // namespace
+
+void CheckScenesExist(const RenderCommand& command) {
+  for (const std::string& scene : command.scenes) {
+    if (scene == "-") continue;
+    std::error_code error;
+    const auto status = std::filesystem::status(scene, error);
+    std::string why;
+    if (!std::filesystem::exists(status))
+      why =
+          error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file";
+    else if (std::filesystem::is_directory(status))
+      why = "is a directory";
+    else if (access(scene.c_str(), R_OK) != 0)
+      why = std::strerror(errno);
+    if (why.empty()) continue;
+    throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": " + why, {},
+                HintForMissing(scene));
+  }
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,148 @@
+#!/usr/bin/env bash
+# slurm.sh PROGRAM SCENE: starts a cluster of three nodes on this host, renders SCENE in 16 shards
+# by `exphoton cluster --submit`, kills one slurmd and one shard in the middle, and compares the
+# picture with that of one process. Ends with 77 (skipped) where Slurm or the rights are missing.
+# It listens on the loopback only and ends every process that it started.
+set -euo pipefail
+program=$(realpath "$1") scene=$(realpath "$2")
+
+skip() {
+  printf 'SKIPPED: %s\n' "$1"
+  exit 77
+}
+PATH=$PATH:/usr/sbin
+for tool in munged slurmctld slurmd sbatch; do
+  command -v "$tool" >/dev/null || skip "$tool is missing: apt-get install slurm-wlm munge"
+done
+[ "$(id -u)" = 0 ] || skip "slurmd needs the rights of root"
+case "$(slurmctld -V)" in slurm*) ;; *) skip "slurmctld does not start" ;; esac
+
+work=$(mktemp -d /tmp/exphoton-slurm.XXXXXX)
+chmod 755 "$work"
+processes=()
+cleanup() {
+  local status=$?
+  export SLURM_CONF=$work/slurm.conf
+  timeout 20 scancel --user=root >/dev/null 2>&1 || true
+  sleep 1
+  for process in "${processes[@]}"; do kill "$process" 2>/dev/null || true; done
+  sleep 1
+  for process in "${processes[@]}"; do kill -9 "$process" 2>/dev/null || true; done
+  # Steps outlive a slurmd that was killed. Only those of this cluster have its configuration.
+  for process in $(pgrep slurmstepd || true); do
+    if tr '\0' '\n' <"/proc/$process/environ" 2>/dev/null | grep -q "^SLURM_CONF=$work/"; then
+      kill -9 "$process" 2>/dev/null || true
+    fi
+  done
+  for process in $(pgrep -f -- "$work/" || true); do
+    [ "$process" = $$ ] || kill -9 "$process" 2>/dev/null || true
+  done
+  if [ $status != 0 ]; then
+    tail -n 20 "$work"/*.log "$work"/picture.exr.parts/logs/* 2>/dev/null || true
+  fi
+  rm -rf "$work"
+  exit $status
+}
+trap cleanup EXIT
+
+# Three free ports for the nodes and one for the controller.
+ports=($(python3 - <<'P'
+import socket
+sockets = [socket.socket() for _ in range(4)]
+for s in sockets: s.bind(("127.0.0.1", 0))
+print(*[s.getsockname()[1] for s in sockets])
+P
+))
+host=$(hostname -s)
+mkdir "$work/run" "$work/spool" "$work/state"
+dd if=/dev/urandom of="$work/munge.key" bs=1024 count=1 status=none
+chmod 600 "$work/munge.key"
+
+cat >"$work/slurm.conf" <<CONF
+ClusterName=test
+SlurmctldHost=$host(127.0.0.1)
+SlurmctldPort=${ports[3]}
+AuthType=auth/munge
+AuthInfo=socket=$work/munge.socket
+CryptoType=crypto/munge
+CredType=cred/munge
+SlurmUser=root
+SlurmdUser=root
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool/%n
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd-%n.pid
+SlurmctldLogFile=$work/slurmctld.log
+SlurmdLogFile=$work/slurmd-%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+MpiDefault=none
+ReturnToService=2
+SlurmdTimeout=10
+SlurmctldTimeout=30
+InactiveLimit=0
+KillWait=2
+MinJobAge=300
+SchedulerParameters=sched_interval=2
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+SlurmdParameters=config_overrides
+CONF
+for n in 0 1 2; do
+  echo "NodeName=n$n NodeHostname=$host NodeAddr=127.0.0.1 Port=${ports[n]} CPUs=1 State=UNKNOWN"
+done >>"$work/slurm.conf"
+echo "PartitionName=all Nodes=n[0-2] Default=YES MaxTime=INFINITE State=UP" >>"$work/slurm.conf"
+export SLURM_CONF=$work/slurm.conf
+
+munged -F --force --key-file="$work/munge.key" --socket="$work/munge.socket" \
+  --pid-file="$work/munge.pid" --log-file="$work/munge.log" --seed-file="$work/munge.seed" &
+processes+=($!)
+for _ in $(seq 100); do [ ! -S "$work/munge.socket" ] || break; sleep .1; done
+cd "$work/run"
+slurmctld -D -f "$work/slurm.conf" >"$work/slurmctld.out" 2>&1 &
+processes+=($!)
+for n in 0 1 2; do
+  mkdir -p "$work/spool/n$n"
+  slurmd -D -N "n$n" -f "$work/slurm.conf" >"$work/slurmd-n$n.out" 2>&1 &
+  processes+=($!)
+done
+# slurmd runs in the foreground, so these are the daemons themselves.
+node=${processes[3]}
+
+wait_for() {  # wait_for SECONDS WHAT COMMAND...
+  local seconds=$1 what=$2
+  shift 2
+  for _ in $(seq $((seconds * 5))); do
+    if "$@"; then return; fi
+    sleep .2
+  done
+  echo "FAILED: waited $seconds s until $what"
+  exit 1
+}
+all_idle() { [ "$(timeout 10 sinfo -h -N -t idle -o %N 2>/dev/null | wc -l)" = 3 ]; }
+wait_for 60 "three nodes are idle" all_idle
+
+options=(--reproducible --spp "${SPP:-64}" --resolution 96x96)
+"$program" "$scene" "${options[@]}" --quiet -o "$work/one.exr"
+
+"$program" cluster "$scene" --shards 16 -o "$work/picture.exr" --submit -- "${options[@]}"
+parts=$work/picture.exr.parts/parts
+some_parts() { [ "$(ls "$parts" | grep -c '\.state$')" -ge 2 ]; }
+wait_for 120 "two parts are rendered" some_parts
+
+# Ends one shard: a process whose command line names the folder of this cluster's parts.
+kill_a_shard() {
+  local process
+  process=$(pgrep -o -f -- "render .*--shard [0-9]+/16 -o $parts") && kill -9 "$process"
+}
+wait_for 60 "a shard runs" kill_a_shard
+kill -9 "$node"
+echo "killed a shard and the slurmd of node n1"
+
+has_picture() { [ -f "$work/picture.exr" ]; }
+wait_for 300 "the picture is merged" has_picture
+cmp "$work/one.exr" "$work/picture.exr"
+killed=$(cat "$work"/picture.exr.parts/logs/* | grep -c 'submitted shards' || true)
+[ "$killed" -ge 1 ] || { echo "FAILED: no shard was submitted again"; exit 1; }
+echo "the picture has the bytes of one process; shards were submitted again $killed times"
