@@ -19,8 +19,8 @@ struct Settings : PhotonSettings {
     photonRoulette = PhotonRoulette::Luminance;
     lightSelection = LightSelection::Power;
     photonTargeting = PhotonTargeting::Auto;
-    gatherPhotons = 200;
-    gatherAngle = 5;
+    gatherPhotons = 128;
+    gatherAngle = 6;
   }
 };
 

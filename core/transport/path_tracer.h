@@ -92,6 +92,9 @@ class PathTracer {
   static constexpr int kRouletteDepth = 4;    // vertices before Russian roulette begins
   static constexpr Real kMaxSurvival = Real(.98);
   static constexpr std::uint64_t kPathStream = 0x9a7;
+  // Branches of one camera sample. The limit matters only where surfaces reflect nearly all light,
+  // or more than they receive.
+  static constexpr int kMaxSplits = 64;
 
   struct VertexArrays {
     int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
@@ -157,6 +160,7 @@ Spectrum PathTracer::Radiance(const RayDifferential& ray, const Scattering& scat
   constexpr std::size_t kMaxBranches = Scattering::kMaxBranches;
   std::array<std::optional<State>, kMaxBranches> branches;
   std::size_t waiting = 0;
+  int splits = 0;
   Spectrum sum;
   const LobeSet lobes = Lobes(context.scene);
   RandomStream random = context.Stream(kPathStream);
@@ -185,7 +189,7 @@ Spectrum PathTracer::Radiance(const RayDifferential& ray, const Scattering& scat
     const ShadingPoint point =
         MakeShadingPoint(*hit, path.ray, path.depth, TransportMode::Radiance, &context.arena);
     const PathVertexVariates sample = MakeVariates(path, context, &random);
-    const bool maySplit = path.depth < maxDepth_ && waiting < kMaxBranches;
+    const bool maySplit = path.depth < maxDepth_ && waiting < kMaxBranches && splits < kMaxSplits;
     const auto vertex = scattering.At(point, maySplit, &path.weight, context);
     if (path.history.TakesDirect()) {
       const Spectrum direct = beta * DirectLight(point, vertex, sample, context);
@@ -199,8 +203,10 @@ Spectrum PathTracer::Radiance(const RayDifferential& ray, const Scattering& scat
       if (const auto direction = vertex.SampleBranch(sample, followed)) {
         State branch = path;
         branch.isBranch = true;
-        if (Continue(point, *direction, sample.branchRoulette, &branch))
+        if (Continue(point, *direction, sample.branchRoulette, &branch)) {
           branches[waiting++] = branch;
+          ++splits;
+        }
       }
     }
     const auto direction = vertex.Sample(sample, followed);

@@ -10,7 +10,7 @@ namespace {
 // The probability that a technique samples a direction lies between these bounds. The lower one
 // keeps the estimate unbiased, and limits the weight of a path where photons missed light. The
 // upper one is as in plain path tracing, and ends paths between surfaces that absorb nothing.
-constexpr Real kMinCount = Real(.2), kMaxCount = Real(.98);
+constexpr Real kMinCount = Real(.1), kMaxCount = Real(.98);
 constexpr int kLimitedDepth = 4;  // vertices before the upper bound begins
 // Number of paths that carry on the light of a camera sample where there is enough of it. More than
 // one, because then both techniques are sampled at the first vertices. The error at equal time
