@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // guidedpath: path tracing guided by photons. Preprocess shoots photons only to learn where light
 // comes from. At each vertex, one direction is sampled from the BSDF, one from the directions of
-// nearby photons, and one light (docs/theory/exphotonmap.md, section 7). No photon adds radiance,
+// nearby photons, and one light (docs/theory/other-integrators.md). No photon adds radiance,
 // so the estimate is unbiased for every path that `path` can find.
 #include "core/base/memory.h"
 #include "core/plugin.h"

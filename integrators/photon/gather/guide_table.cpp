@@ -5,6 +5,19 @@
 
 namespace exphoton {
 
+namespace {
+
+// Requests all cache lines of the cell at once. Reading them one after the other would wait for
+// each.
+const GuideCell* Fetched(const GuideCell& cell) {
+  constexpr std::size_t kCacheLine = 64 / sizeof(Real);
+  const Real* const rows = cell.X();
+  for (std::size_t i = 0; i < 4 * cell.RowLength(); i += kCacheLine) __builtin_prefetch(rows + i);
+  return &cell;
+}
+
+}  // namespace
+
 GuideTable::GuideTable(const GuideGrid& grid, std::size_t maxBytes)
     : grid_(grid), maxBytes_(maxBytes), slots_(kSlots) {}
 
@@ -31,7 +44,7 @@ const GuideCell* GuideTable::At(const Point3& p, Arena* scratch) {
       }
     }
     // Another thread may have filled the slot in the meantime, perhaps with this key.
-    if (found->key == key) return &found->cell;
+    if (found->key == key) return Fetched(found->cell);
   }
 }
 

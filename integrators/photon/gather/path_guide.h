@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PathGuide is the scattering policy of guided path tracing. At a vertex, one direction is sampled
 // from the BSDF and one from the guiding distribution of nearby photons. The photons also decide
-// how likely each of the two continues the path (docs/theory/exphotonmap.md, section 7). No photon
+// how likely each of the two continues the path (docs/theory/other-integrators.md). No photon
 // adds radiance: every direction that the BSDF samples keeps a positive density, so the estimate is
 // unbiased for any photons.
 #pragma once

@@ -72,7 +72,8 @@ TEST(GuideCache, HoldFewerPhotonsWhereThereAreFewer) {
   const PhotonMap map = LampMap(7);
   GuideCache cells(GuideGrid(map, kCount, kCone, kWidth));
   EXPECT_EQ(cells.At({0, 0, 0}).size(), 7u);
-  EXPECT_EQ(GuideCache(PhotonMap(), kCount, kCone, kWidth).At({0, 0, 0}).size(), 0u);
+  const PhotonMap none;
+  EXPECT_EQ(GuideCache(GuideGrid(none, kCount, kCone, kWidth)).At({0, 0, 0}).size(), 0u);
 }
 
 TEST(GuideCache, CountAllOthersWhereLightComesFromOneDirection) {
