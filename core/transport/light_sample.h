@@ -4,6 +4,7 @@
 // estimators of direct light share this code.
 #pragma once
 
+#include "core/math/sampling/mis.h"
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 
@@ -22,7 +23,24 @@ struct TechniqueCounts {
 };
 
 // Returns f L |cos| weight / (probability pdf) for `lobes` only. The BSDF samples must use the same
-// lobes. The caller divides by counts.light.
+// lobes. The caller divides by counts.light. density(wi, bsdfPdf) returns the density of the
+// direction samples, given the density of the BSDF.
+template <class Density>
+Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
+                         TechniqueCounts counts, LobeSet lobes, LiContext& context,
+                         const Density& density) {
+  const auto direct = sample.light->SampleDirect(point.surface, sample.place, sample.part);
+  if (!direct || direct->Li.IsBlack()) return {};
+  const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
+  const Spectrum f = point.bsdf.f(point.Wo(), direct->wi, lobes) * cosine;
+  if (f.IsBlack()) return {};
+  const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
+  const Real pdf = sample.probability * direct->pdf;
+  if (arriving.IsBlack() || sample.light->IsDelta()) return f * arriving / pdf;
+  const Real bsdfPdf = density(direct->wi, point.bsdf.Pdf(point.Wo(), direct->wi, lobes));
+  return f * arriving * (PowerHeuristic(counts.light, pdf, counts.bsdf, bsdfPdf) / pdf);
+}
+// The same for directions that are sampled by the BSDF alone.
 Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
                          TechniqueCounts counts, LobeSet lobes, LiContext& context);
 

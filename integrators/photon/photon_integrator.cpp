@@ -10,47 +10,14 @@
 #include "core/base/memory.h"
 #include "integrators/photon/gather/gather_ray.h"
 #include "integrators/photon/maps/rest_pose.h"
+#include "integrators/photon/photon_pass.h"
 #include "integrators/photon/photon_stats.h"
-#include "integrators/photon/shooting/visible_points.h"
 
 namespace exphoton {
 namespace {
 
 // The maps in the order of PhotonMapNames.
 constexpr std::array kListedMaps{PhotonKind::Indirect, PhotonKind::Direct, PhotonKind::Caustic};
-
-// Empty where photons of distant lights start towards the whole scene.
-DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scene& scene,
-                                      const PhotonTargets& targets, PreprocessContext& context) {
-  // A smaller gain in density does not make up for the less uniform photon weights.
-  constexpr double kWorthwhileGain = 4;
-  // On average at least this many photons of the smallest map start towards each bounding sphere.
-  // They are enough for many density estimates, so that the emission density hardly varies within
-  // one estimate.
-  constexpr double kMinPhotons = 2000;
-  const auto& lights = scene.Lights();
-  const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
-    return light->IsDistant() && !light->IsProvablyBlack();
-  });
-  if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
-  // Photons towards visible points are denser and weaker; rejection would undo both.
-  if (settings.photonRoulette == PhotonRoulette::Constant) {
-    if (settings.photonTargeting == PhotonTargeting::On)
-      context.log.Notice("photonaim has no effect with photonroulette \"constant\"");
-    return {};
-  }
-  DistantLightTargeting targeting(
-      VisiblePoints(scene, *context.camera, context.resolution, context.seed),
-      BoundingSphere(scene.WorldBounds()), kMinPhotons / double(targets.Least()));
-  const bool isWorthwhile = targeting.Gain() >= kWorthwhileGain;
-  if (settings.photonTargeting == PhotonTargeting::Off) {
-    if (isWorthwhile) NoticeMissingTargeting(targeting, context.log);
-    return {};
-  }
-  if (settings.photonTargeting == PhotonTargeting::Auto && !isWorthwhile) return {};
-  ReportTargeting(targeting, context);
-  return targeting;
-}
 
 }  // namespace
 
@@ -67,7 +34,7 @@ void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context
   const PhotonTargets targets = ChooseTargets(settings_, scene);
   if (BytesOf(targets) > PhysicalMemory()) FailByMemory(targets);
   try {
-    PhotonPassResult photons = ShootPhotons(scene, targets, context);
+    PhotonPassResult photons = ShootPhotons(scene, settings_, targets, context);
     BuildMaps(scene, &photons, context);
     if (targets.radianceFraction > 0) ComputeRadiancePhotons(scene, &photons, context);
   } catch (const std::bad_alloc&) {
@@ -76,27 +43,6 @@ void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context
     FailByMemory(targets);
   }
   ReportMaps(maps_, radianceMap_.get(), settings_, context);
-}
-
-PhotonPassResult PhotonIntegrator::ShootPhotons(const Scene& scene, const PhotonTargets& targets,
-                                                PreprocessContext& context) const {
-  PhotonPassResult photons;
-  {
-    const PhaseTimer timer(context.statistics, "shoot");
-    MediaPhotons media(scene, context.volume);
-    // Photons that start towards visible points would miss media beside them, which scatter light
-    // towards the camera.
-    DistantLightTargeting targeting = media.Scatter()
-                                          ? DistantLightTargeting()
-                                          : ChooseTargeting(settings_, scene, targets, context);
-    photons = PhotonTracer(scene, settings_, context.seed, std::move(targeting), std::move(media))
-                  .Shoot(targets, context);
-  }
-  context.CheckStop();
-  NoticeUnusedCaustics(targets, settings_, scene, context.log);
-  ReportPhotonPass(photons, targets, settings_, context);
-  ReportLights(photons, targets, scene, context);
-  return photons;
 }
 
 void PhotonIntegrator::BuildMaps(const Scene& scene, PhotonPassResult* photons,

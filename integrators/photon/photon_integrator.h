@@ -41,8 +41,6 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   static constexpr std::uint64_t kGatherRayStream = 0x726164ull;
 
   // The steps of Preprocess.
-  PhotonPassResult ShootPhotons(const Scene& scene, const PhotonTargets& targets,
-                                PreprocessContext& context) const;
   void BuildMaps(const Scene& scene, PhotonPassResult* photons, PreprocessContext& context);
   void ComputeRadiancePhotons(const Scene& scene, PhotonPassResult* photons,
                               PreprocessContext& context);

@@ -304,7 +304,7 @@ TEST_F(StudyTest, ThatComeWithTheScenesAreValid) {
   const std::string folder = std::string(EXPHOTON_SOURCE_DIR) + "/scenes/skylight-room/";
   const ProgramResult accuracy = Run({"study", folder + "accuracy.study", "--plan"});
   ASSERT_EQ(accuracy.status, 0) << accuracy.err;
-  for (const char* integrator : {"exphotonmap", "photonmap", "path", "directlighting",
+  for (const char* integrator : {"exphotonmap", "photonmap", "path", "directlighting", "guidedpath",
                                  "bidirectional", "igi", "irradiancecache"}) {
     int settings = 0;
     const std::string start = "\n" + std::string(integrator) + ": exphoton render";

@@ -102,8 +102,8 @@ void ExpectPicture(LoadedScene& scene) {
 TEST(LanguageTour, RendersWithEveryIntegrator) {
   Log log(Log::Level::Quiet, Log::Sink::Memory);
   for (const char* integrator :
-       {"whitted", "directlighting", "path", "bidirectional", "photonmap", "exphotonmap", "igi",
-        "irradiancecache", "ambientocclusion", "debug"}) {
+       {"whitted", "directlighting", "path", "guidedpath", "bidirectional", "photonmap",
+        "exphotonmap", "igi", "irradiancecache", "ambientocclusion", "debug"}) {
     SCOPED_TRACE(integrator);
     LoadOptions options;
     options.integrator = integrator;

@@ -60,7 +60,8 @@ TEST_P(PlanCondition, IsTrueOfThisScene) {
   all.load.effects = "all";
   for (const char* integrator :
        {"\"exphotonmap\"", "\"photonmap\"", "\"path\"", "\"directlighting\"", "\"whitted\"",
-        "\"bidirectional\"", "\"igi\"", "\"irradiancecache\" \"integer nsamples\" 16"}) {
+        "\"guidedpath\" \"integer indirectphotons\" 2000", "\"bidirectional\"", "\"igi\"",
+        "\"irradiancecache\" \"integer nsamples\" 16"}) {
     const std::string text = TextOf(GetParam(), integrator);
     EXPECT_EQ(RenderSceneText(text).image.pixels, RenderSceneText(text, all).image.pixels)
         << integrator;

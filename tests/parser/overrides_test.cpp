@@ -85,6 +85,7 @@ TEST(Overrides, KnowWhichParametersMeanTheSame) {
   for (const char* name : {"whitted", "directlighting", "photonmap"})
     EXPECT_TRUE(meansTheSame("maxdepth", "exphotonmap", name)) << name;
   EXPECT_TRUE(meansTheSame("maxdepth", "path", "bidirectional"));
+  EXPECT_TRUE(meansTheSame("maxdepth", "path", "guidedpath"));
   for (const char* name : {"whitted", "directlighting", "photonmap", "exphotonmap", "igi"})
     EXPECT_FALSE(meansTheSame("maxdepth", "path", name)) << name;
   EXPECT_FALSE(meansTheSame("maxdist", "exphotonmap", "ambientocclusion"));

@@ -26,7 +26,7 @@ TEST(RandomScenes, GiveNoMoreEnergyThanTheyGet) {
   ExpectNoFailure(run);
 }
 
-TEST(RandomScenes, LookTheSameToPathAndBothPhotonIntegrators) {
+TEST(RandomScenes, LookTheSameToPathTracersAndPhotonIntegrators) {
   SceneRun run({.maxStatisticalTries = 0});
   for (std::uint64_t seed = 1; seed <= 16; ++seed) run.CompareAgreement(seed);
   run.CompareAgreement(44);  // detects glossy lobes that radiance photons treat as diffuse

@@ -277,8 +277,8 @@ WorldEnd
 // A small lamp is visible only through a perfect mirror or a pane without refraction. Emission
 // after specular bounces must count once and in full.
 TEST(Emission, ThroughSpecularBouncesIsSeenInFull) {
-  for (const char* integrator :
-       {"whitted", "directlighting", "path", "bidirectional", "igi", "irradiancecache"}) {
+  for (const char* integrator : {"whitted", "directlighting", "path", "guidedpath", "bidirectional",
+                                 "igi", "irradiancecache"}) {
     const std::string scene =
         TestHeader("\"" + std::string(integrator) + "\"", 4, 4, 4) + R"(WorldBegin
 Material "glass" "float index" 1
@@ -296,8 +296,8 @@ WorldEnd
 }
 
 TEST(Scene, WithoutLightsIsBlackButOpaque) {
-  for (const char* integrator :
-       {"whitted", "directlighting", "path", "bidirectional", "igi", "irradiancecache"}) {
+  for (const char* integrator : {"whitted", "directlighting", "path", "guidedpath", "bidirectional",
+                                 "igi", "irradiancecache"}) {
     const auto render = RenderSceneText(
         TestHeader("\"" + std::string(integrator) + "\"", 4, 4, 4) +
         "WorldBegin\nTranslate 0 0 3\nShape \"sphere\" \"float radius\" 2.9\nWorldEnd\n");
@@ -307,8 +307,8 @@ TEST(Scene, WithoutLightsIsBlackButOpaque) {
 }
 
 TEST(Scene, ThatIsEmptyShowsItsSky) {
-  for (const char* integrator :
-       {"whitted", "directlighting", "path", "bidirectional", "igi", "irradiancecache"}) {
+  for (const char* integrator : {"whitted", "directlighting", "path", "guidedpath", "bidirectional",
+                                 "igi", "irradiancecache"}) {
     const auto render = RenderSceneText(TestHeader("\"" + std::string(integrator) + "\"", 4, 4, 4) +
                                         "WorldBegin\nLightSource \"infinite\" \"color L\" [2 2 2]\n"
                                         "LightSource \"distant\"\nWorldEnd\n");

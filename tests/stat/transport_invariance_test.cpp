@@ -30,6 +30,8 @@ std::string Integrator(const std::string& name) {
         " \"integer indirectphotons\" 500 \"integer causticphotons\" 200"
         " \"integer directphotons\" 500 \"integer maxphotonpaths\" 20000"
         " \"integer finalgathersamples\" 4";
+  if (name == "guidedpath")
+    text += " \"integer indirectphotons\" 500 \"integer maxphotonpaths\" 20000";
   if (name == "irradiancecache" || name == "ambientocclusion") text += " \"integer nsamples\" 16";
   return text;
 }
@@ -104,8 +106,8 @@ TEST_P(Transport, GivesTheSameBitsForAnyThreadsTilesAndCrop) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Transport,
-                         testing::Values("whitted", "directlighting", "path", "bidirectional",
-                                         "irradiancecache"),
+                         testing::Values("whitted", "directlighting", "path", "guidedpath",
+                                         "bidirectional", "irradiancecache"),
                          [](const auto& info) { return info.param; });
 
 class Features : public testing::TestWithParam<std::string> {};

@@ -10,10 +10,12 @@
 namespace exphoton::cli {
 namespace {
 
-// The integrators whose pixels are independent: each uses random numbers of its own pixel alone.
+// The integrators whose pixels are uncorrelated. Most use random numbers of their own pixel alone;
+// the pixels of guidedpath share photons, but the mean of a pixel is the same for any photons.
 // Photon maps, virtual lights and irradiance records are shared by all pixels.
-constexpr const char* kIndependentPixels[] = {"path",    "bidirectional",    "directlighting",
-                                              "whitted", "ambientocclusion", "debug"};
+constexpr const char* kIndependentPixels[] = {"path",           "guidedpath", "bidirectional",
+                                              "directlighting", "whitted",    "ambientocclusion",
+                                              "debug"};
 
 bool SharesNoise(const Image& image) {
   const auto found = image.attributes.find("integrator");

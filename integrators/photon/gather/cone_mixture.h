@@ -11,6 +11,7 @@ namespace exphoton {
 
 class ConeMixture {
  public:
+  ConeMixture() = default;  // no axes
   // The axes' arena must outlive this object.
   ConeMixture(const ConeDirections& axes, const Cone& cone) : axes_(axes), cone_(cone) {}
 

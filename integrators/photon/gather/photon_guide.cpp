@@ -3,6 +3,7 @@
 #include "integrators/photon/gather/photon_guide.h"
 
 #include "integrators/photon/gather/guide_cache.h"
+#include "integrators/photon/gather/guide_table.h"
 #include "integrators/photon/gather/reprojected_cell.h"
 #include "integrators/photon/maps/rest_pose.h"
 
@@ -20,7 +21,7 @@ struct SeenFrom {
 // BSDF rays find the other light as well; guided rays spent on it would be missing where light is
 // dense (Karlik et al. 2019, MIS Compensation: Optimizing Sampling Techniques in Multiple
 // Importance Sampling). A direction's own photon does not count.
-GuidedDirections WorthFollowing(const GuideCacheCell& cell, const SeenFrom& from, const Cone& cone,
+GuidedDirections WorthFollowing(const GuideCell& cell, const SeenFrom& from, const Cone& cone,
                                 Arena* arena) {
   const auto& [rest, p, side] = from;
   const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);
@@ -33,7 +34,8 @@ GuidedDirections WorthFollowing(const GuideCacheCell& cell, const SeenFrom& from
   if (rest.IsMoved())
     for (std::size_t i = 0; i < axes.size(); ++i) axes.Set(i, rest.DirectionBack(axes[i]));
   axes.Finish();
-  return {axes, Real(axes.size()) / Real(std::max(view.lit, 1))};
+  return {axes, Real(axes.size()) / Real(std::max(view.lit, 1)),
+          cell.IrradiancePerPhoton() * Real(view.lit)};
 }
 
 // LastGuide is the guide of the previous camera sample in the pixel, and its shading point.
@@ -70,15 +72,27 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
 
   const SeenFrom from{RestPose(point.surface), p, side};
   Arena& arena = context.pixelState ? context.pixelState->FreshArena() : context.arena;
-  const auto follow = [&](const GuideCacheCell& cell) {
+  const auto follow = [&](const GuideCell& cell) {
     const GuidedDirections directions = WorthFollowing(cell, from, cone_, &arena);
     if (last) *last = {directions, cell.Radius2(), p, side};
     return directions;
   };
   if (!context.threadState)
-    return follow(GuideCacheCell(map, from.rest.Point(p), count_, cone_, &context.arena));
-  GuideCache& cells = context.threadState->Get<GuideCache>(map, count_, cone_, cellWidth_);
-  return follow(cells.At(from.rest.Point(p)));
+    return follow(GuideCell(map, from.rest.Point(p), count_, cone_, &context.arena));
+  return follow(context.threadState->Get<GuideCache>(Grid(map)).At(from.rest.Point(p)));
+}
+
+GuidedDirections PhotonGuide::DirectionsIn(GuideTable* cells, const ShadingPoint& point,
+                                           LiContext& context) const {
+  const SeenFrom from{RestPose(point.surface), point.surface.p, LitSide(point)};
+  const Point3 p = from.rest.Point(from.p);
+  const auto follow = [&](const GuideCell& cell) {
+    return WorthFollowing(cell, from, cone_, &context.arena);
+  };
+  if (const GuideCell* cell = cells->At(p, &context.arena)) return follow(*cell);
+  const GuideGrid& grid = cells->Grid();
+  if (context.threadState) return follow(context.threadState->Get<GuideCache>(grid).At(p));
+  return follow(grid.MakeCell(grid.KeyOf(p), &context.arena));
 }
 
 }  // namespace exphoton

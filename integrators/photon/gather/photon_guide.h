@@ -9,13 +9,17 @@
 #include "core/transport/shading_point.h"
 #include "integrators/photon/gather/cone.h"
 #include "integrators/photon/gather/cone_directions.h"
+#include "integrators/photon/gather/guide_grid.h"
 #include "integrators/photon/maps/photon_map.h"
 
 namespace exphoton {
 
+class GuideTable;
+
 struct GuidedDirections {
   ConeDirections axes;  // in Hilbert order; empty: BSDF sampling does as well
   Real share = 0;       // selected share of the photons that light this side of the surface
+  Real irradiance = 0;  // luminance of the irradiance on this side, roughly, by all photons
 };
 
 class PhotonGuide {
@@ -29,6 +33,12 @@ class PhotonGuide {
   // The result is valid until the next call for this pixel.
   GuidedDirections Directions(const ShadingPoint& point, const PhotonMap& map,
                               LiContext& context) const;
+  // The same for a vertex of a path, with cells from a table. The result is valid until the arena
+  // of the context is rewound.
+  GuidedDirections DirectionsIn(GuideTable* cells, const ShadingPoint& point,
+                                LiContext& context) const;
+  // Returns the grid of the cells. Prepare must have been called.
+  GuideGrid Grid(const PhotonMap& map) const { return {map, count_, cone_, cellWidth_}; }
 
  private:
   int count_ = 0;

@@ -8,7 +8,7 @@
 
 #include "core/base/arena.h"
 #include "core/transport/shading_point.h"
-#include "integrators/photon/gather/guide_cache.h"
+#include "integrators/photon/gather/guide_grid.h"
 
 namespace exphoton {
 
@@ -35,11 +35,11 @@ struct ReprojectedCell {
 
   static constexpr Real kUnlit = Real(1e30);
 
-  ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side, Arena* arena);
+  ReprojectedCell(const GuideCell& cell, const Point3& p, const LitSide& side, Arena* arena);
 
   // A Kernel computes the arrays as seen from p, which is relative to cell.Center(). There is one
   // per SIMD target, for tests.
-  using Kernel = void (*)(const GuideCacheCell& cell, const Vector3& p, const LitSide& side,
+  using Kernel = void (*)(const GuideCell& cell, const Vector3& p, const LitSide& side,
                           ReprojectedCell* view);
   static std::span<const Kernel> Kernels();  // for this machine, widest last
 };

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace exphoton::HWY_NAMESPACE {
 
-void Reproject(const GuideCacheCell& cell, const Vector3& shadingPoint, const LitSide& side,
+void Reproject(const GuideCell& cell, const Vector3& shadingPoint, const LitSide& side,
                ReprojectedCell* view) {
   // Avoids 0 / 0 for a photon whose origin is the shading point. It is too small to change others.
   constexpr Real kTiny = Real(2e-19);
@@ -54,7 +54,7 @@ std::span<const ReprojectedCell::Kernel> ReprojectedCell::Kernels() {
   return {kAll, UsableSimdTargets()};
 }
 
-ReprojectedCell::ReprojectedCell(const GuideCacheCell& cell, const Point3& p, const LitSide& side,
+ReprojectedCell::ReprojectedCell(const GuideCell& cell, const Point3& p, const LitSide& side,
                                  Arena* arena)
     : x(arena->AllocateArray<Real>(4 * cell.RowLength())),
       y(x + cell.RowLength()),

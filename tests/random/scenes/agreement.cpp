@@ -55,6 +55,7 @@ struct Method {
   std::uint64_t seed;  // added to the comparison's seed
 };
 constexpr Method kPath{"\"path\" \"integer maxdepth\" 60", 32, 1, 0};
+constexpr Method kGuidedPath{"\"guidedpath\" \"integer maxdepth\" 60", 16, 1, 3};
 constexpr Method kPhotonMap{
     "\"photonmap\" \"integer maxdepth\" 24 \"string lightselection\" \"power\"", 4, 4, 2};
 constexpr Method kDensityEstimates{
@@ -149,6 +150,17 @@ void CompareMeans(const std::string& what, const Means& a, const Means& b,
   }
 }
 
+// Neither method is biased, so there is no margin. A block need not be compared with the picture.
+void CompareUnbiased(const std::string& what, const Means& a, const Means& b,
+                     std::vector<Comparison>* comparisons) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
+    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
+                            PValueBeyond(left, right, 0), left.mean - right.mean,
+                            Describe(left, right)});
+  }
+}
+
 // The same seeds give the same photons and gather rays, so differences of pairs have less noise
 // than differences of means.
 void ComparePairs(const std::string& what, const Means& a, const Means& b,
@@ -234,6 +246,7 @@ std::vector<Comparison> IntegratorComparison::Compare(const std::string& only) {
       add(what, rendered_->Of(a), rendered_->Of(b), &comparisons);
   };
   if (only.empty() && !(SampleOf(rendered_->Of(kPath)[0]).mean > kDark)) return comparisons;
+  compare("guidedpath against path", kGuidedPath, kPath, CompareUnbiased);
   compare("exphotonmap against path", kExPhotonMap, kPath, CompareMeans);
   if (HasNarrowLobe(rendered_->scene)) return comparisons;
   compare("exphotonmap against its density estimates", kExPhotonMap, kDensityEstimates,

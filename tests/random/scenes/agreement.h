@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// IntegratorComparison and CompareWithEnergy test properties of means: path, photonmap and
-// exphotonmap agree, and no picture is brighter than its scene's energy allows. Each function
+// IntegratorComparison and CompareWithEnergy test properties of means: path, guidedpath, photonmap
+// and exphotonmap agree, and no picture is brighter than its scene's energy allows. Each function
 // returns one-sided p-values, which are judged over a whole run (run.h). A single p-value is not a
 // verdict.
 #pragma once

@@ -25,6 +25,7 @@ const std::vector<std::string> kIntegrators{
     "\"path\" \"integer maxdepth\" 20",
     "\"directlighting\" \"string strategy\" \"near\"",
     "\"exphotonmap\" \"integer directlights\" 1",
+    "\"guidedpath\"",
 };
 
 }  // namespace exphoton::random_scenes

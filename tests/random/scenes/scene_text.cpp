@@ -243,6 +243,9 @@ std::string IntegratorText(const SceneModel& scene, const TextOptions& options) 
     add("maxphotonpaths", options.maxPhotonPaths);
     add("finalgathersamples", options.gatherRays);
   }
+  if (text.find("guidedpath") != std::string::npos)
+    text += " \"integer indirectphotons\" " + std::to_string(options.photons) +
+            " \"integer maxphotonpaths\" " + std::to_string(options.maxPhotonPaths);
   if (scene.volumeIntegrator == 0) return text + "\n";
   return text + "\nVolumeIntegrator " +
          (scene.volumeIntegrator == 1 ? "\"emission\"" : "\"single\"") + " \"float stepsize\" .5\n";

@@ -268,8 +268,9 @@ TEST(SurfaceAovs, HaveThePhotonDensityOfADiskUnderParallelLight) {
 
 // A mirror covers what is behind it, whatever it shows.
 TEST(Alpha, OfAMirrorThatShowsNothingIsOne) {
-  for (const char* integrator : {"\"whitted\"", "\"directlighting\"", "\"path\"", "\"exphotonmap\"",
-                                 "\"bidirectional\"", "\"igi\"", "\"irradiancecache\""}) {
+  for (const char* integrator :
+       {"\"whitted\"", "\"directlighting\"", "\"path\"", "\"exphotonmap\"", "\"guidedpath\"",
+        "\"bidirectional\"", "\"igi\"", "\"irradiancecache\""}) {
     const Image image =
         RenderSceneText(TestHeader(integrator, 5, 5, 4) +
                         "WorldBegin LightSource \"point\" \"point from\" [0 0 9]\nMaterial "

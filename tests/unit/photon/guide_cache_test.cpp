@@ -39,7 +39,7 @@ PhotonMap LampMap(int count = 1000) {
   return PhotonMap(std::move(buffer), threads);
 }
 
-std::vector<Real> Content(const GuideCacheCell& cell) {
+std::vector<Real> Content(const GuideCell& cell) {
   std::vector<Real> content(cell.X(), cell.X() + 4 * cell.size());
   for (const Real x : {cell.Center().x, cell.Center().y, cell.Center().z}) content.push_back(x);
   return content;
@@ -52,17 +52,17 @@ TEST(GuideCache, SayTheSameWhicheverWasAskedBefore) {
   for (int i = 0; i < 3000; ++i)  // more cells than the cache can store
     points.emplace_back(2 * random.Uniform() - Real(.5), 2 * random.Uniform() - Real(.5),
                         2 * random.Uniform() - 1);
-  GuideCache cells(map, kCount, kCone, kWidth / 2);
+  GuideCache cells(GuideGrid(map, kCount, kCone, kWidth / 2));
   for (const Point3& p : points) {
-    GuideCache fresh(map, kCount, kCone, kWidth / 2);
+    GuideCache fresh(GuideGrid(map, kCount, kCone, kWidth / 2));
     ASSERT_EQ(Content(cells.At(p)), Content(fresh.At(p)));
   }
 }
 
 TEST(GuideCache, AreSharedByThePointsInThem) {
   const PhotonMap map = LampMap();
-  GuideCache cells(map, kCount, kCone, kWidth);
-  const GuideCacheCell* const cell = &cells.At({Real(.51), Real(.51), Real(.01)});
+  GuideCache cells(GuideGrid(map, kCount, kCone, kWidth));
+  const GuideCell* const cell = &cells.At({Real(.51), Real(.51), Real(.01)});
   EXPECT_EQ(cell, &cells.At({Real(.74), Real(.74), Real(.2)}));
   EXPECT_NEAR(cell->Center().x, .625, 1e-6);
   EXPECT_NEAR(cell->Center().z, .125, 1e-6);
@@ -70,15 +70,16 @@ TEST(GuideCache, AreSharedByThePointsInThem) {
 
 TEST(GuideCache, HoldFewerPhotonsWhereThereAreFewer) {
   const PhotonMap map = LampMap(7);
-  GuideCache cells(map, kCount, kCone, kWidth);
+  GuideCache cells(GuideGrid(map, kCount, kCone, kWidth));
   EXPECT_EQ(cells.At({0, 0, 0}).size(), 7u);
-  EXPECT_EQ(GuideCache(PhotonMap(), kCount, kCone, kWidth).At({0, 0, 0}).size(), 0u);
+  const PhotonMap none;
+  EXPECT_EQ(GuideCache(GuideGrid(none, kCount, kCone, kWidth)).At({0, 0, 0}).size(), 0u);
 }
 
 TEST(GuideCache, CountAllOthersWhereLightComesFromOneDirection) {
   const PhotonMap map = LampMap();
-  GuideCache cells(map, kCount, Cone(Radians(45)), kWidth);
-  const GuideCacheCell& cell = cells.At({Real(.5), Real(.5), 0});
+  GuideCache cells(GuideGrid(map, kCount, Cone(Radians(45)), kWidth));
+  const GuideCell& cell = cells.At({Real(.5), Real(.5), 0});
   for (std::size_t i = 0; i < cell.size(); ++i)
     EXPECT_NEAR(Others(cell.DenserThan()[i]), kCount - 1, 1e-3);
 }
@@ -86,8 +87,8 @@ TEST(GuideCache, CountAllOthersWhereLightComesFromOneDirection) {
 TEST(GuideCache, OfVeryManyPhotonsEstimateHowManyComeFromThere) {
   constexpr int kMany = 5000;
   const PhotonMap map = LampMap(kMany);
-  GuideCache cells(map, kMany, Cone(Radians(90)), 4);
-  const GuideCacheCell& cell = cells.At({Real(.5), Real(.5), Real(.1)});
+  GuideCache cells(GuideGrid(map, kMany, Cone(Radians(90)), 4));
+  const GuideCell& cell = cells.At({Real(.5), Real(.5), Real(.1)});
   ASSERT_EQ(cell.size(), std::size_t(kMany));
   for (std::size_t i = 0; i < cell.size(); ++i)
     EXPECT_NEAR(Others(cell.DenserThan()[i]), kMany, 10);
@@ -97,11 +98,11 @@ TEST(GuideCache, OfVeryManyPhotonsEstimateHowManyComeFromThere) {
 // direction to the lamp.
 TEST(ReprojectedCell, PointsToTheLampFromAnywhereInTheCell) {
   const PhotonMap map = LampMap();
-  GuideCache cells(map, kCount, kCone, kWidth);
+  GuideCache cells(GuideGrid(map, kCount, kCone, kWidth));
   Arena arena;
   const LitSide up({0, 0, 1}, {0, 0, 1}, false);
   for (const Point3& p : {Point3(Real(.51), Real(.51), 0), Point3(Real(.74), Real(.6), 0)}) {
-    const GuideCacheCell& cell = cells.At(p);
+    const GuideCell& cell = cells.At(p);
     const ReprojectedCell view(cell, p, up, &arena);
     EXPECT_EQ(view.lit, kCount);
     const Vector3 lamp = Normalize(kLamp - p);
@@ -116,10 +117,10 @@ TEST(ReprojectedCell, PointsToTheLampFromAnywhereInTheCell) {
 
 TEST(ReprojectedCell, CountsLightFromBelowForSurfacesThatTransmitOnly) {
   const PhotonMap map = LampMap();
-  GuideCache cells(map, kCount, kCone, kWidth);
+  GuideCache cells(GuideGrid(map, kCount, kCone, kWidth));
   Arena arena;
   const Point3 p(Real(.6), Real(.6), 0);
-  const GuideCacheCell& cell = cells.At(p);
+  const GuideCell& cell = cells.At(p);
   const ReprojectedCell below(cell, p, LitSide({0, 0, -1}, {0, 0, -1}, false), &arena);
   EXPECT_EQ(below.lit, 0);
   for (std::size_t i = 0; i < cell.size(); ++i) EXPECT_GT(below.cosine[i], ReprojectedCell::kUnlit);
@@ -130,8 +131,8 @@ TEST(ReprojectedCell, IsTheSameWithEveryWidthOfVectors) {
   const PhotonMap map = LampMap();
   const Point3 p(Real(.6), Real(.7), 0);
   for (int count = 1; count < 40; ++count) {
-    GuideCache cells(map, count, kCone, kWidth);
-    const GuideCacheCell& cell = cells.At(p);
+    GuideCache cells(GuideGrid(map, count, kCone, kWidth));
+    const GuideCell& cell = cells.At(p);
     Arena arena;
     const LitSide side(Normalize(Normal3(1, 0, Real(.3))), Normalize(Normal3(1, 1, 0)), false);
     ReprojectedCell first(cell, p, side, &arena), other(cell, p, side, &arena);
@@ -152,7 +153,7 @@ TEST(ReprojectedCell, HasUnitDirectionsFromWhereThePhotonsComeFrom) {
   ThreadPool threads(1);
   const PhotonMap map(std::move(buffer), threads);
   Arena scratch;
-  const GuideCacheCell cell(map, {0, 0, 0}, 1, kCone, &scratch);
+  const GuideCell cell(map, {0, 0, 0}, 1, kCone, &scratch);
   const Point3 origin = Point3() + Vector3(cell.X()[0], cell.Y()[0], cell.Z()[0]);
   const ReprojectedCell view(cell, origin, LitSide({0, 0, 1}, {0, 0, 1}, true), &scratch);
   EXPECT_NEAR(Length(Vector3(view.x[0], view.y[0], view.z[0])), 1, 1e-6);

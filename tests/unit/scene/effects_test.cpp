@@ -196,6 +196,7 @@ TEST(RequiredFeatures, LeaveOutWhatTheIntegratorDoesNotCompute) {
       {"\"photonmap\" \"bool finalgather\" \"false\" \"integer indirectphotons\" 0",
        "indirect transmission glossy"},
       {"\"path\"", "transmission glossy"},
+      {"\"guidedpath\"", "transmission glossy"},
       {"\"bidirectional\"", "transmission glossy"},
       {"\"irradiancecache\"", "transmission glossy"},
       {"\"irradiancecache\" \"integer maxindirectdepth\" 0", direct.c_str()},

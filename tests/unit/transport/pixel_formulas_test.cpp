@@ -26,7 +26,7 @@ TEST(PixelFormulas, DirectLightHasTheCosineOfTheShadingNormal) {
       "Shape \"trianglemesh\" \"integer indices\" [0 2 1]\n"
       "\"point P\" [-90 -90 4 90 -90 4 0 90 4] \"normal N\" [.6 0 -.8 .6 0 -.8 .6 0 -.8]\n"
       "WorldEnd\n";
-  for (const char* integrator : {"\"whitted\"", "\"directlighting\"", "\"path\"",
+  for (const char* integrator : {"\"whitted\"", "\"directlighting\"", "\"path\"", "\"guidedpath\"",
                                  "\"bidirectional\"", "\"igi\"", "\"irradiancecache\""})
     EXPECT_NEAR(Pixel(integrator, "", world), 3 * .5 / 3.14159265 * .8, 1e-5) << integrator;
 }

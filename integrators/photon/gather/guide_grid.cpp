@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GuideCache is direct-mapped: a miss runs one k-NN query and overwrites the slot.
-#include "integrators/photon/gather/guide_cache.h"
+// GuideGrid makes a cell by one k-NN query.
+#include "integrators/photon/gather/guide_grid.h"
 
 #include <bit>
 #include <cmath>
@@ -43,8 +43,8 @@ std::uint64_t Bits(Real x) { return std::bit_cast<std::uint64_t>(double(x)); }
 
 }  // namespace
 
-GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& center, int count,
-                               const Cone& cone, Arena* scratch)
+GuideCell::GuideCell(const PhotonMap& map, const Point3& center, int count, const Cone& cone,
+                     Arena* scratch)
     : center_(center) {
   const Arena::Mark mark = scratch->GetMark();
   const NearPoints near = map.Nearest(center, count, scratch);
@@ -59,29 +59,28 @@ GuideCacheCell::GuideCacheCell(const PhotonMap& map, const Point3& center, int c
   Real *const x = rows_.data(), *const y = x + room, *const z = y + room;
   Real* const denserThan = z + room;
   ConeDirections axes(near.size(), scratch);
+  Spectrum power;
   std::size_t i = 0;
   for (const std::uint32_t photon : HilbertOrder(map, near.index, scratch)) {
     const Vector3 origin = Shortened(map.Origin(photon) - center);
     x[i] = origin.x, y[i] = origin.y, z[i] = origin.z;
+    power += map.Alpha(photon);
     axes.Add(NormalizeOr(origin, map.Direction(photon)));
     ++i;
   }
   axes.Finish();
   CompareWithOthers(axes, cone, scratch, denserThan);
+  const Real area = kPi * radius2_ * Real(map.Paths());
+  irradiance_ = area > 0 ? power.Y() / (area * Real(count_)) : Real(0);
   scratch->Rewind(mark);
 }
 
-const GuideCacheCell& GuideCache::At(const Point3& p) {
-  const Key key{std::floor(p.x / width_), std::floor(p.y / width_), std::floor(p.z / width_)};
-  Slot& slot = slots_[HashKey({Bits(key.x), Bits(key.y), Bits(key.z)}) % kSlots];
-  if (!slot.isUsed || !(slot.key == key)) {
-    const Vector3 half(Real(.5), Real(.5), Real(.5));
-    const Point3 center = Point3() + (Vector3(key.x, key.y, key.z) + half) * width_;
-    slot.cell = GuideCacheCell(map_, center, count_, cone_, &scratch_);
-    slot.key = key;
-    slot.isUsed = true;
-  }
-  return slot.cell;
+std::uint64_t GuideGrid::Key::Hash() const { return HashKey({Bits(x), Bits(y), Bits(z)}); }
+
+GuideCell GuideGrid::MakeCell(const Key& key, Arena* scratch) const {
+  const Vector3 half(Real(.5), Real(.5), Real(.5));
+  const Point3 center = Point3() + (Vector3(key.x, key.y, key.z) + half) * width_;
+  return GuideCell(map_, center, count_, cone_, scratch);
 }
 
 }  // namespace exphoton

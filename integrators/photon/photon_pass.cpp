@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ShootPhotons: chooses where photons of distant lights start, traces all photons, and reports.
+#include "integrators/photon/photon_pass.h"
+
+#include <algorithm>
+
+#include "integrators/photon/photon_stats.h"
+#include "integrators/photon/shooting/visible_points.h"
+
+namespace exphoton {
+namespace {
+
+// Empty where photons of distant lights start towards the whole scene.
+DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scene& scene,
+                                      const PhotonTargets& targets, PreprocessContext& context) {
+  // A smaller gain in density does not make up for the less uniform photon weights.
+  constexpr double kWorthwhileGain = 4;
+  // On average at least this many photons of the smallest map start towards each bounding sphere.
+  // They are enough for many density estimates, so that the emission density hardly varies within
+  // one estimate.
+  constexpr double kMinPhotons = 2000;
+  const auto& lights = scene.Lights();
+  const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
+    return light->IsDistant() && !light->IsProvablyBlack();
+  });
+  if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
+  // Photons towards visible points are denser and weaker; rejection would undo both.
+  if (settings.photonRoulette == PhotonRoulette::Constant) {
+    if (settings.photonTargeting == PhotonTargeting::On)
+      context.log.Notice("photonaim has no effect with photonroulette \"constant\"");
+    return {};
+  }
+  DistantLightTargeting targeting(
+      VisiblePoints(scene, *context.camera, context.resolution, context.seed),
+      BoundingSphere(scene.WorldBounds()), kMinPhotons / double(targets.Least()));
+  const bool isWorthwhile = targeting.Gain() >= kWorthwhileGain;
+  if (settings.photonTargeting == PhotonTargeting::Off) {
+    if (isWorthwhile) NoticeMissingTargeting(targeting, context.log);
+    return {};
+  }
+  if (settings.photonTargeting == PhotonTargeting::Auto && !isWorthwhile) return {};
+  ReportTargeting(targeting, context);
+  return targeting;
+}
+
+}  // namespace
+
+PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings,
+                              const PhotonTargets& targets, PreprocessContext& context) {
+  PhotonPassResult photons;
+  {
+    const PhaseTimer timer(context.statistics, "shoot");
+    MediaPhotons media(scene, context.volume);
+    // Photons that start towards visible points would miss media beside them, which scatter light
+    // towards the camera.
+    DistantLightTargeting targeting = media.Scatter()
+                                          ? DistantLightTargeting()
+                                          : ChooseTargeting(settings, scene, targets, context);
+    photons = PhotonTracer(scene, settings, context.seed, std::move(targeting), std::move(media))
+                  .Shoot(targets, context);
+  }
+  context.CheckStop();
+  NoticeUnusedCaustics(targets, settings, scene, context.log);
+  ReportPhotonPass(photons, targets, settings, context);
+  ReportLights(photons, targets, scene, context);
+  return photons;
+}
+
+}  // namespace exphoton

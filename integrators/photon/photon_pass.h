@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ShootPhotons is the photon pass of all integrators that use photons.
+#pragma once
+
+#include "core/transport/integrator.h"
+#include "integrators/photon/photon_settings.h"
+#include "integrators/photon/shooting/photon_tracer.h"
+
+namespace exphoton {
+
+// Shoots until the maps hold the target counts, and reports what was shot and stored.
+PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings,
+                              const PhotonTargets& targets, PreprocessContext& context);
+
+}  // namespace exphoton
