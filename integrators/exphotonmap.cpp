@@ -2,9 +2,9 @@
 // exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. It is photonmap
 // with six improvements switched on: photons of nearly constant weight, precomputed radiance, a
 // final gather that is guided by photons, a smooth kernel, lights chosen by power, and gathers that
-// neighbouring pixels share. Two more defaults differ: roulette of paths begins earlier, and
-// photons are aimed at what can be seen. docs/theory/exphotonmap.md derives it;
-// integrators/photon/photon_integrator.h is the algorithm.
+// neighbouring pixels share. Three more defaults differ: roulette of paths begins earlier, photons
+// are aimed at what can be seen, and their emission is guided. docs/theory/exphotonmap.md derives
+// it; integrators/photon/photon_integrator.h is the algorithm.
 #include "core/plugin.h"
 #include "integrators/photon/photon_integrator.h"
 
@@ -20,9 +20,10 @@ struct Settings : PhotonSettings {
     kernel = DensityKernel::Simpson;
     lightSelection = LightSelection::Power;
     sharedGather = true;
-    // The other two defaults
+    // The other three defaults
     rrThreshold = Real(.05);
     photonTargeting = PhotonTargeting::Auto;
+    guideEmission = true;
   }
 };
 

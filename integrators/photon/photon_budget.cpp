@@ -29,6 +29,17 @@ std::string GatherText(const PhotonSettings& settings, const Scene& scene,
   return rays + "up to half of them round photons' directions";
 }
 
+std::string EmissionText(const PhotonSettings& settings, const PhotonTargets& targets) {
+  if (!settings.guideEmission) return "not guided (guideemission false)";
+  if (settings.photonRoulette == PhotonRoulette::Constant)
+    return "not guided (photonroulette \"constant\")";
+  std::string maps;
+  if (targets[PhotonKind::Caustic] > 0) maps = "caustic";
+  if (targets[PhotonKind::Indirect] > 0) maps += maps.empty() ? "indirect" : " and indirect";
+  if (maps.empty()) return "not guided (no caustic or indirect photons)";
+  return "guided for " + maps + " photons, if few paths leave any";
+}
+
 }  // namespace
 
 bool GathersIndirectLight(const PhotonSettings& settings, const Scene& scene) {
@@ -87,7 +98,8 @@ std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Sce
   const auto mebibytes = std::to_string(std::int64_t(BytesOf(targets) / (1 << 20)) + 1);
   return {"photons       " + (photons.empty() ? "none" : photons),
           "gather        " + GatherText(settings, scene, targets),
-          "memory        about " + mebibytes + " MiB for the photon maps"};
+          "memory        about " + mebibytes + " MiB for the photon maps",
+          "emission      " + EmissionText(settings, targets)};
 }
 
 }  // namespace exphoton

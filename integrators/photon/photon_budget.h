@@ -26,7 +26,7 @@ double BytesOf(const PhotonTargets& targets);
 // Throws an Error of status Resource that names the targets and the memory limit.
 [[noreturn]] void FailByMemory(const PhotonTargets& targets);
 
-// Returns one line each on photons, final gather and memory, for `exphoton explain`.
+// Returns one line each on photons, final gather, memory and emission, for `exphoton explain`.
 std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Scene& scene);
 
 }  // namespace exphoton

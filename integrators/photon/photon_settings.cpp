@@ -91,6 +91,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .OneOf({{"auto", PhotonTargeting::Auto},
                   {"on", PhotonTargeting::On},
                   {"off", PhotonTargeting::Off}}),
+      Param("guideemission", &S::guideEmission,
+            "photons start where earlier ones reached the caustic or the indirect map, if few do"),
       Param("show", &S::show, "shows one map directly, for inspection")
           .OneOf({{"", ShowMap::Nothing},
                   {"radiancephotons", ShowMap::Radiance},

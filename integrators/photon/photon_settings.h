@@ -55,6 +55,7 @@ struct PhotonSettings {
   PhotonTargeting photonTargeting = PhotonTargeting::Off;
   ShowMap show = ShowMap::Nothing;
   bool sharedGather = false;
+  bool guideEmission = false;
   bool directWithPhotons = false;  // direct light from the direct map; a parameter of photonmap
 
   std::int64_t CausticPhotons() const { return causticPhotons.value_or(20000); }

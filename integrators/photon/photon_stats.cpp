@@ -58,6 +58,26 @@ void NoticeUnstoredLights(const PhotonPassResult& result, const PhotonTargets& t
     log.Notice(Text(found - kMaxLightNotices, " more lights shot photons and none was stored"));
 }
 
+void ReportPaths(const PhotonPassResult& result, PreprocessContext& context) {
+  context.statistics.AddToCounter("photons/shot", double(result.paths),
+                                  "paths that left the lights");
+  if (result.skipped > 0)
+    context.statistics.AddToCounter(
+        "photons/skipped", double(result.skipped),
+        "of these, paths for caustics only that were not traced because "
+        "they miss all specular surfaces");
+  if (result.guidedPaths > 0)
+    context.statistics.AddToCounter("photons/guided", double(result.guidedPaths),
+                                    "of these, paths whose emission was guided");
+  if (result.trainingPaths > 0)
+    context.statistics.AddToCounter("photons/training", double(result.trainingPaths),
+                                    "of these, paths that only trained the guide");
+  const std::int64_t unguided = result.paths - result.guidedPaths;
+  if (unguided > 0)
+    context.statistics.SetCounter("photons/emitted power", result.emittedPower / double(unguided),
+                                  "luminance of the power that the lights emit, as shot");
+}
+
 }  // namespace
 
 void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
@@ -101,17 +121,7 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
       context.log.Notice(Text(name, " map: ", buffer.photons.Size(), " of ", targets[kind],
                               " photons after ", buffer.paths, " paths"));
   }
-  context.statistics.AddToCounter("photons/shot", double(result.paths),
-                                  "paths that left the lights");
-  if (result.skipped > 0)
-    context.statistics.AddToCounter(
-        "photons/skipped", double(result.skipped),
-        "of these, paths for caustics only that were not traced because "
-        "they miss all specular surfaces");
-  if (result.paths > 0)
-    context.statistics.SetCounter("photons/emitted power",
-                                  result.emittedPower / double(result.paths),
-                                  "luminance of the power that the lights emit, as shot");
+  ReportPaths(result, context);
   if (settings.photonRoulette == PhotonRoulette::Constant) {
     context.statistics.AddToCounter(
         "photons/candidates", double(result.candidates),

@@ -11,8 +11,8 @@ namespace exphoton {
 
 inline PhotonPassResult ShootPhotons(const Scene& scene, std::uint64_t seed,
                                      const PhotonTargets& targets,
-                                     const PhotonSettings& settings = {}) {
-  ThreadPool threads(1);
+                                     const PhotonSettings& settings = {}, int threadCount = 1) {
+  ThreadPool threads(threadCount);
   Log log(Log::Level::Normal, Log::Sink::Memory);
   ProgressReporter progress(ProgressReporter::Mode::Quiet);
   Statistics statistics;

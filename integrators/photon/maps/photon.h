@@ -71,6 +71,7 @@ struct PhotonBlock : PointBlock {
 struct PhotonBuffer {
   BlockStore<PhotonBlock> photons;
   std::int64_t paths = 0;
+  bool isGuided = false;      // photons are denser and lighter where a guide sent them
   Real farthest = Real(1e9);  // scene units; Photon::distance is a fraction of this
 
   PhotonBuffer() = default;

@@ -24,6 +24,7 @@ PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, const PhotonBuffer& buffer, Th
     : tree_(std::move(tree)),
       spacing2_(MeasureSpacing2(tree_.View(), threads)),
       paths_(buffer.paths),
+      isGuided_(buffer.isGuided),
       farthest_(buffer.farthest) {
   if (IsEmpty()) return;
   const Bounds3 bounds = tree_.Bounds();
@@ -86,9 +87,15 @@ Real PhotonMap::TypicalRadius(int k, Arena* arena) const {
   constexpr std::size_t kSamples = 256;
   constexpr double kQuantile = .9;
   if (IsEmpty()) return 0;
-  std::vector<Real> radii;
+  constexpr Real kHeavy = 4;  // in units of the median luminance
   const std::size_t step = std::max<std::size_t>(1, Size() / kSamples);
+  std::vector<Real> luminances, radii;
+  for (std::size_t i = 0; isGuided_ && i < Size(); i += step)
+    luminances.push_back(Alpha(std::uint32_t(i)).Y());
+  const auto median = luminances.begin() + std::ptrdiff_t(luminances.size() / 2);
+  std::nth_element(luminances.begin(), median, luminances.end());
   for (std::size_t i = 0; i < Size(); i += step) {
+    if (isGuided_ && Alpha(std::uint32_t(i)).Y() > kHeavy * *median) continue;
     const Arena::Mark mark = arena->GetMark();
     // Query k + 1 photons, because the photon itself is found at distance 0.
     const NearPoints near = Nearest(Position(std::uint32_t(i)), k + 1, arena);

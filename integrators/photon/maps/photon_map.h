@@ -87,7 +87,8 @@ class PhotonMap {
   NearPoints Nearest(const Point3& p, int k, Arena* arena) const;
 
   // Returns the distance within which 90 % of the photons have k neighbours, estimated from a fixed
-  // sample of the photons. 0 for an empty map.
+  // sample of the photons. 0 for an empty map. In a guided map, photons much heavier than most are
+  // left out: they lie where the guide expected none.
   Real TypicalRadius(int k, Arena* arena) const;
 
  private:
@@ -100,6 +101,7 @@ class PhotonMap {
   PointTree<PhotonBlock> tree_;
   std::vector<Real> spacing2_;  // local squared spacing; speeds up searches
   std::int64_t paths_ = 0;
+  bool isGuided_ = false;
   Real farthest_ = 0;
   Real minRadius_ = 0;  // rounding error of the positions
 };

@@ -40,6 +40,7 @@ void Copy(const std::vector<Record>& records, std::size_t first, RecordStore<Rec
 void PhotonChunk::Clear() {
   for (auto& ofMap : photons) ofMap.clear();
   sites.clear();
+  samples.clear();
   emittedPower = cutPower = 0;
   dropped = diverging = skipped = candidates = beyondBound = 0;
   firstDropped = -1;

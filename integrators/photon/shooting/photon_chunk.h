@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "integrators/photon/shooting/emission/emission_training.h"
 #include "integrators/photon/shooting/photon_tracer.h"
 
 namespace exphoton {
@@ -16,6 +17,7 @@ namespace exphoton {
 struct alignas(128) PhotonChunk {
   std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
   std::vector<RadiancePhotonSite> sites;
+  std::vector<EmissionSample> samples;  // one for each path from a light, if paths are recorded
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; path index of the first one
   std::int64_t diverging = 0, skipped = 0;

@@ -20,13 +20,21 @@ constexpr int kMaxBranches = 1 << 14;
 
 }  // namespace
 
+EmissionNumbers PhotonTracer::Path::DrawEmissionNumbers() {
+  const Point2 light = samples_.Next2D(), position = samples_.Next2D();
+  const Point2 direction = samples_.Next2D();
+  const auto [from, to] = tracer_.scene_.Exposure();
+  const Real time = from == to ? Real(0) : samples_.Time();
+  return {light.x, {position.x, position.y, direction.x, direction.y, light.y, time}};
+}
+
 void PhotonTracer::Path::Trace(Arena* arena, RayCounters* rays) {
-  const Point2 uLight = samples_.Next2D(), uPosition = samples_.Next2D();
-  const EmissionNumbers u{uLight, uPosition, samples_.Next2D()};
-  const Source source = ChooseSource(u.light.x);
+  EmissionNumbers u = DrawEmissionNumbers();
+  const Source source = ChooseSource(&u);
   if (!tracer_.rejection_.IsInUse()) {
     const auto power = Emit(source, u);
     if (power && Begin(*power)) Follow(arena, rays);
+    if (batch_.isRecorded) Record(source, u);
     return;
   }
   branches_->clear();
@@ -37,6 +45,17 @@ void PhotonTracer::Path::Trace(Arena* arena, RayCounters* rays) {
     Follow(arena, rays);
     arena->Reset();
   }
+}
+
+void PhotonTracer::Path::Record(const Source& source, const EmissionNumbers& u) const {
+  if (!source.light) return;
+  EmissionSample sample;
+  std::copy(u.u.begin(), u.u.end(), sample.u.begin());
+  sample.light = light_;
+  sample.inverseDensity = float(1 / source.probability);
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m)
+    sample.kept[m] = hasStored_[m] ? float(emitted_ * double(source.probability)) : 0.F;
+  chunk_->samples.push_back(sample);
 }
 
 void PhotonTracer::Path::Follow(Arena* arena, RayCounters* rays) {
@@ -64,7 +83,7 @@ void PhotonTracer::Path::Follow(Arena* arena, RayCounters* rays) {
                             : now_.hits == 1      ? PhotonKind::Direct
                             : now_.isSpecularPath ? PhotonKind::Caustic
                                                   : PhotonKind::Indirect;
-    if (open_[std::size_t(kind)] && point.bsdf.Has(LobeSet::NonSpecular)) Store(kind, point);
+    if (batch_.open[std::size_t(kind)] && point.bsdf.Has(LobeSet::NonSpecular)) Store(kind, point);
     if (!Scatter(point)) return;
     arena->Reset();
   }
@@ -86,7 +105,9 @@ void PhotonTracer::Path::AddTo(std::span<LightTally> lights) const {
   ++light.shot;
   light.hit += hasHit_;
   light.skipped += isSkipped_;
+  if (batch_.isDiscarded) return;
   light.stored += stored_;
+  light.caustic += caustic_;
 }
 
 // Multiplies the power by the transmittance of the media up to p. Returns false if the photon ends.
@@ -119,13 +140,19 @@ bool PhotonTracer::Path::ScatterInMedia(const Point3* end) {
 }
 
 // Returns the time of the whole path.
-Real PhotonTracer::Path::Time() const {
+Real PhotonTracer::Path::Time(Real u) const {
   const auto [from, to] = tracer_.scene_.Exposure();
   if (from == to) return from;
-  return std::clamp(Lerp(samples_.Time(), from, to), from, to);
+  return std::clamp(Lerp(u, from, to), from, to);
 }
 
-PhotonTracer::Path::Source PhotonTracer::Path::ChooseSource(Real uChoice) {
+PhotonTracer::Path::Source PhotonTracer::Path::ChooseSource(EmissionNumbers* u) {
+  if (batch_.guide) {
+    const auto choice = batch_.guide->Warp(u);
+    light_ = choice.light;
+    return {tracer_.scene_.Lights()[std::size_t(light_)].get(), Real(choice.density), 0};
+  }
+  Real uChoice = u->light;
   if (tracer_.mediaShare_ > 0) {
     if (uChoice < tracer_.mediaShare_) {
       light_ = -1;
@@ -142,16 +169,18 @@ PhotonTracer::Path::Source PhotonTracer::Path::ChooseSource(Real uChoice) {
 std::optional<Spectrum> PhotonTracer::Path::Emit(const Source& source, const EmissionNumbers& u) {
   now_ = {};
   if (!source.light) {
-    const Point3 uPoint(u.light.y, u.position.x, u.position.y);
-    const auto emission = tracer_.media_.SampleEmission(source.uBox, uPoint, u.direction, Time());
+    const Point3 uPoint(u.SubLight(), u.Position().x, u.Position().y);
+    const auto emission =
+        tracer_.media_.SampleEmission(source.uBox, uPoint, u.Direction(), Time(u.Time()));
     now_.isOfMedia = true;
     now_.ray = RayDifferential(emission.ray);
     return emission.power / source.probability;
   }
-  auto emission = source.light->SampleEmission(u.position, u.direction, u.light.y, Time());
+  auto emission =
+      source.light->SampleEmission(u.Position(), u.Direction(), u.SubLight(), Time(u.Time()));
   if (!emission) return std::nullopt;
   if (!tracer_.targeting_.IsEmpty() && source.light->IsDistant())
-    tracer_.targeting_.Redirect(&*emission, u.position);
+    tracer_.targeting_.Redirect(&*emission, u.Position());
   now_.ray = RayDifferential(emission->ray);
   return emission->power / source.probability;  // docs/theory/exphotonmap.md, eq. 3
 }
@@ -163,7 +192,8 @@ bool PhotonTracer::Path::Begin(const Spectrum& power) {
     return false;
   }
   maxEmitted_ = now_.alpha.MaxComponent();
-  chunk_->emittedPower += double(now_.alpha.Y());
+  emitted_ = double(now_.alpha.Y());
+  if (!batch_.guide) chunk_->emittedPower += emitted_;
   return now_.alpha.MaxComponent() > 0;
 }
 
@@ -171,9 +201,9 @@ void PhotonTracer::Path::EmitCopies(const Source& source, EmissionNumbers u) {
   const int copies = source.light ? tracer_.rejection_.CopiesOfLight(light_) : 1;
   for (int i = 0; i < copies; ++i) {
     if (i > 0) {
-      u.light.y = samples_.Independent();
-      u.position = samples_.IndependentPair();
-      u.direction = samples_.IndependentPair();
+      const Real subLight = samples_.Independent();
+      const Point2 position = samples_.IndependentPair(), direction = samples_.IndependentPair();
+      u.u = {position.x, position.y, direction.x, direction.y, subLight, u.Time()};
     }
     const auto power = Emit(source, u);
     if (!power) continue;
@@ -197,7 +227,10 @@ void PhotonTracer::Path::Store(PhotonKind kind, const ShadingPoint& point) {
   chunk_->photons[std::size_t(kind)].emplace_back(
       Photon{p, rest.Direction(point.Wo()), power, now_.distance / tracer_.farthest_});
   ++stored_;
-  if (!(radianceFraction_ > 0) || !(samples_.Independent() < radianceFraction_)) return;
+  caustic_ += kind == PhotonKind::Caustic;
+  hasStored_[std::size_t(kind)] = true;
+  const Real fraction = batch_.radianceFraction;
+  if (!(fraction > 0) || !(samples_.Independent() < fraction)) return;
   const Spectrum reflectance = point.bsdf.Rho(LobeSet::DiffuseReflection);
   const Spectrum transmittance = point.bsdf.Rho(LobeSet::DiffuseTransmission);
   const bool isGlossy = point.bsdf.Has(LobeSet::Glossy);
@@ -213,13 +246,14 @@ void PhotonTracer::Path::Drop() {
 }
 
 bool PhotonTracer::Path::IsOnlyOpen(PhotonKind kind) const {
-  return open_[std::size_t(kind)] && std::count(open_.begin(), open_.end(), true) == 1;
+  return batch_.open[std::size_t(kind)] &&
+         std::count(batch_.open.begin(), batch_.open.end(), true) == 1;
 }
 
 // Returns whether an open map can store photons after a bounce of this kind.
 bool PhotonTracer::Path::IsWantedAfter(bool isSpecular) const {
-  if (open_[std::size_t(PhotonKind::Indirect)]) return true;
-  return isSpecular && open_[std::size_t(PhotonKind::Caustic)];
+  if (batch_.open[std::size_t(PhotonKind::Indirect)]) return true;
+  return isSpecular && batch_.open[std::size_t(PhotonKind::Caustic)];
 }
 
 // Samples the BSDF (eq. 5, 6). Returns the scattered power, before Russian roulette or rejection,
@@ -270,7 +304,7 @@ bool PhotonTracer::Path::IsCut(const Spectrum& power) {
     return true;
   }
   if (now_.hits >= tracer_.settings_.maxPhotonDepth) {
-    chunk_->cutPower += double(power.Y());
+    if (!batch_.guide) chunk_->cutPower += double(power.Y());
     return true;
   }
   return false;

@@ -25,8 +25,7 @@ struct PhotonBranch {
 
 // PhotonSinks holds where a path puts its results. `branches` is working space.
 struct PhotonSinks {
-  const std::array<bool, kPhotonKindCount>& open;
-  Real radianceFraction;
+  const PhotonBatch& batch;
   PhotonChunk* chunk;
   std::vector<PhotonBranch>* branches;
 };
@@ -38,8 +37,7 @@ class PhotonTracer::Path {
       : tracer_(tracer),
         index_(index),
         samples_(sequences, index),
-        open_(sinks.open),
-        radianceFraction_(sinks.radianceFraction),
+        batch_(sinks.batch),
         chunk_(sinks.chunk),
         branches_(sinks.branches) {}
 
@@ -47,16 +45,16 @@ class PhotonTracer::Path {
   void AddTo(std::span<LightTally> lights) const;
 
  private:
-  struct EmissionNumbers {
-    Point2 light, position, direction;
-  };
   struct Source {
     const Light* light;  // null: media
-    Real probability;
-    Real uBox;  // media only
+    Real probability;    // guided: times the density of the emission numbers
+    Real uBox;           // media only
   };
 
-  Source ChooseSource(Real uChoice);
+  EmissionNumbers DrawEmissionNumbers();
+  Source ChooseSource(EmissionNumbers* u);
+  // Reports the path to the training of the guide.
+  void Record(const Source& source, const EmissionNumbers& u) const;
   // Emits one photon, sets its ray in now_, and returns its power; nullopt: nothing is emitted.
   std::optional<Spectrum> Emit(const Source& source, const EmissionNumbers& u);
   // Sets the emitted power. Returns false if there is nothing to trace.
@@ -69,7 +67,7 @@ class PhotonTracer::Path {
   bool IsSkipped();
   bool Absorb(const Point3& p);
   bool ScatterInMedia(const Point3* end);
-  Real Time() const;
+  Real Time(Real u) const;
 
   void Store(PhotonKind kind, const ShadingPoint& point);
   void Drop();
@@ -89,8 +87,7 @@ class PhotonTracer::Path {
   const PhotonTracer& tracer_;
   std::uint64_t index_;
   PhotonPathSampler samples_;
-  const std::array<bool, kPhotonKindCount>& open_;
-  Real radianceFraction_;
+  const PhotonBatch& batch_;
   PhotonChunk* chunk_;
   std::vector<PhotonBranch>* branches_;
   PhotonBranch now_;
@@ -99,6 +96,9 @@ class PhotonTracer::Path {
   bool hasHit_ = false;
   bool isSkipped_ = false;
   std::int64_t stored_ = 0;  // photon count
+  std::int64_t caustic_ = 0;
+  std::array<bool, kPhotonKindCount> hasStored_{};
+  double emitted_ = 0;  // luminance of the power that left the light
   Real maxEmitted_ = 0;
 };
 

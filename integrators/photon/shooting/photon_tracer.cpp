@@ -23,6 +23,25 @@ struct PhotonTracer::Worker {
 
 namespace {
 
+// Smallest and largest numbers of paths that train a guide.
+constexpr std::int64_t kMinTrainingPaths = std::int64_t(1) << 14;
+constexpr std::size_t kMaxTrainingSamples = std::size_t(1) << 19;
+// Of the paths that are probably needed, at most this share is spent on one round of training.
+constexpr double kMaxTrainingShare = .125;
+// One round of training uses at most 1 / kMaxTrainingOfLimit of the paths that the limit leaves.
+constexpr std::int64_t kMaxTrainingOfLimit = 8;
+// Fewer paths that kept photons do not show where photons start.
+constexpr std::int64_t kMinKeptPaths = 16;
+// If more of the paths keep indirect photons without a guide, the indirect map needs none.
+constexpr double kMaxUnguidedYield = .125;
+// A map that needs fewer further paths than this without a guide needs none.
+constexpr std::int64_t kMinUnguidedPaths = 8 * kMinTrainingPaths;
+// Share of the paths that the guide spreads over all emission.
+constexpr double kDefensiveShare = .2;
+// For the indirect map, whose paths leave direct photons too. Few of them may lie where nothing is
+// reflected any further, or maxdist would follow these.
+constexpr double kDefensiveIndirectShare = .05;
+
 // Returns the largest distance that the 8-bit code can represent; > 0. Eight scene radii leave room
 // for specular chains.
 Real FarthestDistance(const Scene& scene) {
@@ -73,74 +92,240 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       farthest_(FarthestDistance(scene)) {}
 
-void PhotonTracer::TraceChunk(std::int64_t firstPath,
-                              const std::array<bool, kPhotonKindCount>& open, Real radianceFraction,
-                              Worker* worker, PhotonChunk* chunk) const {
+void PhotonTracer::TraceChunk(std::int64_t firstPath, const PhotonBatch& batch, Worker* worker,
+                              PhotonChunk* chunk) const {
   const PhotonPathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
   chunk->Clear();
   worker->lights.resize(scene_.Lights().size());  // here, so that the memory is local to the thread
   for (int i = 0; i < kChunkPaths; ++i) {
-    Path path(*this, sequences, std::uint64_t(firstPath + i),
-              {open, radianceFraction, chunk, &worker->branches});
+    Path path(*this, sequences, std::uint64_t(firstPath + i), {batch, chunk, &worker->branches});
     worker->arena.Reset();
     path.Trace(&worker->arena, &worker->rays);
     path.AddTo(worker->lights);
   }
 }
 
-namespace {
+// Pass is one run of Shoot.
+class PhotonTracer::Pass {
+ public:
+  Pass(const PhotonTracer& tracer, const PhotonTargets& targets, PreprocessContext& context)
+      : tracer_(tracer),
+        targets_(targets),
+        context_(context),
+        workers_(std::size_t(context.threads.Count())) {
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m) batch_.open[m] = targets.counts[m] > 0;
+    batch_.radianceFraction = targets.radianceFraction;
+    result_.lights.resize(tracer.scene_.Lights().size());
+    for (PhotonBuffer& buffer : result_.buffers) buffer.farthest = tracer.farthest_;
+  }
 
-// Returns how full a map is: the larger of its shares of the photon target and of the path limit.
-double Filled(const PhotonTargets& targets, const PhotonPassResult& result, std::size_t map,
-              std::int64_t maxPaths) {
-  const double stored = double(result.buffers[map].photons.Size()) / double(targets.counts[map]);
-  return std::max(stored, double(result.paths) / double(maxPaths));
+  PhotonPassResult Run();
+
+ private:
+  static constexpr std::size_t kCaustic = std::size_t(PhotonKind::Caustic);
+
+  void Trace(std::int64_t paths);
+  void CloseMaps();
+  double Filled(std::size_t map) const;
+  bool IsOnlyCausticOpen() const { return batch_.open == std::array{false, true, false}; }
+
+  // Emission guiding
+  bool MayGuide(PhotonKind kind) const;
+  bool BeginToGuide();
+  bool IsWanted(PhotonKind kind);
+  std::int64_t MaxTrainingPaths() const;
+  void Train(PhotonKind kind);
+  void KeepSamples();
+  EmissionGuide Learn(PhotonKind kind) const;
+  void Discard(PhotonKind kind);
+
+  const PhotonTracer& tracer_;
+  const PhotonTargets& targets_;
+  PreprocessContext& context_;
+  PhotonPassResult result_;
+  PhotonBatch batch_;
+  std::vector<Worker> workers_;
+  std::vector<PhotonChunk> chunks_;
+  double least_ = 0, most_ = 0;  // fill of the requested maps, and of the open maps
+  EmissionGuide guide_;
+  std::vector<EmissionSample> samples_;
+  std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map
+  std::int64_t trainedPath_ = 0;  // number of paths before the last change of the guide
+  bool mayGuideIndirect_ = false, mayGuideCaustics_ = false;
+  std::int64_t attemptAt_ = kMinTrainingPaths;  // number of paths before the next attempt
+};
+
+// Traces a batch of paths into the chunks.
+void PhotonTracer::Pass::Trace(std::int64_t paths) {
+  context_.CheckStop();
+  chunks_.resize(std::size_t(paths / kChunkPaths));
+  context_.threads.For(std::int64_t(chunks_.size()), [&](std::int64_t c, int worker) {
+    tracer_.TraceChunk(result_.paths + c * kChunkPaths, batch_, &workers_[std::size_t(worker)],
+                       &chunks_[std::size_t(c)]);
+  });
+  if (batch_.isRecorded) KeepSamples();
 }
 
-}  // namespace
+// Returns how full a map is: the larger of its shares of the photon target and of the path limit.
+double PhotonTracer::Pass::Filled(std::size_t map) const {
+  const double stored = double(result_.buffers[map].photons.Size()) / double(targets_.counts[map]);
+  return std::max(stored, double(result_.paths) / double(tracer_.settings_.maxPhotonPaths));
+}
+
+// Closes the maps that are full or have used up their paths.
+void PhotonTracer::Pass::CloseMaps() {
+  least_ = 1;
+  most_ = 0;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (targets_.counts[m] == 0) continue;
+    PhotonBuffer& buffer = result_.buffers[m];
+    bool& open = batch_.open[m];
+    if (open) buffer.paths = result_.paths - firstPaths_[m];
+    const auto stored = std::int64_t(buffer.photons.Size());
+    const bool isFruitless = stored == 0 && buffer.paths >= kFruitlessPaths;
+    open = open && stored < targets_.counts[m] &&
+           result_.paths < tracer_.settings_.maxPhotonPaths && !isFruitless;
+    const double filled = Filled(m);
+    least_ = std::min(least_, filled);
+    if (open) most_ = std::max(most_, filled);
+  }
+}
+
+PhotonPassResult PhotonTracer::Pass::Run() {
+  if (tracer_.lights_->IsEmpty() && !tracer_.media_.Emit()) return std::move(result_);
+  mayGuideIndirect_ = MayGuide(PhotonKind::Indirect) && !(tracer_.mediaShare_ > 0);
+  mayGuideCaustics_ = MayGuide(PhotonKind::Caustic);
+  batch_.isRecorded = mayGuideIndirect_ || mayGuideCaustics_;
+  context_.progress.Begin("Shooting photons", 1000);
+  for (std::int64_t batch = kChunkPaths; std::ranges::count(batch_.open, true) > 0;) {
+    Trace(batch);
+    Merge(chunks_, targets_, context_.threads, &result_);
+    if (batch_.guide) result_.guidedPaths += batch;
+    CloseMaps();
+    batch = NextBatch(batch, result_.paths - trainedPath_, most_);
+    context_.progress.SetDone(std::int64_t(1000 * least_));
+    if (BeginToGuide()) batch = kMaxBatchPaths;
+  }
+  context_.progress.End();
+  for (const Worker& worker : workers_) {
+    context_.statistics.AddRays(worker.rays);
+    for (std::size_t i = 0; i < worker.lights.size(); ++i) result_.lights[i].Add(worker.lights[i]);
+  }
+  return std::move(result_);
+}
+
+bool PhotonTracer::Pass::MayGuide(PhotonKind kind) const {
+  return tracer_.settings_.guideEmission && targets_[kind] > 0 && !tracer_.lights_->IsEmpty() &&
+         !tracer_.rejection_.IsInUse();
+}
+
+void PhotonTracer::Pass::KeepSamples() {
+  const std::size_t most = batch_.isDiscarded ? kMaxTrainingSamples : kMaxTrainingSamples / 4;
+  for (const PhotonChunk& chunk : chunks_) {
+    if (samples_.size() >= most) return;
+    samples_.insert(samples_.end(), chunk.samples.begin(), chunk.samples.end());
+  }
+}
+
+EmissionGuide PhotonTracer::Pass::Learn(PhotonKind kind) const {
+  const auto& lights = tracer_.scene_.Lights();
+  std::vector<double> base;
+  for (const auto& light : lights) base.push_back(double(tracer_.lights_->Pmf(*light)));
+  const auto [from, to] = tracer_.scene_.Exposure();
+  const int unused = from == to ? 1 : 0;
+  const double defensive = kind == PhotonKind::Indirect ? kDefensiveIndirectShare : kDefensiveShare;
+  return LearnEmission(samples_, {kind, base, defensive, EmissionNumbers::kDimensions - unused});
+}
+
+// Drops the photons of a map. The indirect map takes all other maps with it.
+void PhotonTracer::Pass::Discard(PhotonKind kind) {
+  const bool isAll = kind == PhotonKind::Indirect;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (!isAll && m != std::size_t(kind)) continue;
+    result_.buffers[m].photons = {};
+    batch_.open[m] = targets_.counts[m] > 0;
+  }
+  if (isAll) result_.sites = {};
+  for (Worker& worker : workers_)
+    for (LightTally& light : worker.lights) {
+      light.stored -= isAll ? light.stored : light.caustic;
+      light.caustic = 0;
+    }
+}
+
+// Returns whether guiding the photons of this map is possible now and worthwhile.
+bool PhotonTracer::Pass::IsWanted(PhotonKind kind) {
+  const bool isIndirect = kind == PhotonKind::Indirect;
+  bool& mayGuide = isIndirect ? mayGuideIndirect_ : mayGuideCaustics_;
+  if (!mayGuide || !(isIndirect ? batch_.open[std::size_t(kind)] : IsOnlyCausticOpen()))
+    return false;
+  const auto kept = std::ranges::count_if(
+      samples_, [kind](const EmissionSample& s) { return s.kept[std::size_t(kind)] > 0; });
+  if (kept < kMinKeptPaths) {
+    attemptAt_ = 2 * result_.paths;
+    return false;
+  }
+  mayGuide = false;  // decided once
+  if (MaxTrainingPaths() < kMinTrainingPaths) return false;
+  const double filled = Filled(std::size_t(kind));
+  if (!(double(result_.paths) * (1 - filled) > double(kMinUnguidedPaths) * filled)) return false;
+  return !isIndirect || double(kept) < kMaxUnguidedYield * double(samples_.size());
+}
+
+// Begins to guide photons if that is worthwhile, and returns whether it did. The indirect map comes
+// first; the direct map shares its paths. Caustic photons are guided once no other map needs paths.
+bool PhotonTracer::Pass::BeginToGuide() {
+  if (!batch_.isRecorded || result_.paths < attemptAt_) return false;
+  const auto kind = IsOnlyCausticOpen() ? PhotonKind::Caustic : PhotonKind::Indirect;
+  const bool begins = IsWanted(kind);
+  if (begins) Train(kind);
+  batch_.isRecorded = mayGuideIndirect_ || mayGuideCaustics_;
+  if (!batch_.isRecorded) samples_ = {};
+  return begins;
+}
+
+// Returns the largest number of paths in one round of training, so that the path limit leaves
+// enough paths for the maps.
+std::int64_t PhotonTracer::Pass::MaxTrainingPaths() const {
+  return (tracer_.settings_.maxPhotonPaths - result_.paths) / kMaxTrainingOfLimit;
+}
+
+// Trains the guide in rounds of growing size. No photon may depend on the guide that sends it, or
+// estimates would be biased: photons from before and from the training are dropped.
+void PhotonTracer::Pass::Train(PhotonKind kind) {
+  Discard(kind);
+  samples_.resize(std::min(samples_.size(), kMaxTrainingSamples / 4));  // room for new samples
+  guide_ = Learn(kind);
+  batch_.guide = &guide_;
+  batch_.isDiscarded = batch_.isRecorded = true;
+  for (std::int64_t paths = kMinTrainingPaths;; paths *= 2) {
+    Trace(paths);
+    std::int64_t stored = 0;
+    for (const PhotonChunk& chunk : chunks_) {
+      stored += std::int64_t(chunk.photons[std::size_t(kind)].size());
+      result_.skipped += chunk.skipped;
+    }
+    result_.paths += paths;
+    result_.guidedPaths += paths;
+    result_.trainingPaths += paths;
+    guide_ = Learn(kind);
+    const double needed = double(targets_[kind]) * double(paths) / double(stored + 1);
+    if (kMaxTrainingShare * needed < double(2 * paths) || 2 * paths > MaxTrainingPaths() ||
+        samples_.size() >= kMaxTrainingSamples)
+      break;
+  }
+  batch_.isDiscarded = false;
+  trainedPath_ = result_.paths;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m)
+    if (kind == PhotonKind::Indirect || m == std::size_t(kind)) {
+      firstPaths_[m] = trainedPath_;
+      result_.buffers[m].isGuided = true;
+    }
+}
 
 PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets,
                                      PreprocessContext& context) const {
-  PhotonPassResult result;
-  std::array<bool, kPhotonKindCount> open{};
-  for (std::size_t m = 0; m < kPhotonKindCount; ++m) open[m] = targets.counts[m] > 0;
-  result.lights.resize(scene_.Lights().size());
-  for (PhotonBuffer& buffer : result.buffers) buffer.farthest = farthest_;
-  if (lights_->IsEmpty() && !media_.Emit()) return result;
-
-  std::vector<Worker> workers(std::size_t(context.threads.Count()));
-  std::vector<PhotonChunk> chunks;
-  context.progress.Begin("Shooting photons", 1000);
-  for (std::int64_t batch = kChunkPaths; open[0] || open[1] || open[2];) {
-    context.CheckStop();
-    chunks.resize(std::size_t(batch / kChunkPaths));
-    context.threads.For(std::int64_t(chunks.size()), [&](std::int64_t c, int worker) {
-      TraceChunk(result.paths + c * kChunkPaths, open, targets.radianceFraction,
-                 &workers[std::size_t(worker)], &chunks[std::size_t(c)]);
-    });
-    Merge(chunks, targets, context.threads, &result);
-    double least = 1, most = 0;  // least over the requested maps, most over the open maps
-    for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
-      if (targets.counts[m] == 0) continue;
-      PhotonBuffer& buffer = result.buffers[m];
-      if (open[m]) buffer.paths = result.paths;
-      const auto stored = std::int64_t(buffer.photons.Size());
-      const bool isFruitless = stored == 0 && buffer.paths >= kFruitlessPaths;
-      open[m] = open[m] && stored < targets.counts[m] && buffer.paths < settings_.maxPhotonPaths &&
-                !isFruitless;
-      const double filled = Filled(targets, result, m, settings_.maxPhotonPaths);
-      least = std::min(least, filled);
-      if (open[m]) most = std::max(most, filled);
-    }
-    batch = NextBatch(batch, result.paths, most);
-    context.progress.SetDone(std::int64_t(1000 * least));
-  }
-  context.progress.End();
-  for (const Worker& worker : workers) {
-    context.statistics.AddRays(worker.rays);
-    for (std::size_t i = 0; i < worker.lights.size(); ++i) result.lights[i].Add(worker.lights[i]);
-  }
-  return result;
+  return Pass(*this, targets, context).Run();
 }
 
 std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, double filled) {

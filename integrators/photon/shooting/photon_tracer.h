@@ -42,12 +42,14 @@ struct LightTally {
   std::int64_t hit = 0;      // paths that hit a surface
   std::int64_t skipped = 0;  // paths that were not traced: see PhotonPassResult::skipped
   std::int64_t stored = 0;   // photons, in all maps together
+  std::int64_t caustic = 0;  // of these, in the caustic map
 
   void Add(const LightTally& other) {
     shot += other.shot;
     hit += other.hit;
     skipped += other.skipped;
     stored += other.stored;
+    caustic += other.caustic;
   }
 };
 
@@ -56,9 +58,12 @@ struct PhotonPassResult {
   RecordStore<RadiancePhotonSite> sites;
   std::vector<LightTally> lights;  // in the scene's order
   std::int64_t paths = 0;          // of all lights and media
+  std::int64_t guidedPaths = 0;    // of these, paths whose emission was guided
+  std::int64_t trainingPaths = 0;  // of these, paths that only trained the guide
   // Paths that were counted but not traced, because only the caustic map was open and the first ray
   // missed all specular surfaces.
   std::int64_t skipped = 0;
+  // Both over the paths that are not guided.
   double emittedPower = 0;          // luminance, summed over the paths
   double cutPower = 0;              // luminance of the photons that the depth limit ended
   std::int64_t droppedPhotons = 0;  // their power was not finite
@@ -74,6 +79,16 @@ struct PhotonPassResult {
 };
 
 struct PhotonChunk;
+class EmissionGuide;
+
+// PhotonBatch describes paths that are traced in the same way.
+struct PhotonBatch {
+  std::array<bool, kPhotonKindCount> open{};  // maps that store photons
+  Real radianceFraction = 0;
+  const EmissionGuide* guide = nullptr;  // null: emission is not guided
+  bool isRecorded = false;               // each path reports its emission to the training
+  bool isDiscarded = false;              // photons are not kept
+};
 
 class PhotonTracer {
  public:
@@ -93,10 +108,11 @@ class PhotonTracer {
 
  private:
   class Path;
+  class Pass;
   struct Worker;
 
-  void TraceChunk(std::int64_t firstPath, const std::array<bool, kPhotonKindCount>& open,
-                  Real radianceFraction, Worker* worker, PhotonChunk* chunk) const;
+  void TraceChunk(std::int64_t firstPath, const PhotonBatch& batch, Worker* worker,
+                  PhotonChunk* chunk) const;
   // Returns the size of the next batch. last: the previous size; paths: traced so far; filled: how
   // full the fullest open map is, the larger of its share of the photon target and its share of
   // maxphotonpaths.

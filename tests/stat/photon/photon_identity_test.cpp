@@ -60,7 +60,8 @@ const std::string kPlain =
     std::string(
         "\"exphotonmap\" \"string lightselection\" \"uniform\" \"string photonroulette\" "
         "\"half\" \"bool radiancephotons\" \"false\" \"string gathersampling\" \"bsdf\" "
-        "\"string kernel\" \"constant\" \"float rrthreshold\" 0 \"bool sharedgather\" \"false\"") +
+        "\"string kernel\" \"constant\" \"float rrthreshold\" 0 \"bool sharedgather\" \"false\" "
+        "\"bool guideemission\" \"false\"") +
     kCounts;
 
 TEST(PhotonIdentity, ExphotonmapWithPlainSwitchesIsPhotonmapBitForBit) {

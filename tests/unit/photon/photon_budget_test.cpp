@@ -103,13 +103,18 @@ TEST(PhotonTargets, HaveRadiancePhotonsToGatherFromOrToSee) {
   EXPECT_EQ(fraction(), 0);
 }
 
-TEST(PhotonBudget, IsExplainedInThreeLines) {
+TEST(PhotonBudget, IsExplainedInFourLines) {
   const LoadedScene scene = Load(kLamp + kMatte);
   PhotonSettings settings = Numbers();
   const auto lines = [&] { return ExplainBudget(settings, *scene.setup->scene); };
   EXPECT_EQ(lines(), (std::vector<std::string>{"photons       20 direct, 30 indirect",
                                                "gather        32 rays, BSDF only",
-                                               "memory        about 1 MiB for the photon maps"}));
+                                               "memory        about 1 MiB for the photon maps",
+                                               "emission      not guided (guideemission false)"}));
+  settings.guideEmission = true;
+  EXPECT_EQ(lines()[3], "emission      guided for indirect photons, if few paths leave any");
+  settings.photonRoulette = PhotonRoulette::Constant;
+  EXPECT_EQ(lines()[3], "emission      not guided (photonroulette \"constant\")");
   settings.gatherSampling = GatherSampling::Photons;
   settings.finalGatherSamples = 7;
   EXPECT_EQ(lines()[1], "gather        7 rays, up to half of them round photons' directions");
