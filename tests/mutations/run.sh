@@ -25,6 +25,7 @@ jobs=${JOBS:-$(nproc)}
 everything= part=
 if [ "${1:-}" = --part ]; then part=yes; shift; fi  # try_in_parts uses this
 tables=("$here"/*.txt)
+if [ "${1:-}" = --texts ]; then tables+=("$here"/*.list); fi
 if [ "${1:-}" = --everything ]; then
   everything=yes tables=("${2:?run.sh --everything TABLE}")
   shift 2
