@@ -8,6 +8,7 @@
 #include "core/render/render_totals.h"
 #include "core/render/sharing/gather_fragments.h"
 #include "core/render/splat_buffer.h"
+#include "core/render/state/checkpoints.h"
 
 namespace exphoton {
 

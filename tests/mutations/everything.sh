@@ -1,12 +1,13 @@
 # All that ./dev test runs, with each defect of a table until a test fails: run.sh --everything. This
 # file is read by run.sh and is no program of its own. Two rounds, because all tests together take
 # more than a quarter of an hour:
-# 1. Each defect alone, with the tests of the quick programs that take at most a tenth of a second.
+# 1. Each defect alone, with the recorded results, and with the tests of the other quick programs
+#    that take at most a tenth of a second.
 # 2. All defects that passed, in one build, with all other tests, to the end. Each test that fails
 #    there is repeated without a defect, and then with each of the defects alone. A defect that no
 #    failure repeats with is not noticed; together, two defects can only hide each other.
 
-quick_programs=(parser plugin unit cli)
+quick_programs=(recorded parser plugin unit cli)
 all_programs=("${quick_programs[@]}" stat random images hardcases ctest)
 other_ctests='BadInputs CommandLines Signals Replay[.].*'
 
@@ -33,7 +34,8 @@ check_quick_programs() {
     output=$(run_gtest "$program" '*' 900) ||
       { echo "$program fails without a defect: $(noticed_by "$output")"; exit 1; }
     printf '%s\n' "$output" | sed -nE 's/^\[       OK \] ([^ ,]+).* \(([0-9]+) ms\)$/\2 \1/p' |
-      awk '$1 > 100 { print $2 }' | paste -s -d : >"$folder/slow.$program"
+      awk -v limit="$([ "$program" = recorded ] && echo 600000 || echo 100)" '$1 > limit { print $2 }' |
+      paste -s -d : >"$folder/slow.$program"
   done
 }
 

@@ -9,6 +9,8 @@
 #                                     then a remark
 #   run.sh --texts                    only looks whether the texts to replace are still there
 #   run.sh --list                     prints name, file and tests of each
+# A defect that keeps its test from ending has the word "endless" after the test. Any other time-out
+# is reported, and does not count as noticed.
 # Works in build-mutations/, a copy with its own build; the sources here are not touched. With JOBS
 # above 1 the defects are tried in parts, side by side, where the system allows mounts in a namespace
 # of a user.
@@ -23,18 +25,24 @@ jobs=${JOBS:-$(nproc)}
 everything= part=
 if [ "${1:-}" = --part ]; then part=yes; shift; fi  # try_in_parts uses this
 tables=("$here"/*.txt)
+if [ "${1:-}" = --texts ]; then tables+=("$here"/*.list); fi
 if [ "${1:-}" = --everything ]; then
   everything=yes tables=("${2:?run.sh --everything TABLE}")
   shift 2
 fi
 
-names=() files=() texts=() insteads=() programs=() filters=()
+names=() files=() texts=() insteads=() programs=() filters=() endings=()
 while IFS= read -r line; do
   case "$line" in
     '' | '#'*) ;;
     '- '*) texts+=("${line:2}") ;;
     '+ '* | '+') insteads+=("${line:2}") ;;
-    '! '*) read -r _ program filter <<<"$line"; programs+=("$program"); filters+=("$filter") ;;
+    '! '*)
+      read -r _ program filter <<<"$line"
+      ending=
+      if [[ "$filter" == *" endless" ]]; then filter=${filter% endless} ending=endless; fi
+      programs+=("$program") filters+=("$filter") endings+=("$ending")
+      ;;
     *) read -r name file <<<"$line"; names+=("$name"); files+=("$file") ;;
   esac
 done < <(cat "${tables[@]}")
@@ -100,10 +108,10 @@ target_of() {
 build_for() { ninja -C "$build" -j "$jobs" exphoton plugins "$@" >"$folder/build.log" 2>&1; }
 
 # run_tests PROGRAM FILTER: prints what they say; fails where a test does.
-run_tests() {
+run_tests() {  # and 124 where they do not end
   local command=("$build/bin/test_$1" "--gtest_filter=$2" --gtest_brief=1 --gtest_fail_fast)
   [ "$1" = case ] && command=("$build/bin/hardcases" --tests --only "$2" --quiet)
-  (cd "$build" && timeout 300 "${command[@]}" 2>&1)
+  (cd "$build" && timeout "${3:-300}" "${command[@]}" 2>&1)
 }
 # The first test that failed, of what run_tests or ctest printed.
 noticed_by() {
@@ -144,7 +152,7 @@ take_out() {
 }
 
 run_for() {  # INDEX
-  if [ "$everything" ]; then run_quick_tests; else run_tests "${programs[$1]}" "${filters[$1]}"; fi
+  if [ "$everything" ]; then run_quick_tests; else run_tests "${programs[$1]}" "${filters[$1]}" "${endings[$1]:+60}"; fi
 }
 build_with() {  # INDEX: what its tests need
   if [ "$everything" ]; then
@@ -223,6 +231,9 @@ try() {  # INDEX
       echo "$name: NOT NOTICED"; missed=1
       echo "    by ${programs[$1]} ${filters[$1]}"
     fi
+  elif [ $? = 124 ] && [ "${endings[$1]}" != endless ]; then
+    echo "$name: the tests did not end"; missed=1
+    echo "    ${programs[$1]} ${filters[$1]}"
   else
     echo "$name: $(noticed_by "$output")"; noticed=$((noticed + 1))
   fi

@@ -27,6 +27,7 @@ const std::vector<Group>& Groups() {
       {"materials", [] { return ParameterScenes("material"); }},
       {"textures", [] { return ParameterScenes("float texture, color texture"); }},
       {"sampling", [] { return ParameterScenes("sampler, filter, camera, accelerator"); }},
+      {"motion", [] { return MotionScenes(); }},
       {"chosen", [] { return ChosenScenes(); }},
   };
   return groups;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SceneList names the tiny scenes whose results are recorded. They come from three sources: the
-// generator of random scenes, the parameter tables of the plugins, and chosen_scenes.txt. A group
-// of scenes has one file of records and is one test.
+// SceneList names the tiny scenes whose results are recorded. They come from four sources: the
+// generator of random scenes, the parameter tables of the plugins, all combinations of motions with
+// what can move, and chosen_scenes.txt. A group of scenes has one file of records and is one test.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,10 @@ const std::vector<std::string>& GroupNames();
 // Returns the scenes of a group, in the same order each time.
 std::vector<RecordedScene> ScenesOf(const std::string& group);
 
-// The three sources.
+// The four sources.
 std::vector<RecordedScene> RandomScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
 std::vector<RecordedScene> ParameterScenes(const std::string& kinds);  // "camera, filter"
+std::vector<RecordedScene> MotionScenes();
 std::vector<RecordedScene> ChosenScenes();
 
 // Replaces the line of a directive. Each directive of the text is one line.
