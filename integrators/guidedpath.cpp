@@ -5,7 +5,7 @@
 // so the estimate is unbiased for every path that `path` can find.
 #include "core/base/memory.h"
 #include "core/plugin.h"
-#include "core/transport/path_tracer.h"
+#include "core/transport/path/path_tracer.h"
 #include "integrators/photon/gather/path_guide.h"
 #include "integrators/photon/photon_budget.h"
 #include "integrators/photon/photon_pass.h"

@@ -6,8 +6,7 @@ namespace exphoton {
 
 Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
                          TechniqueCounts counts, LobeSet lobes, LiContext& context) {
-  return FromLightSample(point, sample, counts, lobes, context,
-                         [](const Vector3&, Real bsdfPdf) { return bsdfPdf; });
+  return FromLightSample<TechniqueCounts>(point, sample, counts, lobes, context);
 }
 
 }  // namespace exphoton

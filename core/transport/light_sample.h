@@ -20,15 +20,15 @@ struct SampledLight {
 // The number of samples of each technique. A delta light has light samples only.
 struct TechniqueCounts {
   int light = 1, bsdf = 1;
+  Real Pdf(const Vector3&, Real bsdfPdf) const { return bsdfPdf; }
 };
 
-// Returns f L |cos| weight / (probability pdf) for `lobes` only. The BSDF samples must use the same
-// lobes. The caller divides by counts.light. density(wi, bsdfPdf) returns the density of the
-// direction samples, given the density of the BSDF.
-template <class Density>
+// Returns f L |cos| weight / (probability pdf) for `lobes` only. The samples of directions must use
+// the same lobes. The caller divides by techniques.light. techniques.Pdf(wi, bsdfPdf) returns the
+// density of the samples of directions, given the density of the BSDF.
+template <class Techniques>
 Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
-                         TechniqueCounts counts, LobeSet lobes, LiContext& context,
-                         const Density& density) {
+                         const Techniques& techniques, LobeSet lobes, LiContext& context) {
   const auto direct = sample.light->SampleDirect(point.surface, sample.place, sample.part);
   if (!direct || direct->Li.IsBlack()) return {};
   const Real cosine = AbsDot(direct->wi, point.bsdf.Ns());
@@ -37,8 +37,8 @@ Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,
   const Spectrum arriving = context.Unoccluded(direct->shadowRay) * direct->Li;
   const Real pdf = sample.probability * direct->pdf;
   if (arriving.IsBlack() || sample.light->IsDelta()) return f * arriving / pdf;
-  const Real bsdfPdf = density(direct->wi, point.bsdf.Pdf(point.Wo(), direct->wi, lobes));
-  return f * arriving * (PowerHeuristic(counts.light, pdf, counts.bsdf, bsdfPdf) / pdf);
+  const Real other = techniques.Pdf(direct->wi, point.bsdf.Pdf(point.Wo(), direct->wi, lobes));
+  return f * arriving * (PowerHeuristic(techniques.light, pdf, techniques.bsdf, other) / pdf);
 }
 // The same for directions that are sampled by the BSDF alone.
 Spectrum FromLightSample(const ShadingPoint& point, const SampledLight& sample,

@@ -18,7 +18,7 @@ using random_scenes::Rejected;
 using random_scenes::Sample;
 using random_scenes::SampleOf;
 
-constexpr int kSeeds = 12, kSide = 24, kBlocks = 4;
+constexpr int kSeeds = 8, kSide = 16, kBlocks = 4;
 constexpr double kFalseDiscoveryRate = .01;
 
 struct Comparison {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GuideTable keeps the cells of a GuideGrid for a whole pass. All threads share it, because the
-// vertices of paths scatter over the scene. A cell is made when a path first asks for it. Cells
-// depend on their keys alone, so it does not matter which thread makes them, or in which order.
+// GuideCache and GuideTable keep cells of a GuideGrid. A cache holds the cells that one thread has
+// used lately, which suits gathers: neighbouring pixels mostly gather in the same cells. A table
+// keeps all cells of a pass for all threads, because the vertices of paths scatter over the scene.
 #pragma once
 
 #include <atomic>
@@ -12,6 +12,38 @@
 
 namespace exphoton {
 
+// GuideCache is direct-mapped: a miss makes the cell and overwrites the slot.
+class GuideCache {
+ public:
+  explicit GuideCache(const GuideGrid& grid) : grid_(grid), slots_(kSlots) {}
+
+  // Returns the cell that contains p. It is valid until the next call.
+  const GuideCell& At(const Point3& p) {
+    const GuideGrid::Key key = grid_.KeyOf(p);
+    Slot& slot = slots_[key.Hash() % kSlots];
+    if (!slot.isUsed || !(slot.key == key)) {
+      slot.cell = grid_.MakeCell(key, &scratch_);
+      slot.key = key;
+      slot.isUsed = true;
+    }
+    return slot.cell;
+  }
+
+ private:
+  struct Slot {
+    GuideGrid::Key key;
+    bool isUsed = false;
+    GuideCell cell;
+  };
+  static constexpr std::size_t kSlots = 256;
+
+  GuideGrid grid_;
+  std::vector<Slot> slots_;
+  Arena scratch_;
+};
+
+// GuideTable makes a cell when a path first asks for it. Cells depend on their keys alone, so it
+// does not matter which thread makes them, or in which order.
 class GuideTable {
  public:
   // Keeps at most `maxBytes` of cells.

@@ -6,7 +6,7 @@
 // unbiased for any photons.
 #pragma once
 
-#include "core/transport/path_tracer.h"
+#include "core/transport/path/path_tracer.h"
 #include "integrators/photon/gather/cone_mixture.h"
 #include "integrators/photon/gather/guide_table.h"
 #include "integrators/photon/gather/photon_guide.h"
@@ -44,6 +44,7 @@ class GuidedVertex {
 
 class PathGuide {
  public:
+  using Vertex = GuidedVertex;
   static constexpr std::size_t kMaxBranches = 16;
 
   PathGuide(int count, const Cone& cone) : cone_(cone), photons_(count, cone) {}

@@ -2,7 +2,6 @@
 // PhotonGuide selects the photons of a cell to follow from a point, and reuses them nearby.
 #include "integrators/photon/gather/photon_guide.h"
 
-#include "integrators/photon/gather/guide_cache.h"
 #include "integrators/photon/gather/guide_table.h"
 #include "integrators/photon/gather/reprojected_cell.h"
 #include "integrators/photon/maps/rest_pose.h"

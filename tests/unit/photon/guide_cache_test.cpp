@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check that the contents of a cache cell depend on the cell alone, and that a cell can
 // be reprojected to any shading point within it.
-#include "integrators/photon/gather/guide_cache.h"
+#include "integrators/photon/gather/guide_table.h"
 
 #include <gtest/gtest.h>
 

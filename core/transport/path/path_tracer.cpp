@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PathTracer: the parts of the loop that do not depend on how directions are sampled.
-#include "core/transport/path_tracer.h"
+#include "core/transport/path/path_tracer.h"
 
 namespace exphoton {
 namespace {

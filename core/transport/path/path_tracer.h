@@ -13,7 +13,7 @@
 #include "core/math/sampling/mis.h"
 #include "core/transport/cut_light.h"
 #include "core/transport/light_sample.h"
-#include "core/transport/path_history.h"
+#include "core/transport/path/path_history.h"
 #include "core/transport/shading_point.h"
 #include "core/transport/specular/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
@@ -96,6 +96,8 @@ class PathTracer {
   // or more than they receive.
   static constexpr int kMaxSplits = 64;
 
+  template <class Scattering>
+  class Walk;
   struct VertexArrays {
     int choice1D = -1, light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
     int branch2D = -1, branch1D = -1;  // only if the policy samples a second direction
@@ -129,10 +131,6 @@ class PathTracer {
   // vertex that the ray left.
   Spectrum Emission(const State& path, const SurfaceInteraction* hit, const Scene& scene) const;
   Real EmissionWeight(const State& path, const Light& light, const SurfacePoint* on) const;
-  // Returns next event estimation with one light, chosen as LightSelection::Auto describes.
-  template <class Vertex>
-  Spectrum DirectLight(const ShadingPoint& point, const Vertex& vertex,
-                       const PathVertexVariates& sample, LiContext& context) const;
   // Extends the path along a sampled direction. Returns false if the path ends.
   bool Continue(const ShadingPoint& point, const PathDirection& direction, Real uRoulette,
                 State* path) const;
@@ -154,82 +152,126 @@ void PathTracer::RequestSamples(SampleLayout* layout) {
   }
 }
 
+// Walk traces the path of one camera sample, with its branches.
+template <class Scattering>
+class PathTracer::Walk {
+ public:
+  Walk(const PathTracer& tracer, const RayDifferential& ray, const Scattering& scattering,
+       LiContext& context)
+      : tracer_(tracer),
+        scattering_(scattering),
+        context_(context),
+        lobes_(Lobes(context.scene)),
+        random_(context.Stream(kPathStream)),
+        path_{ray, {}, PathHistory(context.scene.Features(), context.aovs), {}} {}
+
+  Spectrum Trace() {
+    for (;;) {
+      while (Extend()) {
+      }
+      if (waiting_ == 0) return sum_;
+      if constexpr (kMaxBranches > 0) path_ = *branches_[--waiting_];
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMaxBranches = Scattering::kMaxBranches;
+
+  // The light samples of a vertex compete with all directions that its policy samples.
+  struct Techniques {
+    const typename Scattering::Vertex& vertex;
+    static constexpr int light = 1, bsdf = 1;
+    Real Pdf(const Vector3& wi, Real bsdfPdf) const { return vertex.Pdf(wi, bsdfPdf); }
+  };
+
+  // Traces the ray of the path, collects light, and samples the next ray. Returns false if the path
+  // ends.
+  bool Extend() {
+    const auto hit = context_.Intersect(path_.ray, KindOf(path_));
+    CollectAlong(hit ? &*hit : nullptr);
+    // The ray beyond the last vertex is traced only for the emission that it may hit.
+    if (!hit || path_.depth > tracer_.maxDepth_) return false;
+    const Arena::Mark mark = context_.arena.GetMark();
+    const ShadingPoint point =
+        MakeShadingPoint(*hit, path_.ray, path_.depth, TransportMode::Radiance, &context_.arena);
+    const bool goesOn = Scatter(point);
+    context_.arena.Rewind(mark);
+    return goesOn;
+  }
+
+  // Adds the light of media along the ray, and the emission at its end.
+  void CollectAlong(const SurfaceInteraction* hit) {
+    Spectrum& beta = path_.weight.beta;
+    const MediaSegment media = AlongMedia(path_.ray, hit ? &hit->p : nullptr, context_);
+    const Spectrum added = beta * media.radiance;
+    sum_ += added;
+    path_.history.AddMedia(added);
+    beta *= media.transmittance;
+    if (path_.history.TakesEmission()) {
+      const Spectrum emission = beta * tracer_.Emission(path_, hit, context_.scene);
+      sum_ += emission;
+      path_.history.AddEmission(emission);
+    }
+    if (!hit && path_.depth == 0) context_.alpha = sum_.IsBlack() ? 0 : 1;
+  }
+
+  bool Scatter(const ShadingPoint& point) {
+    const PathVertexVariates sample = tracer_.MakeVariates(path_, context_, &random_);
+    const int maxDepth = tracer_.maxDepth_;
+    const bool maySplit = path_.depth < maxDepth && waiting_ < kMaxBranches && splits_ < kMaxSplits;
+    const auto vertex = scattering_.At(point, maySplit, &path_.weight, context_);
+    if (path_.history.TakesDirect()) {
+      const Spectrum direct = path_.weight.beta * DirectLight(point, vertex, sample);
+      sum_ += direct;
+      path_.history.AddDirect(direct);
+    }
+    if (path_.depth == maxDepth)
+      MeasureCutLight({point, path_.weight.beta, path_.history.IsScattered()}, *tracer_.lights_,
+                      context_);
+    const LobeSet followed = path_.history.Lobes(lobes_);
+    if constexpr (kMaxBranches > 0) Split(point, vertex.SampleBranch(sample, followed), sample);
+    const auto direction = vertex.Sample(sample, followed);
+    return direction && tracer_.Continue(point, *direction, sample.roulette, &path_);
+  }
+
+  // Returns next event estimation with one light, chosen as LightSelection::Auto describes.
+  Spectrum DirectLight(const ShadingPoint& point, const typename Scattering::Vertex& vertex,
+                       const PathVertexVariates& sample) {
+    const LightSampler& lights = *tracer_.lights_;
+    if (lights.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
+    const auto choice = lights.Sample(point.surface.p, sample.lightChoice);
+    return FromLightSample(point,
+                           {choice.light, choice.probability, sample.light, sample.lightPart},
+                           Techniques{vertex}, lobes_, context_);
+  }
+
+  // Lets a second direction wait until the path has ended.
+  void Split(const ShadingPoint& point, const std::optional<PathDirection>& direction,
+             const PathVertexVariates& sample) {
+    if (!direction) return;
+    State branch = path_;
+    branch.isBranch = true;
+    if (!tracer_.Continue(point, *direction, sample.branchRoulette, &branch)) return;
+    branches_[waiting_++] = branch;
+    ++splits_;
+  }
+
+  const PathTracer& tracer_;
+  const Scattering& scattering_;
+  LiContext& context_;
+  LobeSet lobes_;
+  RandomStream random_;
+  State path_;
+  std::array<std::optional<State>, kMaxBranches> branches_;
+  std::size_t waiting_ = 0;  // number of branches that wait
+  int splits_ = 0;           // number of branches so far
+  Spectrum sum_;
+};
+
 template <class Scattering>
 Spectrum PathTracer::Radiance(const RayDifferential& ray, const Scattering& scattering,
                               LiContext& context) const {
-  constexpr std::size_t kMaxBranches = Scattering::kMaxBranches;
-  std::array<std::optional<State>, kMaxBranches> branches;
-  std::size_t waiting = 0;
-  int splits = 0;
-  Spectrum sum;
-  const LobeSet lobes = Lobes(context.scene);
-  RandomStream random = context.Stream(kPathStream);
-  State path{ray, {}, PathHistory(context.scene.Features(), context.aovs), {}};
-  // Each turn traces a ray and extends the path by a vertex. Returns false where the path ends.
-  const auto extend = [&]() {
-    const auto hit = context.Intersect(path.ray, KindOf(path));
-    const MediaSegment media = AlongMedia(path.ray, hit ? &hit->p : nullptr, context);
-    Spectrum& beta = path.weight.beta;
-    const Spectrum added = beta * media.radiance;
-    sum += added;
-    path.history.AddMedia(added);
-    beta *= media.transmittance;
-    if (path.history.TakesEmission()) {
-      const Spectrum emission = beta * Emission(path, hit ? &*hit : nullptr, context.scene);
-      sum += emission;
-      path.history.AddEmission(emission);
-    }
-    if (!hit) {
-      if (path.depth == 0) context.alpha = sum.IsBlack() ? 0 : 1;
-      return false;
-    }
-    // The ray beyond the last vertex is traced only for the emission that it may hit.
-    if (path.depth > maxDepth_) return false;
-    const Arena::Mark mark = context.arena.GetMark();
-    const ShadingPoint point =
-        MakeShadingPoint(*hit, path.ray, path.depth, TransportMode::Radiance, &context.arena);
-    const PathVertexVariates sample = MakeVariates(path, context, &random);
-    const bool maySplit = path.depth < maxDepth_ && waiting < kMaxBranches && splits < kMaxSplits;
-    const auto vertex = scattering.At(point, maySplit, &path.weight, context);
-    if (path.history.TakesDirect()) {
-      const Spectrum direct = beta * DirectLight(point, vertex, sample, context);
-      sum += direct;
-      path.history.AddDirect(direct);
-    }
-    if (path.depth == maxDepth_)
-      MeasureCutLight({point, beta, path.history.IsScattered()}, *lights_, context);
-    const LobeSet followed = path.history.Lobes(lobes);
-    if constexpr (kMaxBranches > 0) {
-      if (const auto direction = vertex.SampleBranch(sample, followed)) {
-        State branch = path;
-        branch.isBranch = true;
-        if (Continue(point, *direction, sample.branchRoulette, &branch)) {
-          branches[waiting++] = branch;
-          ++splits;
-        }
-      }
-    }
-    const auto direction = vertex.Sample(sample, followed);
-    const bool goesOn = direction && Continue(point, *direction, sample.roulette, &path);
-    context.arena.Rewind(mark);
-    return goesOn;
-  };
-  for (;;) {
-    while (extend()) {
-    }
-    if (waiting == 0) return sum;
-    if constexpr (kMaxBranches > 0) path = *branches[--waiting];
-  }
-}
-
-template <class Vertex>
-Spectrum PathTracer::DirectLight(const ShadingPoint& point, const Vertex& vertex,
-                                 const PathVertexVariates& sample, LiContext& context) const {
-  if (lights_->IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-  const auto choice = lights_->Sample(point.surface.p, sample.lightChoice);
-  return FromLightSample(point, {choice.light, choice.probability, sample.light, sample.lightPart},
-                         {}, Lobes(context.scene), context,
-                         [&](const Vector3& wi, Real bsdfPdf) { return vertex.Pdf(wi, bsdfPdf); });
+  return Walk<Scattering>(*this, ray, scattering, context).Trace();
 }
 
 }  // namespace exphoton
