@@ -284,15 +284,18 @@ TEST_F(QuickPhotons, AreATenthAndTheGatherSamplesAQuarter) {
   for (const std::string& name : registry_.Available(PluginKind::Integrator)) {
     SCOPED_TRACE(name);
     const PluginFactory& factory = registry_.Find(PluginKind::Integrator, name, {});
-    const bool hasPhotons = name == "photonmap" || name == "exphotonmap";
     // The default counts of direct and caustic photons are automatic, so they are not scaled.
-    EXPECT_EQ(QuickCounts(factory, 0),
-              hasPhotons ? Counts({"indirectphotons=10000", "nused=5", "finalgathersamples=8"})
-                         : Counts());
-    EXPECT_EQ(QuickCounts(factory, 15),
-              hasPhotons ? Counts({"causticphotons=1", "directphotons=1", "indirectphotons=1",
-                                   "nused=2", "finalgathersamples=3"})
-                         : Counts());
+    Counts byDefault, given;
+    if (name == "photonmap" || name == "exphotonmap") {
+      byDefault = {"indirectphotons=10000", "nused=5", "finalgathersamples=8"};
+      given = {"causticphotons=1", "directphotons=1", "indirectphotons=1", "nused=2",
+               "finalgathersamples=3"};
+    } else if (name == "guidedpath") {
+      byDefault = {"indirectphotons=10000"};
+      given = {"indirectphotons=1"};
+    }
+    EXPECT_EQ(QuickCounts(factory, 0), byDefault);
+    EXPECT_EQ(QuickCounts(factory, 15), given);
   }
 }
 

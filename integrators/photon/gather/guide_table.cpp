@@ -18,8 +18,8 @@ const GuideCell* Fetched(const GuideCell& cell) {
 
 }  // namespace
 
-GuideTable::GuideTable(const GuideGrid& grid, std::size_t maxBytes)
-    : grid_(grid), maxBytes_(maxBytes), slots_(kSlots) {}
+GuideTable::GuideTable(const GuideGrid& grid, std::size_t maxBytes, std::size_t slots)
+    : grid_(grid), maxBytes_(maxBytes), slots_(slots) {}
 
 GuideTable::~GuideTable() {
   for (const Slot& slot : slots_) delete slot.load(std::memory_order_relaxed);
@@ -28,11 +28,11 @@ GuideTable::~GuideTable() {
 const GuideCell* GuideTable::At(const Point3& p, Arena* scratch) {
   const GuideGrid::Key key = grid_.KeyOf(p);
   std::unique_ptr<const Entry> made;
-  for (std::size_t i = key.Hash() % kSlots;; i = (i + 1) % kSlots) {
+  for (std::size_t i = key.Hash() % slots_.size();; i = (i + 1) % slots_.size()) {
     const Entry* found = slots_[i].load(std::memory_order_acquire);
     if (!found) {
       if (!made) {
-        if (cells_.load(std::memory_order_relaxed) >= kMaxCells ||
+        if (cells_.load(std::memory_order_relaxed) >= slots_.size() / 2 ||
             bytes_.load(std::memory_order_relaxed) >= maxBytes_)
           return nullptr;
         made = std::make_unique<const Entry>(Entry{key, grid_.MakeCell(key, scratch)});

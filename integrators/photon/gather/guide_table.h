@@ -46,8 +46,9 @@ class GuideCache {
 // does not matter which thread makes them, or in which order.
 class GuideTable {
  public:
-  // Keeps at most `maxBytes` of cells.
-  explicit GuideTable(const GuideGrid& grid, std::size_t maxBytes = kMaxBytes);
+  // Keeps at most `maxBytes` of cells, and at most slots / 2 cells.
+  explicit GuideTable(const GuideGrid& grid, std::size_t maxBytes = kMaxBytes,
+                      std::size_t slots = kSlots);
   ~GuideTable();
   GuideTable(const GuideTable&) = delete;
   GuideTable& operator=(const GuideTable&) = delete;
@@ -59,13 +60,12 @@ class GuideTable {
 
   std::size_t CellCount() const { return cells_.load(std::memory_order_relaxed); }
   std::size_t MemoryBytes() const {
-    return bytes_.load(std::memory_order_relaxed) + kSlots * sizeof(Slot);
+    return bytes_.load(std::memory_order_relaxed) + slots_.size() * sizeof(Slot);
   }
 
  private:
   static constexpr std::size_t kMaxBytes = std::size_t(1) << 28;
   static constexpr std::size_t kSlots = std::size_t(1) << 18;
-  static constexpr std::size_t kMaxCells = kSlots / 2;  // keeps probe sequences short
 
   struct Entry {
     GuideGrid::Key key;
@@ -75,7 +75,9 @@ class GuideTable {
 
   GuideGrid grid_;
   std::size_t maxBytes_;
-  std::vector<Slot> slots_;  // open addressing with linear probing; entries are never removed
+  // Open addressing with linear probing; entries are never removed. Half of the slots stay free, so
+  // that probe sequences are short.
+  std::vector<Slot> slots_;
   std::atomic<std::size_t> cells_{0}, bytes_{0};
 };
 

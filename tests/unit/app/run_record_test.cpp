@@ -89,7 +89,7 @@ parts                          0.333333  of a whole
 )");
   run.passes = 1;
   run.noise.reset();
-  Loaded().crop = {2, 3, 8, 7};
+  run.scene.crop = {2, 3, 8, 7};
   const std::string one = StatisticsTable(run);
   EXPECT_NE(one.find("\nsamples       12 a pixel in 1 pass\nthreads "), std::string::npos);
   EXPECT_NE(one.find("\npicture       20 x 10, of which x 2 to 7, y 3 to 6\n"), std::string::npos);
@@ -110,9 +110,9 @@ TEST_F(RunRecordTest, ExplainsEveryPhaseOfTheRenderer) {
 }
 
 TEST_F(RunRecordTest, IsALineOfJson) {
-  Loaded().sceneName = "a\"b\\c\n.pbrt";
-  Loaded().sceneHash = 0xabcdef;
-  Loaded().crop = {2, 3, 8, 7};
+  run.scene.name = "a\"b\\c\n.pbrt";
+  run.scene.hash = 0xabcdef;
+  run.scene.crop = {2, 3, 8, 7};
   statistics.AddPhase("parse", .25, .5);
   statistics.AddPhase("write", 1, 2);
   RayCounters rays;

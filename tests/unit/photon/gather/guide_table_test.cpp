@@ -60,6 +60,21 @@ TEST(GuideTable, ReturnsTheCellsOfItsGrid) {
   EXPECT_GT(table.CellCount(), 200u);
 }
 
+// In a table of 512 slots, many of the cells meet a slot of another cell.
+TEST(GuideTable, TellsCellsInOneSlotApartByTheirKeys) {
+  const PhotonMap map = FloorMap();
+  const GuideGrid grid(map, kCount, kCone, kWidth);
+  constexpr std::size_t kSlots = 512;
+  GuideTable table(grid, std::size_t(1) << 28, kSlots);
+  Arena arena;
+  for (const Point3& p : Points(5)) {
+    const GuideCell* cell = table.At(p, &arena);
+    if (!cell) continue;  // half of the slots are used
+    ASSERT_EQ(Content(*cell), Content(grid.MakeCell(grid.KeyOf(p), &arena)));
+  }
+  EXPECT_GT(table.CellCount(), kSlots * 2 / 5);
+}
+
 TEST(GuideTable, KeepsEachCellOnceForAllThreads) {
   const PhotonMap map = FloorMap();
   const GuideGrid grid(map, kCount, kCone, kWidth);
