@@ -46,24 +46,20 @@ class PathHistory {
     }
   }
   // Adds the radiance of media along the path segment that begins at the last bounce.
-  void AddMedia(const Spectrum& radiance) const {
+  void AddMedia(const Spectrum& radiance) const { Add(radiance, &AovSample::emission); }
+  void AddDirect(const Spectrum& radiance) const { Add(radiance, &AovSample::direct); }
+
+ private:
+  // `first` is the layer of light that the path carries before its first bounce.
+  void Add(const Spectrum& radiance, Spectrum AovSample::*first) const {
     if (!aovs_) return;
     if (bounces_ == 0) {
-      aovs_->emission += radiance;
-    } else {
-      (isFirstSpecular_ ? aovs_->specular : aovs_->indirect) += radiance;
-    }
-  }
-  void AddDirect(const Spectrum& radiance) const {
-    if (!aovs_) return;
-    if (bounces_ == 0) {
-      aovs_->direct += radiance;
+      aovs_->*first += radiance;
     } else {
       (isFirstSpecular_ ? aovs_->specular : aovs_->indirect) += radiance;
     }
   }
 
- private:
   bool hasIndirect_, hasCaustics_;
   AovSample* aovs_;                    // null: no AOV is requested
   int bounces_ = 0, scatterings_ = 0;  // scatterings_: non-specular bounces only

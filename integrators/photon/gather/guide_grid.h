@@ -22,7 +22,7 @@ class GuideCell {
 
   const Point3& Center() const { return center_; }
   Real Radius2() const { return radius2_; }  // squared distance of the farthest photon
-  // Returns the luminance of the irradiance that one photon stands for.
+  // Returns the luminance of the irradiance that one photon contributes on average.
   Real IrradiancePerPhoton() const { return irradiance_; }
   std::size_t size() const { return count_; }
   // Origins of the photons' light, relative to the center, as a structure of arrays.
