@@ -64,7 +64,7 @@ struct RenderSetup {
   std::unique_ptr<Filter> filter;
   std::unique_ptr<Camera> camera;
   FilmSettings film;
-  PixelBounds crop;  // the pixels to render
+  PixelBounds crop;           // the pixels to render
   ParamSet filterParameters;  // to make the filter again
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
   // The scene file, its included files and the files that parameters name; sorted.
@@ -72,6 +72,9 @@ struct RenderSetup {
   std::vector<std::string> plugins;                          // "integrators/exphotonmap", sorted
   double acceleratorSeconds = 0, acceleratorCpuSeconds = 0;  // spent on building while loading
   std::uint64_t sceneHash = 0;  // of the directives; independent of layout and comments
+  // Of the directives that decide where light goes: the world, the times of its transformations
+  // and the volume integrator. Camera, film, sampler and integrator have no influence.
+  std::uint64_t worldHash = 0;
 };
 
 // SourceLocation::file of errors in command-line values.

@@ -44,4 +44,10 @@ std::uint64_t HashDirective(std::uint64_t hash, const Directive& directive) {
   return hash;
 }
 
+std::uint64_t HashTransform(std::uint64_t hash, const Transform& transform) {
+  for (const auto& row : transform.Matrix().m)
+    for (const auto value : row) hash = Mix(hash, std::bit_cast<std::uint64_t>(double(value)));
+  return hash;
+}
+
 }  // namespace exphoton

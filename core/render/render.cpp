@@ -39,7 +39,8 @@ struct PassRenderer::State {
                               &job.camera,
                               {full.Width(), full.Height()},
                               job.volume,
-                              Stop()};
+                              Stop(),
+                              options.photonFile};
     // The integrator may march through media while it prepares.
     if (job.volume) job.volume->Preprocess(job.scene);
     job.integrator.Preprocess(job.scene, context);

@@ -64,7 +64,8 @@ struct RenderOptions {
   // If not null, the render is one shard of a picture, and its sums go here. The films are not
   // complete then.
   ShardWriter* shard = nullptr;
-  RenderView* view = nullptr;  // sees finished tiles and passes; null: none
+  const PhotonFileUse* photonFile = nullptr;  // see PreprocessContext
+  RenderView* view = nullptr;                 // sees finished tiles and passes; null: none
 };
 
 struct RenderJob {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RecordStore is a growing array of records. BlockStore is a RecordStore that converts its records
-// to blocks of points in place. Building a map of many points therefore takes no more memory than
-// the finished map.
+// RecordStore is a growing array of records, or refers to records that exist. BlockStore is a
+// RecordStore that converts its records to blocks of points in place. Building a map of many points
+// therefore takes no more memory than the finished map.
 #pragma once
 
 #include <algorithm>
@@ -26,6 +26,12 @@ class RecordStore {
   static constexpr std::size_t kAlignment = 16 * sizeof(Real);
 
   RecordStore() = default;
+  // Refers to `count` records that `owner` keeps. They must be aligned to kAlignment, must not be
+  // changed, and fill whole units of kUnit records.
+  RecordStore(const void* records, std::size_t count, std::shared_ptr<const void> owner)
+      : memory_(static_cast<Record*>(const_cast<void*>(records)), Free{std::move(owner)}),
+        count_(count),
+        capacity_((count + kUnit - 1) / kUnit * kUnit) {}
   RecordStore(RecordStore&& other) noexcept
       : memory_(std::move(other.memory_)),
         count_(std::exchange(other.count_, 0)),
@@ -66,8 +72,9 @@ class RecordStore {
   static constexpr std::size_t kUnit = 16;
 
   struct Free {
+    std::shared_ptr<const void> owner;  // null: the memory belongs to this store
     void operator()(Record* records) const {
-      ::operator delete(records, std::align_val_t(kAlignment));
+      if (!owner) ::operator delete(records, std::align_val_t(kAlignment));
     }
   };
   using Memory = std::unique_ptr<Record[], Free>;
@@ -80,14 +87,13 @@ template <class Block>
 class BlockStore : public RecordStore<typename Block::Record> {
  public:
   using Record = typename Block::Record;
+  using RecordStore<Record>::RecordStore;
   static_assert(std::is_trivially_copyable_v<Block>);
   static_assert(sizeof(Block) == kBlockPoints * sizeof(Record));
   static_assert(alignof(Block) <= RecordStore<Record>::kAlignment);
 
   // Counts the written part only. Reserved pages that were never written take no physical memory.
-  std::size_t MemoryBytes() const {
-    return (this->Size() + kBlockPoints - 1) / kBlockPoints * sizeof(Block);
-  }
+  std::size_t MemoryBytes() const { return BlockCount() * sizeof(Block); }
 
   // Converts the records [begin, end) to blocks in place; they can no longer be read as records.
   // `begin` is a multiple of kBlockPoints; `end` is a multiple or the end of the store. Threads may
@@ -105,6 +111,11 @@ class BlockStore : public RecordStore<typename Block::Record> {
     }
   }
   const Block* Blocks() const { return reinterpret_cast<const Block*>(this->Data()); }
+  std::size_t BlockCount() const { return (this->Size() + kBlockPoints - 1) / kBlockPoints; }
+  // Returns the memory of all blocks, once all records are converted.
+  std::span<const std::byte> Bytes() const {
+    return {reinterpret_cast<const std::byte*>(this->Data()), BlockCount() * sizeof(Block)};
+  }
 };
 
 }  // namespace exphoton

@@ -106,6 +106,22 @@ class PointTree {
     return trees;
   }
 
+  // Builds the tree of blocks that an earlier tree has sorted.
+  static PointTree OfBlocks(BlockStore<Block> blocks) {
+    if (blocks.Size() > PointBvh::kMaxPoints)
+      throw std::length_error("too many points for one tree");
+    PointTree tree;
+    tree.store_ = std::move(blocks);
+    std::vector<Bounds3> bounds(tree.store_.BlockCount());
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      for (std::uint32_t lane = 0; lane < kBlockPoints; ++lane)  // unused lanes repeat a point
+        bounds[i].Extend(tree.store_.Blocks()[i].Position(lane));
+    tree.tree_ = PointBvh(bounds);
+    return tree;
+  }
+  // Gives the blocks away.
+  BlockStore<Block> TakeBlocks() && { return std::move(store_); }
+
   std::size_t Size() const { return store_.Size(); }
   const Block& BlockOf(std::uint32_t i) const { return store_.Blocks()[i / kBlockPoints]; }
   static std::uint32_t Lane(std::uint32_t i) { return i % kBlockPoints; }

@@ -27,6 +27,7 @@ class Log;
 class ThreadPool;
 class ProgressReporter;
 class VolumeIntegrator;
+struct PhotonFileUse;
 
 // Preprocess throws this when a stop is requested. The renderer catches it.
 struct PreprocessStopped {};
@@ -38,11 +39,12 @@ struct PreprocessContext {
   Log& log;
   ProgressReporter& progress;  // one bar per phase
   Statistics& statistics;
-  bool isStrict = false;                     // if true, a non-finite value throws Error(Internal)
-  const Camera* camera = nullptr;            // for view-dependent work; null: no such work
-  Point2i resolution;                        // of the full image, regardless of the crop window
-  const VolumeIntegrator* volume = nullptr;  // in-scattered and emitted light of media; null: none
-  const std::atomic<bool>* stop = nullptr;   // set externally; null: cannot be stopped
+  bool isStrict = false;                      // if true, a non-finite value throws Error(Internal)
+  const Camera* camera = nullptr;             // for view-dependent work; null: no such work
+  Point2i resolution;                         // of the full image, regardless of the crop window
+  const VolumeIntegrator* volume = nullptr;   // in-scattered and emitted light of media; null: none
+  const std::atomic<bool>* stop = nullptr;    // set externally; null: cannot be stopped
+  const PhotonFileUse* photonFile = nullptr;  // see photon_file_use.h; null: no file is used
 
   // Long work must call this regularly. Throws PreprocessStopped.
   void CheckStop() const {
@@ -137,6 +139,8 @@ class SurfaceIntegrator {
   // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 
+  // Returns whether Preprocess obeys PreprocessContext::photonFile.
+  virtual bool KeepsPhotons() const { return false; }
   // Returns the names of the photon maps, the most interesting first. The result is empty if the
   // integrator has none.
   virtual std::vector<std::string> PhotonMapNames() const;

@@ -33,6 +33,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   FeatureSet ComputedFeatures() const override;
   std::vector<std::string> Explain(const Scene& scene) const override;
   AovSet Aovs() const override;
+  bool KeepsPhotons() const override { return true; }
   std::vector<std::string> PhotonMapNames() const override;
   std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const override;
 

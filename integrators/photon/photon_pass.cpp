@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "integrators/photon/files/photon_file.h"
 #include "integrators/photon/photon_stats.h"
 #include "integrators/photon/shooting/visible_points.h"
 
@@ -43,10 +44,23 @@ DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scen
   return targeting;
 }
 
+// Returns photons that were shot before.
+PhotonPassResult ReadPass(const PhotonSettings& settings, const PhotonTargets& targets,
+                          PreprocessContext& context) {
+  const PhaseTimer timer(context.statistics, "read photons");
+  const PhotonFileUse& use = *context.photonFile;
+  PhotonPassResult photons =
+      ReadPhotons(use.path, IdentityOfPhotons(use.identity, settings, targets, context.seed));
+  ReportReadPhotons(photons, use.path, context);
+  return photons;
+}
+
 }  // namespace
 
 PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings,
                               const PhotonTargets& targets, PreprocessContext& context) {
+  const PhotonFileUse* const use = context.photonFile;
+  if (use && !use->isWritten) return ReadPass(settings, targets, context);
   PhotonPassResult photons;
   {
     const PhaseTimer timer(context.statistics, "shoot");
@@ -63,6 +77,11 @@ PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings
   NoticeUnusedCaustics(targets, settings, scene, context.log);
   ReportPhotonPass(photons, targets, settings, context);
   ReportLights(photons, targets, scene, context);
+  if (use) {
+    const PhaseTimer timer(context.statistics, "write photons");
+    WritePhotons(use->path, IdentityOfPhotons(use->identity, settings, targets, context.seed),
+                 &photons, context.threads);
+  }
   return photons;
 }
 

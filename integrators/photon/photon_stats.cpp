@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/log.h"
+#include "integrators/photon/photon_budget.h"
 
 namespace exphoton {
 namespace {
@@ -145,6 +146,20 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
     throw Error(ExitStatus::Internal, Text("photon path ", result.firstDroppedPath, " of seed ",
                                            context.seed, " has a power that is not finite"));
   context.log.Warning(Text(result.droppedPhotons, " photons had no finite power and were lost"));
+}
+
+void ReportReadPhotons(const PhotonPassResult& result, const std::string& path,
+                       PreprocessContext& context) {
+  PhotonTargets stored;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    const std::string name = PhotonKindName(kind);
+    stored[kind] = std::int64_t(result[kind].photons.Size());
+    if (stored[kind] > 0)
+      context.statistics.AddToCounter("photons/" + name + " read", double(stored[kind]),
+                                      "photons of the " + name + " map, from the file");
+  }
+  const std::string counts = TextOf(stored);
+  context.log.Notice(Text("photons from \"", path, "\": ", counts.empty() ? "none" : counts));
 }
 
 void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, const Scene& scene,

@@ -19,6 +19,9 @@ void NoticeMissingTargeting(const DistantLightTargeting& targeting, Log& log);
 // To be called after tracing, while the result still holds the photon buffers.
 void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
                       const PhotonSettings& settings, PreprocessContext& context);
+// Reports photons that were read from a file.
+void ReportReadPhotons(const PhotonPassResult& result, const std::string& path,
+                       PreprocessContext& context);
 // Reports the photons per light, and logs notices about lights whose photons were never stored.
 void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, const Scene& scene,
                   PreprocessContext& context);

@@ -31,6 +31,10 @@ TEST_F(CommandTest, PrintHelpAndVersionToStandardOutput) {
                                              {"info", "--help"},
                                              {"convert", "--help"},
                                              {"compare", "--help"},
+                                             {"merge", "--help"},
+                                             {"cluster", "--help"},
+                                             {"photons", "--help"},
+                                             {"check-plugin", "--help"},
                                              {"study", "--help"},
                                              {"report", "--help"},
                                              {"explain", "--help"}}) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ class ProgramTest : public testing::Test {
   void Write(const std::string& name, const std::string& text) const;
   std::string Read(const std::string& name) const;
   bool Exists(const std::string& name) const;
+  void Remove(const std::string& name) const { std::remove(folder_.File(name).c_str()); }
   // Returns the sorted names of all files, except the files that the test harness makes.
   std::vector<std::string> Files() const { return folder_.Names(); }
 

@@ -114,7 +114,7 @@ bool CheckPlugin(const CheckArguments& arguments) {
 }  // namespace
 
 int RunCheckPlugin(const std::vector<std::string>& arguments) {
-  bool isPassed = false;
+  bool isPassed = true;
   const int status = Guarded([&] {
     OptionParser app(
         "Checks a material, a light or a sampler: energy, samples against densities, reciprocity, "

@@ -24,6 +24,7 @@
 #include "core/app/output/run_files.h"
 #include "core/app/output/run_record.h"
 #include "core/app/output/state_keeper.h"
+#include "core/app/photons/photon_use.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
 #include "core/app/shards/part_writer.h"
@@ -38,7 +39,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Setups = std::vector<std::unique_ptr<RenderSetup>>;
 
-double SecondsSince(Clock::time_point start) {
+double ElapsedSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -89,7 +90,7 @@ class FileRenderer {
 
   Setups Load(const std::string& path);
   void CheckOutputs(const Setups& setups, std::size_t index);
-  RenderOptions MakeOptions(const PictureFilms& films);
+  RenderOptions MakeOptions(const PictureFilms& films, const RenderSetup& setup);
   RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
                     ProgressReporter& progress, Statistics& statistics);
   void RenderOne(const RenderSetup& setup);
@@ -108,8 +109,9 @@ class FileRenderer {
   Run& run_;
   Log& log_;
   InterruptWatch watch_;
-  std::string filmName_;        // of the picture that is being rendered
-  std::optional<Begin> begin_;  // set by Load, taken by the first picture
+  std::string filmName_;                  // of the picture that is being rendered
+  std::optional<PhotonFileUse> photons_;  // of this picture (--photons)
+  std::optional<Begin> begin_;            // set by Load, taken by the first picture
 };
 
 Setups FileRenderer::Load(const std::string& path) {
@@ -139,6 +141,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   for (std::size_t i = 0; i < setups.size(); ++i) {
     CheckAovs(command_, *setups[i]);
     run_.files.AddScene(*setups[i]);
+    if (!command_.photonFile.empty()) run_.files.AddInput(command_.photonFile, "--photons");
     names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
   }
   run_.files.Check(log_);
@@ -152,7 +155,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   }
 }
 
-RenderOptions FileRenderer::MakeOptions(const PictureFilms& films) {
+RenderOptions FileRenderer::MakeOptions(const PictureFilms& films, const RenderSetup& setup) {
   RenderOptions options;
   options.seed = command_.seed;
   options.isStrict = command_.load.isStrict;
@@ -160,6 +163,10 @@ RenderOptions FileRenderer::MakeOptions(const PictureFilms& films) {
   options.stop = &StopFlag();
   options.pixelsBegun = &watch_.MustFinish();
   options.aovs = films.aovs.get();
+  photons_.reset();
+  if (!command_.photonFile.empty())
+    photons_ = MakePhotonFileUse(command_.photonFile, false, command_.load, setup);
+  options.photonFile = photons_ ? &*photons_ : nullptr;
   return options;
 }
 
@@ -193,7 +200,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;
   begin.AddLoadingTimes(setup, &statistics);
-  RenderOptions options = MakeOptions(films);
+  RenderOptions options = MakeOptions(films, setup);
   const Clock::time_point start = Clock::now();
   const StateIdentity identity(command_, setup);
   const RenderJob job = MakeJob(setup, &films, threads, progress, statistics);
@@ -217,7 +224,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
-  run.renderSeconds = SecondsSince(start);
+  run.renderSeconds = ElapsedSince(start);
   TakeResult(result, &run);
   const Picture picture =
       Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
@@ -244,7 +251,7 @@ void FileRenderer::RenderPart(const PartJob& part, const Begin& begin) {
   run.samplesPerPixel = part.job.sampler.SamplesPerPixel();
   run.passes = PassesOf(command_).count;
   run.stoppedBy = StopReasonName(StopReason::Samples);
-  run.wallSeconds = run.renderSeconds = SecondsSince(begin.wall);
+  run.wallSeconds = run.renderSeconds = ElapsedSince(begin.wall);
   run.cpuSeconds = ProcessCpuSeconds() - begin.cpu;
   run.peakMemory = PeakMemoryBytes();
   Report(run);
@@ -255,7 +262,7 @@ void FileRenderer::Conclude(RunRecord* run, const Picture& picture, const Begin&
                             Statistics* statistics) {
   try {
     Announce(*run, picture);
-    run->wallSeconds = SecondsSince(begin.wall);
+    run->wallSeconds = ElapsedSince(begin.wall);
     run->cpuSeconds = ProcessCpuSeconds() - begin.cpu;
     run->peakMemory = PeakMemoryBytes();
     statistics->SetCounter("memory/peak", run->peakMemory, "largest memory of the process");

@@ -16,6 +16,7 @@
 #include "core/app/options/errors.h"
 #include "core/app/options/options.h"
 #include "core/app/options/values.h"
+#include "core/app/photons/shoot_photons.h"
 #include "core/app/process/signals.h"
 #include "core/app/shards/cluster_command.h"
 #include "core/app/shards/merge_command.h"
@@ -60,6 +61,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "compare") return RunCompare(rest);
   if (command == "merge") return RunMerge(rest, CommandLineText(arguments));
   if (command == "cluster") return RunCluster(rest);
+  if (command == "photons") return RunPhotons(rest);
   if (command == "study") return RunStudy(rest, CommandLineText(arguments));
   if (command == "report") return RunReport(rest);
   const std::vector<std::string> all(

@@ -31,6 +31,7 @@ constexpr const char* kCommands =
     "  exphoton compare REFERENCE NEW    test whether pictures differ\n"
     "  exphoton merge PARTS -o PICTURE   make a picture from parts (--shard)\n"
     "  exphoton cluster SCENE --shards N write scripts that render with Slurm\n"
+    "  exphoton photons SCENE -o FILE    shoot photons into a file (--photons)\n"
     "  exphoton study SCENE --out DIR    compare integrators and settings\n"
     "  exphoton report DIR               make a study's page again\n"
     "\n"
@@ -111,12 +112,15 @@ void AddResumeOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
       .TypeName("HOST:PORT");
 }
 
-void AddShardOptions(OptionParser& app, RawOptions& raw) {
+void AddShardOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
   app.Group("Beyond one machine");
   app.Add("--shard", raw.shard,
           "render share I of N into the folder -o, as part-I-of-N.state; exphoton merge makes the "
           "picture")
       .TypeName("I/N");
+  app.Add("--photons", command.photonFile,
+          "use the photons in this file, which exphoton photons made, instead of shooting them")
+      .TypeName("FILE");
 }
 
 void AddSceneOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
@@ -178,6 +182,14 @@ void CheckPng(const RawOptions& raw, const RenderCommand& command) {
               "-o NAME.png or --preview NAME.png writes one");
 }
 
+void CheckPasses(const RenderCommand& command) {
+  Exclude(command.asTwoHalves, command.HasStoppingRule(),
+          "--two-halves and --time-limit or --target-error exclude each other");
+  Exclude(!command.photonFile.empty(), command.HasStoppingRule() || command.asTwoHalves,
+          "--photons excludes --time-limit, --target-error and --two-halves: each of their passes "
+          "has photons of its own");
+}
+
 // How many passes a time limit allows differs between machines, and a part belongs to no picture
 // of its own.
 void TakeShard(const RawOptions& raw, RenderCommand* command) {
@@ -228,8 +240,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
-  Exclude(command->asTwoHalves, command->HasStoppingRule(),
-          "--two-halves and --time-limit or --target-error exclude each other");
+  CheckPasses(*command);
   TakeShard(raw, command);
   command->limits = ParseLimits(raw.limits);
   load.limits = command->limits.scene;
@@ -270,7 +281,7 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   AddPictureOptions(app, command, raw);
   AddAmountOptions(app, command, raw);
   AddResumeOptions(app, command, raw);
-  AddShardOptions(app, raw);
+  AddShardOptions(app, command, raw);
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);
   app.AddVersion(VersionText());
@@ -280,8 +291,8 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render",  "explain", "plugins", "check-plugin", "info",   "convert",
-          "compare", "merge",   "cluster", "study",        "report", "help"};
+  return {"render", "explain", "plugins", "check-plugin", "info",   "convert", "compare",
+          "merge",  "cluster", "photons", "study",        "report", "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

@@ -37,6 +37,7 @@ struct RenderCommand {
   std::string stateFile;             // "": the picture's name with ".state"
   std::optional<double> writeEvery;  // seconds
   std::optional<ViewerAddress> display;
+  std::string photonFile;  // --photons; "": photons are shot
   Limits limits;
 
   bool HasStoppingRule() const { return timeLimit || targetError; }

@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Quoted(const std::string& text) { return '"' + text + '"'; }
+std::string InQuotes(const std::string& text) { return '"' + text + '"'; }
 
 [[noreturn]] void Refuse(const OutputFile& output, const std::string& why) {
   throw Error(ExitStatus::File,
-              "cannot write " + Quoted(output.path) + " (" + output.what + "): " + why,
+              "cannot write " + InQuotes(output.path) + " (" + output.what + "): " + why,
               SourceLocation(), output.remedy);
 }
 
@@ -60,7 +60,7 @@ void RunFiles::AddInput(const std::string& path, const std::string& reader) {
 }
 
 void RunFiles::AddScene(const std::string& path, const std::set<std::string>& inputs) {
-  const std::string reader = "the scene " + Quoted(path);
+  const std::string reader = "the scene " + InQuotes(path);
   const std::optional<FileIdentity> file =
       path == "-" ? IdentifyOpenFile(STDIN_FILENO) : IdentifyFile(path);
   if (file) inputs_.try_emplace(*file, Input{path, reader});
@@ -95,7 +95,8 @@ void RunFiles::CheckInputs(const OutputFile& output) const {
   if (input == inputs_.end()) return;
   const auto& [path, reader] = input->second;
   if (reader.empty()) Refuse(output, "it is this program");
-  Refuse(output, reader + " reads this file" + (path == output.path ? "" : " as " + Quoted(path)));
+  Refuse(output,
+         reader + " reads this file" + (path == output.path ? "" : " as " + InQuotes(path)));
 }
 
 void RunFiles::CheckOthers() const {
@@ -111,7 +112,7 @@ void RunFiles::CheckOthers() const {
     if (isNew) continue;
     const OutputFile& first = other->second;
     Refuse(output, first.what + " goes to this file, too" +
-                       (first.path == output.path ? "" : ", as " + Quoted(first.path)));
+                       (first.path == output.path ? "" : ", as " + InQuotes(first.path)));
   }
 }
 
@@ -119,7 +120,7 @@ void RunFiles::WarnOfHardLinks(const OutputFile& output, Log& log) {
   struct stat status;
   if (stat(output.path.c_str(), &status) != 0 || status.st_nlink < 2) return;
   if (!warned_.insert(output.path).second) return;
-  log.Warning(Quoted(output.path) + " has " + std::to_string(status.st_nlink) +
+  log.Warning(InQuotes(output.path) + " has " + std::to_string(status.st_nlink) +
               " names (hard links): this one gets the new file, the others keep the old one");
 }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "core/app/output/state_identity.h"
+#include "core/app/identity/state_identity.h"
 #include "core/base/log.h"
 #include "core/render/state/checkpoints.h"
 

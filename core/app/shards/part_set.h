@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/app/output/state_identity.h"
+#include "core/app/identity/state_identity.h"
 #include "core/app/shards/part_record.h"
 #include "core/base/error.h"
 #include "core/render/shards/shard_sections.h"

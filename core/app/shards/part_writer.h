@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "core/app/identity/state_identity.h"
 #include "core/app/options/options.h"
-#include "core/app/output/state_identity.h"
 #include "core/render/render.h"
 
 namespace exphoton::cli {

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kOwnFolder = ".exphoton-study";
-constexpr const char* kFormat = "exphoton study 1";
+constexpr const char* kFolderFormat = "exphoton study 1";
 
 [[noreturn]] void Fail(const std::string& path, const std::string& why,
                        const std::string& hint = {}) {
@@ -99,13 +99,13 @@ void StudyFolder::ReadList() {
   char block[4096];
   for (ssize_t count; (count = read(list_->Get(), block, sizeof block)) > 0;)
     text.append(block, std::size_t(count));
-  if (text.empty()) return Append(kFormat);
+  if (text.empty()) return Append(kFolderFormat);
   std::istringstream lines(text);
   std::string line;
   std::getline(lines, line);
-  if (line != kFormat)
+  if (line != kFolderFormat)
     Fail(path_ + "/" + kOwnFolder + "/files.txt",
-         "it has another format than \"" + std::string(kFormat) + '"');
+         "it has another format than \"" + std::string(kFolderFormat) + '"');
   while (std::getline(lines, line)) written_.insert(line);
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RawOptions {
+struct RawStudyOptions {
   std::string integrators, budgets, referenceTime, resolution, targets;
   std::vector<std::string> settings, varied;
   bool hidesMaps = false;
@@ -94,7 +94,7 @@ std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::strin
   return arguments;
 }
 
-void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+void AddWhat(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
   app.Add("file", options.scene, "the scene, or a study file (NAME.study)")
       .TypeName("SCENE.pbrt|NAME.study");
   app.Add("--scene", options.scene, "the scene").TakeLast();
@@ -124,7 +124,7 @@ void AddWhat(OptionParser& app, StudyOptions& options, RawOptions& raw) {
       .TakeLast();
 }
 
-void AddReference(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+void AddReference(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
   app.Add("--reference", options.references,
           "the reference picture; given twice: two independent halves of it")
       .OnePerUse();
@@ -138,7 +138,7 @@ void AddReference(OptionParser& app, StudyOptions& options, RawOptions& raw) {
       .TakeLast();
 }
 
-void AddRender(OptionParser& app, StudyOptions& options, RawOptions& raw) {
+void AddRender(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
   app.Add("--resolution", raw.resolution, "of all pictures").TakeLast().TypeName("WIDTHxHEIGHT");
   app.Add("--set", options.sets, "for all renders, as in exphoton render").OnePerUse();
   app.Add("--cropwindow", options.cropWindow, "render a part only").TakeLast();
@@ -188,7 +188,7 @@ std::vector<double> ParseTargets(const std::string& text) {
   return targets;
 }
 
-void TakePlan(const RawOptions& raw, StudyOptions* options) {
+void TakePlan(const RawStudyOptions& raw, StudyOptions* options) {
   for (const std::string& name : study::SplitList(raw.integrators))
     options->plan.bases.push_back(study::ParseSetting(name));
   for (const std::string& text : raw.settings)
@@ -235,7 +235,7 @@ void TakeInputFiles(StudyOptions* options) {
 
 StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   StudyOptions options;
-  RawOptions raw;
+  RawStudyOptions raw;
   OptionParser app(
       "Renders a scene with several integrators and settings, each with several seeds, and shows "
       "what accuracy costs in time: results.csv, results.json, images/ and report.html in one "

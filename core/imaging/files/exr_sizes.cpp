@@ -19,7 +19,7 @@ constexpr std::uint32_t kMagic = 20000630;
 constexpr unsigned kMultiPartFlag = 0x1000;
 
 // Deflate expands a byte to at most 1032 bytes. The lossy methods also drop whole blocks.
-constexpr double kMaxInflation = 65536;
+constexpr double kMaxExrInflation = 65536;
 constexpr double kAlwaysFine = 1 << 26;
 
 // Attribute types of fixed size. The library reads this number of bytes, whatever size the file
@@ -116,7 +116,7 @@ void CheckExrHeaders(const std::string& path) { HeaderWalk(path).Check(); }
 
 void CheckExrPixels(const std::string& path, double pixelBytes) {
   if (pixelBytes <= kAlwaysFine) return;
-  if (pixelBytes > kMaxInflation * double(std::filesystem::file_size(path)))
+  if (pixelBytes > kMaxExrInflation * double(std::filesystem::file_size(path)))
     throw ImageError("more pixels than a file of this length can hold");
 }
 

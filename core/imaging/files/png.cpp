@@ -60,7 +60,7 @@ Image Read16(const std::string& path, png_image* png, int channels, Image result
   return result;
 }
 
-Image Read(const std::string& path) {
+Image ReadPngFile(const std::string& path) {
   CheckImageFile(path);
   PngImage png;
   if (!png_image_begin_read_from_file(&png.image, path.c_str())) Fail(path, png.image);
@@ -129,7 +129,7 @@ void WritePng(const std::string& path, const Image& image, const ToneMapping& to
 Image ReadPng(const std::string& path) {
   const UntrappedLibraryCall guard;
   try {
-    return Read(path);
+    return ReadPngFile(path);
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::Resource,
                 "not enough memory for the picture \"" + path + "\"; " + MemoryLimit());

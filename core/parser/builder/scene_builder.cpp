@@ -34,7 +34,7 @@ void SceneBuilder::Reset() {
   state_ = GraphicsState();
   stack_.Clear();
   coordinateSystems_.clear();
-  hash_ = std::uint64_t(dialect_);
+  hash_ = worldHash_ = std::uint64_t(dialect_);
   inputFiles_ = {sceneName_};
 }
 
@@ -79,9 +79,24 @@ void SceneBuilder::RecoverFrom(const Directive& directive) {
   }
 }
 
+void SceneBuilder::AddToWorldHash(const Directive& directive) {
+  const DirectiveId id = directive.spec->id;
+  if (!world_ && id != DirectiveId::TransformTimes && id != DirectiveId::VolumeIntegrator &&
+      id != DirectiveId::SearchPath)
+    return;
+  worldHash_ = HashDirective(worldHash_, directive);
+  if (id != DirectiveId::CoordSysTransform) return;
+  // The system may be the camera's.
+  const auto system = coordinateSystems_.find(directive.strings[0]);
+  if (system == coordinateSystems_.end()) return;
+  for (const Transform& transform : {system->second.start, system->second.end})
+    worldHash_ = HashTransform(worldHash_, transform);
+}
+
 void SceneBuilder::HandleOrThrow(Directive directive) {
   CheckScope(directive);
   hash_ = HashDirective(hash_, directive);
+  AddToWorldHash(directive);
   NoteInputFiles(directive, &inputFiles_);
   const DirectiveId id = directive.spec->id;
   if (IsTransformDirective(id)) return ChangeTransform(directive);

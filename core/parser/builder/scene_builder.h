@@ -37,6 +37,7 @@ class SceneBuilder final : public DirectiveHandler {
   // further errors; ends the world after a faulty WorldEnd.
   void RecoverFrom(const Directive& directive);
   void CheckScope(const Directive& directive) const;
+  void AddToWorldHash(const Directive& directive);
   void ChangeTransform(const Directive& directive);
   void SetActiveTransform(const Directive& directive);
   void SetTransformTimes(const Directive& directive);
@@ -65,7 +66,7 @@ class SceneBuilder final : public DirectiveHandler {
   GraphicsState state_;
   StateStack stack_;
   std::map<std::string, MovingTransform> coordinateSystems_;
-  std::uint64_t hash_ = 0;
+  std::uint64_t hash_ = 0, worldHash_ = 0;  // see RenderSetup
   std::set<std::string> inputFiles_;
   ErrorCollector errors_;
   std::vector<std::unique_ptr<RenderSetup>> setups_;

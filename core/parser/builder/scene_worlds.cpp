@@ -37,6 +37,7 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   auto setup = std::make_unique<RenderSetup>();
   setup->sceneName = sceneName_;
   setup->sceneHash = hash_;
+  setup->worldHash = worldHash_;
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
   render_->Create(*registry_, log_, world_->HasMedia(), setup.get(), &errors_);
   if (!errors_.IsEmpty()) return Reset();  // no time is spent on a scene that will not be rendered

@@ -5,12 +5,12 @@
 
 #include <vector>
 
+#include "core/files/state_file.h"
 #include "core/render/passes/render_passes.h"
 #include "core/render/render_totals.h"
 #include "core/render/shards/picture_passes.h"
 #include "core/render/shards/shard_sections.h"
 #include "core/render/splat_weights.h"
-#include "core/render/state/state_file.h"
 
 namespace exphoton {
 

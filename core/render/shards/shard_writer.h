@@ -4,10 +4,10 @@
 #pragma once
 
 #include "core/base/statistics.h"
+#include "core/files/state_file.h"
 #include "core/render/render_totals.h"
 #include "core/render/shards/shard_sections.h"
 #include "core/render/splat_buffer.h"
-#include "core/render/state/state_file.h"
 
 namespace exphoton {
 

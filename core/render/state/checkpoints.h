@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/state_file.h"
 #include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/film.h"
-#include "core/render/state/state_file.h"
 
 namespace exphoton {
 

@@ -70,6 +70,7 @@ struct PhotonBlock : PointBlock {
 // PhotonBuffer holds the photons of one map, and the number of paths traced until it was full.
 struct PhotonBuffer {
   BlockStore<PhotonBlock> photons;
+  bool isSorted = false;  // `photons` holds the blocks of a tree, and no records
   std::int64_t paths = 0;
   bool isGuided = false;      // photons are denser and lighter where a guide sent them
   Real farthest = Real(1e9);  // scene units; Photon::distance is a fraction of this

@@ -27,13 +27,23 @@ Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
 
 }  // namespace
 
+std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buffers,
+                                                    ThreadPool& threads) {
+  using Tree = PointTree<PhotonBlock>;
+  std::vector<BlockStore<PhotonBlock>> unsorted;
+  for (PhotonBuffer& buffer : buffers)
+    unsorted.push_back(buffer.isSorted ? BlockStore<PhotonBlock>() : std::move(buffer.photons));
+  std::vector<Tree> trees = Tree::MakeAll(unsorted, threads);
+  for (std::size_t i = 0; i < trees.size(); ++i)
+    if (buffers[i].isSorted) trees[i] = Tree::OfBlocks(std::move(buffers[i].photons));
+  return trees;
+}
+
 PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings,
                            Real sceneRadius, PreprocessContext& context)
     : nUsed_(settings.nUsed), kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
-  std::vector<BlockStore<PhotonBlock>> photons;
-  for (PhotonBuffer& buffer : result->buffers) photons.push_back(std::move(buffer.photons));
-  auto trees = PointTree<PhotonBlock>::MakeAll(photons, context.threads);
+  auto trees = MakePhotonTrees(result->buffers, context.threads);
   Arena arena;
   for (std::size_t at = 0; at < kPhotonKindCount; ++at) {
     maps_[at] = PhotonMap(std::move(trees[at]), result->buffers[at], context.threads);

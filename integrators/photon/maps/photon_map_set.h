@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
@@ -12,6 +14,10 @@
 #include "integrators/photon/shooting/photon_tracer.h"
 
 namespace exphoton {
+
+// Sorts the photons of several maps together, which takes less time. Consumes the photons.
+std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buffers,
+                                                    ThreadPool& threads);
 
 class PhotonMapSet {
  public:

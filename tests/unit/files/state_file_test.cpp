@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check the file of a stopped render: what is written is read again, and no damaged
 // file is taken for a whole one.
-#include "core/render/state/state_file.h"
+#include "core/files/state_file.h"
 
 #include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/imaging/film/film.h"
@@ -51,6 +54,35 @@ TEST_F(StateFileTest, GivesBackItsSections) {
   EXPECT_FALSE(file.Has("missing"));
   EXPECT_THROW(file.Get("missing"), Error);
   EXPECT_TRUE(IsStateFile(Path()));
+}
+
+TEST_F(StateFileTest, MapsAlignedSections) {
+  const std::string first(1000, 'a'), second(3 * 4096 + 1, 'b');
+  {
+    StateWriter writer(Path());
+    writer.Add("odd", "x");
+    writer.AddAligned("first", std::as_bytes(std::span(first)));
+    writer.AddAligned("none", {});
+    writer.AddAligned("second", std::as_bytes(std::span(second)));
+    writer.Commit();
+  }
+  MappedBytes mapped;
+  {
+    const StateFile file(Path());
+    EXPECT_EQ(file.Get("first"), first);
+    EXPECT_TRUE(file.Map("none").bytes.empty());
+    EXPECT_THROW(file.Map("missing"), Error);
+    for (const char* name : {"first", "second"}) {
+      mapped = file.Map(name);
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(mapped.bytes.data()) % StateWriter::kAlignment,
+                0u);
+    }
+  }
+  // The bytes stay when the file is closed, and when another takes its place.
+  std::filesystem::rename(Path(), Path() + ".old");
+  WriteFile(Path(), "");
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(mapped.bytes.data()), mapped.bytes.size()),
+            second);
 }
 
 TEST_F(StateFileTest, NoTruncatedFileIsRead) {

@@ -9,7 +9,7 @@
 #include <functional>
 #include <thread>
 
-#include "core/render/state/state_file.h"
+#include "core/files/state_file.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// StateWriter and StateFile write and read the state of a stopped render: named sections of bytes
-// between a signature and a checksum. docs/development/state-files.md describes the format. The
-// sections themselves belong to the classes that they are named after.
+// StateWriter and StateFile write and read files that keep the work of a render: the state of a
+// stopped render, a part of a picture, or photons. Such a file has named sections of bytes between
+// a signature and a checksum. docs/development/state-files.md describes the format. The sections
+// themselves belong to the classes that they are named after.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +26,12 @@ class StateWriter {
  public:
   explicit StateWriter(const std::string& path);
   void Add(std::string_view name, std::string_view bytes);
+  // Adds a section that can be mapped: its bytes begin at a multiple of kAlignment. A section of
+  // zeros may precede it.
+  void AddAligned(std::string_view name, std::span<const std::byte> bytes);
   void Commit();
+
+  static constexpr std::size_t kAlignment = 128;
 
  private:
   void Write(const void* data, std::size_t size);
@@ -35,8 +42,16 @@ class StateWriter {
 
 // The purpose of reading a state, for messages.
 enum class StateUse {
-  Resume,  // to continue a stopped render
-  Part,    // to merge the part of a picture that one process rendered
+  Resume,   // to continue a stopped render
+  Part,     // to merge the part of a picture that one process rendered
+  Photons,  // to render with photons that were shot before
+};
+
+// MappedBytes are the bytes of a section, mapped into memory. Processes that map the same file
+// share its pages. The file must not be changed meanwhile; replacing it by another one is allowed.
+struct MappedBytes {
+  std::span<const std::byte> bytes;
+  std::shared_ptr<const void> owner;  // keeps them mapped
 };
 
 // Thrown for a file that has been read but is no complete state.
@@ -60,6 +75,10 @@ class StateFile {
   std::vector<std::string> Names() const;  // of all sections, sorted
   // Returns the bytes of a section. Throws Error(File) if it is missing or has changed since.
   std::string Get(const std::string& name) const;
+  // Maps a section that was written by AddAligned. Throws Error(File).
+  MappedBytes Map(const std::string& name) const;
+  // Throws Error(File) because the content of the file does not fit.
+  [[noreturn]] void FailAsDamaged(const std::string& why) const { Fail(why, true); }
   // Returns a checksum of a section's name and bytes.
   std::uint64_t Digest(const std::string& name) const;
   // Loads a section. A section that does not fit throws Error(File).

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // StateFile: the whole file is read and its checksum compared before any section is used. A section
 // is read again when it is needed.
-#include "core/render/state/state_file.h"
+#include "core/files/state_file.h"
 
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,9 +20,10 @@ namespace {
 // The line ends show a transfer that changed them.
 constexpr std::string_view kSignature = "EXPHOTON STATE\r\n";
 constexpr std::string_view kEnd = "checksum";
+constexpr std::string_view kFiller = "filler";
 
 // The finalizer of SplitMix64 (Steele, Lea and Flood 2014). It is a bijection of the hash.
-std::uint64_t Mix(std::uint64_t hash, std::uint64_t word) {
+std::uint64_t MixWord(std::uint64_t hash, std::uint64_t word) {
   std::uint64_t x = (hash ^ word) + 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
@@ -56,23 +58,25 @@ std::string ReadHead(const std::string& path) {
   return bytes;
 }
 
+std::string Noun(StateUse use) { return use == StateUse::Photons ? "the photons" : "the state"; }
+
 // Adds the words of some bytes to a checksum. Zeros fill the last word.
 std::uint64_t AddWords(std::uint64_t hash, std::string_view bytes) {
   for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
     std::uint64_t word;
     std::memcpy(&word, bytes.data(), 8);
-    hash = Mix(hash, word);
+    hash = MixWord(hash, word);
   }
   if (bytes.empty()) return hash;
   std::uint64_t word = 0;
   std::memcpy(&word, bytes.data(), bytes.size());
-  return Mix(hash, word);
+  return MixWord(hash, word);
 }
 
 }  // namespace
 
 std::uint64_t StateChecksum(std::uint64_t before, std::string_view bytes) {
-  return AddWords(Mix(before, bytes.size()), bytes);
+  return AddWords(MixWord(before, bytes.size()), bytes);
 }
 
 StateWriter::StateWriter(const std::string& path) : file_(path) {
@@ -92,6 +96,17 @@ void StateWriter::Add(std::string_view name, std::string_view bytes) {
   const std::string head = SectionHead(name, bytes.size());
   Write(head.data(), head.size());
   Write(bytes.data(), bytes.size());
+}
+
+void StateWriter::AddAligned(std::string_view name, std::span<const std::byte> bytes) {
+  const auto headSize = [](std::string_view of) { return SectionHead(of, 0).size(); };
+  const std::uint64_t past = (file_.Tell() + headSize(name)) % kAlignment;
+  if (past != 0) {
+    const std::size_t least = headSize(kFiller);
+    const std::size_t zeros = (2 * kAlignment - past - least % kAlignment) % kAlignment;
+    Add(kFiller, std::string(zeros, '\0'));
+  }
+  Add(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void StateWriter::Commit() {
@@ -129,8 +144,8 @@ class StateFile::Scanner {
   // Passes the next bytes and adds them to both checksums.
   void Pass(std::uint64_t size, std::uint64_t* checksum, std::uint64_t* digest) {
     if (size > left_) FailShort();
-    *checksum = Mix(*checksum, size);
-    *digest = Mix(*digest, size);
+    *checksum = MixWord(*checksum, size);
+    *digest = MixWord(*digest, size);
     while (size > 0) {
       const std::string_view block(block_.data(),
                                    std::size_t(std::min<std::uint64_t>(size, kBlock)));
@@ -162,6 +177,8 @@ StateFile::StateFile(const std::string& path, StateUse use) : path_(path), use_(
     const std::string head = ReadHead(path);
     if (!kSignature.starts_with(head)) {
       const bool isDamaged = MayBeStateFile(path);
+      if (use == StateUse::Photons)
+        Fail("it is no file of photons, or its first bytes are damaged", isDamaged);
       if (isDamaged || use == StateUse::Part)
         Fail("it is not the state of a render, or its first bytes are damaged", isDamaged);
       Fail("it is not the state of a stopped render");
@@ -191,16 +208,24 @@ StateFile::StateFile(const std::string& path, StateUse use) : path_(path), use_(
       scanner.Pass(size, &checksum, &section.digest);
     }
   } catch (const InputFileError& error) {
-    throw Error(ExitStatus::File, "cannot read the state \"" + path + "\": " + error.what());
+    throw Error(ExitStatus::File,
+                "cannot read " + Noun(use) + " \"" + path + "\": " + error.what());
   }
 }
 
 void StateFile::Fail(const std::string& why, bool isDamaged) const {
-  const bool isPart = use_ == StateUse::Part;
-  const std::string text =
-      (isPart ? "cannot use the part \"" : "cannot continue from \"") + path_ + "\": " + why;
-  const std::string hint =
-      isPart ? "render this part again" : "without --resume the render starts from the beginning";
+  const auto [refusal, hint] = [this]() -> std::pair<const char*, const char*> {
+    switch (use_) {
+      case StateUse::Part:
+        return {"cannot use the part", "render this part again"};
+      case StateUse::Photons:
+        return {"cannot use the photons", "exphoton photons SCENE -o FILE shoots them again"};
+      case StateUse::Resume:
+        break;
+    }
+    return {"cannot continue from", "without --resume the render starts from the beginning"};
+  }();
+  const std::string text = std::string(refusal) + " \"" + path_ + "\": " + why;
   if (isDamaged) throw DamagedState(ExitStatus::File, text, {}, hint);
   throw Error(ExitStatus::File, text, {}, hint);
 }
@@ -223,8 +248,35 @@ std::string StateFile::Get(const std::string& name) const {
       Fail("it has changed while it was read");
     return bytes;
   } catch (const InputFileError& error) {
-    throw Error(ExitStatus::File, "cannot read the state \"" + path_ + "\": " + error.what());
+    throw Error(ExitStatus::File,
+                "cannot read " + Noun(use_) + " \"" + path_ + "\": " + error.what());
   }
+}
+
+MappedBytes StateFile::Map(const std::string& name) const {
+  const auto found = sections_.find(name);
+  if (found == sections_.end()) Fail("its section \"" + name + "\" is missing");
+  const auto [offset, size, digest] = found->second;
+  if (size == 0) return {};
+  if (offset % StateWriter::kAlignment != 0)
+    Fail("its section \"" + name + "\" has another alignment", true);
+  try {
+    if (!file_) file_ = std::make_unique<Descriptor>(OpenRegularFile(path_));
+  } catch (const InputFileError& error) {
+    throw Error(ExitStatus::File,
+                "cannot read " + Noun(use_) + " \"" + path_ + "\": " + error.what());
+  }
+  // A mapping begins at a page.
+  const auto page = std::uint64_t(sysconf(_SC_PAGESIZE));
+  const std::uint64_t begin = offset / page * page;
+  const auto length = std::size_t(offset - begin + size);
+  void* const mapping = mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file_->Get(), off_t(begin));
+  if (mapping == MAP_FAILED)
+    throw Error(ExitStatus::Resource,
+                "cannot map \"" + path_ + "\" into memory: " + std::strerror(errno));
+  const std::shared_ptr<const void> owner(
+      mapping, [length](const void* at) { munmap(const_cast<void*>(at), length); });
+  return {{static_cast<const std::byte*>(mapping) + (offset - begin), std::size_t(size)}, owner};
 }
 
 std::uint64_t StateFile::Digest(const std::string& name) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // StateIdentity: settings have the names of their options, so that messages can name them.
-#include "core/app/output/state_identity.h"
+#include "core/app/identity/state_identity.h"
 
 #include <array>
 #include <cstdio>
@@ -9,7 +9,6 @@
 
 #include "core/app/output/picture.h"
 #include "core/base/error.h"
-#include "core/files/input_file.h"
 
 namespace exphoton::cli {
 namespace {
@@ -27,38 +26,12 @@ std::string Text(const PixelBounds& bounds) {
   return text;
 }
 
-// Directives have a hash that does not depend on their layout, so scene files are left out here.
-bool IsSceneFile(const std::string& name) {
-  return name.ends_with(".pbrt") || name.ends_with(".pbrt.gz");
-}
-
-std::uint64_t HashOfFile(const std::string& path) {
-  try {
-    const Descriptor file(OpenRegularFile(path));
-    std::vector<char> block(std::size_t(1) << 20);
-    std::uint64_t hash = 0;
-    for (;;) {
-      std::size_t filled = 0;
-      ssize_t count = 1;
-      while (filled < block.size() && count > 0) {
-        count = read(file.Get(), block.data() + filled, block.size() - filled);
-        if (count > 0) filled += std::size_t(count);
-      }
-      hash = StateChecksum(hash, {block.data(), filled});
-      if (filled < block.size()) return hash;
-    }
-  } catch (const InputFileError&) {
-    return 0;
-  }
-}
-
 }  // namespace
 
 StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& setup)
     : program_(VersionText()) {
   inputs_.push_back({setup.sceneName, setup.sceneHash});
-  for (const std::string& name : setup.inputFiles)
-    if (name != setup.sceneName && !IsSceneFile(name)) inputs_.push_back({name, HashOfFile(name)});
+  for (InputHash& input : HashesOfInputs(setup)) inputs_.push_back(std::move(input));
 
   const LoadOptions& load = command.load;
   const auto add = [this](const char* name, const std::string& value) {
@@ -77,6 +50,7 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--footprint-spp", std::to_string(command.footprintSamples));
   add("--quick", load.isQuick ? "on" : "off");
   add("--effects", load.effects);
+  add("--photons", command.photonFile.empty() ? "" : "on");
   add("--dialect", !load.dialect ? "auto" : *load.dialect == Dialect::V2 ? "v2" : "v1");
   add("--aov", AovNames(command));
   add("--two-halves", command.asTwoHalves ? "on" : "off");
@@ -93,7 +67,7 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
 void StateIdentity::Transfer(ByteArchive* archive) {
   archive->Text(&program_);
   inputs_.resize(archive->Count(inputs_.size(), 16));
-  for (Input& input : inputs_) {
+  for (InputHash& input : inputs_) {
     archive->Text(&input.name);
     archive->Values(&input.hash);
   }
@@ -114,8 +88,8 @@ void StateIdentity::Save(StateWriter* writer) const {
 std::string StateIdentity::Differences(const StateIdentity& other) const {
   if (other.program_ != program_) return "it is by " + other.program_ + ", this is " + program_;
   if (other.inputs_.empty()) return "it names no scene";
-  const Input& scene = inputs_.front();
-  const Input& otherScene = other.inputs_.front();
+  const InputHash& scene = inputs_.front();
+  const InputHash& otherScene = other.inputs_.front();
   if (otherScene.hash != scene.hash && otherScene.name != scene.name)
     return "it is of another scene: \"" + otherScene.name + "\" there, \"" + scene.name + "\" here";
   if (otherScene.hash != scene.hash) return "the scene \"" + scene.name + "\" has changed since";

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/app/identity/input_hashes.h"
 #include "core/app/options/options.h"
-#include "core/render/state/state_file.h"
+#include "core/files/state_file.h"
 
 namespace exphoton::cli {
 
@@ -26,10 +27,6 @@ class StateIdentity {
   const std::string& Program() const { return program_; }  // "exphoton 0.1.0"
 
  private:
-  struct Input {
-    std::string name;
-    std::uint64_t hash = 0;  // of the scene's directives, or of a file's bytes
-  };
   struct Setting {
     std::string name, value;  // "--spp", "16"
   };
@@ -37,7 +34,7 @@ class StateIdentity {
   void Transfer(ByteArchive* archive);
 
   std::string program_;
-  std::vector<Input> inputs_;  // the scene comes first
+  std::vector<InputHash> inputs_;  // the scene comes first
   std::vector<Setting> settings_;
 };
 
