@@ -13,7 +13,7 @@ import math
 import sys
 
 LABELS = {"photonmap": "photonmap", "path": "path tracing", "bidirectional": "bidirectional path tracing"}
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 760, 360, 64, 24, 62, 56
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 760, 440, 64, 24, 62, 56
 
 STYLE = """
 text{font:13px system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;fill:#3a3a38}
@@ -88,6 +88,7 @@ class Drawing:
         self.errors = (min(errors) / 1.15, max(errors) * 1.15)
         self.ratios = (min(ratios) / 1.3, max(ratios) * 1.35)
         self.parts = []
+        self.names = []  # right end and y of each curve's name
 
     def x(self, error):  # smaller errors are on the right
         low, high = self.errors
@@ -125,9 +126,17 @@ class Drawing:
         for e, r in (points[0], points[-1]):
             self.parts.append(f'<circle cx="{self.x(e):.1f}" cy="{self.y(r):.1f}" r="3.5" '
                               f'class="c{number}"/>')
-        e, r = points[0]
+        # A name stands over a curve that rises to its right end and under one that falls, or else to
+        # the right of it.
+        e, r = points[-1]
         name = f"… {LABELS.get(label, label)}" + (f", {title}" if title else "")
-        self.text(self.x(e) + 2, self.y(r) - 11, name, f'class="name c{number}"')
+        rises = r >= points[-2][1]
+        x, y, anchor = self.x(e) + (40 if rises else 0), self.y(r) + (-10 if rises else 24), "end"
+        width = 8 * len(name)
+        if any(abs(y - above) < 16 and abs(x - end) < width for end, above in self.names):
+            x, y, anchor = self.x(e) + 9, self.y(r) + 4, "start"
+        self.names.append((x if anchor == "end" else x + width, y))
+        self.text(x, y, name, f'class="name c{number}" text-anchor="{anchor}"')
 
 
 def main():
