@@ -57,8 +57,28 @@ if [ "${#texts[@]} ${#insteads[@]} ${#filters[@]}" != "$all $all $all" ]; then
   exit 1
 fi
 
+# Prints "Suite.Name" of all tests that are written in the sources.
+written_tests() {
+  find "$top/tests" -name '*.cpp' -exec cat {} + | tr '\n' ' ' |
+    grep -oE '(TEST|TEST_F|TEST_P|TYPED_TEST|TYPED_TEST_P)\( *[A-Za-z0-9_]+, *[A-Za-z0-9_]+\)' |
+    sed -E 's/.*\( *//; s/, */./; s/\)//'
+}
+# Prints names of tests in the tables that are not in the sources. Names with a wildcard in suite or
+# name are left out.
+missing_tests() {
+  comm -23 <(
+    for ((i = 0; i < count; ++i)); do
+      [ "${programs[i]}" = case ] || tr ':' '\n' <<<"${filters[i]%%-*}"
+    done | sed -E 's|^[^./]*/([^.]*\.)|\1|; s|/.*||' | grep -E '^[A-Za-z0-9_]+[.][A-Za-z0-9_]+$' | sort -u
+  ) <(written_tests | sort -u)
+}
+
 if [ "${1:-}" = --texts ]; then
   missing=0
+  if [ -n "$(missing_tests)" ]; then
+    echo "the tables name tests that do not exist: $(missing_tests | paste -s -d ' ')"
+    missing=1
+  fi
   for ((i = 0; i < count; ++i)); do
     grep -qF -- "${texts[i]}" "$top/${files[i]}" ||
       { echo "${names[i]}: its text is not in ${files[i]}"; missing=1; }
