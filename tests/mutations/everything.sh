@@ -120,27 +120,36 @@ build_all() { ninja -C "$build" -j "$jobs" >"$folder/build.log" 2>&1; }
 
 # The second round, of the defects with these indices.
 try_together() {  # INDEX ...
-  local i output program
+  local i output program switched=
   [ $# -gt 0 ] || return 0
   echo "$# passed the quick tests; all of them together with the others"
-  for i in "$@"; do put_in "$i" || echo "${names[i]}: cannot be put in with the others"; done
+  build_together all
+  for i in "$@"; do
+    if [ "${flags[$i]:-}" ]; then
+      switched+=${switched:+,}${flags[$i]}
+    else
+      put_in "$i" || echo "${names[i]}: cannot be put in with the others"
+    fi
+  done
   if ! build_all; then
     echo "together they do not compile: $(grep -m 1 error "$folder/build.log")"; missed=1
     take_out
     return
   fi
+  export EXPHOTON_DEFECTS=$switched
   run_other_tests
+  unset EXPHOTON_DEFECTS
   take_out
   for program in "${!failures[@]}"; do echo "  $program: ${failures[$program]}"; done
   keep_failures_of_defects
   for i in "$@"; do
-    if ! { put_in "$i" && build_all; }; then
-      echo "${names[i]}: cannot be built"; missed=1
+    if ! switch_on "$i"; then
+      missed=1
     elif output=$(repeat_failures); then
       echo "${names[i]}: NOT NOTICED by anything"; missed=1
     else
       echo "${names[i]}: $(noticed_by "$output")"; noticed=$((noticed + 1))
     fi
-    take_out
+    switch_off "$i"
   done
 }

@@ -11,9 +11,9 @@
 #   run.sh --list                     prints name, file and tests of each
 # A defect that keeps its test from ending has the word "endless" after the test. Any other time-out
 # is reported, and does not count as noticed.
-# Works in build-mutations/, a copy with its own build; the sources here are not touched. With JOBS
-# above 1 the defects are tried in parts, side by side, where the system allows mounts in a namespace
-# of a user.
+# Works in build-mutations/, a copy with its own build; the sources here are not touched. Nearly all
+# defects are compiled into one build, where an environment variable switches one of them on
+# (together.py). The others are compiled one after the other.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -22,18 +22,20 @@ copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
 . "$here/everything.sh"
 
-everything= part=
-if [ "${1:-}" = --part ]; then part=yes; shift; fi  # try_in_parts uses this
+everything=
 tables=("$here"/*.txt)
-if [ "${1:-}" = --texts ]; then tables+=("$here"/*.list); fi
-if [ "${1:-}" = --everything ]; then
-  everything=yes tables=("${2:?run.sh --everything TABLE}")
+others=("$here"/*.list)  # these are in the build as well, so that it serves every run
+if [ "${1:-}" = --texts ]; then
+  tables+=("${others[@]}") others=()
+elif [ "${1:-}" = --everything ]; then
+  everything=yes others=("${tables[@]}" "${others[@]}") tables=("$(realpath "${2:?run.sh --everything TABLE}")")
   shift 2
 fi
 
 names=() files=() texts=() insteads=() programs=() filters=() endings=()
 while IFS= read -r line; do
   case "$line" in
+    '# end of the tables') count=${#names[@]} ;;
     '' | '#'*) ;;
     '- '*) texts+=("${line:2}") ;;
     '+ '* | '+') insteads+=("${line:2}") ;;
@@ -45,15 +47,38 @@ while IFS= read -r line; do
       ;;
     *) read -r name file <<<"$line"; names+=("$name"); files+=("$file") ;;
   esac
-done < <(cat "${tables[@]}")
-count=${#names[@]}
-if [ "${#texts[@]} ${#insteads[@]} ${#filters[@]}" != "$count $count $count" ]; then
-  echo "${tables[*]}: a defect has a line too few or too many" >&2
+done < <(
+  cat "${tables[@]}" && echo '# end of the tables' &&
+    for table in "${others[@]}"; do [ "$table" = "${tables[0]}" ] || cat "$table"; done
+)
+all=${#names[@]}
+if [ "${#texts[@]} ${#insteads[@]} ${#filters[@]}" != "$all $all $all" ]; then
+  echo "${tables[*]} ${others[*]}: a defect has a line too few or too many" >&2
   exit 1
 fi
 
+# Prints "Suite.Name" of all tests that are written in the sources.
+written_tests() {
+  find "$top/tests" -name '*.cpp' -exec cat {} + | tr '\n' ' ' |
+    grep -oE '(TEST|TEST_F|TEST_P|TYPED_TEST|TYPED_TEST_P)\( *[A-Za-z0-9_]+, *[A-Za-z0-9_]+\)' |
+    sed -E 's/.*\( *//; s/, */./; s/\)//'
+}
+# Prints names of tests in the tables that are not in the sources. Names with a wildcard in suite or
+# name are left out.
+missing_tests() {
+  comm -23 <(
+    for ((i = 0; i < count; ++i)); do
+      [ "${programs[i]}" = case ] || tr ':' '\n' <<<"${filters[i]%%-*}"
+    done | sed -E 's|^[^./]*/([^.]*\.)|\1|; s|/.*||' | grep -E '^[A-Za-z0-9_]+[.][A-Za-z0-9_]+$' | sort -u
+  ) <(written_tests | sort -u)
+}
+
 if [ "${1:-}" = --texts ]; then
   missing=0
+  if [ -n "$(missing_tests)" ]; then
+    echo "the tables name tests that do not exist: $(missing_tests | paste -s -d ' ')"
+    missing=1
+  fi
   for ((i = 0; i < count; ++i)); do
     grep -qF -- "${texts[i]}" "$top/${files[i]}" ||
       { echo "${names[i]}: its text is not in ${files[i]}"; missing=1; }
@@ -88,17 +113,28 @@ copy_sources() {
   done <"$copy/.list"
 }
 
-# One source a compilation, because each defect compiles few; and a library with a defect does not
-# make its users link again. A defect in a helper library links up to twenty plugins, which gold does
-# three times as fast.
+# A library with a defect does not make its users link again. A defect in a helper library links up
+# to twenty plugins, which gold does three times as fast.
 configure() {
   local linker=() kind
   if command -v ld.gold >/dev/null 2>&1; then
     for kind in EXE SHARED MODULE; do linker+=("-DCMAKE_${kind}_LINKER_FLAGS=-fuse-ld=gold"); done
   fi
+  touch -a "$folder/defects.h"
   [ -f "$build/build.ninja" ] ||
     cmake -S "$copy" -B "$build" -G Ninja -DEXPHOTON_OPTIMIZE=-O1 -DEXPHOTON_TESTS=ON \
-      -DEXPHOTON_FILES_TOGETHER=1 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON "${linker[@]}" >/dev/null
+      -DEXPHOTON_FILES_TOGETHER=12 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON "${linker[@]}" \
+      "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing -include $folder/defects.h" >/dev/null
+}
+
+# Builds the targets with all defects that can be compiled together; fills flags, by index.
+declare -A flags
+build_together() {  # TARGET ...
+  local i flag
+  for ((i = 0; i < all; ++i)); do
+    printf '%s %s %s\n- %s\n+ %s\n' "$i" "${names[i]}" "${files[i]}" "${texts[i]}" "${insteads[i]}"
+  done | JOBS=$jobs python3 -B "$here/together.py" "$folder" "$@" || exit 1
+  while read -r i flag; do flags[$i]=$flag; done <"$folder/flags"
 }
 
 # target_of PROGRAM: what to build for it.
@@ -143,6 +179,7 @@ remember() {
 }
 # Restores sources and build, with their times: nothing is compiled for it.
 take_out() {
+  [ -d "$folder/originals" ] || return 0
   cp -a "$folder/originals/." "$copy"
   rm -rf "$folder/originals"
   (cd "$build" && find . -type f -newer "$folder/stamp" -print0) |
@@ -164,7 +201,7 @@ build_with() {  # INDEX: what its tests need
 
 missed=0 noticed=0
 left=()  # indices of defects for the second round
-declare -A passes targets
+declare -A passes targets  # by program and filter; by target
 # What is tested must pass without a defect, and be there.
 check_tests() {  # INDEX
   local key="${programs[$1]} ${filters[$1]}" output
@@ -202,83 +239,105 @@ prepare() {
   rm -rf "$folder/originals"
   copy_sources
   configure
-  echo "building without a defect"
+  echo "building with the defects"
   for i in "${chosen[@]}"; do targets[$(target_of "${programs[i]}")]=yes; done
   if [ "$everything" ]; then
-    build_all
+    build_together exphoton plugins "${quick_programs[@]/#/test_}"
   else
-    build_for "${!targets[@]}"
-  fi || { tail -20 "$folder/build.log"; exit 1; }
+    build_together exphoton plugins "${!targets[@]}"
+  fi
+  echo "${#flags[@]} of $all defects are in one build; testing without a defect"
   if [ "$everything" ]; then
     check_quick_programs
   else
     check_all_tests
   fi
-  remember
 }
 
-# Says which test notices a defect that is alone in the code.
-try() {  # INDEX
-  local name=${names[$1]} output
-  if ! put_in "$1"; then
-    echo "$name: its text is not in ${files[$1]}"; missed=1
+# Puts a defect in, alone; take_out undoes it.
+switch_on() {  # INDEX
+  if [ "${flags[$1]:-}" ]; then
+    export EXPHOTON_DEFECTS=${flags[$1]}
+  elif ! put_in "$1"; then
+    echo "${names[$1]}: its text is not in ${files[$1]}"
+    return 1
   elif ! build_with "$1"; then
-    echo "$name: does not compile: $(grep -m 1 error "$folder/build.log")"; missed=1
-  elif output=$(run_for "$1"); then
-    if [ "$everything" ]; then
-      left+=("$1")
-    else
-      echo "$name: NOT NOTICED"; missed=1
-      echo "    by ${programs[$1]} ${filters[$1]}"
-    fi
-  elif [ $? = 124 ] && [ "${endings[$1]}" != endless ]; then
-    echo "$name: the tests did not end"; missed=1
-    echo "    ${programs[$1]} ${filters[$1]}"
-  else
-    echo "$name: $(noticed_by "$output")"; noticed=$((noticed + 1))
+    echo "${names[$1]}: does not compile: $(grep -m 1 error "$folder/build.log")"
+    return 1
   fi
-  take_out
+}
+switch_off() {  # INDEX
+  if [ "${flags[$1]:-}" ]; then unset EXPHOTON_DEFECTS; else take_out; fi
 }
 
-# Tries the defects with these indices, each part of them with a copy of the build of its own. A
-# part sees its copy at the place of the original, so that nothing is compiled again for it.
-try_in_parts() {  # INDEX ...
-  local number index=0 processes=() counts
-  for ((number = 0; number < jobs; ++number)); do
-    local names_of_part=()
-    for ((index = number + 1; index <= $#; index += jobs)); do
-      names_of_part+=("${names[${!index}]}")
-    done
-    [ ${#names_of_part[@]} -gt 0 ] || continue
-    rm -rf "$folder/part$number"
-    mkdir "$folder/part$number"
-    cp -a "$copy" "$build" "$folder/stamp" "$folder/part$number"
-    cp -al "$clean" "$folder/part$number"
-    unshare -rm bash -c 'mount --bind "$0" "$1" && shift && JOBS=1 exec "$@"' \
-      "$folder/part$number" "$folder" "$here/run.sh" --part "${names_of_part[@]}" &
-    processes+=($!)
+# Says which test notices a defect. Succeeds if one does; 2: it is left for the second round.
+try() {  # INDEX
+  local name=${names[$1]} output status=0 result=1
+  if switch_on "$1"; then
+    output=$(run_for "$1") || status=$?
+    if [ $status = 0 ] && [ "$everything" ]; then
+      result=2
+    elif [ $status = 0 ]; then
+      echo "$name: NOT NOTICED"
+      echo "    by ${programs[$1]} ${filters[$1]}"
+    elif [ $status = 124 ] && [ "${endings[$1]}" != endless ]; then
+      echo "$name: the tests did not end"
+      echo "    ${programs[$1]} ${filters[$1]}"
+    else
+      echo "$name: $(noticed_by "$output")"
+      result=0
+    fi
+  fi
+  switch_off "$1"
+  return $result
+}
+count_result() {  # STATUS of try, INDEX
+  case "$1" in
+    0) noticed=$((noticed + 1)) ;;
+    2) left+=("$2") ;;
+    *) missed=1 ;;
+  esac
+}
+
+# Tries the defects of the one build, as many at once as there are jobs. Each has a folder for
+# temporary files of its own.
+try_side_by_side() {  # INDEX ...
+  local i status
+  : >"$folder/results"
+  for i in "$@"; do
+    while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do wait -n || true; done
+    {
+      export TMPDIR=$folder/temporary/$i
+      mkdir -p "$TMPDIR"
+      status=0
+      try "$i" || status=$?
+      echo "$status $i" >>"$folder/results"
+      rm -rf "$TMPDIR"
+    } &
   done
-  for number in "${processes[@]}"; do wait "$number" || missed=1; done
-  for counts in "$folder"/part*/noticed; do noticed=$((noticed + $(cat "$counts"))); done
-  rm -rf "$folder"/part*/
+  wait
+  while read -r status i; do count_result "$status" "$i"; done <"$folder/results"
 }
 
-if [ "$part" ]; then
-  rm -rf "$folder/originals"
-  for i in "${chosen[@]}"; do try "$i"; done
-  echo "$noticed" >"$folder/noticed"
-  exit $missed
-fi
 prepare
-wanted=()
+in_build=() alone=()
 for i in "${chosen[@]}"; do
-  [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ] || wanted+=("$i")
+  if [ "${passes[${programs[i]} ${filters[i]}]:-yes}" = no ]; then
+    missed=1
+  elif [ "${flags[$i]:-}" ] && [ ! "$everything" ]; then
+    in_build+=("$i")
+  else
+    alone+=("$i")
+  fi
 done
-if [ ! "$everything" ] && [ "$jobs" -gt 1 ] && unshare -rm true 2>/dev/null; then
-  try_in_parts "${wanted[@]}"
-else
-  for i in "${wanted[@]}"; do try "$i"; done
-fi
+try_side_by_side "${in_build[@]}"
+echo "$((SECONDS / 60)) min $((SECONDS % 60)) s; ${#alone[@]} defects one after the other"
+remember
+for i in "${alone[@]}"; do
+  status=0
+  try "$i" || status=$?
+  count_result "$status" "$i"
+done
 if [ "$everything" ]; then try_together "${left[@]}"; fi
 times >"$folder/times"
 read -r user system < <(tail -n 1 "$folder/times")

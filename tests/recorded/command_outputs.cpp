@@ -49,7 +49,7 @@ std::string Normalized(std::string text, const std::string& folder, bool hasTime
   text = WithoutParts(std::move(text), "<style>", "</style>");
   static const std::regex version(R"(exphoton \d+\.\d+\.\d+)"),
       seconds(R"(\b[0-9.e+-]+ (s|min|h)\b)"),
-      headline(R"(^(On \w+,|At relMSE |At noise |Least errors:).*)");  // compares times
+      headline(R"(^(On [^,]+,|At relMSE |At noise |Least errors:).*)");  // compares times
   std::istringstream lines(text);
   std::string normalized;
   for (std::string line; std::getline(lines, line);) {

@@ -2,12 +2,14 @@
 // ParameterScenes makes scenes from the declarations of all plugins of a kind: one without
 // parameters, and one for each value of each parameter. The values are those of
 // parameter_values.txt, or else are made from the declaration (type, default, range, choices).
+// Combined scenes have several of these values at once.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "core/params/param_reader.h"
 #include "core/params/param_text.h"
+#include "tests/recorded/draw.h"
 #include "tests/recorded/scene_list.h"
 #include "tests/support/test_plugin.h"
 
@@ -101,6 +103,12 @@ bool IsOfMappings(const std::string& parameter) {
   return std::find(names.begin(), names.end(), parameter) != names.end();
 }
 
+std::uint64_t SeedOf(const std::string& name) {
+  std::uint64_t seed = 0;
+  for (const char c : name) seed = seed * 131 + static_cast<unsigned char>(c);
+  return seed;
+}
+
 // The scenes of one plugin.
 class PluginScenes {
  public:
@@ -121,6 +129,25 @@ class PluginScenes {
       for (const std::string& value : Values(decl))
         add(plugin_ + "." + decl.name + "=" + value.substr(value.find("\" ") + 2),
             "\"" + plugin_ + "\"" + Base(decl.name, with) + others + " " + value);
+    }
+  }
+
+  // The same for plugins with about half of their parameters set at once. Parameters that need or
+  // exclude others are left out.
+  template <class Add>
+  void ForEachCombination(int count, const Add& add) const {
+    for (int i = 0; i < count; ++i) {
+      Draw draw(SeedOf(kind_ + plugin_) + std::uint64_t(i));
+      std::vector<std::string> chosen;
+      for (const ParamDecl& decl : declarations_) {
+        const std::vector<std::string> values = Values(decl);
+        const bool isAlone =
+            Entries("with", decl.name).empty() && Entries("without", decl.name).empty();
+        if (draw.Below(2) == 0 && isAlone && !values.empty()) chosen.push_back(draw.From(values));
+      }
+      std::string words = "\"" + plugin_ + "\"" + Base("", chosen);
+      for (const std::string& value : chosen) words += " " + value;
+      if (chosen.size() > 1) add(plugin_ + " combined " + std::to_string(i + 1), words);
     }
   }
 
@@ -178,18 +205,23 @@ std::vector<BaseScene> ReadBaseScenes() {
   return scenes;
 }
 
-void AddScenes(const BaseScene& base, const PluginScenes& plugin, std::vector<RecordedScene>* all) {
-  plugin.ForEach([&](const std::string& name, const std::string& words) {
+void AddScenes(const BaseScene& base, const PluginScenes& plugin, int combinations,
+               std::vector<RecordedScene>* all) {
+  const auto add = [&](const std::string& name, const std::string& words) {
     RecordedScene scene{base.kind + " " + name + base.variant, base.text, {}};
     const std::size_t at = scene.text.find('@');
     scene.text.replace(at, 1, words);
     all->push_back(scene);
-  });
+  };
+  if (combinations > 0)
+    plugin.ForEachCombination(combinations, add);
+  else
+    plugin.ForEach(add);
 }
 
 }  // namespace
 
-std::vector<RecordedScene> ParameterScenes(const std::string& kinds) {
+std::vector<RecordedScene> ParameterScenes(const std::string& kinds, int combinations) {
   const Table table = ReadTable();
   TestPlugins plugins;
   std::vector<RecordedScene> scenes;
@@ -202,7 +234,7 @@ std::vector<RecordedScene> ParameterScenes(const std::string& kinds) {
         if (name == "embree") continue;  // not in every build
         AddScenes(base,
                   {table, base.kind, name, *plugins.Registry().Find(kind, name, {}).parameters},
-                  &scenes);
+                  combinations, &scenes);
       }
     }
   }

@@ -28,6 +28,17 @@ const std::vector<Group>& Groups() {
       {"textures", [] { return ParameterScenes("float texture, color texture"); }},
       {"sampling", [] { return ParameterScenes("sampler, filter, camera, accelerator"); }},
       {"motion", [] { return MotionScenes(); }},
+      {"combined_1",
+       [] { return ParameterScenes("integrator, sampler, camera, volume, material", 5); }},
+      {"combined_2",
+       [] {
+         return ParameterScenes(
+             "shape, light, area light, volume integrator, float texture, color texture, filter, "
+             "accelerator",
+             5);
+       }},
+      {"state", [] { return StateScenes(1, 300); }},
+      {"window", [] { return WindowScenes(1, 210); }},
       {"chosen", [] { return ChosenScenes(); }},
   };
   return groups;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SceneList names the tiny scenes whose results are recorded. They come from four sources: the
+// SceneList names the tiny scenes whose results are recorded. Their sources are the
 // generator of random scenes, the parameter tables of the plugins, all combinations of motions with
-// what can move, and chosen_scenes.txt. A group of scenes has one file of records and is one test.
+// what can move, random directives, random film windows, and chosen_scenes.txt. A group of scenes
+// has one file of records and is one test.
 #pragma once
 
 #include <cstdint>
@@ -27,10 +28,14 @@ const std::vector<std::string>& GroupNames();
 // Returns the scenes of a group, in the same order each time.
 std::vector<RecordedScene> ScenesOf(const std::string& group);
 
-// The four sources.
+// The sources.
 std::vector<RecordedScene> RandomScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
-std::vector<RecordedScene> ParameterScenes(const std::string& kinds);  // "camera, filter"
+// Of kinds of plugins, such as "camera, filter". With combinations above 0, each plugin has as
+// many scenes with several parameters at once, and none with one alone.
+std::vector<RecordedScene> ParameterScenes(const std::string& kinds, int combinations = 0);
 std::vector<RecordedScene> MotionScenes();
+std::vector<RecordedScene> StateScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
+std::vector<RecordedScene> WindowScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
 std::vector<RecordedScene> ChosenScenes();
 
 // Replaces the line of a directive. Each directive of the text is one line.
