@@ -100,7 +100,7 @@ class Merger {
       });
     if (buffers.Splats()) LoadSplats(pass, buffers.Splats());
     if (buffers.Bands()) AddSharedLight(pass, tiles, &buffers);
-    if (const auto bias = buffers.Finish(&summary_.statistics))
+    if (const auto bias = buffers.Finish(threads_, &summary_.statistics))
       totals_.AddSharingBias(*bias, layout.samplesPerPixel);
     totals_.AddLight(*film, layout.samplesPerPixel);
   }
