@@ -2,16 +2,20 @@
 // PassBuffers: the windows of pixels, and the order in which the light of a pass is completed.
 #include "core/render/pass_buffers.h"
 
+#include <limits>
+
 namespace exphoton {
 namespace {
 
-PixelBounds Window(const PassBuffers::Layout& layout, const Film& film) {
+constexpr double kOneBand = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+PixelBounds PassBuffers::Window(const Layout& layout, const Film& film) {
   const PixelBounds& crop = film.Crop();
   const int reach = layout.splatWeights ? layout.splatWeights->Reach() : 0;
   return {crop.x0 - reach, crop.y0 - reach, crop.x1 + reach, crop.y1 + reach};
 }
-
-}  // namespace
 
 PixelBounds PassBuffers::Rendered(const Layout& layout, const Film& film) {
   const PixelBounds window = Window(layout, film);
@@ -25,21 +29,28 @@ PassBuffers::PassBuffers(const Layout& layout, Film* film, AovFilm* aovs)
   if (layout.splatWeights) splats_.emplace(*layout.splatWeights, film, aovs);
   if (layout.isShared)
     bands_.emplace(Window(layout, *film), Rendered(layout, *film), layout.samplesPerPixel,
-                   layout.sharingMemory);
+                   layout.batch ? kOneBand : layout.sharingMemory);
 }
 
 void PassBuffers::AddSharedLight(ThreadPool* threads, Statistics* statistics) {
+  if (layout_.batch) return;
   const PhaseTimer timer(*statistics, "share");
   bands_->AddLight(
       threads, {film_, aovs_, Splats(), bands_->Current().window, double(layout_.samplesPerPixel)});
 }
 
-std::optional<SharingBias> PassBuffers::Finish(Statistics* statistics) {
-  if (bands_)
-    statistics->SetCounter("render/sharing radius", bands_->Totals().MeanRadius(),
-                           "pixels, mean radius of the windows of shared gathers");
+std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* statistics) {
   if (splats_) splats_->Finish();
-  return bands_ ? EstimateSharingBias(bands_->Totals().checked, *film_) : std::nullopt;
+  if (!bands_) return std::nullopt;
+  GatherBatch* const batch = layout_.batch;
+  if (batch) {
+    const PhaseTimer timer(*statistics, "share");
+    batch->AddPass(bands_->Gathers(), layout_.samplesPerPixel, threads, film_, aovs_);
+  }
+  statistics->SetCounter("render/sharing radius",
+                         batch ? batch->MeanRadius() : bands_->Totals().MeanRadius(),
+                         "pixels, mean radius of the windows of shared gathers");
+  return batch ? batch->Bias() : EstimateSharingBias(bands_->Totals().checked, *film_);
 }
 
 }  // namespace exphoton

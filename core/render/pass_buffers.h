@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/render/sharing/gather_batch.h"
 #include "core/render/sharing/sharing_bands.h"
 #include "core/render/sharing/sharing_estimate.h"
 #include "core/render/splat_buffer.h"
@@ -21,9 +22,12 @@ class PassBuffers {
     bool isShared = false;                       // whether pixels share gathers
     std::int64_t samplesPerPixel = 1;
     double sharingMemory = 0x1p28;  // as in RenderOptions
+    GatherBatch* batch = nullptr;   // receives the gathers; null: the pass shares its own
   };
   // Returns the pixels to render: those whose samples or gathers reach the film's crop window.
   static PixelBounds Rendered(const Layout& layout, const Film& film);
+  // Returns the pixels that get the light of gathers.
+  static PixelBounds Window(const Layout& layout, const Film& film);
 
   // The film and the AOVs (null: none) receive the light. All arguments must outlive this object.
   PassBuffers(const Layout& layout, Film* film, AovFilm* aovs);
@@ -32,10 +36,10 @@ class PassBuffers {
   SharingBands* Bands() { return bands_ ? &*bands_ : nullptr; }
   GatherFragments* Gathers() { return bands_ ? &bands_->Gathers() : nullptr; }
 
-  // Adds the shared light of the current band of rows to the picture.
+  // Adds the shared light of the current band of rows to the picture, unless there is a batch.
   void AddSharedLight(ThreadPool* threads, Statistics* statistics);
   // Completes the film. Returns the estimate for shared gathers, if there is one.
-  std::optional<SharingBias> Finish(Statistics* statistics);
+  std::optional<SharingBias> Finish(ThreadPool* threads, Statistics* statistics);
 
  private:
   Layout layout_;

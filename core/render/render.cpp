@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/memory.h"
 #include "core/render/pass_buffers.h"
 #include "core/render/render_totals.h"
 #include "core/render/shards/shard_writer.h"
@@ -17,6 +18,12 @@
 #include "core/render/tiles.h"
 
 namespace exphoton {
+namespace {
+
+constexpr double kBatchBands = 4;  // the memory of a batch, in units of a band's
+
+}  // namespace
+
 struct PassRenderer::State {
   State(const RenderJob& aJob, const RenderOptions& someOptions)
       : job(aJob),
@@ -44,6 +51,31 @@ struct PassRenderer::State {
     // The integrator may march through media while it prepares.
     if (job.volume) job.volume->Preprocess(job.scene);
     job.integrator.Preprocess(job.scene, context);
+  }
+
+  // Returns the batch of a pass, or null if its gathers are shared alone. Gathers beyond the memory
+  // of a batch begin a new one.
+  GatherBatch* BatchOf(const RenderPass& pass, const Film& film) {
+    if (!sharing.isOn || options.shard || pass.sharing == RenderPass::Sharing::Alone)
+      return nullptr;
+    const double memory = kBatchBands * options.sharingMemory;
+    const std::int64_t before = batch ? batch->SamplesPerPixel() : 0;
+    const bool isTooLarge = !GatherBatch::Fits(film.Full(), before + pass.sampleCount, memory);
+    if (isTooLarge && !isBatchLimitLogged) {
+      isBatchLimitLogged = true;
+      job.log.Notice("gathers of several passes are shared together up to " + Megabytes(memory) +
+                     ", those of larger passes alone");
+    }
+    if (isTooLarge || pass.sharing == RenderPass::Sharing::BeginsBatch) batch.reset();
+    if (!GatherBatch::Fits(film.Full(), pass.sampleCount, memory)) return nullptr;
+    if (!batch) MakeBatch(film);
+    return &*batch;
+  }
+
+  void MakeBatch(const Film& film) {
+    const PassBuffers::Layout layout = LayoutOf({}, nullptr);
+    batch.emplace(GatherBatch::Layout{film, options.aovs, PassBuffers::Window(layout, film),
+                                      PassBuffers::Rendered(layout, film), splatWeights.get()});
   }
 
   // Renders the pixels of the window that are not done. The window has all columns of the pass.
@@ -74,8 +106,8 @@ struct PassRenderer::State {
     }
   }
 
-  PassBuffers::Layout LayoutOf(const RenderPass& pass) const {
-    return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory};
+  PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
+    return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory, passBatch};
   }
 
   ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {
@@ -106,7 +138,7 @@ struct PassRenderer::State {
   void RunShardPass(const RenderPass& pass, const Sampler& sampler, Film* film) {
     ShardWriter& writer = *options.shard;
     writer.BeginPass(ShardLayoutOf(pass, *film));
-    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass), *film);
+    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass, nullptr), *film);
     const std::vector<ShardTile> tiles = TilesOf(writer.Of(), rendered);
     std::optional<SplatBuffer> splats;
     if (splatWeights) splats.emplace(*splatWeights, film, options.aovs);
@@ -146,8 +178,9 @@ struct PassRenderer::State {
   // Renders a pass after its preprocessing.
   void RunPass(const RenderPass& pass, const Sampler& sampler, Film* film) {
     if (options.shard) return RunShardPass(pass, sampler, film);
-    PassBuffers buffers(LayoutOf(pass), film, options.aovs);
-    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass), *film);
+    GatherBatch* const passBatch = BatchOf(pass, *film);
+    PassBuffers buffers(LayoutOf(pass, passBatch), film, options.aovs);
+    const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass, passBatch), *film);
     SharingBands* const shared = buffers.Bands();
     PassState passState({pass, film, options.aovs, buffers.Splats(), shared}, rendered);
     Resume(&passState);
@@ -160,8 +193,10 @@ struct PassRenderer::State {
     else
       RenderPixels(target, rendered, &passState);
     job.progress.End();
-    if (const auto bias = buffers.Finish(&job.statistics))
-      totals.AddSharingBias(*bias, pass.sampleCount);
+    if (passBatch && passBatch->Bias())
+      totals.RemoveSharingBias(*passBatch->Bias(), passBatch->SamplesPerPixel());
+    if (const auto bias = buffers.Finish(&job.threads, &job.statistics))
+      totals.AddSharingBias(*bias, passBatch ? passBatch->SamplesPerPixel() : pass.sampleCount);
     if (options.view && (shared || buffers.Splats())) options.view->Show(*film, film->Crop());
   }
 
@@ -199,6 +234,7 @@ struct PassRenderer::State {
     RenderTotals all = AllTotals();
     SaveSection("totals", all, writer);
     SaveSection("non-finite samples", nonFinite, writer);
+    if (batch) batch->Save(writer);
   }
 
   bool IsStopped() const {
@@ -219,6 +255,8 @@ struct PassRenderer::State {
   std::deque<RenderWorker> workers;
   bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;
+  std::optional<GatherBatch> batch;  // of the last passes; nullopt: none
+  bool isBatchLimitLogged = false;
   Log mutedLog{Log::Level::Quiet, Log::Sink::Memory};
   int passes = 0;
   RenderTotals totals;
@@ -236,6 +274,9 @@ PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
   if (!options.resumed) return;
   LoadSection("totals", &state_->totals, *options.resumed);
   LoadSection("non-finite samples", &state_->nonFinite, *options.resumed);
+  if (!GatherBatch::IsIn(*options.resumed)) return;
+  state_->MakeBatch(job.film);
+  state_->batch->Load(*options.resumed, &job.threads);
 }
 
 PassRenderer::~PassRenderer() = default;

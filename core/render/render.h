@@ -98,6 +98,11 @@ struct RenderPass {
       0;                         // for photons; the photons of the last pass stay if it is equal
   std::uint64_t sampleSeed = 0;  // for camera samples
   std::int64_t firstSample = 0, sampleCount = 0;
+  // Whether pixels share the gathers of this pass alone, or those of a batch of successive passes
+  // with equal preprocessing. The film of a pass in a batch must be empty before it. It receives
+  // the difference that the pass makes to the picture of its batch.
+  enum class Sharing { Alone, BeginsBatch, ContinuesBatch };
+  Sharing sharing = Sharing::Alone;
 };
 
 // Renders pass by pass. Passes may differ in every member of RenderPass. Statistics and warnings
@@ -115,7 +120,7 @@ class PassRenderer {
   // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
 
-  // Saves what all passes have in common.
+  // Saves what all passes have in common, and the current batch.
   void SaveTotals(StateWriter* writer) const;
 
   double PreprocessSeconds() const;  // wall-clock time of the last pass

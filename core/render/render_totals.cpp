@@ -80,10 +80,17 @@ void RenderTotals::AddSharingBias(const SharingBias& bias, std::int64_t samplesP
   biasSamples_ += samplesPerPixel;
 }
 
+void RenderTotals::RemoveSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel) {
+  const auto weight = double(samplesPerPixel);
+  bias_ -= bias.squared * weight;
+  biasVariance_ -= bias.standardError * bias.standardError * weight * weight;
+  biasSamples_ -= samplesPerPixel;
+}
+
 std::optional<SharingBias> RenderTotals::MeanSharingBias() const {
-  if (biasSamples_ == 0) return std::nullopt;
+  if (biasSamples_ <= 0) return std::nullopt;
   const auto total = double(biasSamples_);
-  return SharingBias{bias_ / total, std::sqrt(biasVariance_) / total};
+  return SharingBias{bias_ / total, std::sqrt(std::max(biasVariance_, 0.)) / total};
 }
 
 RenderResult Summarize(const SummaryTarget& job, const RenderTotals& totals,

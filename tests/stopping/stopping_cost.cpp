@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // This program measures what --target-error costs. It renders a scene plainly with several numbers
 // of samples, and to several targets, with several seeds. It prints the true noise of each render
-// and its cost, and the ratio to the cost of the plain render that has the noise of the target.
+// and its cost, and the ratios to the costs of the plain renders that have the noise of the render
+// and the noise of the target.
 //   stopping_cost SCENE WIDTHxHEIGHT SEEDS SAMPLES,SAMPLES... TARGET,TARGET...
 // A negative target -N renders two halves with N samples together.
 #include <algorithm>
@@ -181,14 +182,16 @@ void PrintTarget(const Converged& converged, const PlainCosts& plain, Row* row) 
   const auto [least, most] = std::minmax_element(row->errors.begin(), row->errors.end());
   const double cpu = MedianOf(row->renders, [](const Measured& m) { return m.cpuSeconds; });
   const double rays = MedianOf(row->renders, [](const Measured& m) { return m.rays; });
-  const double error = row->setting > 0 ? row->setting : Median(row->errors);
-  std::printf("%g  %.5f [%.5f %.5f]  %.5f  %g  %g  %.2f  %.2f  %.2f\n", row->setting,
-              Median(row->errors), *least, *most,
-              MedianOf(row->renders, [](const Measured& m) { return m.estimate; }),
+  const double own = Median(row->errors);
+  const double target = row->setting > 0 ? row->setting : own;
+  std::printf("%g  %.5f [%.5f %.5f]  %.5f  %g  %g  %.2f  %.2f %.2f  %.2f %.2f\n", row->setting, own,
+              *least, *most, MedianOf(row->renders, [](const Measured& m) { return m.estimate; }),
               MedianOf(row->renders, [](const Measured& m) { return m.samples; }),
               MedianOf(row->renders, [](const Measured& m) { return double(m.passes); }), cpu,
-              cpu / CostOf(plain.errors, plain.seconds, error),
-              rays / CostOf(plain.errors, plain.rays, error));
+              cpu / CostOf(plain.errors, plain.seconds, own),
+              rays / CostOf(plain.errors, plain.rays, own),
+              cpu / CostOf(plain.errors, plain.seconds, target),
+              rays / CostOf(plain.errors, plain.rays, target));
 }
 
 int Main(int argc, char** argv) {
@@ -207,7 +210,9 @@ int Main(int argc, char** argv) {
   for (const Row& row : plain)
     for (const Measured& one : row.renders) converged.Add(one);
   const PlainCosts costs = PrintPlain(converged, &plain);
-  std::printf("target  noise [min max]  estimate  samples  passes  CPU s  ratio  rays ratio\n");
+  std::printf(
+      "target  noise [min max]  estimate  samples  passes  CPU s  "
+      "CPU and rays at equal noise  CPU and rays at the target\n");
   for (Row& row : RenderRows(scene, seeds, argv[5], false)) PrintTarget(converged, costs, &row);
   return 0;
 }

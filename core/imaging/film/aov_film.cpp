@@ -234,6 +234,13 @@ void AovFilm::ClearPixel(Point2i pixel) {
   if (!reads_.empty()) distances_[at] = 0, reads_[at] = 0;
 }
 
+void AovFilm::SubtractLight(const AovFilm& other) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    values_[i].sum -= other.values_[i].sum;
+    values_[i].absSum -= other.values_[i].absSum;
+  }
+}
+
 void AovFilm::Add(const AovFilm& other) {
   isSplatted_ = isSplatted_ || other.isSplatted_;
   for (std::size_t i = 0; i < weights_.size(); ++i) {

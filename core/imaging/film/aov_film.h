@@ -35,6 +35,8 @@ class AovFilm {
   void ClearPixel(Point2i pixel);
   // Adds the samples of another film with the same pixels and AOVs.
   void Add(const AovFilm& other);
+  // Removes the light AOVs of another film, which has no samples of its own.
+  void SubtractLight(const AovFilm& other);
   // Saves or loads all sums. Throws ArchiveError if the saved film had other AOVs or pixels.
   void Transfer(ByteArchive* archive);
   // The same for one pixel: all sums but its time, and its time.

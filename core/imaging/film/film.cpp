@@ -116,6 +116,19 @@ void Film::Add(const Film& other) {
   }
 }
 
+void Film::SubtractLight(const Film& other) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    Pixel& p = pixels_[i];
+    const Pixel& q = other.pixels_[i];
+    p.r -= q.r;
+    p.g -= q.g;
+    p.b -= q.b;
+    p.absR -= q.absR;
+    p.absG -= q.absG;
+    p.absB -= q.absB;
+  }
+}
+
 void Film::Transfer(ByteArchive* archive) {
   for (const PixelBounds& bounds : {full_, crop_})
     for (const int edge : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) archive->Same(edge);

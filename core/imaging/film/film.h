@@ -55,6 +55,8 @@ class Film {
   // Adds the samples of another film with the same windows, as if they followed this film's
   // samples.
   void Add(const Film& other);
+  // Removes the radiance of another film, which has no samples of its own.
+  void SubtractLight(const Film& other);
 
   // sum(w L) and sum(w) of a pixel, for computations with several films.
   struct Sums {

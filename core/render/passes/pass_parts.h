@@ -14,9 +14,6 @@ namespace exphoton {
 // Seeds of passes differ by this key.
 constexpr std::uint64_t kPassSeed = 0x70617373ull;
 constexpr std::uint64_t kGroupSeed = 0x7265706cull;
-// Groups of passes are independent of each other. Later groups share the places of the first ones,
-// which limits memory.
-constexpr int kGroups = 8;
 
 // Returns a pass with a complete sample pattern. `first` is the number of samples that the group
 // has before it.

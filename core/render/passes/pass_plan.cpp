@@ -14,9 +14,6 @@ constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
 constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
 constexpr double kHuge = 0x1p50;
-constexpr std::int64_t kProbe = 2;  // samples of the first forecast
-// Beginnings of sequences that are shorter than this are not well distributed, but patterns are.
-constexpr std::int64_t kShortSequence = 16;
 
 // Low-discrepancy sequences are best distributed where their length is a power of two, so all
 // groups have such sizes. Returns the largest power of two up to the number, at least 1.
@@ -27,6 +24,7 @@ std::int64_t PowerOfTwoUpTo(double samples) {
 }  // namespace
 
 void GroupForecast::Add(const Film& pass, std::int64_t samplesPerPixel) {
+  if (!noise_) return;
   noise_->Add(samples_ == 0 ? 0 : 1, pass, samplesPerPixel);
   const std::int64_t before = samples_;
   samples_ += samplesPerPixel;
@@ -77,7 +75,7 @@ std::int64_t PassPlan::FirstGoal(const State& state) const {
       std::min(PowerOfTwoUpTo(double(limits_.maxSamples + 1) / 2), GoalByTime(state));
   if (!limits_.targetError) return most;
   if (!state.enough) return std::min<std::int64_t>(2, most);
-  return std::min(PowerOfTwoUpTo(kRounding * *state.enough), most);
+  return std::min(PowerOfTwoUpTo(kRounding * *state.enough / 2), most);
 }
 
 // The second group is as large as the first one. The noise may then come from photons,
@@ -93,20 +91,20 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
 }
 
 PassPlan::Step PassPlan::Next(const State& state) const {
-  if (limits_.passSamples > 0) return {true, limits_.passSamples, true};
+  if (limits_.passSamples > 0) return {true, limits_.passSamples};
   Step step;
   std::int64_t goal = 1;
   if (groups_ > 0) {
     goal = groups_ == 1 ? FirstGoal(state) : GoalByTime(state);
-    const bool isDone = groupSamples_ >= goal || (groups_ > 1 && limits_.targetError);
-    step.isNewGroup = isDone;
-    if (isDone) goal = LaterGoal(state);
+    if (groups_ == 2 && limits_.targetError) goal = std::min(goal, firstSamples_);
+    step.isNewGroup = groupSamples_ >= goal || (groups_ > 2 && limits_.targetError);
+    if (step.isNewGroup) goal = LaterGoal(state);
   }
-  const bool isProbed = groups_ == 1 && groupSamples_ == kProbe && limits_.targetError;
-  step.isPattern = goal < kShortSequence && (step.isNewGroup ? groups_ > 0 : isProbed);
-  step.size = step.isNewGroup || step.isPattern ? goal : goal - groupSamples_;
-  if (groups_ == 1 && !step.isNewGroup && !step.isPattern)
-    step.size = std::min(step.size, groupSamples_);
+  step.size = step.isNewGroup ? goal : goal - groupSamples_;
+  if (groups_ == 1) {
+    const std::int64_t half = step.isNewGroup ? std::max<std::int64_t>(goal / 2, 1) : groupSamples_;
+    step.size = std::min(step.size, half);
+  }
   step.size = std::max<std::int64_t>(std::min(step.size, limits_.maxSamples - state.samples), 1);
   if (limits_.timeLimit && state.samples > 0) {
     const double left =
@@ -127,13 +125,18 @@ void PassPlan::Take(const Step& step) {
 }
 
 std::optional<double> PassPlan::SecondsLeft(const State& state) const {
+  if (state.samples == 0) {
+    if (!limits_.timeLimit) return std::nullopt;
+    return std::max(*limits_.timeLimit - state.elapsed, 0.);
+  }
   double seconds = double(limits_.maxSamples - state.samples) * state.sample;
   bool isKnown = double(limits_.maxSamples) < kHuge;
   if (limits_.targetError) {
     isKnown = groups_ > 1 || state.enough;
     const Step step = Next(state);
-    const double goal =
-        groups_ == 1 ? 2 * double(FirstGoal(state)) : double(state.samples + step.size);
+    double goal = double(state.samples + step.size);
+    if (groups_ == 1) goal = 2 * double(FirstGoal(state));
+    if (groups_ == 2 && !step.isNewGroup) goal = 2 * double(firstSamples_);
     const bool isNewGroup = groups_ == 1 || step.isNewGroup;
     const double needed = std::max(goal - double(state.samples), 0.) * state.sample +
                           (isNewGroup ? state.preprocess : 0);

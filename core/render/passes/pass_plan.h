@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PassPlan chooses the passes of a render with a stopping rule. Passes that share photon maps form
-// a group, because shooting photons again costs time. Groups are independent of each other, so
-// their differences show the noise of the camera samples and of the photons. Derivation and
-// measurements: docs/decisions/0037-groups-of-passes.md.
+// a group, because shooting photons again costs time. All passes continue one sequence of camera
+// samples. Derivation and measurements: docs/decisions/0037-groups-of-passes.md and
+// docs/decisions/0046-gathers-of-several-passes.md.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace exphoton {
 
-// GroupForecast predicts the noise of the first group from its own passes. They continue one
-// sequence of camera samples. The noise of the photons does not show.
+// GroupForecast predicts the noise of a group from its own passes. The noise of the photons does
+// not show.
 class GroupForecast {
  public:
   explicit GroupForecast(const PixelBounds& crop) : noise_(std::in_place, crop, 2) {}
@@ -23,14 +23,17 @@ class GroupForecast {
   // Returns the number of samples at which the noise part of relMSE of the group is expected to
   // fall to this; nullopt before the second pass.
   std::optional<double> SamplesFor(double noise) const;
+  // Returns the noise of all passes, if the last pass and the passes before it are independent;
+  // 0 before the second pass.
+  double Difference() const { return difference_; }
   void Release() { noise_.reset(); }    // frees the memory
   void Transfer(ByteArchive* archive);  // saves or loads
 
  private:
   std::optional<PassNoise> noise_;
   std::int64_t samples_ = 0;
-  double difference_ = 0;  // estimate from the difference of the last pass to those before it
-  double slope_ = 1.25;    // the error falls as samples^-slope
+  double difference_ = 0;
+  double slope_ = 1.5;  // the error falls as samples^-slope
 };
 
 class PassPlan {
@@ -44,7 +47,7 @@ class PassPlan {
   struct State {
     std::int64_t samples = 0;      // per pixel, so far
     std::optional<double> noise;   // of the picture; known if there are two groups
-    std::optional<double> enough;  // samples that the first group needs to reach twice the target
+    std::optional<double> enough;  // samples that two groups need to reach the target
     double elapsed = 0;            // since the start of the time limit
     double preprocess = 0;         // for one preprocessing
     double sample = 0;             // for one sample per pixel
@@ -53,11 +56,11 @@ class PassPlan {
 
   struct Step {
     bool isNewGroup = true;
-    std::int64_t size = 1;   // samples per pixel; 0: no sample fits into the time limit
-    bool isPattern = false;  // a complete sample pattern; otherwise the group's sequence goes on
+    std::int64_t size = 1;  // samples per pixel; 0: no sample fits into the time limit
   };
   // Returns the next pass. The first group doubles until it has about half the samples that are
-  // needed. The second one takes as many. More groups follow if the noise is still too large.
+  // needed. The second one takes as many in two passes. More groups follow if the noise is still
+  // too large.
   Step Next(const State& state) const;
   void Take(const Step& step);  // the pass was rendered
 

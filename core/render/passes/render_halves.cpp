@@ -18,29 +18,27 @@ class Halves {
         parts_(job, options, [this](const Checkpoint& inner) { return WrapCheckpoint(inner); }),
         options_(parts_.Options()),
         renderer_(job_, options_),
-        noise_(job.film.Crop(), 2) {
+        sum_(&job.film, {}) {
     const std::int64_t count = std::max<std::int64_t>((job.sampler.SamplesPerPixel() + 1) / 2, 1);
     sampler_ = job.sampler.WithSamplesPerPixel(count);
   }
 
   PassesResult Run() {
     if (options_.resumed) Resume();
-    while (result_.passes < 2 && RunHalf()) {
+    while (sum_.Passes() < 2 && RunHalf()) {
     }
-    result_.render = renderer_.Finish();
-    if (result_.passes < 2) result_.reason = StopReason::Signal;
-    if (result_.passes == 2) {
-      result_.noise = noise_.RelativeVariance();
-      if (parts_.NeedsVariances()) result_.variances = noise_.Variances();
-    }
-    return std::move(result_);
+    PassesResult result;
+    result.render = renderer_.Finish();
+    result.reason = sum_.Passes() < 2 ? StopReason::Signal : StopReason::Samples;
+    sum_.Describe(parts_.NeedsVariances(), &result);
+    return result;
   }
 
  private:
   // Returns false if stopped.
   bool RunHalf() {
-    Film* const half = films_[std::size_t(result_.passes)];
-    const std::uint64_t seed = HashKey({options_.seed, kPassSeed, std::uint64_t(result_.passes)});
+    Film* const half = films_[std::size_t(sum_.Passes())];
+    const std::uint64_t seed = HashKey({options_.seed, kPassSeed, std::uint64_t(sum_.Passes())});
     const bool isWhole =
         renderer_.Run({seed, seed, 0, sampler_->SamplesPerPixel()}, *sampler_, half);
     parts_.TakeAovs();
@@ -50,18 +48,16 @@ class Halves {
   }
 
   void TakeHalf(const Film& half) {
-    job_.film.Add(half);
+    sum_.Add(half, sampler_->SamplesPerPixel(), sum_.Passes());
     parts_.Show(job_.film);
-    noise_.Add(result_.passes++, half, sampler_->SamplesPerPixel());
-    result_.samplesPerPixel += sampler_->SamplesPerPixel();
   }
 
   Checkpoint WrapCheckpoint(const Checkpoint& inner) {
     Checkpoint outer;
-    outer.hasWork = inner.hasWork || result_.passes > 0;
+    outer.hasWork = inner.hasWork || sum_.Passes() > 0;
     outer.save = [this, inner](StateWriter* writer) {
       inner.save(writer);
-      if (result_.passes == 0) return;
+      if (sum_.Passes() == 0) return;
       SaveSection("first half", *films_[0], writer);
       parts_.SaveAovs(writer);
     };
@@ -69,8 +65,8 @@ class Halves {
     outer.picture = [this, inner] {
       PictureSoFar picture = inner.picture();
       picture.halves = {*films_[0], *films_[1]};
-      picture.halves[std::size_t(result_.passes)] = picture.film;
-      if (result_.passes == 0) return picture;
+      picture.halves[std::size_t(sum_.Passes())] = picture.film;
+      if (sum_.Passes() == 0) return picture;
       picture.film = job_.film;
       picture.film.Add(picture.halves[1]);
       parts_.AddAovs(&picture);
@@ -93,9 +89,8 @@ class Halves {
   PassParts parts_;
   const RenderOptions& options_;  // of one pass
   PassRenderer renderer_;
-  PassNoise noise_;
+  PassSum sum_;
   std::unique_ptr<Sampler> sampler_;
-  PassesResult result_;
 };
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include "core/render/passes/render_passes.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <limits>
 
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
@@ -15,6 +15,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t kProgressSteps = 1000;
+// The first samples of a sequence are well distributed if their number is this number times a power
+// of two. A larger number would spoil small passes.
+constexpr std::int64_t kWellDistributed = 2;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -33,11 +36,11 @@ class Passes {
                   quiet_,     job.statistics, job.volume,  job.integratorName},
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
-        noise_(job.film.Crop(), kGroups),
-        forecast_(job.film.Crop()),
+        sum_(&job.film, {rule.targetError, rule.maxSamples}),
+        forecasts_{GroupForecast(job.film.Crop()), GroupForecast(job.film.Crop())},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples}) {
-    if (job.sampler.IsProgressive())
-      progressiveSampler_ = job.sampler.WithSamplesPerPixel(rule.maxSamples);
+    if (job.sampler.IsProgressive() && rule.passSamples == 0)
+      sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
     quiet_.SetListener([this] { ShowProgress(); });
   }
 
@@ -46,6 +49,7 @@ class Passes {
     job_.progress.Begin("Rendering", kProgressSteps);
     step_ = plan_.Next({});
     if (options_.resumed) Resume();
+    ExpectTime(State());
     for (std::optional<StopReason> reason; !reason; reason = Reason(step_)) {
       if (!RunPass(step_)) {
         result_.reason = StopReason::Signal;
@@ -53,8 +57,7 @@ class Passes {
       }
       const PassPlan::State state = State();
       step_ = plan_.Next(state);
-      if (const auto left = plan_.SecondsLeft(state))
-        expectedSeconds_ = SecondsSince(begin_) + *left;
+      ExpectTime(state);
     }
     result_.reason = *reasonMet_;
     if (result_.reason == StopReason::Signal) SaveBetweenPasses();
@@ -65,26 +68,21 @@ class Passes {
   // Saves or loads the passes that are complete, and the step of the next one.
   void Transfer(ByteArchive* archive) {
     plan_.Transfer(archive);
-    char isNewGroup = step_.isNewGroup ? 1 : 0, isPattern = step_.isPattern ? 1 : 0;
-    archive->Values(&isNewGroup, &step_.size, &isPattern);
+    char isNewGroup = step_.isNewGroup ? 1 : 0;
+    archive->Values(&isNewGroup, &step_.size);
     step_.isNewGroup = isNewGroup != 0;
-    step_.isPattern = isPattern != 0;
-    archive->Values(&groupSamples_, &preprocessSeconds_, &renderSeconds_, &result_.passes,
-                    &result_.samplesPerPixel);
-    double noise = result_.noise.value_or(std::numeric_limits<double>::quiet_NaN());
-    archive->Values(&noise);
-    result_.noise = noise == noise ? std::optional(noise) : std::nullopt;
+    archive->Values(&groupSamples_, &preprocessSeconds_, &renderSeconds_);
+    sum_.TransferCounts(archive);
     const bool isPossible = step_.size >= 1 && step_.size <= rule_.maxSamples &&
-                            result_.passes >= 0 && plan_.Groups() >= 0 &&
-                            plan_.Groups() <= result_.passes && result_.samplesPerPixel >= 0 &&
-                            result_.samplesPerPixel <= rule_.maxSamples && groupSamples_ >= 0 &&
+                            plan_.Groups() == sum_.Groups() &&
+                            (step_.isNewGroup || plan_.Groups() > 0) && groupSamples_ >= 0 &&
                             groupSamples_ <= rule_.maxSamples;
     if (!isPossible) throw ArchiveError("its counts of passes contradict each other");
   }
 
   Checkpoint WrapCheckpoint(const Checkpoint& inner) {
     Checkpoint outer;
-    outer.hasWork = inner.hasWork || result_.passes > 0;
+    outer.hasWork = inner.hasWork || sum_.Passes() > 0;
     outer.save = [this, inner](StateWriter* writer) {
       inner.save(writer);
       ByteArchive passes;
@@ -92,8 +90,12 @@ class Passes {
       writer->Add("passes", passes.Take());
       SaveSection("film", job_.film, writer);
       parts_.SaveAovs(writer);
-      SaveSection("noise", noise_, writer);
-      SaveSection("forecast", forecast_, writer);
+      ByteArchive noise;
+      sum_.TransferNoise(&noise);
+      writer->Add("noise", noise.Take());
+      ByteArchive forecasts;
+      for (GroupForecast& forecast : forecasts_) forecast.Transfer(&forecasts);
+      writer->Add("forecast", forecasts.Take());
     };
     if (!inner.picture) return outer;
     outer.picture = [this, inner] {
@@ -117,21 +119,27 @@ class Passes {
     file.Read("passes", [this](ByteArchive* archive) { Transfer(archive); });
     LoadSection("film", &job_.film, file);
     parts_.LoadAovs(file);
-    LoadSection("noise", &noise_, file);
-    LoadSection("forecast", &forecast_, file);
-    job_.log.Notice("continuing \"" + file.Path() + "\" after " + std::to_string(result_.passes) +
-                    (result_.passes == 1 ? " pass" : " passes"));
+    file.Read("noise", [this](ByteArchive* archive) { sum_.TransferNoise(archive); });
+    file.Read("forecast", [this](ByteArchive* archive) {
+      for (GroupForecast& forecast : forecasts_) forecast.Transfer(archive);
+    });
+    job_.log.Notice("continuing \"" + file.Path() + "\" after " + std::to_string(sum_.Passes()) +
+                    (sum_.Passes() == 1 ? " pass" : " passes"));
   }
 
   PassPlan::State State() const {
     PassPlan::State state;
-    state.samples = result_.samplesPerPixel;
-    state.noise = result_.noise;
-    if (rule_.targetError) state.enough = forecast_.SamplesFor(2 * *rule_.targetError);
+    state.samples = sum_.SamplesPerPixel();
+    if (rule_.targetError) state.noise = sum_.Noise();
+    if (rule_.targetError) state.enough = forecasts_[0].SamplesFor(*rule_.targetError);
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
     state.preprocess = preprocessSeconds_;
-    state.sample = renderSeconds_ / double(std::max<std::int64_t>(result_.samplesPerPixel, 1));
+    state.sample = renderSeconds_ / double(std::max<std::int64_t>(sum_.SamplesPerPixel(), 1));
     return state;
+  }
+
+  void ExpectTime(const PassPlan::State& state) {
+    if (const auto left = plan_.SecondsLeft(state)) expectedSeconds_ = SecondsSince(begin_) + *left;
   }
 
   bool RunPass(const PassPlan::Step& step) {
@@ -141,44 +149,50 @@ class Passes {
     pass.preprocessSeed = HashKey({options_.seed, kPassSeed, group});
     pass.sampleCount = step.size;
     std::unique_ptr<Sampler> pattern;
-    const bool goesOn = progressiveSampler_ && !step.isPattern;
-    if (goesOn) {
-      pass.sampleSeed = HashKey({options_.seed, kGroupSeed, group});
-      pass.firstSample = groupSamples_;
+    if (sequence_) {
+      pass.sampleSeed = HashKey({options_.seed, kGroupSeed});
+      pass.firstSample = sum_.SamplesPerPixel();
     } else {
       // The pass uses a complete sample pattern with a separate seed.
       pass = PatternPass(options_.seed, group, groupSamples_, step.size);
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
+    if (rule_.passSamples == 0)
+      pass.sharing =
+          step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
     passFilm_.Clear();
-    const bool isWhole = renderer_.Run(pass, goesOn ? *progressiveSampler_ : *pattern, &passFilm_);
-    job_.film.Add(passFilm_);
+    const bool isWhole = renderer_.Run(pass, sequence_ ? *sequence_ : *pattern, &passFilm_);
+    if (isWhole)
+      TakePass(step, int(group));
+    else
+      job_.film.Add(passFilm_);
     parts_.TakeAovs();
     parts_.Show(job_.film);
-    if (isWhole) TakePass(step, int(group % kGroups));
     return isWhole;
   }
 
   void TakePass(const PassPlan::Step& step, int group) {
     plan_.Take(step);
-    noise_.Add(group, passFilm_, step.size);
-    if (plan_.Groups() == 1 && rule_.targetError) forecast_.Add(passFilm_, step.size);
-    if (plan_.Groups() == 2) forecast_.Release();
+    sum_.Add(passFilm_, step.size, group);
+    if (group < 2 && rule_.passSamples == 0) TakeForecast(step.size, group);
+    if (group == 2)
+      for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup) preprocessSeconds_ = renderer_.PreprocessSeconds();
     renderSeconds_ += renderer_.RenderSeconds();
     groupSamples_ += step.size;
-    ++result_.passes;
-    result_.samplesPerPixel += step.size;
-    if (plan_.Groups() > 1 && rule_.targetError) result_.noise = noise_.RelativeVariance();
+  }
+
+  void TakeForecast(std::int64_t samples, int group) {
+    forecasts_[std::size_t(group)].Add(passFilm_, samples);
+    const double a = forecasts_[0].Difference(), b = forecasts_[1].Difference();
+    if (sequence_ && a > 0 && b > 0) sum_.CorrectForSequence((a + b) / 2);
   }
 
   // `next` is the step that would follow.
   std::optional<StopReason> Reason(const PassPlan::Step& next) {
-    if (rule_.targetError && result_.noise && *result_.noise <= *rule_.targetError)
-      reasonMet_ = StopReason::TargetError;
-    else if (result_.samplesPerPixel >= rule_.maxSamples)
-      reasonMet_ = StopReason::Samples;
-    else if (rule_.timeLimit && next.size < 1)
+    reasonMet_ = sum_.Reason();
+    if (reasonMet_) return reasonMet_;
+    if (rule_.timeLimit && next.size < 1)
       reasonMet_ = StopReason::TimeLimit;
     else if (options_.stop && *options_.stop)
       reasonMet_ = StopReason::Signal;
@@ -197,10 +211,7 @@ class Passes {
     if (result_.reason != StopReason::Signal) job_.progress.SetDone(kProgressSteps);
     job_.progress.End();
     result_.render = renderer_.Finish();
-    if (plan_.Groups() > 1) {
-      result_.noise = noise_.RelativeVariance();
-      if (parts_.NeedsVariances()) result_.variances = noise_.Variances();
-    }
+    sum_.Describe(parts_.NeedsVariances(), &result_);
     if (result_.reason == StopReason::Signal) result_.render.isComplete = false;
     return std::move(result_);
   }
@@ -213,34 +224,20 @@ class Passes {
   RenderJob quietJob_;
   PassRenderer renderer_;
   Film passFilm_;
-  PassNoise noise_;  // by group
-  GroupForecast forecast_;
+  PassSum sum_;
+  std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
   PassPlan::Step step_;  // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   Clock::time_point begin_;
-  std::atomic<double> expectedSeconds_{0};       // since begin_; 0: unknown
-  std::unique_ptr<Sampler> progressiveSampler_;  // null if the sampler is not progressive
+  std::atomic<double> expectedSeconds_{0};  // since begin_; 0: unknown
+  std::unique_ptr<Sampler> sequence_;       // null if the sampler is not progressive
   PassesResult result_;
   std::optional<StopReason> reasonMet_;
 };
 
 }  // namespace
-
-const char* StopReasonName(StopReason reason) {
-  switch (reason) {
-    case StopReason::Samples:
-      return "samples";
-    case StopReason::TargetError:
-      return "target-error";
-    case StopReason::TimeLimit:
-      return "time-limit";
-    case StopReason::Signal:
-      return "signal";
-  }
-  return "";
-}
 
 PassesResult RenderInPasses(const RenderJob& job, const RenderOptions& options,
                             const StoppingRule& rule) {

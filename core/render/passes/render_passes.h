@@ -7,7 +7,7 @@
 #include <chrono>
 #include <optional>
 
-#include "core/imaging/film/pass_noise.h"
+#include "core/render/passes/pass_sum.h"
 #include "core/render/render.h"
 
 namespace exphoton {
@@ -22,18 +22,6 @@ struct StoppingRule {
   std::int64_t passSamples = 0;
 
   static constexpr std::int64_t kMaxSamples = std::int64_t(1) << 20;
-};
-
-enum class StopReason { Samples, TargetError, TimeLimit, Signal };
-const char* StopReasonName(StopReason reason);  // for example "target-error"
-
-struct PassesResult {
-  RenderResult render;
-  StopReason reason = StopReason::Samples;  // Samples: the wanted number or maxSamples is reached
-  int passes = 0;                           // complete passes
-  std::int64_t samplesPerPixel = 0;
-  std::optional<double> noise;   // estimated noise part of relMSE; absent with one pass
-  std::vector<float> variances;  // of each pixel, three channels; empty with one pass
 };
 
 // Renders at least one complete pass into the job's film and stops between passes only. The first

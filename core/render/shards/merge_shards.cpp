@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "core/imaging/film/pass_noise.h"
 #include "core/render/pass_buffers.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/shards/shard_statistics.h"
@@ -100,7 +99,7 @@ class Merger {
       });
     if (buffers.Splats()) LoadSplats(pass, buffers.Splats());
     if (buffers.Bands()) AddSharedLight(pass, tiles, &buffers);
-    if (const auto bias = buffers.Finish(&summary_.statistics))
+    if (const auto bias = buffers.Finish(threads_, &summary_.statistics))
       totals_.AddSharingBias(*bias, layout.samplesPerPixel);
     totals_.AddLight(*film, layout.samplesPerPixel);
   }
@@ -108,31 +107,26 @@ class Merger {
   // Adds pass after pass, and stops where a render on one machine would stop.
   void AddPasses() {
     const bool isTarget = merge_.passes.kind == PicturePasses::Kind::TargetError;
+    const std::int64_t samples = merge_.layout.samplesPerPixel;
     Film& film = *films_.film;
     std::optional<Film> one;
     if (isTarget) one.emplace(film.Full(), film.Crop());
     std::unique_ptr<AovFilm> aovs;
     if (films_.aovs) aovs = std::make_unique<AovFilm>(film.Crop(), films_.aovs->Wanted());
-    PassNoise noise(film.Crop(), isTarget ? kGroups : 2);
-    result_.reason = StopReason::Samples;
-    for (int pass = 0; pass < merge_.passes.count; ++pass) {
+    PassSum::Limits limits{{}, merge_.passes.count * samples};
+    if (isTarget) limits.targetError = merge_.passes.targetError;
+    PassSum sum(&film, limits);
+    while (!sum.Reason()) {
+      const int pass = sum.Passes();
       Film* const passFilm = isTarget ? &*one : films_.halves[pass];
       passFilm->Clear();
       if (aovs) aovs->Clear();
       AddPass(pass, passFilm, aovs.get());
-      film.Add(*passFilm);
+      sum.Add(*passFilm, samples, pass);
       if (aovs) films_.aovs->Add(*aovs);
-      noise.Add(pass % kGroups, *passFilm, merge_.layout.samplesPerPixel);
-      ++result_.passes;
-      result_.samplesPerPixel += merge_.layout.samplesPerPixel;
-      if (result_.passes < 2) continue;
-      result_.noise = noise.RelativeVariance();
-      if (!isTarget || *result_.noise > merge_.passes.targetError) continue;
-      result_.reason = StopReason::TargetError;
-      break;
     }
-    if (result_.noise && films_.aovs && films_.aovs->Wanted().Has(Aov::Variance))
-      result_.variances = noise.Variances();
+    result_.reason = *sum.Reason();
+    sum.Describe(films_.aovs && films_.aovs->Wanted().Has(Aov::Variance), &result_);
   }
 
   ShardStatistics StatisticsOf(const StateFile& part, int pass) const {

@@ -16,6 +16,18 @@ namespace {
 // Before Finish, positions are sums over all records; ng is the normal of the first record.
 Point3 MeanPosition(const GatherFragment& fragment) { return fragment.p / fragment.Count(); }
 
+// Adds a finished fragment of the same surface to a finished fragment.
+void AddTo(GatherFragment* fragment, const GatherFragment& added) {
+  const Real share = added.Count() / (fragment->Count() + added.Count());
+  fragment->film = fragment->film + (added.film - fragment->film) * share;
+  fragment->p += (added.p - fragment->p) * share;
+  fragment->n += (added.n - fragment->n) * share;
+  for (std::size_t group = 0; group < kGatherGroups; ++group) {
+    fragment->count[group] += added.count[group];
+    fragment->lights[group] += added.lights[group];
+  }
+}
+
 }  // namespace
 
 // A fragment is kept in its pixel and in the columns of FragmentRows. Most pixels have one.
@@ -74,6 +86,27 @@ void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real
     fragment->count[std::size_t(group)] += 1;
     samples.push_back({film, record.n, record.light, record.weight, filterWeight,
                        std::uint32_t(fragment - fragments.begin()), record.depth});
+  }
+}
+
+void GatherFragments::Pixel::Join(const Pixel& other) {
+  std::vector<std::uint32_t> places;  // of the other fragments
+  for (const GatherFragment& added : other.fragments) {
+    const auto isOnSurface = [&](const GatherFragment& fragment) {
+      return fragment.depth == added.depth &&
+             LieOnOneSurface(fragment.p, fragment.ng, added.p, added.ng);
+    };
+    const auto fragment = std::find_if(fragments.begin(), fragments.end(), isOnSurface);
+    places.push_back(std::uint32_t(fragment - fragments.begin()));
+    if (fragment == fragments.end())
+      fragments.push_back(added);
+    else
+      AddTo(&*fragment, added);
+  }
+  samples.reserve(samples.size() + other.samples.size());
+  for (const GatherSample& sample : other.samples) {
+    samples.push_back(sample);
+    samples.back().fragment = places[sample.fragment];
   }
 }
 

@@ -76,6 +76,7 @@ class GatherFragments {
     // Adds the records of one camera sample.
     void Add(const GatherRecords& records, Point2 film, Real filterWeight, int group);
     void Finish();                        // turns sums into means
+    void Join(const Pixel& other);        // adds the records of another pass; both are finished
     void Transfer(ByteArchive* archive);  // saves or loads
   };
 

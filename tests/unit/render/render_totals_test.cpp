@@ -20,5 +20,16 @@ TEST(RenderTotals, AddAllCountsOfAnotherThread) {
   EXPECT_EQ(first.rays.Total(), 2u);
 }
 
+// A batch of passes replaces its estimate after each pass.
+TEST(RenderTotals, ForgetTheRemovedEstimatesOfSharing) {
+  RenderTotals totals;
+  totals.AddSharingBias({.5, .25}, 4);
+  totals.RemoveSharingBias({.5, .25}, 4);
+  EXPECT_FALSE(totals.MeanSharingBias());
+  totals.AddSharingBias({.25, .125}, 8);
+  EXPECT_EQ(totals.MeanSharingBias()->squared, .25);
+  EXPECT_EQ(totals.MeanSharingBias()->standardError, .125);
+}
+
 }  // namespace
 }  // namespace exphoton

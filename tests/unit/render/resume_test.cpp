@@ -194,18 +194,15 @@ TEST_P(ResumeTest, ContradictoryStatesGiveErrorsOrPictures) {
   CheckpointAt stop(700, true, Path());
   ASSERT_FALSE(Render(&stop, nullptr, 1).result.render.isComplete);
   const StateFile whole(Path());
-  const char* const names[] = {"pass",         "pass film", "pass aovs", "pass splats",
-                               "pass gathers", "totals",    "passes",    "film",
-                               "aovs",         "noise",     "forecast",  "first half"};
+  const std::vector<std::string> names = whole.Names();
   int errors = 0;
   std::uint64_t random = 1;
-  for (const char* damaged : names) {
-    if (!whole.Has(damaged)) continue;
+  for (const std::string& damaged : names) {
+    if (damaged == "non-finite samples") continue;
+    if (damaged.starts_with("batch gathers") && !damaged.ends_with("7")) continue;  // to save time
     for (int i = 0; i < 12; ++i) {
       StateWriter writer(folder_.File("b.state"));
-      writer.Add("non-finite samples", whole.Get("non-finite samples"));
-      for (const char* name : names) {
-        if (!whole.Has(name)) continue;
+      for (const std::string& name : names) {
         std::string bytes(whole.Get(name));
         random = random * 6364136223846793005u + 1442695040888963407u;
         const std::size_t at = std::size_t(random >> 33) %

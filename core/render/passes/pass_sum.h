@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PassSum adds complete passes up to one picture, estimates its noise from the differences between
+// groups of passes, and knows whether a target is reached. Renders and merges of shards use it, so
+// that both stop after the same pass. Groups have different photons. Their camera samples are
+// independent of each other, or they continue one sequence.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/imaging/film/pass_noise.h"
+#include "core/render/render.h"
+
+namespace exphoton {
+
+enum class StopReason { Samples, TargetError, TimeLimit, Signal };
+const char* StopReasonName(StopReason reason);  // for example "target-error"
+
+struct PassesResult {
+  RenderResult render;
+  StopReason reason = StopReason::Samples;  // Samples: the wanted number or maxSamples is reached
+  int passes = 0;                           // complete passes
+  std::int64_t samplesPerPixel = 0;
+  std::optional<double> noise;   // estimated noise part of relMSE; absent with one pass
+  std::vector<float> variances;  // of each pixel, three channels; empty with one pass
+};
+
+class PassSum {
+ public:
+  struct Limits {
+    std::optional<double> targetError;  // noise part of relMSE
+    std::int64_t maxSamples = 0;        // per pixel
+  };
+  // Groups of passes are independent of each other. Later groups share the places of the first
+  // ones, which limits memory.
+  static constexpr int kPlaces = 8;
+
+  // `picture` receives the passes. It must outlive this object.
+  PassSum(Film* picture, const Limits& limits)
+      : picture_(picture), limits_(limits), noise_(picture->Crop(), kPlaces) {}
+
+  // Adds a complete pass of a group. Groups are numbered from 0, and a pass belongs to the last
+  // group or begins the next one.
+  void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
+
+  // Tells that the groups continue one sequence of camera samples, whose errors partly cancel.
+  // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
+  // after the passes of these groups.
+  void CorrectForSequence(double within);
+
+  // Returns TargetError or Samples if this rule holds.
+  std::optional<StopReason> Reason() const;
+
+  int Passes() const { return passes_; }
+  int Groups() const { return groups_; }
+  std::int64_t SamplesPerPixel() const { return samples_; }
+  // The estimated noise part of relMSE; nullopt before the second group. Reason is based on it.
+  std::optional<double> Noise() const;
+  // Writes the numbers of passes and samples, the noise and, if wanted, the variances.
+  void Describe(bool needsVariances, PassesResult* result) const;
+
+  // Save or load everything but the picture: the counts and the noise.
+  void TransferCounts(ByteArchive* archive);
+  void TransferNoise(ByteArchive* archive) { noise_.Transfer(archive); }
+
+ private:
+  Film* picture_;
+  Limits limits_;
+  PassNoise noise_;
+  int passes_ = 0, groups_ = 0;
+  std::int64_t samples_ = 0;
+  double correction_ = 1;                // factor on the noise of independent groups
+  mutable std::optional<double> known_;  // result of Noise for the passes so far
+};
+
+}  // namespace exphoton

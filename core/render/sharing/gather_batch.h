@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// GatherBatch keeps the gathers of successive passes that read the same photon maps. After each
+// pass, light is fitted to all of them again. A fit to the gathers of several passes has less noise
+// than the mean of one fit for each pass. docs/decisions/0046-gathers-of-several-passes.md has the
+// measurements.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/render/sharing/shared_gathers.h"
+#include "core/render/state/state_file.h"
+
+namespace exphoton {
+
+class GatherBatch {
+ public:
+  // The films of a pass state the picture and the AOVs (null: none). `window` holds the pixels that
+  // get light, `gathered` those whose gathers they need. If `splatWeights` is null, samples are not
+  // splatted.
+  struct Layout {
+    const Film& film;
+    const AovFilm* aovs;
+    PixelBounds window, gathered;
+    const SplatWeights* splatWeights;
+  };
+  explicit GatherBatch(const Layout& layout);
+
+  // Returns whether the gathers of the full picture with this number of samples a pixel fit into
+  // the memory. A crop does not change the answer.
+  static bool Fits(const PixelBounds& full, std::int64_t samplesPerPixel, double memory);
+
+  std::int64_t SamplesPerPixel() const { return samples_; }
+
+  // Adds a pass whose film and AOVs have no light of gathers. They receive the difference between
+  // the light of all gathers and the light that earlier passes received.
+  void AddPass(const GatherFragments& gathers, std::int64_t samplesPerPixel, ThreadPool* threads,
+               Film* film, AovFilm* aovs);
+
+  // These are results for all passes of the batch.
+  double MeanRadius() const { return totals_.MeanRadius(); }  // of the windows, in pixels
+  const std::optional<SharingBias>& Bias() const { return bias_; }
+
+  static bool IsIn(const StateFile& file) { return file.Has(kSection); }
+  void Save(StateWriter* writer);
+  void Load(const StateFile& file, ThreadPool* threads);
+
+ private:
+  static constexpr const char* kSection = "batch";
+
+  void Transfer(ByteArchive* archive);
+  void TransferRow(ByteArchive* archive, int y);
+  void FitLight(ThreadPool* threads);
+
+  PixelBounds window_;
+  const SplatWeights* splatWeights_;
+  GatherFragments gathers_;
+  std::int64_t samples_ = 0;
+  Film own_;    // the passes without the light of gathers
+  Film light_;  // the light of all gathers
+  std::unique_ptr<AovFilm> lightAovs_;
+  SharingTotals totals_;
+  std::optional<SharingBias> bias_;
+};
+
+}  // namespace exphoton
