@@ -30,8 +30,8 @@ PassBuffers::PassBuffers(const Layout& layout, Film* film, AovFilm* aovs)
 
 void PassBuffers::AddSharedLight(ThreadPool* threads, Statistics* statistics) {
   const PhaseTimer timer(*statistics, "share");
-  bands_->AddLight(
-      threads, {film_, aovs_, Splats(), bands_->Current().window, double(layout_.samplesPerPixel)});
+  bands_->AddLight(threads, {film_, aovs_, Splats(), bands_->Current().window,
+                             double(layout_.samplesPerPixel), layout_.corrections});
 }
 
 std::optional<SharingBias> PassBuffers::Finish(Statistics* statistics) {

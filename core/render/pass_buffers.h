@@ -20,7 +20,8 @@ class PassBuffers {
     const SplatWeights* splatWeights = nullptr;  // null: samples are not splatted
     bool isShared = false;                       // whether pixels share gathers
     std::int64_t samplesPerPixel = 1;
-    double sharingMemory = 0x1p28;  // as in RenderOptions
+    double sharingMemory = 0x1p28;       // as in RenderOptions
+    Corrections* corrections = nullptr;  // the same
   };
   // Returns the pixels to render: those whose samples or gathers reach the film's crop window.
   static PixelBounds Rendered(const Layout& layout, const Film& film);

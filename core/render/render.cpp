@@ -74,7 +74,8 @@ struct PassRenderer::State {
   }
 
   PassBuffers::Layout LayoutOf(const RenderPass& pass) const {
-    return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory};
+    return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory,
+            options.corrections};
   }
 
   ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {

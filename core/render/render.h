@@ -27,6 +27,7 @@
 namespace exphoton {
 
 class Checkpoints;
+class Corrections;
 class ShardWriter;
 class StateFile;
 class StateWriter;
@@ -64,6 +65,8 @@ struct RenderOptions {
   // If not null, the render is one shard of a picture, and its sums go here. The films are not
   // complete then.
   ShardWriter* shard = nullptr;
+  // Receives the corrections of each pass, whose end the caller reports. Null: no certificate.
+  Corrections* corrections = nullptr;
   RenderView* view = nullptr;  // sees finished tiles and passes; null: none
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
 
 namespace exphoton {
@@ -52,6 +53,8 @@ class Halves {
   void TakeHalf(const Film& half) {
     job_.film.Add(half);
     parts_.Show(job_.film);
+    if (options_.corrections)
+      options_.corrections->EndPass(result_.passes, sampler_->SamplesPerPixel());
     noise_.Add(result_.passes++, half, sampler_->SamplesPerPixel());
     result_.samplesPerPixel += sampler_->SamplesPerPixel();
   }

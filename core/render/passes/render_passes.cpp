@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 
+#include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
 
@@ -162,6 +163,7 @@ class Passes {
   void TakePass(const PassPlan::Step& step, int group) {
     plan_.Take(step);
     noise_.Add(group, passFilm_, step.size);
+    if (options_.corrections) options_.corrections->EndPass(group, step.size);
     if (plan_.Groups() == 1 && rule_.targetError) forecast_.Add(passFilm_, step.size);
     if (plan_.Groups() == 2) forecast_.Release();
     if (step.isNewGroup) preprocessSeconds_ = renderer_.PreprocessSeconds();
