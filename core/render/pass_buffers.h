@@ -21,8 +21,9 @@ class PassBuffers {
     const SplatWeights* splatWeights = nullptr;  // null: samples are not splatted
     bool isShared = false;                       // whether pixels share gathers
     std::int64_t samplesPerPixel = 1;
-    double sharingMemory = 0x1p28;  // as in RenderOptions
-    GatherBatch* batch = nullptr;   // receives the gathers; null: the pass shares its own
+    double sharingMemory = 0x1p28;       // as in RenderOptions
+    GatherBatch* batch = nullptr;        // receives the gathers; null: the pass shares its own
+    Corrections* corrections = nullptr;  // as in RenderOptions
   };
   // Returns the pixels to render: those whose samples or gathers reach the film's crop window.
   static PixelBounds Rendered(const Layout& layout, const Film& film);

@@ -107,7 +107,8 @@ struct PassRenderer::State {
   }
 
   PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
-    return {splatWeights.get(), sharing.isOn, pass.sampleCount, options.sharingMemory, passBatch};
+    return {splatWeights.get(),    sharing.isOn, pass.sampleCount,
+            options.sharingMemory, passBatch,    options.corrections};
   }
 
   ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {

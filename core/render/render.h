@@ -27,6 +27,7 @@
 namespace exphoton {
 
 class Checkpoints;
+class Corrections;
 class ShardWriter;
 class StateFile;
 class StateWriter;
@@ -65,7 +66,9 @@ struct RenderOptions {
   // complete then.
   ShardWriter* shard = nullptr;
   const PhotonFileUse* photonFile = nullptr;  // see PreprocessContext
-  RenderView* view = nullptr;                 // sees finished tiles and passes; null: none
+  // Receives the corrections of each pass, whose end the caller reports. Null: no certificate.
+  Corrections* corrections = nullptr;
+  RenderView* view = nullptr;  // sees finished tiles and passes; null: none
 };
 
 struct RenderJob {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <sstream>
 
+#include "core/render/certificate/corrections.h"
 #include "core/transport/shading_point.h"
 
 namespace exphoton {
@@ -147,15 +148,12 @@ void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) cons
   const Point2 film = Point2(Real(key.pixel.x), Real(key.pixel.y)) + half + filter.offset;
   const RayDifferential ray = CameraRay(film, samples);
 
-  worker->arena.Reset();
-  LiContext context{job_.scene, samples, worker->arena, worker->totals.rays,
-                    HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
-                             std::uint64_t(key.index)})};
-  context.pixelState = &worker->pixelState;
-  context.threadState = &worker->threadState;
-  context.volume = job_.volume;
-  worker->gathers.clear();
-  if (target_.gathers) context.gathers = &worker->gathers;
+  LiContext context = MakeContext(key, worker);
+  CorrectionSample correction;
+  if (options_.corrections) {
+    correction.share = options_.corrections->Share();
+    context.correction = &correction;
+  }
   AovSample aovs;
   if (aovs_) {
     aovs.wanted = aovs_->Wanted();
@@ -182,10 +180,26 @@ void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) cons
     for (const GatherRecord& gather : worker->gathers)
       aovs.ownGathers += gather.light * gather.weight;
   }
+  // A block of pixels is much wider than the filter, so splatted samples count in their own pixel.
+  if (options_.corrections)
+    options_.corrections->Add(key.pixel, correction, target_.splats ? Real(1) : filter.weight);
   if (target_.splats) return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr});
   if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
   target_.film.AddSample(key.pixel, L, alpha, filter.weight);
   if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
+}
+
+LiContext TileRenderer::MakeContext(const SampleKey& key, RenderWorker* worker) const {
+  worker->arena.Reset();
+  LiContext context{job_.scene, worker->samples, worker->arena, worker->totals.rays,
+                    HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
+                             std::uint64_t(key.index)})};
+  context.pixelState = &worker->pixelState;
+  context.threadState = &worker->threadState;
+  context.volume = job_.volume;
+  worker->gathers.clear();
+  if (target_.gathers) context.gathers = &worker->gathers;
+  return context;
 }
 
 RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& samples) const {

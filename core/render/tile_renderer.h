@@ -63,6 +63,8 @@ class TileRenderer {
   bool RenderAllSamples(Point2i pixel, RenderWorker* worker) const;
 
   void RenderSample(const SampleKey& key, RenderWorker* worker) const;
+  // Begins a sample: clears the worker's data of the last one.
+  LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
   RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const;
   void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
 

@@ -16,6 +16,7 @@
 #include "core/math/sampling/random.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
+#include "core/transport/correction_sample.h"
 #include "core/transport/gather_record.h"
 #include "core/transport/pixel_state.h"
 #include "core/transport/thread_state.h"
@@ -65,6 +66,8 @@ struct LiContext {
   // Li hands over the diffuse part of final gathers here and leaves it out of its result. Null if
   // gathers are not shared.
   GatherRecords* gathers = nullptr;
+  // Li adds the correction of this sample here. Null if the bias is not certified.
+  CorrectionSample* correction = nullptr;
   PixelState* pixelState = nullptr;          // of the pixel; null: no state is kept
   ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
   const VolumeIntegrator* volume = nullptr;  // light from media; null: none
@@ -97,6 +100,11 @@ struct LiContext {
 struct DepthParameters {
   const char* camera = "maxdepth";
   const char* gather = "maxdepth";
+};
+
+// What the corrections of an integrator (correction_sample.h) do not cover, as phrases.
+struct CertificationLimits {
+  std::vector<std::string> notCovered;
 };
 
 // A stored photon, for inspection by the user.
@@ -135,6 +143,11 @@ class SurfaceIntegrator {
   virtual bool SharesGathers(const Scene& scene) const {
     (void)scene;
     return false;
+  }
+  // Returns nullopt if Li does not fill LiContext::correction.
+  virtual std::optional<CertificationLimits> Certification(const Scene& scene) const {
+    (void)scene;
+    return std::nullopt;
   }
   // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;

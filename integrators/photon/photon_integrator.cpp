@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/base/memory.h"
+#include "integrators/photon/certificate/gather_correction.h"
 #include "integrators/photon/gather/gather_ray.h"
 #include "integrators/photon/maps/rest_pose.h"
 #include "integrators/photon/photon_pass.h"
@@ -22,7 +23,10 @@ constexpr std::array kListedMaps{PhotonKind::Indirect, PhotonKind::Direct, Photo
 }  // namespace
 
 PhotonIntegrator::PhotonIntegrator(const PhotonSettings& settings)
-    : settings_(settings), direct_(settings.directLights), gather_(settings) {}
+    : settings_(settings),
+      direct_(settings.directLights),
+      gather_(settings),
+      correctionGuide_(settings.gatherPhotons, Cone(Radians(settings.gatherAngle))) {}
 
 void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context) {
   // Release the memory of an earlier pass
@@ -49,7 +53,10 @@ void PhotonIntegrator::BuildMaps(const Scene& scene, PhotonPassResult* photons,
                                  PreprocessContext& context) {
   const PhaseTimer timer(context.statistics, "photon maps");
   maps_ = PhotonMapSet(photons, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
-  if (gathers_) gather_.Prepare(maps_.Map(PhotonKind::Indirect));
+  if (gathers_) {
+    gather_.Prepare(maps_.Map(PhotonKind::Indirect));
+    correctionGuide_.Prepare(maps_.Map(PhotonKind::Indirect));
+  }
   context.CheckStop();
 }
 
@@ -79,21 +86,31 @@ Spectrum PhotonIntegrator::Li(const RayDifferential& ray, LiContext& context) co
 }
 
 Spectrum PhotonIntegrator::Direct(const ShadingPoint& point, LiContext& context) const {
-  if (settings_.directWithPhotons) return maps_.Radiance(PhotonKind::Direct, point, &context.arena);
+  if (settings_.directWithPhotons) return Seen(PhotonKind::Direct, point, context);
   return direct_.AllLights(point, context);
 }
 
 Spectrum PhotonIntegrator::Caustic(const ShadingPoint& point, LiContext& context) const {
   if (!RequiredFeatures::IsCompiled(Feature::Caustics)) return {};
-  return maps_.Radiance(PhotonKind::Caustic, point, &context.arena);
+  return Seen(PhotonKind::Caustic, point, context);
+}
+
+Spectrum PhotonIntegrator::Seen(PhotonKind kind, const ShadingPoint& point,
+                                LiContext& context) const {
+  if (context.correction)
+    context.correction->sum +=
+        point.throughput * maps_.KernelCorrection(kind, point, &context.arena);
+  return maps_.Radiance(kind, point, &context.arena);
 }
 
 Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& context) const {
-  if (!gathers_) return maps_.Radiance(PhotonKind::Indirect, point, &context.arena);
+  if (!gathers_) return Seen(PhotonKind::Indirect, point, context);
   RandomStream random = context.Stream(kGatherRayStream + std::uint64_t(point.depth));
-  return gather_.Gather(
-      point, maps_.Map(PhotonKind::Indirect), context,
-      GatherRay(maps_, radianceMap_.get(), settings_, *lights_, context, &random));
+  GatherRay rays(maps_, radianceMap_.get(), settings_, *lights_, context, &random);
+  const CorrectionSources sources{maps_, radianceMap_.get(), settings_, *lights_, correctionGuide_};
+  GatherCorrection correction(sources, context);
+  if (context.correction) rays.SetObserver(&correction);
+  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context, rays);
 }
 
 SurfaceLight PhotonIntegrator::Shown(const ShadingPoint& point, LiContext& context) const {
@@ -124,6 +141,24 @@ Spectrum PhotonIntegrator::ShownRadiance(const ShadingPoint& point) const {
   const auto entry = radianceMap_->Find({rest.Point(point.surface.p), rest.Normal(n)});
   if (!entry) return {};
   return entry->Value(AbsDot(n, point.Wo()));
+}
+
+std::optional<CertificationLimits> PhotonIntegrator::Certification(const Scene& scene) const {
+  if (settings_.show != ShowMap::Nothing) return std::nullopt;
+  const auto needs = [&](Feature feature) { return scene.Features().Needs(feature); };
+  CertificationLimits limits;
+  const auto add = [&](const std::string& text) { limits.notCovered.push_back(text); };
+  if (needs(Feature::Specular))
+    add("paths with more than " + std::to_string(settings_.maxDepth) +
+        " specular bounces in a row (maxdepth)");
+  if (needs(Feature::Caustics))
+    add(settings_.CausticPhotons() == 0
+            ? "caustics (causticphotons is 0)"
+            : "the kernel's blur of caustics where they change within the search radius");
+  if (!settings_.finalGather && needs(Feature::Indirect))
+    add("the blur of the indirect map where light changes within the search radius");
+  if (scene.HasMedia()) add("the steps of ray marching through media");
+  return limits;
 }
 
 FeatureSet PhotonIntegrator::ComputedFeatures() const {

@@ -11,6 +11,7 @@
 #include "core/transport/direct_lighting.h"
 #include "core/transport/integrator.h"
 #include "core/transport/specular/specular_tree.h"
+#include "integrators/photon/certificate/exact_radiance.h"
 #include "integrators/photon/gather/final_gather.h"
 #include "integrators/photon/maps/photon_map_set.h"
 #include "integrators/photon/maps/radiance_photon_map.h"
@@ -30,6 +31,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override;
 
+  std::optional<CertificationLimits> Certification(const Scene& scene) const override;
   FeatureSet ComputedFeatures() const override;
   std::vector<std::string> Explain(const Scene& scene) const override;
   AovSet Aovs() const override;
@@ -51,6 +53,8 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   Spectrum Direct(const ShadingPoint& point, LiContext& context) const;
   Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;
   Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
+  // Returns the light of a map that is seen directly, and corrects the blur of its kernel.
+  Spectrum Seen(PhotonKind kind, const ShadingPoint& point, LiContext& context) const;
 
   // If the parameter "show" selects one map, Li is this instead: the light from that map, as the
   // term it belongs to, and no other light.
@@ -64,7 +68,8 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   PhotonSettings settings_;
   DirectLighting direct_;
   FinalGather gather_;
-  bool gathers_ = false;  // whether indirect light is gathered; false: read from its map
+  PhotonGuide correctionGuide_;  // guides corrections even where it does not guide the gather
+  bool gathers_ = false;         // whether indirect light is gathered; false: read from its map
   // Samples the direct light that glossy lobes reflect where gather rays hit.
   std::unique_ptr<const LightSampler> lights_;
   PhotonMapSet maps_;

@@ -47,6 +47,7 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
   renderOptions.isStrict = options.isStrict;
   renderOptions.footprintSamples = options.footprintSamples;
   renderOptions.stop = options.stop;
+  renderOptions.corrections = options.corrections;
   std::optional<AovFilm> aovs;
   if (!options.aovs.IsEmpty()) renderOptions.aovs = &aovs.emplace(setup.crop, options.aovs);
 

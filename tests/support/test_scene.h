@@ -24,9 +24,10 @@ struct TestRenderOptions {
   int tileSize = 16;
   double sharingMemory = 0x1p28;
   TileOrder tileOrder = TileOrder::Scanline;
-  std::int64_t footprintSamples = 0;  // as in RenderOptions
-  bool isStrict = true;               // a non-finite sample throws
-  AovSet aovs;                        // appended to the image's channels
+  std::int64_t footprintSamples = 0;   // as in RenderOptions
+  bool isStrict = true;                // a non-finite sample throws
+  Corrections* corrections = nullptr;  // as in RenderOptions; the render is one pass
+  AovSet aovs;                         // appended to the image's channels
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -140,6 +140,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   if (command_.shard) MakeFolder(command_.outfile);
   for (std::size_t i = 0; i < setups.size(); ++i) {
     CheckAovs(command_, *setups[i]);
+    CheckCertificate(command_, *setups[i]);
     run_.files.AddScene(*setups[i]);
     if (!command_.photonFile.empty()) run_.files.AddInput(command_.photonFile, "--photons");
     names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
@@ -167,6 +168,7 @@ RenderOptions FileRenderer::MakeOptions(const PictureFilms& films, const RenderS
   if (!command_.photonFile.empty())
     photons_ = MakePhotonFileUse(command_.photonFile, false, command_.load, setup);
   options.photonFile = photons_ ? &*photons_ : nullptr;
+  options.corrections = films.corrections.get();
   return options;
 }
 
@@ -225,6 +227,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = ElapsedSince(start);
+  run.certificate = CertificateOf(films, result, setup);
   TakeResult(result, &run);
   const Picture picture =
       Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
@@ -302,7 +305,14 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->sharingBias = result.render.sharingBias;
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
-  if (command_.asTwoHalves || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
+  if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
+  if (!run->certificate) {
+    if (command_.certifies)
+      log_.Notice("no certificate, because there are no two independent passes");
+    return;
+  }
+  log_.Notice(ErrorText(*run->certificate));
+  for (const std::string& text : DetailTexts(*run->certificate)) log_.Notice(text);
 }
 
 FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,

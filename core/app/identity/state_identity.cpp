@@ -54,6 +54,7 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--dialect", !load.dialect ? "auto" : *load.dialect == Dialect::V2 ? "v2" : "v1");
   add("--aov", AovNames(command));
   add("--two-halves", command.asTwoHalves ? "on" : "off");
+  add("--certify", command.certifies ? "on" : "off");
   add("--target-error", command.targetError ? Text(*command.targetError) : "");
   add("--max-passes", command.maxPasses > 0 ? std::to_string(command.maxPasses) : "");
   add("--time-limit", command.timeLimit ? "on" : "off");  // more time may be given

@@ -91,6 +91,12 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
       .TypeName("N");
   app.AddFlag("--two-halves", command.asTwoHalves,
               "render two independent halves, print their difference, write both into the file");
+  app.AddFlag("--certify", command.certifies,
+              "estimate the error with its bias and print it (photonmap, exphotonmap); without a "
+              "stopping rule, the picture is rendered as two halves");
+  app.Add("--certify-share", command.certifiedShare,
+          "share of the gather rays that --certify corrects (default 1/128)")
+      .TypeName("X");
   app.Add("--seed", command.seed, "seed of the random numbers").TypeName("N");
   app.Add("--footprint-spp", command.footprintSamples,
           "filter textures and bumps as with N samples a pixel, regardless of --spp; for renders "
@@ -218,6 +224,15 @@ void TakeShard(const RawOptions& raw, RenderCommand* command) {
               "for example -o parts/");
 }
 
+// Corrections are not saved in states and parts.
+void CheckCertificate(const RawOptions& raw, const RenderCommand& command) {
+  if (!(command.certifiedShare > 0 && command.certifiedShare <= 16))
+    FailUsage("--certify-share takes a number above 0 and at most 16");
+  if (!command.certifies) return;
+  Exclude(command.resumes, true, "--certify and --resume exclude each other");
+  Exclude(!raw.shard.empty(), true, "--certify and --shard exclude each other");
+}
+
 void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   LoadOptions& load = command->load;
   Exclude(raw.asHalf, raw.asFloat, "--half and --float exclude each other");
@@ -241,6 +256,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
   CheckPasses(*command);
+  CheckCertificate(raw, *command);
   TakeShard(raw, command);
   command->limits = ParseLimits(raw.limits);
   load.limits = command->limits.scene;

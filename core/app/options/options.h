@@ -31,6 +31,8 @@ struct RenderCommand {
   AovSet aovs;                                   // --aov
   std::optional<double> timeLimit, targetError;  // seconds; noise part of relMSE
   bool asTwoHalves = false;
+  bool certifies = false;            // --certify
+  double certifiedShare = 1. / 128;  // --certify-share
   int maxPasses = 0;                 // --max-passes; 0: not given
   std::optional<Shard> shard;        // --shard: outfile is a folder
   bool resumes = false;              // --resume
@@ -41,6 +43,8 @@ struct RenderCommand {
   Limits limits;
 
   bool HasStoppingRule() const { return timeLimit || targetError; }
+  // A certificate compares independent passes, so without a rule it renders two halves.
+  bool RendersTwoHalves() const { return asTwoHalves || (certifies && !HasStoppingRule()); }
   bool printsStatistics = false;
   bool asHalf = true;
   bool isReproducible = false;

@@ -53,7 +53,11 @@ void AppendHalf(const char* name, const Film& half, bool premultiplyAlpha, Image
 }  // namespace
 
 PictureFilms::PictureFilms(const RenderCommand& command, const RenderSetup& setup)
-    : PictureFilms(setup.film.Full(), setup.crop, command.aovs, command.asTwoHalves) {}
+    : PictureFilms(setup.film.Full(), setup.crop, command.aovs, command.RendersTwoHalves()) {
+  writesHalves = command.asTwoHalves;
+  if (command.certifies)
+    corrections = std::make_unique<Corrections>(setup.crop, command.certifiedShare);
+}
 
 PictureFilms::PictureFilms(const PixelBounds& full, const PixelBounds& crop, AovSet wanted,
                            bool asTwoHalves)
@@ -66,7 +70,7 @@ PictureFilms::PictureFilms(const PixelBounds& full, const PixelBounds& crop, Aov
 PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                            const RenderOptions& options,
                            std::chrono::steady_clock::time_point start, PictureFilms* films) {
-  if (command.asTwoHalves)
+  if (command.RendersTwoHalves())
     return RenderTwoHalves(job, options, films->halves[0].get(), films->halves[1].get());
   if (!command.HasStoppingRule()) return RenderFixed(job, options);
   StoppingRule rule;
@@ -81,6 +85,24 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   return RenderInPasses(job, options, rule);
 }
 
+std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
+                                         const RenderSetup& setup) {
+  if (!films.corrections || !result.noise || !result.render.isComplete) return std::nullopt;
+  std::optional<Certificate> certificate = Certify(*films.corrections, films.film, *result.noise);
+  if (!certificate) return certificate;
+  certificate->sharing = result.render.sharingBias;
+  if (const auto limits = setup.integrator->Certification(*setup.scene))
+    certificate->notCovered = limits->notCovered;
+  return certificate;
+}
+
+void CheckCertificate(const RenderCommand& command, const RenderSetup& setup) {
+  if (!command.certifies || setup.integrator->Certification(*setup.scene)) return;
+  throw Error(ExitStatus::CommandLine, "--certify: integrator \"" + setup.integratorName +
+                                           "\" with these parameters cannot estimate its bias; "
+                                           "photonmap and exphotonmap can, without \"show\"");
+}
+
 PicturePasses PassesOf(const RenderCommand& command) {
   if (command.asTwoHalves) return {PicturePasses::Kind::TwoHalves, 2, 0};
   if (!command.targetError) return {};
@@ -92,7 +114,8 @@ Image MakeImage(const PictureFilms& films, const PassesResult& result, bool prem
   if (films.aovs) films.aovs->AppendTo(films.film, premultiplyAlpha, &image);
   ReplaceVariance(result.variances, films.film, premultiplyAlpha, &image);
   for (int i = 0; i < 2; ++i)
-    if (films.halves[i]) AppendHalf(kHalfNames[i], *films.halves[i], premultiplyAlpha, &image);
+    if (films.writesHalves && films.halves[i])
+      AppendHalf(kHalfNames[i], *films.halves[i], premultiplyAlpha, &image);
   return image;
 }
 

@@ -7,14 +7,15 @@
 
 #include "core/app/options/options.h"
 #include "core/imaging/film/aov_film.h"
+#include "core/render/certificate/certificate.h"
 #include "core/render/passes/render_passes.h"
 #include "core/render/shards/picture_passes.h"
 #include "core/render/state/checkpoints.h"
 
 namespace exphoton::cli {
 
-// PictureFilms holds the films of a picture. aovs and halves are null unless the command requests
-// them.
+// PictureFilms holds the films of a picture. aovs, halves and corrections are null unless the
+// command requests them.
 struct PictureFilms {
   PictureFilms(const RenderCommand& command, const RenderSetup& setup);
   PictureFilms(const PixelBounds& full, const PixelBounds& crop, AovSet wanted, bool asTwoHalves);
@@ -22,12 +23,22 @@ struct PictureFilms {
   Film film;
   std::unique_ptr<AovFilm> aovs;
   std::unique_ptr<Film> halves[2];
+  bool writesHalves = true;  // whether MakeImage appends the halves
+  std::unique_ptr<Corrections> corrections;
 };
 
 // Renders as the command says: a fixed sample count, a stopping rule, or two halves.
 PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                            const RenderOptions& options,
                            std::chrono::steady_clock::time_point start, PictureFilms* films);
+
+// Returns the certificate of a finished picture. Returns nullopt if the command asks for none, or
+// if the picture has only one group of passes.
+std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
+                                         const RenderSetup& setup);
+
+// Throws Error(CommandLine) if --certify is given and the scene's integrator cannot certify.
+void CheckCertificate(const RenderCommand& command, const RenderSetup& setup);
 
 // Returns the passes of a picture that is rendered in shards.
 PicturePasses PassesOf(const RenderCommand& command);

@@ -38,6 +38,26 @@ void AddTimes(const RunRecord& run, std::map<std::string, ImageAttribute>* attri
   if (run.timeLimit) (*attributes)["timeLimit"] = float(*run.timeLimit);
 }
 
+// Errors are roots of parts of relMSE.
+void AddCertificate(const Certificate& certificate,
+                    std::map<std::string, ImageAttribute>* attributes) {
+  const auto add = [attributes](const char* name, double squared) {
+    (*attributes)[name] = float(BlockBias::Root(squared));
+  };
+  add("certificate/error", certificate.Error());
+  add("certificate/noise", certificate.noise);
+  add("certificate/bias", certificate.Bias());
+  add("certificate/biasLower", certificate.LowerBias());
+  add("certificate/biasUpper", certificate.UpperBias());
+  add("certificate/smallestBias", certificate.bias.smallest);
+  (*attributes)["certificate/blockWidth"] = certificate.bias.blockWidth;
+  (*attributes)["certificate/corrections"] = float(certificate.corrections);
+  std::string text;
+  for (const std::string& detail : DetailTexts(certificate))
+    text += (text.empty() ? "" : ". ") + detail;
+  (*attributes)["certificate/text"] = text;
+}
+
 }  // namespace
 
 std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bool isReproducible) {
@@ -58,6 +78,7 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
     attributes["sharingBias"] = float(run.sharingBias->squared);
     attributes["sharingBiasError"] = float(run.sharingBias->standardError);
   }
+  if (run.certificate) AddCertificate(*run.certificate, &attributes);
   if (run.targetError) attributes["targetError"] = float(*run.targetError);
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
                            "sampler " + scene.sampler + ", filter " + scene.filter + ", camera " +

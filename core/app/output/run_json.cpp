@@ -102,6 +102,31 @@ void AddOptional(const char* key, const std::optional<double>& value, JsonWriter
   json->Key(key), json->Number(value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
+// Errors are roots of parts of relMSE, as in the message. The block's own estimate has its sign.
+void AddCertificate(const Certificate& certificate, JsonWriter* json) {
+  const auto add = [json](const char* key, double squared) {
+    json->Key(key), json->Number(BlockBias::Root(squared));
+  };
+  const BlockBias& block = certificate.bias;
+  json->Key("certificate"), json->Open('{');
+  add("error", certificate.Error());
+  add("noise", certificate.noise);
+  add("bias", certificate.Bias());
+  add("biasLower", certificate.LowerBias());
+  add("biasUpper", certificate.UpperBias());
+  add("smallestBias", block.smallest);
+  json->Key("blockWidth"), json->Integer(block.blockWidth);
+  json->Key("blocks"), json->Integer(block.blocks);
+  json->Key("blockBiasSquared"), json->Number(block.squared);
+  add("blockBiasLower", block.lower);
+  add("blockBiasUpper", block.upper);
+  json->Key("corrections"), json->Integer(certificate.corrections);
+  json->Key("notCovered"), json->Open('[');
+  for (const std::string& text : certificate.notCovered) json->Text(text);
+  json->Close(']');
+  json->Close('}');
+}
+
 // Writes the amount of rendering and the rule that stopped it.
 void AddStopping(const RunRecord& run, JsonWriter* json) {
   json->Key("passes"), json->Integer(run.passes);
@@ -150,6 +175,7 @@ std::string StatisticsJson(const RunRecord& run) {
   json.Key("cpuSeconds"), json.Number(run.cpuSeconds);
   json.Key("peakMemoryBytes"), json.Number(run.peakMemory);
   AddStopping(run, &json);
+  if (run.certificate) AddCertificate(*run.certificate, &json);
   AddStatistics(run.statistics, &json);
   json.Close('}');
   return json.Take() + "\n";

@@ -165,6 +165,7 @@ std::string StatisticsTable(const RunRecord& run) {
     text += Row("sharing bias",
                 Format("%.2g \u00b1 %.2g of relMSE, estimated between groups of samples",
                        run.sharingBias->squared, run.sharingBias->standardError));
+  if (run.certificate) text += Row("certificate", ErrorText(*run.certificate));
   return text + PhaseTable(run) + RayTable(run) + CounterTable(run.statistics.Counters());
 }
 

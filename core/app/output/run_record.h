@@ -13,6 +13,7 @@
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
+#include "core/render/certificate/certificate.h"
 #include "core/render/sharing/sharing_estimate.h"
 
 namespace exphoton::cli {
@@ -39,6 +40,7 @@ struct RunRecord {
   std::string stoppedBy;        // from StopReasonName
   std::optional<double> noise;  // estimated noise part of relMSE
   std::optional<SharingBias> sharingBias;
+  std::optional<Certificate> certificate;
   std::optional<double> timeLimit, targetError;
   std::string aovs;  // "albedo, N"
   std::string commandLine;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
 
 namespace exphoton {
@@ -50,6 +51,8 @@ class Halves {
   void TakeHalf(const Film& half) {
     sum_.Add(half, sampler_->SamplesPerPixel(), sum_.Passes());
     parts_.Show(job_.film);
+    if (options_.corrections)
+      options_.corrections->EndPass(sum_.Passes() - 1, sampler_->SamplesPerPixel());
   }
 
   Checkpoint WrapCheckpoint(const Checkpoint& inner) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 
+#include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
 
@@ -157,7 +158,8 @@ class Passes {
       pass = PatternPass(options_.seed, group, groupSamples_, step.size);
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
-    if (rule_.passSamples == 0)
+    // A certificate needs the light of each sample before and after sharing, pass by pass.
+    if (rule_.passSamples == 0 && !options_.corrections)
       pass.sharing =
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
     passFilm_.Clear();
@@ -174,6 +176,7 @@ class Passes {
   void TakePass(const PassPlan::Step& step, int group) {
     plan_.Take(step);
     sum_.Add(passFilm_, step.size, group);
+    if (options_.corrections) options_.corrections->EndPass(group, step.size);
     if (group < 2 && rule_.passSamples == 0) TakeForecast(step.size, group);
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/render/sharing/shared_gathers.h"
-#include "core/render/state/state_file.h"
+#include "core/files/state_file.h"
 
 namespace exphoton {
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/files/byte_archive.h"
+#include "core/render/certificate/corrections.h"
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/local_fit.h"
 #include "core/render/sharing/sharing_windows.h"
@@ -76,6 +77,9 @@ SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads
       if (target.splats) splat.Begin(target.splats, pixel);
       for (const GatherSample& sample : gathered.samples) {
         const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
+        if (target.corrections)
+          target.corrections->AddLight(pixel, sample.weight * sample.light - L,
+                                       target.splats ? Real(1) : sample.filterWeight);
         const Aov aov = sample.depth == 0 ? Aov::Indirect : Aov::Specular;
         if (target.splats) {
           splat.AddLight(sample.film - Point2(Real(x), Real(pixel.y)), L, aov);

@@ -14,6 +14,8 @@
 
 namespace exphoton {
 
+class Corrections;
+
 // The light of a pixel depends on the gathers within this number of pixels.
 int SharingMargin();
 
@@ -25,6 +27,7 @@ struct SharedLightTarget {
   SplatBuffer* splats;
   PixelBounds window;
   double samplesPerPixel;
+  Corrections* corrections = nullptr;  // receives own light minus shared light; null: none
 };
 // SharingTotals adds up the radii of the windows, in pixels.
 struct SharingTotals {

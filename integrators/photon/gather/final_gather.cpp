@@ -71,6 +71,13 @@ void FinalGather::Rays::SeparateDiffuse(const ShadingPoint& point, Real scale) {
   weight = Clamp(weight - diffuse, 0, std::numeric_limits<Real>::max());
 }
 
+const Spectrum* FinalGather::Rays::AllWeights(LiContext& context) const {
+  if (!white) return weights;
+  Spectrum* all = context.arena.AllocateArray<Spectrum>(count);
+  for (std::size_t i = 0; i < count; ++i) all[i] = weights[i] + white[i] * reflectance;
+  return all;
+}
+
 FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonMap& photons,
                                         LiContext& context) const {
   const Bsdf& bsdf = point.bsdf;

@@ -33,7 +33,8 @@ class FinalGather {
   // rays are traced before the first one reads a map, so that the CPU caches need not hold the
   // scene and the maps at once. incident.Trace(ray) returns an Incident::Segment,
   // incident.LookUp(segments) looks up all of them together, and incident.Read(segment) returns the
-  // radiance.
+  // radiance. If Incident has IsObserved(), and it returns true, incident.Observe(point, reads)
+  // gets the rays with their weights and radiances.
   template <class Incident>
   Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
                   const Incident& incident) const;
@@ -86,6 +87,8 @@ class FinalGather {
     // Moves the diffuse part of the weight of ray `count` to `white`. `scale` is the factor on the
     // lobe's value f.
     void SeparateDiffuse(const ShadingPoint& point, Real scale);
+    // Returns the weights with the diffuse part, whether the gather is shared or not.
+    const Spectrum* AllWeights(LiContext& context) const;
   };
 
   // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
@@ -110,11 +113,19 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons
     new (segments + i) Segment(incident.Trace(spawner.Spawn(rays.directions[i])));
   incident.LookUp(std::span<Segment>(segments, rays.count));
   Spectrum gathered, white;
+  Spectrum* observed = nullptr;
+  if constexpr (requires { incident.IsObserved(); })
+    if (incident.IsObserved())
+      observed = context.arena.template AllocateArray<Spectrum>(rays.count);
   for (std::size_t i = 0; i < rays.count; ++i) {
     const Spectrum radiance = incident.Read(segments[i]);
     gathered += rays.weights[i] * radiance;
     if (rays.white) white += rays.white[i] * radiance;
+    if (observed) observed[i] = radiance;
   }
+  if constexpr (requires { incident.IsObserved(); })
+    if (observed)
+      incident.Observe(point, {{segments, rays.count}, rays.AllWeights(context), observed});
   if (rays.white) {
     const Normal3 n = FaceForward(point.bsdf.Ns(), point.Wo());
     const Normal3 ng = FaceForward(point.surface.ng, point.Wo());

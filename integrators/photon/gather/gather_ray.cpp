@@ -82,17 +82,30 @@ Spectrum GatherRay::Along(const Segment& segment) const {
   // Fast path for most segments: without media, a segment without lobes to follow ends the walk.
   if (!context_.scene.HasMedia() && !Any(LobesToFollow(segment)))
     return segment.hit && segment.hit->material ? FromMaps(&walk) : Spectrum();
-  do {
-    const auto& hit = walk.segment.hit;
-    const MediaSegment media =
-        AlongMedia(walk.segment.ray, hit ? &hit->point.p : nullptr, context_);
-    walk.Add(media.radiance);
-    walk.throughput *= media.transmittance;
-    if (walk.glossyPdf > 0) walk.Add(Emission(walk));
-    if (!hit || !hit->material) break;
-    walk.Add(FromMaps(&walk));
-  } while (Continue(&walk));
+  Complete(&walk);
   return walk.radiance;
+}
+
+GatherRay::Arriving GatherRay::Follow(const Segment& segment, const SurfacePoint& from,
+                                      Real pdf) const {
+  Walk walk(segment);
+  walk.from = from;
+  walk.glossyPdf = pdf;
+  Complete(&walk);
+  return {walk.radiance, walk.correction};
+}
+
+void GatherRay::Complete(Walk* walk) const {
+  do {
+    const auto& hit = walk->segment.hit;
+    const MediaSegment media =
+        AlongMedia(walk->segment.ray, hit ? &hit->point.p : nullptr, context_);
+    walk->Add(media.radiance);
+    walk->throughput *= media.transmittance;
+    if (walk->glossyPdf > 0) walk->Add(Emission(*walk));
+    if (!hit || !hit->material) break;
+    walk->Add(FromMaps(walk));
+  } while (Continue(walk));
 }
 
 bool GatherRay::Continue(Walk* walk) const {
@@ -194,8 +207,14 @@ ShadingPoint GatherRay::Shade(const Segment& segment) const {
 
 Spectrum GatherRay::FromMaps(Walk* walk) const {
   const Segment& segment = walk->segment;
+  if (!Intersects(segment.hit->material->PossibleLobes(), mappedLobes_)) return {};
+  const Spectrum read = ReadMaps(segment);
+  if (corrector_) walk->correction += walk->throughput * corrector_->Correct(segment, read);
+  return read;
+}
+
+Spectrum GatherRay::ReadMaps(const Segment& segment) const {
   const Scene::HitPoint& hit = *segment.hit;
-  if (!Intersects(hit.material->PossibleLobes(), mappedLobes_)) return {};
   bool isShort = false;
   if (radianceMap_) {
     const auto& entry = segment.entry;

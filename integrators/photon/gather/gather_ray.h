@@ -22,12 +22,37 @@ class GatherRay {
     std::optional<RadiancePhotonMap::Entry> entry;  // valid for the hit; set by LookUp
   };
 
+  // Reads are the rays of one gather. Each ray adds weight times radiance to the radiance that
+  // leaves the shading point.
+  struct Reads {
+    std::span<const Segment> segments;
+    const Spectrum* weights;
+    const Spectrum* radiances;
+  };
+
+  // GatherObserver sees every gather after its rays have read the maps.
+  class GatherObserver {
+   public:
+    virtual ~GatherObserver() = default;
+    virtual void Observe(const ShadingPoint& point, const Reads& reads) = 0;
+  };
+  // ReadCorrector estimates the error of what a hit reads from the maps.
+  class ReadCorrector {
+   public:
+    virtual ~ReadCorrector() = default;
+    // Returns an estimate of the true radiance of MappedLobes() at the hit of the segment, towards
+    // the origin of the segment, minus `read`.
+    virtual Spectrum Correct(const Segment& segment, const Spectrum& read) = 0;
+  };
+
   // All arguments must outlive this object. Without radiance photons (radianceMap null), all
   // non-specular lobes of every hit use the three density estimates. `random` is the random stream
   // of the shading point where the gather starts.
   GatherRay(const PhotonMapSet& maps, const RadiancePhotonMap* radianceMap,
             const PhotonSettings& settings, const LightSampler& lights, LiContext& context,
             RandomStream* random);
+  void SetObserver(GatherObserver* observer) { observer_ = observer; }
+  void SetCorrector(ReadCorrector* corrector) { corrector_ = corrector; }
 
   Segment Trace(const Ray& ray) const {
     return {ray, context_.IntersectPoint(ray, RayKind::Gather), std::nullopt};
@@ -36,13 +61,32 @@ class GatherRay {
   void LookUp(std::span<Segment> segments) const;
   // Returns the radiance arriving along the ray. LookUp must be called first.
   Spectrum Read(const Segment& segment) const { return Along(segment); }
+  // Whether FinalGather is to call Observe.
+  bool IsObserved() const { return observer_ != nullptr; }
+  void Observe(const ShadingPoint& point, const Reads& reads) const {
+    observer_->Observe(point, reads);
+  }
+
+  // The lobes whose radiance a hit reads from the maps.
+  LobeSet MappedLobes() const { return mappedLobes_; }
+  // Returns the full record of a hit, with its BSDF in the context's arena.
+  ShadingPoint Shade(const Segment& segment) const;
+  // The radiance along a ray, and the sum of the corrections of its reads.
+  struct Arriving {
+    Spectrum radiance, correction;
+  };
+  // Returns the radiance along a segment that begins at `from` in a direction sampled with density
+  // `pdf` per solid angle, and not with light samples. With pdf > 0, the emission at its end counts
+  // by its MIS weight against one light sample; with pdf 0 it does not count.
+  Arriving Follow(const Segment& segment, const SurfacePoint& from, Real pdf) const;
 
  private:
   // Walk is the state of a gather ray that continues from surface to surface.
   struct Walk {
     Segment segment;
     Spectrum throughput{1};
-    Spectrum radiance;  // found so far
+    Spectrum radiance;    // found so far
+    Spectrum correction;  // of the maps that were read, if there is a corrector
     int specularBounces = 0, glossyBounces = 0;
     // Origin and density, per solid angle, of the glossy bounce that the segment begins with. The
     // density is 0 if the segment does not begin with a glossy bounce.
@@ -64,21 +108,23 @@ class GatherRay {
     return segment.hit->material->PossibleLobes() & followedLobes_;
   }
   Spectrum Along(const Segment& segment) const;
+  void Complete(Walk* walk) const;
   // Replaces the segment by the next one. Returns false if the walk ends.
   bool Continue(Walk* walk) const;
   // Continues the walk from its hit along one of these lobes. Returns false if the walk ends.
   bool Bounce(LobeSet lobes, Walk* walk) const;
   bool BounceGlossy(const ShadingPoint& point, Walk* walk) const;
   bool BounceSpecular(const ShadingPoint& point, Walk* walk) const;
-  // Returns the radiance from the hit to the ray's origin by the lobes that read maps.
+  // Returns the radiance from the hit to the ray's origin by the lobes that read maps, and adds its
+  // correction to the walk.
   Spectrum FromMaps(Walk* walk) const;
+  // The same without correction, for a hit with such lobes.
+  Spectrum ReadMaps(const Segment& segment) const;
   // Next event estimation for the glossy lobes towards wo, with one light chosen at random.
   Spectrum GlossyDirect(const ShadingPoint& point) const;
   // Returns the emission at the end of a segment that begins with a glossy bounce, with the MIS
   // weight against the light sample at its beginning.
   Spectrum Emission(const Walk& walk) const;
-  // Returns the full record of a hit, with its BSDF in the context's arena.
-  ShadingPoint Shade(const Segment& segment) const;
 
   const PhotonMapSet& maps_;
   const RadiancePhotonMap* radianceMap_;
@@ -88,6 +134,8 @@ class GatherRay {
   RandomStream* random_;
   LobeSet mappedLobes_;    // lobes that read maps
   LobeSet followedLobes_;  // lobes that extend a walk
+  GatherObserver* observer_ = nullptr;
+  ReadCorrector* corrector_ = nullptr;
 };
 
 }  // namespace exphoton

@@ -57,25 +57,51 @@ PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& setti
 
 Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
                                 LobeSet lobes) const {
+  if (Map(kind).IsEmpty() || !point.bsdf.Has(lobes)) return {};
+  const Arena::Mark mark = arena->GetMark();
+  const PhotonNeighbourhood around = Around(kind, point, lobes, arena);
+  const Spectrum radiance = Estimate(kind, point, lobes, around, around.radius2);
+  arena->Rewind(mark);
+  return radiance;
+}
+
+Spectrum PhotonMapSet::KernelCorrection(PhotonKind kind, const ShadingPoint& point, Arena* arena,
+                                        LobeSet lobes) const {
+  if (Map(kind).IsEmpty() || !point.bsdf.Has(lobes)) return {};
+  const Arena::Mark mark = arena->GetMark();
+  const PhotonNeighbourhood around = Around(kind, point, lobes, arena);
+  const Spectrum wide = Estimate(kind, point, lobes, around, around.radius2);
+  const Spectrum narrow = Estimate(kind, point, lobes, around, around.radius2 / 2);
+  arena->Rewind(mark);
+  return (narrow - wide) * 2;
+}
+
+PhotonNeighbourhood PhotonMapSet::Around(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
+                                         Arena* arena) const {
+  const Normal3 n = FaceForward(point.surface.ng, point.Wo());
+  const bool isOneSided = !point.bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
+  const RestPose rest(point.surface);
+  return Map(kind).Find(
+      {rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind), isOneSided}, arena);
+}
+
+Spectrum PhotonMapSet::Estimate(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
+                                const PhotonNeighbourhood& around, Real radius2) const {
   const PhotonMap& map = Map(kind);
   const Bsdf& bsdf = point.bsdf;
-  if (map.IsEmpty() || !bsdf.Has(lobes)) return {};
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
   const RestPose rest(point.surface);
-  const Arena::Mark mark = arena->GetMark();
-  const PhotonNeighbourhood around = map.Find(
-      {rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind), isOneSided}, arena);
-
   // If every lobe is diffuse, sum the power on each side first and reflect it once.
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
   const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && !bsdf.IsCoated();
-  const KernelDisk disk(kernel_, around.radius2);
+  const KernelDisk disk(kernel_, radius2);
   Spectrum front, back, glossy;
   // If the surface is also one-sided and has no separate shading normal, photon directions do not
   // matter: the search has already tested the side.
   const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.surface.ng;
   for (std::size_t i = 0; i < around.photons.size(); ++i) {
+    if (around.distance2[i] > radius2) continue;
     const std::uint32_t photon = around.photons[i];
     const Spectrum weighted = map.Alpha(photon) * disk.Weight(around.distance2[i]);
     if (isPlain) {
@@ -92,7 +118,6 @@ Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Aren
       back += flux;
     }
   }
-  arena->Rewind(mark);
   if (isDiffuse) {
     glossy = front * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
     if (!isOneSided) glossy += back * bsdf.Rho(lobes & LobeSet::NonSpecularTransmission) * kInvPi;

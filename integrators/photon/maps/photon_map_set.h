@@ -39,6 +39,13 @@ class PhotonMapSet {
   Spectrum Radiance(const ShadingPoint& point, Arena* arena,
                     LobeSet lobes = LobeSet::NonSpecular) const;
 
+  // Estimates the true radiance minus Radiance(kind, ...), as far as the kernel's blur causes the
+  // difference. The bias of a smooth illumination grows with the square of the radius. The same
+  // photons within r / sqrt(2) have half the bias, so twice the difference of the two estimates is
+  // minus the bias (Richardson 1911).
+  Spectrum KernelCorrection(PhotonKind kind, const ShadingPoint& point, Arena* arena,
+                            LobeSet lobes = LobeSet::NonSpecular) const;
+
   // Returns the photons per unit area, of all three maps, that an estimate at the point would use.
   double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
 
@@ -48,6 +55,13 @@ class PhotonMapSet {
                                            bool isCoated = false) const;
 
  private:
+  // Returns the photons around a point that may contribute to these lobes.
+  PhotonNeighbourhood Around(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
+                             Arena* arena) const;
+  // Returns the estimate from the photons within radius2.
+  Spectrum Estimate(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
+                    const PhotonNeighbourhood& around, Real radius2) const;
+
   std::array<PhotonMap, kPhotonKindCount> maps_;
   std::array<Real, kPhotonKindCount> radii_{};
   int nUsed_ = 50;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Certificate: relative corrections of the groups, and the texts.
+#include "core/render/certificate/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/format.h"
+#include "core/imaging/film/box_mean.h"
+#include "core/imaging/metrics/metrics.h"
+
+namespace exphoton {
+namespace {
+
+constexpr double kLeastWanted = .01 * .01;  // relMSE
+constexpr double kQuantile = 1.96;
+
+// Returns sqrt(r^2 + 0.01) for three channels per pixel. The mean of 5 x 5 pixels replaces r,
+// because the noise of a single pixel correlates with its correction.
+std::vector<float> ScaleOf(const Film& film) {
+  const PixelBounds& crop = film.Crop();
+  std::vector<float> scale;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const auto mean = film.MeanOf({x, y});
+      for (std::size_t c = 0; c < 3; ++c) scale.push_back(float(std::max(mean[c], 0.)));
+    }
+  scale = BoxMean(scale, std::size_t(crop.Width()));
+  for (float& r : scale) r = float(std::sqrt(double(r) * double(r) + kRelMseOffset));
+  return scale;
+}
+
+double Part(const std::optional<SharingBias>& sharing) {
+  return sharing ? std::max(sharing->squared, 0.) : 0;
+}
+
+// Returns how far a bound lies from the estimate, for two independent estimates that are added.
+double Distance(double distance, const std::optional<SharingBias>& sharing) {
+  return std::hypot(distance, sharing ? kQuantile * sharing->standardError : 0);
+}
+
+std::string Percent(double squared) {
+  const double percent = 100 * BlockBias::Root(squared);
+  return Format(percent < .995 ? "%.2f" : percent < 99.5 ? "%.1f" : "%.0f", percent);
+}
+
+}  // namespace
+
+double Certificate::Bias() const { return std::max(bias.squared, 0.) + Part(sharing); }
+
+double Certificate::LowerBias() const {
+  return std::max(Bias() - Distance(std::max(bias.squared, 0.) - bias.lower, sharing), 0.);
+}
+
+double Certificate::UpperBias() const {
+  return Bias() + Distance(bias.upper - std::max(bias.squared, 0.), sharing);
+}
+
+std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise) {
+  const auto groups = corrections.Groups();
+  if (groups.size() < 2) return std::nullopt;
+  const std::vector<float> scale = ScaleOf(film);
+  double samples = 0;
+  for (const auto* group : groups) samples += double(group->samplesPerPixel);
+  std::vector<std::vector<float>> relative;
+  std::vector<BlockBiasEstimator::Group> inputs;
+  for (const auto* group : groups) {
+    std::vector<float>& values = relative.emplace_back(scale.size());
+    const double factor = 1 / double(group->samplesPerPixel);
+    for (std::size_t i = 0; i < scale.size(); ++i)
+      values[i] = float(group->sums[i] * factor / double(scale[i]));
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    inputs.push_back({relative[g], double(groups[g]->samplesPerPixel) / samples});
+  const BlockBiasEstimator estimator(film.Crop().Width(), film.Crop().Height(), inputs);
+  Certificate certificate;
+  certificate.noise = noise;
+  certificate.bias = estimator.EstimateFor(std::max(noise / 4, kLeastWanted));
+  certificate.corrections = corrections.Count();
+  return certificate;
+}
+
+std::string ErrorText(const Certificate& certificate) {
+  return "error " + Percent(certificate.Error()) + " % = noise " + Percent(certificate.noise) +
+         " %, bias " + Percent(certificate.Bias()) + " % (" + Percent(certificate.LowerBias()) +
+         " to " + Percent(certificate.UpperBias()) + " %)";
+}
+
+std::vector<std::string> DetailTexts(const Certificate& certificate) {
+  const BlockBias& bias = certificate.bias;
+  std::vector<std::string> texts{
+      Format("bias of %d blocks of %d x %d pixels, from %lld corrected gather rays", bias.blocks,
+             bias.blockWidth, bias.blockWidth, static_cast<long long>(certificate.corrections)),
+      "the interval (95 %) cannot certify a bias below " + Percent(bias.smallest) + " %"};
+  if (certificate.sharing)
+    texts.push_back("the bias includes " + Percent(certificate.sharing->squared) +
+                    " % by shared gathers");
+  std::string notCovered = "not covered: bias of both signs inside a block";
+  for (const std::string& text : certificate.notCovered) notCovered += "; " + text;
+  texts.push_back(notCovered);
+  return texts;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Certificate states the error of a picture, bias included, without a reference.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/imaging/film/film.h"
+#include "core/render/certificate/block_bias.h"
+#include "core/render/certificate/corrections.h"
+#include "core/render/sharing/sharing_estimate.h"
+
+namespace exphoton {
+
+struct Certificate {
+  double noise = 0;  // noise part of relMSE
+  // Of the photon maps and of shared gathers, as means of blocks.
+  BlockBias bias;
+  // Of shared gathers, pixel by pixel. It includes what cancels inside blocks.
+  std::optional<SharingBias> sharing;
+  std::int64_t corrections = 0;         // corrected gather rays
+  std::vector<std::string> notCovered;  // phrases
+
+  // The parts of relMSE: the squared bias with the bounds of its 95 % interval, and all together.
+  double Bias() const;
+  double LowerBias() const;
+  double UpperBias() const;
+  double Error() const { return noise + Bias(); }
+};
+
+// Returns nullopt with fewer than two groups. `film` has the picture of all groups, and `noise` is
+// its noise part of relMSE. The blocks are chosen so that the bias is known as well as the noise:
+// to half of the noise, but no better than 1 %.
+std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise);
+
+// Returns a line such as "error 2.1 % = noise 1.8 %, bias 1.0 % (0.6 to 1.4 %)".
+std::string ErrorText(const Certificate& certificate);
+// Returns phrases about blocks, corrections and what is not covered.
+std::vector<std::string> DetailTexts(const Certificate& certificate);
+
+}  // namespace exphoton

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Corrections accumulates the corrections (core/transport/correction_sample.h) of the passes of a
+// picture, by pixel and by group of passes. Groups have photons and samples of their own, so their
+// corrections are independent. The expected value of a pixel is the true radiance minus the
+// picture's.
+#pragma once
+
+#include <vector>
+
+#include "core/imaging/image.h"
+#include "core/math/spectrum.h"
+#include "core/math/vec.h"
+#include "core/transport/correction_sample.h"
+
+namespace exphoton {
+
+class Corrections {
+ public:
+  // share: of the gather rays that are corrected.
+  Corrections(const PixelBounds& crop, double share);
+
+  double Share() const { return share_; }
+  const PixelBounds& Crop() const { return crop_; }
+
+  // Adds the correction of one camera sample of the current pass. Pixels outside the crop window
+  // are ignored. One thread at a time may add to a pixel.
+  void Add(Point2i pixel, const CorrectionSample& sample, Real weight);
+  // Adds a correction to a sample that was added before with this weight.
+  void AddLight(Point2i pixel, const Spectrum& correction, Real weight);
+  // Moves the current pass to a group.
+  void EndPass(int group, std::int64_t samplesPerPixel);
+
+  struct Group {
+    std::int64_t samplesPerPixel = 0;
+    std::vector<double> sums;  // three channels per pixel, over all samples of the group
+  };
+  // Returns the groups that have samples.
+  std::vector<const Group*> Groups() const;
+  std::int64_t Count() const { return count_; }  // corrected rays of all passes
+
+ private:
+  std::size_t IndexOf(Point2i pixel) const {
+    return std::size_t(pixel.y - crop_.y0) * std::size_t(crop_.Width()) +
+           std::size_t(pixel.x - crop_.x0);
+  }
+
+  PixelBounds crop_;
+  double share_;
+  std::vector<double> current_;         // three channels per pixel
+  std::vector<std::int64_t> rayCount_;  // corrected rays of the current pass, by pixel
+  std::vector<Group> groups_;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace exphoton

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ExactRadiance: one vertex of a guided path, with several rays, at each hit whose read is
+// corrected.
+#include "integrators/photon/certificate/exact_radiance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/transport/light_sample.h"
+
+namespace exphoton {
+namespace {
+
+// Bounds of the expected number of reads that the rays of a hit have corrected. In between, it is
+// the square of the albedo. Nested corrections then add the same variance at each bounce, and a
+// smaller number would make the variance grow from bounce to bounce. The upper bound ends chains
+// between surfaces that absorb nothing.
+constexpr Real kMinNested = Real(.1), kMaxNested = Real(.95);
+// Rays of a hit. They take little time beside the BSDF and the guide of the hit, which they share.
+constexpr int kRays = 4;
+// Bounds of the share of guided rays, where there is a guide.
+constexpr Real kMinGuided = Real(.25), kMaxGuided = Real(.5);
+
+Real Fraction(Real x) { return std::min(x - std::floor(x), kOneMinusEpsilon); }
+
+}  // namespace
+
+ExactRadiance::ExactRadiance(const CorrectionSources& sources, LiContext& context,
+                             RandomStream* random)
+    : sources_(sources),
+      context_(context),
+      random_(random),
+      cone_(Radians(sources.settings.gatherAngle)),
+      gather_(sources.maps, sources.radianceMap, sources.settings, sources.lights, context,
+              random) {
+  gather_.SetCorrector(this);
+}
+
+Spectrum ExactRadiance::Correction(const GatherRay::Segment& segment) {
+  survival_ = 1;
+  return gather_.Follow(segment, {}, 0).correction;
+}
+
+Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectrum& read) {
+  const Real survival = survival_;
+  if (survival < 1 && !(random_->Uniform() < survival)) return {};
+  const Arena::Mark mark = context_.arena.GetMark();
+  const ShadingPoint point = gather_.Shade(segment);
+  const Real albedo = point.bsdf.Rho(gather_.MappedLobes()).MaxComponent();
+  survival_ = std::clamp(Square(albedo), kMinNested, kMaxNested) / Real(kRays);
+  const Spectrum exact = Sample(point);
+  survival_ = survival;
+  context_.arena.Rewind(mark);
+  return (exact - read) / survival;
+}
+
+Spectrum ExactRadiance::Sample(const ShadingPoint& point) {
+  const LobeSet lobes = gather_.MappedLobes();
+  if (!point.bsdf.Has(lobes)) return {};
+  const PhotonMapSet& maps = sources_.maps;
+  const Rays rays = RaysAt(point);
+  return Direct(point, rays) + AlongRays(point, rays) +
+         maps.Radiance(PhotonKind::Caustic, point, &context_.arena, lobes) +
+         maps.KernelCorrection(PhotonKind::Caustic, point, &context_.arena, lobes);
+}
+
+ExactRadiance::Rays ExactRadiance::RaysAt(const ShadingPoint& point) {
+  const PhotonMap& photons = sources_.maps.Map(PhotonKind::Indirect);
+  const GuidedDirections guide = sources_.guide.Directions(point, photons, context_);
+  if (guide.axes.size() == 0) return {{}, kRays, 0};
+  const Real share = std::clamp(guide.share, kMinGuided, kMaxGuided);
+  const int guided = int(std::lround(share * Real(kRays)));
+  return {ConeMixture(guide.axes, cone_), kRays - guided, guided};
+}
+
+Spectrum ExactRadiance::Direct(const ShadingPoint& point, const Rays& rays) {
+  const LightSampler& lights = sources_.lights;
+  if (lights.IsEmpty()) return {};
+  const auto choice = lights.Sample(point.surface.p, random_->Uniform());
+  const Point2 place{random_->Uniform(), random_->Uniform()};
+  const SampledLight sample{choice.light, choice.probability, place, random_->Uniform()};
+  return FromLightSample(point, sample, rays, gather_.MappedLobes(), context_);
+}
+
+std::optional<BsdfSample> ExactRadiance::Draw(const ShadingPoint& point, const Rays& rays,
+                                              int index, const Point2& u) {
+  const LobeSet lobes = gather_.MappedLobes();
+  // A rank-1 lattice: the golden ratio spreads any number of points.
+  constexpr Real kGolden = Real(.6180339887);
+  const bool isGuided = index >= rays.bsdfCount;
+  const int own = isGuided ? index - rays.bsdfCount : index;
+  const int count = isGuided ? rays.guideCount : rays.bsdfCount;
+  const Point2 place{Fraction(u.x + Real(own) / Real(count)), Fraction(u.y + Real(own) * kGolden)};
+  const Real part = random_->Uniform();
+  std::optional<BsdfSample> sample;
+  if (!isGuided) {
+    sample = point.bsdf.Sample(point.Wo(), place, part, lobes);
+    if (!sample) return sample;
+    const Real pdf = rays.Pdf(sample->wi, sample->pdf);
+    sample->throughput *= sample->pdf / pdf;
+    sample->pdf = pdf;
+    return sample;
+  }
+  // The axes are in Hilbert order, so the first number stratifies directions.
+  sample.emplace();
+  sample->wi = rays.guide.Draw(place.x, {part, place.y}).w;
+  const BsdfValue scattered = point.bsdf.Evaluate(point.Wo(), sample->wi, lobes);
+  sample->pdf = rays.Pdf(sample->wi, scattered.pdf);
+  sample->throughput = scattered.f * (AbsDot(sample->wi, point.bsdf.Ns()) / sample->pdf);
+  return sample;
+}
+
+Spectrum ExactRadiance::AlongRays(const ShadingPoint& point, const Rays& rays) {
+  std::array<std::optional<GatherRay::Segment>, kRays> segments;
+  std::array<BsdfSample, kRays> samples;
+  const Point2 u{random_->Uniform(), random_->Uniform()};
+  for (int i = 0; i < kRays; ++i) {
+    const auto sample = Draw(point, rays, i, u);
+    if (!sample || sample->throughput.IsBlack() || !sample->throughput.IsFinite()) continue;
+    samples[std::size_t(i)] = *sample;
+    segments[std::size_t(i)] = gather_.Trace(SpawnRay(point.surface, sample->wi));
+  }
+  Spectrum sum;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    if (!segments[i]) continue;
+    gather_.LookUp({&*segments[i], 1});
+    const auto light = gather_.Follow(*segments[i], point.surface, samples[i].pdf);
+    sum += samples[i].throughput * (light.radiance + light.correction);
+  }
+  return sum;
+}
+
+}  // namespace exphoton

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check that the picture plus its corrections has the true mean, with photon maps of
+// small and of large bias. They also check that corrections leave the picture alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/render/certificate/corrections.h"
+#include "tests/support/equivalence.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+struct Means {
+  double picture, correction;  // of R, G and B over all pixels
+};
+
+Means Render(const std::string& scene, std::uint64_t seed, int threads = 1) {
+  LoadedScene loaded = LoadSceneText(scene);
+  Corrections corrections(loaded.setup->crop, .25);
+  TestRenderOptions options;
+  options.seed = seed;
+  options.threads = threads;
+  options.corrections = &corrections;
+  Means means{MeanRadiance(RenderLoaded(loaded, options).image), 0};
+  const auto samples = loaded.setup->sampler->SamplesPerPixel();
+  corrections.EndPass(0, samples);
+  const Corrections::Group& group = *corrections.Groups().front();
+  for (const double sum : group.sums)
+    means.correction += sum / double(samples) / double(group.sums.size());
+  return means;
+}
+
+std::string Integrator(const std::string& name, const std::string& parameters) {
+  return "\"" + name + "\" " + parameters;
+}
+
+constexpr const char* kMatte = "\"matte\" \"color Kd\" [.7 .7 .7]";
+
+// A corner of a floor and a wall, lit by a spot light that the camera does not see. The box round
+// it reflects little light.
+std::string Corner(const std::string& wall = kMatte) {
+  const auto quad = [](const char* corners) {
+    return std::string("Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [") +
+           corners + "]\n";
+  };
+  return "WorldBegin\nLightSource \"spot\" \"point from\" [-1 .8 3] \"point to\" [.3 -1 4] "
+         "\"float coneangle\" [20] \"color I\" [40 40 40]\n"
+         "Material \"matte\" \"color Kd\" [.6 .5 .4]\n" +
+         quad("-2 -1 0 2 -1 0 2 -1 5 -2 -1 5") + "Material " + wall + "\n" +
+         quad("-2 -1 5 2 -1 5 2 2 5 -2 2 5") + "WorldEnd\n";
+}
+
+// The truth is the mean of four pictures by guidedpath with 4096 samples a pixel and maxdepth 30,
+// which differ by .03 %.
+struct LitCorner {
+  const char* wall;
+  double truth;  // mean of R, G and B over the picture
+};
+constexpr LitCorner kMatteCorner{kMatte, .0102302};
+constexpr LitCorner kGlossyCorner{
+    "\"plastic\" \"color Kd\" [.5 .5 .5] \"color Ks\" [.3 .3 .3] \"float roughness\" [.2]",
+    .0091605};
+
+// Radiance photons and density estimates reach far over the edge of the lit disk and into the
+// corner. The picture is 7 to 11 % too bright.
+void ExpectTrueMean(const std::string& integrator, const LitCorner& corner, int seeds) {
+  const std::string world = Corner(corner.wall);
+  const std::string scene =
+      TestHeader(Integrator(integrator,
+                            "\"integer indirectphotons\" [2000] \"integer nused\" [400] \"float "
+                            "maxdist\" [1.5] \"float radiancereach\" [4] \"float shortrays\" [0] "
+                            "\"float radiancenormal\" [.01] \"integer finalgathersamples\" [8]"),
+                 24, 24, 16) +
+      world;
+  const auto corrected = EstimateOverSeeds(
+      [&](std::uint64_t seed) {
+        const Means means = Render(scene, seed);
+        return means.picture + means.correction;
+      },
+      seeds);
+  EXPECT_GT(Render(scene, 1).picture, 1.05 * corner.truth) << "the bias is too small to test";
+  EXPECT_TRUE(IsWithin(.015, corrected, corner.truth));
+}
+
+TEST(CorrectedCorner, HasTheTrueMeanWithRadiancePhotonsOfLongReach) {
+  ExpectTrueMean("exphotonmap", kMatteCorner, 48);
+}
+TEST(CorrectedCorner, HasTheTrueMeanWithGlossyWalls) {
+  ExpectTrueMean("exphotonmap", kGlossyCorner, 64);
+}
+TEST(CorrectedCorner, HasTheTrueMeanWithWideDensityEstimates) {
+  ExpectTrueMean("photonmap", kMatteCorner, 24);
+}
+
+class CorrectedFurnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(CorrectedFurnace, ShowsEmissionOverOneMinusAlbedo) {
+  const auto [integrator, albedo] = GetParam();
+  const std::string value = std::to_string(albedo);
+  const std::string scene =
+      TestHeader(Integrator(integrator,
+                            "\"integer indirectphotons\" [5000] \"integer finalgathersamples\" "
+                            "[16] \"string photonroulette\" \"luminance\""),
+                 10, 10, 16) +
+      FurnaceWorld(1, "\"matte\" \"color Kd\" [" + value + " " + value + " " + value + "]");
+  const auto corrected = EstimateOverSeeds(
+      [&](std::uint64_t seed) {
+        const Means means = Render(scene, seed);
+        return means.picture + means.correction;
+      },
+      16);
+  EXPECT_TRUE(IsWithin(.01, corrected, 1 / (1 - albedo)));
+}
+
+INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, CorrectedFurnace,
+                         testing::Values(std::tuple("photonmap", .5),
+                                         std::tuple("exphotonmap", .8)));
+
+TEST(Corrections, LeaveThePictureAloneAndDoNotDependOnThreads) {
+  const std::string scene =
+      TestHeader(Integrator("exphotonmap", "\"integer indirectphotons\" [2000]"), 24, 24, 4) +
+      Corner();
+  TestRenderOptions options;
+  const TestRender plain = RenderSceneText(scene, options);
+  LoadedScene loaded = LoadSceneText(scene);
+  Corrections corrections(loaded.setup->crop, .1);
+  options.corrections = &corrections;
+  EXPECT_EQ(RenderLoaded(loaded, options).image.pixels, plain.image.pixels);
+  EXPECT_EQ(Render(scene, 1, 3).correction, Render(scene, 1, 1).correction);
+}
+
+}  // namespace
+}  // namespace exphoton
