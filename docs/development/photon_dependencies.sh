@@ -12,6 +12,7 @@ page=$top/docs/development/architecture.md
 # Each line: level, group, its files. A file belongs to the first group that names it.
 groups='6 integrator photon_integrator photon_pass photon_budget photon_stats
 5 certificate certificate/
+4 files files/
 4 gather gather/
 1 photon maps/photon.h maps/photon_distance.h maps/rest_pose.h
 3 maps maps/

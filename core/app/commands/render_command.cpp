@@ -306,13 +306,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
-  if (!run->certificate) {
-    if (command_.certifies)
-      log_.Notice("no certificate, because there are no two independent passes");
-    return;
-  }
-  log_.Notice(ErrorText(*run->certificate));
-  for (const std::string& text : DetailTexts(*run->certificate)) log_.Notice(text);
+  if (command_.certifies) ReportCertificate(run->certificate, log_);
 }
 
 FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,

@@ -96,6 +96,13 @@ std::optional<Certificate> CertificateOf(const PictureFilms& films, const Passes
   return certificate;
 }
 
+void ReportCertificate(const std::optional<Certificate>& certificate, Log& log) {
+  if (!certificate)
+    return log.Notice("no certificate, because there are no two independent passes");
+  log.Notice(ErrorText(*certificate));
+  for (const std::string& text : DetailTexts(*certificate)) log.Notice(text);
+}
+
 void CheckCertificate(const RenderCommand& command, const RenderSetup& setup) {
   if (!command.certifies || setup.integrator->Certification(*setup.scene)) return;
   throw Error(ExitStatus::CommandLine, "--certify: integrator \"" + setup.integratorName +

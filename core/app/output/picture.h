@@ -37,6 +37,9 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
                                          const RenderSetup& setup);
 
+// Prints the certificate, or that there is none.
+void ReportCertificate(const std::optional<Certificate>& certificate, Log& log);
+
 // Throws Error(CommandLine) if --certify is given and the scene's integrator cannot certify.
 void CheckCertificate(const RenderCommand& command, const RenderSetup& setup);
 

@@ -143,6 +143,7 @@ TEST_F(PhotonFile, NeedsAnIntegratorThatKeepsPhotons) {
 TEST_F(PhotonFile, ServesOnePass) {
   Shoot();
   ExpectRefused(1, "--photons excludes", {"--two-halves"});
+  ExpectRefused(1, "--photons excludes", {"--certify"});
   ExpectRefused(1, "--photons excludes", {"--target-error", ".1"});
   ExpectRefused(1, "--photons excludes", {"--time-limit", "9s"});
 }
