@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/mix_bits.h"
 #include "core/files/input_file.h"
 
 namespace exphoton {
@@ -21,14 +22,6 @@ namespace {
 constexpr std::string_view kSignature = "EXPHOTON STATE\r\n";
 constexpr std::string_view kEnd = "checksum";
 constexpr std::string_view kFiller = "filler";
-
-// The finalizer of SplitMix64 (Steele, Lea and Flood 2014). It is a bijection of the hash.
-std::uint64_t MixWord(std::uint64_t hash, std::uint64_t word) {
-  std::uint64_t x = (hash ^ word) + 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 
 std::string SectionHead(std::string_view name, std::uint64_t size) {
   ByteArchive archive;

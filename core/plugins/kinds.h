@@ -7,12 +7,12 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/shared_cache.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/imaging/film/camera.h"
 #include "core/lights/light.h"
 #include "core/math/transform.h"
+#include "core/plugins/shared_cache.h"
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/scattering/material.h"

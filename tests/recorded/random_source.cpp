@@ -81,9 +81,7 @@ RecordedScene SceneOf(std::uint64_t seed) {
 }  // namespace
 
 std::vector<RecordedScene> RandomScenes(std::uint64_t firstSeed, std::uint64_t lastSeed) {
-  std::vector<RecordedScene> scenes;
-  for (std::uint64_t seed = firstSeed; seed <= lastSeed; ++seed) scenes.push_back(SceneOf(seed));
-  return scenes;
+  return OfSeeds(firstSeed, lastSeed, SceneOf);
 }
 
 }  // namespace exphoton::recorded

@@ -38,6 +38,14 @@ std::vector<RecordedScene> StateScenes(std::uint64_t firstSeed, std::uint64_t la
 std::vector<RecordedScene> WindowScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
 std::vector<RecordedScene> ChosenScenes();
 
+// Returns make(seed) for each seed.
+template <class Make>
+std::vector<RecordedScene> OfSeeds(std::uint64_t first, std::uint64_t last, const Make& make) {
+  std::vector<RecordedScene> scenes;
+  for (std::uint64_t seed = first; seed <= last; ++seed) scenes.push_back(make(seed));
+  return scenes;
+}
+
 // Replaces the line of a directive. Each directive of the text is one line.
 void ReplaceLine(const std::string& directive, const std::string& line, std::string* text);
 

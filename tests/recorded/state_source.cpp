@@ -66,7 +66,7 @@ constexpr std::array<const char*, 10> kMistakes{"Shape \"sphere\" \"float radius
                                                 "AttributeEnd",
                                                 "TransformEnd",
                                                 "ObjectEnd",
-                                                "NamedMaterial \"nobody's\"",
+                                                "NamedMaterial \"missing\"",
                                                 "CoordSysTransform \"nowhere\"",
                                                 "Material \"matte\" \"texture Kd\" \"unknown\"",
                                                 "ObjectInstance \"unknown\"",
@@ -157,12 +157,11 @@ class StateText {
 }  // namespace
 
 std::vector<RecordedScene> StateScenes(std::uint64_t firstSeed, std::uint64_t lastSeed) {
-  std::vector<RecordedScene> scenes;
   std::string unknown;
   const AovSet aovs = ParseAovs("P,N,Ng,Z,objectId,materialId", &unknown).value();
-  for (std::uint64_t seed = firstSeed; seed <= lastSeed; ++seed)
-    scenes.push_back({"state/" + std::to_string(seed), StateText(seed).Scene(), aovs});
-  return scenes;
+  return OfSeeds(firstSeed, lastSeed, [&](std::uint64_t seed) {
+    return RecordedScene{"state/" + std::to_string(seed), StateText(seed).Scene(), aovs};
+  });
 }
 
 }  // namespace exphoton::recorded

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Random numbers are keyed by their purpose (seed, pixel or path, sample, dimension), so that no
-// result depends on thread scheduling. The hash is the finaliser of MurmurHash3 / SplitMix64
-// (Steele, Lea and Flood 2014). Permutations are from Kensler 2013, "Correlated Multi-Jittered
-// Sampling".
+// result depends on thread scheduling. Permutations are from Kensler 2013, "Correlated
+// Multi-Jittered Sampling".
 #pragma once
 
 #include <cstdint>
 #include <initializer_list>
 
+#include "core/base/mix_bits.h"
 #include "core/math/real.h"
 
 namespace exphoton {
-
-constexpr std::uint64_t MixBits(std::uint64_t v) {
-  v ^= v >> 30;
-  v *= 0xbf58476d1ce4e5b9ull;
-  v ^= v >> 27;
-  v *= 0x94d049bb133111ebull;
-  v ^= v >> 31;
-  return v;
-}
 
 // Makes a key from a chain of integers. Different chains give independent keys.
 constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {

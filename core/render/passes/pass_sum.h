@@ -44,7 +44,7 @@ class PassSum {
   // group or begins the next one.
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
 
-  // Tells that the groups continue one sequence of camera samples, whose errors partly cancel.
+  // States that the groups continue one sequence of camera samples, whose errors partly cancel.
   // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
   // after the passes of these groups.
   void CorrectForSequence(double within);

@@ -40,7 +40,8 @@ class Passes {
         sum_(&job.film, {rule.targetError, rule.maxSamples}),
         forecasts_{GroupForecast(job.film.Crop()), GroupForecast(job.film.Crop())},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples}) {
-    if (job.sampler.IsProgressive() && rule.passSamples == 0)
+    // A certificate compares groups whose samples are independent.
+    if (job.sampler.IsProgressive() && rule.passSamples == 0 && !options_.corrections)
       sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
     quiet_.SetListener([this] { ShowProgress(); });
   }

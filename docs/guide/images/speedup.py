@@ -126,8 +126,8 @@ class Drawing:
         for e, r in (points[0], points[-1]):
             self.parts.append(f'<circle cx="{self.x(e):.1f}" cy="{self.y(r):.1f}" r="3.5" '
                               f'class="c{number}"/>')
-        # A name stands over a curve that rises to its right end and under one that falls, or else to
-        # the right of it.
+        # A name stands over a curve that rises to its right end and under one that falls. Where that
+        # place is taken, it stands to the right of the curve.
         e, r = points[-1]
         name = f"… {LABELS.get(label, label)}" + (f", {title}" if title else "")
         rises = r >= points[-2][1]

@@ -15,7 +15,8 @@
 
 namespace exphoton {
 
-// Sorts the photons of several maps together, which takes less time. Consumes the photons.
+// Sorts the photons of several maps together, which takes less time. Photons that are sorted
+// already keep their order. Consumes the photons.
 std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buffers,
                                                     ThreadPool& threads);
 
