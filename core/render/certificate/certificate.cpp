@@ -89,8 +89,9 @@ std::string ErrorText(const Certificate& certificate) {
 std::vector<std::string> DetailTexts(const Certificate& certificate) {
   const BlockBias& bias = certificate.bias;
   std::vector<std::string> texts{
-      Format("bias of %d blocks of %d x %d pixels, from %lld corrected gather rays", bias.blocks,
-             bias.blockWidth, bias.blockWidth, static_cast<long long>(certificate.corrections)),
+      Format("bias of %d block%s of %d x %d pixels, from %lld corrected gather rays", bias.blocks,
+             bias.blocks == 1 ? "" : "s", bias.blockWidth, bias.blockWidth,
+             static_cast<long long>(certificate.corrections)),
       "the interval (95 %) cannot certify a bias below " + Percent(bias.smallest) + " %"};
   if (certificate.sharing)
     texts.push_back("the bias includes " + Percent(certificate.sharing->squared) +
