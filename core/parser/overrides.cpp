@@ -174,6 +174,31 @@ void AddNamedDefaults(const std::vector<ParamDecl>& declared, ParamSet* params) 
   }
 }
 
+void ShiftExposure(const std::vector<ParamDecl>& declared, const std::string& what, Real offset,
+                   ParamSet* params) {
+  for (const char* name : {"shutteropen", "shutterclose"}) {
+    const ParamDecl* const declaration = FindDeclaration(declared, name);
+    const auto value = declaration ? ParseNumbers(declaration->defaultText) : std::nullopt;
+    if (!value)
+      throw Error(ExitStatus::CommandLine,
+                  "--frames needs a camera that declares " + std::string(name) +
+                      " with a default, but " + what + " does not",
+                  {}, "--frame-time 0 leaves the exposure as it is");
+    ParsedParam param;
+    if (const ParsedParam* given = params->Find(name)) {
+      if (given->numbers.size() != 1) continue;  // malformed: the binder reports the error
+      param = *given;
+    } else {
+      param.name = name;
+      param.type = "float";
+      param.where = params->where;
+      param.numbers = *value;
+    }
+    param.numbers[0] += double(offset);
+    params->Add(std::move(param));
+  }
+}
+
 void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params) {
   for (const ParamDecl& declaration : declared) {
     if (declaration.quickDivisor == 1) continue;

@@ -41,4 +41,9 @@ void AddNamedDefaults(const std::vector<ParamDecl>& declared, ParamSet* params);
 // falls to 0.
 void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params);
 
+// --frames: moves the exposure of a camera by `offset`. Throws Error(CommandLine) if the camera
+// declares no shutteropen or shutterclose. `what` names the camera in messages.
+void ShiftExposure(const std::vector<ParamDecl>& declared, const std::string& what, Real offset,
+                   ParamSet* params);
+
 }  // namespace exphoton

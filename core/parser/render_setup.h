@@ -49,6 +49,8 @@ struct LoadOptions {
   std::optional<std::vector<Real>> cropWindow;  // x0 x1 y0 y1
   std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window
   std::optional<std::int64_t> samplesPerPixel;
+  std::optional<int> frame;  // its number goes into the picture's name, in the place of %d
+  Real timeOffset = 0;       // the shutter opens and closes later by this
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
   bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
 };

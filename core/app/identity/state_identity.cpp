@@ -48,6 +48,7 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--spp", load.samplesPerPixel ? std::to_string(*load.samplesPerPixel) : "");
   add("--seed", std::to_string(command.seed));
   add("--footprint-spp", std::to_string(command.footprintSamples));
+  add("the time of the frame", Text(load.timeOffset));
   add("--quick", load.isQuick ? "on" : "off");
   add("--effects", load.effects);
   add("--photons", command.photonFile.empty() ? "" : "on");

@@ -12,6 +12,7 @@
 #include "core/app/commands/image_commands.h"
 #include "core/app/commands/plugins_command.h"
 #include "core/app/commands/render_command.h"
+#include "core/app/commands/render_frames.h"
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
 #include "core/app/options/options.h"
@@ -32,7 +33,7 @@ int RunScenes(const std::vector<std::string>& program, const std::vector<std::st
   const int status = Guarded([&] {
     RenderCommand command = ParseRenderCommand(arguments, mode);
     command.commandLine = CommandLineText(program);
-    result = RunRender(command);
+    result = command.frames ? RunFrames(command) : RunRender(command);
   });
   return status ? status : result;
 }

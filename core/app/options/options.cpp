@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "core/app/options/limits.h"
@@ -39,13 +40,15 @@ constexpr const char* kCommands =
     "  exphoton room.pbrt --quick -o room.png\n"
     "  exphoton room.pbrt --spp 64 --resolution 1920x1080 -o room.exr\n"
     "  exphoton room.pbrt --time-limit 5m --preview room.png --exposure auto\n"
+    "  exphoton room.pbrt --frames 1-240 -o room%03d.exr\n"
     "  exphoton room.pbrt --integrator path --set SurfaceIntegrator.maxdepth=20\n";
 
 // RawOptions holds option values that TakeRaw converts and checks after parsing.
 struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "auto";
   std::vector<std::string> sets, pluginFolders;
-  std::string shard, resolution, aovs, timeLimit, limits, writeEvery, display;
+  std::string shard, frames, resolution, aovs, timeLimit, limits, writeEvery, display;
+  std::optional<double> frameTime;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -116,6 +119,18 @@ void AddResumeOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
       .TypeName("TIME");
   app.Add("--display", raw.display, "show the picture in the viewer tev while it is rendered")
       .TypeName("HOST:PORT");
+}
+
+void AddFrameOptions(OptionParser& app, RawOptions& raw) {
+  app.Group("Animation");
+  app.Add("--frames", raw.frames,
+          "render these frames; %d in names of files stands for a frame's number (%04d: with "
+          "leading zeros)")
+      .TypeName("A-B");
+  app.Add("--frame-time", raw.frameTime,
+          "time from one frame to the next (default 1; 0 if the scene's name has %d): frame n "
+          "is exposed (n - 1) times this later than the scene says")
+      .TypeName("T");
 }
 
 void AddShardOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
@@ -224,6 +239,16 @@ void TakeShard(const RawOptions& raw, RenderCommand* command) {
               "for example -o parts/");
 }
 
+void TakeFrames(const RawOptions& raw, RenderCommand* command) {
+  Exclude(raw.frameTime.has_value() && raw.frames.empty(), true, "--frame-time needs --frames");
+  if (raw.frames.empty()) return;
+  command->frames = ParseFrames(raw.frames);
+  command->frames->apart = raw.frameTime;
+  if (raw.frameTime && !(std::abs(*raw.frameTime) <= 1e9))
+    FailUsage("--frame-time takes a number from -1e9 to 1e9");
+  CheckFrames(*command);
+}
+
 // Corrections are not saved in states and parts.
 void CheckCertificate(const RawOptions& raw, const RenderCommand& command) {
   if (!(command.certifiedShare > 0 && command.certifiedShare <= 16))
@@ -278,6 +303,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
     FailUsage("--outfile names one picture, but there are several scenes");
   if (!command->stateFile.empty() && command->scenes.size() > 1)
     FailUsage("--state names one file, but there are several scenes");
+  TakeFrames(raw, command);
   Log quiet(Log::Level::Quiet, Log::Sink::Memory);
   ChooseEffects(RequiredFeatures(), load.effects, quiet);  // throws if the value is invalid
 }
@@ -297,6 +323,7 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
   AddPictureOptions(app, command, raw);
   AddAmountOptions(app, command, raw);
   AddResumeOptions(app, command, raw);
+  AddFrameOptions(app, raw);
   AddShardOptions(app, command, raw);
   AddSceneOptions(app, command, raw);
   AddRunOptions(app, command, raw);

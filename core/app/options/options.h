@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/app/options/frames.h"
 #include "core/app/options/limits.h"
 #include "core/app/output/png_output.h"
 #include "core/app/process/viewer_connection.h"
@@ -35,6 +36,7 @@ struct RenderCommand {
   double certifiedShare = 1. / 128;  // --certify-share
   int maxPasses = 0;                 // --max-passes; 0: not given
   std::optional<Shard> shard;        // --shard: outfile is a folder
+  std::optional<Frames> frames;      // --frames: names hold "%d"
   bool resumes = false;              // --resume
   std::string stateFile;             // "": the picture's name with ".state"
   std::optional<double> writeEvery;  // seconds

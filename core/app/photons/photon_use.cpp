@@ -19,6 +19,15 @@ std::string Text(const Interval& times) {
   return text;
 }
 
+// If no shape ever moves, photons are the same at all times, and one file serves all frames of a
+// moving camera.
+std::string ExposureText(const RenderSetup& setup) {
+  if (setup.scene->Primitives().MovesWithin({-kInfinity, kInfinity}))
+    return Text(setup.camera->Shutter());
+  // Training treats the time as a dimension of emission if the camera moves.
+  return setup.scene->Features().Needs(Feature::Motion) ? "only the camera moves" : "nothing moves";
+}
+
 // These parameters do not act on photons, or are compared one by one.
 bool ActsOnPhotons(const ParameterOverride& set) {
   for (const char* directive :
@@ -45,7 +54,7 @@ PhotonFileUse MakePhotonFileUse(const std::string& path, bool isWritten, const L
   for (const InputHash& input : HashesOfInputs(setup))
     add("the hash of \"" + input.name + "\"", HashText(input.hash));
   add("--effects", load.effects);
-  add("the exposure", Text(setup.camera->Shutter()));
+  add("the exposure", ExposureText(setup));
   for (const ParameterOverride& set : load.parameters)
     if (ActsOnPhotons(set)) add("--set " + set.directive + "." + set.parameter, set.value);
   return use;

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RunCluster writes two shell scripts. shard.sh renders one task of a job array. merge.sh makes the
-// picture, or submits the missing tasks and itself behind them.
+// RunCluster divides a picture into shards, or an animation into frames.
 #include "core/app/shards/cluster_command.h"
 
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
@@ -16,19 +11,24 @@
 #include "core/app/options/options.h"
 #include "core/app/options/values.h"
 #include "core/app/output/output_files.h"
+#include "core/app/shards/slurm_scripts.h"
 #include "core/base/error.h"
-#include "core/base/log.h"
+#include "core/parser/frame_name.h"
 
 namespace exphoton::cli {
 namespace {
 
-constexpr const char* kSlurmMark = "# Written by exphoton cluster.";
+namespace fs = std::filesystem;
+
+// MaxArraySize of Slurm is at most 4,000,001.
+constexpr int kMaxTasks = 100000;
 
 struct ClusterOptions {
-  std::string scene, outfile, folder, engine = "slurm";
-  std::vector<std::string> sbatch, render;
-  int shards = 0, rounds = 3;
-  bool submits = false, isQuiet = false;
+  std::string scene, outfile, folder, frames;
+  std::vector<std::string> render;
+  ArrayOptions array;
+  int shards = 0;
+  bool isQuiet = false;
 };
 
 // Arguments after "--" are options of exphoton render.
@@ -36,141 +36,112 @@ ClusterOptions ParseClusterOptions(const std::vector<std::string>& arguments) {
   ClusterOptions options;
   const auto end = std::find(arguments.begin(), arguments.end(), "--");
   if (end != arguments.end()) options.render.assign(end + 1, arguments.end());
-  OptionParser app("Writes scripts that render a scene in shards with a scheduler.",
+  OptionParser app("Writes scripts that render a scene in shards, or frames, with a scheduler.",
                    "exphoton cluster");
   app.Add("scene", options.scene, "the scene").Required();
-  app.Add("--shards", options.shards, "the number of shards").Required().Between(1, 100000);
-  app.Add("-o,--outfile", options.outfile, "the picture").Required().TypeName("FILE");
-  app.Add("--engine", options.engine, "the scheduler (default slurm)").OneOf({"slurm"});
+  app.Add("--shards", options.shards, "render one picture in this number of shards")
+      .Between(1, kMaxTasks);
+  app.Add("--frames", options.frames,
+          "render an animation, a frame in each task; %d in names stands for a frame's number")
+      .TypeName("A-B");
+  app.Add("-o,--outfile", options.outfile, "the picture; with --frames, NAME%d.exr")
+      .Required()
+      .TypeName("FILE");
   app.Add("--folder", options.folder, "the folder of scripts and parts (default FILE.parts)")
       .TypeName("DIR");
-  app.Add("--rounds", options.rounds,
-          "how often shards are submitted before the merge gives up (default 3)")
-      .Between(1, 1000);
-  app.Add("--sbatch", options.sbatch, "an option for sbatch: --sbatch=--partition=short")
-      .TypeName("OPTION")
-      .OnePerUse();
-  app.AddFlag("--submit", options.submits, "also submit the jobs");
+  AddArrayOptions(app, &options.array);
   app.AddFlag("--quiet", options.isQuiet, "errors and warnings only");
   app.Footer(
       "Options of exphoton render follow after --: exphoton cluster room.pbrt --shards 64 -o "
       "room.exr -- --spp 256");
   app.Parse({arguments.begin(), end});
-  if (options.folder.empty()) options.folder = options.outfile + ".parts";
-  for (const std::string& option : options.sbatch)
-    if (!option.starts_with("-") || option.find('\n') != std::string::npos)
-      FailUsage("--sbatch takes an option of sbatch, not \"" + option + '"',
-                "for example --sbatch=--partition=short");
+  CheckArrayOptions(options.array);
+  if ((options.shards > 0) == !options.frames.empty())
+    FailUsage("exphoton cluster needs either --shards N or --frames A-B",
+              "--shards divides one picture, --frames an animation");
+  if (options.folder.empty()) options.folder = NameWithoutNumber(options.outfile) + ".parts";
   return options;
 }
 
-std::string AbsolutePath(const std::string& path) {
-  return std::filesystem::absolute(path).lexically_normal().string();
+// Returns the command of the tasks, without what differs between them.
+std::string RenderText(const ClusterOptions& options) {
+  std::vector<std::string> words{ProgramPath(), "render", AbsolutePath(options.scene)};
+  words.insert(words.end(), options.render.begin(), options.render.end());
+  return "exec " + CommandLineText(words);
 }
 
-std::string Word(const std::string& text) { return CommandLineText({text}); }
+constexpr const char* kTaskThreads = " \\\n  --nthreads \"${SLURM_CPUS_ON_NODE:-0}\" --no-progress";
 
-class SlurmScripts {
- public:
-  explicit SlurmScripts(const ClusterOptions& options)
-      : options_(options),
-        folder_(AbsolutePath(options.folder)),
-        program_(std::filesystem::read_symlink("/proc/self/exe").string()) {}
+ArrayJob ShardJob(const ClusterOptions& options) {
+  const std::string count = std::to_string(options.shards);
+  const std::string folder = AbsolutePath(options.folder);
+  const std::string program = ShellWord(ProgramPath()), parts = ShellWord(folder + "/parts");
+  ArrayJob job;
+  job.folder = folder;
+  job.noun = "shards";
+  job.task = RenderText(options) + " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/" + count + "\" -o " +
+             parts + kTaskThreads;
+  job.missing = "missing=$(" + program + " merge --missing --shards " + count + " " + parts + ")";
+  job.finish = program + " merge " + parts + " -o " + ShellWord(AbsolutePath(options.outfile));
+  return job;
+}
 
-  std::string ShardPath() const { return folder_ + "/shard.sh"; }
-  std::string MergePath() const { return folder_ + "/merge.sh"; }
-  std::string Parts() const { return folder_ + "/parts"; }
-  std::string Logs() const { return folder_ + "/logs"; }
+// A picture is written as a whole or not at all, so a frame whose picture exists is done.
+ArrayJob FrameJob(const ClusterOptions& options) {
+  const Frames frames = ParseFrames(options.frames);
+  const std::string outfile = AbsolutePath(options.outfile);
+  ArrayJob job;
+  job.folder = AbsolutePath(options.folder);
+  job.noun = "frames";
+  job.task = RenderText(options) + " \\\n  --frames \"$SLURM_ARRAY_TASK_ID\" -o " +
+             ShellWord(outfile) + kTaskThreads;
+  job.missing = "missing=\nframe=" + std::to_string(frames.first) + "\nwhile [ $frame -le " +
+                std::to_string(frames.last) +
+                " ]; do\n"
+                "  picture=$(printf " +
+                ShellWord(FrameFormat(outfile)) +
+                " $frame)\n"
+                "  [ -s \"$picture\" ] || missing=$missing${missing:+,}$frame\n"
+                "  frame=$((frame + 1))\n"
+                "done";
+  job.finish = "echo 'all frames are rendered'";
+  return job;
+}
 
-  std::string Shard() const {
-    std::vector<std::string> words{program_, "render", AbsolutePath(options_.scene)};
-    words.insert(words.end(), options_.render.begin(), options_.render.end());
-    return Head("renders one shard, as a task of a job array") + "exec " + CommandLineText(words) +
-           " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/" + std::to_string(options_.shards) + "\" -o " +
-           Word(Parts()) + " \\\n  --nthreads \"${SLURM_CPUS_ON_NODE:-0}\" --no-progress\n";
+// Pictures of an earlier run would count as frames that are done.
+void CheckNoFrameExists(const ClusterOptions& options) {
+  const Frames frames = ParseFrames(options.frames);
+  if (frames.last - frames.first >= kMaxTasks)
+    FailUsage("--frames " + options.frames + " has more than " + std::to_string(kMaxTasks) +
+              " frames");
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    const std::string name = FrameName(options.outfile, frame);
+    if (!fs::exists(fs::symlink_status(name))) continue;
+    throw Error(ExitStatus::File,
+                "the picture \"" + name + "\" exists, so its frame would not be rendered", {},
+                "remove it, or name others with -o; to render what is missing after a failure, run "
+                "merge.sh again");
   }
-
-  // The dependency afterany also waits for tasks that fail. With afterok the merge would wait for
-  // ever: Slurm does not repeat a task whose process was killed.
-  std::string Merge() const {
-    const std::string count = std::to_string(options_.shards);
-    return Head("makes the picture, or submits the shards that are missing") +
-           "set -eu\n"
-           "round=${1:-0}\n"
-           "program=" +
-           Word(program_) +
-           "\n"
-           "parts=" +
-           Word(Parts()) +
-           "\n"
-           "missing=$(\"$program\" merge --missing --shards " +
-           count +
-           " \"$parts\")\n"
-           "if [ -z \"$missing\" ]; then\n"
-           "  exec \"$program\" merge \"$parts\" -o " +
-           Word(AbsolutePath(options_.outfile)) +
-           "\n"
-           "fi\n"
-           "if [ \"$round\" -ge " +
-           std::to_string(options_.rounds) +
-           " ]; then\n"
-           "  echo \"parts $missing are missing after $round rounds; see " +
-           Logs() +
-           "\" >&2\n"
-           "  exit 1\n"
-           "fi\n"
-           "job=$(sbatch --parsable --array=\"$missing\" " +
-           Word(ShardPath()) +
-           ")\n"
-           "job=${job%%;*}\n"
-           "echo \"submitted shards $missing as job $job\"\n"
-           "sbatch --dependency=afterany:\"$job\" " +
-           Word(MergePath()) + " $((round + 1))\n";
-  }
-
- private:
-  std::string Head(const std::string& purpose) const {
-    std::string text = "#!/bin/sh\n" + std::string(kSlurmMark) + " This script " + purpose + ".\n" +
-                       "#SBATCH --job-name=exphoton\n#SBATCH --output=\"" + Logs() +
-                       "/%x-%j.txt\"\n";
-    for (const std::string& option : options_.sbatch) text += "#SBATCH " + option + "\n";
-    return text;
-  }
-
-  const ClusterOptions& options_;
-  std::string folder_, program_;
-};
-
-void CheckOwnScript(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return;
-  std::string shell, mark;
-  std::getline(file, shell);
-  std::getline(file, mark);
-  if (mark.starts_with(kSlurmMark)) return;
-  throw Error(ExitStatus::File,
-              "cannot write \"" + path + "\": the existing file is not a script of this program",
-              {}, "--folder DIR names another folder");
 }
 
 // Throws for options of exphoton render that are wrong, before any job fails for them.
 void CheckRenderOptions(const ClusterOptions& options) {
-  std::vector<std::string> words{options.scene, "--shard", "1/" + std::to_string(options.shards),
-                                 "-o", options.folder + "/parts"};
+  std::vector<std::string> words{options.scene};
+  if (options.shards > 0)
+    words.insert(words.end(), {"--shard", "1/" + std::to_string(options.shards), "-o",
+                               options.folder + "/parts"});
+  else
+    words.insert(words.end(), {"--frames", options.frames, "-o", options.outfile});
   words.insert(words.end(), options.render.begin(), options.render.end());
   const RenderCommand command = ParseRenderCommand(words, RenderMode::Render);
-  if (!std::filesystem::is_regular_file(options.scene))
-    throw Error(ExitStatus::File, "cannot read the scene \"" + options.scene + "\": no such file");
   if (command.scenes.size() != 1) FailUsage("a cluster renders one scene");
-  CheckWritable(options.outfile);
-}
-
-void Submit(const SlurmScripts& scripts) {
-  const int status = std::system(("sh " + Word(scripts.MergePath())).c_str());
-  if (status == 0) return;
-  throw Error(ExitStatus::Resource,
-              "the jobs could not be submitted: \"" + scripts.MergePath() + "\" failed", {},
-              "sbatch must be in the PATH and reach the cluster");
+  const bool isNumbered = command.frames && HasFrameNumber(options.scene);
+  const std::string scene =
+      isNumbered ? FrameName(options.scene, command.frames->first) : options.scene;
+  if (!fs::is_regular_file(scene))
+    throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": no such file");
+  CheckWritable(command.frames ? FrameName(options.outfile, command.frames->first)
+                               : options.outfile);
 }
 
 }  // namespace
@@ -179,17 +150,16 @@ int RunCluster(const std::vector<std::string>& arguments) {
   return Guarded([&] {
     const ClusterOptions options = ParseClusterOptions(arguments);
     CheckRenderOptions(options);
-    const SlurmScripts scripts(options);
-    CheckOwnScript(scripts.ShardPath());
-    CheckOwnScript(scripts.MergePath());
-    MakeFolder(scripts.Parts());
-    MakeFolder(scripts.Logs());
-    WriteTextFile(scripts.ShardPath(), scripts.Shard());
-    WriteTextFile(scripts.MergePath(), scripts.Merge());
+    ArrayJob job = options.shards > 0 ? ShardJob(options) : FrameJob(options);
+    job.sbatch = options.array.sbatch;
+    job.rounds = options.array.rounds;
+    const SlurmScripts scripts(std::move(job));
+    if (!options.frames.empty()) CheckNoFrameExists(options);
+    scripts.Write();
+    if (options.shards > 0) MakeFolder(options.folder + "/parts");
     Log log(options.isQuiet ? Log::Level::Quiet : Log::Level::Normal);
-    if (options.submits) return Submit(scripts);
-    log.Notice("wrote \"" + scripts.ShardPath() + "\" and \"" + scripts.MergePath() + "\"");
-    log.Notice("sh " + Word(scripts.MergePath()) + " submits the jobs");
+    if (options.array.submits) return scripts.Submit();
+    scripts.Announce(log);
   });
 }
 

@@ -11,6 +11,7 @@
 #include "core/parser/builder/graphics_state.h"
 #include "core/parser/builder/missing_renderers.h"
 #include "core/parser/film_parameters.h"
+#include "core/parser/frame_name.h"
 #include "core/parser/overrides.h"
 
 namespace exphoton {
@@ -34,6 +35,20 @@ std::vector<std::string> KnownRenderers() {
   std::vector<std::string> names{"sampler"};
   for (const MissingRenderer& renderer : kMissingRenderers) names.push_back(renderer.name);
   return names;
+}
+
+// Puts the frame's number into the name of the picture.
+void NumberFrame(int frame, const ParamSet& film, std::string* filename) {
+  if (!HasFrameNumber(*filename)) {
+    const ParsedParam* const name = film.Find("filename");
+    FailAt(
+        name ? name->where : film.where,
+        "--frames writes one picture for each frame, but the name \"" + *filename +
+            "\" has no place for the number",
+        "%d stands for the number, %04d for one with leading zeros; -o NAME%d.exr on the command "
+        "line takes precedence");
+  }
+  *filename = FrameName(*filename, frame);
 }
 
 }  // namespace
@@ -172,6 +187,7 @@ void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
   bind.isStrict = options_.isStrict;
   bind.what = "film \"image\"";
   setup->film = FilmParameterTable().Bind(params, bind);
+  if (options_.frame) NumberFrame(*options_.frame, params, &setup->film.filename);
   if (options_.cropWindow) setup->film.cropWindow = options_.cropWindow;
   if (options_.isQuick) {
     setup->film.xResolution = std::max(1, setup->film.xResolution / kQuickResolutionDivisor);
@@ -267,7 +283,11 @@ void RenderDirectives::CreateVolumeIntegrator(PluginRegistry& registry, Log& log
 }
 
 void RenderDirectives::CreateCamera(PluginRegistry& registry, Log& log, RenderSetup* setup) const {
-  const ParamSet camera = Overridden("Camera", camera_, PluginKind::Camera, registry);
+  ParamSet camera = Overridden("Camera", camera_, PluginKind::Camera, registry);
+  if (options_.timeOffset != 0)
+    ShiftExposure(registry.Find(PluginKind::Camera, camera_.name, camera_.params.where)
+                      .parameters->Declarations(),
+                  "camera \"" + camera_.name + '"', options_.timeOffset, &camera);
   setup->cameraName = camera_.name;
   setup->camera = registry.Create<PluginKind::Camera>(
       camera_.name, camera, Bind(PluginKind::Camera, camera_.name, log),
