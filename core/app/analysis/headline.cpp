@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/app/analysis/machines.h"
 #include "core/app/analysis/numbers.h"
 #include "core/app/analysis/target.h"
 #include "core/base/format.h"
@@ -225,6 +226,8 @@ void WriteHeadline(const Results& results, Analysis* analysis) {
     analysis->headline = isSingle ? SingleText(results, *analysis) : Sentence(results, *analysis);
   const bool hasTimes = analysis->target && !(isSingle && analysis->lines.size() == 1);
   analysis->details = hasTimes ? Details(*analysis) : LeastErrors(*analysis);
+  if (const std::string machines = MachinesText(results); !machines.empty())
+    analysis->details += (analysis->details.empty() ? "" : " ") + machines;
 }
 
 }  // namespace exphoton::study

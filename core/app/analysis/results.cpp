@@ -67,20 +67,23 @@ NamedValues MetricValues(const RunRow& row) {
 
 // Writes the values that do not depend on the study.
 Json FromRun(const RunRow& row) {
-  return {{"key", row.key},
-          {"seed", row.seed},
-          {"threads", row.threads},
-          {"samplesPerPixel", row.samplesPerPixel},
-          {"complete", row.isComplete},
-          {"wallSeconds", row.wallSeconds},
-          {"cpuSeconds", row.cpuSeconds},
-          {"peakMemoryBytes", row.peakMemory},
-          {"phases", FromValues(row.phases)},
-          {"phaseWallSeconds", FromValues(row.phaseWall)},
-          {"rays", FromValues(row.rays)},
-          {"counters", FromValues(row.counters)},
-          {"image", row.image},
-          {"command", row.command}};
+  Json json = {{"key", row.key},
+               {"seed", row.seed},
+               {"threads", row.threads},
+               {"samplesPerPixel", row.samplesPerPixel},
+               {"complete", row.isComplete},
+               {"wallSeconds", row.wallSeconds},
+               {"cpuSeconds", row.cpuSeconds},
+               {"peakMemoryBytes", row.peakMemory},
+               {"phases", FromValues(row.phases)},
+               {"phaseWallSeconds", FromValues(row.phaseWall)},
+               {"rays", FromValues(row.rays)},
+               {"counters", FromValues(row.counters)},
+               {"image", row.image},
+               {"command", row.command}};
+  if (row.IsOfTask())
+    json.update({{"node", row.node}, {"processor", row.processor}, {"alone", row.isAlone}});
+  return json;
 }
 
 Json FromRow(const RunRow& row, const Results& results) {
@@ -112,6 +115,9 @@ RunRow ToRow(const Json& json) {
   row.counters = ToValues(json.value("counters", Json::object()));
   row.image = Text(json, "image");
   row.command = Text(json, "command");
+  row.node = Text(json, "node");
+  row.processor = Text(json, "processor");
+  row.isAlone = json.value("alone", false);
   return row;  // metrics are measured again from the pictures
 }
 

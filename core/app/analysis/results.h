@@ -26,8 +26,12 @@ struct RunRow {
   double peakMemory = 0;                   // bytes
   double samplesPerPixel = 0;
   bool isComplete = true;  // false: the render was interrupted
-  NamedValues phases;      // CPU seconds
-  NamedValues phaseWall;   // wall seconds
+  // Of a render in a task of its own (study --task): the machine, and whether the render was alone
+  // there. Empty and false otherwise.
+  std::string node, processor;
+  bool isAlone = false;
+  NamedValues phases;     // CPU seconds
+  NamedValues phaseWall;  // wall seconds
   NamedValues rays, counters;
   std::string image, command;  // image: relative to the study's folder
   bool hasMetrics = false;     // true if there is a reference
@@ -37,6 +41,7 @@ struct RunRow {
   double Counter(const std::string& name) const;  // 0 if missing
   double PhotonsStored() const;
   double PhotonPaths() const;
+  bool IsOfTask() const { return !node.empty(); }
 };
 
 // ReferenceRecord describes two independent halves of a reference. All names are empty if there is

@@ -16,6 +16,7 @@
 #include "core/app/report/report.h"
 #include "core/app/study/study_forecast.h"
 #include "core/app/study/study_runner.h"
+#include "core/app/study/study_tasks.h"
 #include "core/base/error.h"
 #include "core/imaging/metrics/metrics.h"
 
@@ -164,8 +165,13 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
     PrintOut(PlanText(options, results.settings));
     return PrintOut(ForecastText(options, scene, results.settings));
   }
+  if (options.missingOf > 0)
+    return PrintOut(MissingTasksText(options, scene, program, results.settings));
+  if (options.taskCount > 0) return WriteStudyScripts(options, results.settings.size());
   StudyFolder folder(options.folder);
+  if (options.task) return RunStudyTask(options, scene, program, results.settings, folder);
   ClaimResults(options, scene, folder);
+  if (!options.tasksFolder.empty()) TakeReferenceOfTask(options.tasksFolder, folder);
   MakeFolder(options.folder + "/images");
   StudyRunner runner(options, folder, scene, program);
   results.reference = PrepareReference(options, runner);

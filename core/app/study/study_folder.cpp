@@ -144,6 +144,16 @@ std::string StudyFolder::Claim(const std::string& name) {
   return file;
 }
 
+void StudyFolder::Take(const std::string& from, const std::string& name) {
+  const std::string copy = Running("copy"), to = Claim(name);
+  std::error_code error;
+  fs::copy_file(from, copy, fs::copy_options::overwrite_existing, error);
+  if (!error) fs::rename(copy, to, error);
+  if (error)
+    throw Error(ExitStatus::File,
+                "cannot copy \"" + from + "\" to \"" + to + "\": " + error.message());
+}
+
 void StudyFolder::Remove(const std::string& name) const {
   std::error_code ignored;
   if (written_.contains(name) && LiesIn(path_ + "/" + name, path_))

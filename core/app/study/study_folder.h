@@ -32,6 +32,9 @@ class StudyFolder {
   // Error(File) if no study has written an existing file, or if a link leads out of the folder.
   std::string Claim(const std::string& name);
 
+  // Copies a file to DIR/NAME, as a whole or not at all.
+  void Take(const std::string& from, const std::string& name);
+
   // Removes DIR/NAME if a study has written it.
   void Remove(const std::string& name) const;
 

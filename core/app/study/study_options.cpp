@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RawStudyOptions {
-  std::string integrators, budgets, referenceTime, resolution, targets;
+  std::string integrators, budgets, referenceTime, resolution, targets, task;
   std::vector<std::string> settings, varied;
   bool hidesMaps = false;
 };
@@ -43,7 +43,8 @@ std::string PlaceIn(const std::string& path, int line) {
 // Refuses options that only the user may give, because study files can come from untrusted sources.
 void CheckAllowedInStudyFile(const std::string& name, const std::string& value,
                              const std::string& place) {
-  const bool isAllowed = name != "plugin-dir" && name != "allow-scene-plugins" && name != "limits";
+  const bool isAllowed = name != "plugin-dir" && name != "allow-scene-plugins" &&
+                         name != "limits" && name != "submit" && name != "sbatch";
   if (isAllowed) return;
   throw Error(ExitStatus::File, place + "\"" + name + "\" can only be given on the command line",
               SourceLocation(),
@@ -162,6 +163,30 @@ void AddRender(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
       "print what would be rendered and about how long it takes, estimated from small parts");
 }
 
+void AddArray(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
+  app.Group("On a cluster");
+  app.Add("--tasks", options.taskCount,
+          "write scripts that run the study as an array of N jobs, into the folder DIR.tasks")
+      .Between(1, 100000)
+      .TypeName("N");
+  AddArrayOptions(app, &options.array);
+  app.AddFlag("--share-nodes", options.sharesNodes,
+              "jobs may share machines with other work; the page then says that times are not "
+              "comparable");
+  app.Add("--task", raw.task, "run the renders of one task into --out; 0/N: the reference")
+      .TakeLast()
+      .TypeName("I/N");
+  app.AddFlag("--alone", options.isAlone, "with --task: no other work runs on this machine");
+  app.Add("--from", options.tasksFolder,
+          "take over the renders of tasks, whose folders are in this one")
+      .TakeLast()
+      .TypeName("DIR");
+  app.Add("--missing", options.missingOf,
+          "with --from: print which of N tasks have to run, and stop")
+      .Between(1, 100000)
+      .TypeName("N");
+}
+
 void TakeResolution(const std::string& text, StudyOptions* options) {
   if (text.empty()) return;
   std::vector<ParameterOverride> overrides;
@@ -206,7 +231,8 @@ void TakePlan(const RawStudyOptions& raw, StudyOptions* options) {
 
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
-  if (options.folder.empty() && !options.onlyPlans) FailUsage("exphoton study needs --out FOLDER");
+  if (options.folder.empty() && !options.onlyPlans && options.missingOf == 0)
+    FailUsage("exphoton study needs --out FOLDER");
   ParseLimits(options.limits);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
@@ -244,6 +270,7 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   AddWhat(app, options, raw);
   AddReference(app, options, raw);
   AddRender(app, options, raw);
+  AddArray(app, options, raw);
   // Options of study files come first, so that the command line overrides them.
   std::vector<std::string> arguments, rest;
   for (const std::string& argument : given) {
@@ -264,7 +291,10 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   TakeResolution(raw.resolution, &options);
   if (!raw.targets.empty()) options.targets = ParseTargets(raw.targets);
   options.makesMaps = !raw.hidesMaps;
+  options.arguments = given;
+  if (!raw.task.empty()) options.task = ParseStudyTask(raw.task);
   Check(options);
+  CheckTasks(options);
   TakeInputFiles(&options);
   return options;
 }

@@ -4,10 +4,13 @@
 // relative to its own folder. The command line takes precedence.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/app/analysis/plan.h"
+#include "core/app/shards/slurm_scripts.h"
+#include "core/app/study/study_tasks.h"
 
 namespace exphoton::cli {
 
@@ -33,6 +36,16 @@ struct StudyOptions {
   bool isQuiet = false;
   bool onlyPlans = false;  // print the planned renders and stop
   std::string commandLine;
+
+  // Studies as arrays of jobs
+  int taskCount = 0;              // --tasks: write scripts for N tasks; 0: run the study
+  std::optional<StudyTask> task;  // --task: run the renders of one task
+  bool isAlone = false;           // --alone: no other work runs on this machine
+  bool sharesNodes = false;       // --share-nodes: tasks may share machines
+  std::string tasksFolder;        // --from: the folder with the folders of tasks; "": none
+  int missingOf = 0;              // --missing: print which of N tasks have to run
+  ArrayOptions array;
+  std::vector<std::string> arguments;  // as given
 };
 
 // Throws Error(CommandLine), Error(File) and TextRequest.

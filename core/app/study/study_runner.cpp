@@ -11,8 +11,8 @@
 #include "core/app/output/output_files.h"
 #include "core/app/process/child_process.h"
 #include "core/app/process/signals.h"
+#include "core/app/study/study_tasks.h"
 #include "core/base/error.h"
-#include "core/imaging/files/exr.h"
 
 namespace exphoton::cli {
 namespace {
@@ -94,50 +94,43 @@ RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
   return result;
 }
 
-std::string StudyRunner::KeyOf(const std::vector<std::string>& arguments) const {
-  std::string text = program_.fingerprint + "|" + program_.processor + "|" + scene_.hash;
-  // Skip "render" and the scene's path; scene_.hash identifies the scene.
-  for (std::size_t i = 2; i < arguments.size(); ++i) text += "|" + arguments[i];
-  return HashOfText(text);
-}
-
-bool StudyRunner::FindDone(const std::string& name, const std::string& key,
-                           study::RunRow* row) const {
-  const std::string base = folder_.Path() + "/" + name;
-  std::error_code error;
-  if (!fs::exists(base + ".json", error) || error) return false;
-  try {
-    *row = study::RowFromJson(ReadTextFile(base + ".json"));
-    const Image image = ReadExr(base + ".exr");
-    return row->key == key && image.Width() == scene_.width && image.Height() == scene_.height;
-  } catch (const std::exception&) {
-    return false;  // damaged: render again
-  }
-}
-
 study::RunRow StudyRunner::RunOne(const study::Setting& setting, std::uint64_t seed,
                                   const std::vector<std::string>& extra) {
   std::vector<std::string> arguments = RenderArguments(options_, options_.scene, setting, seed);
   arguments.insert(arguments.end(), extra.begin(), extra.end());
-  const std::string key = KeyOf(arguments);
-  const std::string name =
-      "images/" + study::RunName(setting, seed) + (extra.empty() ? "" : "_maps");
+  const std::string name = RunFileName(setting, seed) + (extra.empty() ? "" : "_maps");
   study::RunRow row;
-  wasFound_ = FindDone(name, key, &row);
+  wasFound_ = finished_.Find(folder_.Path(), name, arguments, &row);
   if (wasFound_) return row;
-  RenderedPicture picture = Render(arguments);
-  picture.row.key = key;
-  picture.row.seed = seed;
-  picture.row.image = name + ".exr";
-  Rename(picture.path, folder_.Claim(name + ".exr"));
-  WriteTextFile(folder_.Claim(name + ".json"), study::RowToJson(picture.row));
-  return picture.row;
+  const std::string task = finished_.FindInTasks(name, arguments, &row);
+  wasFound_ = !task.empty();
+  if (wasFound_) {
+    folder_.Take(task + "/" + name + ".exr", name + ".exr");
+  } else {
+    const RenderedPicture picture = Render(arguments);
+    row = picture.row;
+    row.key = finished_.Key(arguments, finished_.Processor());
+    row.seed = seed;
+    row.image = name + ".exr";
+    if (options_.task) {
+      row.node = NodeName();
+      row.processor = finished_.Processor();
+      row.isAlone = options_.isAlone;
+    }
+    Rename(picture.path, folder_.Claim(name + ".exr"));
+  }
+  WriteTextFile(folder_.Claim(name + ".json"), study::RowToJson(row));
+  return row;
 }
 
 std::vector<study::RunRow> StudyRunner::RunAll(const std::vector<study::Setting>& settings) {
-  std::vector<Run> todo;
-  for (int seed = 1; seed <= options_.seeds; ++seed)
-    for (std::size_t i = 0; i < settings.size(); ++i) todo.push_back({i, std::uint64_t(seed)});
+  std::vector<StudyRun> todo = RunsOfStudy(settings.size(), options_.seeds);
+  if (options_.task) {
+    std::size_t index = 0;
+    std::erase_if(todo, [&](const StudyRun&) {
+      return StudyTask::Of(index++, options_.task->count) != options_.task->index;
+    });
+  }
   std::vector<study::RunRow> rows;
   Forecast forecast;
   int found = 0;

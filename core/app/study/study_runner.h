@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // StudyRunner renders the runs of a study, each in a separate process for independent measurements.
-// A finished run consists of a picture and a row (images/NAME.exr, NAME.json). NAME contains a hash
-// of everything that the run depends on. A finished run is not repeated.
+// A finished run is not repeated.
 #pragma once
 
 #include "core/app/analysis/results.h"
+#include "core/app/study/finished_runs.h"
 #include "core/app/study/study_folder.h"
 #include "core/app/study/study_options.h"
 #include "core/app/study/study_scene.h"
@@ -26,13 +26,12 @@ class StudyRunner {
               ProgramFacts program)
       : options_(options),
         folder_(folder),
-        scene_(std::move(scene)),
-        program_(std::move(program)) {}
+        finished_(options, std::move(scene), std::move(program)) {}
 
   StudyFolder& Folder() { return folder_; }
 
   // Runs all settings, seed by seed, so that an interrupted study has about equally many runs of
-  // each.
+  // each. A task runs its share only.
   std::vector<study::RunRow> RunAll(const std::vector<study::Setting>& settings);
 
   // Returns a run, rendered or found in the folder. The row's setting is 0.
@@ -44,18 +43,9 @@ class StudyRunner {
   RenderedPicture Render(const std::vector<std::string>& arguments);
 
  private:
-  struct Run {
-    std::size_t setting;
-    std::uint64_t seed;
-  };
-  std::string KeyOf(const std::vector<std::string>& arguments) const;
-  // Returns false if there is no such run or its files cannot be read.
-  bool FindDone(const std::string& name, const std::string& key, study::RunRow* row) const;
-
   const StudyOptions& options_;
   StudyFolder& folder_;
-  SceneFacts scene_;
-  ProgramFacts program_;
+  FinishedRuns finished_;
   bool wasFound_ = false;  // the last run was found, not rendered
 };
 
