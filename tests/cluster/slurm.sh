@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # slurm.sh PROGRAM SCENE: starts a cluster of three nodes on this host, renders SCENE in 16 shards
 # by `exphoton cluster --submit`, kills one slurmd and one shard in the middle, and compares the
-# picture with that of one process. Ends with 77 (skipped) where Slurm or the rights are missing.
+# picture with that of one process. Does the same, without the slurmd, for a picture with AOVs under
+# --target-error, an animation and a study. Ends with 77 (skipped) where Slurm or the rights are missing.
 # It listens on the loopback only and ends every process that it started.
 set -euo pipefail
 program=$(realpath "$1") scene=$(realpath "$2")
@@ -131,18 +132,53 @@ parts=$work/picture.exr.parts/parts
 some_parts() { [ "$(ls "$parts" | grep -c '\.state$')" -ge 2 ]; }
 wait_for 120 "two parts are rendered" some_parts
 
-# Ends one shard: a process whose command line names the folder of this cluster's parts.
-kill_a_shard() {
+# kill_one PATTERN: ends a process whose command line has the pattern.
+kill_one() {
   local process
-  process=$(pgrep -o -f -- "render .*--shard [0-9]+/16 -o $parts") && kill -9 "$process"
+  process=$(pgrep -o -f -- "$1") && kill -9 "$process"
 }
-wait_for 60 "a shard runs" kill_a_shard
+wait_for 60 "a shard runs" kill_one "render .*--shard [0-9]+/16 -o $parts"
 kill -9 "$node"
 echo "killed a shard and the slurmd of node n1"
 
 has_picture() { [ -f "$work/picture.exr" ]; }
 wait_for 300 "the picture is merged" has_picture
 cmp "$work/one.exr" "$work/picture.exr"
-killed=$(cat "$work"/picture.exr.parts/logs/* | grep -c 'submitted shards' || true)
-[ "$killed" -ge 1 ] || { echo "FAILED: no shard was submitted again"; exit 1; }
-echo "the picture has the bytes of one process; shards were submitted again $killed times"
+# submitted FOLDER: how often tasks were submitted after the first time.
+submitted() { cat "$1"/logs/* | grep -c '^submitted' || true; }
+again=$(submitted "$work/picture.exr.parts")
+[ "$again" -ge 1 ] || { echo "FAILED: no shard was submitted again"; exit 1; }
+echo "the picture has the bytes of one process; shards were submitted again $again times"
+
+# A picture of a wanted accuracy, with AOVs.
+options=(--reproducible --spp 8 --resolution 48x48 --target-error 1e-3 --max-passes 6
+  --aov variance,albedo,indirect)
+"$program" "$scene" "${options[@]}" --quiet -o "$work/one.exr"
+"$program" cluster "$scene" --shards 6 -o "$work/accurate.exr" --submit -- "${options[@]}"
+wait_for 60 "a shard runs" kill_one "render .*--shard [0-9]+/6 -o $work/accurate"
+wait_for 300 "the accurate picture is merged" test -f "$work/accurate.exr"
+cmp "$work/one.exr" "$work/accurate.exr"
+echo "so has the picture with AOVs under --target-error"
+
+# An animation of four frames.
+options=(--reproducible --spp 16 --resolution 48x48)
+"$program" "$scene" "${options[@]}" --frames 1-4 --quiet -o "$work/one%d.exr"
+"$program" cluster "$scene" --frames 1-4 -o "$work/frame%d.exr" --submit -- "${options[@]}"
+wait_for 60 "a frame is rendered" kill_one "render .*--frames [0-9] -o $work/frame"
+has_frames() { [ "$(ls "$work" | grep -c '^frame[1-4].exr$')" = 4 ]; }
+wait_for 300 "all frames are rendered" has_frames
+for frame in 1 2 3 4; do cmp "$work/one$frame.exr" "$work/frame$frame.exr"; done
+echo "so have the frames of an animation"
+
+# A study.
+options=("$scene" --integrators path,exphotonmap --vary spp=2,8 --seeds 2 --resolution 48x48
+  --no-maps --make-reference "path maxdepth=20" --reference-time 4s)
+"$program" study "${options[@]}" --out "$work/one" --quiet >/dev/null
+"$program" study "${options[@]}" --out "$work/study" --tasks 3 --submit
+wait_for 60 "a task runs" kill_one "study .*--task [0-9]/3 --out $work/study"
+wait_for 300 "the study is made" test -f "$work/study/report.html"
+for picture in "$work"/one/images/*.exr; do cmp "$picture" "$work/study/images/${picture##*/}"; done
+again=$(submitted "$work/study.tasks")
+[ "$again" -ge 1 ] || { echo "FAILED: no task was submitted again"; exit 1; }
+grep -q 'Each render had its machine for itself' "$work/study/report.html"
+echo "so have the pictures of a study; tasks were submitted again $again times"
