@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/log.h"
 #include "integrators/photon/files/photon_file.h"
 #include "integrators/photon/photon_stats.h"
 #include "integrators/photon/shooting/visible_points.h"
