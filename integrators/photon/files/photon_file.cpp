@@ -38,8 +38,9 @@ void Transfer(PhotonIdentity* identity, ByteArchive* archive) {
   }
 }
 
+// `flag` may be uninitialised while loading.
 void Transfer(bool* flag, ByteArchive* archive) {
-  auto number = std::uint8_t(*flag);
+  std::uint8_t number = archive->IsLoading() ? 0 : std::uint8_t(*flag);
   archive->Values(&number);
   *flag = number != 0;
 }
