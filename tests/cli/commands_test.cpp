@@ -55,6 +55,16 @@ TEST_F(CommandTest, ListPluginsAndTheirParameters) {
   EXPECT_EQ(Run({"plugins", "nosuch"}).status, 1);
 }
 
+TEST_F(CommandTest, ShowTheMeanOfTheFiniteValues) {
+  Image image(2, 2, {"R"});
+  image.pixels = {1, 3, std::numeric_limits<float>::quiet_NaN(), 5};
+  WriteExr(Path("a.exr"), image, false);
+  const ProgramResult result = Run({"info", "a.exr"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("mean 3            max 5            (1 not finite)"), std::string::npos)
+      << result.out;
+}
+
 TEST_F(CommandTest, ShowWhatAPictureHolds) {
   WriteGrey("a.exr", .5f);
   const ProgramResult result = Run({"info", "a.exr"});

@@ -167,6 +167,21 @@ TEST(GuidedSun, KeepsWeightsNearlyEqual) {
   EXPECT_GT(sum * sum / squares, .8 * double(photons.size()));
 }
 
+// Photons from before the guide and from its training are dropped. The table of lights counts none
+// of them.
+TEST(GuidedSun, CountsThePhotonsInTheMapsForItsLight) {
+  const LoadedScene loaded = LoadSceneText(kBox);
+  PhotonSettings settings;
+  settings.guideEmission = true;
+  PhotonTargets targets;
+  targets[PhotonKind::Direct] = targets[PhotonKind::Indirect] = 8000;
+  const PhotonPassResult result = ShootPhotons(*loaded.setup->scene, 1, targets, settings);
+  ASSERT_GT(result.guidedPaths, 0);
+  ASSERT_EQ(result.lights.size(), 1u);
+  EXPECT_EQ(std::size_t(result.lights[0].stored), result[PhotonKind::Direct].photons.Size() +
+                                                      result[PhotonKind::Indirect].photons.Size());
+}
+
 TEST(GuidedEmissionThreads, DoNotChangeTheMaps) {
   const LoadedScene loaded =
       LoadSceneText(World("LightSource \"point\" \"point from\" [-2 0 4]\n"));

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <thread>
+
+#include "core/app/process/signals.h"
 
 namespace exphoton::cli {
 namespace {
@@ -27,6 +30,19 @@ TEST_F(InterruptWatchDeathTest, EndsWorkBeyondItsTimeLimit) {
         std::_Exit(7);
       },
       testing::ExitedWithCode(4), "the time limit of --limits is exceeded");
+}
+
+// Work that does not poll the stop flag is ended from outside.
+TEST_F(InterruptWatchDeathTest, EndsInterruptedWorkWithTheStatusOfTheSignal) {
+  EXPECT_EXIT(
+      {
+        WatchSignals();
+        const InterruptWatch watch(std::nullopt);
+        std::raise(SIGTERM);
+        Sleep(60000);
+        std::_Exit(7);
+      },
+      testing::ExitedWithCode(128 + SIGTERM), "interrupted before anything was rendered");
 }
 
 // The picture before has taken longer than the limit. The next one still has the whole of it.
