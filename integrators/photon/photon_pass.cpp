@@ -3,9 +3,13 @@
 #include "integrators/photon/photon_pass.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 
 #include "core/base/log.h"
+#include "core/files/state_file.h"
 #include "integrators/photon/files/photon_file.h"
+#include "integrators/photon/files/photon_part.h"
 #include "integrators/photon/photon_stats.h"
 #include "integrators/photon/shooting/visible_points.h"
 
@@ -56,6 +60,58 @@ PhotonPassResult ReadPass(const PhotonSettings& settings, const PhotonTargets& t
   return photons;
 }
 
+// Returns the chunks of all parts that the user named. `lights` is the number of lights.
+std::unique_ptr<ChunkMemo> ReadParts(const PhotonFileUse& use, const PhotonIdentity& identity,
+                                     std::size_t lights) {
+  auto memo = std::make_unique<ChunkMemo>();
+  for (const std::string& path : use.parts) ReadPhotonPart(path, identity, lights, memo.get());
+  return memo;
+}
+
+// Returns whether the file of a share is there and whole.
+bool HasShare(const std::string& path, const PhotonIdentity& identity, std::size_t lights,
+              Log& log) {
+  if (!std::filesystem::exists(path)) return false;
+  try {
+    ChunkMemo memo;
+    ReadPhotonPart(path, identity, lights, &memo);
+    log.Notice("\"" + path + "\" exists already");
+    return true;
+  } catch (const DamagedState& error) {
+    log.Warning(std::string(error.what()) + "; it is replaced");
+    return false;
+  }
+}
+
+// Shoots one share into its file.
+void WriteShare(const PhotonTracer& tracer, const PhotonTargets& targets,
+                const PhotonIdentity& identity, PreprocessContext& context) {
+  const PhotonFileUse& use = *context.photonFile;
+  ChunkMemo share;
+  tracer.ShootShare(targets, use.shardIndex, use.shardCount, context, &share);
+  WritePhotonPart(use.path, identity, &share);
+  context.log.Notice("wrote \"" + use.path + "\"");
+}
+
+// Shoots the photons for their file, with what the parts hold. Throws PhotonShareWritten once a
+// share is written.
+PhotonPassResult ShootForFile(const PhotonTracer& tracer, const PhotonTargets& targets,
+                              const PhotonIdentity& identity, PreprocessContext& context) {
+  const PhotonFileUse& use = *context.photonFile;
+  const std::size_t lights = tracer.LightCount();
+  if (use.shardCount > 0) {
+    if (!HasShare(use.path, identity, lights, context.log))
+      WriteShare(tracer, targets, identity, context);
+    throw PhotonShareWritten();
+  }
+  const auto memo = ReadParts(use, identity, lights);
+  PhotonPassResult photons = tracer.Shoot(targets, context, memo.get());
+  if (!use.parts.empty())
+    context.log.Notice("took " + std::to_string(memo->TakenPaths()) + " of " +
+                       std::to_string(photons.paths) + " paths from the parts");
+  return photons;
+}
+
 }  // namespace
 
 PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings,
@@ -71,8 +127,15 @@ PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings
     DistantLightTargeting targeting = media.Scatter()
                                           ? DistantLightTargeting()
                                           : ChooseTargeting(settings, scene, targets, context);
-    photons = PhotonTracer(scene, settings, context.seed, std::move(targeting), std::move(media))
-                  .Shoot(targets, context);
+    const PhotonTracer tracer(scene, settings, context.seed, std::move(targeting),
+                              std::move(media));
+    if (!use) {
+      photons = tracer.Shoot(targets, context);
+    } else {
+      const PhotonIdentity identity =
+          IdentityOfPhotons(use->identity, settings, targets, context.seed);
+      photons = ShootForFile(tracer, targets, identity, context);
+    }
   }
   context.CheckStop();
   NoticeUnusedCaustics(targets, settings, scene, context.log);

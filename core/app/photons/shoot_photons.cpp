@@ -7,7 +7,9 @@
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
+#include "core/app/output/output_files.h"
 #include "core/app/output/run_files.h"
+#include "core/app/photons/photon_parts.h"
 #include "core/app/photons/photon_use.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
@@ -21,13 +23,28 @@ namespace exphoton::cli {
 namespace {
 
 struct PhotonOptions {
-  std::string scene, outfile, limits;
+  std::string scene, outfile, limits, shardText, partsFolder;
+  std::optional<Shard> shard;
+  bool listsMissing = false, allowsMissing = false;
   std::vector<std::string> sets, pluginFolders;
   LoadOptions load;
   int threads = 0;
   std::uint64_t seed = 0;
   bool isQuiet = false, hidesProgress = false;
 };
+
+void CheckShares(const PhotonOptions& options) {
+  const bool merges = !options.partsFolder.empty();
+  if (options.shard && merges) FailUsage("--shard and --merge exclude each other");
+  if (options.listsMissing && !merges)
+    FailUsage("--missing needs --merge DIR, the folder of the shares");
+  if (options.allowsMissing && !merges)
+    FailUsage("--incomplete needs --merge DIR, the folder of the shares");
+  if (options.listsMissing && !options.outfile.empty())
+    FailUsage("--missing and --outfile exclude each other");
+  if (options.outfile.empty() && !options.listsMissing)
+    FailUsage("exphoton photons needs -o FILE", "for example -o room.expm");
+}
 
 PhotonOptions ParsePhotonOptions(const std::vector<std::string>& arguments) {
   PhotonOptions options;
@@ -37,7 +54,16 @@ PhotonOptions ParsePhotonOptions(const std::vector<std::string>& arguments) {
       "camera, with any sampler and any gather.",
       "exphoton photons");
   app.Add("scene", options.scene, "the scene").Required();
-  app.Add("-o,--outfile", options.outfile, "the file of the photons").TypeName("FILE").Required();
+  app.Add("-o,--outfile", options.outfile, "the file of the photons; with --shard, a folder")
+      .TypeName("FILE");
+  app.Add("--shard", options.shardText,
+          "shoot share I of N into the folder -o, as photons-I-of-N.state")
+      .TypeName("I/N");
+  app.Add("--merge", options.partsFolder, "take the shares in this folder over").TypeName("DIR");
+  app.AddFlag("--missing", options.listsMissing,
+              "with --merge: print which shares are missing or damaged, and stop");
+  app.AddFlag("--incomplete", options.allowsMissing,
+              "with --merge: shoot what missing shares would have, instead of stopping");
   app.Add("--integrator", options.load.integrator, "as in exphoton render").TypeName("NAME");
   app.Add("--set", options.sets, "as in exphoton render")
       .TypeName("Directive.parameter=value")
@@ -53,6 +79,8 @@ PhotonOptions ParsePhotonOptions(const std::vector<std::string>& arguments) {
   app.AddFlag("--quiet", options.isQuiet, "errors and warnings only");
   app.AddFlag("--no-progress", options.hidesProgress, "no progress bar");
   app.Parse(arguments);
+  if (!options.shardText.empty()) options.shard = ParseShard(options.shardText);
+  CheckShares(options);
   for (const std::string& set : options.sets) options.load.parameters.push_back(ParseOverride(set));
   options.load.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
   options.load.stop = &StopFlag();
@@ -68,7 +96,39 @@ void CheckFiles(const PhotonOptions& options, const RenderSetup& setup, Log& log
   files.Check(log);
 }
 
+// Returns the files of the shares that are taken over.
+std::vector<std::string> FindParts(const PhotonOptions& options) {
+  if (options.partsFolder.empty()) return {};
+  const PhotonParts found(options.partsFolder);
+  if (!options.allowsMissing) found.CheckComplete();
+  return found.Paths();
+}
+
+void ListMissingParts(const PhotonOptions& options) {
+  const std::string missing = PhotonParts(options.partsFolder).Missing();
+  PrintOut(missing.empty() ? "" : missing + "\n");
+}
+
+// Makes the folder of the share, and names its file.
+void NameShare(PhotonOptions* options) {
+  if (!options->shard) return;
+  MakeFolder(options->outfile);
+  options->outfile = PhotonPartPath(options->outfile, *options->shard);
+}
+
+PhotonFileUse MakeUse(const PhotonOptions& options, const RenderSetup& setup) {
+  PhotonFileUse use = MakePhotonFileUse(options.outfile, true, options.load, setup);
+  use.parts = FindParts(options);
+  if (options.shard) {
+    use.shardIndex = options.shard->index;
+    use.shardCount = options.shard->count;
+  }
+  return use;
+}
+
 void Shoot(PhotonOptions options) {
+  if (options.listsMissing) return ListMissingParts(options);
+  NameShare(&options);
   const Limits limits = ParseLimits(options.limits);
   options.load.limits = limits.scene;
   LimitMemory(limits);
@@ -80,7 +140,7 @@ void Shoot(PhotonOptions options) {
     throw Error(ExitStatus::CommandLine, "photons are of one scene, but \"" + options.scene +
                                              "\" holds " + std::to_string(setups.size()));
   RenderSetup& setup = *setups.front();
-  const PhotonFileUse use = MakePhotonFileUse(options.outfile, true, options.load, setup);
+  const PhotonFileUse use = MakeUse(options, setup);
   CheckFiles(options, setup, log);
   ThreadPool threads(options.threads);
   ProgressReporter progress(options.isQuiet || options.hidesProgress
@@ -96,7 +156,11 @@ void Shoot(PhotonOptions options) {
                             {},          setup.volumeIntegrator.get(),
                             &StopFlag(), &use};
   if (setup.volumeIntegrator) setup.volumeIntegrator->Preprocess(*setup.scene);
-  setup.integrator->Preprocess(*setup.scene, context);
+  try {
+    setup.integrator->Preprocess(*setup.scene, context);
+  } catch (const PhotonShareWritten&) {
+    return;
+  }
   log.Notice("wrote photons to \"" + options.outfile + "\"");
 }
 

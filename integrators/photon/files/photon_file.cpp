@@ -5,15 +5,14 @@
 
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "core/files/state_file.h"
+#include "integrators/photon/files/photon_archive.h"
 #include "integrators/photon/maps/photon_map_set.h"
 
 namespace exphoton {
 namespace {
 
-constexpr const char* kIdentity = "photon identity";
 constexpr const char* kPass = "photon pass";
 constexpr const char* kSites = "radiance sites";
 
@@ -30,25 +29,6 @@ std::string Text(double value) {
   return text;
 }
 
-void Transfer(PhotonIdentity* identity, ByteArchive* archive) {
-  identity->resize(archive->Count(identity->size(), 16));
-  for (auto& [name, value] : *identity) {
-    archive->Text(&name);
-    archive->Text(&value);
-  }
-}
-
-// `flag` may be uninitialised while loading.
-void Transfer(bool* flag, ByteArchive* archive) {
-  std::uint8_t number = archive->IsLoading() ? 0 : std::uint8_t(*flag);
-  archive->Values(&number);
-  *flag = number != 0;
-}
-
-void Transfer(Spectrum* spectrum, ByteArchive* archive) {
-  archive->Values(&spectrum->r, &spectrum->g, &spectrum->b);
-}
-
 // Transfers all but the photons themselves and the sites. counts: photons of each map.
 void Transfer(PhotonPassResult* pass, std::array<std::uint64_t, kPhotonKindCount>* counts,
               ByteArchive* archive) {
@@ -58,8 +38,7 @@ void Transfer(PhotonPassResult* pass, std::array<std::uint64_t, kPhotonKindCount
     Transfer(&buffer.isGuided, archive);
   });
   pass->lights.resize(archive->Count(pass->lights.size(), 40));
-  for (LightTally& light : pass->lights)
-    archive->Values(&light.shot, &light.hit, &light.skipped, &light.stored, &light.caustic);
+  for (LightTally& light : pass->lights) Transfer(&light, archive);
   archive->Values(&pass->paths, &pass->guidedPaths, &pass->trainingPaths, &pass->skipped,
                   &pass->emittedPower, &pass->cutPower, &pass->droppedPhotons,
                   &pass->firstDroppedPath, &pass->divergingPaths, &pass->candidates,
@@ -68,26 +47,7 @@ void Transfer(PhotonPassResult* pass, std::array<std::uint64_t, kPhotonKindCount
 
 void Transfer(RecordStore<RadiancePhotonSite>* sites, ByteArchive* archive) {
   sites->Resize(archive->Count(sites->Size(), 13 * sizeof(Real) + 1));
-  for (RadiancePhotonSite& site : sites->Records()) {
-    archive->Values(&site.p.x, &site.p.y, &site.p.z, &site.n.x, &site.n.y, &site.n.z);
-    Transfer(&site.reflectance, archive);
-    Transfer(&site.transmittance, archive);
-    archive->Values(&site.glossyShare);
-    Transfer(&site.isCoated, archive);
-  }
-}
-
-std::string Differences(const PhotonIdentity& there, const PhotonIdentity& here) {
-  std::map<std::string, std::array<std::string, 2>> values;
-  for (const auto& [name, value] : there) values[name][0] = value;
-  for (const auto& [name, value] : here) values[name][1] = value;
-  std::string texts;
-  const auto shown = [](const std::string& value) { return value.empty() ? "missing" : value; };
-  for (const auto& [name, both] : values)
-    if (both[0] != both[1])
-      texts += (texts.empty() ? "" : "; ") + name + " is " + shown(both[0]) + " there, " +
-               shown(both[1]) + " here";
-  return texts;
+  for (RadiancePhotonSite& site : sites->Records()) Transfer(&site, archive);
 }
 
 // A file that was written on purpose to do harm can have any numbers and a matching checksum.
@@ -100,12 +60,6 @@ bool IsFinite(const PhotonBlock& block) {
            (alpha.b - alpha.b);
   }
   return sum == 0;
-}
-
-bool IsFinite(const RadiancePhotonSite& site) {
-  const Real sum = site.p.x + site.p.y + site.p.z + site.n.x + site.n.y + site.n.z +
-                   site.reflectance.MaxComponent() + site.transmittance.MaxComponent();
-  return std::isfinite(sum);
 }
 
 BlockStore<PhotonBlock> ReadBlocks(const StateFile& file, PhotonKind kind, std::uint64_t count) {
@@ -160,8 +114,7 @@ void WritePhotons(const std::string& path, const PhotonIdentity& identity,
     transfer(&archive);
     writer.Add(name, archive.Take());
   };
-  PhotonIdentity written = identity;
-  add(kIdentity, [&](ByteArchive* archive) { Transfer(&written, archive); });
+  WriteIdentity(identity, &writer);
   add(kPass, [&](ByteArchive* archive) { Transfer(photons, &counts, archive); });
   add(kSites, [&](ByteArchive* archive) { Transfer(&photons->sites, archive); });
   ForEachKind([&](PhotonKind kind) {
@@ -172,20 +125,11 @@ void WritePhotons(const std::string& path, const PhotonIdentity& identity,
 
 PhotonPassResult ReadPhotons(const std::string& path, const PhotonIdentity& identity) {
   const StateFile file(path, StateUse::Photons);
-  if (!file.Has(kIdentity)) file.FailAsDamaged("it holds no photons but the state of a render");
-  PhotonIdentity there;
-  file.Read(kIdentity, [&](ByteArchive* archive) { Transfer(&there, archive); });
-  if (const std::string differences = Differences(there, identity); !differences.empty())
-    throw Error(ExitStatus::CommandLine, "cannot use the photons \"" + path + "\": " + differences,
-                {},
-                "exphoton photons SCENE -o FILE shoots them again; without --photons the "
-                "render shoots its own");
+  CheckIdentity(file, identity);
   PhotonPassResult photons;
   std::array<std::uint64_t, kPhotonKindCount> counts{};
   file.Read(kPass, [&](ByteArchive* archive) { Transfer(&photons, &counts, archive); });
   file.Read(kSites, [&](ByteArchive* archive) { Transfer(&photons.sites, archive); });
-  for (const RadiancePhotonSite& site : photons.sites.Records())
-    if (!IsFinite(site)) file.FailAsDamaged("a radiance site is not finite");
   ForEachKind([&](PhotonKind kind) {
     PhotonBuffer& buffer = photons[kind];
     buffer.photons = ReadBlocks(file, kind, counts[std::size_t(kind)]);

@@ -41,6 +41,7 @@ void PhotonChunk::Clear() {
   for (auto& ofMap : photons) ofMap.clear();
   sites.clear();
   samples.clear();
+  lights.clear();
   emittedPower = cutPower = 0;
   dropped = diverging = skipped = candidates = beyondBound = 0;
   firstDropped = -1;

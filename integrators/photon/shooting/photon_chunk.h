@@ -18,6 +18,8 @@ struct alignas(128) PhotonChunk {
   std::array<std::vector<PhotonRecord>, kPhotonKindCount> photons;
   std::vector<RadiancePhotonSite> sites;
   std::vector<EmissionSample> samples;  // one for each path from a light, if paths are recorded
+  // Of the lights with paths in this chunk, if they are asked for: index and tally.
+  std::vector<std::pair<std::int32_t, LightTally>> lights;
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; path index of the first one
   std::int64_t diverging = 0, skipped = 0;

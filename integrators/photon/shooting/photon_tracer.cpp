@@ -9,23 +9,13 @@
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
-#include "integrators/photon/shooting/photon_chunk.h"
 #include "integrators/photon/shooting/photon_path.h"
+#include "integrators/photon/shooting/tracer_pass.h"
 
 namespace exphoton {
 
-struct PhotonTracer::Worker {
-  Arena arena;
-  std::vector<PhotonBranch> branches;
-  RayCounters rays;
-  std::vector<LightTally> lights;
-};
-
 namespace {
 
-// Smallest and largest numbers of paths that train a guide.
-constexpr std::int64_t kMinTrainingPaths = std::int64_t(1) << 14;
-constexpr std::size_t kMaxTrainingSamples = std::size_t(1) << 19;
 // Of the paths that are probably needed, at most this share is spent on one round of training.
 constexpr double kMaxTrainingShare = .125;
 // One round of training uses at most 1 / kMaxTrainingOfLimit of the paths that the limit leaves.
@@ -35,7 +25,7 @@ constexpr std::int64_t kMinKeptPaths = 16;
 // If more of the paths keep indirect photons without a guide, the indirect map needs none.
 constexpr double kMaxUnguidedYield = .125;
 // A map that needs fewer further paths than this without a guide needs none.
-constexpr std::int64_t kMinUnguidedPaths = 8 * kMinTrainingPaths;
+constexpr std::int64_t kMinUnguidedPaths = std::int64_t(1) << 17;
 // Share of the paths that the guide spreads over all emission.
 constexpr double kDefensiveShare = .2;
 // For the indirect map, whose paths leave direct photons too. Few of them may lie where nothing is
@@ -93,78 +83,46 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       farthest_(FarthestDistance(scene)) {}
 
 void PhotonTracer::TraceChunk(std::int64_t firstPath, const PhotonBatch& batch, Worker* worker,
-                              PhotonChunk* chunk) const {
+                              PhotonChunk* chunk, std::vector<LightTally>* lights) const {
   const PhotonPathSequences sequences(seed_, std::uint64_t(firstPath));  // chunks are aligned
   chunk->Clear();
-  worker->lights.resize(scene_.Lights().size());  // here, so that the memory is local to the thread
+  lights->resize(scene_.Lights().size());  // here, so that the memory is local to the thread
   for (int i = 0; i < kChunkPaths; ++i) {
     Path path(*this, sequences, std::uint64_t(firstPath + i), {batch, chunk, &worker->branches});
     worker->arena.Reset();
     path.Trace(&worker->arena, &worker->rays);
-    path.AddTo(worker->lights);
+    path.AddTo(*lights);
   }
 }
-
-// Pass is one run of Shoot.
-class PhotonTracer::Pass {
- public:
-  Pass(const PhotonTracer& tracer, const PhotonTargets& targets, PreprocessContext& context)
-      : tracer_(tracer),
-        targets_(targets),
-        context_(context),
-        workers_(std::size_t(context.threads.Count())) {
-    for (std::size_t m = 0; m < kPhotonKindCount; ++m) batch_.open[m] = targets.counts[m] > 0;
-    batch_.radianceFraction = targets.radianceFraction;
-    result_.lights.resize(tracer.scene_.Lights().size());
-    for (PhotonBuffer& buffer : result_.buffers) buffer.farthest = tracer.farthest_;
-  }
-
-  PhotonPassResult Run();
-
- private:
-  static constexpr std::size_t kCaustic = std::size_t(PhotonKind::Caustic);
-
-  void Trace(std::int64_t paths);
-  void CloseMaps();
-  double Filled(std::size_t map) const;
-  bool IsOnlyCausticOpen() const { return batch_.open == std::array{false, true, false}; }
-
-  // Emission guiding
-  bool MayGuide(PhotonKind kind) const;
-  bool BeginToGuide();
-  bool IsWanted(PhotonKind kind);
-  std::int64_t MaxTrainingPaths() const;
-  void Train(PhotonKind kind);
-  void KeepSamples();
-  EmissionGuide Learn(PhotonKind kind) const;
-  void Discard(PhotonKind kind);
-
-  const PhotonTracer& tracer_;
-  const PhotonTargets& targets_;
-  PreprocessContext& context_;
-  PhotonPassResult result_;
-  PhotonBatch batch_;
-  std::vector<Worker> workers_;
-  std::vector<PhotonChunk> chunks_;
-  double least_ = 0, most_ = 0;  // fill of the requested maps, and of the open maps
-  EmissionGuide guide_;
-  std::vector<EmissionSample> samples_;
-  std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map
-  std::int64_t trainedPath_ = 0;  // number of paths before the last change of the guide
-  bool mayGuideIndirect_ = false, mayGuideCaustics_ = false;
-  std::int64_t attemptAt_ = kMinTrainingPaths;  // number of paths before the next attempt
-};
 
 // Traces a batch of paths into the chunks.
 void PhotonTracer::Pass::Trace(std::int64_t paths) {
   context_.CheckStop();
   chunks_.resize(std::size_t(paths / kChunkPaths));
   context_.threads.For(std::int64_t(chunks_.size()), [&](std::int64_t c, int worker) {
-    tracer_.TraceChunk(result_.paths + c * kChunkPaths, batch_, &workers_[std::size_t(worker)],
-                       &chunks_[std::size_t(c)]);
+    TraceOrTake(result_.paths + c * kChunkPaths, &workers_[std::size_t(worker)],
+                &chunks_[std::size_t(c)]);
   });
   if (batch_.isRecorded) KeepSamples();
 }
+
+// Training needs samples, which a memo does not have.
+void PhotonTracer::Pass::TraceOrTake(std::int64_t firstPath, Worker* worker, PhotonChunk* chunk) {
+  if (!memo_ || NeedsSamples() || !memo_->Take(firstPath, State(), chunk))
+    return tracer_.TraceChunk(firstPath, batch_, worker, chunk, &worker->lights);
+  worker->lights.resize(tracer_.scene_.Lights().size());
+  for (const auto& [light, tally] : chunk->lights) worker->lights[std::size_t(light)].Add(tally);
+}
+
+// Returns whether a guide may still be trained on the paths that are traced now.
+bool PhotonTracer::Pass::NeedsSamples() const {
+  if (batch_.isDiscarded) return true;
+  const bool mayTrain = (mayGuideIndirect_ && batch_.open[std::size_t(PhotonKind::Indirect)]) ||
+                        (mayGuideCaustics_ && batch_.open[kCaustic]);
+  return mayTrain && samples_.size() < kMaxTrainingSamples / 4;
+}
+
+ChunkState PhotonTracer::Pass::State() const { return {batch_.open, trainedPath_}; }
 
 // Returns how full a map is: the larger of its shares of the photon target and of the path limit.
 double PhotonTracer::Pass::Filled(std::size_t map) const {
@@ -191,21 +149,30 @@ void PhotonTracer::Pass::CloseMaps() {
   }
 }
 
-PhotonPassResult PhotonTracer::Pass::Run() {
-  if (tracer_.lights_->IsEmpty() && !tracer_.media_.Emit()) return std::move(result_);
+void PhotonTracer::Pass::Begin() {
   mayGuideIndirect_ = MayGuide(PhotonKind::Indirect) && !(tracer_.mediaShare_ > 0);
   mayGuideCaustics_ = MayGuide(PhotonKind::Caustic);
   batch_.isRecorded = mayGuideIndirect_ || mayGuideCaustics_;
   context_.progress.Begin("Shooting photons", 1000);
-  for (std::int64_t batch = kChunkPaths; std::ranges::count(batch_.open, true) > 0;) {
-    Trace(batch);
-    Merge(chunks_, targets_, context_.threads, &result_);
-    if (batch_.guide) result_.guidedPaths += batch;
-    CloseMaps();
-    batch = NextBatch(batch, result_.paths - trainedPath_, most_);
-    context_.progress.SetDone(std::int64_t(1000 * least_));
-    if (BeginToGuide()) batch = kMaxBatchPaths;
-  }
+}
+
+// Traces a batch, and sets the size of the next one.
+void PhotonTracer::Pass::MergeBatch(std::int64_t* batch) {
+  Trace(*batch);
+  Merge(chunks_, targets_, context_.threads, &result_);
+  if (batch_.guide) result_.guidedPaths += *batch;
+  CloseMaps();
+  *batch = NextBatch(*batch, result_.paths - trainedPath_, most_);
+  context_.progress.SetDone(std::int64_t(1000 * least_));
+  if (BeginToGuide()) *batch = kMaxBatchPaths;
+}
+
+PhotonPassResult PhotonTracer::Pass::Run(ChunkMemo* memo) {
+  memo_ = memo;
+  if (tracer_.lights_->IsEmpty() && !tracer_.media_.Emit()) return std::move(result_);
+  Begin();
+  for (std::int64_t batch = kChunkPaths; std::ranges::count(batch_.open, true) > 0;)
+    MergeBatch(&batch);
   context_.progress.End();
   for (const Worker& worker : workers_) {
     context_.statistics.AddRays(worker.rays);
@@ -323,9 +290,9 @@ void PhotonTracer::Pass::Train(PhotonKind kind) {
     }
 }
 
-PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets,
-                                     PreprocessContext& context) const {
-  return Pass(*this, targets, context).Run();
+PhotonPassResult PhotonTracer::Shoot(const PhotonTargets& targets, PreprocessContext& context,
+                                     ChunkMemo* memo) const {
+  return Pass(*this, targets, context).Run(memo);
 }
 
 std::int64_t PhotonTracer::NextBatch(std::int64_t last, std::int64_t paths, double filled) {

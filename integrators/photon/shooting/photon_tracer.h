@@ -79,6 +79,7 @@ struct PhotonPassResult {
 };
 
 struct PhotonChunk;
+class ChunkMemo;
 class EmissionGuide;
 
 // PhotonBatch describes paths that are traced in the same way.
@@ -97,7 +98,15 @@ class PhotonTracer {
 
   // Traces until every requested map is full, has used maxphotonpaths, or has stored nothing in its
   // first kFruitlessPaths.
-  PhotonPassResult Shoot(const PhotonTargets& targets, PreprocessContext& context) const;
+  // `memo` has chunks that other processes have traced; null: none.
+  PhotonPassResult Shoot(const PhotonTargets& targets, PreprocessContext& context,
+                         ChunkMemo* memo = nullptr) const;
+
+  // Traces the share of one process (chunk_memo.h) into the memo.
+  void ShootShare(const PhotonTargets& targets, int index, int count, PreprocessContext& context,
+                  ChunkMemo* memo) const;
+
+  std::size_t LightCount() const { return scene_.Lights().size(); }
 
   static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
   // Paths per parallel task; also the smallest batch.
@@ -111,8 +120,9 @@ class PhotonTracer {
   class Pass;
   struct Worker;
 
+  // `lights` receives the tallies.
   void TraceChunk(std::int64_t firstPath, const PhotonBatch& batch, Worker* worker,
-                  PhotonChunk* chunk) const;
+                  PhotonChunk* chunk, std::vector<LightTally>* lights) const;
   // Returns the size of the next batch. last: the previous size; paths: traced so far; filled: how
   // full the fullest open map is, the larger of its share of the photon target and its share of
   // maxphotonpaths.

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PhotonTracer::Pass is one run of PhotonTracer::Shoot or ShootShare.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "integrators/photon/shooting/chunk_memo.h"
+#include "integrators/photon/shooting/photon_chunk.h"
+#include "integrators/photon/shooting/photon_path.h"
+
+namespace exphoton {
+
+struct PhotonTracer::Worker {
+  Arena arena;
+  std::vector<PhotonBranch> branches;
+  RayCounters rays;
+  std::vector<LightTally> lights;
+};
+
+class PhotonTracer::Pass {
+ public:
+  Pass(const PhotonTracer& tracer, const PhotonTargets& targets, PreprocessContext& context)
+      : tracer_(tracer),
+        targets_(targets),
+        context_(context),
+        workers_(std::size_t(context.threads.Count())) {
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m) batch_.open[m] = targets.counts[m] > 0;
+    batch_.radianceFraction = targets.radianceFraction;
+    result_.lights.resize(tracer.scene_.Lights().size());
+    for (PhotonBuffer& buffer : result_.buffers) buffer.farthest = tracer.farthest_;
+  }
+
+  PhotonPassResult Run(ChunkMemo* memo);
+  void RunShare(int index, int count, ChunkMemo* memo);
+
+ private:
+  // Smallest and largest numbers of paths that train a guide.
+  static constexpr std::int64_t kMinTrainingPaths = std::int64_t(1) << 14;
+  static constexpr std::size_t kMaxTrainingSamples = std::size_t(1) << 19;
+  static constexpr std::size_t kCaustic = std::size_t(PhotonKind::Caustic);
+
+  void Trace(std::int64_t paths);
+  void TraceOrTake(std::int64_t firstPath, Worker* worker, PhotonChunk* chunk);
+  void MergeBatch(std::int64_t* batch);
+  void Begin();
+  void CloseMaps();
+
+  // Shares
+  ChunkState State() const;
+  bool NeedsSamples() const;
+  bool IsPredictable() const;
+  std::array<std::int64_t, kPhotonKindCount> PredictClosing() const;
+  void TraceShare(int index, int count, ChunkMemo* memo);
+  double Filled(std::size_t map) const;
+  bool IsOnlyCausticOpen() const { return batch_.open == std::array{false, true, false}; }
+
+  // Emission guiding
+  bool MayGuide(PhotonKind kind) const;
+  bool BeginToGuide();
+  bool IsWanted(PhotonKind kind);
+  std::int64_t MaxTrainingPaths() const;
+  void Train(PhotonKind kind);
+  void KeepSamples();
+  EmissionGuide Learn(PhotonKind kind) const;
+  void Discard(PhotonKind kind);
+
+  const PhotonTracer& tracer_;
+  const PhotonTargets& targets_;
+  PreprocessContext& context_;
+  PhotonPassResult result_;
+  PhotonBatch batch_;
+  std::vector<Worker> workers_;
+  std::vector<PhotonChunk> chunks_;
+  double least_ = 0, most_ = 0;  // fill of the requested maps, and of the open maps
+  EmissionGuide guide_;
+  std::vector<EmissionSample> samples_;
+  std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map
+  std::int64_t trainedPath_ = 0;  // number of paths before the last change of the guide
+  bool mayGuideIndirect_ = false, mayGuideCaustics_ = false;
+  ChunkMemo* memo_ = nullptr;
+  std::int64_t attemptAt_ = kMinTrainingPaths;  // number of paths before the next attempt
+};
+
+}  // namespace exphoton
