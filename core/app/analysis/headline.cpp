@@ -226,8 +226,13 @@ void WriteHeadline(const Results& results, Analysis* analysis) {
     analysis->headline = isSingle ? SingleText(results, *analysis) : Sentence(results, *analysis);
   const bool hasTimes = analysis->target && !(isSingle && analysis->lines.size() == 1);
   analysis->details = hasTimes ? Details(*analysis) : LeastErrors(*analysis);
-  if (const std::string machines = MachinesText(results); !machines.empty())
-    analysis->details += (analysis->details.empty() ? "" : " ") + machines;
+  const auto add = [&](const std::string& text) {
+    if (!text.empty()) analysis->details += (analysis->details.empty() ? "" : " ") + text;
+  };
+  add(MachinesText(results));
+  if (!results.photonFile.empty())
+    add("Photons were read from " + results.photonFile +
+        ", and the times do not include shooting them.");
 }
 
 }  // namespace exphoton::study

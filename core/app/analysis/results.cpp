@@ -160,6 +160,7 @@ Results Parse(const std::string& text) {
   results.sceneHash = Text(json, "sceneHash");
   results.command = Text(json, "command");
   results.clock = Text(json, "clock");
+  results.photonFile = json.value("photonFile", "");
   results.seeds = int(Number(json, "seeds"));
   results.targets = json.at("targets").get<std::vector<double>>();
   results.crops = json.at("crops").get<std::vector<std::array<double, 4>>>();
@@ -237,6 +238,7 @@ std::string ToJson(const Results& results) {
                {"sceneHash", results.sceneHash},
                {"command", results.command},
                {"clock", results.clock},
+               {"photonFile", results.photonFile},
                {"seeds", results.seeds},
                {"targets", results.targets},
                {"crops", results.crops}};

@@ -63,6 +63,7 @@ struct Results {
   std::string processor, system;
   int cores = 0;
   std::string title, scene, sceneHash, command;
+  std::string photonFile;     // photons were read from here; "": each render shot its own
   std::string clock = "cpu";  // clock of charts and ratios: cpu or wall
   int seeds = 0;
   std::vector<double> targets;               // errors in the price list

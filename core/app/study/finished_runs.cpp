@@ -58,7 +58,7 @@ std::set<int> FinishedRuns::MissingTasks(const std::vector<study::Setting>& sett
   const std::vector<StudyRun> runs = RunsOfStudy(settings.size(), options_.seeds);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const study::Setting& setting = settings[runs[i].setting];
-    const auto arguments = RenderArguments(options_, options_.scene, setting, runs[i].seed);
+    const auto arguments = RunArguments(options_, setting, runs[i].seed);
     study::RunRow row;
     if (FindInTasks(RunFileName(setting, runs[i].seed), arguments, &row).empty())
       missing.insert(StudyTask::Of(i, count));

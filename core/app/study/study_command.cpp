@@ -47,6 +47,7 @@ study::Results Describe(const StudyOptions& options, const SceneFacts& scene,
   results.scene = options.scene;
   results.sceneHash = scene.hash;
   results.command = options.commandLine;
+  results.photonFile = options.photonFile;
   results.clock = options.clock;
   results.seeds = options.seeds;
   results.targets = options.targets;
@@ -133,8 +134,7 @@ void CheckReference(const StudyOptions& options, const SceneFacts& scene,
 std::string PlanText(const StudyOptions& options, const std::vector<study::Setting>& settings) {
   std::string text;
   for (const study::Setting& setting : settings)
-    text += setting.label + ": " +
-            CommandText(RenderArguments(options, options.scene, setting, 1)) + "\n";
+    text += setting.label + ": " + CommandText(RunArguments(options, setting, 1)) + "\n";
   return text;
 }
 
@@ -161,6 +161,8 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   const ProgramFacts program = ExamineProgram(options);
   study::Results results = Describe(options, scene, program);
   results.settings = PlanSettings(options);
+  if (!options.photonFile.empty())
+    options.photonIntegrators = FindPhotonIntegrators(options, results.settings);
   if (options.onlyPlans) {
     PrintOut(PlanText(options, results.settings));
     return PrintOut(ForecastText(options, scene, results.settings));

@@ -85,7 +85,8 @@ std::optional<Cost> Probe(const StudyOptions& options, const study::Setting& set
                           const ScratchFolder& folder) {
   StudyOptions part = options;
   part.cropWindow = CentralPart(options);
-  std::vector<std::string> arguments = RenderArguments(part, part.scene, setting, kProbeSeed);
+  const std::uint64_t seed = options.photonFile.empty() ? kProbeSeed : 1;
+  std::vector<std::string> arguments = RunArguments(part, setting, seed);
   arguments.insert(arguments.end(), {"--quiet", "--no-progress", "--stats-json",
                                      folder.File("probe.json"), "-o", folder.File("probe.exr")});
   if (!options.limits.empty()) arguments.insert(arguments.end(), {"--limits", options.limits});

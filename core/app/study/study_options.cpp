@@ -15,6 +15,7 @@
 #include "core/files/file_identity.h"
 #include "core/files/input_file.h"
 #include "core/params/suggestions.h"
+#include "core/parser/frame_name.h"
 #include "core/parser/syntax/tokenizer.h"
 
 namespace exphoton::cli {
@@ -32,7 +33,8 @@ bool IsStudyFile(const std::string& path) { return fs::path(path).extension() ==
 
 // Returns whether the value of this study-file option is a path.
 bool NamesAFile(const std::string& option) {
-  return option == "scene" || option == "reference" || option == "reference-scene";
+  return option == "scene" || option == "reference" || option == "reference-scene" ||
+         option == "photons";
 }
 
 // Returns the prefix of messages about a line of a study file.
@@ -154,6 +156,10 @@ void AddRender(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
       .TakeLast();
   app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
       .OnePerUse();
+  app.Add("--photons", options.photonFile,
+          "read photons from this file instead of shooting them; %d in its name is the seed")
+      .TakeLast()
+      .TypeName("FILE");
   AddScenePluginsOption(app, &options.allowsScenePlugins);
   AddLimitsOption(app, &options.limits);
   app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
@@ -229,11 +235,21 @@ void TakePlan(const RawStudyOptions& raw, StudyOptions* options) {
       options->plan.bases.push_back(study::ParseSetting(name));
 }
 
+void CheckPhotonFile(const StudyOptions& options) {
+  if (options.photonFile.empty()) return;
+  if (options.seeds > 1 && !HasFrameNumber(options.photonFile))
+    FailUsage("--photons needs a file for each seed, or equal photons would hide their noise",
+              "--photons 'room%d.expm' reads room1.expm for seed 1; or give --seeds 1");
+  if (!options.plan.budgets.empty())
+    FailUsage("--photons excludes --budgets: each pass of such a render has photons of its own");
+}
+
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
   if (options.folder.empty() && !options.onlyPlans && options.missingOf == 0)
     FailUsage("exphoton study needs --out FOLDER");
   ParseLimits(options.limits);
+  CheckPhotonFile(options);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");
@@ -247,6 +263,8 @@ void TakeInputFiles(StudyOptions* options) {
   std::vector<std::string> files{options->scene};
   files.insert(files.end(), options->references.begin(), options->references.end());
   if (!options->referenceScene.empty()) files.push_back(options->referenceScene);
+  for (int seed = 1; !options->photonFile.empty() && seed <= options->seeds; ++seed)
+    files.push_back(FrameName(options->photonFile, seed));
   for (const std::string& file : files) {
     try {
       RequireRegularFile(file);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct StudyOptions {
   std::string makeReference;            // a setting, for example "path maxdepth=100"; "": none
   std::string referenceScene;           // another file with the same picture; "": the scene
   double referenceSeconds = 30 * 60;
+  std::string photonFile;  // "": renders shoot their photons; %d in the name is the seed
+  std::set<std::string> photonIntegrators;  // those that read photonFile
   std::string clock = "cpu";
   std::vector<double> targets{.1, .03, .01, .003};
   bool makesMaps = true;

@@ -96,7 +96,7 @@ RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
 
 study::RunRow StudyRunner::RunOne(const study::Setting& setting, std::uint64_t seed,
                                   const std::vector<std::string>& extra) {
-  std::vector<std::string> arguments = RenderArguments(options_, options_.scene, setting, seed);
+  std::vector<std::string> arguments = RunArguments(options_, setting, seed);
   arguments.insert(arguments.end(), extra.begin(), extra.end());
   const std::string name = RunFileName(setting, seed) + (extra.empty() ? "" : "_maps");
   study::RunRow row;

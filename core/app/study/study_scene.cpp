@@ -23,9 +23,11 @@
 #include "core/base/log.h"
 #include "core/files/input_file.h"
 #include "core/params/suggestions.h"
+#include "core/parser/frame_name.h"
 #include "core/parser/overrides.h"
 #include "core/parser/render_setup.h"
 #include "core/plugins/registry.h"
+#include "core/transport/integrator.h"
 
 namespace exphoton::cli {
 namespace {
@@ -179,6 +181,24 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
   }
 }
 
+std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
+                                            const std::vector<study::Setting>& settings) {
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
+  PluginRegistry registry(PluginRegistry::DefaultFolders(options.pluginFolders), &log);
+  std::set<std::string> names;
+  for (const study::Setting& setting : settings) {
+    BindContext bind;
+    bind.log = &log;
+    const auto integrator = registry.Create<PluginKind::Integrator>(setting.integrator, ParamSet(),
+                                                                    bind, IntegratorContext{log});
+    if (integrator->KeepsPhotons()) names.insert(setting.integrator);
+  }
+  if (names.empty())
+    FailUsage("--photons: none of the study's integrators keeps photons",
+              "exphotonmap and photonmap do");
+  return names;
+}
+
 std::vector<std::string> RenderArguments(const StudyOptions& options, const std::string& scene,
                                          const study::Setting& setting, std::uint64_t seed) {
   std::vector<std::string> arguments{"render", scene, "--integrator", setting.integrator};
@@ -204,6 +224,14 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
   add("--seed", std::to_string(seed));
   arguments.push_back("--float");
   arguments.push_back("--reproducible");
+  return arguments;
+}
+
+std::vector<std::string> RunArguments(const StudyOptions& options, const study::Setting& setting,
+                                      std::uint64_t seed) {
+  std::vector<std::string> arguments = RenderArguments(options, options.scene, setting, seed);
+  if (options.photonIntegrators.contains(setting.integrator))
+    arguments.insert(arguments.end(), {"--photons", FrameName(options.photonFile, int(seed))});
   return arguments;
 }
 

@@ -3,6 +3,7 @@
 // PlanSettings checks the settings against the parameters of each integrator.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "core/app/study/study_options.h"
@@ -30,9 +31,18 @@ std::string ReadTextFile(const std::string& path);  // empty if the file cannot 
 // Expands the plan. Throws Error for an unknown integrator or parameter.
 std::vector<study::Setting> PlanSettings(const StudyOptions& options);
 
+// Returns those integrators of the settings that can read photons from a file. Throws Error if
+// there are none.
+std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
+                                            const std::vector<study::Setting>& settings);
+
 // Returns the arguments of `exphoton render` for a scene, setting and seed, without output options.
 std::vector<std::string> RenderArguments(const StudyOptions& options, const std::string& scene,
                                          const study::Setting& setting, std::uint64_t seed);
+// Returns the arguments for one run of the study. They name the file of its photons, if there is
+// one.
+std::vector<std::string> RunArguments(const StudyOptions& options, const study::Setting& setting,
+                                      std::uint64_t seed);
 // Returns "exphoton render ..." quoted for a shell.
 std::string CommandText(const std::vector<std::string>& arguments);
 

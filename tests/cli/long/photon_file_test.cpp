@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests shoot photons into a file and render with them: the picture is the one of a render
 // that shoots its own photons, and no other file is used.
+#include <filesystem>
+
 #include "tests/cli/program.h"
 
 namespace exphoton {
@@ -161,6 +163,53 @@ TEST_F(PhotonFile, MayBeWithoutPhotons) {
   Write("scene.pbrt", "SurfaceIntegrator \"photonmap\" WorldBegin Shape \"sphere\" WorldEnd\n");
   Shoot();
   ExpectSamePicture({"--resolution", "4x3", "--spp", "1"});
+}
+
+// Each seed has a file of its own. The pictures are those of a study that shoots.
+TEST_F(PhotonFile, ServesAStudy) {
+  const Names study{"study",    "scene.pbrt", "--integrators", "exphotonmap,path",
+                    "--vary",   "spp=1,2",    "--seeds",       "2",
+                    "--no-maps"};
+  const auto with = [&](Names words, const Names& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  for (const char* seed : {"1", "2"})
+    ASSERT_EQ(
+        Run({"photons", "scene.pbrt", "--seed", seed, "-o", "maps" + std::string(seed) + ".expm"})
+            .status,
+        0);
+  ASSERT_EQ(Run(with(study, {"--out", "own"})).status, 0);
+  const ProgramResult read = Run(with(study, {"--out", "read", "--photons", "maps%d.expm"}));
+  ASSERT_EQ(read.status, 0) << read.err;
+  EXPECT_NE(read.out.find("Photons were read from maps%d.expm"), std::string::npos) << read.out;
+  const std::string results = Read("read/results.json");
+  EXPECT_NE(results.find("--photons maps2.expm"), std::string::npos);
+  int pictures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(Path("own/images"))) {
+    if (entry.path().extension() != ".exr") continue;
+    const std::string name = "/images/" + entry.path().filename().string();
+    EXPECT_TRUE(Read("own" + name) == Read("read" + name)) << name;
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 8);
+}
+
+TEST_F(PhotonFile, OfOneSeedCannotServeAStudyOfSeveral) {
+  Shoot();
+  const Names study{"study", "scene.pbrt", "--integrators", "exphotonmap", "--no-maps",
+                    "--out", "out",        "--photons",     "maps.expm",   "--seeds"};
+  const auto refused = [&](const std::string& seeds, const std::string& integrator) {
+    Names words = study;
+    words.push_back(seeds);
+    words[3] = integrator;
+    const ProgramResult result = Run(words);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_FALSE(Exists("out"));
+    return result.err;
+  };
+  EXPECT_NE(refused("2", "exphotonmap").find("a file for each seed"), std::string::npos);
+  EXPECT_NE(refused("1", "path").find("keeps photons"), std::string::npos);
 }
 
 }  // namespace
