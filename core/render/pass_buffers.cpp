@@ -35,8 +35,9 @@ PassBuffers::PassBuffers(const Layout& layout, Film* film, AovFilm* aovs)
 void PassBuffers::AddSharedLight(ThreadPool* threads, Statistics* statistics) {
   if (layout_.batch) return;
   const PhaseTimer timer(*statistics, "share");
-  bands_->AddLight(threads, {film_, aovs_, Splats(), bands_->Current().window,
-                             double(layout_.samplesPerPixel), layout_.corrections});
+  bands_->AddLight(
+      threads, {film_, aovs_, Splats(), bands_->Current().window, double(layout_.samplesPerPixel),
+                layout_.corrections, layout_.diskArea});
 }
 
 std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* statistics) {

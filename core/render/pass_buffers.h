@@ -24,6 +24,7 @@ class PassBuffers {
     double sharingMemory = 0x1p28;       // as in RenderOptions
     GatherBatch* batch = nullptr;        // receives the gathers; null: the pass shares its own
     Corrections* corrections = nullptr;  // as in RenderOptions
+    double diskArea = 1;                 // as in RenderPass
   };
   // Returns the pixels to render: those whose samples or gathers reach the film's crop window.
   static PixelBounds Rendered(const Layout& layout, const Film& film);

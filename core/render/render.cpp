@@ -34,11 +34,11 @@ struct PassRenderer::State {
       job.log.Notice("gathers are not shared: " + sharing.reason);
   }
 
-  void Preprocess(std::uint64_t seed, ProgressReporter& progress) {
+  void Preprocess(const RenderPass& pass, ProgressReporter& progress) {
     Log& log = passes == 0 ? job.log : mutedLog;
     const PixelBounds& full = job.film.Full();
     PreprocessContext context{job.threads,
-                              seed,
+                              pass.preprocessSeed,
                               log,
                               progress,
                               job.statistics,
@@ -47,7 +47,9 @@ struct PassRenderer::State {
                               {full.Width(), full.Height()},
                               job.volume,
                               Stop(),
-                              options.photonFile};
+                              options.photonFile,
+                              pass.diskArea,
+                              pass.time};
     // The integrator may march through media while it prepares.
     if (job.volume) job.volume->Preprocess(job.scene);
     job.integrator.Preprocess(job.scene, context);
@@ -107,8 +109,8 @@ struct PassRenderer::State {
   }
 
   PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
-    return {splatWeights.get(),    sharing.isOn, pass.sampleCount,
-            options.sharingMemory, passBatch,    options.corrections};
+    return {splatWeights.get(), sharing.isOn,        pass.sampleCount, options.sharingMemory,
+            passBatch,          options.corrections, pass.diskArea};
   }
 
   ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {
@@ -294,8 +296,7 @@ bool PassRenderer::Run(const RenderPass& pass, const Sampler& sampler, Film* fil
   const Clock::time_point start = Clock::now();
   for (RenderWorker& worker : state.workers) worker.threadState.Reset();
   try {
-    if (state.preparedSeed != pass.preprocessSeed)
-      state.Preprocess(pass.preprocessSeed, state.job.progress);
+    if (state.preparedSeed != pass.preprocessSeed) state.Preprocess(pass, state.job.progress);
     state.preparedSeed = pass.preprocessSeed;
   } catch (const PreprocessStopped&) {
     state.job.progress.End();

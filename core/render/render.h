@@ -106,6 +106,9 @@ struct RenderPass {
   // the difference that the pass makes to the picture of its batch.
   enum class Sharing { Alone, BeginsBatch, ContinuesBatch };
   Sharing sharing = Sharing::Alone;
+  // As in PreprocessContext. The windows of shared gathers shrink by the same factor of area.
+  double diskArea = 1;
+  std::optional<Real> time{};  // of camera rays and photons
 };
 
 // Renders pass by pass. Passes may differ in every member of RenderPass. Statistics and warnings

@@ -206,7 +206,7 @@ RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& sample
   CameraSample sample;
   sample.film = film;
   sample.lens = Needs(Feature::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
-  sample.time = Needs(Feature::Motion) ? samples.time : 0;
+  sample.time = Needs(Feature::Motion) ? target_.pass.time.value_or(samples.time) : 0;
   RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
   if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
   return ray;

@@ -46,6 +46,11 @@ struct PreprocessContext {
   const VolumeIntegrator* volume = nullptr;   // in-scattered and emitted light of media; null: none
   const std::atomic<bool>* stop = nullptr;    // set externally; null: cannot be stopped
   const PhotonFileUse* photonFile = nullptr;  // see photon_file_use.h; null: no file is used
+  // The area of the disks of density estimates, relative to a render that is not progressive; in
+  // (0,1].
+  double diskArea = 1;
+  // The point of the exposure, in [0,1), at which all photons start; nullopt: at any.
+  std::optional<Real> time{};
 
   // Long work must call this regularly. Throws PreprocessStopped.
   void CheckStop() const {

@@ -20,6 +20,15 @@ namespace {
 // The maps in the order of PhotonMapNames.
 constexpr std::array kListedMaps{PhotonKind::Indirect, PhotonKind::Direct, PhotonKind::Caustic};
 
+// Returns the share of the stored photons that become radiance photons. A disk of a smaller area
+// keeps its number of radiance photons, because their density estimates are unbiased only if the
+// nearest radiance photon lies well within the disk (docs/theory/exphotonmap.md, section 4). If
+// there are not enough photons, gather rays use density estimates instead.
+Real FractionForDisks(Real fraction, double diskArea) {
+  const double wanted = double(fraction) / diskArea;
+  return wanted <= 1 ? Real(wanted) : Real(0);
+}
+
 }  // namespace
 
 PhotonIntegrator::PhotonIntegrator(const PhotonSettings& settings)
@@ -35,7 +44,8 @@ void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context
 
   gathers_ = GathersIndirectLight(settings_, scene);
   lights_ = scene.MakeLightSampler(LightSelection::Auto);
-  const PhotonTargets targets = ChooseTargets(settings_, scene);
+  PhotonTargets targets = ChooseTargets(settings_, scene);
+  targets.radianceFraction = FractionForDisks(targets.radianceFraction, context.diskArea);
   if (BytesOf(targets) > PhysicalMemory()) FailByMemory(targets);
   try {
     PhotonPassResult photons = ShootPhotons(scene, settings_, targets, context);

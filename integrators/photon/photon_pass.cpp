@@ -127,8 +127,8 @@ PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings
     DistantLightTargeting targeting = media.Scatter()
                                           ? DistantLightTargeting()
                                           : ChooseTargeting(settings, scene, targets, context);
-    const PhotonTracer tracer(scene, settings, context.seed, std::move(targeting),
-                              std::move(media));
+    PhotonTracer tracer(scene, settings, context.seed, std::move(targeting), std::move(media));
+    if (context.time) tracer.FixTime(*context.time);
     if (!use) {
       photons = tracer.Shoot(targets, context);
     } else {

@@ -140,7 +140,7 @@ void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   if (command_.shard) MakeFolder(command_.outfile);
   for (std::size_t i = 0; i < setups.size(); ++i) {
     CheckAovs(command_, *setups[i]);
-    CheckCertificate(command_, *setups[i]);
+    CheckIntegrator(command_, *setups[i]);
     run_.files.AddScene(*setups[i]);
     if (!command_.photonFile.empty()) run_.files.AddInput(command_.photonFile, "--photons");
     names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
@@ -296,13 +296,7 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
-  run->isComplete = result.render.isComplete;
-  run->nonFiniteSamples = result.render.nonFiniteSamples;
-  run->samplesPerPixel = result.samplesPerPixel;
-  run->passes = result.passes;
-  run->stoppedBy = StopReasonName(result.reason);
-  run->noise = result.noise;
-  run->sharingBias = result.render.sharingBias;
+  RecordPasses(result, run);
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));

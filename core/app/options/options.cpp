@@ -89,9 +89,16 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
           "render whole passes until the noise part of relMSE is estimated below this")
       .TypeName("X");
   app.Add("--max-passes", command.maxPasses,
-          "with --target-error: at most N whole passes, each with the samples a pixel of --spp")
+          "with --target-error or --progressive: at most N whole passes, each with the samples a "
+          "pixel of --spp")
       .Between(1, kMaxPasses)
       .TypeName("N");
+  app.AddFlag("--progressive", command.isProgressive,
+              "with --time-limit, --target-error or --max-passes: each pass shoots its own photons "
+              "and has smaller radii, so that the bias falls with the noise");
+  app.Add("--progressive-alpha", command.progressiveAlpha,
+          "how slowly radii shrink: above 0, and 1 keeps them (default 2/3)")
+      .TypeName("X");
   app.AddFlag("--two-halves", command.asTwoHalves,
               "render two independent halves, print their difference, write both into the file");
   app.AddFlag("--certify", command.certifies,
@@ -203,7 +210,21 @@ void CheckPng(const RawOptions& raw, const RenderCommand& command) {
               "-o NAME.png or --preview NAME.png writes one");
 }
 
-void CheckPasses(const RenderCommand& command) {
+void CheckProgressive(const RawOptions& raw, const RenderCommand& command) {
+  if (!(command.progressiveAlpha > 0 && command.progressiveAlpha <= 1))
+    FailUsage("--progressive-alpha takes a number above 0 and at most 1");
+  if (!command.isProgressive) return;
+  if (!command.timeLimit && !command.targetError && command.maxPasses == 0)
+    FailUsage("--progressive needs --time-limit, --target-error or --max-passes",
+              "--progressive --max-passes 100 renders 100 passes");
+  Exclude(command.certifies, true,
+          "--progressive and --certify exclude each other: a certificate compares passes with "
+          "equal radii");
+  Exclude(!raw.shard.empty(), true, "--progressive and --shard exclude each other");
+}
+
+void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
+  CheckProgressive(raw, command);
   Exclude(command.asTwoHalves, command.HasStoppingRule(),
           "--two-halves and --time-limit or --target-error exclude each other");
   Exclude(!command.photonFile.empty(), command.HasStoppingRule() || command.RendersTwoHalves(),
@@ -214,7 +235,8 @@ void CheckPasses(const RenderCommand& command) {
 // How many passes a time limit allows differs between machines, and a part belongs to no picture
 // of its own.
 void TakeShard(const RawOptions& raw, RenderCommand* command) {
-  Exclude(command->maxPasses > 0, !command->targetError, "--max-passes needs --target-error");
+  Exclude(command->maxPasses > 0, !command->targetError && !command->isProgressive,
+          "--max-passes needs --target-error or --progressive");
   Exclude(command->maxPasses > 0, bool(command->timeLimit),
           "--max-passes and --time-limit exclude each other");
   if (raw.shard.empty()) return;
@@ -280,7 +302,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
-  CheckPasses(*command);
+  CheckPasses(raw, *command);
   CheckCertificate(raw, *command);
   TakeShard(raw, command);
   command->limits = ParseLimits(raw.limits);

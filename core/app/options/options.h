@@ -15,6 +15,7 @@
 #include "core/base/log.h"
 #include "core/imaging/film/aovs.h"
 #include "core/parser/render_setup.h"
+#include "core/render/passes/progressive.h"
 #include "core/render/shards/shard_tiles.h"
 
 namespace exphoton::cli {
@@ -35,6 +36,8 @@ struct RenderCommand {
   bool certifies = false;            // --certify
   double certifiedShare = 1. / 128;  // --certify-share
   int maxPasses = 0;                 // --max-passes; 0: not given
+  bool isProgressive = false;        // --progressive
+  double progressiveAlpha = kProgressiveAlpha;
   std::optional<Shard> shard;        // --shard: outfile is a folder
   std::optional<Frames> frames;      // --frames: names hold "%d"
   bool resumes = false;              // --resume
@@ -44,7 +47,7 @@ struct RenderCommand {
   std::string photonFile;  // --photons; "": photons are shot
   Limits limits;
 
-  bool HasStoppingRule() const { return timeLimit || targetError; }
+  bool HasStoppingRule() const { return timeLimit || targetError || isProgressive; }
   // A certificate compares independent passes, so without a rule it renders two halves.
   bool RendersTwoHalves() const { return asTwoHalves || (certifies && !HasStoppingRule()); }
   bool printsStatistics = false;

@@ -78,10 +78,12 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   rule.timeLimit = command.timeLimit;
   rule.start = start;
   if (command.load.samplesPerPixel) rule.maxSamples = *command.load.samplesPerPixel;
-  if (command.maxPasses > 0) {
+  if (command.maxPasses > 0 || command.isProgressive) {
     rule.passSamples = job.sampler.SamplesPerPixel();
-    rule.maxSamples = rule.passSamples * command.maxPasses;
+    rule.maxSamples =
+        command.maxPasses > 0 ? rule.passSamples * command.maxPasses : StoppingRule::kMaxSamples;
   }
+  if (command.isProgressive) rule.progressiveAlpha = command.progressiveAlpha;
   return RenderInPasses(job, options, rule);
 }
 
@@ -103,7 +105,11 @@ void ReportCertificate(const std::optional<Certificate>& certificate, Log& log) 
   for (const std::string& text : DetailTexts(*certificate)) log.Notice(text);
 }
 
-void CheckCertificate(const RenderCommand& command, const RenderSetup& setup) {
+void CheckIntegrator(const RenderCommand& command, const RenderSetup& setup) {
+  if (command.isProgressive && !setup.integrator->KeepsPhotons())
+    throw Error(ExitStatus::CommandLine,
+                "--progressive: integrator \"" + setup.integratorName + "\" has no radii to shrink",
+                {}, "--integrator exphotonmap and --integrator photonmap have");
   if (!command.certifies || setup.integrator->Certification(*setup.scene)) return;
   throw Error(ExitStatus::CommandLine, "--certify: integrator \"" + setup.integratorName +
                                            "\" with these parameters cannot estimate its bias; "

@@ -40,8 +40,9 @@ std::optional<Certificate> CertificateOf(const PictureFilms& films, const Passes
 // Prints the certificate, or that there is none.
 void ReportCertificate(const std::optional<Certificate>& certificate, Log& log);
 
-// Throws Error(CommandLine) if --certify is given and the scene's integrator cannot certify.
-void CheckCertificate(const RenderCommand& command, const RenderSetup& setup);
+// Throws Error(CommandLine) if the scene's integrator cannot do what --certify or --progressive
+// asks for.
+void CheckIntegrator(const RenderCommand& command, const RenderSetup& setup);
 
 // Returns the passes of a picture that is rendered in shards.
 PicturePasses PassesOf(const RenderCommand& command);

@@ -134,6 +134,7 @@ void AddStopping(const RunRecord& run, JsonWriter* json) {
   AddOptional("noise", run.noise, json);
   AddOptional("targetError", run.targetError, json);
   AddOptional("timeLimit", run.timeLimit, json);
+  if (run.lastDiskArea) json->Key("lastDiskArea"), json->Number(*run.lastDiskArea);
   json->Key("aovs"), json->Text(run.aovs);
 }
 

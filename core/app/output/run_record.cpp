@@ -169,12 +169,25 @@ std::string StatisticsTable(const RunRecord& run) {
   return text + PhaseTable(run) + RayTable(run) + CounterTable(run.statistics.Counters());
 }
 
+void RecordPasses(const PassesResult& result, RunRecord* run) {
+  run->isComplete = result.render.isComplete;
+  run->nonFiniteSamples = result.render.nonFiniteSamples;
+  run->samplesPerPixel = result.samplesPerPixel;
+  run->passes = result.passes;
+  run->stoppedBy = StopReasonName(result.reason);
+  run->noise = result.noise;
+  run->sharingBias = result.render.sharingBias;
+  run->lastDiskArea = result.lastDiskArea;
+}
+
 std::string StoppingText(const RunRecord& run) {
   std::string text;
   if (run.stoppedBy == "target-error")
     text = Format("reached the target error %.3g", *run.targetError);
   else if (run.stoppedBy == "time-limit")
     text = Format("stopped at the last whole pass within %.6g s", *run.timeLimit);
+  else if (run.lastDiskArea)
+    text = "rendered all progressive passes";
   else if (run.targetError || run.timeLimit)
     text = "stopped at the limit of samples";
   else
@@ -182,6 +195,8 @@ std::string StoppingText(const RunRecord& run) {
   if (!run.isComplete) text = "stopped by a signal";
   text += Format(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
                  run.passes, run.passes == 1 ? "pass" : "passes");
+  if (run.lastDiskArea)
+    text += Format(", the last one with %.3g %% of the radii", 100 * std::sqrt(*run.lastDiskArea));
   if (!run.noise) return text + ", which give no estimate of the noise";
   text += Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
                  100 * std::sqrt(*run.noise), *run.noise);

@@ -14,6 +14,7 @@
 #include "core/imaging/image.h"
 #include "core/parser/render_setup.h"
 #include "core/render/certificate/certificate.h"
+#include "core/render/passes/pass_sum.h"
 #include "core/render/sharing/sharing_estimate.h"
 
 namespace exphoton::cli {
@@ -42,13 +43,17 @@ struct RunRecord {
   std::optional<SharingBias> sharingBias;
   std::optional<Certificate> certificate;
   std::optional<double> timeLimit, targetError;
-  std::string aovs;  // "albedo, N"
+  std::optional<double> lastDiskArea;  // of the last progressive pass, relative to the first
+  std::string aovs;                    // "albedo, N"
   std::string commandLine;
 };
 
 // isReproducible: omits times, dates, user, threads and command line, so that equal renders give
 // identical files.
 std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bool isReproducible);
+
+// Takes over the amount of rendering and its results.
+void RecordPasses(const PassesResult& result, RunRecord* run);
 
 std::string StatisticsTable(const RunRecord& run);
 std::string StatisticsJson(const RunRecord& run);  // one line

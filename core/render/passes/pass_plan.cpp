@@ -91,7 +91,12 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
 }
 
 PassPlan::Step PassPlan::Next(const State& state) const {
-  if (limits_.passSamples > 0) return {true, limits_.passSamples};
+  if (limits_.passSamples > 0) {
+    const double needed = state.preprocess + double(limits_.passSamples) * state.sample;
+    const bool fits =
+        !limits_.timeLimit || state.samples == 0 || state.elapsed + needed <= *limits_.timeLimit;
+    return {true, fits ? limits_.passSamples : 0};
+  }
   Step step;
   std::int64_t goal = 1;
   if (groups_ > 0) {

@@ -22,8 +22,9 @@ struct PassesResult {
   StopReason reason = StopReason::Samples;  // Samples: the wanted number or maxSamples is reached
   int passes = 0;                           // complete passes
   std::int64_t samplesPerPixel = 0;
-  std::optional<double> noise;   // estimated noise part of relMSE; absent with one pass
-  std::vector<float> variances;  // of each pixel, three channels; empty with one pass
+  std::optional<double> noise;           // estimated noise part of relMSE; absent with one pass
+  std::vector<float> variances;          // of each pixel, three channels; empty with one pass
+  std::optional<double> lastDiskArea{};  // of the last pass; nullopt: passes are not progressive
 };
 
 class PassSum {

@@ -9,6 +9,7 @@
 #include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
+#include "core/render/passes/progressive.h"
 
 namespace exphoton {
 namespace {
@@ -159,6 +160,10 @@ class Passes {
       pass = PatternPass(options_.seed, group, groupSamples_, step.size);
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
+    if (rule_.progressiveAlpha) {
+      pass.diskArea = DiskAreaOfPass(int(group), *rule_.progressiveAlpha);
+      pass.time = TimeOfPass(int(group), options_.seed);
+    }
     // A certificate needs the light of each sample before and after sharing, pass by pass.
     if (rule_.passSamples == 0 && !options_.corrections)
       pass.sharing =
@@ -175,6 +180,8 @@ class Passes {
   }
 
   void TakePass(const PassPlan::Step& step, int group) {
+    if (rule_.progressiveAlpha)
+      result_.lastDiskArea = DiskAreaOfPass(group, *rule_.progressiveAlpha);
     plan_.Take(step);
     sum_.Add(passFilm_, step.size, group);
     if (options_.corrections) options_.corrections->EndPass(group, step.size);

@@ -20,6 +20,9 @@ struct StoppingRule {
   // If positive, every pass is a group of its own with this number of samples per pixel, so that
   // passes do not depend on the pixels of earlier ones.
   std::int64_t passSamples = 0;
+  // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs
+  // passSamples.
+  std::optional<double> progressiveAlpha{};
 
   static constexpr std::int64_t kMaxSamples = std::int64_t(1) << 20;
 };

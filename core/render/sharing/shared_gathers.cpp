@@ -54,7 +54,8 @@ int SharingMargin() { return SharingWindows::kReach; }
 SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
                              const SharedLightTarget& target) {
   const FragmentRows rows(gathers);
-  const SharingWindows windows(gathers, rows, threads);
+  SharingWindows windows(gathers, rows, threads);
+  windows.Shrink(target.windowArea);
   const SharingChecker checker(gathers, rows, windows, target.samplesPerPixel);
   const PixelBounds& window = target.window;
   std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));

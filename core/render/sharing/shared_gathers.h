@@ -28,6 +28,7 @@ struct SharedLightTarget {
   PixelBounds window;
   double samplesPerPixel;
   Corrections* corrections = nullptr;  // receives own light minus shared light; null: none
+  double windowArea = 1;               // of the windows, relative to those that were chosen
 };
 // SharingTotals adds up the radii of the windows, in pixels.
 struct SharingTotals {

@@ -126,7 +126,7 @@ Real SharingWindows::Choose(const Place& place) const {
 }
 
 SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {
-  const Real radius = RadiusAt(pixel, fragment);
+  const Real radius = RadiusAt(pixel, fragment) * scale_;
   return {std::max(radius, kRadii[1]), std::min(radius / kRadii[1], Real(1))};
 }
 

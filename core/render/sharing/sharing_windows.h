@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -33,6 +34,9 @@ class SharingWindows {
     Real radius, share;
   };
   Window At(Point2i pixel, const GatherFragment& fragment) const;
+
+  // Makes the area of all windows smaller than the chosen one by this factor in (0,1].
+  void Shrink(double area) { scale_ = Real(std::sqrt(area)); }
 
  private:
   // Returns the radius for a fragment of the pixel: the mean of the radii chosen nearby on its
@@ -69,6 +73,7 @@ class SharingWindows {
 
   int x0_, y0_, columns_, rows_;  // of the grid
   std::vector<Cell> cells_;
+  Real scale_ = 1;  // of the radii
 };
 
 }  // namespace exphoton

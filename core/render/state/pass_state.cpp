@@ -65,7 +65,7 @@ PictureSoFar PassState::Picture(ThreadPool* threads) const {
   if (parts_.shared)
     AddSharedLight(parts_.shared->Gathers(), threads,
                    {&picture.film, picture.aovs.get(), buffer, parts_.shared->Current().window,
-                    double(parts_.pass.sampleCount)});
+                    double(parts_.pass.sampleCount), nullptr, parts_.pass.diskArea});
   if (buffer) buffer->Finish();
   return picture;
 }

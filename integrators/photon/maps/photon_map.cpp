@@ -36,8 +36,8 @@ std::size_t PhotonMap::MemoryBytes() const {
 }
 
 PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) const {
-  const Real maxRadius2 = Square(query.maxDistance);
-  if (IsEmpty()) return {{}, {}, maxRadius2};
+  const Real maxRadius2 = Square(query.maxDistance), area = Real(query.diskArea);
+  if (IsEmpty()) return {{}, {}, maxRadius2 * area};
   NearestQuery nearest;
   nearest.p = query.p;
   nearest.n = query.n;
@@ -48,7 +48,7 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   nearest.isOneSided = query.isOneSided;
   const NearBuffer buffer = BufferFor(nearest.k, arena);
   const NearPoints found = FastestNearestSearch().nearest(View(), nearest, buffer);
-  if (found.size() < std::size_t(query.k)) return {found.index, found.distance2, maxRadius2};
+  if (found.size() < std::size_t(query.k)) return {found.index, found.distance2, maxRadius2 * area};
   const Real floor2 = std::max(Square(minRadius_), std::numeric_limits<Real>::min());
   const Real farthest2 = found.distance2[found.farthest];
   // Coincident photons: the radius is at least the rounding error of positions.
@@ -57,21 +57,21 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   const std::size_t last = found.size() - 1;
   buffer.distance2[found.farthest] = buffer.distance2[last];
   buffer.index[found.farthest] = buffer.index[last];
-  return {found.index.first(last), found.distance2.first(last), farthest2};
+  return {found.index.first(last), found.distance2.first(last), farthest2 * area};
 }
 
 PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena) const {
   const Arena::Mark mark = arena->GetMark();
   const PhotonNeighbourhood around = Find(query, arena);
   Spectrum sum;
-  if (query.isCoated) {
-    for (const std::uint32_t i : around.photons)
-      sum += Alpha(i) * CoatTransmission(AbsDot(Direction(i), query.n));
-  } else {
-    for (const std::uint32_t i : around.photons) sum += Alpha(i);
+  for (std::size_t at = 0; at < around.photons.size(); ++at) {
+    if (around.distance2[at] > around.radius2) continue;
+    const std::uint32_t i = around.photons[at];
+    const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1);
+    sum += Alpha(i) * coat;
   }
   arena->Rewind(mark);
-  if (around.photons.empty()) return {{}, query.maxDistance};
+  if (around.photons.empty()) return {{}, std::sqrt(around.radius2)};
   return {sum * (kInvPi / (Real(paths_) * around.radius2)), std::sqrt(around.radius2)};
 }
 

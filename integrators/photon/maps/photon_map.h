@@ -24,6 +24,7 @@ struct PhotonQuery {
   bool isOneSided = true;
   // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
+  double diskArea = 1;  // of the disk, relative to the one that k and maxDistance give; in (0,1]
 };
 
 // PhotonNeighbourhood holds the photons of one density estimate. If k photons are found, the k-th
@@ -33,6 +34,7 @@ struct PhotonNeighbourhood {
   std::span<const std::uint32_t> photons;
   std::span<const Real> distance2;  // one per photon
   Real radius2 = 0;                 // of the estimation disk; > 0 if there are photons
+  // With a diskArea below 1, photons beyond the disk are in the list too.
 };
 
 class PhotonMap {

@@ -41,7 +41,7 @@ std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buff
 
 PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings,
                            Real sceneRadius, PreprocessContext& context)
-    : nUsed_(settings.nUsed), kernel_(settings.kernel) {
+    : nUsed_(settings.nUsed), diskArea_(context.diskArea), kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
   auto trees = MakePhotonTrees(result->buffers, context.threads);
   Arena arena;
@@ -81,8 +81,9 @@ PhotonNeighbourhood PhotonMapSet::Around(PhotonKind kind, const ShadingPoint& po
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !point.bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
   const RestPose rest(point.surface);
-  return Map(kind).Find(
-      {rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind), isOneSided}, arena);
+  return Map(kind).Find({rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind),
+                         isOneSided, false, diskArea_},
+                        arena);
 }
 
 Spectrum PhotonMapSet::Estimate(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
@@ -153,7 +154,8 @@ PhotonMap::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const No
   Real weight = 0, weightedRadius = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
-    const auto part = maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated}, arena);
+    const auto part =
+        maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated, diskArea_}, arena);
     total.e += part.e;
     weight += part.e.Y();
     weightedRadius += part.e.Y() * part.radius;

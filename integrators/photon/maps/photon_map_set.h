@@ -66,6 +66,7 @@ class PhotonMapSet {
   std::array<PhotonMap, kPhotonKindCount> maps_;
   std::array<Real, kPhotonKindCount> radii_{};
   int nUsed_ = 50;
+  double diskArea_ = 1;  // as in PreprocessContext
   DensityKernel kernel_ = DensityKernel::Constant;
 };
 

@@ -23,7 +23,7 @@ constexpr int kMaxBranches = 1 << 14;
 EmissionNumbers PhotonTracer::Path::DrawEmissionNumbers() {
   const Point2 light = samples_.Next2D(), position = samples_.Next2D();
   const Point2 direction = samples_.Next2D();
-  const auto [from, to] = tracer_.scene_.Exposure();
+  const auto [from, to] = tracer_.exposure_;
   const Real time = from == to ? Real(0) : samples_.Time();
   return {light.x, {position.x, position.y, direction.x, direction.y, light.y, time}};
 }
@@ -141,7 +141,7 @@ bool PhotonTracer::Path::ScatterInMedia(const Point3* end) {
 
 // Returns the time of the whole path.
 Real PhotonTracer::Path::Time(Real u) const {
-  const auto [from, to] = tracer_.scene_.Exposure();
+  const auto [from, to] = tracer_.exposure_;
   if (from == to) return from;
   return std::clamp(Lerp(u, from, to), from, to);
 }

@@ -68,6 +68,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
     : scene_(scene),
       settings_(settings),
       seed_(seed),
+      exposure_(scene.Exposure()),
       targeting_(std::move(targeting)),
       media_(std::move(media)),
       lights_(MakeEmissionLightSampler(scene.Lights(), settings.lightSelection,
@@ -81,6 +82,11 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
                                                                : SpecularBoxes()),
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       farthest_(FarthestDistance(scene)) {}
+
+void PhotonTracer::FixTime(Real u) {
+  const Real time = std::clamp(Lerp(u, exposure_.min, exposure_.max), exposure_.min, exposure_.max);
+  exposure_ = {time, time};
+}
 
 void PhotonTracer::TraceChunk(std::int64_t firstPath, const PhotonBatch& batch, Worker* worker,
                               PhotonChunk* chunk, std::vector<LightTally>* lights) const {

@@ -106,6 +106,9 @@ class PhotonTracer {
   void ShootShare(const PhotonTargets& targets, int index, int count, PreprocessContext& context,
                   ChunkMemo* memo) const;
 
+  // Lets all paths start at one point of the exposure, in [0,1).
+  void FixTime(Real u);
+
   std::size_t LightCount() const { return scene_.Lights().size(); }
 
   static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
@@ -131,6 +134,7 @@ class PhotonTracer {
   const Scene& scene_;
   PhotonSettings settings_;
   std::uint64_t seed_;
+  Interval exposure_;  // times at which paths start
   DistantLightTargeting targeting_;
   MediaPhotons media_;
   std::unique_ptr<const FixedLightSampler> lights_;

@@ -26,5 +26,24 @@ TEST(PassPlan, ANewGroupFitsIntoTheTimeAfterItsPreprocessing) {
   EXPECT_EQ(next(7.94).size, 0);  // .06 s: no sample
 }
 
+// A pass with a given number of samples takes 1.6 s for them and 2 s for its preprocessing.
+TEST(PassPlan, APassOfGivenSizeFitsIntoTheTime) {
+  const auto next = [](std::optional<double> timeLimit, double elapsed, std::int64_t samples) {
+    return PassPlan(
+               {.targetError = {}, .timeLimit = timeLimit, .maxSamples = 1000, .passSamples = 16})
+        .Next({.samples = samples,
+               .noise = {},
+               .enough = {},
+               .elapsed = elapsed,
+               .preprocess = 2,
+               .sample = .1});
+  };
+  EXPECT_EQ(next(10, 6.3, 16).size, 16);
+  EXPECT_TRUE(next(10, 6.3, 16).isNewGroup);
+  EXPECT_EQ(next(10, 6.5, 16).size, 0);
+  EXPECT_EQ(next(10, 12, 0).size, 16);  // the first pass is always rendered
+  EXPECT_EQ(next({}, 12, 16).size, 16);
+}
+
 }  // namespace
 }  // namespace exphoton
