@@ -27,6 +27,7 @@ namespace exphoton {
 // so the volume is off by less than 48 u (2 X Y + Z (X + Y)) Z. The margin of PlaneIsAhead in
 // double is, by the same norms, less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. The terms of LargeVolume
 // exceed both errors.
+// tests/proofs/triangle_*.gappa prove the bounds of the first paragraph.
 // Source: Woop, Benthin and Wald 2013 (JCGT 2:1); Higham 2002, "Accuracy and Stability of Numerical
 // Algorithms", chapter 3.
 //
@@ -46,6 +47,10 @@ inline bool MayHitInSingle(const TriangleRay& ray) {
 }
 // The relative difference from HitInDouble's t is less than kSingleError.
 inline constexpr Real kSingleError = Gamma(1024);
+// If HitInSingle's t exceeds kBeyond tMax, HitInDouble's t exceeds tMax, whatever the rounding.
+inline constexpr Real kBeyond = 1 + 2 * kSingleError;
+// The error of the volume is less than this times X Y Z: 36 u, with room for rounding of the bound.
+inline constexpr Real kVolumeError = 6 * Gamma(12);
 
 #if defined(EXPHOTON_TRAPS)
 inline constexpr bool kAcceptsSinglePrecision =

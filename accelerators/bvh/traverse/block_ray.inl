@@ -63,12 +63,11 @@ struct BlockRay {
     const unsigned isSure = hits.crossed & sureLanes & LessMask(bound, Abs(volume)) &
                             LessMask(Real8::All(kLeastSingle), size) &
                             LessMask(size, Real8::All(kLargestSingle));
-    // This test implies t (1 - kSingleError) > tMax, whatever the rounding.
-    const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * (1 + 2 * kSingleError)), hits.t);
+    const unsigned isBeyond = isSure & LessMask(Real8::All(tMax * kBeyond), hits.t);
     // HitInDouble finds the same sign of the volume. The error of the volume is less than
-    // Gamma(7) 6 X Y Z plus the underflow of its products (12: room for rounding of the bound).
+    // kVolumeError X Y Z plus the underflow of its products.
     // Underflow in the edges is negligible: least * most is not 0, so an edge exceeds 2^-75.
-    const Real8 error = area * Z * Real8::All(6 * Gamma(12)) + Real8::All(Square(kLeastSingle));
+    const Real8 error = area * Z * Real8::All(kVolumeError) + Real8::All(Square(kLeastSingle));
     const unsigned isBehind = hits.crossed & LessMask(hits.t, zero) & LessMask(error, Abs(volume));
     hits.possible &= ~(isBeyond | isBehind);
     hits.sure = hits.possible & isSure;

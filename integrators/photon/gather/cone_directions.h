@@ -54,6 +54,9 @@ class ConeDirections {
   std::size_t size() const { return count_; }
   Vector3 operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
 
+  // The relative error of |w - axis|^2, however small the angle is (tests/proofs/cone_chord.gappa).
+  static constexpr Real kChordError = Gamma(5);
+
   // Returns whether the i-th axis lies within a chord of w: |w - axis|^2 <= chord2, chord2 <= 4.
   bool IsWithin(std::size_t i, const Vector3& w, Real chord2) const {
     const Real dx = x_[i] - w.x, dy = y_[i] - w.y, dz = z_[i] - w.z;

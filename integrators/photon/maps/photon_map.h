@@ -43,6 +43,9 @@ class PhotonMap {
   // counts as if its distance were at least h / kFlatness (eq. 11). This excludes most photons of
   // other surfaces at corners and thin walls.
   static constexpr Real kFlatness = Real(.5);
+  // Rounding changes this distance by less than this part of it
+  // (tests/proofs/flattened_distance.gappa).
+  static constexpr Real kFlattenedError = Gamma(32);
 
   static constexpr double kBytesPerPhoton =
       PointTree<PhotonBlock>::kBytesPerPoint + double(sizeof(Real)) / PointTreeView::kSpacingPoints;
