@@ -70,7 +70,19 @@ std::string ProcessorName() {
   return "unknown processor";
 }
 
-// Looks up parameters in the declarations of the plugins.
+// The word of a setting for the number of progressive passes.
+constexpr const char* kPasses = "passes";
+
+bool KeepsPhotons(PluginRegistry& registry, const std::string& integrator, Log& log) {
+  BindContext bind;
+  bind.log = &log;
+  return registry
+      .Create<PluginKind::Integrator>(integrator, ParamSet(), bind, IntegratorContext{log})
+      ->KeepsPhotons();
+}
+
+// Looks up parameters in the declarations of the plugins. Integrators that can render progressive
+// passes have their number as a parameter too.
 class PluginParameterLookup final : public study::ParameterLookup {
  public:
   explicit PluginParameterLookup(const StudyOptions& options)
@@ -81,6 +93,7 @@ class PluginParameterLookup final : public study::ParameterLookup {
     registry_.Find(PluginKind::Integrator, integrator, SourceLocation());
   }
   bool Has(const std::string& integrator, const std::string& parameter) const override {
+    if (parameter == kPasses) return KeepsPhotons(registry_, integrator, log_);
     const std::vector<std::string> names = Names(integrator);
     return std::find(names.begin(), names.end(), parameter) != names.end();
   }
@@ -93,7 +106,7 @@ class PluginParameterLookup final : public study::ParameterLookup {
   }
 
  private:
-  Log log_;
+  mutable Log log_;
   mutable PluginRegistry registry_;
 };
 
@@ -186,13 +199,8 @@ std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
   Log log(Log::Level::Quiet, Log::Sink::Memory);
   PluginRegistry registry(PluginRegistry::DefaultFolders(options.pluginFolders), &log);
   std::set<std::string> names;
-  for (const study::Setting& setting : settings) {
-    BindContext bind;
-    bind.log = &log;
-    const auto integrator = registry.Create<PluginKind::Integrator>(setting.integrator, ParamSet(),
-                                                                    bind, IntegratorContext{log});
-    if (integrator->KeepsPhotons()) names.insert(setting.integrator);
-  }
+  for (const study::Setting& setting : settings)
+    if (KeepsPhotons(registry, setting.integrator, log)) names.insert(setting.integrator);
   if (names.empty())
     FailUsage("--photons: none of the study's integrators keeps photons",
               "exphotonmap and photonmap do");
@@ -209,6 +217,8 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
   for (const auto& [name, value] : setting.parameters) {
     if (name == "spp")
       add("--spp", value);
+    else if (name == kPasses)
+      arguments.insert(arguments.end(), {"--progressive", "--max-passes", value});
     else if (name == "time")
       add("--time-limit", value + "s");
     else if (name.find('.') != std::string::npos)
@@ -230,7 +240,8 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
 std::vector<std::string> RunArguments(const StudyOptions& options, const study::Setting& setting,
                                       std::uint64_t seed) {
   std::vector<std::string> arguments = RenderArguments(options, options.scene, setting, seed);
-  if (options.photonIntegrators.contains(setting.integrator))
+  // Progressive passes shoot their photons.
+  if (options.photonIntegrators.contains(setting.integrator) && !setting.Find(kPasses))
     arguments.insert(arguments.end(), {"--photons", FrameName(options.photonFile, int(seed))});
   return arguments;
 }

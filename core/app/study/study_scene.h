@@ -37,6 +37,7 @@ std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
                                             const std::vector<study::Setting>& settings);
 
 // Returns the arguments of `exphoton render` for a scene, setting and seed, without output options.
+// The word "passes" of a setting is the number of progressive passes.
 std::vector<std::string> RenderArguments(const StudyOptions& options, const std::string& scene,
                                          const study::Setting& setting, std::uint64_t seed);
 // Returns the arguments for one run of the study. They name the file of its photons, if there is

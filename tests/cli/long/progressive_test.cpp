@@ -108,5 +108,19 @@ TEST_F(Progressive, OptionsThatCannotWorkAreRefused) {
   ExpectRefused({"--max-passes", "5"}, "--max-passes needs");
 }
 
+TEST_F(Progressive, PassesAreASettingOfStudies) {
+  Write("scene.pbrt", EdgeScene());
+  const Names study{"study",  "scene.pbrt", "--integrators", "photonmap,directlighting",
+                    "--vary", "passes=2,8", "--seeds",       "1",
+                    "--out",  "out",        "--no-maps"};
+  const ProgramResult result = Run(study);
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string results = Read("out/results.json");
+  for (const char* part : {"--progressive --max-passes 2", "--progressive --max-passes 8"})
+    EXPECT_NE(results.find(part), std::string::npos) << part;
+  EXPECT_TRUE(Exists("out/images/directlighting_seed=1.exr"));  // it has no passes
+  EXPECT_EQ(Run(study + Names{"--vary", "directlighting:passes=3"}).status, 1);
+}
+
 }  // namespace
 }  // namespace exphoton
