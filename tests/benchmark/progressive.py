@@ -2,48 +2,17 @@
 """Measures how the error of progressive passes falls with CPU time, beside passes of fixed radii.
 
 Usage: progressive.py PROGRAM SCENE WxH REFERENCE_SECONDS PASSES,... [INTEGRATOR]
-The reference has two halves, rendered with guidedpath. Their noise is subtracted from all errors:
-(x - a)(x - b) has the expected value (x - truth)^2 if a and b are independent. "slope" is that of
-log relMSE over log CPU seconds from a hundredth of the largest number of passes on, by least
-squares. Theory expects -2/3 for progressive passes; errors of fixed radii level off.
+The reference has two halves, rendered with guidedpath. Their noise is subtracted from all errors.
+"slope" is the slope of log relMSE over log CPU seconds from a hundredth of the largest number of
+passes on, by least squares. Theory expects -2/3 for progressive passes; errors of fixed radii level off.
 """
 import math
-import os
-import re
-import resource
-import subprocess
 import sys
 import tempfile
 
+from picture_errors import Scene
+
 ALPHAS = {"progressive": None, "fixed radii": "1"}
-
-
-def run(arguments):
-    result = subprocess.run(arguments, capture_output=True, text=True)
-    if result.returncode not in (0, 2):
-        sys.exit(f"{' '.join(arguments)}\n{result.stderr}")
-    return result.stdout
-
-
-def cpu_seconds():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
-class Scene:
-    def __init__(self, program, path, size, folder):
-        self.program, self.path, self.size, self.folder = program, path, size, folder
-
-    def render(self, name, *options):
-        picture = os.path.join(self.folder, name + ".exr")
-        before = cpu_seconds()
-        run([self.program, self.path, "--resolution", self.size, "--footprint-spp", "16", "--float",
-             "--quiet", "--no-progress", "-o", picture, *options])
-        return picture, cpu_seconds() - before
-
-    def rel_mse(self, picture, reference):
-        text = run([self.program, "compare", picture, reference, "--max-relmse", "1e30"])
-        return float(re.search(r"^relMSE\s+(\S+)", text, re.MULTILINE).group(1))
 
 
 def slope(points):
@@ -60,11 +29,8 @@ def main():
     counts = [int(n) for n in passes.split(",")]
     with tempfile.TemporaryDirectory() as folder:
         scene = Scene(program, path, size, folder)
-        halves = [scene.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
-                               "--set", "SurfaceIntegrator.maxdepth=100",
-                               "--time-limit", seconds + "s")[0] for i in (0, 1)]
-        noise = scene.rel_mse(*halves)
-        print(f"{path}, {size}, {integrator}: relMSE of the reference's noise {noise / 4:.2g}")
+        scene.reference(seconds)
+        print(f"{path}, {size}, {integrator}: relMSE of the reference's noise {scene.noise / 4:.2g}")
         print("| passes | " + " | ".join(f"{k}: CPU s | relMSE" for k in ALPHAS) + " |")
         print("| --- |" + " --- | --- |" * len(ALPHAS), flush=True)
         points = {name: [] for name in ALPHAS}
@@ -75,8 +41,7 @@ def main():
                 picture, cpu = scene.render("picture", "--integrator", integrator, "--spp", "1",
                                             "--progressive", "--max-passes", str(count), *options,
                                             "--seed", str(count))
-                error = (scene.rel_mse(picture, halves[0]) + scene.rel_mse(picture, halves[1]) -
-                         noise) / 2
+                error = scene.error(picture)
                 row += f" {cpu:.2f} | {error:.2e} |"
                 if error > 0 and 100 * count >= counts[-1]:
                     points[name].append((cpu, error))

@@ -35,6 +35,7 @@ TEST_F(CommandTest, PrintHelpAndVersionToStandardOutput) {
                                              {"cluster", "--help"},
                                              {"photons", "--help"},
                                              {"check-plugin", "--help"},
+                                             {"quote", "--help"},
                                              {"study", "--help"},
                                              {"report", "--help"},
                                              {"explain", "--help"}}) {

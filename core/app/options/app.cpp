@@ -19,6 +19,7 @@
 #include "core/app/options/values.h"
 #include "core/app/photons/shoot_photons.h"
 #include "core/app/process/signals.h"
+#include "core/app/quote/quote_command.h"
 #include "core/app/shards/cluster_command.h"
 #include "core/app/shards/merge_command.h"
 #include "core/app/study/study_command.h"
@@ -63,6 +64,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "merge") return RunMerge(rest, CommandLineText(arguments));
   if (command == "cluster") return RunCluster(rest);
   if (command == "photons") return RunPhotons(rest);
+  if (command == "quote") return RunQuote(rest);
   if (command == "study") return RunStudy(rest, CommandLineText(arguments));
   if (command == "report") return RunReport(rest);
   const std::vector<std::string> all(

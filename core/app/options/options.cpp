@@ -33,6 +33,7 @@ constexpr const char* kCommands =
     "  exphoton merge PARTS -o PICTURE   make a picture from parts (--shard)\n"
     "  exphoton cluster SCENE --shards N write scripts that render with Slurm\n"
     "  exphoton photons SCENE -o FILE    shoot photons into a file (--photons)\n"
+    "  exphoton quote SCENE              predict what accuracies cost\n"
     "  exphoton study SCENE --out DIR    compare integrators and settings\n"
     "  exphoton report DIR               make a study's page again\n"
     "\n"
@@ -356,8 +357,8 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render", "explain", "plugins", "check-plugin", "info",   "convert", "compare",
-          "merge",  "cluster", "photons", "study",        "report", "help"};
+  return {"render", "explain", "plugins", "check-plugin", "info",  "convert", "compare",
+          "merge",  "cluster", "photons", "quote",        "study", "report",  "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

@@ -194,13 +194,17 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
   }
 }
 
-std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
-                                            const std::vector<study::Setting>& settings) {
+bool KeepsPhotons(const StudyOptions& options, const std::string& integrator) {
   Log log(Log::Level::Quiet, Log::Sink::Memory);
   PluginRegistry registry(PluginRegistry::DefaultFolders(options.pluginFolders), &log);
+  return KeepsPhotons(registry, integrator, log);
+}
+
+std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
+                                            const std::vector<study::Setting>& settings) {
   std::set<std::string> names;
   for (const study::Setting& setting : settings)
-    if (KeepsPhotons(registry, setting.integrator, log)) names.insert(setting.integrator);
+    if (KeepsPhotons(options, setting.integrator)) names.insert(setting.integrator);
   if (names.empty())
     FailUsage("--photons: none of the study's integrators keeps photons",
               "exphotonmap and photonmap do");

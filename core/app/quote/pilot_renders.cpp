@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PilotRenders: the number of samples doubles until the time is used up. Samples fill the time, so
+// that the last pilot is the most accurate one.
+#include "core/app/quote/pilot_renders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/app/process/child_process.h"
+#include "core/app/process/signals.h"
+#include "core/app/study/study_scene.h"
+#include "core/base/error.h"
+#include "core/imaging/files/exr.h"
+
+namespace exphoton::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr double kPilotPixels = 3000;
+constexpr int kMostPilots = 8;
+
+// A folder for the files of pilots, which is removed with them.
+class PilotFolder {
+ public:
+  PilotFolder() {
+    std::string name = (fs::temp_directory_path() / "exphoton-quote-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw Error(ExitStatus::File, "cannot make \"" + name + '"');
+    path_ = name;
+  }
+  ~PilotFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string File(const char* name) const { return path_ + '/' + name; }
+
+ private:
+  std::string path_;
+};
+
+struct PilotResult {
+  Json statistics;
+  double mean = 0;
+  std::string failure;
+
+  double Phase(std::initializer_list<const char*> names) const {
+    double sum = 0;
+    for (const Json& phase : statistics.at("phases"))
+      for (const char* name : names)
+        if (phase.at("name") == name) sum += phase.at("cpuSeconds").get<double>();
+    return sum;
+  }
+  double Counter(const char* name) const {
+    return statistics.value("counters", Json::object()).value(name, 0.);
+  }
+};
+
+std::string LastLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const std::size_t line = text.rfind('\n');
+  return line == std::string::npos ? text : text.substr(line + 1);
+}
+
+// The pilots of one integrator at one size.
+class PilotSeries {
+ public:
+  PilotSeries(const QuoteScene& scene, std::string integrator)
+      : scene_(scene), integrator_(std::move(integrator)) {}
+
+  // rule: --two-halves, or --certify to estimate the bias, which takes longer.
+  PilotResult Render(int samples, double scale, const char* rule) const {
+    const std::string size = std::to_string(std::max(4, int(scale * scene_.width + .5))) + "x" +
+                             std::to_string(std::max(4, int(scale * scene_.height + .5)));
+    const std::string statistics = folder_.File("pilot.json"), picture = folder_.File("pilot.exr");
+    std::vector<std::string> arguments{"render", scene_.path, "--integrator", integrator_};
+    arguments.insert(arguments.end(), scene_.options.begin(), scene_.options.end());
+    arguments.insert(arguments.end(),
+                     {"--resolution", size, "--spp", std::to_string(samples), rule, "--quiet",
+                      "--no-progress", "--stats-json", statistics, "-o", picture});
+    if (StopFlag()) throw QuoteInterrupted();
+    const ChildResult child = RunSelf(arguments, folder_.File("pilot.log"), StopFlag());
+    if (child.wasInterrupted || StopFlag()) throw QuoteInterrupted();
+    PilotResult result;
+    if (child.status != 0) {
+      result.failure = LastLine(child.messages);
+      return result;
+    }
+    result.statistics = Json::parse(ReadTextFile(statistics));
+    result.mean = MeanOf(ReadExr(picture));
+    return result;
+  }
+
+ private:
+  static double MeanOf(const Image& image) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+      if (image.channels[c] != "R" && image.channels[c] != "G" && image.channels[c] != "B")
+        continue;
+      for (std::size_t i = c; i < image.pixels.size(); i += image.channels.size(), ++count)
+        sum += double(image.pixels[i]);
+    }
+    return count > 0 ? sum / double(count) : 0;
+  }
+
+  const QuoteScene& scene_;
+  std::string integrator_;
+  PilotFolder folder_;
+};
+
+double NumberOr(const Json& json, const char* name, double instead) {
+  const auto found = json.find(name);
+  return found != json.end() && found->is_number() ? found->get<double>() : instead;
+}
+
+void TakeBias(const PilotResult& pilot, Quote* quote) {
+  if (!pilot.failure.empty()) return;
+  const auto found = pilot.statistics.find("certificate");
+  if (found == pilot.statistics.end()) return;
+  quote->model.bias = NumberOr(*found, "bias", 0);
+  quote->model.biasUpper = std::max(NumberOr(*found, "biasUpper", 0), quote->model.bias);
+  quote->notCovered = found->value("notCovered", std::vector<std::string>());
+}
+
+// Pilots in two halves shoot photons twice.
+void TakeCosts(const PilotResult& pilot, double pixelRatio, Quote* quote) {
+  const double samples = pilot.statistics.at("samplesPerPixel").get<double>();
+  PriceModel& model = quote->model;
+  model.fixed = pilot.Phase({"parse", "accelerator"}) + pilot.Phase({"write"}) * pixelRatio;
+  model.maps = pilot.Phase({"shoot", "photon maps", "radiance"}) / 2;
+  model.sample = pilot.Phase({"render", "share"}) * pixelRatio / samples;
+  quote->indirectPhotons = pilot.Counter("photons/indirect stored") / 2;
+  quote->causticPhotons = pilot.Counter("photons/caustic stored") / 2;
+}
+
+}  // namespace
+
+Quote RunPilots(const QuoteScene& scene, const std::string& integrator, bool hasBias,
+                double seconds) {
+  Quote quote;
+  quote.integrator = integrator;
+  const PilotSeries series(scene, integrator);
+  const double pixels = double(scene.width) * double(scene.height);
+  const double scale = std::min(1., std::sqrt(kPilotPixels / pixels));
+  std::vector<Pilot> pilots;
+  double spent = 0;
+  PilotResult last;
+  for (int samples = 2; int(pilots.size()) < kMostPilots; samples *= 2) {
+    PilotResult pilot = series.Render(samples, scale, "--two-halves");
+    if (!pilot.failure.empty()) {
+      quote.failure = pilot.failure;
+      return quote;
+    }
+    last = std::move(pilot);
+    pilots.push_back({last.statistics.at("samplesPerPixel").get<double>(),
+                      NumberOr(last.statistics, "noise", 0)});
+    const double cost = last.statistics.at("wallSeconds").get<double>();
+    spent += cost;
+    // The next pilot takes twice as long, and so does the one that estimates the bias.
+    if (pilots.size() >= 2 && spent + (hasBias ? 4 : 2) * cost > seconds) break;
+  }
+  const auto& size = last.statistics.at("resolution");
+  const double pilotPixels = size.at(0).get<double>() * size.at(1).get<double>();
+  quote.model.hasPhotons = hasBias;  // photons of other integrators only guide
+  TakeCosts(last, pixels / pilotPixels, &quote);
+  if (hasBias) TakeBias(series.Render(int(pilots.back().samples), scale, "--certify"), &quote);
+  quote.model.FitNoise(pilots);
+  quote.mean = last.mean;
+  quote.meanError = std::sqrt(pilots.back().noise / pilotPixels);
+  quote.memory = last.statistics.at("peakMemoryBytes").get<double>() + 70 * (pixels - pilotPixels);
+  return quote;
+}
+
+}  // namespace exphoton::cli

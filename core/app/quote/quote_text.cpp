@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// QuoteText: one block for each accuracy, the cheapest integrator first.
+#include "core/app/quote/quote_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/app/analysis/numbers.h"
+#include "core/app/options/arguments.h"
+
+namespace exphoton::cli {
+namespace {
+
+struct Offer {
+  const Quote* quote;
+  std::optional<Price> price;
+  std::string reason;  // why there is no price
+};
+
+std::string Percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+  return text;
+}
+
+// Returns the quote that finds most light. Its mean lies above the others by more than their noise.
+const Quote* Brightest(const std::vector<Quote>& quotes) {
+  const Quote* brightest = nullptr;
+  for (const Quote& quote : quotes)
+    if (quote.failure.empty() && (!brightest || quote.mean > brightest->mean)) brightest = &quote;
+  return brightest;
+}
+
+// An integrator that finds less light in its pilots is biased, or rarely finds bright paths. Then
+// its noise is underestimated, and it has no price.
+std::string MissingLight(const Quote& quote, const Quote& brightest) {
+  constexpr double kStandardErrors = 4, kLeast = .02;
+  const double missing = 1 - quote.mean / brightest.mean;
+  const double noise = std::hypot(quote.meanError, brightest.meanError);
+  if (!(missing > kLeast + kStandardErrors * noise)) return "";
+  return "finds " + Percent(missing) + " less light than " + brightest.integrator;
+}
+
+Offer MakeOffer(const Quote& quote, const Quote* brightest, double accuracy) {
+  Offer offer{&quote, {}, quote.failure};
+  if (!offer.reason.empty()) return offer;
+  offer.reason = MissingLight(quote, *brightest);
+  if (!offer.reason.empty()) return offer;
+  offer.price = PriceOf(quote.model, accuracy);
+  if (!offer.price)
+    offer.reason = "needs more than 64 times the photons (bias " + Percent(quote.model.bias) + ")";
+  return offer;
+}
+
+std::string CommandOf(const QuoteScene& scene, const Offer& offer) {
+  const Quote& quote = *offer.quote;
+  std::vector<std::string> words{"exphoton", scene.path, "--integrator", quote.integrator};
+  words.insert(words.end(), scene.options.begin(), scene.options.end());
+  if (!scene.resolution.empty()) words.insert(words.end(), {"--resolution", scene.resolution});
+  words.insert(words.end(), {"--spp", std::to_string(std::int64_t(offer.price->samples))});
+  const auto addPhotons = [&](const char* name, double count) {
+    if (quote.model.hasPhotons && count > 0 && offer.price->photons > 1)
+      words.insert(words.end(),
+                   {"--set", std::string("SurfaceIntegrator.") + name + "=" +
+                                 std::to_string(std::int64_t(count * offer.price->photons))});
+  };
+  addPhotons("indirectphotons", quote.indirectPhotons);
+  addPhotons("causticphotons", quote.causticPhotons);
+  return CommandLineText(words);
+}
+
+std::string OfferText(const QuoteScene& scene, const Offer& offer) {
+  char text[256];
+  const std::string& name = offer.quote->integrator;
+  if (!offer.price) {
+    std::snprintf(text, sizeof text, "  %-14s open: ", name.c_str());
+    return text + offer.reason + "\n";
+  }
+  const Price& price = *offer.price;
+  const std::string most =
+      std::isfinite(price.most) ? study::SecondsText(price.most) : "no known limit";
+  // 60 bytes for each photon and its radiance photon
+  const double photons = offer.quote->indirectPhotons + offer.quote->causticPhotons;
+  const double memory = offer.quote->memory + 60 * photons * (price.photons - 1);
+  std::snprintf(text, sizeof text, "  %-14s %s (%s to %s), %.0f MB\n", name.c_str(),
+                study::SecondsText(price.seconds).c_str(), study::SecondsText(price.least).c_str(),
+                most.c_str(), memory / 1e6);
+  return text + ("    " + CommandOf(scene, offer)) + "\n";
+}
+
+}  // namespace
+
+std::string QuoteText(const QuoteScene& scene, const std::vector<Quote>& quotes,
+                      const std::vector<double>& accuracies) {
+  const Quote* const brightest = Brightest(quotes);
+  std::string text;
+  for (const double accuracy : accuracies) {
+    std::vector<Offer> offers;
+    for (const Quote& quote : quotes) offers.push_back(MakeOffer(quote, brightest, accuracy));
+    std::ranges::stable_sort(offers, {}, [](const Offer& offer) {
+      return offer.price ? offer.price->seconds : std::numeric_limits<double>::infinity();
+    });
+    text += "error " + Percent(accuracy) + ", CPU time:\n";
+    for (const Offer& offer : offers) text += OfferText(scene, offer);
+  }
+  for (const Quote& quote : quotes)
+    for (const std::string& part : quote.notCovered)
+      text += quote.integrator + ": the bias leaves out " + part + "\n";
+  return text;
+}
+
+}  // namespace exphoton::cli

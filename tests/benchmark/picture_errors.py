@@ -1,0 +1,47 @@
+"""Renders pictures and measures their errors and CPU seconds, for the measurements beside this file."""
+import os
+import re
+import resource
+import subprocess
+import sys
+
+
+def run(arguments):
+    result = subprocess.run(arguments, capture_output=True, text=True)
+    if result.returncode not in (0, 2):
+        sys.exit(f"{' '.join(arguments)}\n{result.stderr}")
+    return result.stdout
+
+
+def cpu_seconds():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class Scene:
+    def __init__(self, program, path, size, folder):
+        self.program, self.path, self.size, self.folder = program, path, size, folder
+
+    def render(self, name, *options):
+        picture = os.path.join(self.folder, name + ".exr")
+        before = cpu_seconds()
+        run([self.program, self.path, "--resolution", self.size, "--footprint-spp", "16", "--float",
+             "--quiet", "--no-progress", "-o", picture, *options])
+        return picture, cpu_seconds() - before
+
+    def rel_mse(self, picture, reference):
+        text = run([self.program, "compare", picture, reference, "--max-relmse", "1e30"])
+        return float(re.search(r"^relMSE\s+(\S+)", text, re.MULTILINE).group(1))
+
+    def reference(self, seconds):
+        """Renders two halves with guidedpath; keeps them and their squared difference."""
+        self.halves = [self.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
+                                   "--set", "SurfaceIntegrator.maxdepth=100",
+                                   "--time-limit", f"{seconds}s")[0] for i in (0, 1)]
+        self.noise = self.rel_mse(*self.halves)
+
+    def error(self, picture):
+        """The relMSE of a picture, without the noise of the reference: (x - a)(x - b) has the
+        expected value (x - truth)^2 if a and b are independent."""
+        return (self.rel_mse(picture, self.halves[0]) + self.rel_mse(picture, self.halves[1]) -
+                self.noise) / 2

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Measures how well `exphoton quote` predicts: renders what it quotes and compares.
+
+Usage: quotes.py PROGRAM WxH REFERENCE_SECONDS MOST_SECONDS SCENE ...
+Quotes of more than MOST_SECONDS are not rendered. The error of a picture is measured against a
+reference of guidedpath (picture_errors.py). "to reach" is the CPU time to reach the accuracy: that
+of the command, times the squared ratio of errors.
+"""
+import re
+import shlex
+import sys
+import tempfile
+
+from picture_errors import Scene, run
+
+UNITS = {"s": 1, "min": 60, "h": 3600}
+TIME = r"([\d.]+) (s|min|h)"
+
+
+def seconds(value, unit):
+    return float(value) * UNITS[unit]
+
+
+def offers(text):
+    """Yields (accuracy, integrator, predicted, least, most, options) for each price."""
+    accuracy = None
+    lines = text.splitlines()
+    for line, following in zip(lines, lines[1:] + [""]):
+        if match := re.match(r"error ([\d.]+) %", line):
+            accuracy = float(match.group(1)) / 100
+        elif match := re.match(rf"  (\S+)\s+{TIME} \({TIME} to (?:{TIME}|no known limit)\)", line):
+            name, *times = match.groups()
+            pairs = list(zip(times[::2], times[1::2]))
+            most = seconds(*pairs[2]) if pairs[2][0] else float("inf")
+            yield accuracy, name, seconds(*pairs[0]), seconds(*pairs[1]), most, shlex.split(following)[2:]
+
+
+def main():
+    if len(sys.argv) < 6:
+        sys.exit(__doc__)
+    program, size, reference, most_seconds = sys.argv[1:5]
+    count = near = inside = 0
+    print("| scene | error | integrator | quoted s | command s | error reached | to reach s |")
+    print("| --- | --- | --- | --- | --- | --- | --- |", flush=True)
+    for path in sys.argv[5:]:
+        with tempfile.TemporaryDirectory() as folder:
+            scene = Scene(program, path, size, folder)
+            scene.reference(reference)
+            text = run([program, "quote", path, "--resolution", size, "--accuracies", "10,5,2%",
+                        "--quiet"])
+            for accuracy, name, predicted, least, most, options in offers(text):
+                if predicted > float(most_seconds):
+                    continue
+                at = options.index("--resolution")
+                del options[at:at + 2]
+                picture, cpu = scene.render("picture", *options, "--seed", "77")
+                error = max(scene.error(picture), 0) ** .5
+                needed = cpu * (error / accuracy) ** 2
+                count += 1
+                near += 1 / 1.5 <= needed / predicted <= 1.5
+                inside += least <= needed <= most
+                print(f"| {path.split('/')[-2]} | {100 * accuracy:g} % | {name} | {predicted:.3g} "
+                      f"({least:.3g} to {most:.3g}) | {cpu:.3g} | {100 * error:.2g} % | {needed:.3g} |",
+                      flush=True)
+    print(f"{near} of {count} within a factor of 1.5, {inside} inside their intervals")
+
+
+main()

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests quote a scene from the command line, and render what was quoted.
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+using Names = std::vector<std::string>;
+
+class QuoteTest : public ProgramTest {
+ protected:
+  QuoteTest() {
+    Write("room.pbrt",
+          "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16\n"
+          "Camera \"perspective\"\nPixelFilter \"box\"\n"
+          "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 500\n"
+          "WorldBegin\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\nAttributeBegin AreaLightSource "
+          "\"area\" \"color L\" [5 5 5]\n"
+          "Translate 0 3 4 Shape \"sphere\" AttributeEnd\nTranslate 0 0 4 Shape \"sphere\"\n"
+          "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n");
+  }
+};
+
+TEST_F(QuoteTest, PrintsCommandsThatRenderThePicture) {
+  const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "40,20%", "--pilot-time",
+                                   "1s", "--integrators", "exphotonmap,path", "--quiet"});
+  ASSERT_EQ(quote.status, 0) << quote.err;
+  EXPECT_NE(quote.out.find("24 x 16 pixels"), std::string::npos) << quote.out;
+  EXPECT_NE(quote.out.find("error 40 %"), std::string::npos) << quote.out;
+  EXPECT_NE(quote.out.find("error 20 %"), std::string::npos) << quote.out;
+  const std::regex command("exphoton (room.pbrt --integrator path --spp [0-9]+)");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(quote.out, found, command)) << quote.out;
+  std::istringstream words(found[1]);
+  Names arguments{std::istream_iterator<std::string>(words), {}};
+  arguments.insert(arguments.end(), {"-o", "room.exr"});
+  EXPECT_EQ(Run(arguments).status, 0);
+  EXPECT_TRUE(Exists("room.exr"));
+}
+
+TEST_F(QuoteTest, NeedsMoreTimeForLessError) {
+  const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "5,1%", "--pilot-time",
+                                   "1s", "--integrators", "path", "--quiet"});
+  ASSERT_EQ(quote.status, 0) << quote.err;
+  std::vector<int> samples;
+  const std::regex spp("--spp ([0-9]+)");
+  for (std::sregex_iterator i(quote.out.begin(), quote.out.end(), spp), end; i != end; ++i)
+    samples.push_back(std::stoi((*i)[1]));
+  ASSERT_EQ(samples.size(), 2u) << quote.out;
+  EXPECT_GT(samples[1], 4 * samples[0]);
+}
+
+TEST_F(QuoteTest, SaysWhatIsWrong) {
+  const auto refused = [&](const Names& more, int status) {
+    Names words{"quote", "room.pbrt", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = Run(words);
+    EXPECT_EQ(result.status, status) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(refused({"--accuracies", "0.05"}, 1).find("percentages"), std::string::npos);
+  EXPECT_NE(refused({"--accuracies", "-3%"}, 1).find("percentages"), std::string::npos);
+  refused({"--integrators", "pth"}, 2);
+  refused({"--pilot-time", "soon"}, 1);
+  EXPECT_EQ(Run({"quote", "none.pbrt"}).status, 3);
+}
+
+}  // namespace
+}  // namespace exphoton
