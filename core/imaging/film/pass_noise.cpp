@@ -17,6 +17,44 @@ namespace {
 // chance.
 double SafeWeight(double weight, double samples) { return std::max(weight, .5 * samples); }
 
+// Sums of values over square cells of pixels.
+class VarianceCells {
+ public:
+  VarianceCells(const std::vector<double>& values, std::size_t width)
+      : columns_((width + kWidth - 1) / kWidth) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t cell = i / width / kWidth * columns_ + i % width / kWidth;
+      if (cell >= sums_.size()) sums_.resize((cell / columns_ + 1) * columns_, 0.);
+      sums_[cell] += values[i];
+    }
+  }
+
+  double Squares() const {
+    double squares = 0;
+    for (const double sum : sums_) squares += sum * sum;
+    return squares;
+  }
+  // Returns the sum over all cells of half the squared difference from a neighbour, as far as it
+  // can be known from all pairs of neighbours; infinity without pairs.
+  double Differences() const {
+    double squares = 0;
+    std::size_t pairs = 0;
+    const auto add = [&](double a, double b) { squares += (a - b) * (a - b) / 2, ++pairs; };
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      if (i % columns_ + 1 < columns_) add(sums_[i], sums_[i + 1]);
+      if (i + columns_ < sums_.size()) add(sums_[i], sums_[i + columns_]);
+    }
+    return pairs > 0 ? squares * double(sums_.size()) / double(pairs)
+                     : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static constexpr std::size_t kWidth = 8;  // pixels
+
+  std::size_t columns_;
+  std::vector<double> sums_;
+};
+
 }  // namespace
 
 PassNoise::PassNoise(const PixelBounds& crop, int groups)
@@ -92,14 +130,38 @@ PassNoise::Sums PassNoise::TotalOf(const std::vector<Group>& groups, std::size_t
 
 double PassNoise::RelativeVariance() const {
   if (Groups().size() < 2) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (const double variance : RelativeVariances()) sum += variance;
+  return sum / double(pixelCount_);
+}
+
+// Neighbouring pixels share photons and gathers, so their terms are added up in cells. Two
+// estimates of the variance of the sum S of a cell are too large in the mean, and the smaller one
+// is taken:
+// - If all pixels of a cell had the same normal error, K groups would give a variance of S whose
+//   unbiased estimate is 2 S^2 / (K + 1). For groups of different sizes, K is 1 / (sum of the
+//   squared shares).
+// - Half the squared difference of neighbouring cells contains their variance, and the difference
+//   of their true noise.
+double PassNoise::RelativeVarianceError() const {
+  const std::vector<Group> groups = Groups();
+  if (groups.size() < 2) return std::numeric_limits<double>::infinity();
+  double squaredShares = 0;
+  for (const Group& group : groups) squaredShares += group.share * group.share;
+  const VarianceCells cells(RelativeVariances(), width_);
+  const double common = 2 * cells.Squares() / (1 / squaredShares + 1);
+  return std::sqrt(std::min(common, cells.Differences())) / double(pixelCount_);
+}
+
+std::vector<double> PassNoise::RelativeVariances() const {
   const std::vector<float> variances = Variances();
   const std::vector<float> smooth = BoxMean(Means(), width_);
-  double sum = 0;
+  std::vector<double> relative(pixelCount_);
   for (std::size_t i = 0; i < variances.size(); ++i) {
     const double r = smooth[i];
-    sum += double(variances[i]) / (r * r + kRelMseOffset);
+    relative[i / 3] += double(variances[i]) / (3 * (r * r + kRelMseOffset));
   }
-  return sum / double(variances.size());
+  return relative;
 }
 
 std::vector<float> PassNoise::Means() const {

@@ -27,6 +27,8 @@ class PassNoise {
   // pixels replaces r, because a single pixel is as noisy as the error it would divide. Returns
   // infinity if fewer than two groups have samples.
   double RelativeVariance() const;
+  // Returns the standard error of that estimate; infinity with fewer than two groups.
+  double RelativeVarianceError() const;
   // Returns the estimated variance of each pixel of that picture, three channels per pixel.
   std::vector<float> Variances() const;
 
@@ -43,6 +45,8 @@ class PassNoise {
 
   double SampleCount() const;        // per pixel, over all groups
   std::vector<float> Means() const;  // the picture, three channels
+  // Returns the terms whose mean is RelativeVariance, for each pixel the mean of three channels.
+  std::vector<double> RelativeVariances() const;
 
   std::size_t width_, pixelCount_;
   std::vector<std::vector<Sums>> sums_;  // by group, then by pixel

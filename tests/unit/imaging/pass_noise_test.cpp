@@ -87,5 +87,42 @@ TEST(PassNoise, DoesNotDivergeWhereOnePassMeetsALight) {
   EXPECT_LT(estimate, 2000);
 }
 
+// The error of the estimate is compared with the spread of many estimates. With `common` errors,
+// neighbouring pixels agree.
+void ExpectErrorOfEstimate(double own, double common, int groups) {
+  constexpr int kTrials = 60;
+  double sum = 0, squares = 0, predicted = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    PassNoise noise(kBounds, groups);
+    for (int i = 0; i < groups; ++i)
+      noise.Add(i, MakePass(std::uint64_t(1000 * trial + i), 1, own, common), 1);
+    const double variance = noise.RelativeVariance();
+    sum += variance, squares += variance * variance;
+    predicted += noise.RelativeVarianceError() * noise.RelativeVarianceError();
+  }
+  const double mean = sum / kTrials, spread = std::sqrt(squares / kTrials - mean * mean);
+  const double error = std::sqrt(predicted / kTrials);
+  // 60 trials give the spread to 9 %.
+  EXPECT_GT(error, .7 * spread) << own << ' ' << common << ' ' << groups;
+  EXPECT_LT(error, 1.6 * spread) << own << ' ' << common << ' ' << groups;
+}
+
+TEST(PassNoise, KnowsTheErrorOfItsEstimate) {
+  for (const int groups : {2, 4}) {
+    ExpectErrorOfEstimate(.1, 0, groups);
+    ExpectErrorOfEstimate(.02, .1, groups);
+  }
+}
+
+TEST(PassNoise, IsUncertainIfOnePixelDecides) {
+  PassNoise noise(kBounds, 2);
+  for (int i = 0; i < 2; ++i) {
+    Film film = MakePass(std::uint64_t(i), 1, .01, 0);
+    if (i == 0) film.AddSample({20, 20}, Spectrum(Real(1000)), 1, 1);
+    noise.Add(i, film, 1);
+  }
+  EXPECT_GT(noise.RelativeVarianceError(), .5 * noise.RelativeVariance());
+}
+
 }  // namespace
 }  // namespace exphoton
