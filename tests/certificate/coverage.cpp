@@ -62,7 +62,9 @@ Rendered RenderOnce(const std::string& scene, const LoadOptions& load, std::uint
   rendered.picture = ValuesOf(film);
   rendered.halves[0] = ValuesOf(first);
   rendered.halves[1] = ValuesOf(second);
-  if (share > 0) rendered.certificate = Certify(corrections, film, result.noise.value_or(0));
+  const double noise = result.noise.value_or(0);
+  if (share > 0)
+    rendered.certificate = Certify(corrections, film, noise, CertificateGoal::ForNoise(noise));
   return rendered;
 }
 

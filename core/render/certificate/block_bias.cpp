@@ -35,9 +35,11 @@ struct BlockBiasEstimator::Noise {
 
 double BlockBias::Root(double squared) { return std::sqrt(std::max(squared, 0.)); }
 
-BlockBiasEstimator::BlockBiasEstimator(int width, int height, std::span<const Group> groups)
+BlockBiasEstimator::BlockBiasEstimator(int width, int height, std::span<const Group> groups,
+                                       double quantile)
     : columns_((width + kCell - 1) / kCell),
       rows_((height + kCell - 1) / kCell),
+      quantile_(quantile),
       pairShare_(1),
       cells_(std::size_t(columns_) * std::size_t(rows_)) {
   for (const Group& group : groups) {
@@ -130,7 +132,8 @@ BlockBiasEstimator::Noise BlockBiasEstimator::NoiseOf(const std::vector<Sums>& b
   return noise;
 }
 
-// Student's t for the number of normal values whose squares would spread like those of the cells.
+// Student's t for the number of normal values whose squares would spread like those of the cells,
+// by the first terms of its expansion (Abramowitz and Stegun 1964, 26.7.5).
 double BlockBiasEstimator::Quantile() const {
   double sum = 0, squares = 0;
   for (const Sums& cell : cells_) {
@@ -139,7 +142,8 @@ double BlockBiasEstimator::Quantile() const {
     squares += trace * trace;
   }
   const double freedom = squares > 0 ? std::max(3 * sum * sum / squares, 2.) : 1e9;
-  return 1.96 + 2.372 / freedom + 2.823 / (freedom * freedom);
+  const double z = quantile_, z3 = z * z * z, z5 = z3 * z * z;
+  return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
 }
 
 BlockBias BlockBiasEstimator::Estimate(int blockWidth) const {

@@ -13,7 +13,10 @@
 
 namespace exphoton {
 
-// An estimate with its 95 % interval, in the unit of relMSE.
+// The normal quantile of a two-sided interval of 95 %.
+inline constexpr double kQuantile95 = 1.96;
+
+// An estimate with its interval, in the unit of relMSE.
 struct BlockBias {
   int blockWidth = 0;  // pixels
   int blocks = 0;
@@ -35,8 +38,10 @@ class BlockBiasEstimator {
   };
   static constexpr int kCell = 4;  // pixels; the spread between cells gives the noise
 
-  // There must be two groups or more. All groups have the same size.
-  BlockBiasEstimator(int width, int height, std::span<const Group> groups);
+  // There must be two groups or more. All groups have the same size. The normal quantile decides
+  // how wide the intervals are.
+  BlockBiasEstimator(int width, int height, std::span<const Group> groups,
+                     double quantile = kQuantile95);
 
   // Returns the estimate for blocks of this width, a multiple of kCell.
   BlockBias Estimate(int blockWidth) const;
@@ -64,6 +69,7 @@ class BlockBiasEstimator {
   double Quantile() const;
 
   int columns_, rows_;  // of cells
+  double quantile_;
   std::vector<double> shares_;
   double pairShare_;  // 1 - sum of shares^2
   std::vector<Sums> cells_;

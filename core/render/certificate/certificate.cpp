@@ -13,7 +13,6 @@ namespace exphoton {
 namespace {
 
 constexpr double kLeastWanted = .01 * .01;  // relMSE
-constexpr double kQuantile = 1.96;
 
 // Returns sqrt(r^2 + 0.01) for three channels per pixel. The mean of 5 x 5 pixels replaces r,
 // because the noise of a single pixel correlates with its correction.
@@ -35,8 +34,8 @@ double Part(const std::optional<SharingBias>& sharing) {
 }
 
 // Returns how far a bound lies from the estimate, for two independent estimates that are added.
-double Distance(double distance, const std::optional<SharingBias>& sharing) {
-  return std::hypot(distance, sharing ? kQuantile * sharing->standardError : 0);
+double Distance(double distance, const std::optional<SharingBias>& sharing, double quantile) {
+  return std::hypot(distance, sharing ? quantile * sharing->standardError : 0);
 }
 
 std::string Percent(double squared) {
@@ -49,14 +48,20 @@ std::string Percent(double squared) {
 double Certificate::Bias() const { return std::max(bias.squared, 0.) + Part(sharing); }
 
 double Certificate::LowerBias() const {
-  return std::max(Bias() - Distance(std::max(bias.squared, 0.) - bias.lower, sharing), 0.);
+  const double distance = std::max(bias.squared, 0.) - bias.lower;
+  return std::max(Bias() - Distance(distance, sharing, quantile), 0.);
 }
 
 double Certificate::UpperBias() const {
-  return Bias() + Distance(bias.upper - std::max(bias.squared, 0.), sharing);
+  return Bias() + Distance(bias.upper - std::max(bias.squared, 0.), sharing, quantile);
 }
 
-std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise) {
+CertificateGoal CertificateGoal::ForNoise(double noise) {
+  return {.smallest = std::max(noise / 4, kLeastWanted)};
+}
+
+std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise,
+                                   const CertificateGoal& goal) {
   const auto groups = corrections.Groups();
   if (groups.size() < 2) return std::nullopt;
   const std::vector<float> scale = ScaleOf(film);
@@ -72,11 +77,13 @@ std::optional<Certificate> Certify(const Corrections& corrections, const Film& f
   }
   for (std::size_t g = 0; g < groups.size(); ++g)
     inputs.push_back({relative[g], double(groups[g]->samplesPerPixel) / samples});
-  const BlockBiasEstimator estimator(film.Crop().Width(), film.Crop().Height(), inputs);
+  const BlockBiasEstimator estimator(film.Crop().Width(), film.Crop().Height(), inputs,
+                                     goal.quantile);
   Certificate certificate;
   certificate.noise = noise;
-  certificate.bias = estimator.EstimateFor(std::max(noise / 4, kLeastWanted));
+  certificate.bias = estimator.EstimateFor(goal.smallest);
   certificate.corrections = corrections.Count();
+  certificate.quantile = goal.quantile;
   return certificate;
 }
 

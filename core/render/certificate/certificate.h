@@ -21,18 +21,28 @@ struct Certificate {
   std::optional<SharingBias> sharing;
   std::int64_t corrections = 0;         // corrected gather rays
   std::vector<std::string> notCovered;  // phrases
+  double quantile = kQuantile95;        // the normal quantile of the interval
 
-  // The parts of relMSE: the squared bias with the bounds of its 95 % interval, and all together.
+  // The parts of relMSE: the squared bias with the bounds of its interval, and all together.
   double Bias() const;
   double LowerBias() const;
   double UpperBias() const;
   double Error() const { return noise + Bias(); }
 };
 
+// The interval that a certificate should have.
+struct CertificateGoal {
+  double smallest = 0;  // the bias that it should be able to certify (relMSE)
+  double quantile = kQuantile95;
+
+  // The bias should be known as well as the noise: to half of it, but no better than 1 %.
+  static CertificateGoal ForNoise(double noise);
+};
+
 // Returns nullopt with fewer than two groups. `film` has the picture of all groups, and `noise` is
-// its noise part of relMSE. The blocks are chosen so that the bias is known as well as the noise:
-// to half of the noise, but no better than 1 %.
-std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise);
+// its noise part of relMSE. The blocks are the finest ones that reach the goal.
+std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise,
+                                   const CertificateGoal& goal);
 
 // Returns a line such as "error 2.1 % = noise 1.8 %, bias 1.0 % (0.6 to 1.4 %)".
 std::string ErrorText(const Certificate& certificate);
