@@ -269,6 +269,7 @@ struct PassRenderer::State {
 
 PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
     : state_(std::make_unique<State>(job, options)) {
+  state_->preparedSeed = options.preparedSeed;
   SampleLayout layout;
   layout.needsLens = job.scene.Features().Needs(Feature::Lens);
   layout.needsTime = job.scene.Features().Needs(Feature::Motion);
@@ -283,6 +284,10 @@ PassRenderer::PassRenderer(const RenderJob& job, const RenderOptions& options)
 }
 
 PassRenderer::~PassRenderer() = default;
+
+std::optional<SharingBias> PassRenderer::MeanSharingBias() const {
+  return state_->AllTotals().MeanSharingBias();
+}
 
 double PassRenderer::PreprocessSeconds() const { return state_->preprocessSeconds; }
 double PassRenderer::RenderSeconds() const { return state_->renderSeconds; }

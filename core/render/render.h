@@ -66,6 +66,9 @@ struct RenderOptions {
   // complete then.
   ShardWriter* shard = nullptr;
   const PhotonFileUse* photonFile = nullptr;  // see PreprocessContext
+  // The seed of the integrator's last preprocessing, by an earlier PassRenderer of the same
+  // objects. Passes with this seed use its photons. Nullopt: there was none.
+  std::optional<std::uint64_t> preparedSeed{};
   // Receives the corrections of each pass, whose end the caller reports. Null: no certificate.
   Corrections* corrections = nullptr;
   RenderView* view = nullptr;  // sees finished tiles and passes; null: none
@@ -125,6 +128,9 @@ class PassRenderer {
   bool Run(const RenderPass& pass, const Sampler& sampler, Film* film);
   // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
+
+  // Returns the estimate for the passes so far; nullopt if no gathers are shared.
+  std::optional<SharingBias> MeanSharingBias() const;
 
   // Saves what all passes have in common, and the current batch.
   void SaveTotals(StateWriter* writer) const;

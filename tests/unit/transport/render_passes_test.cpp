@@ -142,6 +142,23 @@ TEST_F(RenderPassesTest, GroupsOfPassesSharePhotons) {
   EXPECT_LT(integrator_.seeds.size(), std::size_t(result.passes));
 }
 
+TEST_F(RenderPassesTest, UsesPhotonsThatAnotherRendererPrepared) {
+  const auto render = [&](std::optional<std::uint64_t> prepared, std::uint64_t photonSeed) {
+    With(1, 1, [&](const RenderJob& job, RenderOptions options) {
+      options.preparedSeed = prepared;
+      PassRenderer(job, options).Run({photonSeed, 9, 0, 4}, job.sampler, &job.film);
+      return PassesResult();
+    });
+    return image_.pixels;
+  };
+  const auto first = render({}, 7);
+  integrator_.seeds.clear();
+  EXPECT_EQ(render(7, 7), first);
+  EXPECT_TRUE(integrator_.seeds.empty());
+  EXPECT_NE(render(7, 8), first);
+  EXPECT_EQ(integrator_.seeds, std::set<std::uint64_t>{8});
+}
+
 TEST_F(RenderPassesTest, StopsAtTheLimitOfSamples) {
   StoppingRule rule;
   rule.targetError = 1e-9;
