@@ -84,13 +84,17 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
         command.maxPasses > 0 ? rule.passSamples * command.maxPasses : StoppingRule::kMaxSamples;
   }
   if (command.isProgressive) rule.progressiveAlpha = command.progressiveAlpha;
+  if (command.accuracy)
+    rule.accuracy = StoppingRule::Accuracy{*command.accuracy, command.dial->firstSamples,
+                                           command.dial->biasShare};
   return RenderInPasses(job, options, rule);
 }
 
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
                                          const RenderSetup& setup) {
   if (!films.corrections || !result.noise || !result.render.isComplete) return std::nullopt;
-  std::optional<Certificate> certificate = Certify(*films.corrections, films.film, *result.noise);
+  std::optional<Certificate> certificate = Certify(*films.corrections, films.film, *result.noise,
+                                                   CertificateGoal::ForNoise(*result.noise));
   if (!certificate) return certificate;
   certificate->sharing = result.render.sharingBias;
   if (const auto limits = setup.integrator->Certification(*setup.scene))

@@ -90,7 +90,26 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
   return std::min(PowerOfTwoUpTo(size), most);
 }
 
+PassPlan::Step PassPlan::NextForAccuracy(const State& state) const {
+  std::int64_t size = limits_.firstSamples;
+  if (groups_ > 1) {
+    const double missing = state.needed.value_or(0) - double(state.samples);
+    // Each look at the picture costs confidence, and small passes say little about the bias of
+    // shared gathers, so groups are not small.
+    const double least = std::max(double(state.samples) / 4, double(limits_.firstSamples));
+    size = PowerOfTwoUpTo(std::clamp(missing * kRounding, least, double(state.samples)));
+  }
+  size = std::max<std::int64_t>(std::min(size, limits_.maxSamples - state.samples), 1);
+  if (limits_.timeLimit && state.samples > 0) {
+    const double left = *limits_.timeLimit - state.elapsed - state.preprocess;
+    const double fits = std::floor(left / std::max(state.sample, 1e-9));
+    if (fits < double(size)) size = fits < 1 ? 0 : PowerOfTwoUpTo(fits);
+  }
+  return {true, size};
+}
+
 PassPlan::Step PassPlan::Next(const State& state) const {
+  if (limits_.firstSamples > 0) return NextForAccuracy(state);
   if (limits_.passSamples > 0) {
     const double needed = state.preprocess + double(limits_.passSamples) * state.sample;
     const bool fits =
@@ -136,6 +155,11 @@ std::optional<double> PassPlan::SecondsLeft(const State& state) const {
   }
   double seconds = double(limits_.maxSamples - state.samples) * state.sample;
   bool isKnown = double(limits_.maxSamples) < kHuge;
+  if (limits_.firstSamples > 0) {
+    const double goal = std::max(state.needed.value_or(0), 2. * double(limits_.firstSamples));
+    const double missing = std::max(goal - double(state.samples), 0.);
+    seconds = std::min(seconds, missing * state.sample + state.preprocess);
+  }
   if (limits_.targetError) {
     isKnown = groups_ > 1 || state.enough;
     const Step step = Next(state);

@@ -42,15 +42,19 @@ class PassPlan {
     std::optional<double> targetError, timeLimit;  // as in StoppingRule
     std::int64_t maxSamples = 0;                   // per pixel
     std::int64_t passSamples = 0;                  // of each pass; 0: chosen by the noise
+    // If positive, every pass is a group. The first two have this number of samples, and later ones
+    // follow State::needed.
+    std::int64_t firstSamples = 0;
   };
   // The state of the render. Times are in seconds and used only with a time limit.
   struct State {
-    std::int64_t samples = 0;      // per pixel, so far
-    std::optional<double> noise;   // of the picture; known if there are two groups
-    std::optional<double> enough;  // samples that two groups need to reach the target
-    double elapsed = 0;            // since the start of the time limit
-    double preprocess = 0;         // for one preprocessing
-    double sample = 0;             // for one sample per pixel
+    std::int64_t samples = 0;        // per pixel, so far
+    std::optional<double> noise;     // of the picture; known if there are two groups
+    std::optional<double> enough;    // samples that two groups need to reach the target
+    std::optional<double> needed{};  // samples at which an accuracy is expected
+    double elapsed = 0;              // since the start of the time limit
+    double preprocess = 0;           // for one preprocessing
+    double sample = 0;               // for one sample per pixel
   };
   explicit PassPlan(const Limits& limits) : limits_(limits) {}
 
@@ -74,6 +78,7 @@ class PassPlan {
   std::int64_t GoalByTime(const State& state) const;
   std::int64_t FirstGoal(const State& state) const;
   std::int64_t LaterGoal(const State& state) const;
+  Step NextForAccuracy(const State& state) const;
 
   Limits limits_;
   int groups_ = 0;

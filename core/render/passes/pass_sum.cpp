@@ -13,6 +13,10 @@ const char* StopReasonName(StopReason reason) {
       return "samples";
     case StopReason::TargetError:
       return "target-error";
+    case StopReason::Accuracy:
+      return "accuracy";
+    case StopReason::Bias:
+      return "bias";
     case StopReason::TimeLimit:
       return "time-limit";
     case StopReason::Signal:
@@ -34,6 +38,8 @@ std::optional<double> PassSum::Noise() const {
   if (groups_ > 1 && !known_) known_ = correction_ * noise_.RelativeVariance();
   return known_;
 }
+
+double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianceError(); }
 
 // Let the error of n samples of a sequence be n^-s, and q = 2^-s. The difference of two successive
 // halves of n samples each suggests the error 1 - q for their mean, whose error is q. The same
@@ -62,6 +68,7 @@ void PassSum::Describe(bool needsVariances, PassesResult* result) const {
   result->passes = passes_;
   result->samplesPerPixel = samples_;
   result->noise = Noise();
+  result->noiseError = result->noise ? NoiseError() : 0;
   if (!needsVariances || groups_ < 2) return;
   result->variances = noise_.Variances();
   for (float& variance : result->variances) variance *= float(correction_);

@@ -14,7 +14,7 @@
 
 namespace exphoton {
 
-enum class StopReason { Samples, TargetError, TimeLimit, Signal };
+enum class StopReason { Samples, TargetError, Accuracy, Bias, TimeLimit, Signal };
 const char* StopReasonName(StopReason reason);  // for example "target-error"
 
 struct PassesResult {
@@ -23,8 +23,10 @@ struct PassesResult {
   int passes = 0;                           // complete passes
   std::int64_t samplesPerPixel = 0;
   std::optional<double> noise;           // estimated noise part of relMSE; absent with one pass
+  double noiseError = 0;                 // its standard error
   std::vector<float> variances;          // of each pixel, three channels; empty with one pass
   std::optional<double> lastDiskArea{};  // of the last pass; nullopt: passes are not progressive
+  std::optional<double> upperError{};    // relMSE; the upper end of its interval (AccuracyRule)
 };
 
 class PassSum {
@@ -58,6 +60,7 @@ class PassSum {
   std::int64_t SamplesPerPixel() const { return samples_; }
   // The estimated noise part of relMSE; nullopt before the second group. Reason is based on it.
   std::optional<double> Noise() const;
+  double NoiseError() const;  // its standard error; infinity before the second group
   // Writes the numbers of passes and samples, the noise and, if wanted, the variances.
   void Describe(bool needsVariances, PassesResult* result) const;
 

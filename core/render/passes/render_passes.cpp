@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 
+#include "core/base/format.h"
 #include "core/render/certificate/corrections.h"
+#include "core/render/passes/accuracy_rule.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
 #include "core/render/passes/progressive.h"
@@ -40,9 +43,12 @@ class Passes {
         passFilm_(job.film.Full(), job.film.Crop()),
         sum_(&job.film, {rule.targetError, rule.maxSamples}),
         forecasts_{GroupForecast(job.film.Crop()), GroupForecast(job.film.Crop())},
-        plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples}) {
-    // A certificate compares groups whose samples are independent.
-    if (job.sampler.IsProgressive() && rule.passSamples == 0 && !options_.corrections)
+        plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
+               rule.accuracy ? rule.accuracy->firstSamples : 0}),
+        // A certificate compares groups whose samples are independent.
+        hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections) {
+    if (rule.accuracy) accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare);
+    if (job.sampler.IsProgressive() && hasBatches_)
       sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
     quiet_.SetListener([this] { ShowProgress(); });
   }
@@ -135,6 +141,7 @@ class Passes {
     state.samples = sum_.SamplesPerPixel();
     if (rule_.targetError) state.noise = sum_.Noise();
     if (rule_.targetError) state.enough = forecasts_[0].SamplesFor(*rule_.targetError);
+    if (accuracy_) state.needed = double(sum_.SamplesPerPixel()) * accuracy_->Growth();
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
     state.preprocess = preprocessSeconds_;
     state.sample = renderSeconds_ / double(std::max<std::int64_t>(sum_.SamplesPerPixel(), 1));
@@ -165,7 +172,7 @@ class Passes {
       pass.time = TimeOfPass(int(group), options_.seed);
     }
     // A certificate needs the light of each sample before and after sharing, pass by pass.
-    if (rule_.passSamples == 0 && !options_.corrections)
+    if (hasBatches_)
       pass.sharing =
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
     passFilm_.Clear();
@@ -185,12 +192,30 @@ class Passes {
     plan_.Take(step);
     sum_.Add(passFilm_, step.size, group);
     if (options_.corrections) options_.corrections->EndPass(group, step.size);
-    if (group < 2 && rule_.passSamples == 0) TakeForecast(step.size, group);
+    if (accuracy_) LookAtError();
+    if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup) preprocessSeconds_ = renderer_.PreprocessSeconds();
     renderSeconds_ += renderer_.RenderSeconds();
     groupSamples_ += step.size;
+  }
+
+  void LookAtError() {
+    if (sum_.Groups() < 2) return;
+    std::optional<Certificate> certificate;
+    if (options_.corrections)
+      certificate = Certify(*options_.corrections, job_.film, *sum_.Noise(), accuracy_->NextGoal());
+    if (certificate) certificate->sharing = renderer_.MeanSharingBias();
+    accuracy_->Look({*sum_.Noise(), sum_.NoiseError(), certificate ? &*certificate : nullptr});
+    result_.upperError = accuracy_->Upper();
+    job_.log.Verbose(
+        Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
+               "error below "
+               "%.3g %%",
+               static_cast<long long>(sum_.SamplesPerPixel()), *sum_.Noise(), sum_.NoiseError(),
+               certificate ? certificate->LowerBias() : 0,
+               certificate ? certificate->UpperBias() : 0, 100 * std::sqrt(accuracy_->Upper())));
   }
 
   void TakeForecast(std::int64_t samples, int group) {
@@ -202,6 +227,10 @@ class Passes {
   // `next` is the step that would follow.
   std::optional<StopReason> Reason(const PassPlan::Step& next) {
     reasonMet_ = sum_.Reason();
+    if (accuracy_ && accuracy_->IsReached())
+      reasonMet_ = StopReason::Accuracy;
+    else if (accuracy_ && accuracy_->IsOutOfReach())
+      reasonMet_ = StopReason::Bias;
     if (reasonMet_) return reasonMet_;
     if (rule_.timeLimit && next.size < 1)
       reasonMet_ = StopReason::TimeLimit;
@@ -238,6 +267,8 @@ class Passes {
   PassSum sum_;
   std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
+  const bool hasBatches_;  // whether passes share gathers and continue one sequence
+  std::optional<AccuracyRule> accuracy_;
   PassPlan::Step step_;  // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes

@@ -20,6 +20,14 @@ struct StoppingRule {
   // If positive, every pass is a group of its own with this number of samples per pixel, so that
   // passes do not depend on the pixels of earlier ones.
   std::int64_t passSamples = 0;
+  // The error with its bias (accuracy_rule.h). `firstSamples` of each of the first two groups of
+  // passes should be about half of what is needed.
+  struct Accuracy {
+    double error = 0;
+    std::int64_t firstSamples = 1;
+    double biasShare = .125;  // of the squared error, what certificates should resolve
+  };
+  std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs
   // passSamples.
   std::optional<double> progressiveAlpha{};

@@ -45,5 +45,44 @@ TEST(PassPlan, APassOfGivenSizeFitsIntoTheTime) {
   EXPECT_EQ(next({}, 12, 16).size, 16);
 }
 
+// The first two groups are as large as the dial says. Later ones fill up what is missing, but they
+// have at least this size and a quarter of the samples so far, and at most all of them.
+TEST(PassPlan, GroupsForAnAccuracyFollowWhatIsNeeded) {
+  PassPlan plan({.targetError = {}, .timeLimit = {}, .maxSamples = 1000, .firstSamples = 32});
+  const auto size = [&](std::int64_t samples, double needed) {
+    const PassPlan::Step step =
+        plan.Next({.samples = samples, .noise = {}, .enough = {}, .needed = needed});
+    EXPECT_TRUE(step.isNewGroup);
+    return step.size;
+  };
+  EXPECT_EQ(size(0, 0), 32);
+  plan.Take({.isNewGroup = true, .size = 32});
+  EXPECT_EQ(size(32, 0), 32);
+  plan.Take({.isNewGroup = true, .size = 32});
+  EXPECT_EQ(size(64, 65), 32);
+  EXPECT_EQ(size(64, 90), 32);
+  EXPECT_EQ(size(64, 1e9), 64);
+  EXPECT_EQ(size(256, 257), 64);
+  EXPECT_EQ(size(980, 1e9), 20);
+}
+
+TEST(PassPlan, AGroupForAnAccuracyFitsIntoTheTime) {
+  PassPlan plan({.targetError = {}, .timeLimit = 10, .maxSamples = 1000, .firstSamples = 16});
+  const auto size = [&](double elapsed, std::int64_t samples) {
+    return plan
+        .Next({.samples = samples,
+               .noise = {},
+               .enough = {},
+               .elapsed = elapsed,
+               .preprocess = 2,
+               .sample = .1})
+        .size;
+  };
+  EXPECT_EQ(size(20, 0), 16);
+  EXPECT_EQ(size(6, 16), 16);   // 2 s are left after the preprocessing
+  EXPECT_EQ(size(7.1, 16), 8);  // .9 s
+  EXPECT_EQ(size(8, 16), 0);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/render/passes/accuracy_rule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/sampling/random.h"
+
+namespace exphoton {
+namespace {
+
+// Quantiles of the first two looks, whose chances are .05 / 2 and .05 / 6.
+constexpr double kFirst = 1.959964, kSecond = 2.393980;
+
+Certificate Bias(double squared, double lower, double upper) {
+  Certificate certificate;
+  certificate.bias.squared = squared;
+  certificate.bias.lower = lower;
+  certificate.bias.upper = upper;
+  return certificate;
+}
+
+TEST(AccuracyRule, NormalQuantileInvertsTheTail) {
+  EXPECT_NEAR(NormalQuantile(.5), 0, 1e-9);
+  EXPECT_NEAR(NormalQuantile(.025), kFirst, 1e-6);
+  EXPECT_NEAR(NormalQuantile(.05 / 6), kSecond, 1e-6);
+  EXPECT_NEAR(NormalQuantile(1e-6), 4.753424, 1e-6);
+}
+
+TEST(AccuracyRule, AsksForLessNoiseThanTheAccuracy) {
+  AccuracyRule rule(.02, .125);  // relMSE .0004
+  EXPECT_FALSE(rule.IsReached());
+  rule.Look({.noise = .00035, .noiseError = .00005});
+  EXPECT_NEAR(rule.Upper(), .00035 + kFirst * .00005, 1e-9);
+  EXPECT_FALSE(rule.IsReached());
+  EXPECT_NEAR(rule.Growth(), rule.Upper() / .0004, 1e-9);
+  rule.Look({.noise = .00029, .noiseError = .00004});
+  EXPECT_NEAR(rule.Upper(), .00029 + kSecond * .00004, 1e-9);
+  EXPECT_TRUE(rule.IsReached());
+}
+
+TEST(AccuracyRule, CountsTheBiasAndItsInterval) {
+  AccuracyRule rule(.02, .125);
+  EXPECT_NEAR(rule.NextGoal().smallest, .125 * .0004, 1e-12);
+  EXPECT_NEAR(rule.NextGoal().quantile, kFirst, 1e-6);
+  const Certificate certificate = Bias(.0001, .00004, .00018);
+  rule.Look({.noise = .0002, .noiseError = .00003, .certificate = &certificate});
+  const double distance = std::hypot(kFirst * .00003, .00008);
+  EXPECT_NEAR(rule.Upper(), .0003 + distance, 1e-9);
+  EXPECT_TRUE(rule.IsReached());
+  EXPECT_FALSE(rule.IsOutOfReach());
+  EXPECT_NEAR(rule.Growth(), (.0002 + distance) / .0003, 1e-6);
+  EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
+}
+
+TEST(AccuracyRule, NoNumberOfSamplesMakesUpForBias) {
+  AccuracyRule rule(.02, .125);
+  const Certificate probable = Bias(.0005, .0003, .0008), certain = Bias(.0005, .00045, .0006);
+  rule.Look({.noise = 0, .noiseError = 0, .certificate = &probable});
+  EXPECT_FALSE(rule.IsReached());
+  EXPECT_FALSE(rule.IsOutOfReach());
+  EXPECT_TRUE(std::isinf(rule.Growth()));
+  rule.Look({.noise = 0, .noiseError = 0, .certificate = &certain});
+  EXPECT_TRUE(rule.IsOutOfReach());
+}
+
+// A picture whose error is a little too large should rarely pass, though it is looked at often.
+TEST(AccuracyRule, IsRarelyWrongInAnyOfManyLooks) {
+  constexpr int kTrials = 20000, kLooks = 20;
+  constexpr double kNoise = .000401, kError = .00004;
+  int wrong = 0;
+  RandomStream random(5);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    AccuracyRule rule(.02, .125);
+    for (int look = 0; look < kLooks && !rule.IsReached(); ++look) {
+      const double u = std::max(double(random.Uniform()), 1e-9), v = double(random.Uniform());
+      const double normal = std::sqrt(-2 * std::log(u)) * std::cos(2 * M_PI * v);
+      rule.Look({.noise = kNoise + kError * normal, .noiseError = kError});
+    }
+    wrong += rule.IsReached() ? 1 : 0;
+  }
+  EXPECT_LT(wrong, .05 * kTrials);
+  EXPECT_GT(wrong, .035 * kTrials);  // the rule is not much stricter than it says
+}
+
+}  // namespace
+}  // namespace exphoton
