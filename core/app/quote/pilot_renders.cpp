@@ -156,7 +156,8 @@ Quote RunPilots(const QuoteScene& scene, const std::string& integrator, bool has
     }
     last = std::move(pilot);
     pilots.push_back({last.statistics.at("samplesPerPixel").get<double>(),
-                      NumberOr(last.statistics, "noise", 0)});
+                      NumberOr(last.statistics, "noise", 0),
+                      NumberOr(last.statistics, "noiseError", 0)});
     const double cost = last.statistics.at("wallSeconds").get<double>();
     spent += cost;
     // The next pilot takes twice as long, and so does the one that estimates the bias.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "core/app/quote/quote_command.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
@@ -29,25 +27,12 @@ struct QuoteOptions {
   bool isQuiet = false;
 };
 
-double ParseAccuracy(const std::string& text) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  const std::string unit = text.substr(std::min(used, text.size()));
-  if (used == 0 || !(value > 0 && value <= 100) || (unit != "%" && !unit.empty()))
-    FailUsage("--accuracies takes percentages, not \"" + text + '"', "for example 10,5,2,1%");
-  return value / 100;
-}
-
 std::vector<double> ParseAccuracies(const std::string& text) {
   if (text.find('%') == std::string::npos)
     FailUsage("--accuracies takes percentages, not \"" + text + '"', "for example 10,5,2,1%");
   std::vector<double> accuracies;
-  for (const std::string& part : study::SplitList(text)) accuracies.push_back(ParseAccuracy(part));
+  for (const std::string& part : study::SplitList(text))
+    accuracies.push_back(ParsePercentage("--accuracies", part.ends_with('%') ? part : part + '%'));
   if (accuracies.empty()) FailUsage("--accuracies names no accuracy");
   return accuracies;
 }

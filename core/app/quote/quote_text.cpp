@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 
 #include "core/app/analysis/numbers.h"
 #include "core/app/options/arguments.h"
+#include "core/app/quote/missing_light.h"
 
 namespace exphoton::cli {
 namespace {
@@ -25,30 +27,14 @@ std::string Percent(double share) {
   return text;
 }
 
-// Returns the quote that finds most light. Its mean lies above the others by more than their noise.
-const Quote* Brightest(const std::vector<Quote>& quotes) {
-  const Quote* brightest = nullptr;
-  for (const Quote& quote : quotes)
-    if (quote.failure.empty() && (!brightest || quote.mean > brightest->mean)) brightest = &quote;
-  return brightest;
-}
+PilotMean MeanOf(const Quote& quote) { return {quote.integrator, quote.mean, quote.meanError}; }
 
-// An integrator that finds less light in its pilots is biased, or rarely finds bright paths. Then
-// its noise is underestimated, and it has no price.
-std::string MissingLight(const Quote& quote, const Quote& brightest) {
-  constexpr double kStandardErrors = 4, kLeast = .02;
-  const double missing = 1 - quote.mean / brightest.mean;
-  const double noise = std::hypot(quote.meanError, brightest.meanError);
-  if (!(missing > kLeast + kStandardErrors * noise)) return "";
-  return "finds " + Percent(missing) + " less light than " + brightest.integrator;
-}
-
-Offer MakeOffer(const Quote& quote, const Quote* brightest, double accuracy) {
+Offer MakeOffer(const Quote& quote, std::span<const PilotMean> means, double accuracy) {
   Offer offer{&quote, {}, quote.failure};
   if (!offer.reason.empty()) return offer;
-  offer.reason = MissingLight(quote, *brightest);
+  offer.reason = MissingLight(MeanOf(quote), means);
   if (!offer.reason.empty()) return offer;
-  offer.price = PriceOf(quote.model, accuracy);
+  offer.price = PriceOf(quote.model, {accuracy});
   if (!offer.price)
     offer.reason = "needs more than 64 times the photons (bias " + Percent(quote.model.bias) + ")";
   return offer;
@@ -94,11 +80,12 @@ std::string OfferText(const QuoteScene& scene, const Offer& offer) {
 
 std::string QuoteText(const QuoteScene& scene, const std::vector<Quote>& quotes,
                       const std::vector<double>& accuracies) {
-  const Quote* const brightest = Brightest(quotes);
+  std::vector<PilotMean> means;
+  for (const Quote& quote : quotes) means.push_back(MeanOf(quote));
   std::string text;
   for (const double accuracy : accuracies) {
     std::vector<Offer> offers;
-    for (const Quote& quote : quotes) offers.push_back(MakeOffer(quote, brightest, accuracy));
+    for (const Quote& quote : quotes) offers.push_back(MakeOffer(quote, means, accuracy));
     std::ranges::stable_sort(offers, {}, [](const Offer& offer) {
       return offer.price ? offer.price->seconds : std::numeric_limits<double>::infinity();
     });

@@ -5,13 +5,16 @@
 
 #include <cmath>
 
+#include "core/app/quote/missing_light.h"
+
 namespace exphoton::cli {
 namespace {
 
+// Two halves with n / 2 samples each.
 std::vector<Pilot> Pilots(double camera, double photonNoise, double slope = 1) {
   std::vector<Pilot> pilots;
   for (double n = 2; n <= 32; n *= 2)
-    pilots.push_back({n, camera / std::pow(n, slope) + photonNoise / 2});
+    pilots.push_back({n, .5 * camera / std::pow(n / 2, slope) + photonNoise / 2});
   return pilots;
 }
 
@@ -40,7 +43,7 @@ TEST(PriceModel, SeparatesTheNoiseOfPhotons) {
 TEST(PriceModel, OfCameraNoiseAloneIsExact) {
   PriceModel model;
   model.camera = 1, model.fixed = 2, model.maps = 3, model.sample = .01;
-  const auto price = PriceOf(model, .05);
+  const auto price = PriceOf(model, {.05});
   ASSERT_TRUE(price);
   EXPECT_EQ(price->samples, 400);
   EXPECT_EQ(price->photons, 1);
@@ -54,14 +57,74 @@ TEST(PriceModel, TakesMorePhotonsForLessBias) {
   PriceModel model;
   model.camera = 1, model.maps = 1, model.sample = .01, model.bias = .08, model.biasUpper = .1;
   model.hasPhotons = true;
-  const auto price = PriceOf(model, .05);
+  const auto price = PriceOf(model, {.05});
   ASSERT_TRUE(price);
   EXPECT_GE(price->photons, 2);
   const double k = price->photons, bias = .08 / k;
   EXPECT_LE(1 / price->samples + bias * bias, .0025);
-  EXPECT_FALSE(PriceOf(model, .001));
+  EXPECT_FALSE(PriceOf(model, {.001}));
   model.hasPhotons = false;
-  EXPECT_FALSE(PriceOf(model, .05));
+  EXPECT_FALSE(PriceOf(model, {.05}));
+}
+
+// Two groups have maps of their own, which cost twice as much and have half the noise. Where noise
+// falls faster than 1/n, two groups of n/2 samples have more noise than one of n.
+TEST(PriceModel, KnowsGroupsOfPasses) {
+  PriceModel model;
+  model.camera = 1, model.slope = 1.5, model.maps = 1, model.sample = .01;
+  const auto one = PriceOf(model, {.05}), two = PriceOf(model, {.05, 2});
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->samples, std::ceil(std::pow(400., 1 / 1.5)));
+  EXPECT_EQ(two->samples, std::ceil(std::pow(400. * std::sqrt(2.), 1 / 1.5)));
+  EXPECT_NEAR(two->seconds, 2 + .01 * two->samples, 1e-9);
+  model.camera = 1e-6, model.photonNoise = .004;
+  EXPECT_FALSE(PriceOf(model, {.05}));
+  EXPECT_TRUE(PriceOf(model, {.05, 2}));
+}
+
+// Pilots whose halves have the same photons show the noise of camera samples, and a last one with
+// photons of its own shows theirs.
+TEST(PriceModel, SeparatesTheNoiseOfPhotonsBySharedOnes) {
+  std::vector<Pilot> pilots = Pilots(2, 0, 1.25);
+  for (Pilot& pilot : pilots) pilot.hasOwnPhotons = false;
+  Pilot own = pilots.back();
+  own.hasOwnPhotons = true;
+  own.noise += .3 / 2;
+  own.error = .01;
+  pilots.push_back(own);
+  PriceModel model;
+  model.hasPhotons = true;
+  model.FitNoise(pilots);
+  EXPECT_NEAR(model.slope, 1.25, 1e-6);
+  EXPECT_NEAR(model.camera, 2, 1e-6);
+  EXPECT_NEAR(model.photonNoise, .3, 1e-6);
+  pilots.back().error = .1;  // the difference is not significant
+  model.FitNoise(pilots);
+  EXPECT_EQ(model.photonNoise, 0);
+}
+
+TEST(MissingLight, NamesTheIntegratorThatFindsMore) {
+  const std::vector<PilotMean> means{{"path", .5, .01}, {"guidedpath", 1, .01}, {"failed", 0, 0}};
+  EXPECT_EQ(MissingLight(means[1], means), "");
+  EXPECT_NE(MissingLight(means[0], means).find("50 % less light than guidedpath"),
+            std::string::npos);
+  const std::vector<PilotMean> noisy{{"path", .5, .2}, {"guidedpath", 1, .1}};
+  EXPECT_EQ(MissingLight(noisy[0], noisy), "");  // within four standard errors
+  const std::vector<PilotMean> near{{"path", .985, 0}, {"guidedpath", 1, 0}};
+  EXPECT_EQ(MissingLight(near[0], near), "");
+}
+
+// Uncertain noise of the pilots makes the interval wider.
+TEST(PriceModel, IntervalsContainTheErrorOfThePilots) {
+  PriceModel sure, unsure;
+  sure.FitNoise({{2, .5, 0}, {4, .25, 0}});
+  unsure.FitNoise({{2, .5, .25}, {4, .25, .125}});
+  sure.sample = unsure.sample = 1;
+  const auto a = PriceOf(sure, {.05}), b = PriceOf(unsure, {.05});
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->seconds, b->seconds);
+  EXPECT_NEAR(b->most / a->most, 1 + 1.645 * .5, .01);
+  EXPECT_NEAR(a->least / b->least, 1 + 1.645 * .5, .01);
 }
 
 }  // namespace

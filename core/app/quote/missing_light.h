@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// MissingLight compares the pilots of integrators. One that finds less light than another is biased,
+// or rarely finds bright paths. Then its noise is underestimated, and it has no price.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace exphoton::cli {
+
+struct PilotMean {
+  std::string integrator;
+  double mean = 0;           // of the picture; 0: there is none
+  double relativeError = 0;  // standard error of the mean
+};
+
+// Returns a phrase if the mean lies below the largest one by more than the noise of both; otherwise
+// "". `all` contains `mean`.
+std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all);
+
+}  // namespace exphoton::cli
