@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The integrator "path" implements unidirectional path tracing with next event estimation
-// (core/transport/path/path_tracer.h). Tests use it as the reference for the photon integrators. With
-// maxdepth d, light is collected at the first d + 1 surfaces of a path (0: emission and direct
+// (core/transport/path/path_tracer.h). Tests use it as the reference for the photon integrators.
+// With maxdepth d, light is collected at the first d + 1 surfaces of a path (0: emission and direct
 // light only), as in pbrt-v1, which has the same default. Up to maxdepth the estimate is unbiased.
 #include "core/plugin.h"
 #include "core/transport/path/path_tracer.h"

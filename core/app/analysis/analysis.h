@@ -36,9 +36,9 @@ struct Line {
   std::string integrator;
 };
 
-// Contender is an integrator in the headline. An integrator may have several lines. The headline then
-// compares the line that has the integrator's name, and the other lines are its variants. If all
-// lines are of one integrator, each line is a contender.
+// Contender is an integrator in the headline. An integrator may have several lines. The headline
+// then compares the line that has the integrator's name, and the other lines are its variants. If
+// all lines are of one integrator, each line is a contender.
 struct Contender {
   std::string name;
   std::size_t line = 0;               // index of Analysis::lines

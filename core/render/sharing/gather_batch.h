@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/render/sharing/shared_gathers.h"
 #include "core/files/state_file.h"
+#include "core/render/sharing/shared_gathers.h"
 
 namespace exphoton {
 

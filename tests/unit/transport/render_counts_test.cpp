@@ -7,8 +7,8 @@
 #include <functional>
 #include <limits>
 
-#include "core/render/render.h"
 #include "core/render/passes/render_halves.h"
+#include "core/render/render.h"
 #include "tests/support/test_plugin.h"
 #include "tests/support/test_scene.h"
 
