@@ -49,8 +49,8 @@ struct LoadOptions {
   std::optional<std::vector<Real>> cropWindow;  // x0 x1 y0 y1
   std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window
   std::optional<std::int64_t> samplesPerPixel;
-  std::optional<int> frame;  // its number goes into the picture's name, in the place of %d
-  Real timeOffset = 0;       // the shutter opens and closes later by this
+  std::optional<int> frame;      // its number goes into the picture's name, in the place of %d
+  Real timeOffset = 0;           // the shutter opens and closes later by this
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
   bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
 };
@@ -66,8 +66,9 @@ struct RenderSetup {
   std::unique_ptr<Filter> filter;
   std::unique_ptr<Camera> camera;
   FilmSettings film;
-  PixelBounds crop;           // the pixels to render
-  ParamSet filterParameters;  // to make the filter again
+  PixelBounds crop;               // the pixels to render
+  ParamSet filterParameters;      // to make the filter again
+  ParamSet integratorParameters;  // those that are given
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
   // The scene file, its included files and the files that parameters name; sorted.
   std::vector<std::string> inputFiles;

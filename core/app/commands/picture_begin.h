@@ -14,14 +14,20 @@ namespace exphoton::cli {
 struct Begin {
   std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
   double cpu = ProcessCpuSeconds();
-  double loadWall = 0, loadCpu = 0;
+  double pilotWall = 0, pilotCpu = 0, loadWall = 0, loadCpu = 0;
 
+  double Wall() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  }
+  // The pilots of --accuracy come before loading.
+  void EndPilots() { pilotWall = Wall(), pilotCpu = ProcessCpuSeconds() - cpu; }
   void EndLoading() {
-    loadWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-    loadCpu = ProcessCpuSeconds() - cpu;
+    loadWall = Wall() - pilotWall;
+    loadCpu = ProcessCpuSeconds() - cpu - pilotCpu;
   }
   // Loading the scene file counts towards its first picture.
   void AddLoadingTimes(const RenderSetup& setup, Statistics* statistics) const {
+    if (pilotWall > 0) statistics->AddPhase("pilots", pilotWall, pilotCpu);
     const double seconds = loadWall - setup.acceleratorSeconds;
     const double cpuSeconds = loadCpu - setup.acceleratorCpuSeconds;
     statistics->AddPhase("parse", std::max(seconds, 0.), std::max(cpuSeconds, 0.));

@@ -15,6 +15,7 @@
 
 #include "core/app/commands/picture_begin.h"
 #include "core/app/commands/scene_names.h"
+#include "core/app/dial/dial.h"
 #include "core/app/options/errors.h"
 #include "core/app/output/live_view.h"
 #include "core/app/output/output_files.h"
@@ -61,11 +62,11 @@ struct Run {
 class FileRenderer {
  public:
   FileRenderer(const RenderCommand& command, Run& run, Log& log)
-      : command_(command), names_(command), run_(run), log_(log), watch_(command.limits.seconds) {}
+      : command_(command), names_(command_), run_(run), log_(log), watch_(command.limits.seconds) {}
 
   // `index` is the position of the file on the command line.
   void Render(std::size_t index) {
-    const std::string& path = command_.scenes[index];
+    const std::string path = command_.scenes[index];
     Setups setups = Load(path);
     if (command_.mode == RenderMode::Check) return log_.Verbose("\"" + path + "\" has no errors");
     if (command_.mode == RenderMode::Explain) {
@@ -75,7 +76,10 @@ class FileRenderer {
     CheckOutputs(setups, index);
     for (std::unique_ptr<RenderSetup>& setup : setups) {
       if (setup != setups.front()) watch_.Restart();
-      RenderOne(*setup);
+      while (!RenderOne(*setup)) {
+        watch_.MustFinish() = false;
+        setup = std::move(Load(path).front());
+      }
       setup.reset();
     }
   }
@@ -93,7 +97,7 @@ class FileRenderer {
   RenderOptions MakeOptions(const PictureFilms& films, const RenderSetup& setup);
   RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
                     ProgressReporter& progress, Statistics& statistics);
-  void RenderOne(const RenderSetup& setup);
+  bool RenderOne(const RenderSetup& setup);
   void RenderPart(const PartJob& part, const Begin& begin);
   RunRecord NewRecord(const RenderSetup& setup, const Statistics& statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
@@ -104,7 +108,7 @@ class FileRenderer {
   void Announce(const RunRecord& run, const Picture& picture);
   void Report(const RunRecord& run);
 
-  const RenderCommand& command_;
+  RenderCommand command_;  // with the settings that --accuracy chose
   const OutputNames names_;
   Run& run_;
   Log& log_;
@@ -116,6 +120,10 @@ class FileRenderer {
 
 Setups FileRenderer::Load(const std::string& path) {
   Begin& begin = begin_.emplace();
+  if (command_.accuracy && !command_.dial && command_.mode == RenderMode::Render) {
+    command_ = TurnDial(command_, path, &run_.streams, log_);
+    begin.EndPilots();
+  }
   LoadOptions options = command_.load;
   options.stop = &StopFlag();
   options.threads = command_.threadCount;
@@ -126,17 +134,7 @@ Setups FileRenderer::Load(const std::string& path) {
 }
 
 void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
-  const std::string& scenePath = command_.scenes[index];
-  for (const auto& [option, name] : {std::pair("--outfile names one picture", command_.outfile),
-                                     std::pair("--state names one file", command_.stateFile)})
-    if (!name.empty() && setups.size() > 1)
-      throw Error(ExitStatus::CommandLine, std::string(option) + ", but \"" + scenePath +
-                                               "\" holds " + std::to_string(setups.size()) +
-                                               " scenes");
-  if (command_.shard && setups.size() > 1)
-    throw Error(ExitStatus::CommandLine, "--shard renders one picture, but \"" + scenePath +
-                                             "\" holds " + std::to_string(setups.size()) +
-                                             " scenes");
+  CheckSceneCount(command_, index, setups.size());
   if (command_.shard) MakeFolder(command_.outfile);
   for (std::size_t i = 0; i < setups.size(); ++i) {
     CheckAovs(command_, *setups[i]);
@@ -188,7 +186,8 @@ RenderJob FileRenderer::MakeJob(const RenderSetup& setup, PictureFilms* films, T
           setup.integratorName};
 }
 
-void FileRenderer::RenderOne(const RenderSetup& setup) {
+// Returns false if --accuracy needs other settings.
+bool FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
   filmName_ = setup.film.filename;
   log_.Notice("effects: " + EffectNames(setup));
@@ -207,7 +206,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   const StateIdentity identity(command_, setup);
   const RenderJob job = MakeJob(setup, &films, threads, progress, statistics);
   if (command_.shard)
-    return RenderPart({command_, setup, job, options, identity, names_.Part(), log_}, begin);
+    return RenderPart({command_, setup, job, options, identity, names_.Part(), log_}, begin), true;
   const std::string picturePath = names_.Picture(setup.film.filename);
   StateKeeper keeper({names_.State(setup.film.filename), command_.resumes, command_.writeEvery,
                       begin.wall, run_.files.PartialPicture(picturePath),
@@ -222,6 +221,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
       command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
+  if (result.reason == StopReason::Bias && RaisePhotons(&command_, log_)) return false;
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);
@@ -234,6 +234,7 @@ void FileRenderer::RenderOne(const RenderSetup& setup) {
   Conclude(&run, picture, begin, &statistics);
   EndState(run, &keeper);
   if (!run.isComplete) throw Interrupted();
+  return true;
 }
 
 // Returns a record of the command's settings.
@@ -299,6 +300,8 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   RecordPasses(result, run);
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
+  run->accuracy = command_.accuracy;
+  if (command_.dial) run->choice = command_.dial->text;
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }

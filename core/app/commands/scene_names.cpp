@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/params/suggestions.h"
@@ -48,6 +49,17 @@ void CheckScenesExist(const RenderCommand& command) {
     throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": " + why, {},
                 HintForMissing(scene));
   }
+}
+
+void CheckSceneCount(const RenderCommand& command, std::size_t index, std::size_t scenes) {
+  if (scenes < 2) return;
+  for (const auto& [isGiven, what] :
+       {std::pair(!command.outfile.empty(), "--outfile names one picture"),
+        std::pair(!command.stateFile.empty(), "--state names one file"),
+        std::pair(command.shard.has_value(), "--shard renders one picture")})
+    if (isGiven)
+      throw Error(ExitStatus::CommandLine, std::string(what) + ", but \"" + command.scenes[index] +
+                                               "\" holds " + std::to_string(scenes) + " scenes");
 }
 
 }  // namespace exphoton::cli

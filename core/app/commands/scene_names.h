@@ -10,4 +10,8 @@ namespace exphoton::cli {
 // Throws Error(File) for a scene that cannot be read.
 void CheckScenesExist(const RenderCommand& command);
 
+// Throws Error(CommandLine) if the file with this index holds several scenes and an option allows
+// one.
+void CheckSceneCount(const RenderCommand& command, std::size_t index, std::size_t scenes);
+
 }  // namespace exphoton::cli

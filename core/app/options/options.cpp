@@ -49,6 +49,7 @@ struct RawOptions {
   std::string cropWindow, pixelBounds, pixel, dialect = "auto";
   std::vector<std::string> sets, pluginFolders;
   std::string shard, frames, resolution, aovs, timeLimit, limits, writeEvery, display;
+  std::string accuracy;
   std::optional<double> frameTime;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
@@ -89,6 +90,12 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
   app.Add("--target-error", command.targetError,
           "render whole passes until the noise part of relMSE is estimated below this")
       .TypeName("X");
+  app.Add("--accuracy", raw.accuracy,
+          "choose the settings and render until the error with its bias is below this, for example "
+          "2%")
+      .TypeName("P");
+  app.AddFlag("--keep", command.keepsSettings,
+              "with --accuracy: keep the integrator and the photons of the scene");
   app.Add("--max-passes", command.maxPasses,
           "with --target-error or --progressive: at most N whole passes, each with the samples a "
           "pixel of --spp")
@@ -224,6 +231,25 @@ void CheckProgressive(const RawOptions& raw, const RenderCommand& command) {
   Exclude(!raw.shard.empty(), true, "--progressive and --shard exclude each other");
 }
 
+// The dial chooses what the excluded options set. States and parts do not save its choice.
+void TakeAccuracy(const RawOptions& raw, RenderCommand* command) {
+  Exclude(command->keepsSettings, raw.accuracy.empty(), "--keep needs --accuracy");
+  if (raw.accuracy.empty()) return;
+  command->accuracy = ParsePercentage("--accuracy", raw.accuracy);
+  const auto exclude = [](bool isGiven, const char* option) {
+    if (isGiven) FailUsage(std::string("--accuracy and ") + option + " exclude each other");
+  };
+  exclude(raw.samplesPerPixel > 0, "--spp");
+  exclude(command->targetError.has_value(), "--target-error");
+  exclude(command->asTwoHalves, "--two-halves");
+  exclude(command->certifies, "--certify");
+  exclude(command->maxPasses > 0, "--max-passes");
+  exclude(command->isProgressive, "--progressive");
+  exclude(command->load.isQuick, "--quick");
+  exclude(command->resumes, "--resume");
+  exclude(!raw.shard.empty(), "--shard");
+}
+
 void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
   CheckProgressive(raw, command);
   Exclude(command.asTwoHalves, command.HasStoppingRule(),
@@ -303,6 +329,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
+  TakeAccuracy(raw, command);
   CheckPasses(raw, *command);
   CheckCertificate(raw, *command);
   TakeShard(raw, command);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/app/dial/dial_settings.h"
 #include "core/app/options/frames.h"
 #include "core/app/options/limits.h"
 #include "core/app/output/png_output.h"
@@ -21,6 +22,14 @@
 namespace exphoton::cli {
 
 enum class RenderMode { Render, Check, Explain };
+
+// What --accuracy chose for a scene, beyond the options of the command.
+struct DialChoice {
+  std::int64_t firstSamples = 1;  // as in StoppingRule::Accuracy
+  double biasShare = 0;           // the same
+  DialSettings settings;
+  std::string text;  // what changed
+};
 
 struct RenderCommand {
   std::vector<std::string> scenes;  // "-": standard input
@@ -36,6 +45,9 @@ struct RenderCommand {
   bool certifies = false;            // --certify
   double certifiedShare = 1. / 128;  // --certify-share
   int maxPasses = 0;                 // --max-passes; 0: not given
+  std::optional<double> accuracy;    // --accuracy: root of relMSE
+  bool keepsSettings = false;        // --keep
+  std::optional<DialChoice> dial;    // of --accuracy
   bool isProgressive = false;        // --progressive
   double progressiveAlpha = kProgressiveAlpha;
   std::optional<Shard> shard;        // --shard: outfile is a folder
@@ -47,7 +59,7 @@ struct RenderCommand {
   std::string photonFile;  // --photons; "": photons are shot
   Limits limits;
 
-  bool HasStoppingRule() const { return timeLimit || targetError || isProgressive; }
+  bool HasStoppingRule() const { return timeLimit || targetError || isProgressive || accuracy; }
   // A certificate compares independent passes, so without a rule it renders two halves.
   bool RendersTwoHalves() const { return asTwoHalves || (certifies && !HasStoppingRule()); }
   bool printsStatistics = false;

@@ -105,6 +105,15 @@ double ParseDuration(const std::string& option, const std::string& text) {
   return value;
 }
 
+double ParsePercentage(const std::string& option, const std::string& text) {
+  double value = 0;
+  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit(next, std::size_t(text.data() + text.size() - next));
+  if (error != std::errc{} || unit != "%" || !(value > 0 && value <= 100))
+    FailUsage(option + " takes percentages above 0, not \"" + text + '"', "for example 2%");
+  return value / 100;
+}
+
 std::string AllAovNames() {
   AovSet all;
   for (int i = 0; i < kAovCount; ++i) all.Add(Aov(i));

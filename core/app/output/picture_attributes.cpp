@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PictureAttributes makes the attributes of an EXR picture. The names follow pbrt-v4 and the
 // OpenEXR standard.
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 
@@ -80,6 +81,9 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   }
   if (run.certificate) AddCertificate(*run.certificate, &attributes);
   if (run.targetError) attributes["targetError"] = float(*run.targetError);
+  if (run.accuracy) attributes["accuracy/wanted"] = float(*run.accuracy);
+  if (run.accuracy) attributes["accuracy/chosen"] = run.choice;
+  if (run.upperError) attributes["accuracy/upperError"] = float(std::sqrt(*run.upperError));
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
                            "sampler " + scene.sampler + ", filter " + scene.filter + ", camera " +
                            scene.camera;

@@ -127,12 +127,23 @@ void AddCertificate(const Certificate& certificate, JsonWriter* json) {
   json->Close('}');
 }
 
+// Errors are roots of parts of relMSE.
+void AddAccuracy(const RunRecord& run, JsonWriter* json) {
+  json->Key("accuracy"), json->Open('{');
+  json->Key("wanted"), json->Number(*run.accuracy);
+  if (run.upperError) json->Key("upperError"), json->Number(std::sqrt(*run.upperError));
+  json->Key("chosen"), json->Text(run.choice);
+  json->Close('}');
+}
+
 // Writes the amount of rendering and the rule that stopped it.
 void AddStopping(const RunRecord& run, JsonWriter* json) {
   json->Key("passes"), json->Integer(run.passes);
   json->Key("stoppedBy"), json->Text(run.stoppedBy);
   AddOptional("noise", run.noise, json);
+  if (run.noise) json->Key("noiseError"), json->Number(run.noiseError);
   AddOptional("targetError", run.targetError, json);
+  if (run.accuracy) AddAccuracy(run, json);
   AddOptional("timeLimit", run.timeLimit, json);
   if (run.lastDiskArea) json->Key("lastDiskArea"), json->Number(*run.lastDiskArea);
   json->Key("aovs"), json->Text(run.aovs);

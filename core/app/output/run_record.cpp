@@ -149,6 +149,20 @@ std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
   return text;
 }
 
+// The error at the end of a render with --accuracy.
+std::string AccuracyText(const RunRecord& run) {
+  if (!run.upperError)
+    return Format("one group of passes cannot show whether the accuracy of %.3g %% is reached",
+                  100 * *run.accuracy);
+  const double percent = 100 * std::sqrt(*run.upperError);
+  std::string text = Format("the error lies below %.3g %% (at a level of 95 %%)", percent);
+  if (run.stoppedBy == "accuracy") return text;
+  text += Format(", which is not the accuracy of %.3g %%: ", 100 * *run.accuracy);
+  if (run.stoppedBy == "bias") return text + "the bias is larger; more photons reduce it";
+  if (run.stoppedBy == "time-limit") return text + "the time limit came first";
+  return text + "the limit of samples came first";
+}
+
 }  // namespace
 
 std::string StatisticsTable(const RunRecord& run) {
@@ -176,13 +190,17 @@ void RecordPasses(const PassesResult& result, RunRecord* run) {
   run->passes = result.passes;
   run->stoppedBy = StopReasonName(result.reason);
   run->noise = result.noise;
+  run->noiseError = result.noiseError;
+  run->upperError = result.upperError;
   run->sharingBias = result.render.sharingBias;
   run->lastDiskArea = result.lastDiskArea;
 }
 
 std::string StoppingText(const RunRecord& run) {
   std::string text;
-  if (run.stoppedBy == "target-error")
+  if (run.accuracy)
+    text = AccuracyText(run);
+  else if (run.stoppedBy == "target-error")
     text = Format("reached the target error %.3g", *run.targetError);
   else if (run.stoppedBy == "time-limit")
     text = Format("stopped at the last whole pass within %.6g s", *run.timeLimit);
@@ -197,7 +215,7 @@ std::string StoppingText(const RunRecord& run) {
                  run.passes, run.passes == 1 ? "pass" : "passes");
   if (run.lastDiskArea)
     text += Format(", the last one with %.3g %% of the radii", 100 * std::sqrt(*run.lastDiskArea));
-  if (!run.noise) return text + ", which give no estimate of the noise";
+  if (!run.noise) return run.accuracy ? text : text + ", which give no estimate of the noise";
   text += Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
                  100 * std::sqrt(*run.noise), *run.noise);
   if (!run.sharingBias) return text;

@@ -40,9 +40,13 @@ struct RunRecord {
   int passes = 1;
   std::string stoppedBy;        // from StopReasonName
   std::optional<double> noise;  // estimated noise part of relMSE
+  double noiseError = 0;        // its standard error
   std::optional<SharingBias> sharingBias;
   std::optional<Certificate> certificate;
   std::optional<double> timeLimit, targetError;
+  std::optional<double> accuracy;      // --accuracy
+  std::optional<double> upperError;    // relMSE; the upper end of its interval (AccuracyRule)
+  std::string choice;                  // what --accuracy chose
   std::optional<double> lastDiskArea;  // of the last progressive pass, relative to the first
   std::string aovs;                    // "albedo, N"
   std::string commandLine;

@@ -260,6 +260,7 @@ void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,
   const ParamSet params =
       Overridden("SurfaceIntegrator", integrator_, PluginKind::Integrator, registry);
   setup->integratorName = integrator_.name;
+  setup->integratorParameters = params;
   setup->integrator = registry.Create<PluginKind::Integrator>(
       integrator_.name, params, Bind(PluginKind::Integrator, integrator_.name, log),
       IntegratorContext{log});

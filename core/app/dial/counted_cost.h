@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// CountedCost is the cost of a render in units of one ray of a path tracer. It follows from counted
+// rays and photons and not from a clock, so that choices based on it are the same on all machines.
+#pragma once
+
+#include <string>
+
+#include "core/base/statistics.h"
+
+namespace exphoton::cli {
+
+struct CountedCost {
+  double maps = 0;     // shooting photons and building the maps
+  double samples = 0;  // rendering
+};
+CountedCost CostOf(const Statistics& statistics, const std::string& integrator);
+
+// How much more a ray costs that estimates the bias (--certify) than the integrator's other rays.
+constexpr double kCorrectionRay = 2.3;
+
+// Returns the number of photons that the statistics count, in all maps.
+double StoredPhotons(const Statistics& statistics);
+double CounterOf(const Statistics& statistics, const std::string& name);  // 0: no such counter
+
+}  // namespace exphoton::cli

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/dial/dial.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/app/analysis/numbers.h"
+#include "core/app/dial/candidate.h"
+#include "core/base/error.h"
+#include "core/base/format.h"
+#include "core/base/parallel.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr const char* kKnown[] = {"path", "guidedpath", "exphotonmap", "photonmap"};
+// In this order: pilots of the first ones cost least. photonmap was never the cheapest one.
+constexpr const char* kAutomatic[] = {"path", "guidedpath", "exphotonmap"};
+
+constexpr std::int64_t kLeastGroup = 2;   // samples of a group
+constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
+constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
+constexpr double kMorePhotons = 4, kMostPhotons = 256;
+constexpr double kNotableRatio = 1.1;  // of times
+constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
+// Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055).
+constexpr int kFewGatherRays = 16;
+
+std::vector<std::string> NamesOf(const RenderCommand& command, const std::string& sceneIntegrator) {
+  if (command.load.integrator) return {*command.load.integrator};
+  if (!command.keepsSettings) return {std::begin(kAutomatic), std::end(kAutomatic)};
+  CheckDialIntegrator(sceneIntegrator);
+  return {sceneIntegrator};
+}
+
+// A candidate that does not find all light has no price.
+void DropDarkOnes(std::vector<Candidate>* candidates) {
+  std::vector<PilotMean> means;
+  for (const Candidate& candidate : *candidates) means.push_back(candidate.mean);
+  for (Candidate& candidate : *candidates)
+    if (candidate.reason.empty()) candidate.reason = MissingLight(candidate.mean, means);
+}
+
+// Returns the rays as in DialSettings. 0 as the scene's number: the scene leaves the default, which
+// is larger.
+int GatherRaysFor(const std::string& integrator, int sceneRays) {
+  const bool isSmall = sceneRays > 0 && sceneRays <= kFewGatherRays;
+  return integrator.ends_with("photonmap") && !isSmall ? kFewGatherRays : 0;
+}
+
+// First prices of all candidates come before any of them is explored further, so that a dear one
+// gets small pilots only.
+std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
+                                  const Wish& wish) {
+  std::vector<Explorer> explorers;
+  double best = 0;  // price
+  const auto take = [&](const Candidate& candidate) {
+    if (!candidate.reason.empty()) return;
+    const double price = candidate.price.seconds;
+    best = best > 0 ? std::min(best, price) : price;
+  };
+  for (const std::string& name : names) {
+    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, pilots->SceneGatherRays());
+    explorers.emplace_back(pilots, name, rays, wish).Begin(best);
+    take(explorers.back().Result());
+  }
+  std::ranges::stable_sort(explorers, {}, [](const Explorer& explorer) {
+    const Candidate& candidate = explorer.Result();
+    return candidate.reason.empty() ? candidate.price.seconds
+                                    : std::numeric_limits<double>::infinity();
+  });
+  std::vector<Candidate> candidates;
+  for (Explorer& explorer : explorers) {
+    explorer.Refine(best);
+    candidates.push_back(explorer.Result());
+    take(candidates.back());
+  }
+  if (candidates.size() > 1) DropDarkOnes(&candidates);
+  return candidates;
+}
+
+const Candidate& CheapestOf(const std::vector<Candidate>& candidates, const std::string& accuracy) {
+  const Candidate* best = nullptr;
+  std::string reasons;
+  for (const Candidate& candidate : candidates) {
+    if (!candidate.reason.empty())
+      reasons += (reasons.empty() ? "" : "; ") + candidate.integrator + ": " + candidate.reason;
+    else if (!best || candidate.price.seconds < best->price.seconds)
+      best = &candidate;
+  }
+  if (best) return *best;
+  throw Error(ExitStatus::CommandLine, "--accuracy " + accuracy + " is out of reach: " + reasons,
+              {}, "--integrator guidedpath has no bias, and a larger percentage is cheaper");
+}
+
+std::string Change(const char* what, const std::string& from, const std::string& to) {
+  return std::string(what) + " " + (from == to ? from : from + " -> " + to);
+}
+
+std::string Count(double number) { return std::to_string(std::int64_t(number)); }
+
+// Returns what is chosen, with the settings of the scene before the arrows.
+std::string ChoiceText(const PilotRenderer& pilots, const Candidate& chosen) {
+  std::string text = Change("integrator", pilots.SceneIntegrator(), chosen.integrator) + ", " +
+                     Change("samples a pixel", std::to_string(pilots.SceneSamples()),
+                            "about " + Count(chosen.price.samples));
+  const DialSettings& settings = chosen.settings;
+  const auto photons = [&](const char* what, double count) {
+    if (count > 0 && settings.photons != 1)
+      text += ", " + Change(what, Count(count), Count(count * settings.photons));
+  };
+  photons("indirect photons", settings.indirectPhotons);
+  photons("caustic photons", settings.causticPhotons);
+  const int rays = pilots.SceneGatherRays();
+  if (settings.gatherRays > 0)
+    text += ", " + Change("gather rays", rays > 0 ? std::to_string(rays) : "default",
+                          std::to_string(settings.gatherRays));
+  return text;
+}
+
+std::string ReasonText(const std::vector<Candidate>& candidates, const Candidate& chosen) {
+  std::string text =
+      "expected CPU time " + study::SecondsText(chosen.price.seconds * chosen.secondsPerCost);
+  for (const Candidate& other : candidates) {
+    if (&other == &chosen) continue;
+    text += "; " + other.integrator + ": " +
+            (other.reason.empty()
+                 ? Format("%.2g times as much", other.price.seconds / chosen.price.seconds)
+                 : other.reason);
+  }
+  return text;
+}
+
+// Compares the settings that --keep keeps with those that would be chosen without it.
+std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wish) {
+  wish.keepsPhotons = false;
+  std::vector<std::string> names(std::begin(kAutomatic), std::end(kAutomatic));
+  const Candidate* best = nullptr;
+  const std::vector<Candidate> others = ExploreAll(pilots, names, wish);
+  for (const Candidate& other : others)
+    if (other.reason.empty() && (!best || other.price.seconds < best->price.seconds)) best = &other;
+  const double ratio = best ? kept.price.seconds / best->price.seconds : 1;
+  if (!(ratio > kNotableRatio))
+    return "--keep costs nothing: no other settings are expected to be cheaper";
+  return Format("--keep costs about %.2g times the time of other settings (", ratio) +
+         ChoiceText(*pilots, *best) + ")";
+}
+
+// Two groups have half of the samples each. If the noise of the pilots is uncertain, smaller groups
+// avoid a picture that is better than wanted. A time limit should leave time for two groups.
+std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command) {
+  double size = kRoundUp * chosen.price.samples / (chosen.hasScatter ? 4 : 2);
+  if (command.timeLimit) {
+    const double cpuSeconds = chosen.price.seconds * chosen.secondsPerCost;
+    const double seconds = cpuSeconds / ThreadPool(command.threadCount).Count();
+    size = std::min(size, kFirstShare * *command.timeLimit / seconds * chosen.price.samples);
+  }
+  size = std::max(size, 1.);
+  return std::max(kLeastGroup, std::int64_t(std::bit_floor(std::uint64_t(size))));
+}
+
+void Apply(const DialSettings& settings, RenderCommand* command) {
+  for (ParameterOverride& parameter : settings.Overrides())
+    command->load.parameters.push_back(std::move(parameter));
+}
+
+}  // namespace
+
+void CheckDialIntegrator(const std::string& integrator) {
+  if (std::ranges::find(kKnown, integrator) != std::end(kKnown)) return;
+  throw Error(ExitStatus::CommandLine,
+              "--accuracy: the error of integrator \"" + integrator + "\" cannot be estimated", {},
+              "--integrator takes path, guidedpath, photonmap or exphotonmap");
+}
+
+RenderCommand TurnDial(const RenderCommand& command, const std::string& scene,
+                       FileSource::Streams* streams, Log& log) {
+  const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
+  if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);
+  PilotRenderer pilots(command, scene, {streams, &log});
+  const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
+  const Wish wish{*command.accuracy, command.keepsSettings};
+  const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
+  const Candidate& chosen = CheapestOf(candidates, accuracy);
+  RenderCommand turned = command;
+  turned.load.integrator = chosen.integrator;
+  turned.dial = DialChoice{FirstSamples(chosen, command), chosen.biasShare, chosen.settings,
+                           ChoiceText(pilots, chosen)};
+  Apply(chosen.settings, &turned);
+  turned.load.samplesPerPixel = 2 * kMostGrowth * turned.dial->firstSamples;
+  turned.certifies = chosen.correctedShare > 0;
+  turned.certifiedShare = turned.certifies ? chosen.correctedShare : turned.certifiedShare;
+  log.Notice("accuracy " + accuracy + ": " + turned.dial->text);
+  log.Notice(ReasonText(candidates, chosen));
+  if (command.keepsSettings) log.Notice(CostOfKeeping(&pilots, chosen, wish));
+  return turned;
+}
+
+bool RaisePhotons(RenderCommand* command, Log& log) {
+  DialChoice& dial = *command->dial;
+  DialSettings& settings = dial.settings;
+  const bool hasPhotons = settings.indirectPhotons + settings.causticPhotons > 0;
+  if (command->keepsSettings || !hasPhotons || settings.photons * kMorePhotons > kMostPhotons)
+    return false;
+  settings.photons *= kMorePhotons;
+  Apply(settings, command);
+  const std::string text = Format("%.3g times the photons of the scene", settings.photons);
+  log.Notice("the bias exceeds the accuracy, so the picture is rendered again with " + text);
+  dial.text += ", " + text;
+  return true;
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// TurnDial chooses integrator, samples and photons for an accuracy (--accuracy). Choices follow
+// from pilots and counted operations, so they depend on scene, options and seed only.
+#pragma once
+
+#include <string>
+
+#include "core/app/options/options.h"
+#include "core/parser/syntax/source.h"
+
+namespace exphoton::cli {
+
+// Returns the command with the chosen settings, and logs them. Throws Error if no integrator
+// reaches the accuracy.
+RenderCommand TurnDial(const RenderCommand& command, const std::string& scene,
+                       FileSource::Streams* streams, Log& log);
+
+// Multiplies the photons after a render whose bias exceeds the accuracy. Returns false if it must
+// not, or if there would be too many.
+bool RaisePhotons(RenderCommand* command, Log& log);
+
+// Throws Error(CommandLine) for an integrator without an estimate of its error.
+void CheckDialIntegrator(const std::string& integrator);
+
+}  // namespace exphoton::cli

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/dial/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/app/process/signals.h"
+#include "core/base/error.h"
+#include "core/base/format.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/render/passes/pass_parts.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr double kPilotPixels = 3000;
+constexpr double kCorrectedShare = 1. / 16;
+
+double MeanOf(const Film& film) {
+  const PixelBounds& crop = film.Crop();
+  double sum = 0;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const auto mean = film.MeanOf({x, y});
+      sum += mean[0] + mean[1] + mean[2];
+    }
+  return sum / (3. * crop.Width() * crop.Height());
+}
+
+// A window in pixels becomes one in fractions, because pilots have other pixels.
+void ScalePicture(const FilmSettings& film, const PixelBounds& crop, double scale,
+                  LoadOptions* options) {
+  const auto scaled = [scale](int pixels) {
+    return std::to_string(std::max(4, int(pixels * scale)));
+  };
+  options->parameters.push_back({"Film", "xresolution", scaled(film.xResolution)});
+  options->parameters.push_back({"Film", "yresolution", scaled(film.yResolution)});
+  if (!options->pixelBounds) return;
+  options->pixelBounds.reset();
+  options->cropWindow = {
+      Real(crop.x0) / Real(film.xResolution), Real(crop.x1) / Real(film.xResolution),
+      Real(crop.y0) / Real(film.yResolution), Real(crop.y1) / Real(film.yResolution)};
+}
+
+// Returns a number that the scene gives; 0: it gives none.
+double GivenNumber(const RenderSetup& setup, const std::string& name) {
+  const ParsedParam* const given = setup.integratorParameters.Find(name);
+  return given && !given->numbers.empty() ? given->numbers.front() : 0;
+}
+
+// Returns the photons that a map should have. Where the scene does not say it, `stored` photons are
+// about as many. A map without photons counts as 0.
+double PhotonsOf(const RenderSetup& setup, double stored, const std::string& map) {
+  const double given = GivenNumber(setup, map + "photons");
+  return stored > 0 && given > 0 ? given : stored;
+}
+
+std::unique_ptr<RenderSetup> LoadOne(const std::string& scene, const LoadOptions& options,
+                                     FileSource::Streams* streams, Log& log) {
+  FileSource source(streams);
+  auto setups = LoadScenes(source, scene, options, log);
+  if (setups.size() == 1) return std::move(setups.front());
+  throw Error(ExitStatus::CommandLine, "--accuracy renders one picture, but \"" + scene +
+                                           "\" holds " + std::to_string(setups.size()) + " scenes");
+}
+
+}  // namespace
+
+PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
+                             Surroundings surroundings)
+    : command_(command),
+      scene_(std::move(scene)),
+      surroundings_(surroundings),
+      small_(command.load) {
+  small_.stop = &StopFlag();
+  small_.threads = command.threadCount;
+  const auto setup = LoadOne(scene_, small_, surroundings_.streams, log_);
+  sceneIntegrator_ = setup->integratorName;
+  sceneSamples_ = setup->sampler->SamplesPerPixel();
+  sceneGatherRays_ = int(GivenNumber(*setup, "finalgathersamples"));
+  pixels_ = double(setup->crop.Width()) * double(setup->crop.Height());
+  ScalePicture(setup->film, setup->crop, std::min(1., std::sqrt(kPilotPixels / pixels_)), &small_);
+  small_.isStrict = false;  // parameters of other integrators are unknown
+}
+
+std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPicture& picture) {
+  std::string text = "pilot of " + request.integrator;
+  if (request.hasFewPhotons) text += " with few photons";
+  if (request.settings.photons != 1)
+    text += Format(" with %.3g times the photons", request.settings.photons);
+  text += Format(", %g samples a pixel: noise %.3g \u00b1 %.2g of relMSE", picture.pilot.samples,
+                 picture.pilot.noise, picture.pilot.error);
+  if (picture.certificate)
+    text += Format(", bias %.3g to %.3g", picture.certificate->bias.lower,
+                   picture.certificate->bias.upper);
+  return text + Format("; price of maps %.3g, of samples %.3g; %.2g CPU s", picture.cost.maps,
+                       picture.cost.samples, picture.seconds);
+}
+
+// Pilots that differ only in their samples use the same objects.
+const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
+  const bool isLoaded = setup_ && loaded_.integrator == request.integrator &&
+                        loaded_.settings == request.settings &&
+                        loaded_.hasFewPhotons == request.hasFewPhotons;
+  if (isLoaded) return *setup_;
+  LoadOptions options = small_;
+  options.integrator = request.integrator;
+  options.isQuick = request.hasFewPhotons;
+  for (ParameterOverride& parameter : request.settings.Overrides())
+    options.parameters.push_back(std::move(parameter));
+  setup_.reset();
+  preparedSeed_.reset();
+  setup_ = LoadOne(scene_, options, surroundings_.streams, log_);
+  loaded_ = request;
+  return *setup_;
+}
+
+// Renders with the photons of the last pilot first, if they are the right ones.
+PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotRequest& request,
+                                         PictureFilms* films, PilotPicture* picture) {
+  RenderOptions render;
+  render.seed = command_.seed;
+  render.stop = &StopFlag();
+  render.corrections = films->corrections.get();
+  render.preparedSeed = preparedSeed_;
+  PassRenderer renderer(job, render);
+  PassSum sum(&job.film, {});
+  const std::int64_t samples = job.sampler.SamplesPerPixel();
+  for (int half = 0; half < 2; ++half) {
+    const std::uint64_t seed = HashKey({command_.seed, kPassSeed, std::uint64_t(half)});
+    const std::uint64_t photonSeed =
+        request.hasOwnPhotons ? seed : HashKey({command_.seed, kPassSeed, 0});
+    picture->mapCount += preparedSeed_ == photonSeed ? 0 : 1;
+    Film* const film = films->halves[std::size_t(half)].get();
+    if (!renderer.Run({photonSeed, seed, 0, samples}, job.sampler, film)) throw LoadingStopped();
+    preparedSeed_ = photonSeed;
+    sum.Add(*film, samples, half);
+    if (films->corrections) films->corrections->EndPass(half, samples);
+  }
+  PassesResult result;
+  result.render = renderer.Finish();
+  sum.Describe(false, &result);
+  return result;
+}
+
+PilotPicture PilotRenderer::Render(const PilotRequest& request) {
+  const RenderSetup& setup = Load(request);
+  const double begin = ProcessCpuSeconds();
+  PictureFilms films(setup.film.Full(), setup.crop, {}, true);
+  PilotPicture picture;
+  picture.hasBias = setup.integrator->Certification(*setup.scene).has_value();
+  if (request.estimatesBias && picture.hasBias)
+    films.corrections = std::make_unique<Corrections>(setup.crop, kCorrectedShare);
+  ThreadPool threads(command_.threadCount);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  const auto sampler = setup.sampler->WithSamplesPerPixel(std::max(request.samples / 2, 1));
+  const RenderJob job{*setup.scene,
+                      *setup.integrator,
+                      *sampler,
+                      *setup.filter,
+                      *setup.camera,
+                      films.film,
+                      threads,
+                      log_,
+                      progress,
+                      statistics,
+                      setup.volumeIntegrator.get(),
+                      setup.integratorName};
+  const PassesResult result = RenderHalves(job, request, &films, &picture);
+  picture.pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
+                   request.hasOwnPhotons};
+  picture.cost = CostOf(statistics, setup.integratorName);
+  picture.seconds = ProcessCpuSeconds() - begin;
+  picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
+  picture.mean = MeanOf(films.film);
+  picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);
+  picture.settings = request.settings;
+  const auto photonsOf = [&](const std::string& map) {
+    const double stored = CounterOf(statistics, "photons/" + map + " stored");
+    return PhotonsOf(setup, stored / std::max(picture.mapCount, 1), map);
+  };
+  const DialSettings& known = request.settings;
+  if (picture.mapCount > 0 && !(known.indirectPhotons + known.causticPhotons > 0)) {
+    picture.settings.indirectPhotons = photonsOf("indirect");
+    picture.settings.causticPhotons = photonsOf("caustic");
+  }
+  if (films.corrections) picture.certificate = Certify(*films.corrections, films.film, 0, {});
+  surroundings_.log->Verbose(TextOf(request, picture));
+  return picture;
+}
+
+}  // namespace exphoton::cli

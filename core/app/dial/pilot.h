@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// PilotRenderer renders a scene small, in two halves, to learn what an accuracy costs. The results
+// depend on scene, options and seed only. Pilots with the same settings share their photons.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/app/dial/counted_cost.h"
+#include "core/app/dial/dial_settings.h"
+#include "core/app/options/options.h"
+#include "core/app/output/picture.h"
+#include "core/app/quote/price_model.h"
+#include "core/parser/syntax/source.h"
+#include "core/render/certificate/certificate.h"
+#include "core/render/passes/pass_sum.h"
+
+namespace exphoton::cli {
+
+struct PilotRequest {
+  std::string integrator;
+  int samples = 2;  // a pixel
+  DialSettings settings;
+  bool estimatesBias = false;  // the rays of the estimate are counted as samples
+  bool hasOwnPhotons = false;  // as in Pilot
+  bool hasFewPhotons = false;  // a tenth, to learn what photons cost
+};
+
+struct PilotPicture {
+  Pilot pilot;
+  CountedCost cost;
+  int mapCount = 0;  // sets of maps that were made for this pilot
+  double seconds = 0;  // CPU time
+  double pixels = 0, mean = 0;
+  double gatherRays = 0;   // of the whole picture
+  DialSettings settings;   // the request's, with the photons of the scene
+  bool hasBias = false;    // whether the integrator can estimate it
+  std::optional<Certificate> certificate;  // for the blocks that certify the least bias
+};
+
+class PilotRenderer {
+ public:
+  struct Surroundings {
+    FileSource::Streams* streams;
+    Log* log;  // receives a verbose line for each pilot
+  };
+  PilotRenderer(const RenderCommand& command, std::string scene, Surroundings surroundings);
+  PilotRenderer(const PilotRenderer&) = delete;
+  PilotRenderer& operator=(const PilotRenderer&) = delete;
+
+  // Throws Error.
+  PilotPicture Render(const PilotRequest& request);
+
+  const std::string& SceneIntegrator() const { return sceneIntegrator_; }
+  std::int64_t SceneSamples() const { return sceneSamples_; }
+  int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
+  double Pixels() const { return pixels_; }                 // of the picture that is wanted
+
+ private:
+  static std::string TextOf(const PilotRequest& request, const PilotPicture& picture);
+  const RenderSetup& Load(const PilotRequest& request);
+  PassesResult RenderHalves(const RenderJob& job, const PilotRequest& request, PictureFilms* films,
+                            PilotPicture* picture);
+
+  const RenderCommand& command_;
+  std::string scene_;
+  Surroundings surroundings_;
+  std::string sceneIntegrator_;
+  std::int64_t sceneSamples_ = 0;
+  int sceneGatherRays_ = 0;
+  double pixels_ = 0;
+  LoadOptions small_;  // with the resolution of pilots
+  // Of the last pilot.
+  PilotRequest loaded_;
+  Log log_{Log::Level::Quiet, Log::Sink::Memory};
+  std::unique_ptr<RenderSetup> setup_;
+  std::optional<std::uint64_t> preparedSeed_;  // of the photons that the integrator has
+};
+
+}  // namespace exphoton::cli

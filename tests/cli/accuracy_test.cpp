@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests order an accuracy (--accuracy) from the command line.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+using Names = std::vector<std::string>;
+
+class AccuracyTest : public ProgramTest {
+ protected:
+  AccuracyTest() { WriteRoom("room.pbrt", "exphotonmap", 2000); }
+
+  void WriteRoom(const std::string& name, const std::string& integrator, int photons) const {
+    Write(name,
+          "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16\n"
+          "Camera \"perspective\"\nPixelFilter \"box\"\nSurfaceIntegrator \"" +
+              integrator + "\" \"integer indirectphotons\" " + std::to_string(photons) +
+              "\nWorldBegin\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\nAttributeBegin "
+              "AreaLightSource \"area\" \"color L\" [5 5 5]\n"
+              "Translate 0 3 4 Shape \"sphere\" AttributeEnd\n"
+              "Translate 0 0 4 Shape \"sphere\"\n"
+              "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n");
+  }
+  ProgramResult Render(const std::string& accuracy, const Names& more = {},
+                       const std::string& scene = "room.pbrt") const {
+    Names words{scene, "--accuracy", accuracy, "-o", "room.exr", "--no-progress"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Run(words);
+  }
+  nlohmann::json RenderAndRead(const std::string& accuracy, Names more = {}) const {
+    more.insert(more.end(), {"--stats-json", "room.json"});
+    const ProgramResult result = Render(accuracy, more);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::json::parse(Read("room.json"));
+  }
+};
+
+TEST_F(AccuracyTest, RendersUntilTheErrorIsSmall) {
+  const ProgramResult result = Render("20%", {"--stats-json", "room.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("accuracy 20%: integrator exphotonmap"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("expected CPU time"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("the error lies below"), std::string::npos) << result.err;
+  const auto json = nlohmann::json::parse(Read("room.json"));
+  EXPECT_EQ(json.at("stoppedBy"), "accuracy");
+  EXPECT_EQ(json.at("accuracy").at("wanted"), .2);
+  EXPECT_LE(json.at("accuracy").at("upperError"), .2);
+  EXPECT_LE(std::sqrt(json.at("noise").get<double>()), json.at("accuracy").at("upperError"));
+  const std::string info = Run({"info", "room.exr"}).out;
+  for (const char* name : {"accuracy/wanted", "accuracy/upperError", "accuracy/chosen"})
+    EXPECT_NE(info.find(name), std::string::npos) << info;
+}
+
+TEST_F(AccuracyTest, MoreAccuracyTakesMoreSamples) {
+  const Names path{"--integrator", "path"};
+  const int coarse = RenderAndRead("8%", path).at("samplesPerPixel");
+  const int fine = RenderAndRead("1%", path).at("samplesPerPixel");
+  EXPECT_GT(fine, 8 * coarse);  // 64 by the square of the ratio, 16 with the best sequences
+}
+
+TEST_F(AccuracyTest, DoesNotDependOnThreads) {
+  std::string pictures[3];
+  const char* const threads[] = {"1", "2", "7"};
+  for (int i = 0; i < 3; ++i) {
+    const ProgramResult result =
+        Render("15%", {"--nthreads", threads[i], "--reproducible", "--seed", "3"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    pictures[i] = Read("room.exr");
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
+  EXPECT_EQ(pictures[0], pictures[2]);
+}
+
+TEST_F(AccuracyTest, UsesTheNamedIntegratorAndCertifiesPhotons) {
+  for (const char* name : {"path", "guidedpath", "photonmap", "exphotonmap"}) {
+    const auto json = RenderAndRead("30%", {"--integrator", name});
+    EXPECT_EQ(json.at("integrator"), name);
+    EXPECT_EQ(json.contains("certificate"), std::string(name).ends_with("photonmap")) << name;
+  }
+}
+
+TEST_F(AccuracyTest, UsesFewerGatherRaysThanTheScene) {
+  const Names photons{"--integrator", "exphotonmap", "--set",
+                      "SurfaceIntegrator.finalgathersamples=40"};
+  EXPECT_NE(Render("30%", photons).err.find("gather rays 40 -> 16"), std::string::npos);
+  const Names few{"--integrator", "exphotonmap", "--set", "SurfaceIntegrator.finalgathersamples=4"};
+  EXPECT_EQ(Render("30%", few).err.find("-> 16"), std::string::npos);
+}
+
+TEST_F(AccuracyTest, ShowsItsPilotsOnRequest) {
+  const ProgramResult result = Render("30%", {"--verbose"});
+  EXPECT_NE(result.err.find("pilot of path, 2 samples a pixel: noise "), std::string::npos);
+  EXPECT_NE(result.err.find("pilot of exphotonmap"), std::string::npos) << result.err;
+}
+
+// 20 photons blur all light, so their bias is far above 2 %.
+TEST_F(AccuracyTest, TakesMorePhotonsAgainstBias) {
+  WriteRoom("few.pbrt", "exphotonmap", 40);
+  const Names one{"--integrator", "exphotonmap"};
+  const ProgramResult more = Render("4%", one, "few.pbrt");
+  ASSERT_EQ(more.status, 0) << more.err;
+  EXPECT_NE(more.err.find("photons"), std::string::npos) << more.err;
+  EXPECT_NE(more.err.find("the error lies below"), std::string::npos) << more.err;
+  EXPECT_EQ(more.err.find("which is not the accuracy"), std::string::npos) << more.err;
+}
+
+TEST_F(AccuracyTest, KeepLeavesTheSceneAsItIs) {
+  const ProgramResult kept = Render("30%", {"--keep"});
+  ASSERT_EQ(kept.status, 0) << kept.err;
+  EXPECT_NE(kept.err.find("--keep costs"), std::string::npos) << kept.err;
+  EXPECT_EQ(kept.err.find("-> 16"), std::string::npos) << kept.err;
+  WriteRoom("whitted.pbrt", "whitted", 1);
+  const ProgramResult other = Render("30%", {"--keep"}, "whitted.pbrt");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.err.find("--integrator takes path"), std::string::npos) << other.err;
+  EXPECT_EQ(Render("30%", {}, "whitted.pbrt").status, 0);
+}
+
+TEST_F(AccuracyTest, SaysWhatIsWrong) {
+  const auto refused = [&](const std::string& accuracy, const Names& more, const char* text) {
+    const ProgramResult result = Render(accuracy, more);
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+    EXPECT_FALSE(Exists("room.exr"));
+  };
+  refused("0.02", {}, "percentages");
+  refused("2", {}, "percentages");
+  refused("0%", {}, "percentages");
+  refused("101%", {}, "percentages");
+  refused("2%", {"--spp", "4"}, "--spp");
+  refused("2%", {"--target-error", ".01"}, "--target-error");
+  refused("2%", {"--two-halves"}, "--two-halves");
+  refused("2%", {"--certify"}, "--certify");
+  refused("2%", {"--progressive"}, "--progressive");
+  refused("2%", {"--resume"}, "--resume");
+  refused("2%", {"--integrator", "whitted"}, "cannot be estimated");
+  EXPECT_EQ(Run({"room.pbrt", "--keep"}).status, 1);
+  Write("two.pbrt", Read("room.pbrt") + Read("room.pbrt"));
+  EXPECT_NE(Run({"two.pbrt", "--accuracy", "30%"}).err.find("holds 2 scenes"), std::string::npos);
+}
+
+// On a busy machine only one group may fit.
+TEST_F(AccuracyTest, ATimeLimitComesFirst) {
+  const ProgramResult result =
+      Render("0.02%", {"--integrator", "path", "--time-limit", "3s", "--stats-json", "room.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const bool hasGroups = result.err.find("1 pass") == std::string::npos;
+  const char* const text = hasGroups ? "which is not the accuracy of 0.02 %: the time limit"
+                                     : "cannot show whether the accuracy of 0.02 % is reached";
+  EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(Read("room.json")).at("stoppedBy"), "time-limit");
+}
+
+}  // namespace
+}  // namespace exphoton
