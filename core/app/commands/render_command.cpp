@@ -16,6 +16,7 @@
 #include "core/app/commands/picture_begin.h"
 #include "core/app/commands/scene_names.h"
 #include "core/app/dial/dial.h"
+#include "core/app/effects/measured_effects.h"
 #include "core/app/options/errors.h"
 #include "core/app/output/live_view.h"
 #include "core/app/output/output_files.h"
@@ -71,6 +72,8 @@ class FileRenderer {
     if (command_.mode == RenderMode::Check) return log_.Verbose("\"" + path + "\" has no errors");
     if (command_.mode == RenderMode::Explain) {
       for (const auto& setup : setups) PrintOut(ExplainText(*setup));
+      if (command_.measuresEffects)
+        PrintOut(MeasuredText(MeasureEffects(command_, path, &run_.streams)));
       return;
     }
     CheckOutputs(setups, index);

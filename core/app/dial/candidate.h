@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Explorer finds out, with pilots, at what price an integrator reaches an accuracy. Two small pilots
-// give a first price. Refine then spends up to a tenth of the price on larger ones.
+// Explorer finds out, with pilots, at what price an integrator reaches an accuracy. Two small
+// pilots give a first price. Refine then spends up to a tenth of the price on larger ones.
 #pragma once
 
 #include <string>

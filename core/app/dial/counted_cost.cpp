@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// docs/decisions/0055-accuracy-dial.md compares counted costs with seconds. The seconds for one unit
-// differ between scenes by a factor of 3, but less between integrators in one scene.
+// docs/decisions/0055-accuracy-dial.md compares counted costs with seconds. The seconds for one
+// unit differ between scenes by a factor of 3, but less between integrators in one scene.
 #include "core/app/dial/counted_cost.h"
 
 namespace exphoton::cli {

@@ -14,7 +14,6 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr double kPilotPixels = 3000;
 constexpr double kCorrectedShare = 1. / 16;
 
 double MeanOf(const Film& film) {
@@ -26,21 +25,6 @@ double MeanOf(const Film& film) {
       sum += mean[0] + mean[1] + mean[2];
     }
   return sum / (3. * crop.Width() * crop.Height());
-}
-
-// A window in pixels becomes one in fractions, because pilots have other pixels.
-void ScalePicture(const FilmSettings& film, const PixelBounds& crop, double scale,
-                  LoadOptions* options) {
-  const auto scaled = [scale](int pixels) {
-    return std::to_string(std::max(4, int(pixels * scale)));
-  };
-  options->parameters.push_back({"Film", "xresolution", scaled(film.xResolution)});
-  options->parameters.push_back({"Film", "yresolution", scaled(film.yResolution)});
-  if (!options->pixelBounds) return;
-  options->pixelBounds.reset();
-  options->cropWindow = {
-      Real(crop.x0) / Real(film.xResolution), Real(crop.x1) / Real(film.xResolution),
-      Real(crop.y0) / Real(film.yResolution), Real(crop.y1) / Real(film.yResolution)};
 }
 
 // Returns a number that the scene gives; 0: it gives none.
@@ -56,31 +40,19 @@ double PhotonsOf(const RenderSetup& setup, double stored, const std::string& map
   return stored > 0 && given > 0 ? given : stored;
 }
 
-std::unique_ptr<RenderSetup> LoadOne(const std::string& scene, const LoadOptions& options,
-                                     FileSource::Streams* streams, Log& log) {
-  FileSource source(streams);
-  auto setups = LoadScenes(source, scene, options, log);
-  if (setups.size() == 1) return std::move(setups.front());
-  throw Error(ExitStatus::CommandLine, "--accuracy renders one picture, but \"" + scene +
-                                           "\" holds " + std::to_string(setups.size()) + " scenes");
-}
-
 }  // namespace
 
 PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
                              Surroundings surroundings)
     : command_(command),
-      scene_(std::move(scene)),
-      surroundings_(surroundings),
-      small_(command.load) {
-  small_.stop = &StopFlag();
-  small_.threads = command.threadCount;
-  const auto setup = LoadOne(scene_, small_, surroundings_.streams, log_);
-  sceneIntegrator_ = setup->integratorName;
-  sceneSamples_ = setup->sampler->SamplesPerPixel();
-  sceneGatherRays_ = int(GivenNumber(*setup, "finalgathersamples"));
-  pixels_ = double(setup->crop.Width()) * double(setup->crop.Height());
-  ScalePicture(setup->film, setup->crop, std::min(1., std::sqrt(kPilotPixels / pixels_)), &small_);
+      scene_(std::move(scene), "--accuracy", surroundings.streams),
+      verbose_(*surroundings.log) {
+  std::unique_ptr<RenderSetup> full;
+  small_ = scene_.Options(command, &full);
+  sceneIntegrator_ = full->integratorName;
+  sceneSamples_ = full->sampler->SamplesPerPixel();
+  sceneGatherRays_ = int(GivenNumber(*full, "finalgathersamples"));
+  pixels_ = double(full->crop.Width()) * double(full->crop.Height());
   small_.isStrict = false;  // parameters of other integrators are unknown
 }
 
@@ -111,7 +83,7 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
     options.parameters.push_back(std::move(parameter));
   setup_.reset();
   preparedSeed_.reset();
-  setup_ = LoadOne(scene_, options, surroundings_.streams, log_);
+  setup_ = scene_.Load(options);
   loaded_ = request;
   return *setup_;
 }
@@ -163,7 +135,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
                       *setup.camera,
                       films.film,
                       threads,
-                      log_,
+                      scene_.Messages(),
                       progress,
                       statistics,
                       setup.volumeIntegrator.get(),
@@ -187,7 +159,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
     picture.settings.causticPhotons = photonsOf("caustic");
   }
   if (films.corrections) picture.certificate = Certify(*films.corrections, films.film, 0, {});
-  surroundings_.log->Verbose(TextOf(request, picture));
+  verbose_.Verbose(TextOf(request, picture));
   return picture;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/app/dial/counted_cost.h"
 #include "core/app/dial/dial_settings.h"
+#include "core/app/dial/small_scene.h"
 #include "core/app/options/options.h"
 #include "core/app/output/picture.h"
 #include "core/app/quote/price_model.h"
@@ -30,12 +31,12 @@ struct PilotRequest {
 struct PilotPicture {
   Pilot pilot;
   CountedCost cost;
-  int mapCount = 0;  // sets of maps that were made for this pilot
+  int mapCount = 0;    // sets of maps that were made for this pilot
   double seconds = 0;  // CPU time
   double pixels = 0, mean = 0;
-  double gatherRays = 0;   // of the whole picture
-  DialSettings settings;   // the request's, with the photons of the scene
-  bool hasBias = false;    // whether the integrator can estimate it
+  double gatherRays = 0;                   // of the whole picture
+  DialSettings settings;                   // the request's, with the photons of the scene
+  bool hasBias = false;                    // whether the integrator can estimate it
   std::optional<Certificate> certificate;  // for the blocks that certify the least bias
 };
 
@@ -64,8 +65,8 @@ class PilotRenderer {
                             PilotPicture* picture);
 
   const RenderCommand& command_;
-  std::string scene_;
-  Surroundings surroundings_;
+  SmallScene scene_;
+  Log& verbose_;
   std::string sceneIntegrator_;
   std::int64_t sceneSamples_ = 0;
   int sceneGatherRays_ = 0;
@@ -73,7 +74,6 @@ class PilotRenderer {
   LoadOptions small_;  // with the resolution of pilots
   // Of the last pilot.
   PilotRequest loaded_;
-  Log log_{Log::Level::Quiet, Log::Sink::Memory};
   std::unique_ptr<RenderSetup> setup_;
   std::optional<std::uint64_t> preparedSeed_;  // of the photons that the integrator has
 };

@@ -194,6 +194,8 @@ void AddRunOptions(OptionParser& app, RenderCommand& command, RawOptions& raw) {
   app.Group("Messages");
   app.AddFlag("--check", raw.checks, "read the scene, report errors, render nothing");
   app.AddFlag("--explain", raw.explains, "print what would be computed and why, render nothing");
+  app.AddFlag("--measure", command.measuresEffects,
+              "with explain: render small, and print what each effect changes and costs");
   app.AddFlag("--stats", command.printsStatistics, "print times, rays and counts at the end");
   app.Add("--stats-json", command.statsFile, "write them to this file (-: print them)")
       .TypeName("FILE");
@@ -342,6 +344,8 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (raw.isVerbose) command->logLevel = Log::Level::Verbose;
   if (raw.checks) command->mode = RenderMode::Check;
   if (raw.explains) command->mode = RenderMode::Explain;
+  Exclude(command->measuresEffects, command->mode != RenderMode::Explain,
+          "--measure needs exphoton explain");
   if (command->scenes.empty()) {
     if (isatty(STDIN_FILENO))
       FailUsage("no scene is named", "name scene files, or \"-\" to type a scene");

@@ -34,6 +34,7 @@ struct DialChoice {
 struct RenderCommand {
   std::vector<std::string> scenes;  // "-": standard input
   RenderMode mode = RenderMode::Render;
+  bool measuresEffects = false;  // explain --measure
   LoadOptions load;
   std::string outfile;                           // "": the name from the scene
   std::string previewFile;                       // "": none

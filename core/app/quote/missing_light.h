@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// MissingLight compares the pilots of integrators. One that finds less light than another is biased,
-// or rarely finds bright paths. Then its noise is underestimated, and it has no price.
+// MissingLight compares the pilots of integrators. One that finds less light than another is
+// biased, or rarely finds bright paths. Then its noise is underestimated, and it has no price.
 #pragma once
 
 #include <span>

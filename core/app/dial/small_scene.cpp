@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/dial/small_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/app/process/signals.h"
+#include "core/base/error.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr double kPixels = 3000;
+
+// A window in pixels becomes one in fractions, because pilots have other pixels.
+void ScalePicture(const FilmSettings& film, const PixelBounds& crop, double scale,
+                  LoadOptions* options) {
+  const auto scaled = [scale](int pixels) {
+    return std::to_string(std::max(4, int(pixels * scale)));
+  };
+  options->parameters.push_back({"Film", "xresolution", scaled(film.xResolution)});
+  options->parameters.push_back({"Film", "yresolution", scaled(film.yResolution)});
+  if (!options->pixelBounds) return;
+  options->pixelBounds.reset();
+  options->cropWindow = {
+      Real(crop.x0) / Real(film.xResolution), Real(crop.x1) / Real(film.xResolution),
+      Real(crop.y0) / Real(film.yResolution), Real(crop.y1) / Real(film.yResolution)};
+}
+
+}  // namespace
+
+LoadOptions SmallScene::Options(const RenderCommand& command, std::unique_ptr<RenderSetup>* full) {
+  LoadOptions options = command.load;
+  options.stop = &StopFlag();
+  options.threads = command.threadCount;
+  std::unique_ptr<RenderSetup> setup = Load(options);
+  const double pixels = double(setup->crop.Width()) * double(setup->crop.Height());
+  ScalePicture(setup->film, setup->crop, std::min(1., std::sqrt(kPixels / pixels)), &options);
+  if (full) *full = std::move(setup);
+  return options;
+}
+
+std::unique_ptr<RenderSetup> SmallScene::Load(const LoadOptions& options) {
+  FileSource source(streams_);
+  auto setups = LoadScenes(source, path_, options, log_);
+  if (setups.size() == 1) return std::move(setups.front());
+  throw Error(ExitStatus::CommandLine, option_ + " renders one picture, but \"" + path_ +
+                                           "\" holds " + std::to_string(setups.size()) +
+                                           " scenes");
+}
+
+}  // namespace exphoton::cli
