@@ -45,8 +45,7 @@ std::unique_ptr<RenderSetup> SmallScene::Load(const LoadOptions& options) {
   auto setups = LoadScenes(source, path_, options, log_);
   if (setups.size() == 1) return std::move(setups.front());
   throw Error(ExitStatus::CommandLine, option_ + " renders one picture, but \"" + path_ +
-                                           "\" holds " + std::to_string(setups.size()) +
-                                           " scenes");
+                                           "\" holds " + std::to_string(setups.size()) + " scenes");
 }
 
 }  // namespace exphoton::cli

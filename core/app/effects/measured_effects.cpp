@@ -65,7 +65,9 @@ double Mean(const Values& values) {
 class Measurement {
  public:
   Measurement(const RenderCommand& command, const std::string& scene, FileSource::Streams* streams)
-      : command_(command), scene_(scene, "--measure", streams), small_(scene_.Options(command, &full_)) {}
+      : command_(command),
+        scene_(scene, "--measure", streams),
+        small_(scene_.Options(command, &full_)) {}
 
   MeasuredEffects Run() {
     const double samples = double(full_->sampler->SamplesPerPixel()) * PixelsOf(*full_);
@@ -141,8 +143,7 @@ class Measurement {
       double sum = 0;
       for (int y = 0; y < image.Height(); ++y)
         for (int x = 0; x < image.Width(); ++x)
-          for (std::size_t c = 0; c < 3; ++c)
-            sum += double(image.At(x, y, int(first + 3 * i + c)));
+          for (std::size_t c = 0; c < 3; ++c) sum += double(image.At(x, y, int(first + 3 * i + c)));
       const double count = 3. * image.Width() * image.Height();
       parts.push_back({GetAovInfo(list[i]).name, sum / (count * mean)});
     }
@@ -197,14 +198,16 @@ MeasuredEffects MeasureEffects(const RenderCommand& command, const std::string& 
 
 std::string MeasuredText(const MeasuredEffects& measured) {
   std::string text = Format(
-      "measured      with %d x %d pixels and %d samples a pixel; the whole picture takes about %.2g "
+      "measured      with %d x %d pixels and %d samples a pixel; the whole picture takes about "
+      "%.2g "
       "CPU s\n",
       measured.width, measured.height, measured.samples, measured.wholeSeconds);
   for (const MeasuredEffect& effect : measured.effects)
-    text += Format("  %-12sadds %.3g \u00b1 %.1g %% of the light, changes the picture by %.2g %%, "
-                   "takes %.2g %% of the time\n",
-                   effect.name.c_str(), 100 * effect.light, 100 * effect.lightError,
-                   100 * effect.change, 100 * effect.time);
+    text += Format(
+        "  %-12sadds %.3g \u00b1 %.1g %% of the light, changes the picture by %.2g %%, "
+        "takes %.2g %% of the time\n",
+        effect.name.c_str(), 100 * effect.light, 100 * effect.lightError, 100 * effect.change,
+        100 * effect.time);
   if (measured.parts.empty()) return text;
   text += "light         ";
   double sum = 0;

@@ -26,8 +26,8 @@ struct MeasuredLight {
 
 struct MeasuredEffects {
   int width = 0, height = 0;
-  int samples = 0;           // a pixel
-  double wholeSeconds = 0;   // estimated CPU time of the picture of the scene
+  int samples = 0;          // a pixel
+  double wholeSeconds = 0;  // estimated CPU time of the picture of the scene
   std::vector<MeasuredEffect> effects;
   std::vector<MeasuredLight> parts;  // empty: the integrator does not divide its light
 };

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/app/process/child_process.h"
 #include "core/app/process/signals.h"
+#include "core/app/process/temporary_folder.h"
 #include "core/app/study/study_scene.h"
 #include "core/base/error.h"
 #include "core/imaging/files/exr.h"
@@ -17,29 +17,10 @@
 namespace exphoton::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr double kPilotPixels = 3000;
 constexpr int kMostPilots = 8;
-
-// A folder for the files of pilots, which is removed with them.
-class PilotFolder {
- public:
-  PilotFolder() {
-    std::string name = (fs::temp_directory_path() / "exphoton-quote-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(ExitStatus::File, "cannot make \"" + name + '"');
-    path_ = name;
-  }
-  ~PilotFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string File(const char* name) const { return path_ + '/' + name; }
-
- private:
-  std::string path_;
-};
 
 struct PilotResult {
   Json statistics;
@@ -108,7 +89,7 @@ class PilotSeries {
 
   const QuoteScene& scene_;
   std::string integrator_;
-  PilotFolder folder_;
+  TemporaryFolder folder_{"quote"};
 };
 
 double NumberOr(const Json& json, const char* name, double instead) {

@@ -5,13 +5,9 @@
 // differ only in their samples share a probe. No probe starts after a few seconds.
 #include "core/app/study/study_forecast.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -19,6 +15,7 @@
 #include "core/app/options/values.h"
 #include "core/app/process/child_process.h"
 #include "core/app/process/signals.h"
+#include "core/app/process/temporary_folder.h"
 #include "core/app/study/study_runner.h"
 #include "core/base/error.h"
 #include "core/base/format.h"
@@ -26,29 +23,9 @@
 namespace exphoton::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kPart = 16;            // the probe renders 1/16 of the pixels
 constexpr double kMaxProbeSeconds = 4;  // then the rest is estimated by the mean
 constexpr std::uint64_t kProbeSeed = 1;
-
-// A folder that is removed with its files.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "exphoton-plan-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(ExitStatus::File, "cannot make \"" + name + '"');
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string File(const char* name) const { return path_ + '/' + name; }
-
- private:
-  std::string path_;
-};
 
 // Returns the central quarter of the width and height, inside the study's crop window.
 std::string CentralPart(const StudyOptions& options) {
@@ -82,7 +59,7 @@ study::Setting WithOneSample(study::Setting setting) {
 
 // Returns nullopt if the probe failed; the study itself will then explain the failure.
 std::optional<Cost> Probe(const StudyOptions& options, const study::Setting& setting,
-                          const ScratchFolder& folder) {
+                          const TemporaryFolder& folder) {
   StudyOptions part = options;
   part.cropWindow = CentralPart(options);
   const std::uint64_t seed = options.photonFile.empty() ? kProbeSeed : 1;
@@ -151,7 +128,7 @@ class Probes {
   }
 
   const StudyOptions& options_;
-  ScratchFolder folder_;
+  TemporaryFolder folder_{"plan"};
   std::map<std::string, Cost> known_;
   std::map<std::string, std::vector<Cost>> byIntegrator_;
   std::vector<Cost> all_;
