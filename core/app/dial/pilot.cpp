@@ -94,6 +94,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
   RenderOptions render;
   render.seed = command_.seed;
   render.stop = &StopFlag();
+  render.footprintSamples = command_.footprintSamples;
   render.corrections = films->corrections.get();
   render.preparedSeed = preparedSeed_;
   PassRenderer renderer(job, render);

@@ -97,6 +97,7 @@ class Measurement {
     RenderOptions options;
     options.seed = command_.seed + half;
     options.stop = &StopFlag();
+    options.footprintSamples = command_.footprintSamples;
     options.aovs = aovs;
     const auto sampler = setup.sampler->WithSamplesPerPixel(samples_);
     const RenderJob job{*setup.scene,
