@@ -44,7 +44,7 @@ void ExpectThatSamplesFit(const Distribution& distribution) {
   };
   const auto pdf = [&](const Vector3& w) { return double(distribution.Pdf(w)); };
   ChiSquareOptions options;
-  options.quadratureDepth = 7;
+  options.quadratureDepth = 6;
   const ChiSquareResult result = TestDirections({Vector3(kNormal), 2}, sample, pdf, options);
   EXPECT_TRUE(FitsDensity(result, 4));
   EXPECT_NEAR(result.mass, 1, .005);
