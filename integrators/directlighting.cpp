@@ -51,6 +51,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  std::optional<int> EmissionDepth() const override { return 0; }
   FeatureSet ComputedFeatures() const override {
     return FeatureSet::All().Without(kInterreflection).Without(kPhotonMapFeatures);
   }

@@ -72,6 +72,7 @@ class GuidedPathIntegrator final : public SurfaceIntegrator {
     paths_.RequestSamples<PathGuide>(layout);
   }
   AovSet Aovs() const override { return kLightAovs; }
+  std::optional<int> EmissionDepth() const override { return 0; }
   FeatureSet ComputedFeatures() const override {
     return FeatureSet::All().Without(kPhotonMapFeatures);
   }

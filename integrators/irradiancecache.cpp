@@ -69,6 +69,7 @@ class IrradianceCacheIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  std::optional<int> EmissionDepth() const override { return 0; }
   FeatureSet ComputedFeatures() const override {
     const FeatureSet some = FeatureSet::All().Without(kPhotonMapFeatures);
     return settings_.maxIndirectDepth > 0 ? some : some.Without(kInterreflection);

@@ -31,6 +31,7 @@ class PathIntegrator final : public SurfaceIntegrator {
     paths_.RequestSamples<BsdfScattering>(layout);
   }
   AovSet Aovs() const override { return kLightAovs; }
+  std::optional<int> EmissionDepth() const override { return 0; }
   FeatureSet ComputedFeatures() const override {
     return FeatureSet::All().Without(kPhotonMapFeatures);
   }

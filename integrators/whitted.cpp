@@ -35,6 +35,7 @@ class WhittedIntegrator final : public SurfaceIntegrator {
 
   AovSet Aovs() const override { return kLightAovs; }
 
+  std::optional<int> EmissionDepth() const override { return 0; }
   FeatureSet ComputedFeatures() const override {
     return FeatureSet::All().Without(kInterreflection).Without(kPhotonMapFeatures);
   }

@@ -69,6 +69,16 @@ void ClampNegative(Spectrum* L, AovSample* sample) {
   }
 }
 
+std::uint64_t SpecularRays(const RenderWorker& worker) {
+  return worker.totals.rays.counts[std::size_t(RayKind::Specular)];
+}
+
+// Replaces a part of *L. Rounding may have made the part larger than the whole.
+void Replace(const Spectrum& part, const Spectrum& by, Spectrum* L) {
+  for (int c = 0; c < Spectrum::kChannels; ++c)
+    if ((*L)[c] >= 0) (*L)[c] = std::max((*L)[c] - part[c], Real(0)) + by[c];
+}
+
 }  // namespace
 
 TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, const Target& target,
@@ -78,7 +88,10 @@ TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, c
       target_(target),
       log_(log),
       aovs_(options.aovs),
-      differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))) {}
+      differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))),
+      // A pass with a time of its own shows this time alone.
+      emitters_(job.scene, job.camera,
+                target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {}
 
 void TileRenderer::RenderTile(const PixelBounds& tile, RenderWorker* worker) const {
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -160,11 +173,13 @@ void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) cons
     context.aovs = &aovs;
     if (aovs_->NeedsSurface()) DescribeSurface(job_, ray, &worker->arena, &aovs);
   }
+  const std::uint64_t specularRays = SpecularRays(*worker);
   Spectrum L = job_.integrator.Li(ray, context);
   ++worker->totals.cameraSamples;
   const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
   for (const GatherRecord& gather : worker->gathers)
     if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
+  AverageEmission({film, ray, context, specularRays}, worker, &L, &aovs);
   if (!L.IsFinite()) {
     Drop(L, key, worker);
     L = Spectrum();
@@ -210,6 +225,28 @@ RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& sample
   RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
   if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
   return ray;
+}
+
+void TileRenderer::AverageEmission(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
+                                   AovSample* aovs) const {
+  const bool hasBounced =
+      emitters_.FollowsSpecularRays() && SpecularRays(*worker) > sample.specularRays;
+  if (!hasBounced && !emitters_.MayMeet(sample.ray)) return;
+  RayCounters* const rays = &worker->totals.rays;
+  const EmittedLight own = emitters_.Along(sample.ray, sample.context, rays);
+  if (!own.isNear) return;
+  EmissionMean mean(own);
+  CameraSamples& samples = worker->samples;
+  const Real time = samples.time;
+  for (int i = 1; i < MovingEmitters::kTimes; ++i) {
+    const Real later = time + Real(i) / Real(MovingEmitters::kTimes);
+    samples.time = later < 1 ? later : later - 1;
+    mean.Add(emitters_.Along(CameraRay(sample.film, samples), sample.context, rays));
+  }
+  samples.time = time;
+  Replace(own.first + own.specular, mean.First() + mean.Specular(), L);
+  Replace(own.first, mean.First(), &aovs->emission);
+  Replace(own.specular, mean.Specular(), &aovs->specular);
 }
 
 void TileRenderer::Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/render/done_pixels.h"
+#include "core/render/moving_emitters.h"
 #include "core/render/render.h"
 #include "core/render/render_totals.h"
 #include "core/render/sharing/gather_fragments.h"
@@ -66,6 +67,16 @@ class TileRenderer {
   // Begins a sample: clears the worker's data of the last one.
   LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
   RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const;
+  // A camera sample: its place on the film, its ray and its context.
+  struct TracedSample {
+    Point2 film;
+    const RayDifferential& ray;
+    const LiContext& context;
+    std::uint64_t specularRays;  // of the thread, before the sample
+  };
+  // Replaces the light of moving emitters in L by the mean over several times.
+  void AverageEmission(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
+                       AovSample* aovs) const;
   void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
 
   const RenderJob& job_;
@@ -74,6 +85,7 @@ class TileRenderer {
   NonFiniteLog* log_;
   AovFilm* aovs_;
   Real differentialScale_;
+  MovingEmitters emitters_;
 };
 
 }  // namespace exphoton

@@ -235,4 +235,20 @@ bool PrimitiveSet::MovesWithin(Interval interval) const {
   });
 }
 
+bool PrimitiveSet::EmitsLight() const {
+  const auto emits = [](const PrimitiveAttributes& attributes) { return attributes.areaLight; };
+  return std::any_of(meshAttributes_.begin(), meshAttributes_.end(), emits) ||
+         std::any_of(shapeAttributes_.begin(), shapeAttributes_.end(), emits);
+}
+
+std::vector<Bounds3> PrimitiveSet::MovingEmitters(Interval interval) const {
+  std::vector<Bounds3> found;
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const Instance& instance = instances_[i];
+    const bool moves = instance.motion && instance.motion->MovesWithin(interval);
+    if (moves && instance.object->Set().EmitsLight()) found.push_back(instanceBounds_[i]);
+  }
+  return found;
+}
+
 }  // namespace exphoton

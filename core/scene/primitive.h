@@ -101,12 +101,15 @@ class PrimitiveSet {
   }
   // Returns whether any primitive moves during the interval.
   bool MovesWithin(Interval interval) const;
+  // Returns the bounds of the instances that move during the interval and emit light.
+  std::vector<Bounds3> MovingEmitters(Interval interval) const;
 
  private:
   const Instance& InstanceOf(const Hit& hit) const {
     return instances_[hit.instance - triangles_.size() - shapes_.size()];
   }
   Bounds3 InstanceBounds(const Instance& instance) const;
+  bool EmitsLight() const;  // whether any triangle or shape does
   Real OrderedDistance(const Ray& ray, const Hit& hit) const;
   Ray InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const;
   void IntersectInstance(std::uint32_t instance, const TraceRay& ray, Hit* hit) const;

@@ -144,6 +144,10 @@ class SurfaceIntegrator {
   // kRendererAovs. The light AOVs must sum to the result of Li, up to rounding.
   virtual AovSet Aovs() const { return {}; }
   virtual DepthParameters DepthLimits() const { return {}; }
+  // Returns the number of specular bounces after which Li contains emission as a SpecularTree of
+  // this depth finds it, in the AOVs emission and specular. 0: only that of the first surface. The
+  // renderer may replace this light by a better estimate (core/render/moving_emitters.h).
+  virtual std::optional<int> EmissionDepth() const { return std::nullopt; }
   // Returns whether Li fills LiContext::gathers.
   virtual bool SharesGathers(const Scene& scene) const {
     (void)scene;

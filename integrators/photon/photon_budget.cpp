@@ -26,6 +26,10 @@ std::string GatherText(const PhotonSettings& settings, const Scene& scene,
   const std::string rays = std::to_string(settings.finalGatherSamples) + " rays, ";
   if (settings.gatherSampling == GatherSampling::Bsdf) return rays + "BSDF only";
   if (targets[PhotonKind::Indirect] == 0) return rays + "BSDF only (0 indirect photons)";
+  if (settings.gatherSampling == GatherSampling::Jensen)
+    return rays + "half of them by a histogram of photons (Jensen)";
+  if (settings.gatherSampling == GatherSampling::Hey)
+    return rays + "half of them by footprints of photons (Hey and Purgathofer)";
   return rays + "up to half of them round photons' directions";
 }
 

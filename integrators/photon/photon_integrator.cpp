@@ -191,6 +191,8 @@ AovSet PhotonIntegrator::Aovs() const {
   AovSet aovs = kLightAovs | AovSet{Aov::PhotonDensity};
   if (settings_.radiancePhotons && settings_.finalGather && settings_.show == ShowMap::Nothing)
     aovs.Add(Aov::RadianceDistance);
+  if (settings_.sharedGather && settings_.finalGather && settings_.show == ShowMap::Nothing)
+    aovs.Add(Aov::SharingBias);
   return aovs;
 }
 

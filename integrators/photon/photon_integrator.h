@@ -26,6 +26,10 @@ class PhotonIntegrator final : public SurfaceIntegrator {
 
   void Preprocess(const Scene& scene, PreprocessContext& context) override;
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout) override;
+  std::optional<int> EmissionDepth() const override {
+    if (settings_.show != ShowMap::Nothing) return std::nullopt;
+    return settings_.maxDepth;
+  }
   bool SharesGathers(const Scene& scene) const override {
     return settings_.sharedGather && GathersIndirectLight(settings_, scene);
   }

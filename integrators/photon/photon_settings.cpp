@@ -8,7 +8,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
   using S = PhotonSettings;
   static const ParamTable<S> table{
       Param("causticphotons", &S::causticPhotons,
-            "photons wanted in the caustic map; 20000 if absent")
+            "photons wanted in the caustic map; if absent, 20000, or fewer where emission is "
+            "guided and caustics carry little light")
           .Basic()
           .Range(0, 1e9)
           .DividedByQuick(10),
@@ -64,8 +65,12 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "gather rays read precomputed radiance instead of three density estimates"),
       Param(
           "gathersampling", &S::gatherSampling,
-          "where gather rays go: up to half of them round photons' directions, or all by the BSDF")
-          .OneOf({{"photons", GatherSampling::Photons}, {"bsdf", GatherSampling::Bsdf}}),
+          "where gather rays go: up to half of them in cones round photons' directions (photons), "
+          "half by a histogram (jensen) or footprints (hey) of photons, or all by the BSDF")
+          .OneOf({{"photons", GatherSampling::Photons},
+                  {"bsdf", GatherSampling::Bsdf},
+                  {"jensen", GatherSampling::Jensen},
+                  {"hey", GatherSampling::Hey}}),
       Param("kernel", &S::kernel, "weight of a photon by its distance where maps are seen directly")
           .OneOf({{"simpson", DensityKernel::Simpson}, {"constant", DensityKernel::Constant}}),
       Param("radiancefraction", &S::radianceFraction,

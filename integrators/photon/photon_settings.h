@@ -17,7 +17,12 @@ enum class PhotonRoulette {
   Constant,      // rejection sampling; all photons have the same luminance
   Half,          // survival probability 1/2 after three bounces; weights vary
 };
-enum class GatherSampling { Photons, Bsdf };
+enum class GatherSampling {
+  Photons,  // cones about the directions from which light is dense
+  Jensen,   // a histogram of all photons (Jensen 1995)
+  Hey,      // footprints of all photons (Hey and Purgathofer 2002)
+  Bsdf,
+};
 enum class DensityKernel { Constant, Simpson };
 enum class PhotonTargeting {
   Auto,  // on if photons become at least four times denser at visible points
@@ -27,7 +32,7 @@ enum class PhotonTargeting {
 enum class ShowMap { Nothing, Radiance, Direct, Caustic, Indirect };
 
 struct PhotonSettings {
-  std::optional<std::int64_t> causticPhotons;  // absent: 20000
+  std::optional<std::int64_t> causticPhotons;  // absent: at most 20000
   std::optional<std::int64_t> directPhotons;   // absent: same as indirectPhotons
   std::int64_t indirectPhotons = 100000;
   int nUsed = 50;

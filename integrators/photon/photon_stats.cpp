@@ -79,6 +79,22 @@ void ReportPaths(const PhotonPassResult& result, PreprocessContext& context) {
                                   "luminance of the power that the lights emit, as shot");
 }
 
+// Reports how the number of caustic photons compares with the light that they carry.
+void ReportEnoughCaustics(const PhotonPassResult& result, const PhotonSettings& settings,
+                          PreprocessContext& context) {
+  constexpr std::int64_t kMuchMore = 4;
+  const std::int64_t enough = result.enoughCaustics;
+  if (enough == 0) return;
+  context.statistics.SetCounter("photons/caustic enough", double(enough),
+                                "caustic photons that are worth their time");
+  const std::int64_t wanted = settings.causticPhotons.value_or(0);
+  if (wanted < kMuchMore * enough) return;
+  context.log.Notice(
+      Text("causticphotons ", wanted, ": caustics carry little of the light here, and about ",
+           enough, " photons are enough"),
+      {}, "without \"causticphotons\" the number follows from the light of the caustics");
+}
+
 }  // namespace
 
 void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
@@ -110,6 +126,7 @@ void NoticeMissingTargeting(const DistantLightTargeting& targeting, Log& log) {
 
 void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
                       const PhotonSettings& settings, PreprocessContext& context) {
+  ReportEnoughCaustics(result, settings, context);
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
     if (targets[kind] == 0) continue;
     const PhotonBuffer& buffer = result[kind];
@@ -118,8 +135,11 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
                                     "photons in the " + name + " map, of all passes together");
     context.statistics.AddToCounter("photons/" + name + " paths", double(buffer.paths),
                                     "paths from the lights that the " + name + " map counts");
-    if (std::int64_t(buffer.photons.Size()) < targets[kind])
-      context.log.Notice(Text(name, " map: ", buffer.photons.Size(), " of ", targets[kind],
+    const bool isLimited =
+        kind == PhotonKind::Caustic && result.enoughCaustics > 0 && !settings.causticPhotons;
+    const std::int64_t target = isLimited ? result.enoughCaustics : targets[kind];
+    if (std::int64_t(buffer.photons.Size()) < target)
+      context.log.Notice(Text(name, " map: ", buffer.photons.Size(), " of ", target,
                               " photons after ", buffer.paths, " paths"));
   }
   ReportPaths(result, context);

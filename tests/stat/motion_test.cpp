@@ -4,6 +4,7 @@
 // measured with these seeds.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <sstream>
 
 #include "core/math/motion.h"
@@ -79,6 +80,53 @@ TEST(Motion, OfASquareCoversPixelsForTheTimeItIsThere) {
     const double a = -1 + x * .25, truth = MeanCoverage(a, a + .25, .5, -1, .5);
     EXPECT_NEAR(MeanRadiance(image, {x, 0, x + 1, 8}), truth, .003) << x;
   }
+}
+
+// A lamp passes each point in a sixteenth of the time. If a sample saw one time only, the pixels
+// would differ from each other by about their mean.
+TEST(Motion, OfASmallLampIsSeenByAllSamples) {
+  const std::string world = "WorldBegin\n" + kBackdrop + kEmits + kEnd + "Translate 4 0 0 " + kAll +
+                            Square(-2.25, -2, -2, 2, 1) + "WorldEnd\n";
+  for (const char* integrator : {"\"whitted\"", "\"path\"", "\"exphotonmap\""}) {
+    const Image image = Render(integrator, world, 16).image;
+    EXPECT_NEAR(MeanRadiance(image), .0625, .002) << integrator;
+    double squares = 0;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x)
+        squares += std::pow(MeanRadiance(image, {x, y, x + 1, y + 1}) / .0625 - 1, 2) / 64;
+    EXPECT_LT(std::sqrt(squares), .2) << integrator;
+  }
+}
+
+// Returns the root of the mean squared difference of two pictures of 8 x 8 pixels.
+double PixelNoise(const std::string& integrator, const std::string& world, int samples) {
+  std::array<Image, 2> images;
+  for (int i = 0; i < 2; ++i)
+    images[std::size_t(i)] =
+        Render(integrator, world, samples, "auto", {std::uint64_t(i + 1), 8}).image;
+  double squares = 0;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      squares += std::pow(MeanRadiance(images[0], {x, y, x + 1, y + 1}) -
+                              MeanRadiance(images[1], {x, y, x + 1, y + 1}),
+                          2);
+  return std::sqrt(squares / 64);
+}
+
+// A lamp that moves behind the camera is seen in a mirror, which a moving square hides for a part
+// of the time. exphotonmap takes the mean over several times, whitted does not.
+TEST(Motion, OfALampIsSeenInAMirrorByMoreSamples) {
+  const std::string world = "WorldBegin\nMaterial \"mirror\" \"color Kr\" [1 1 1]\n" +
+                            Square(-9, 9, -9, 9, 3) + kBackdrop + kBegin + kEnd +
+                            "Translate 2 0 0 " + kAll + Square(-2, 0, -9, 9, 1) + kDone + kEmits +
+                            kEnd + "Translate 0 8 0 " + kAll + "ReverseOrientation " +
+                            Square(-9, 9, -4.5, -4, -2) + "WorldEnd\n";
+  const std::string plain = "\"whitted\"",
+                    averaged = "\"exphotonmap\" \"bool finalgather\" \"false\"";
+  const double truth = MeanRadiance(Render(plain, world, 4096).image);
+  EXPECT_GT(truth, .005);
+  EXPECT_NEAR(MeanRadiance(Render(averaged, world, 1024).image), truth, .03 * truth);
+  EXPECT_LT(PixelNoise(averaged, world, 16), .6 * PixelNoise(plain, world, 16));
 }
 
 TEST(Motion, OfTheShutterPartOfTheWayShowsThatPart) {

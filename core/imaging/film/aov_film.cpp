@@ -75,6 +75,7 @@ AovFilm::AovFilm(const PixelBounds& crop, AovSet wanted)
   if (wanted.Has(Aov::MaterialId)) materials_.resize(pixels);
   if (wanted.Has(Aov::Variance)) moments_.resize(pixels * 3);
   if (wanted.Has(Aov::Time)) seconds_.resize(pixels);
+  if (wanted.Has(Aov::SharingBias)) biases_.resize(pixels);
   if (wanted.Has(Aov::RadianceDistance)) {
     distances_.resize(pixels);
     reads_.resize(pixels);
@@ -207,6 +208,12 @@ void AovFilm::AddLight(Point2i pixel, Aov lightAov, const Spectrum& L, Real weig
 
 void AovFilm::AddTime(Point2i pixel, double seconds) { seconds_[IndexOf(pixel)] += seconds; }
 
+void AovFilm::AddSharingBias(Point2i pixel, const Spectrum& bias, double samples) {
+  const Bias added{samples,
+                   {samples * double(bias.r), samples * double(bias.g), samples * double(bias.b)}};
+  biases_[IndexOf(pixel)].Add(added, 1);
+}
+
 void AovFilm::Clear() {
   isSplatted_ = false;
   std::ranges::fill(weights_, Weights());
@@ -219,6 +226,7 @@ void AovFilm::Clear() {
   std::ranges::fill(seconds_, 0.);
   std::ranges::fill(distances_, 0.);
   std::ranges::fill(reads_, 0);
+  std::ranges::fill(biases_, Bias());
 }
 
 void AovFilm::ClearPixel(Point2i pixel) {
@@ -232,6 +240,7 @@ void AovFilm::ClearPixel(Point2i pixel) {
   if (!moments_.empty()) std::fill_n(moments_.begin() + std::ptrdiff_t(at * 3), 3, Moments());
   if (!seconds_.empty()) seconds_[at] = 0;
   if (!reads_.empty()) distances_[at] = 0, reads_[at] = 0;
+  if (!biases_.empty()) biases_[at] = Bias();
 }
 
 void AovFilm::SubtractLight(const AovFilm& other) {
@@ -239,6 +248,7 @@ void AovFilm::SubtractLight(const AovFilm& other) {
     values_[i].sum -= other.values_[i].sum;
     values_[i].absSum -= other.values_[i].absSum;
   }
+  for (std::size_t i = 0; i < biases_.size(); ++i) biases_[i].Add(other.biases_[i], -1);
 }
 
 void AovFilm::Add(const AovFilm& other) {
@@ -274,6 +284,7 @@ void AovFilm::Add(const AovFilm& other) {
     distances_[i] += other.distances_[i];
     reads_[i] += other.reads_[i];
   }
+  for (std::size_t i = 0; i < biases_.size(); ++i) biases_[i].Add(other.biases_[i], 1);
 }
 
 double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
@@ -296,6 +307,11 @@ double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
   const double squares = m.wwLL - 2 * mean * m.wwL + mean * mean * weights.sumOfSquares;
   if (isSplatted_) return sum > 0 ? std::max(squares, 0.) / (sum * sum) : 0;
   return std::max(squares, 0.) * n / ((n - 1) * sum * sum);
+}
+
+double AovFilm::SharingBiasOf(std::size_t pixel, std::size_t channel) const {
+  const Bias& bias = biases_[pixel];
+  return bias.samples > 0 ? bias.sums[channel] / bias.samples : 0;
 }
 
 // Normals are averaged to a direction. Properties of a surface are means over the samples that hit
@@ -333,6 +349,8 @@ void AovFilm::Collect(std::size_t pixel, const std::array<double, 4>& beauty, do
         x = 1e3 * seconds_[pixel];
       } else if (aov == Aov::Samples) {
         x = double(weights_[pixel].samples);
+      } else if (aov == Aov::SharingBias) {
+        x = SharingBiasOf(pixel, c) * lightScale;
       } else if (reads_[pixel] > 0) {
         x = distances_[pixel] / double(reads_[pixel]);
       }

@@ -22,6 +22,7 @@ class AovFilm {
   AovSet Wanted() const { return wanted_; }
   bool NeedsSurface() const { return !(wanted_ & kSurfaceAovs).IsEmpty(); }
   bool NeedsTime() const { return wanted_.Has(Aov::Time); }
+  bool NeedsSharingBias() const { return wanted_.Has(Aov::SharingBias); }
 
   // Adds one camera sample: its AOVs, the radiance L that the Film received, and the filter weight.
   // Only one thread at a time may add to a pixel.
@@ -29,13 +30,16 @@ class AovFilm {
   // Adds radiance to a light AOV of a sample that was added before with this weight.
   void AddLight(Point2i pixel, Aov aov, const Spectrum& L, Real weight);
   void AddTime(Point2i pixel, double seconds);
+  // Adds an estimate of the error that shared gathers add to the pixel, in radiance. `samples` is
+  // the number of camera samples that share their gathers.
+  void AddSharingBias(Point2i pixel, const Spectrum& bias, double samples);
 
   // Removes all samples, or those of one pixel.
   void Clear();
   void ClearPixel(Point2i pixel);
   // Adds the samples of another film with the same pixels and AOVs.
   void Add(const AovFilm& other);
-  // Removes the light AOVs of another film, which has no samples of its own.
+  // Removes the light AOVs and the bias of another film, which has no samples of its own.
   void SubtractLight(const AovFilm& other);
   // Saves or loads all sums. Throws ArchiveError if the saved film had other AOVs or pixels.
   void Transfer(ByteArchive* archive);
@@ -92,6 +96,7 @@ class AovFilm {
   std::size_t IndexOf(Point2i pixel) const;
   double MeanOf(std::size_t pixel, std::size_t value) const;
   double VarianceOf(std::size_t pixel, std::size_t channel) const;
+  double SharingBiasOf(std::size_t pixel, std::size_t channel) const;
   void Collect(std::size_t pixel, const std::array<double, 4>& beauty, double lightScale,
                float* out) const;
 
@@ -113,6 +118,16 @@ class AovFilm {
   std::vector<double> seconds_;
   std::vector<double> distances_;  // sums of radianceDistance
   std::vector<std::int64_t> reads_;
+  // Sums over groups of camera samples: of the number n of samples, and of n times the bias.
+  struct Bias {
+    double samples = 0;
+    std::array<double, 3> sums{};
+    void Add(const Bias& other, double factor) {
+      samples += factor * other.samples;
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += factor * other.sums[c];
+    }
+  };
+  std::vector<Bias> biases_;
 };
 
 // Adds channels to the image. `values` holds them pixel by pixel.

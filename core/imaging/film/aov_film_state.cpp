@@ -9,7 +9,7 @@ void AovFilm::Transfer(ByteArchive* archive) {
   for (const std::size_t size :
        {weights_.size(), values_.size(), surfaceValues_.size(), surfaceWeights_.size(),
         objects_.size(), materials_.size(), moments_.size(), seconds_.size(), distances_.size(),
-        reads_.size()})
+        reads_.size(), biases_.size()})
     archive->Same(std::uint64_t(size));
   char isSplatted = isSplatted_ ? 1 : 0;
   archive->Values(&isSplatted);
@@ -24,6 +24,8 @@ void AovFilm::Transfer(ByteArchive* archive) {
   for (double& seconds : seconds_) archive->Values(&seconds);
   for (double& distance : distances_) archive->Values(&distance);
   for (std::int64_t& reads : reads_) archive->Values(&reads);
+  for (Bias& bias : biases_)
+    archive->Values(&bias.samples, &bias.sums[0], &bias.sums[1], &bias.sums[2]);
 }
 
 void AovFilm::TransferPixel(ByteArchive* archive, Point2i pixel) {

@@ -57,6 +57,8 @@ const AovInfo& GetAovInfo(Aov aov) {
       {"radianceDistance",
        {"radianceDistance.Y"},
        "mean distance from gather hits to the radiance photons they read"},
+      {"sharingBias", Colors("sharingBias"),
+       "estimated error that shared gathers add, with its sign"},
   }};
   return infos[std::size_t(aov)];
 }

@@ -37,8 +37,9 @@ enum class Aov {
   Samples,           // camera samples
   PhotonDensity,     // photons of all maps per unit area at the first surface
   RadianceDistance,  // mean distance from gather hits to the radiance photons they read
+  SharingBias,       // estimated error that shared gathers add to the pixel, with its sign
 };
-inline constexpr int kAovCount = 18;
+inline constexpr int kAovCount = 19;
 
 struct AovInfo {
   const char* name;                   // for example "albedo", as in --aov

@@ -75,6 +75,10 @@ SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads
       }
       if (const auto checked = checker.Check(pixel, &scratch[std::size_t(worker)]))
         totals[std::size_t(row)].checked.push_back(*checked);
+      if (target.aovs && target.aovs->NeedsSharingBias() &&
+          target.aovs->Crop().Contains(pixel.x, pixel.y))
+        target.aovs->AddSharingBias(pixel, checker.Bias(pixel, &scratch[std::size_t(worker)]),
+                                    target.samplesPerPixel);
       if (target.splats) splat.Begin(target.splats, pixel);
       for (const GatherSample& sample : gathered.samples) {
         const Spectrum L = sample.weight * lights[sample.fragment].At(sample);

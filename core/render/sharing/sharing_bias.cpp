@@ -45,6 +45,13 @@ std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, FitNeighbours* 
   return checked;
 }
 
+Spectrum SharingChecker::Bias(Point2i pixel, FitNeighbours* scratch) const {
+  // Each pixel has the samples of one checking group only.
+  for (const int group : kCheckingGroups)
+    if (const auto difference = Difference(pixel, group, scratch)) return *difference;
+  return {};
+}
+
 std::optional<Spectrum> SharingChecker::Difference(Point2i pixel, int group,
                                                    FitNeighbours* scratch) const {
   const GatherFragments::Pixel& gathered = gathers_.At(pixel);

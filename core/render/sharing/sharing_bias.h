@@ -37,6 +37,9 @@ class SharingChecker {
       : gathers_(gathers), rows_(rows), windows_(windows), samples_(samples) {}
 
   std::optional<CheckedPixel> Check(Point2i pixel, FitNeighbours* scratch) const;
+  // Returns the fit to the checking group of a pixel minus the pixel's own gathers of this group.
+  // The expected value is the bias of the fit. It is 0 where nothing is shared.
+  Spectrum Bias(Point2i pixel, FitNeighbours* scratch) const;
 
  private:
   // Returns fit minus own gathers of a pixel, in radiance.

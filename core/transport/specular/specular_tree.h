@@ -33,7 +33,8 @@ class SpecularTree {
 
   // Returns the radiance along the ray. shade(point) has the signature Spectrum(const
   // ShadingPoint&). It returns the radiance that leaves a point by emission and non-specular lobes.
-  // At depth 0 it also fills the corresponding light AOVs.
+  // At depth 0 it also fills the corresponding light AOVs. If shade.See(ray) exists, it gets each
+  // ray before it is traced, and infinite lights are left out.
   template <class Shade>
   Spectrum Radiance(const RayDifferential& ray, const Shade& shade) {
     return Along(ray, Spectrum(1), 0, shade);
@@ -61,11 +62,11 @@ class SpecularTree {
   template <class Shade>
   Spectrum Along(const RayDifferential& ray, const Spectrum& throughput, int depth,
                  const Shade& shade) {
+    if constexpr (requires { shade.See(ray); }) shade.See(ray);
     const auto hit = context_.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
     const MediaSegment media = AlongMedia(ray, hit ? &hit->p : nullptr, context_);
     if (!hit) {
-      const Spectrum sky =
-          media.transmittance * context_.scene.EscapedRadiance(ray.d) + media.radiance;
+      const Spectrum sky = media.transmittance * Background(ray, shade) + media.radiance;
       if (depth == 0) context_.alpha = sky.IsBlack() ? 0 : 1;
       if (depth == 0 && context_.aovs) context_.aovs->emission = sky;
       return sky;
@@ -73,6 +74,14 @@ class SpecularTree {
     const Spectrum light = Leaving(*hit, ray, throughput * media.transmittance, depth, shade);
     if (depth == 0 && context_.aovs) Cover(media, context_.aovs);
     return media.transmittance * light + media.radiance;
+  }
+
+  template <class Shade>
+  Spectrum Background(const RayDifferential& ray, const Shade& shade) const {
+    if constexpr (requires { shade.See(ray); })
+      return {};
+    else
+      return context_.scene.EscapedRadiance(ray.d);
   }
 
   // Applies the media between the camera and the first hit to the AOVs. Light from the media counts

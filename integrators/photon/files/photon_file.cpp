@@ -90,6 +90,7 @@ PhotonIdentity IdentityOfPhotons(const PhotonIdentity& scene, const PhotonSettin
   add("maxphotondepth", std::to_string(settings.maxPhotonDepth));
   add("maxphotonpaths", std::to_string(settings.maxPhotonPaths));
   add("guideemission", settings.guideEmission ? "true" : "false");
+  if (settings.guideEmission && !settings.causticPhotons) add("number of causticphotons", "chosen");
   add("lightselection", settings.lightSelection == LightSelection::Power ? "power" : "uniform");
   constexpr std::array kRoulettes{"luminance", "maxcomponent", "constant", "half"};
   add("photonroulette", kRoulettes[std::size_t(settings.photonRoulette)]);

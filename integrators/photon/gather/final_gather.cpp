@@ -34,11 +34,11 @@ Spectrum OffWhite(const Spectrum& light, const Spectrum& reflectance) {
 FinalGather::FinalGather(const PhotonSettings& settings)
     : cone_(Radians(settings.gatherAngle)), rrThreshold_(settings.rrThreshold) {
   const int rays = settings.finalGatherSamples;
-  const bool isGuided = settings.gatherSampling == GatherSampling::Photons && rays > 1;
+  const bool isGuided = settings.gatherSampling != GatherSampling::Bsdf && rays > 1;
   for (int guided = isGuided ? rays / 2 : 0; guided > 0; guided /= 2)
     splits_.push_back({rays - guided, guided});
   splits_.push_back({rays, 0});
-  guide_ = PhotonGuide(isGuided ? settings.gatherPhotons : 0, cone_);
+  guide_ = PhotonGuide(isGuided ? settings.gatherPhotons : 0, cone_, settings.gatherSampling);
 }
 
 void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
@@ -82,7 +82,7 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
                                         LiContext& context) const {
   const Bsdf& bsdf = point.bsdf;
   const GuidedDirections guide = guide_.Directions(point, photons, context);
-  const ConeMixture cones(guide.axes, cone_);
+  const GuideDensity density(guide, cone_);
   const Split& split = SplitFor(guide);
   const Vector3& wo = point.Wo();
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
@@ -106,7 +106,7 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const auto sample = bsdf.Sample(wo, squares[i], picksLobe ? lobes[i] : 0, kLobes);
     if (!sample) continue;
-    const Real photonPdf = cones.IsEmpty() ? Real(0) : cones.Pdf(sample->wi);
+    const Real photonPdf = density.IsEmpty() ? Real(0) : density.Pdf(sample->wi);
     const Real weight = PowerHeuristic(split.bsdfRays, sample->pdf, split.photonRays, photonPdf);
     const Real cosine = AbsDot(sample->wi, bsdf.Ns());
     add(sample->wi, sample->throughput * weight, cosine * weight / sample->pdf, photonPdf,
@@ -116,7 +116,7 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
   const auto radii = context.samples.Array1D(split.radii);
   for (std::size_t i = 0; i < along.size(); ++i) {
     // The axes are in Hilbert order: axis and azimuth are stratified jointly.
-    const auto sample = cones.Draw(along[i].x, {radii[i], along[i].y});
+    const auto sample = density.Draw(along[i].x, {radii[i], along[i].y});
     const BsdfValue scattered = bsdf.Evaluate(wo, sample.w, kLobes);
     if (scattered.f.IsBlack()) continue;
     const Real weight = PowerHeuristic(split.photonRays, sample.pdf, split.bsdfRays, scattered.pdf);

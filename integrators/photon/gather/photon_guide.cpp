@@ -37,6 +37,33 @@ GuidedDirections WorthFollowing(const GuideCell& cell, const SeenFrom& from, con
           cell.IrradiancePerPhoton() * Real(view.lit)};
 }
 
+// Uses all photons that light the side, for the distributions of other authors.
+GuidedDirections AllPhotons(const GuideCell& cell, const SeenFrom& from, GatherSampling kind,
+                            Arena* arena) {
+  const auto& [rest, p, side] = from;
+  const LitSide atRest(rest.Normal(side.ng), rest.Normal(side.ns), side.isTwoSided);
+  const ReprojectedCell view(cell, rest.Point(p), atRest, arena);
+  GuidedDirections guide;
+  guide.axes = ConeDirections(cell.size(), arena);
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (!(view.cosine[i] < ReprojectedCell::kUnlit)) continue;
+    const Vector3 w{view.x[i], view.y[i], view.z[i]};
+    guide.axes.Add(rest.IsMoved() ? rest.DirectionBack(w) : w);
+  }
+  guide.axes.Finish();
+  if (guide.axes.size() == 0) return guide;
+  guide.share = 1;
+  guide.irradiance = cell.IrradiancePerPhoton() * Real(view.lit);
+  if (kind == GatherSampling::Hey) {
+    guide.footprints = arena->Make<PhotonFootprints>(guide.axes, arena);
+    return guide;
+  }
+  DirectionHistogram* const histogram = arena->Make<DirectionHistogram>(side.ns);
+  for (std::size_t i = 0; i < guide.axes.size(); ++i) histogram->Add(guide.axes[i]);
+  guide.histogram = histogram;
+  return guide;
+}
+
 // LastGuide is the guide of the previous camera sample in the pixel, and its shading point.
 struct LastGuide {
   GuidedDirections directions;
@@ -72,7 +99,9 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
   const SeenFrom from{RestPose(point.surface), p, side};
   Arena& arena = context.pixelState ? context.pixelState->FreshArena() : context.arena;
   const auto follow = [&](const GuideCell& cell) {
-    const GuidedDirections directions = WorthFollowing(cell, from, cone_, &arena);
+    const GuidedDirections directions = kind_ == GatherSampling::Photons
+                                            ? WorthFollowing(cell, from, cone_, &arena)
+                                            : AllPhotons(cell, from, kind_, &arena);
     if (last) *last = {directions, cell.Radius2(), p, side};
     return directions;
   };

@@ -9,8 +9,11 @@
 #include "core/transport/shading_point.h"
 #include "integrators/photon/gather/cone.h"
 #include "integrators/photon/gather/cone_directions.h"
+#include "integrators/photon/gather/direction_histogram.h"
 #include "integrators/photon/gather/guide_grid.h"
+#include "integrators/photon/gather/photon_footprints.h"
 #include "integrators/photon/maps/photon_map.h"
+#include "integrators/photon/photon_settings.h"
 
 namespace exphoton {
 
@@ -20,13 +23,18 @@ struct GuidedDirections {
   ConeDirections axes;  // in Hilbert order; empty: BSDF sampling does as well
   Real share = 0;       // selected share of the photons that light this side of the surface
   Real irradiance = 0;  // luminance of the irradiance on this side, roughly, by all photons
+  // The distribution that replaces the cones about the axes, if one is not null. The axes are all
+  // photons that light this side then.
+  const DirectionHistogram* histogram = nullptr;
+  const PhotonFootprints* footprints = nullptr;
 };
 
 class PhotonGuide {
  public:
   PhotonGuide() = default;  // no guiding
   // Guides by `count` photons and cones about their directions.
-  PhotonGuide(int count, const Cone& cone) : count_(count), cone_(cone) {}
+  PhotonGuide(int count, const Cone& cone, GatherSampling kind = GatherSampling::Photons)
+      : count_(count), cone_(cone), kind_(kind) {}
 
   // Must be called when the map is built. The map must outlive the pass.
   void Prepare(const PhotonMap& map);
@@ -43,6 +51,7 @@ class PhotonGuide {
  private:
   int count_ = 0;
   Cone cone_;
+  GatherSampling kind_ = GatherSampling::Photons;
   Real cellWidth_ = 1;
 };
 

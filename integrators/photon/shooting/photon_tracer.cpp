@@ -26,6 +26,11 @@ constexpr std::int64_t kMinKeptPaths = 16;
 constexpr double kMaxUnguidedYield = .125;
 // A map that needs fewer further paths than this without a guide needs none.
 constexpr std::int64_t kMinUnguidedPaths = std::int64_t(1) << 17;
+// Where a caustic is as bright as the indirect light, its estimates need disks whose radius is this
+// number of times smaller than in the indirect map. Brighter caustics are resolved more finely.
+constexpr double kCausticDetail = 4;
+// Fewer photons do not make a map.
+constexpr std::int64_t kMinCaustics = 1000;
 // Share of the paths that the guide spreads over all emission.
 constexpr double kDefensiveShare = .2;
 // For the indirect map, whose paths leave direct photons too. Few of them may lie where nothing is
@@ -59,6 +64,13 @@ Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightSample
   for (const auto& light : scene.Lights()) power += UsablePower(*light);
   const double sum = power + media.EmittedPower();
   return Real(std::clamp(sum > 0 ? media.EmittedPower() / sum : .5, kMinShare, 1 - kMinShare));
+}
+
+// Returns the sum of the luminances.
+double PowerOf(std::span<const PhotonRecord> photons) {
+  double sum = 0;
+  for (const PhotonRecord& photon : photons) sum += double(photon.alpha.Y());
+  return sum;
 }
 
 }  // namespace
@@ -263,9 +275,32 @@ std::int64_t PhotonTracer::Pass::MaxTrainingPaths() const {
   return (tracer_.settings_.maxPhotonPaths - result_.paths) / kMaxTrainingOfLimit;
 }
 
+// Finds the number of caustic photons that are worth their time, from one round of training, and at
+// most `wanted`.
+// The radius of an estimate of irradiance E is the root of k Phi / (pi E), if all photons have
+// power Phi. Where E is that of the indirect light, caustics are resolved kCausticDetail times as
+// finely as indirect light if their photons are its square times as weak as indirect photons. More
+// photons are shot only if the user asks for a number.
+void PhotonTracer::Pass::LimitCaustics(std::int64_t wanted, std::int64_t trainedPaths) {
+  PhotonBuffer& indirect = result_[PhotonKind::Indirect];
+  if (indirect.photons.Size() == 0) return;
+  const double perIndirect = PowerOf(indirect.photons.Records()) / double(indirect.paths) /
+                             double(indirect.photons.Size());
+  double power = 0;
+  for (const PhotonChunk& chunk : chunks_) power += PowerOf(chunk.photons[kCaustic]);
+  const double enough =
+      kCausticDetail * kCausticDetail * power / double(trainedPaths) / perIndirect;
+  const bool isLess = enough < double(wanted);
+  result_.enoughCaustics =
+      isLess ? std::min(std::max(std::int64_t(enough), kMinCaustics), wanted) : 0;
+  const bool isChosen = isLess && !tracer_.settings_.causticPhotons;
+  targets_.counts[kCaustic] = isChosen ? result_.enoughCaustics : wanted;
+}
+
 // Trains the guide in rounds of growing size. No photon may depend on the guide that sends it, or
 // estimates would be biased: photons from before and from the training are dropped.
 void PhotonTracer::Pass::Train(PhotonKind kind) {
+  const std::int64_t wanted = targets_[kind];
   Discard(kind);
   samples_.resize(std::min(samples_.size(), kMaxTrainingSamples / 4));  // room for new samples
   guide_ = Learn(kind);
@@ -281,6 +316,7 @@ void PhotonTracer::Pass::Train(PhotonKind kind) {
     result_.paths += paths;
     result_.guidedPaths += paths;
     result_.trainingPaths += paths;
+    if (kind == PhotonKind::Caustic) LimitCaustics(wanted, paths);
     guide_ = Learn(kind);
     const double needed = double(targets_[kind]) * double(paths) / double(stored + 1);
     if (kMaxTrainingShare * needed < double(2 * paths) || 2 * paths > MaxTrainingPaths() ||

@@ -60,6 +60,8 @@ struct PhotonPassResult {
   std::int64_t paths = 0;          // of all lights and media
   std::int64_t guidedPaths = 0;    // of these, paths whose emission was guided
   std::int64_t trainingPaths = 0;  // of these, paths that only trained the guide
+  // Caustic photons that resolve caustics finely enough (Pass::LimitCaustics); 0: not known.
+  std::int64_t enoughCaustics = 0;
   // Paths that were counted but not traced, because only the caustic map was open and the first ray
   // missed all specular surfaces.
   std::int64_t skipped = 0;

@@ -64,9 +64,10 @@ class PhotonTracer::Pass {
   void KeepSamples();
   EmissionGuide Learn(PhotonKind kind) const;
   void Discard(PhotonKind kind);
+  void LimitCaustics(std::int64_t wanted, std::int64_t trainedPaths);
 
   const PhotonTracer& tracer_;
-  const PhotonTargets& targets_;
+  PhotonTargets targets_;
   PreprocessContext& context_;
   PhotonPassResult result_;
   PhotonBatch batch_;

@@ -218,5 +218,49 @@ TEST(GuidedEmissionLimit, HoldsForTrainingToo) {
   }
 }
 
+// A small glass ball in a large room brings about 1/800 of the light.
+const char* const kRoomWithASmallBall =
+    "WorldBegin\nLightSource \"point\" \"point from\" [-2 0 4]\n"
+    "Material \"matte\" \"color Kd\" [.5 .5 .5] Shape \"sphere\" \"float radius\" 8\n"
+    "Material \"glass\" Translate 1 0 1 Shape \"sphere\" \"float radius\" .3\nWorldEnd\n";
+
+PhotonPassResult ShootInRoom(std::optional<std::int64_t> causticPhotons) {
+  const LoadedScene loaded = LoadSceneText(kRoomWithASmallBall);
+  PhotonSettings settings;
+  settings.photonRoulette = PhotonRoulette::Luminance;
+  settings.guideEmission = true;
+  settings.causticPhotons = causticPhotons;
+  PhotonTargets targets;
+  targets[PhotonKind::Caustic] = 20000;
+  targets[PhotonKind::Indirect] = 100000;
+  return ShootPhotons(*loaded.setup->scene, 1, targets, settings);
+}
+
+double PowerPerPhoton(PhotonPassResult* result, PhotonKind kind) {
+  const double count = double((*result)[kind].photons.Size());
+  return PowersOf(result, kind, 1).back() / count;
+}
+
+// Caustic photons need not be weaker than 1/16 of an indirect photon. The limit comes from the last
+// round of training, which is the size of the noise.
+TEST(CausticPhotons, AreFewerWhereTheyCarryLittleLight) {
+  PhotonPassResult chosen = ShootInRoom({});
+  const std::int64_t count = std::int64_t(chosen[PhotonKind::Caustic].photons.Size());
+  EXPECT_GT(count, 1000);
+  EXPECT_LT(count, 6000);
+  EXPECT_GE(count, chosen.enoughCaustics);
+  EXPECT_LT(count, chosen.enoughCaustics + 4096);  // a batch
+  const double ratio =
+      PowerPerPhoton(&chosen, PhotonKind::Indirect) / PowerPerPhoton(&chosen, PhotonKind::Caustic);
+  EXPECT_NEAR(ratio * double(chosen.enoughCaustics) / double(count), 16, 1.6);
+
+  PhotonPassResult asked = ShootInRoom(20000);
+  EXPECT_GE(asked[PhotonKind::Caustic].photons.Size(), 20000u);
+  EXPECT_NEAR(double(asked.enoughCaustics), double(chosen.enoughCaustics), 200);
+  EXPECT_NEAR(PowersOf(&asked, PhotonKind::Caustic, 1).back(),
+              PowersOf(&chosen, PhotonKind::Caustic, 1).back(),
+              .1 * PowersOf(&asked, PhotonKind::Caustic, 1).back());
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -21,6 +21,7 @@ constexpr int kSize = 96, kSamples = 4, kRuns = 16;
 struct Shared {
   SharingBias bias;             // as estimated
   std::vector<double> picture;  // radiance
+  std::vector<double> aov;      // the bias of each pixel, as estimated
 };
 
 // Returns the result of sharing the gathers of a plane that receives this light. The noise of each
@@ -47,9 +48,14 @@ Shared ShareLight(const LightAt& light, double noise, std::uint64_t seed) {
     }
   }
   ThreadPool threads(1);
+  AovFilm aovs(bounds, {Aov::SharingBias});
   const SharingTotals totals =
-      AddSharedLight(gathers, &threads, {&film, nullptr, nullptr, bounds, kSamples});
-  Shared result{EstimateSharingBias(totals.checked, film).value(), {}};
+      AddSharedLight(gathers, &threads, {&film, &aovs, nullptr, bounds, kSamples});
+  Shared result{EstimateSharingBias(totals.checked, film).value(), {}, {}};
+  Image image;
+  aovs.AppendTo(film, false, &image);
+  for (std::size_t i = 1; i < image.pixels.size(); i += 3)
+    result.aov.push_back(double(image.pixels[i]));
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) result.picture.push_back(film.MeanOf({x, y})[1]);
   return result;
@@ -94,6 +100,28 @@ TEST(SharingBias, IsTheBiasOfThePicturesWhereLightWaves) {
   const Comparison runs = CompareRuns([](double, double y) { return 1 + .3 * std::sin(y); }, 1);
   EXPECT_GT(runs.squaredBias, 8 * runs.standardError) << "the test could not fail";
   EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
+}
+
+// The light depends on the row only, so a row's mean over pixels and runs has little noise.
+TEST(SharingBias, HasItsSignInTheAov) {
+  const auto light = [](double, double y) { return 1 + .3 * std::sin(y); };
+  std::array<double, kSize> aov{}, bias{};
+  for (int run = 0; run < kRuns; ++run) {
+    const Shared shared = ShareLight(light, 1, std::uint64_t(run));
+    ASSERT_EQ(shared.aov.size(), shared.picture.size());
+    for (std::size_t i = 0; i < shared.aov.size(); ++i) {
+      const std::size_t y = i / kSize;
+      aov[y] += shared.aov[i] / (kSize * kRuns);
+      bias[y] += (shared.picture[i] - light(0, double(y) + .5)) / (kSize * kRuns);
+    }
+  }
+  double product = 0, squares = 0;
+  for (std::size_t y = 0; y < kSize; ++y) {
+    product += aov[y] * bias[y];
+    squares += bias[y] * bias[y];
+  }
+  EXPECT_GT(squares / kSize, .002) << "the test could not fail";
+  EXPECT_NEAR(product / squares, 1, .2);
 }
 
 }  // namespace
