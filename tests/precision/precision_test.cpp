@@ -42,7 +42,7 @@ const std::map<std::string, Errors>& MeanErrors() {
   return errors;
 }
 
-// The roundings of double are 2^-29 of those of float.
+// A rounding of double is 2^-29 of a rounding of float.
 TEST(ThreePrecisions, ErrorsShrinkByTheRatioOfTheRoundings) {
   ASSERT_GT(MeanErrors().size(), 40u);
   for (const auto& [name, error] : MeanErrors()) {
