@@ -41,6 +41,10 @@ struct PlaneVolume {
   }
 };
 
+// The error of PlaneVolume::Value is less than this times PlaneVolume::Magnitude
+// (tests/proofs/plane_margin.gappa).
+inline constexpr double kAheadMargin = 8 * std::numeric_limits<double>::epsilon();
+
 // Returns whether the plane of the triangle lies ahead of the ray's origin by more than the
 // rounding error of this test. A ray that starts outside the error box of a point on the plane and
 // leaves the plane never hits it again. `orientation` has the sign of the dot product of normal and
@@ -50,8 +54,7 @@ template <class Corner>
                                                 double orientation) {
   const PlaneVolume volume(o, corner);
   const double ahead = orientation < 0 ? -volume.Value() : volume.Value();
-  constexpr double kUnit = std::numeric_limits<double>::epsilon();
-  return ahead > 8 * kUnit * volume.Magnitude();
+  return ahead > kAheadMargin * volume.Magnitude();
 }
 // Returns whether the plane does not lie ahead of the origin, without a margin for rounding. If it
 // is true, PlaneIsAhead is false. It rejects the triangle on which a ray starts.

@@ -23,11 +23,11 @@ namespace exphoton {
 // Gamma(1024).
 //
 // The triangle must also pass PlaneIsAhead, which tests the volume of the true vertices. An exact
-// shear keeps this volume, but rounding changes it: x and y are off by 4 u (X + Z) and 4 u (Y + Z),
-// so the volume is off by less than 48 u (2 X Y + Z (X + Y)) Z. The margin of PlaneIsAhead in
-// double is, by the same norms, less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. The terms of LargeVolume
-// exceed both errors.
-// tests/proofs/triangle_*.gappa prove the bounds of the first paragraph.
+// shear keeps this volume, but rounding changes it: x and y are off by 4 u (X + Z) and 4 u (Y + Z).
+// The volume is a sum of six products, so it is off by less than 24 u (2 X Y + Z (X + Y)) Z, and
+// terms in u^2. The error and the margin of PlaneIsAhead in double are, by the same norms, each
+// less than 2^-44 (X Y + Z (X + Y) + Z^2) Z. The terms of LargeVolume exceed all errors.
+// tests/proofs/triangle_*.gappa prove these bounds.
 // Source: Woop, Benthin and Wald 2013 (JCGT 2:1); Higham 2002, "Accuracy and Stability of Numerical
 // Algorithms", chapter 3.
 //

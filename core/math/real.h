@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Real is the floating-point type of geometry and transport. This file also has checked scalar
 // helpers. A build with EXPHOTON_DOUBLE makes Real double, to separate errors of the algorithm from
-// rounding. Error bounds: Higham 2002, "Accuracy and Stability of Numerical Algorithms", section
-// 3.1.
+// rounding. With EXPHOTON_LONG_DOUBLE only parts compile, for tests (tests/precision). Error
+// bounds: Higham 2002, "Accuracy and Stability of Numerical Algorithms", section 3.1.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,9 @@
 
 namespace exphoton {
 
-#ifdef EXPHOTON_DOUBLE
+#if defined(EXPHOTON_LONG_DOUBLE)
+using Real = long double;
+#elif defined(EXPHOTON_DOUBLE)
 using Real = double;
 using RealBits = std::uint64_t;
 #else
@@ -24,10 +26,10 @@ using RealBits = std::uint32_t;
 
 inline constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 inline constexpr Real kMachineEpsilon = std::numeric_limits<Real>::epsilon() / 2;
-inline constexpr Real kPi = Real(3.14159265358979323846);
-inline constexpr Real kInvPi = Real(0.31830988618379067154);
-inline constexpr Real kInv2Pi = Real(0.15915494309189533577);
-inline constexpr Real kInv4Pi = Real(0.07957747154594766788);
+inline constexpr Real kPi = Real(3.14159265358979323846L);
+inline constexpr Real kInvPi = Real(0.31830988618379067154L);
+inline constexpr Real kInv2Pi = Real(0.15915494309189533577L);
+inline constexpr Real kInv4Pi = Real(0.07957747154594766788L);
 
 // The largest Real below 1. Every uniform variate lies in [0, kOneMinusEpsilon].
 inline constexpr Real kOneMinusEpsilon = 1 - kMachineEpsilon;
@@ -59,8 +61,12 @@ inline Real SafeDivide(Real a, Real b, Real fallback) {
 inline Real NextUp(Real x) {
   if (std::isinf(x) && x > 0) return x;
   if (x == 0) return std::numeric_limits<Real>::denorm_min();
+#if defined(EXPHOTON_LONG_DOUBLE)
+  return std::nextafter(x, kInfinity);
+#else
   const auto bits = std::bit_cast<RealBits>(x);
   return std::bit_cast<Real>(x > 0 ? bits + 1 : bits - 1);
+#endif
 }
 inline Real NextDown(Real x) { return -NextUp(-x); }
 

@@ -16,6 +16,11 @@ int main() {
   print("kVolumeErrorRounded", double(kVolumeError) * (1 - rounding));
   print("leastVolumeRounded", volume * (1 - rounding));
   print("leastVolumeLess", volume * (1 - 0x1p-10));
+  print("kAheadMargin", kAheadMargin);
+  print("kShear", 0x4.01p-24);
+  print("large0", volume * (1 - rounding));
+  print("large1", double(LargeVolume::of[1]) * (1 - rounding));
+  print("large2", double(LargeVolume::of[2]) * (1 - rounding));
   print("kChordError", double(ConeDirections::kChordError));
   print("steepness", double(1 / PhotonMap::kFlatness));
   print("kFlattenedError", double(PhotonMap::kFlattenedError));

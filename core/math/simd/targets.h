@@ -14,7 +14,9 @@
 // compile time only: without SSE4.2 it has no vectors at all.
 #define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
-#if defined(__x86_64__)
+#if defined(EXPHOTON_STOCHASTIC)  // scalars, because each lane must round by itself
+#define HWY_COMPILE_ONLY_EMU128
+#elif defined(__x86_64__)
 #define HWY_BASELINE_TARGETS HWY_SSE4
 #else
 // One target only, compiled without target attributes: on ARM, the compiler generates constructors
@@ -33,7 +35,7 @@
 
 // Expands to pointers to the objects or functions `name` of all targets, the narrowest first. It is
 // valid at the end of a kernel file, after hwy/highway.h, in the namespace exphoton.
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(EXPHOTON_STOCHASTIC)
 #define EXPHOTON_SIMD_TARGETS(name) \
   { &N_SSE4::name, &N_AVX2::name, &N_AVX3::name }
 #else
@@ -56,7 +58,7 @@ namespace exphoton {
 // target go by this function.
 inline std::size_t UsableSimdTargets() {
   std::size_t usable = 1;
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(EXPHOTON_STOCHASTIC)
   if (!__builtin_cpu_supports("sse4.2"))
     throw std::runtime_error("this machine lacks SSE4.2, which every kernel needs");
   // The features of HWY_TARGET_STR_AVX2. A virtual machine may hide some of them.
