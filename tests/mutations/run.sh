@@ -149,11 +149,13 @@ run_tests() {  # and 124 where they do not end
   [ "$1" = case ] && command=("$build/bin/hardcases" --tests --only "$2" --quiet)
   (cd "$build" && timeout "${3:-300}" "${command[@]}" 2>&1)
 }
-# The first test that failed, of what run_tests or ctest printed.
-noticed_by() {
+# The first test that failed, of what run_tests or ctest printed; a crash ends a program before it
+# prints one.
+noticed_by() {  # OUTPUT [STATUS]
   local test
   test=$(printf '%s\n' "$1" | grep -E '^\[  FAILED  \] [^ ]+[.]|^      [^ ]|\*\*\*' | head -n 1 |
     sed -E 's/^\[  FAILED  \] //; s/^ +//; s/,? (where|\().*//; s/ \.+ *\*\*\*.*//') || true
+  if [ -z "$test" ] && [ "${2:-0}" -gt 128 ]; then test="a crash (signal $(($2 - 128)))"; fi
   echo "${test:-ended without a result}"
 }
 
@@ -284,7 +286,7 @@ try() {  # INDEX
       echo "$name: the tests did not end"
       echo "    ${programs[$1]} ${filters[$1]}"
     else
-      echo "$name: $(noticed_by "$output")"
+      echo "$name: $(noticed_by "$output" "$status")"
       result=0
     fi
   fi

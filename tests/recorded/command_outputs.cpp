@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // CommandOutputs: a line of commands.txt that begins with "$ " is a command, one with "> " names a
-// file that holds the following lines, and one with "? " names a text file to print. The line
+// file that holds the following lines (one with "= ": their hexadecimal digits as bytes), and one
+// with "? " names a text file to print. The line
 // "@ FOLDER" gives the runs of a study fixed times, so that its page can be made again and
 // compared. Words of a command that contain blanks are in quotes.
 #include "tests/recorded/command_outputs.h"
@@ -9,7 +10,6 @@
 #include <iomanip>
 #include <regex>
 #include <sstream>
-#include <utility>
 
 #include "core/app/analysis/results.h"
 #include "tests/recorded/scene_list.h"
@@ -39,6 +39,21 @@ std::string WithoutParts(std::string text, const std::string& begin, const std::
   return text;
 }
 
+// Leaves out numbers of a table or a record of statistics that differ from run to run.
+std::string WithoutMeasuredNumbers(std::string line) {
+  if (line.find("econds\":") != std::string::npos) {
+    static const std::regex json(
+        R"re("(\w*[sS]econds|threads|peakMemoryBytes|memory/peak)":[0-9.e+-]+)re");
+    line = std::regex_replace(line, json, "\"$1\":#");
+  }
+  static const std::regex phase(R"( *TIME +TIME +[0-9.]+ %)"), rate(R"([0-9][0-9,.]* per second)"),
+      memory(R"(^(memory/peak|threads) +[0-9].*)");
+  if (line.find("TIME ") != std::string::npos) line = std::regex_replace(line, phase, " TIME");
+  if (line.find(" per second") != std::string::npos)
+    line = std::regex_replace(line, rate, "# per second");
+  return std::regex_replace(line, memory, "$1 #");
+}
+
 // Leaves out what differs from build to build and from run to run, embedded pictures and style
 // sheets. Times are fixed in what "report" prints, and in nothing else.
 std::string Normalized(std::string text, const std::string& folder, bool hasTimes) {
@@ -55,7 +70,8 @@ std::string Normalized(std::string text, const std::string& folder, bool hasTime
   for (std::string line; std::getline(lines, line);) {
     line = std::regex_replace(line, version, "exphoton VERSION");
     if (hasTimes && std::regex_match(line, headline)) continue;
-    normalized += (hasTimes ? std::regex_replace(line, seconds, "TIME") : line) + "\n";
+    if (hasTimes) line = std::regex_replace(line, seconds, "TIME");
+    normalized += WithoutMeasuredNumbers(line) + "\n";
   }
   return normalized;
 }
@@ -92,18 +108,29 @@ void FixStudy(const std::string& folder) {
   WriteFile(path, study::ToJson(results));
 }
 
+// Returns the bytes of pairs of hexadecimal digits, without the ends of lines.
+std::string Bytes(std::string digits) {
+  std::erase(digits, '\n');
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+    bytes += char(std::stoi(digits.substr(i, 2), nullptr, 16));
+  return bytes;
+}
+
 class CommandRunner {
  public:
   std::vector<CommandOutput> Run() {
     std::string file, content;
+    bool isBinary = false;
     for (const std::string& line : LinesOf("commands.txt")) {
       const std::string rest = line.size() > 2 ? line.substr(2) : "";
-      if (line.starts_with("> ") || line.starts_with("$ ") || line.starts_with("? ") ||
-          line.starts_with("@ ")) {
-        if (!file.empty()) WriteInFolder(file, std::exchange(content, ""));
+      if (line.size() > 2 && line[1] == ' ' && std::string(">=$?@").find(line[0]) < 5) {
+        if (!file.empty()) WriteInFolder(file, isBinary ? Bytes(content) : content);
         file.clear();
+        content.clear();
       }
-      if (line.starts_with("> "))
+      isBinary = line.starts_with("= ") || (isBinary && !file.empty());
+      if (line.starts_with("> ") || line.starts_with("= "))
         file = rest;
       else if (line.starts_with("$ "))
         RunCommand(rest);

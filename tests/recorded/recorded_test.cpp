@@ -2,7 +2,7 @@
 // These tests compare the results of tiny scenes and the outputs of commands with those that were
 // recorded. A failure says that something changed, not that it is wrong. The same program records:
 //   test_recorded --record              writes the records anew and lists what changed
-//   test_recorded --record-outputs      the same for the outputs of commands alone
+//   test_recorded --record-outputs      the same for figures and the outputs of commands alone
 //   test_recorded --print SCENE         prints a scene
 //   test_recorded --list                lists the scenes and the CPU seconds of each
 #include <gtest/gtest.h>
@@ -16,12 +16,14 @@
 
 #include "core/base/statistics.h"
 #include "tests/recorded/command_outputs.h"
+#include "tests/recorded/figures.h"
 #include "tests/recorded/record_file.h"
 
 namespace exphoton::recorded {
 namespace {
 
 constexpr const char* kLinesFile = "records/lines.txt";
+constexpr const char* kFiguresFile = "records/figures.txt";
 
 // Every fourth scene is rendered by three threads. No result depends on their number.
 int ThreadCount(std::size_t scene) {
@@ -97,7 +99,7 @@ TEST_P(RecordedResults, AreAsRecorded) {
 INSTANTIATE_TEST_SUITE_P(Groups, RecordedResults, ::testing::ValuesIn(GroupNames()),
                          [](const auto& info) { return info.param; });
 
-// Returns the differences between two outputs, as lines that are missing and lines that are new.
+// Returns the differences between two lists, as lines that are missing and lines that are new.
 std::vector<std::string> Compare(const CommandOutput& before, const CommandOutput& now) {
   std::vector<std::string> differences;
   const std::size_t count = std::max(before.lines.size(), now.lines.size());
@@ -121,6 +123,26 @@ TEST(RecordedOutputs, AreAsRecorded) {
       ADD_FAILURE() << now[i].command << Joined(differences, 8)
                     << "\nIf the change is meant, record it: ./dev test --record";
   }
+}
+
+TEST(RecordedFigures, AreAsRecorded) {
+  if (!IsComparable()) GTEST_SKIP() << "recorded by a build for x86-64 without sanitizers";
+  const std::vector<std::string> differences =
+      Compare({"", LinesOf(kFiguresFile)}, {"", Figures()});
+  EXPECT_TRUE(differences.empty())
+      << Joined(differences, 12) << "\nIf the change is meant, record it: ./dev test --record";
+}
+
+std::ofstream FileOf(const char* name) {
+  return std::ofstream(std::string(EXPHOTON_SOURCE_DIR) + "/tests/recorded/" + name);
+}
+
+void RecordFigures() {
+  const std::vector<std::string> before = LinesOf(kFiguresFile), now = Figures();
+  std::printf("%zu lines of figures changed\n", Compare({"", before}, {"", now}).size());
+  std::ofstream file = FileOf(kFiguresFile);
+  file << "# Written by ./dev test --record; see docs/development/testing.md.\n";
+  for (const std::string& line : now) file << line << "\n";
 }
 
 // Writes the outputs of the commands and prints what changed.
@@ -162,8 +184,9 @@ int RecordAll() {
   int changed = 0;
   for (const std::string& group : GroupNames()) changed += RecordGroup(group, &lines);
   RecordOutputs();
+  RecordFigures();
   lines.erase("");
-  std::ofstream file(std::string(EXPHOTON_SOURCE_DIR) + "/tests/recorded/" + kLinesFile);
+  std::ofstream file = FileOf(kLinesFile);
   file << "# The lines of explanations, messages and errors of all scenes; # is a number.\n";
   for (const std::string& line : lines) file << (line[0] == '#' ? " " : "") << line << "\n";
   std::printf("%d scenes changed; see the difference of tests/recorded/records\n", changed);
@@ -199,7 +222,11 @@ int main(int argc, char** argv) {
   std::filesystem::current_path(EXPHOTON_SOURCE_DIR);  // scenes name files from there
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "--record") return exphoton::recorded::RecordAll();
-  if (command == "--record-outputs") return exphoton::recorded::RecordOutputs(), 0;
+  if (command == "--record-outputs") {
+    exphoton::recorded::RecordOutputs();
+    exphoton::recorded::RecordFigures();
+    return 0;
+  }
   if (command == "--list") return exphoton::recorded::ListAll();
   if (command == "--print" && argc > 2) return exphoton::recorded::Print(argv[2]);
   return RUN_ALL_TESTS();

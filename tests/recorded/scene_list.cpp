@@ -39,6 +39,9 @@ const std::vector<Group>& Groups() {
        }},
       {"state", [] { return StateScenes(1, 300); }},
       {"window", [] { return WindowScenes(1, 210); }},
+      {"mixed_1", [] { return MixedScenes(1, 170); }},
+      {"mixed_2", [] { return MixedScenes(171, 340); }},
+      {"mixed_3", [] { return MixedScenes(341, 510); }},
       {"chosen", [] { return ChosenScenes(); }},
   };
   return groups;

@@ -36,6 +36,7 @@ std::vector<RecordedScene> ParameterScenes(const std::string& kinds, int combina
 std::vector<RecordedScene> MotionScenes();
 std::vector<RecordedScene> StateScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
 std::vector<RecordedScene> WindowScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
+std::vector<RecordedScene> MixedScenes(std::uint64_t firstSeed, std::uint64_t lastSeed);
 std::vector<RecordedScene> ChosenScenes();
 
 // Returns make(seed) for each seed.

@@ -279,5 +279,26 @@ TEST(SharingWindows, DoNotReachBeyondTheirMargin) {
   EXPECT_EQ(radius(), before);
 }
 
+// The largest reach goes over samples at the edges of their pixels: the window of pixel 50 is
+// blended with the one at pixel 56, which is chosen by errors at pixel 68, whose fit holds
+// pixel 76.
+TEST(SharingWindows, DependOnGathersAtADistanceOf26Pixels) {
+  GatherFragments gathers = PlaneGathers(
+      96, [](const Place&, RandomStream* random) { return Noisy(1, random); }, 3);
+  const auto fragment = [&](int x) -> GatherFragment& { return gathers.At({x, 48}).fragments[0]; };
+  for (const auto& [x, film] : {std::pair{50, 50.95}, {56, 56.5}, {68, 68.05}, {76, 76.05}})
+    fragment(x).film.x = Real(film);
+  ThreadPool threads(1);
+  const auto radius = [&] {
+    return SharingWindows(gathers, FragmentRows(gathers), &threads)
+        .At({50, 48}, fragment(50))
+        .radius;
+  };
+  const Real before = radius();
+  for (Spectrum& light : fragment(76).lights) light = Spectrum(100000);
+  EXPECT_NE(radius(), before);
+  EXPECT_GE(SharingWindows::kReach, 26);
+}
+
 }  // namespace
 }  // namespace exphoton
