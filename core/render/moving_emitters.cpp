@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// MovingEmitters: a specular tree whose surfaces have no light but that of moving emitters.
+// MovingEmitters: a specular tree whose surfaces have no light but the light of moving emitters.
 #include "core/render/moving_emitters.h"
 
 #include <algorithm>

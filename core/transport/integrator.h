@@ -145,8 +145,9 @@ class SurfaceIntegrator {
   virtual AovSet Aovs() const { return {}; }
   virtual DepthParameters DepthLimits() const { return {}; }
   // Returns the number of specular bounces after which Li contains emission as a SpecularTree of
-  // this depth finds it, in the AOVs emission and specular. 0: only that of the first surface. The
-  // renderer may replace this light by a better estimate (core/render/moving_emitters.h).
+  // this depth finds it, in the AOVs emission and specular. 0: only the emission of the first
+  // surface. The renderer may replace this light by a better estimate
+  // (core/render/moving_emitters.h).
   virtual std::optional<int> EmissionDepth() const { return std::nullopt; }
   // Returns whether Li fills LiContext::gathers.
   virtual bool SharesGathers(const Scene& scene) const {

@@ -30,7 +30,7 @@ struct PriceModel {
   bool hasPhotons = false;
 
   // Fits the noise to the pilots, in ascending order of samples. Those whose halves have the same
-  // photons show the noise of camera samples, and the others that of photons as well.
+  // photons show the noise of camera samples, and the others show the noise of photons as well.
   void FitNoise(const std::vector<Pilot>& pilots);
 
  private:

@@ -278,9 +278,9 @@ std::int64_t PhotonTracer::Pass::MaxTrainingPaths() const {
 // Finds the number of caustic photons that are worth their time, from one round of training, and at
 // most `wanted`.
 // The radius of an estimate of irradiance E is the root of k Phi / (pi E), if all photons have
-// power Phi. Where E is that of the indirect light, caustics are resolved kCausticDetail times as
-// finely as indirect light if their photons are its square times as weak as indirect photons. More
-// photons are shot only if the user asks for a number.
+// power Phi. Let caustics and indirect light have the same E. Caustics are then resolved
+// kCausticDetail times as finely if their photons are kCausticDetail^2 times as weak. More photons
+// are shot only if the user asks for a number.
 void PhotonTracer::Pass::LimitCaustics(std::int64_t wanted, std::int64_t trainedPaths) {
   PhotonBuffer& indirect = result_[PhotonKind::Indirect];
   if (indirect.photons.Size() == 0) return;
