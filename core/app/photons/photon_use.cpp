@@ -44,7 +44,9 @@ PhotonFileUse MakePhotonFileUse(const std::string& path, bool isWritten, const L
     throw Error(ExitStatus::CommandLine,
                 "the integrator \"" + setup.integratorName + "\" keeps no photons", {},
                 "--integrator exphotonmap and --integrator photonmap do");
-  PhotonFileUse use{path, isWritten, {}};
+  PhotonFileUse use;
+  use.path = path;
+  use.isWritten = isWritten;
   const auto add = [&use](const std::string& name, const std::string& value) {
     use.identity.emplace_back(name, value);
   };
