@@ -152,6 +152,20 @@ bool TileRenderer::RenderAllSamples(Point2i pixel, RenderWorker* worker) const {
   return true;
 }
 
+// Light that is not finite counts as black, and negative light as 0.
+void TileRenderer::MakeUsable(const SampleKey& key, RenderWorker* worker, Spectrum* L,
+                              AovSample* aovs) const {
+  if (!L->IsFinite()) {
+    Drop(*L, key, worker);
+    *L = Spectrum();
+    Blacken(aovs);
+    worker->gathers.clear();
+  } else if (L->MinComponent() < 0) {
+    ++worker->totals.negative;
+    ClampNegative(L, aovs);
+  }
+}
+
 void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) const {
   CameraSamples& samples = worker->samples;
   target_.sampler.Generate(key, &samples);
@@ -180,15 +194,7 @@ void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) cons
   for (const GatherRecord& gather : worker->gathers)
     if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
   AverageEmission({film, ray, context, specularRays}, worker, &L, &aovs);
-  if (!L.IsFinite()) {
-    Drop(L, key, worker);
-    L = Spectrum();
-    Blacken(&aovs);
-    worker->gathers.clear();
-  } else if (L.MinComponent() < 0) {
-    ++worker->totals.negative;
-    ClampNegative(&L, &aovs);
-  }
+  MakeUsable(key, worker, &L, &aovs);
   if (target_.gathers) {
     const int group = GatherGroup(key.pixel, key.index);
     target_.gathers->At(key.pixel).Add(worker->gathers, film, filter.weight, group);

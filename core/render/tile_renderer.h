@@ -77,6 +77,7 @@ class TileRenderer {
   // Replaces the light of moving emitters in L by the mean over several times.
   void AverageEmission(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
                        AovSample* aovs) const;
+  void MakeUsable(const SampleKey& key, RenderWorker* worker, Spectrum* L, AovSample* aovs) const;
   void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
 
   const RenderJob& job_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/app/options/accuracy_option.h"
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
@@ -233,25 +234,6 @@ void CheckProgressive(const RawOptions& raw, const RenderCommand& command) {
   Exclude(!raw.shard.empty(), true, "--progressive and --shard exclude each other");
 }
 
-// The dial chooses what the excluded options set. States and parts do not save its choice.
-void TakeAccuracy(const RawOptions& raw, RenderCommand* command) {
-  Exclude(command->keepsSettings, raw.accuracy.empty(), "--keep needs --accuracy");
-  if (raw.accuracy.empty()) return;
-  command->accuracy = ParsePercentage("--accuracy", raw.accuracy);
-  const auto exclude = [](bool isGiven, const char* option) {
-    if (isGiven) FailUsage(std::string("--accuracy and ") + option + " exclude each other");
-  };
-  exclude(raw.samplesPerPixel > 0, "--spp");
-  exclude(command->targetError.has_value(), "--target-error");
-  exclude(command->asTwoHalves, "--two-halves");
-  exclude(command->certifies, "--certify");
-  exclude(command->maxPasses > 0, "--max-passes");
-  exclude(command->isProgressive, "--progressive");
-  exclude(command->load.isQuick, "--quick");
-  exclude(command->resumes, "--resume");
-  exclude(!raw.shard.empty(), "--shard");
-}
-
 void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
   CheckProgressive(raw, command);
   Exclude(command.asTwoHalves, command.HasStoppingRule(),
@@ -270,6 +252,7 @@ void TakeShard(const RawOptions& raw, RenderCommand* command) {
           "--max-passes and --time-limit exclude each other");
   if (raw.shard.empty()) return;
   command->shard = ParseShard(raw.shard);
+  Exclude(command->accuracy.has_value(), true, "--accuracy and --shard exclude each other");
   if (command->timeLimit)
     FailUsage("--shard and --time-limit exclude each other: machines differ in speed",
               "--target-error X --max-passes N stops all shards after the same passes");
@@ -309,6 +292,21 @@ void CheckCertificate(const RawOptions& raw, const RenderCommand& command) {
   Exclude(!raw.shard.empty(), true, "--certify and --shard exclude each other");
 }
 
+// Without scenes, standard input is read.
+void TakeScenes(RenderCommand* command) {
+  if (command->scenes.empty()) {
+    if (isatty(STDIN_FILENO))
+      FailUsage("no scene is named", "name scene files, or \"-\" to type a scene");
+    command->scenes.push_back("-");
+  }
+  if (std::count(command->scenes.begin(), command->scenes.end(), "-") > 1)
+    FailUsage("standard input (-) is named twice");
+  if (!command->outfile.empty() && command->scenes.size() > 1)
+    FailUsage("--outfile names one picture, but there are several scenes");
+  if (!command->stateFile.empty() && command->scenes.size() > 1)
+    FailUsage("--state names one file, but there are several scenes");
+}
+
 void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   LoadOptions& load = command->load;
   Exclude(raw.asHalf, raw.asFloat, "--half and --float exclude each other");
@@ -331,7 +329,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
-  TakeAccuracy(raw, command);
+  TakeAccuracy(raw.accuracy, command);
   CheckPasses(raw, *command);
   CheckCertificate(raw, *command);
   TakeShard(raw, command);
@@ -346,17 +344,7 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (raw.explains) command->mode = RenderMode::Explain;
   Exclude(command->measuresEffects, command->mode != RenderMode::Explain,
           "--measure needs exphoton explain");
-  if (command->scenes.empty()) {
-    if (isatty(STDIN_FILENO))
-      FailUsage("no scene is named", "name scene files, or \"-\" to type a scene");
-    command->scenes.push_back("-");
-  }
-  if (std::count(command->scenes.begin(), command->scenes.end(), "-") > 1)
-    FailUsage("standard input (-) is named twice");
-  if (!command->outfile.empty() && command->scenes.size() > 1)
-    FailUsage("--outfile names one picture, but there are several scenes");
-  if (!command->stateFile.empty() && command->scenes.size() > 1)
-    FailUsage("--state names one file, but there are several scenes");
+  TakeScenes(command);
   TakeFrames(raw, command);
   Log quiet(Log::Level::Quiet, Log::Sink::Memory);
   ChooseEffects(RequiredFeatures(), load.effects, quiet);  // throws if the value is invalid

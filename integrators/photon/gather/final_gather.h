@@ -10,7 +10,7 @@
 #include "core/math/sampling/mis.h"
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
-#include "integrators/photon/gather/guide_density.h"
+#include "integrators/photon/gather/densities/guide_density.h"
 #include "integrators/photon/gather/photon_guide.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/photon_settings.h"

@@ -9,9 +9,9 @@
 #include "core/transport/shading_point.h"
 #include "integrators/photon/gather/cone.h"
 #include "integrators/photon/gather/cone_directions.h"
-#include "integrators/photon/gather/direction_histogram.h"
+#include "integrators/photon/gather/densities/direction_histogram.h"
+#include "integrators/photon/gather/densities/photon_footprints.h"
 #include "integrators/photon/gather/guide_grid.h"
-#include "integrators/photon/gather/photon_footprints.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/photon_settings.h"
 

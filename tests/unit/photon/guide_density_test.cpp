@@ -2,7 +2,7 @@
 // These tests check the guiding distributions of other authors, Jensen's histogram and the
 // footprints of Hey and Purgathofer: samples against densities, by a chi-square test, and
 // degenerate photons. Each test of a density has a false-alarm rate of 1 % over four tests.
-#include "integrators/photon/gather/guide_density.h"
+#include "integrators/photon/gather/densities/guide_density.h"
 
 #include <gtest/gtest.h>
 

@@ -139,6 +139,8 @@ TEST_F(AccuracyTest, SaysWhatIsWrong) {
   refused("2%", {"--certify"}, "--certify");
   refused("2%", {"--progressive"}, "--progressive");
   refused("2%", {"--resume"}, "--resume");
+  refused("2%", {"--photons", "x.expm"}, "--photons");
+  refused("2%", {"--shard", "1/2"}, "--shard");
   refused("2%", {"--integrator", "whitted"}, "cannot be estimated");
   EXPECT_EQ(Run({"room.pbrt", "--keep"}).status, 1);
   Write("two.pbrt", Read("room.pbrt") + Read("room.pbrt"));
