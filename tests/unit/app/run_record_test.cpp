@@ -145,11 +145,16 @@ TEST_F(RunRecordTest, IsALineOfJson) {
                 "\"specular\":4,\"gather\":5,\"photon\":6},\"counters\":{\"things\":0.5}}\n");
   run.footprintSamples = 0;
   run.isComplete = true;
-  run.noise = .25, run.timeLimit = 9;
+  run.noise = .25, run.noiseError = .0625, run.timeLimit = 9;
+  run.accuracy = .5, run.upperError = .0625, run.choice = "more";
   const std::string other = StatisticsJson(run);
   EXPECT_EQ(other.find("footprint"), std::string::npos);
   EXPECT_NE(other.find("\"complete\":true,"), std::string::npos);
-  EXPECT_NE(other.find("\"noise\":0.25,\"targetError\":0.125,\"timeLimit\":9,"), std::string::npos);
+  EXPECT_NE(other.find("\"noise\":0.25,\"noiseError\":0.0625,\"targetError\":0.125,"
+                       "\"accuracy\":{\"wanted\":0.5,\"upperError\":0.25,\"chosen\":\"more\"},"
+                       "\"timeLimit\":9,"),
+            std::string::npos)
+      << other;
 }
 
 TEST_F(RunRecordTest, SaysWhichRuleStoppedIt) {
