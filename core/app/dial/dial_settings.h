@@ -15,7 +15,6 @@ struct DialSettings {
 
   // Returns the parameters that differ from the scene.
   std::vector<ParameterOverride> Overrides() const;
-  bool operator==(const DialSettings&) const = default;
 };
 
 }  // namespace exphoton::cli

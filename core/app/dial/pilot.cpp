@@ -70,10 +70,12 @@ std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPictur
                        picture.cost.samples, picture.seconds);
 }
 
-// Pilots that differ only in their samples use the same objects.
+// Pilots that differ only in their samples use the same objects. The numbers of photons in the
+// settings are always the scene's, so only their factor matters.
 const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   const bool isLoaded = setup_ && loaded_.integrator == request.integrator &&
-                        loaded_.settings == request.settings &&
+                        loaded_.settings.photons == request.settings.photons &&
+                        loaded_.settings.gatherRays == request.settings.gatherRays &&
                         loaded_.hasFewPhotons == request.hasFewPhotons;
   if (isLoaded) return *setup_;
   LoadOptions options = small_;
@@ -125,23 +127,11 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.hasBias = setup.integrator->Certification(*setup.scene).has_value();
   if (request.estimatesBias && picture.hasBias)
     films.corrections = std::make_unique<Corrections>(setup.crop, kCorrectedShare);
-  ThreadPool threads(command_.threadCount);
-  ProgressReporter progress(ProgressReporter::Mode::Quiet);
-  Statistics statistics;
+  SmallRender small(command_.threadCount);
   const auto sampler = setup.sampler->WithSamplesPerPixel(std::max(request.samples / 2, 1));
-  const RenderJob job{*setup.scene,
-                      *setup.integrator,
-                      *sampler,
-                      *setup.filter,
-                      *setup.camera,
-                      films.film,
-                      threads,
-                      scene_.Messages(),
-                      progress,
-                      statistics,
-                      setup.volumeIntegrator.get(),
-                      setup.integratorName};
-  const PassesResult result = RenderHalves(job, request, &films, &picture);
+  const PassesResult result =
+      RenderHalves(small.Job(setup, *sampler, &films.film), request, &films, &picture);
+  const Statistics& statistics = small.Counts();
   picture.pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
                    request.hasOwnPhotons};
   picture.cost = CostOf(statistics, setup.integratorName);

@@ -48,4 +48,19 @@ std::unique_ptr<RenderSetup> SmallScene::Load(const LoadOptions& options) {
                                            "\" holds " + std::to_string(setups.size()) + " scenes");
 }
 
+RenderJob SmallRender::Job(const RenderSetup& setup, const Sampler& sampler, Film* film) {
+  return {*setup.scene,
+          *setup.integrator,
+          sampler,
+          *setup.filter,
+          *setup.camera,
+          *film,
+          threads_,
+          log_,
+          progress_,
+          statistics_,
+          setup.volumeIntegrator.get(),
+          setup.integratorName};
+}
+
 }  // namespace exphoton::cli

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SmallScene loads a file with one scene at a low resolution, for pilots and measurements.
+// SmallScene loads a file with one scene at a low resolution, for pilots and measurements, and
+// SmallRender renders it without messages.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "core/app/options/options.h"
+#include "core/base/parallel.h"
+#include "core/base/progress.h"
+#include "core/base/statistics.h"
 #include "core/parser/syntax/source.h"
+#include "core/render/render.h"
 
 namespace exphoton::cli {
 
@@ -22,12 +27,27 @@ class SmallScene {
   // Throws Error, also if the file does not hold one scene.
   std::unique_ptr<RenderSetup> Load(const LoadOptions& options);
 
-  Log& Messages() { return log_; }  // of small renders, which are not shown
-
  private:
   std::string path_, option_;
   FileSource::Streams* streams_;
+  Log log_{Log::Level::Quiet, Log::Sink::Memory};  // the messages of small scenes are not shown
+};
+
+// What one render needs beside its scene.
+class SmallRender {
+ public:
+  // threads: as in RenderCommand.
+  explicit SmallRender(int threads) : threads_(threads) {}
+
+  // The job refers to all arguments and to this object.
+  RenderJob Job(const RenderSetup& setup, const Sampler& sampler, Film* film);
+  const Statistics& Counts() const { return statistics_; }
+
+ private:
+  ThreadPool threads_;
   Log log_{Log::Level::Quiet, Log::Sink::Memory};
+  ProgressReporter progress_{ProgressReporter::Mode::Quiet};
+  Statistics statistics_;
 };
 
 }  // namespace exphoton::cli

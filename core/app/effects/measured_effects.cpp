@@ -91,30 +91,17 @@ class Measurement {
   // Adds one render to the films.
   Times RenderInto(const RenderSetup& setup, std::uint64_t half, Film* film, AovFilm* aovs) {
     const double begin = ProcessCpuSeconds();
-    ThreadPool threads(command_.threadCount);
-    ProgressReporter progress(ProgressReporter::Mode::Quiet);
-    Statistics statistics;
+    SmallRender small(command_.threadCount);
     RenderOptions options;
     options.seed = command_.seed + half;
     options.stop = &StopFlag();
     options.footprintSamples = command_.footprintSamples;
     options.aovs = aovs;
     const auto sampler = setup.sampler->WithSamplesPerPixel(samples_);
-    const RenderJob job{*setup.scene,
-                        *setup.integrator,
-                        *sampler,
-                        *setup.filter,
-                        *setup.camera,
-                        *film,
-                        threads,
-                        scene_.Messages(),
-                        progress,
-                        statistics,
-                        setup.volumeIntegrator.get(),
-                        setup.integratorName};
-    if (!exphoton::Render(job, options).isComplete) throw LoadingStopped();
+    if (!exphoton::Render(small.Job(setup, *sampler, film), options).isComplete)
+      throw LoadingStopped();
     Times times;
-    times.Add(statistics, ProcessCpuSeconds() - begin);
+    times.Add(small.Counts(), ProcessCpuSeconds() - begin);
     return times;
   }
 

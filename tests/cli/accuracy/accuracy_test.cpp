@@ -99,6 +99,28 @@ TEST_F(AccuracyTest, ShowsItsPilotsOnRequest) {
   EXPECT_NE(result.err.find("pilot of exphotonmap"), std::string::npos) << result.err;
 }
 
+// The first pilot makes one set of maps. The pilot that estimates the bias uses it in one half, and
+// makes another set for the other half.
+TEST_F(AccuracyTest, PilotsShareTheirPhotons) {
+  const std::string err = Render("2%", {"--integrator", "exphotonmap", "--verbose"}).err;
+  std::vector<double> prices;
+  bool hasBias = false;
+  const std::string before = "price of maps ";
+  for (std::size_t at = err.find(before); at != std::string::npos; at = err.find(before, at + 1)) {
+    prices.push_back(std::stod(err.substr(at + before.size())));
+    const std::string line = err.substr(err.rfind('\n', at) + 1, at - err.rfind('\n', at));
+    if (line.find(", bias ") == std::string::npos) continue;
+    hasBias = true;
+    EXPECT_GT(prices.back(), .7 * prices.front()) << err;
+    EXPECT_LT(prices.back(), 1.5 * prices.front()) << err;
+    break;
+  }
+  ASSERT_TRUE(hasBias) << err;
+  ASSERT_GE(prices.size(), 3u) << err;
+  EXPECT_GT(prices.front(), 0);
+  for (std::size_t i = 1; i + 1 < prices.size(); ++i) EXPECT_EQ(prices[i], 0) << err;
+}
+
 // 20 photons blur all light, so their bias is far above 2 %.
 TEST_F(AccuracyTest, TakesMorePhotonsAgainstBias) {
   WriteRoom("few.pbrt", "exphotonmap", 40);
