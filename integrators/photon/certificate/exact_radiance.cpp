@@ -12,11 +12,11 @@
 namespace exphoton {
 namespace {
 
-// Bounds of the expected number of reads that the rays of a hit have corrected. In between, it is
-// the square of the albedo. Nested corrections then add the same variance at each bounce, and a
-// smaller number would make the variance grow from bounce to bounce. The upper bound ends chains
-// between surfaces that absorb nothing.
-constexpr Real kMinNested = Real(.1), kMaxNested = Real(.95);
+// Bounds of the expected number of reads that are corrected per unit of throughput, for rays that
+// read as much as their hit. In between, it is the albedo: the variance of nested corrections is
+// then the same at each bounce, and a smaller number would make it grow from bounce to bounce. The
+// upper bound ends chains between surfaces that absorb nothing.
+constexpr Real kMinKept = Real(.1), kMaxKept = Real(.95);
 // Rays of a hit. They take little time beside the BSDF and the guide of the hit, which they share.
 constexpr int kRays = 4;
 // Bounds of the share of guided rays, where there is a guide.
@@ -37,20 +37,34 @@ ExactRadiance::ExactRadiance(const CorrectionSources& sources, LiContext& contex
   gather_.SetCorrector(this);
 }
 
-Spectrum ExactRadiance::Correction(const GatherRay::Segment& segment) {
-  survival_ = 1;
+Spectrum ExactRadiance::Correction(const GatherRay::Segment& segment, Real light) {
+  light_ = light;
+  parent_ = {};
   return gather_.Follow(segment, {}, 0).correction;
 }
 
-Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectrum& read) {
-  const Real survival = survival_;
+// Russian roulette in proportion to what the ray adds to its parent: the error of a read is about
+// as large as its light. `light_` is added to all reads, so that no chance becomes too small, and
+// so that the expected length of chains is bounded: along a chain, the ratios of importances
+// multiply to the ratio of the last and the first one.
+Real ExactRadiance::Survival(Real importance, Real throughput) const {
+  if (!parent_) return 1;
+  const Real ratio = parent_->importance > 0 ? importance / parent_->importance : Real(1);
+  return std::min(parent_->kept * parent_->weight * throughput * ratio, Real(1));
+}
+
+Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectrum& read,
+                                Real throughput) {
+  const Real importance = read.Y() + light_;
+  const Real survival = Survival(importance, throughput);
   if (survival < 1 && !(random_->Uniform() < survival)) return {};
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = gather_.Shade(segment);
   const Real albedo = point.bsdf.Rho(gather_.MappedLobes()).MaxComponent();
-  survival_ = std::clamp(Square(albedo), kMinNested, kMaxNested) / Real(kRays);
+  const std::optional<Parent> parent = parent_;
+  parent_ = {std::clamp(albedo, kMinKept, kMaxKept), importance, 0};
   const Spectrum exact = Sample(point);
-  survival_ = survival;
+  parent_ = parent;
   context_.arena.Rewind(mark);
   return (exact - read) / survival;
 }
@@ -125,6 +139,7 @@ Spectrum ExactRadiance::AlongRays(const ShadingPoint& point, const Rays& rays) {
   for (std::size_t i = 0; i < kRays; ++i) {
     if (!segments[i]) continue;
     gather_.LookUp({&*segments[i], 1});
+    parent_->weight = samples[i].throughput.Y();
     const auto light = gather_.Follow(*segments[i], point.surface, samples[i].pdf);
     sum += samples[i].throughput * (light.radiance + light.correction);
   }

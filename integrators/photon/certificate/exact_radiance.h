@@ -32,8 +32,8 @@ class ExactRadiance final : private GatherRay::ReadCorrector {
   ExactRadiance(const CorrectionSources& sources, LiContext& context, RandomStream* random);
 
   // Returns an estimate of the true radiance along a gather ray minus the radiance that GatherRay
-  // reads along it.
-  Spectrum Correction(const GatherRay::Segment& segment);
+  // reads along it. light: a luminance that is typical of the rays of the gather.
+  Spectrum Correction(const GatherRay::Segment& segment, Real light);
 
  private:
   // The rays of one hit: how many sample the BSDF, and how many the guide.
@@ -49,7 +49,17 @@ class ExactRadiance final : private GatherRay::ReadCorrector {
     }
   };
 
-  Spectrum Correct(const GatherRay::Segment& segment, const Spectrum& read) override;
+  // The corrected read that the rays of a hit belong to.
+  struct Parent {
+    Real kept;        // expected number of corrected reads per unit of throughput
+    Real importance;  // of the parent's own read
+    Real weight;      // luminance of the throughput of the current ray
+  };
+
+  Spectrum Correct(const GatherRay::Segment& segment, const Spectrum& read,
+                   Real throughput) override;
+  // Returns the probability that a read is corrected.
+  Real Survival(Real importance, Real throughput) const;
   // Returns a sample of the radiance that the mapped lobes send towards wo.
   Spectrum Sample(const ShadingPoint& point);
   Rays RaysAt(const ShadingPoint& point);
@@ -65,7 +75,8 @@ class ExactRadiance final : private GatherRay::ReadCorrector {
   RandomStream* random_;
   Cone cone_;
   GatherRay gather_;
-  Real survival_ = 1;  // the probability that the next read is corrected
+  Real light_ = 0;
+  std::optional<Parent> parent_;
 };
 
 }  // namespace exphoton

@@ -20,8 +20,8 @@ LiContext SeparateContext(const LiContext& context, RayCounters* rays) {
 
 // Writes cumulative sums of the rays' probabilities, which are not normalized. A ray that hits
 // nothing has none. The mean radiance is added to each radiance, so that rays that wrongly read
-// little light are chosen too.
-void Accumulate(const GatherRay::Reads& reads, std::span<Real> sums) {
+// little light are chosen too. Returns the luminance of the mean radiance.
+Real Accumulate(const GatherRay::Reads& reads, std::span<Real> sums) {
   Real weights = 0, light = 0;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     weights += reads.weights[i].Y();
@@ -34,6 +34,7 @@ void Accumulate(const GatherRay::Reads& reads, std::span<Real> sums) {
     if (reads.segments[i].hit) sum += reads.weights[i].Y() * radiance;
     sums[i] = sum;
   }
+  return mean;
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ void GatherCorrection::Observe(const ShadingPoint& point, const GatherRay::Reads
   if (chosen == 0) return;
   const Arena::Mark mark = context_.arena.GetMark();
   const std::span<Real> sums(context_.arena.AllocateArray<Real>(count), count);
-  Accumulate(reads, sums);
+  const Real mean = Accumulate(reads, sums);
   RayCounters rays;
   LiContext own = SeparateContext(context_, &rays);
   ExactRadiance exact(sources_, own, &random);
@@ -58,7 +59,7 @@ void GatherCorrection::Observe(const ShadingPoint& point, const GatherRay::Reads
     const Real before = at > 0 ? sums[at - 1] : Real(0);
     const Real probability = (sums[at] - before) / sums.back();
     if (!(probability > 0)) continue;
-    const Spectrum correction = exact.Correction(reads.segments[at]);
+    const Spectrum correction = exact.Correction(reads.segments[at], mean);
     result.sum +=
         point.throughput * reads.weights[at] * correction / (probability * Real(expected));
     ++result.count;

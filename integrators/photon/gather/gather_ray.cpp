@@ -209,7 +209,8 @@ Spectrum GatherRay::FromMaps(Walk* walk) const {
   const Segment& segment = walk->segment;
   if (!Intersects(segment.hit->material->PossibleLobes(), mappedLobes_)) return {};
   const Spectrum read = ReadMaps(segment);
-  if (corrector_) walk->correction += walk->throughput * corrector_->Correct(segment, read);
+  if (corrector_)
+    walk->correction += walk->throughput * corrector_->Correct(segment, read, walk->throughput.Y());
   return read;
 }
 

@@ -41,8 +41,9 @@ class GatherRay {
    public:
     virtual ~ReadCorrector() = default;
     // Returns an estimate of the true radiance of MappedLobes() at the hit of the segment, towards
-    // the origin of the segment, minus `read`.
-    virtual Spectrum Correct(const Segment& segment, const Spectrum& read) = 0;
+    // the origin of the segment, minus `read`. throughput: luminance of the share of the hit's
+    // radiance that arrives at the start of the gather ray.
+    virtual Spectrum Correct(const Segment& segment, const Spectrum& read, Real throughput) = 0;
   };
 
   // All arguments must outlive this object. Without radiance photons (radianceMap null), all
