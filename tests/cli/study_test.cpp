@@ -276,6 +276,22 @@ TEST_F(StudyTest, CountsTheRenderedSamplesOfItsReference) {
   ADD_FAILURE() << "32 seconds are not enough for three rounds";
 }
 
+TEST_F(StudyTest, QuotesItsIntegratorsBeforeItRenders) {
+  MakeReference();
+  std::vector<std::string> options = Options("study");
+  options.insert(options.end(), {"--predict", "--no-maps"});
+  const ProcessResult run = Run(options);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_LT(run.err.find("pilots of path"), run.err.find("path, spp=1"));
+  const study::Results results = ReadResults("study");
+  ASSERT_EQ(results.predictions.size(), 2u);
+  EXPECT_EQ(results.predictions[1].integrator, "path");
+  ASSERT_FALSE(results.predictions[1].points.empty()) << results.predictions[1].failure;
+  EXPECT_GT(results.predictions[1].points.back().seconds,
+            results.predictions[1].points.front().seconds);
+  EXPECT_NE(Read("study/report.html").find("Quotes and measurements"), std::string::npos);
+}
+
 TEST_F(StudyTest, StopsRendersByTimeForBudgets) {
   const ProgramResult result = Run({"study", "box.pbrt", "--integrators", "path", "--budgets",
                                     "0.1,0.3s", "--seeds", "2", "--no-maps", "--out", "out"});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -145,6 +146,28 @@ ReferenceRecord ToReference(const Json& json) {
   return reference;
 }
 
+// JSON has no infinity. An interval without an upper end has no member "most".
+Json FromPrediction(const Prediction& prediction) {
+  Json points = Json::array();
+  for (const Prediction::Point& point : prediction.points) {
+    points.push_back(
+        {{"relMSE", point.error}, {"cpuSeconds", point.seconds}, {"least", point.least}});
+    if (std::isfinite(point.most)) points.back()["most"] = point.most;
+  }
+  return {{"integrator", prediction.integrator},
+          {"failure", prediction.failure},
+          {"points", std::move(points)}};
+}
+
+Prediction ToPrediction(const Json& json) {
+  Prediction prediction{Text(json, "integrator"), Text(json, "failure"), {}};
+  for (const Json& point : json.at("points"))
+    prediction.points.push_back({Number(point, "relMSE"), Number(point, "cpuSeconds"),
+                                 Number(point, "least"),
+                                 point.value("most", std::numeric_limits<double>::infinity())});
+  return prediction;
+}
+
 Results Parse(const std::string& text) {
   const Json json = Json::parse(text);
   if (json.at("format").get<int>() != kFormat)
@@ -166,6 +189,8 @@ Results Parse(const std::string& text) {
   results.crops = json.at("crops").get<std::vector<std::array<double, 4>>>();
   for (const Json& setting : json.at("settings")) results.settings.push_back(ToSetting(setting));
   results.reference = ToReference(json.at("reference"));
+  for (const Json& prediction : json.value("predictions", Json::array()))
+    results.predictions.push_back(ToPrediction(prediction));
   for (const Json& map : json.at("maps"))
     results.maps.push_back(
         {Text(map, "image"), Text(map, "channel"), Text(map, "title"), Text(map, "unit")});
@@ -243,6 +268,8 @@ std::string ToJson(const Results& results) {
                {"targets", results.targets},
                {"crops", results.crops}};
   json["reference"] = FromReference(results.reference);
+  for (const Prediction& prediction : results.predictions)
+    json["predictions"].push_back(FromPrediction(prediction));
   json["settings"] = Json::array();
   for (const Setting& setting : results.settings) json["settings"].push_back(FromSetting(setting));
   json["maps"] = Json::array();

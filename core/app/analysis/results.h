@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/app/analysis/plan.h"
+#include "core/app/analysis/predictions.h"
 #include "core/imaging/metrics/metrics.h"
 
 namespace exphoton::study {
@@ -70,6 +71,7 @@ struct Results {
   std::vector<std::array<double, 4>> crops;  // x0 x1 y0 y1 as fractions, shown enlarged
   std::vector<Setting> settings;
   ReferenceRecord reference;
+  std::vector<Prediction> predictions;  // of each integrator, if the user asked for them
   std::vector<RunRow> runs;
   std::vector<MapRecord> maps;
 };

@@ -15,6 +15,7 @@
 #include "core/app/process/signals.h"
 #include "core/app/report/report.h"
 #include "core/app/study/study_forecast.h"
+#include "core/app/study/study_predictions.h"
 #include "core/app/study/study_runner.h"
 #include "core/app/study/study_tasks.h"
 #include "core/base/error.h"
@@ -178,6 +179,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   StudyRunner runner(options, folder, scene, program);
   results.reference = PrepareReference(options, runner);
   CheckReference(options, scene, results.reference);
+  if (options.predicts) results.predictions = Predict(options, scene, results.settings);
   results.runs = runner.RunAll(results.settings);
   results.maps = MakeMaps(options, results, runner);
   WriteResults(folder, &results);

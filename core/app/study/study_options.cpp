@@ -163,6 +163,8 @@ void AddRender(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
   AddScenePluginsOption(app, &options.allowsScenePlugins);
   AddLimitsOption(app, &options.limits);
   app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
+  app.AddFlag("--predict", options.predicts,
+              "quote each integrator first, and show the quotes beside the measurements");
   app.AddFlag("--quiet", options.isQuiet, "no progress");
   app.AddFlag(
       "--plan", options.onlyPlans,
@@ -244,12 +246,26 @@ void CheckPhotonFile(const StudyOptions& options) {
     FailUsage("--photons excludes --budgets: each pass of such a render has photons of its own");
 }
 
+// Quotes are about whole pictures with photons of their own, in CPU time and with their bias.
+void CheckPredictions(const StudyOptions& options) {
+  if (!options.predicts) return;
+  if (options.references.empty() && options.makeReference.empty())
+    FailUsage("--predict needs a reference, because the quotes include the bias",
+              "--reference PICTURE, or --make-reference guidedpath");
+  if (options.clock != "cpu") FailUsage("--predict needs --clock cpu: quotes are CPU times");
+  if (!options.cropWindow.empty()) FailUsage("--predict excludes --cropwindow");
+  if (!options.photonFile.empty()) FailUsage("--predict excludes --photons");
+  if (options.taskCount > 0 || options.task)
+    FailUsage("--predict excludes --tasks: the machine of the pilots must be that of the renders");
+}
+
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
   if (options.folder.empty() && !options.onlyPlans && options.missingOf == 0)
     FailUsage("exphoton study needs --out FOLDER");
   ParseLimits(options.limits);
   CheckPhotonFile(options);
+  CheckPredictions(options);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");

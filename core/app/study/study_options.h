@@ -38,6 +38,7 @@ struct StudyOptions {
   bool makesMaps = true;
   bool isQuiet = false;
   bool onlyPlans = false;  // print the planned renders and stop
+  bool predicts = false;   // quote each integrator before the renders
   std::string commandLine;
 
   // Studies as arrays of jobs

@@ -209,5 +209,20 @@ TEST_F(StudyOptionsTest, MakeAPlanWhoseParametersTheIntegratorsHave) {
   EXPECT_EQ(PlanSettings(options).size(), 1u);
 }
 
+TEST_F(StudyOptionsTest, QuotesNeedAReferenceAndWholePictures) {
+  EXPECT_FALSE(Parse({}).predicts);
+  EXPECT_TRUE(Parse({"--predict", "--make-reference", "path"}).predicts);
+  EXPECT_TRUE(Parse({"--predict", "--reference", folder_.File("a.exr")}).predicts);
+  EXPECT_NE(ErrorOf({"--predict"}).find("--predict needs a reference"), std::string::npos);
+  const auto expectError = [&](Arguments arguments, const std::string& text) {
+    arguments.insert(arguments.end(), {"--predict", "--make-reference", "path"});
+    EXPECT_NE(ErrorOf(arguments).find(text), std::string::npos) << ErrorOf(arguments);
+  };
+  expectError({"--clock", "wall"}, "--predict needs --clock cpu");
+  expectError({"--cropwindow", "0,1,0,.5"}, "--predict excludes --cropwindow");
+  expectError({"--photons", "a.expm", "--seeds", "1"}, "--predict excludes --photons");
+  expectError({"--tasks", "3"}, "--predict excludes --tasks");
+}
+
 }  // namespace
 }  // namespace exphoton::cli

@@ -22,6 +22,9 @@ class ChartFrame {
   ChartFrame(const ChartShape& shape, const ChartRange& range);
 
   Point2d operator()(double seconds, double error) const { return {x_(seconds), y_(error)}; }
+  bool Contains(double seconds, double error) const {
+    return seconds >= x_.Low() && seconds <= x_.High() && error >= y_.Low() && error <= y_.High();
+  }
   const LogScale& X() const { return x_; }
   const LogScale& Y() const { return y_; }
   const Box& Plot() const { return plot_; }

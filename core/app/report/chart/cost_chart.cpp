@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/app/analysis/numbers.h"
 #include "core/app/report/chart/chart_frame.h"
@@ -70,6 +71,7 @@ class Chart {
     AddReferenceLimit();
     AddFloors();
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddLine(i);
+    for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddPrediction(i);
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddMarks(i);
     AddTarget();
     for (std::size_t i = 0; i < analysis_.lines.size(); ++i) AddName(i);
@@ -148,6 +150,20 @@ class Chart {
     }
     lines_ += SvgPolyline(step, "envelope " + ColorClass(number));
     for (std::size_t i = 1; i < step.size(); ++i) placer_.Discourage(step[i - 1], step[i]);
+  }
+
+  // Draws the line's quote, as far as it lies inside the plot.
+  void AddPrediction(std::size_t number) {
+    const Prediction* const prediction = PredictionOf(results_, analysis_.lines[number].label);
+    if (!prediction || !analysis_.hasReference || results_.clock == "wall") return;
+    std::vector<Point2d> points;
+    for (const Prediction::Point& point : prediction->points)
+      if (frame_.Contains(point.seconds, point.error))
+        points.push_back(frame_(point.seconds, point.error));
+    lines_ += SvgPolyline(points, "expected " + ColorClass(number));
+    for (std::size_t i = 1; i < points.size(); ++i) placer_.Discourage(points[i - 1], points[i]);
+    if (points.size() > 1 && !std::exchange(hasPredictionNote_, true))
+      notes_.push_back({points[points.size() / 2], "dashed: quotes", "note"});
   }
 
   void AddMarks(std::size_t number) {
@@ -276,6 +292,7 @@ class Chart {
   LabelPlacer placer_;
   std::vector<std::size_t> front_, unnamed_;
   std::vector<Note> notes_;
+  bool hasPredictionNote_ = false;
   Html background_, lines_, marks_, texts_;  // in the order of drawing
 };
 

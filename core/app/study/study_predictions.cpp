@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/study/study_predictions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/app/quote/missing_light.h"
+#include "core/app/quote/pilot_renders.h"
+#include "core/app/study/study_runner.h"
+
+namespace exphoton::cli {
+namespace {
+
+constexpr double kPilotSeconds = 5;
+constexpr double kLargestError = .5, kSmallestError = .005;  // roots of relMSE
+constexpr int kPoints = 41;
+
+std::vector<std::string> IntegratorsOf(const std::vector<study::Setting>& settings) {
+  std::vector<std::string> names;
+  for (const study::Setting& setting : settings)
+    if (std::ranges::find(names, setting.integrator) == names.end())
+      names.push_back(setting.integrator);
+  return names;
+}
+
+QuoteScene SceneOf(const StudyOptions& options, const SceneFacts& facts) {
+  QuoteScene scene{options.scene, facts.width, facts.height, "", {}};
+  const auto add = [&](const char* option, const std::string& value) {
+    scene.options.insert(scene.options.end(), {option, value});
+  };
+  for (const std::string& set : options.sets) add("--set", set);
+  for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
+  if (options.allowsScenePlugins) scene.options.push_back("--allow-scene-plugins");
+  add("--footprint-spp", std::to_string(options.footprintSamples));
+  add("--nthreads", std::to_string(options.threads));
+  return scene;
+}
+
+study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean>& means) {
+  study::Prediction prediction{quote.integrator, quote.failure, {}};
+  if (prediction.failure.empty())
+    prediction.failure = MissingLight({quote.integrator, quote.mean, quote.meanError}, means);
+  if (!prediction.failure.empty()) return prediction;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = double(i) / (kPoints - 1);
+    const double error = kLargestError * std::pow(kSmallestError / kLargestError, t);
+    if (const auto price = PriceOf(quote.model, {error}))
+      prediction.points.push_back({error * error, price->seconds, price->least, price->most});
+  }
+  return prediction;
+}
+
+}  // namespace
+
+std::vector<study::Prediction> Predict(const StudyOptions& options, const SceneFacts& facts,
+                                       const std::vector<study::Setting>& settings) {
+  const std::vector<std::string> names = IntegratorsOf(settings);
+  const QuoteScene scene = SceneOf(options, facts);
+  std::vector<Quote> quotes;
+  std::vector<PilotMean> means;
+  for (const std::string& name : names) {
+    Say(options, "pilots of " + name);
+    try {
+      quotes.push_back(RunPilots(scene, name, KeepsPhotons(options, name),
+                                 kPilotSeconds / double(names.size())));
+    } catch (const QuoteInterrupted&) {
+      throw StudyInterrupted();
+    }
+    if (quotes.back().failure.empty())
+      means.push_back({name, quotes.back().mean, quotes.back().meanError});
+  }
+  std::vector<study::Prediction> predictions;
+  for (const Quote& quote : quotes) predictions.push_back(PredictionFrom(quote, means));
+  return predictions;
+}
+
+}  // namespace exphoton::cli
