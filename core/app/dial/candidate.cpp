@@ -82,6 +82,7 @@ void Explorer::TakePrice() {
   candidate_.price = split->price;
   candidate_.settings.photons = split->price.photons;
   candidate_.biasShare = split->biasShare;
+  candidate_.photonShare = model_.maps * split->price.photons / split->price.seconds;
   candidate_.hasScatter = model_.relativeError > kScatter;
   if (!hasBias_) return;
   const double rays = std::max(gatherRays_ * split->price.samples, 1.);

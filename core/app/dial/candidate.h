@@ -21,6 +21,7 @@ struct Candidate {
   double secondsPerCost = 0;  // CPU time of the pilots, for messages only
   double correctedShare = 0;  // of the gather rays; 0: no certificate
   double biasShare = 0;       // of the squared error, what the certificate should resolve
+  double photonShare = 0;     // of the price, what the photons of one group cost
   bool hasScatter = false;    // the noise of the pilots is uncertain
 };
 

@@ -25,6 +25,7 @@ constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots sugg
 constexpr double kMorePhotons = 4, kMostPhotons = 256;
 constexpr double kNotableRatio = 1.1;  // of times
 constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
+constexpr double kGroupShare = .1;     // of the price, for photons of more groups than two
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055).
 constexpr int kFewGatherRays = 16;
 
@@ -148,10 +149,18 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
          ChoiceText(*pilots, *best) + ")";
 }
 
-// Two groups have half of the samples each. If the noise of the pilots is uncertain, smaller groups
-// avoid a picture that is better than wanted. A time limit should leave time for two groups.
+// Returns the number of groups of passes that should reach the accuracy, at least 2. Many groups
+// can stop before the picture is better than wanted, because the noise of pilots is uncertain. But
+// each group shoots its photons, and small ones say little about the bias of shared gathers.
+double GroupsOf(const Candidate& chosen) {
+  const double most = chosen.correctedShare > 0 ? 4 : 16;
+  const double cheap = 2 + kGroupShare / std::max(chosen.photonShare, 1e-6);
+  return std::clamp(cheap, chosen.hasScatter ? 4. : 2., most);
+}
+
+// A time limit should leave time for two groups.
 std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command) {
-  double size = kRoundUp * chosen.price.samples / (chosen.hasScatter ? 4 : 2);
+  double size = kRoundUp * chosen.price.samples / GroupsOf(chosen);
   if (command.timeLimit) {
     const double cpuSeconds = chosen.price.seconds * chosen.secondsPerCost;
     const double seconds = cpuSeconds / ThreadPool(command.threadCount).Count();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests order an accuracy (--accuracy) from the command line.
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
@@ -38,6 +39,11 @@ class AccuracyTest : public ProgramTest {
   }
 };
 
+int NumberAfter(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? 0 : std::atoi(text.c_str() + at + words.size());
+}
+
 TEST_F(AccuracyTest, RendersUntilTheErrorIsSmall) {
   const ProgramResult result = Render("20%", {"--stats-json", "room.json"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -60,6 +66,14 @@ TEST_F(AccuracyTest, MoreAccuracyTakesMoreSamples) {
   const int coarse = RenderAndRead("8%", path).at("samplesPerPixel");
   const int fine = RenderAndRead("1%", path).at("samplesPerPixel");
   EXPECT_GT(fine, 8 * coarse);  // 64 by the square of the ratio, 16 with the best sequences
+}
+
+// The noise of pilots can be far too high, so the first look comes long before the expected end.
+TEST_F(AccuracyTest, LooksEarlyWherePhotonsCostNothing) {
+  const std::string err = Render("1%", {"--integrator", "path", "--verbose"}).err;
+  const int expected = NumberAfter(err, "about "), first = NumberAfter(err, "note: after ");
+  EXPECT_GE(first, 2) << err;
+  EXPECT_LE(6 * first, expected) << err;
 }
 
 TEST_F(AccuracyTest, DoesNotDependOnThreads) {
