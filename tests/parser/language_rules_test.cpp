@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "core/parser/builder/texture_table.h"
 #include "core/plugins/registry.h"
@@ -246,6 +247,22 @@ TEST(Textures, OfABlockEndWithIt) {
   EXPECT_NEAR(DiffuseOf(two), .7, 1e-6);
   const BuiltScene gone = BuildText(InWorld(material + block(define(".2 .2 .2")) + block("")));
   EXPECT_NE(gone.error.find("not defined: \"t\""), std::string::npos);
+}
+
+// A parameter that shape and material both have is the shape's.
+TEST(Shapes, OverrideOnlyWhatTheyDoNotHaveThemselves) {
+  const std::string mesh = testing::TempDir() + "exphoton_triangle.obj";
+  std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const BuiltScene built =
+      BuildText(InWorld("Material \"measured\" \"string filename\" \"" EXPHOTON_SOURCE_DIR
+                        "/tests/random/glossy.brdf\"\nShape \"obj\" \"string filename\" \"" +
+                        mesh + "\""));
+  ASSERT_EQ(built.error, "");
+  EXPECT_EQ(built.setups.at(0)->scene->WorldBounds().max.y, 1);
+  const BuiltScene painted = BuildText(
+      InWorld("Material \"matte\" Shape \"sphere\" \"color Kd\" [.7 .7 .7] \"float radius\" 2"));
+  ASSERT_EQ(painted.error, "");
+  EXPECT_NEAR(DiffuseOf(painted), .7, 1e-6);
 }
 
 }  // namespace

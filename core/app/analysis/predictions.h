@@ -15,8 +15,8 @@ struct Analysis;
 struct Prediction {
   // The cheapest setting that is expected to reach an error.
   struct Point {
-    double error = 0;                          // relMSE, > 0
-    double seconds = 0, least = 0, most = 0;   // CPU time, with a 90 % interval; most may be inf
+    double error = 0;                         // relMSE, > 0
+    double seconds = 0, least = 0, most = 0;  // CPU time, with a 90 % interval; most may be inf
   };
   std::string integrator;
   std::string failure;        // why there is no quote; "": there is one

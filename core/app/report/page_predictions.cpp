@@ -52,12 +52,11 @@ Html PredictionSection(const Results& results, const Analysis& analysis) {
   for (const PredictionCheck& check : checks) rows += CheckRow(analysis, check, columns);
   for (const Prediction& prediction : results.predictions)
     if (!prediction.failure.empty())
-      rows += Fill("price-note", {{"columns", 6 + columns.Count()},
-                                  {"text", prediction.integrator + " has no quote: " +
-                                               prediction.failure}});
-  return Fill("prediction-section", {{"summary", SummaryText(checks)},
-                                     {"parameters", columns.Heads()},
-                                     {"rows", rows}});
+      rows += Fill("price-note",
+                   {{"columns", 6 + columns.Count()},
+                    {"text", prediction.integrator + " has no quote: " + prediction.failure}});
+  return Fill("prediction-section",
+              {{"summary", SummaryText(checks)}, {"parameters", columns.Heads()}, {"rows", rows}});
 }
 
 }  // namespace exphoton::study

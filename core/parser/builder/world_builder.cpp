@@ -160,19 +160,22 @@ bool WorldBuilder::Declares(PluginKind kind, const std::string& plugin,
                      [&](const ParamDecl& decl) { return decl.name == parameter; });
 }
 
-ParamSet WorldBuilder::WithoutMaterialParameters(const std::string& shape,
-                                                 const std::string& material, ParamSet params) {
+WorldBuilder::SplitParams WorldBuilder::SplitByUse(const std::string& shape,
+                                                   const std::string& material, ParamSet params) {
   const auto isMaterialOnly = [&](const ParsedParam& param) {
     return !Declares(PluginKind::Shape, shape, param.name, params.where) &&
            Declares(PluginKind::Material, material, param.name, params.where);
   };
+  SplitParams split;
+  split.ofShape.where = split.ofMaterial.where = params.where;
   const std::vector<ParsedParam>& all = params.All();
-  if (std::none_of(all.begin(), all.end(), isMaterialOnly)) return params;
-  ParamSet own;
-  own.where = params.where;
+  if (std::none_of(all.begin(), all.end(), isMaterialOnly)) {
+    split.ofShape = std::move(params);
+    return split;
+  }
   for (const ParsedParam& param : all)
-    if (!isMaterialOnly(param)) own.Add(param);
-  return own;
+    (isMaterialOnly(param) ? split.ofMaterial : split.ofShape).Add(param);
+  return split;
 }
 
 namespace {
@@ -229,10 +232,7 @@ const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& sh
 std::shared_ptr<const Material> WorldBuilder::MakeMaterial(MaterialSpec& spec,
                                                            const ParamSet& shape,
                                                            const GraphicsState& state) {
-  const std::vector<ParsedParam>& all = shape.All();
-  const bool overrides = std::any_of(all.begin(), all.end(), [&](const ParsedParam& param) {
-    return Declares(PluginKind::Material, spec.name, param.name, spec.params.where);
-  });
+  const bool overrides = !shape.All().empty();
   const TextureTable& textures = spec.textures ? *spec.textures : *state.textures;
   const bool isUpToDate =
       spec.madeGeneration == textures.generation || !RefersToTextures(spec.params);
@@ -285,17 +285,17 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
 void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
   const std::string& name = directive.strings[0];
   if (!object_) ++objectCount_;
-  const Material* material = MaterialFor(*state.material, directive.params, state);
   const SourceLocation where = directive.Where();
-  const ParamSet params =
-      WithoutMaterialParameters(name, state.material->name, std::exchange(directive.params, {}));
+  const SplitParams params =
+      SplitByUse(name, state.material->name, std::exchange(directive.params, {}));
   directive.params.where = where;
+  const Material* material = MaterialFor(*state.material, params.ofMaterial, state);
   const std::shared_ptr<const Motion> motion = MotionFor(directive, state);
   // A moving shape is made in object space in a separate set, and an instance with the motion
   // places that set in the world.
   const Transform toWorld = motion ? Transform() : state.transform.start;
   std::unique_ptr<ShapeGeometry> geometry = registry_.Create<PluginKind::Shape>(
-      name, params, Bind(PluginKind::Shape, name, state.textures.get()),
+      name, params.ofShape, Bind(PluginKind::Shape, name, state.textures.get()),
       ShapeContext{toWorld, state.reverseOrientation, log_, where});
   PrimitiveSet& world = object_ ? *object_->set : *parts_.primitives;
   if (!motion)

@@ -62,7 +62,7 @@ class WorldBuilder {
   std::unique_ptr<Aggregate> MakeAggregate(PrimitiveSet& set);
   const ObjectGeometry* MakeObject(std::unique_ptr<PrimitiveSet> set);
   class NamedParts;
-  // Returns the material of a shape with these parameters, and keeps it in the scene.
+  // Returns the material with these parameters of a shape, and keeps it in the scene.
   const Material* MaterialFor(MaterialSpec& spec, const ParamSet& shape,
                               const GraphicsState& state);
   std::shared_ptr<const Material> MakeMaterial(MaterialSpec& spec, const ParamSet& shape,
@@ -75,9 +75,12 @@ class WorldBuilder {
                                           const GraphicsState& state) const;
   bool Declares(PluginKind kind, const std::string& plugin, const std::string& parameter,
                 const SourceLocation& where);
-  // Returns a shape's parameters without those that only its material declares.
-  ParamSet WithoutMaterialParameters(const std::string& shape, const std::string& material,
-                                     ParamSet params);
+  // Shapes can give parameters of their material, in place of those of its directive. A parameter
+  // that both declare, such as "filename", is the shape's.
+  struct SplitParams {
+    ParamSet ofShape, ofMaterial;
+  };
+  SplitParams SplitByUse(const std::string& shape, const std::string& material, ParamSet params);
   struct Placed {  // the arguments of AddGeometry that depend on motion
     ShapeGeometry geometry;
     PrimitiveSet& set;
