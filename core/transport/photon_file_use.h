@@ -15,16 +15,16 @@ using PhotonIdentity = std::vector<std::pair<std::string, std::string>>;
 
 struct PhotonFileUse {
   std::string path;
-  bool isWritten = false;  // false: read
+  bool isWritten = false;  // Preprocess writes and throws PhotonsWritten; false: it reads
   // With shardCount > 0, only the share shardIndex (1 to shardCount) of the photons is shot and
-  // written. Preprocess then throws PhotonShareWritten.
+  // written.
   int shardIndex = 0, shardCount = 0;
   std::vector<std::string> parts;  // with isWritten: files of shares that are taken over
   // Program, scene and files. The integrator adds the seed and its settings.
   PhotonIdentity identity;
 };
 
-// Thrown once a share of the photons is in its file: there is nothing to render.
-struct PhotonShareWritten {};
+// Thrown once the photons are in their file: there is nothing to render.
+struct PhotonsWritten {};
 
 }  // namespace exphoton

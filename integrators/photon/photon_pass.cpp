@@ -93,7 +93,7 @@ void WriteShare(const PhotonTracer& tracer, const PhotonTargets& targets,
   context.log.Notice("wrote \"" + use.path + "\"");
 }
 
-// Shoots the photons for their file, with what the parts hold. Throws PhotonShareWritten once a
+// Shoots the photons for their file, with what the parts hold. Throws PhotonsWritten once a
 // share is written.
 PhotonPassResult ShootForFile(const PhotonTracer& tracer, const PhotonTargets& targets,
                               const PhotonIdentity& identity, PreprocessContext& context) {
@@ -102,7 +102,7 @@ PhotonPassResult ShootForFile(const PhotonTracer& tracer, const PhotonTargets& t
   if (use.shardCount > 0) {
     if (!HasShare(use.path, identity, lights, context.log))
       WriteShare(tracer, targets, identity, context);
-    throw PhotonShareWritten();
+    throw PhotonsWritten();
   }
   const auto memo = ReadParts(use, identity, lights);
   PhotonPassResult photons = tracer.Shoot(targets, context, memo.get());
@@ -141,12 +141,11 @@ PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings
   NoticeUnusedCaustics(targets, settings, scene, context.log);
   ReportPhotonPass(photons, targets, settings, context);
   ReportLights(photons, targets, scene, context);
-  if (use) {
-    const PhaseTimer timer(context.statistics, "write photons");
-    WritePhotons(use->path, IdentityOfPhotons(use->identity, settings, targets, context.seed),
-                 &photons, context.threads);
-  }
-  return photons;
+  if (!use) return photons;
+  const PhaseTimer timer(context.statistics, "write photons");
+  WritePhotons(use->path, IdentityOfPhotons(use->identity, settings, targets, context.seed),
+               &photons, context.threads);
+  throw PhotonsWritten();
 }
 
 }  // namespace exphoton

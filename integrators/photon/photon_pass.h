@@ -9,7 +9,8 @@
 namespace exphoton {
 
 // Shoots until the maps hold the target counts, and reports what was shot and stored. If the
-// context names a file of photons, they are read from it instead, or written to it.
+// context names a file of photons, they are read from it instead, or written to it. Throws
+// PhotonsWritten once they are written.
 PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings,
                               const PhotonTargets& targets, PreprocessContext& context);
 

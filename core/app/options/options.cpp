@@ -239,8 +239,8 @@ void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
   Exclude(command.asTwoHalves, command.HasStoppingRule(),
           "--two-halves and --time-limit or --target-error exclude each other");
   Exclude(!command.photonFile.empty(), command.HasStoppingRule() || command.RendersTwoHalves(),
-          "--photons excludes --time-limit, --target-error, --two-halves and --certify: each of "
-          "their passes has photons of its own");
+          "--photons excludes --time-limit, --target-error, --accuracy, --two-halves and --certify: "
+          "each of their passes has photons of its own");
 }
 
 // How many passes a time limit allows differs between machines, and a part belongs to no picture

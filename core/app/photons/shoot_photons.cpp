@@ -158,10 +158,9 @@ void Shoot(PhotonOptions options) {
   if (setup.volumeIntegrator) setup.volumeIntegrator->Preprocess(*setup.scene);
   try {
     setup.integrator->Preprocess(*setup.scene, context);
-  } catch (const PhotonShareWritten&) {
-    return;
+  } catch (const PhotonsWritten&) {
+    if (!options.shard) log.Notice("wrote photons to \"" + options.outfile + "\"");
   }
-  log.Notice("wrote photons to \"" + options.outfile + "\"");
 }
 
 }  // namespace

@@ -101,8 +101,8 @@ TEST_F(StudyPredictions, HaveASectionOfThePage) {
   results_.predictions[0].points[1].most = kInfinity;
   const std::string page = PredictionSection(results_, analysis_).Markup();
   for (const char* text :
-       {"2 of 2 times lie inside the interval, 1 of 2 within a factor of 1.5", "<td>1 s to 4 s</td>",
-        "no known end", "<td>0.5</td>", "photonmap has no quote: it failed"})
+       {"2 of 2 times lie inside the interval, 1 of 2 within a factor of 1.5",
+        "<td>1 s to 4 s</td>", "no known end", "<td>0.5</td>", "photonmap has no quote: it failed"})
     EXPECT_NE(page.find(text), std::string::npos) << text << "\n" << page;
   results_.predictions.clear();
   EXPECT_TRUE(PredictionSection(results_, analysis_).IsEmpty());

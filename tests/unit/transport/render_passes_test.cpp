@@ -25,6 +25,7 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   void Preprocess(const Scene&, PreprocessContext& context) override {
     passSeed_ = context.seed;
     seeds.insert(context.seed);
+    begun.push_back(std::chrono::steady_clock::now());
     if (sleep > 0) std::this_thread::sleep_for(std::chrono::milliseconds(sleep));
   }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
@@ -41,6 +42,7 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   bool keepsRays = false;
   mutable std::vector<std::pair<Real, Real>> rays;  // recorded with one thread only
   std::set<std::uint64_t> seeds;
+  std::vector<std::chrono::steady_clock::time_point> begun;  // of each preprocessing
 
  private:
   std::uint64_t passSeed_ = 0;
@@ -201,10 +203,13 @@ TEST_F(RenderPassesTest, StopsInTimeAndCountsPreprocessing) {
   rule.start = std::chrono::steady_clock::now();
   const PassesResult result = Run(rule);
   EXPECT_EQ(result.reason, StopReason::TimeLimit);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - rule.start;
   EXPECT_LE(result.passes, 25);  // each has 20 ms of preprocessing
   EXPECT_GE(result.passes, 1);
-  EXPECT_LT(taken.count(), 2);  // allows for a busy machine
+  // On a busy machine, the limit can pass between the last look at the clock and the preprocessing.
+  const auto late = std::ranges::count_if(integrator_.begun, [&](const auto& time) {
+    return time - rule.start > std::chrono::milliseconds(500);
+  });
+  EXPECT_LE(late, 1);
 }
 
 // At .9 s or later there is no time for a fourth preprocessing of .3 s.
