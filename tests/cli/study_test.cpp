@@ -2,11 +2,13 @@
 // These tests run studies as a user does. They check the folder of results, continuation after an
 // interruption, identical pictures in a second study, and a page that loads nothing from outside.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 #include "core/app/analysis/results.h"
 #include "core/imaging/files/exr.h"
@@ -188,6 +190,33 @@ TEST_F(StudyTest, GoesOnAfterItWasKilled) {
   EXPECT_EQ(ReadResults("out").runs.size(), 12u);
   for (const auto& entry : fs::directory_iterator(Path("out")))
     EXPECT_NE(entry.path().filename().string().substr(0, 7), "running");
+}
+
+// Returns the number of processes whose working folder is this one.
+int CountProcessesIn(const std::string& folder) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::error_code error;  // a process of another user, or one that has ended
+    count += fs::read_symlink(entry.path() / "cwd", error) == folder;
+  }
+  return count;
+}
+
+// A render of a hundred thousand samples would go on for minutes.
+TEST_F(StudyTest, EndsItsRenderWhereItIsKilled) {
+  std::vector<std::string> options = SlowOptions("out");
+  *std::ranges::find(options, "spp=128,192") = "spp=100000";
+  const std::string folder = fs::canonical(Path("."));
+  const pid_t process = Start(options);
+  const auto becomes = [&](bool isThere) {
+    for (int i = 0; i < 600 && (CountProcessesIn(folder) >= (isThere ? 2 : 1)) != isThere; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return (CountProcessesIn(folder) >= (isThere ? 2 : 1)) == isThere;
+  };
+  EXPECT_TRUE(becomes(true)) << "the study renders nothing";
+  kill(process, SIGKILL);
+  Wait(process);
+  EXPECT_TRUE(becomes(false)) << "the render goes on";
 }
 
 TEST_F(StudyTest, RendersADamagedPictureAgain) {

@@ -249,6 +249,18 @@ TEST(Textures, OfABlockEndWithIt) {
   EXPECT_NE(gone.error.find("not defined: \"t\""), std::string::npos);
 }
 
+// Of each triangle, another corner has the normal 0.
+TEST(Shapes, CountTrianglesWithAUselessNormalAtAnyCorner) {
+  const BuiltScene built =
+      BuildText(InWorld("Shape \"trianglemesh\" \"integer indices\" [0 1 2 2 0 1 1 2 0 1 3 4] "
+                        "\"point P\" [0 0 0 1 0 0 "
+                        "0 1 0 0 0 1 1 1 1] \"normal N\" [0 0 0 0 0 1 0 0 1 0 0 1 0 0 1]"));
+  ASSERT_EQ(built.error, "");
+  EXPECT_NE(built.Messages().find("the mesh has 3 triangles whose vertex normals are 0"),
+            std::string::npos)
+      << built.Messages();
+}
+
 // A parameter that shape and material both have is the shape's.
 TEST(Shapes, OverrideOnlyWhatTheyDoNotHaveThemselves) {
   const std::string mesh = testing::TempDir() + "exphoton_triangle.obj";

@@ -47,6 +47,9 @@ TEST(Messages, OfValues) {
        {"parameter \"P\" of shape \"trianglemesh\" needs a multiple of 3 numbers, not 4"}},
       {InWorld("Material \"matte\" \"texture Kd\" \"t\" Shape \"sphere\""),
        {"parameter \"Kd\" of material \"matte\" names a texture that is not defined: \"t\""}},
+      {InWorld("Texture \"bricks\" \"color\" \"constant\" Texture \"wall\" \"color\" \"scale\" "
+               "\"texture tex1\" \"brick\""),
+       {"not defined: \"brick\"", "did you mean \"bricks\"?"}},
       {InWorld("Texture \"t\" \"float\" \"constant\" Material \"matte\" \"texture Kd\" \"t\" "
                "Shape \"sphere\""),
        {"needs a color texture, and \"t\" is a float texture"}},

@@ -132,7 +132,7 @@ TEST(CheckPlugin, NamesTheCheckThatAWrongPluginFails) {
        {Case{"greedy", "energy"}, Case{"misstated", "density"}, Case{"unweighted", "sample values"},
         Case{"oneway", "reciprocity"}, Case{"dim", "power"}, Case{"lopsided", "emission density"},
         Case{"misguided", "direct density"}, Case{"stuck", "repetition"}, Case{"moody", "order"},
-        Case{"beyond", "range"}, Case{"bunched", "uniformity"}}) {
+        Case{"slanted", "order"}, Case{"beyond", "range"}, Case{"bunched", "uniformity"}}) {
     const ProcessResult result =
         Check({"--plugin-dir", EXPHOTON_BINARY_DIR "/wrong_plugins", wrong.name});
     EXPECT_EQ(result.status, 1) << wrong.name << "\n" << result.out << result.err;

@@ -238,9 +238,10 @@ void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
   CheckProgressive(raw, command);
   Exclude(command.asTwoHalves, command.HasStoppingRule(),
           "--two-halves and --time-limit or --target-error exclude each other");
-  Exclude(!command.photonFile.empty(), command.HasStoppingRule() || command.RendersTwoHalves(),
-          "--photons excludes --time-limit, --target-error, --accuracy, --two-halves and --certify: "
-          "each of their passes has photons of its own");
+  Exclude(
+      !command.photonFile.empty(), command.HasStoppingRule() || command.RendersTwoHalves(),
+      "--photons excludes --time-limit, --target-error, --accuracy, --two-halves and --certify: "
+      "each of their passes has photons of its own");
 }
 
 // How many passes a time limit allows differs between machines, and a part belongs to no picture

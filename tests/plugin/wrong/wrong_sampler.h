@@ -9,7 +9,7 @@
 namespace exphoton {
 
 template <class Rule>
-class WrongSampler final : public Sampler {
+class WrongSampler : public Sampler {
  public:
   std::int64_t SamplesPerPixel() const override { return 16; }
   std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t) const override {

@@ -184,6 +184,12 @@ TEST_F(ReportSections, ParametersThatAreTheSameEverywhereHaveNoColumn) {
   ExpectText(FrontSection(results_, analysis_), "| 2 | photons | 8 | – |");
 }
 
+TEST_F(ReportSections, AnUnknownNoiseIsTheWholeErrorOfItsBar) {
+  EXPECT_EQ(CountOf(BarSection(results_, analysis_), "noise: 0.3<"), 1);  // .75 of .4
+  analysis_.settings[0].separation.variance = {};
+  EXPECT_EQ(CountOf(BarSection(results_, analysis_), "noise: 0.4<"), 1);
+}
+
 TEST_F(ReportSections, TheChartNamesLinesOnceAndSaysTheSlopes) {
   const Html wide = CostChart(results_, analysis_, kWideChart);
   EXPECT_EQ(CountOf(wide, ">photons</text>"), 1);

@@ -129,6 +129,14 @@ TEST(NoiseTest, VariancesAllowForWideFilters) {
   EXPECT_LE(CountAlarms(renderer, NoiseSource::Variance, 1, 1, false), kMostAlarms);
 }
 
+// A test that takes two references for one with twice the values finds too much noise.
+TEST(NoiseTest, ComparesWithTheMeanOfSeveralReferences) {
+  Renderer renderer(9);
+  renderer.hasVariance = true;
+  EXPECT_LE(CountAlarms(renderer, NoiseSource::Variance, 2, 1, false), kMostAlarms);
+  EXPECT_GE(CountAlarms(renderer, NoiseSource::Variance, 2, 1.15, false), kTrials * 95 / 100);
+}
+
 TEST(NoiseTest, IndependentPicturesMeasureNoiseThatPixelsShare) {
   Renderer renderer(5);
   renderer.hasHalves = true;

@@ -69,6 +69,12 @@ TEST(Tga, HasColorMapsAndRuns) {
   EXPECT_EQ(mapped.At(0, 0, 0), Linear(6));
   EXPECT_EQ(mapped.At(1, 0, 0), Linear(3));
   EXPECT_THROW(ParseTga("a.tga", header + map + Bytes({7, 5})), ImageError);
+  header[7] = 15;  // two bytes
+  const Image five = ParseTga("a.tga", header + Bytes({31, 0, 0, 124}) + Bytes({6, 5}));
+  EXPECT_EQ(five.At(0, 0, 0), 1);  // red
+  EXPECT_EQ(five.At(0, 0, 2), 0);
+  EXPECT_EQ(five.At(1, 0, 0), 0);
+  EXPECT_EQ(five.At(1, 0, 2), 1);  // blue
   // Three equal pixels, then two others.
   const Image runs = ParseTga("a.tga", TgaHeader(11, 5, 1, 8) + Bytes({130, 9, 1, 20, 30}));
   const int expected[] = {9, 9, 9, 20, 30};
