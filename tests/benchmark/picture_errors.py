@@ -6,11 +6,12 @@ import subprocess
 import sys
 
 
-def run(arguments):
+def run(arguments, errors=False):
+    """Returns what a program prints to standard output, or to standard error."""
     result = subprocess.run(arguments, capture_output=True, text=True)
     if result.returncode not in (0, 2):
         sys.exit(f"{' '.join(arguments)}\n{result.stderr}")
-    return result.stdout
+    return result.stderr if errors else result.stdout
 
 
 def cpu_seconds():
