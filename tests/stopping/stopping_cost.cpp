@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This program measures what --target-error costs. It renders a scene plainly with several numbers
-// of samples, and to several targets, with several seeds. It prints the true noise of each render
-// and its cost, and the ratios to the costs of the plain renders that have the noise of the render
-// and the noise of the target.
-//   stopping_cost SCENE WIDTHxHEIGHT SEEDS SAMPLES,SAMPLES... TARGET,TARGET...
+// This program measures what --target-error costs. It renders scenes plainly with several numbers
+// of samples, and to several targets, with several seeds. It prints the median of the true noise
+// and of the cost, and ratios of costs:
+//   equal noise: to a plain render with the noise that was reached, between the measured ones
+//   choice:      to the cheapest of the plain renders whose noise is at most the target
+//   bound:       the least ratio at equal noise for any rule that shoots photons twice, if the
+//                second shot reduced no noise. Cost is counted in rays.
+//   stopping_cost SCENE,SCENE... WIDTHxHEIGHT SEEDS SAMPLES,SAMPLES... TARGET,TARGET...
 // A negative target -N renders two halves with N samples together.
 #include <algorithm>
 #include <cmath>
@@ -147,6 +150,7 @@ std::vector<double> Numbers(const std::string& text) {
 // The median errors and costs of the plain renders, by samples.
 struct PlainCosts {
   std::vector<double> errors, seconds, rays;
+  double photonRays = 0;  // of one render
 };
 
 std::vector<Row> RenderRows(const Scene& scene, int seeds, const std::string& settings,
@@ -164,17 +168,24 @@ std::vector<Row> RenderRows(const Scene& scene, int seeds, const std::string& se
 
 PlainCosts PrintPlain(const Converged& converged, std::vector<Row>* rows) {
   PlainCosts costs;
-  std::printf("plain: samples  noise  CPU s  rays  photon rays\n");
+  std::printf("| samples | noise | CPU s | rays | of photons |\n| --- | --- | --- | --- | --- |\n");
   for (Row& row : *rows) {
     for (const Measured& one : row.renders) row.errors.push_back(converged.Error(one, one.samples));
     costs.errors.push_back(Median(row.errors));
     costs.seconds.push_back(MedianOf(row.renders, [](const Measured& m) { return m.cpuSeconds; }));
     costs.rays.push_back(MedianOf(row.renders, [](const Measured& m) { return m.rays; }));
-    std::printf("%g  %.5f  %.2f  %.0f  %.0f\n", row.setting, costs.errors.back(),
-                costs.seconds.back(), costs.rays.back(),
-                MedianOf(row.renders, [](const Measured& m) { return m.photonRays; }));
+    costs.photonRays = MedianOf(row.renders, [](const Measured& m) { return m.photonRays; });
+    std::printf("| %g | %.5f | %.2f | %.0f | %.0f |\n", row.setting, costs.errors.back(),
+                costs.seconds.back(), costs.rays.back(), costs.photonRays);
   }
   return costs;
+}
+
+// Returns the least rays of a plain render with at most this noise; the most rays if there is none.
+double ChoiceOf(const PlainCosts& plain, double noise) {
+  for (std::size_t i = 0; i < plain.errors.size(); ++i)
+    if (plain.errors[i] <= noise) return plain.rays[i];
+  return plain.rays.back();
 }
 
 void PrintTarget(const Converged& converged, const PlainCosts& plain, Row* row) {
@@ -184,36 +195,47 @@ void PrintTarget(const Converged& converged, const PlainCosts& plain, Row* row) 
   const double rays = MedianOf(row->renders, [](const Measured& m) { return m.rays; });
   const double own = Median(row->errors);
   const double target = row->setting > 0 ? row->setting : own;
-  std::printf("%g  %.5f [%.5f %.5f]  %.5f  %g  %g  %.2f  %.2f %.2f  %.2f %.2f\n", row->setting, own,
-              *least, *most, MedianOf(row->renders, [](const Measured& m) { return m.estimate; }),
+  const double equal = CostOf(plain.errors, plain.rays, own);
+  std::printf("| %g | %.5f [%.5f %.5f] | %.5f | %g | %g | %.2f | %.2f | %.2f | %.2f | %.2f |\n",
+              row->setting, own, *least, *most,
+              MedianOf(row->renders, [](const Measured& m) { return m.estimate; }),
               MedianOf(row->renders, [](const Measured& m) { return m.samples; }),
               MedianOf(row->renders, [](const Measured& m) { return double(m.passes); }), cpu,
-              cpu / CostOf(plain.errors, plain.seconds, own),
-              rays / CostOf(plain.errors, plain.rays, own),
-              cpu / CostOf(plain.errors, plain.seconds, target),
-              rays / CostOf(plain.errors, plain.rays, target));
+              cpu / CostOf(plain.errors, plain.seconds, own), rays / equal,
+              rays / ChoiceOf(plain, target), (equal + plain.photonRays) / equal);
 }
 
-int Main(int argc, char** argv) {
-  if (argc != 6) {
-    std::fprintf(stderr, "usage: stopping_cost SCENE WxH SEEDS SAMPLES,... TARGET,...\n");
-    return 2;
-  }
-  Scene scene{argv[1], {}};
+void MeasureScene(const std::string& name, int argc, char** argv) {
+  Scene scene{name, {}};
   const std::string size = argv[2];
   const std::size_t x = size.find('x');
   scene.load.parameters = {{"Film", "xresolution", size.substr(0, x)},
                            {"Film", "yresolution", size.substr(x + 1)}};
   const int seeds = std::atoi(argv[3]);
+  std::printf("%s, %s, %d seeds\n\n", name.c_str(), size.c_str(), seeds);
   std::vector<Row> plain = RenderRows(scene, seeds, argv[4], true);
   Converged converged;
   for (const Row& row : plain)
     for (const Measured& one : row.renders) converged.Add(one);
   const PlainCosts costs = PrintPlain(converged, &plain);
   std::printf(
-      "target  noise [min max]  estimate  samples  passes  CPU s  "
-      "CPU and rays at equal noise  CPU and rays at the target\n");
-  for (Row& row : RenderRows(scene, seeds, argv[5], false)) PrintTarget(converged, costs, &row);
+      "\n| target | noise [min max] | estimate | samples | passes | CPU s | CPU, equal noise | "
+      "rays, equal noise | rays, choice | bound |\n| --- | --- | --- | --- | --- | --- | --- | --- "
+      "| "
+      "--- | --- |\n");
+  for (Row& row : RenderRows(scene, seeds, argv[argc - 1], false))
+    PrintTarget(converged, costs, &row);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+int Main(int argc, char** argv) {
+  if (argc != 6) {
+    std::fprintf(stderr, "usage: stopping_cost SCENE,... WxH SEEDS SAMPLES,... TARGET,...\n");
+    return 2;
+  }
+  std::istringstream names(argv[1]);
+  for (std::string name; std::getline(names, name, ',');) MeasureScene(name, argc, argv);
   return 0;
 }
 
