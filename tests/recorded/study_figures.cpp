@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "core/app/analysis/curves.h"
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
+#include "core/app/analysis/headline/target.h"
 #include "core/app/analysis/numbers.h"
 #include "core/app/analysis/plan.h"
 #include "core/app/analysis/separation.h"
-#include "core/app/analysis/target.h"
 #include "core/imaging/metrics/flip.h"
 #include "core/imaging/metrics/metrics.h"
 #include "core/imaging/metrics/noise_test.h"

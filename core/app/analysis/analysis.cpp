@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
 #include "core/imaging/files/exr.h"
 #include "core/imaging/metrics/flip.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
 
 namespace exphoton::study {
 namespace {

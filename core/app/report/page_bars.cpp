@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
 #include "core/app/analysis/numbers.h"
 #include "core/app/report/markup.h"
 #include "core/app/report/page_sections.h"

@@ -2,7 +2,7 @@
 // This file makes the price list and the table of what doubling a parameter does.
 #include <algorithm>
 
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
 #include "core/app/analysis/numbers.h"
 #include "core/app/report/markup.h"
 #include "core/app/report/page_sections.h"

@@ -75,8 +75,8 @@ class WorldBuilder {
                                           const GraphicsState& state) const;
   bool Declares(PluginKind kind, const std::string& plugin, const std::string& parameter,
                 const SourceLocation& where);
-  // Shapes can give parameters of their material, in place of those of its directive. A parameter
-  // that both declare, such as "filename", is the shape's.
+  // A shape can give parameters of its material, which then override the material's directive. A
+  // parameter that both declare, such as "filename", is the shape's.
   struct SplitParams {
     ParamSet ofShape, ofMaterial;
   };

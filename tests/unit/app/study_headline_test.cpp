@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check the sentence of a study: its integrators, its error and its ratios.
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
 
 #include <gtest/gtest.h>
 
-#include "core/app/analysis/target.h"
+#include "core/app/analysis/headline/target.h"
 
 namespace exphoton::study {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check when the times of tasks count as comparable.
-#include "core/app/analysis/machines.h"
+#include "core/app/analysis/headline/machines.h"
 
 #include <gtest/gtest.h>
 

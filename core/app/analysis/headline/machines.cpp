@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/app/analysis/machines.h"
+#include "core/app/analysis/headline/machines.h"
 
 #include <algorithm>
 #include <set>

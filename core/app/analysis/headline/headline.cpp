@@ -2,14 +2,14 @@
 // WriteHeadline composes the sentence. target.cpp chooses its error. Nothing is extrapolated: the
 // sentence names the contenders that do not reach the error. It states no ratio for which the
 // reference is too noisy.
-#include "core/app/analysis/headline.h"
+#include "core/app/analysis/headline/headline.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/app/analysis/machines.h"
+#include "core/app/analysis/headline/machines.h"
+#include "core/app/analysis/headline/target.h"
 #include "core/app/analysis/numbers.h"
-#include "core/app/analysis/target.h"
 #include "core/base/format.h"
 
 namespace exphoton::study {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The choice of the headline's error counts contenders, not settings, so that many settings of one
 // integrator have no more weight than one.
-#include "core/app/analysis/target.h"
+#include "core/app/analysis/headline/target.h"
 
 #include <algorithm>
 #include <tuple>
