@@ -12,11 +12,13 @@
 namespace exphoton {
 namespace {
 
-// Bounds of the expected number of reads that are corrected per unit of throughput, for rays that
-// read as much as their hit. In between, it is the albedo: the variance of nested corrections is
-// then the same at each bounce, and a smaller number would make it grow from bounce to bounce. The
-// upper bound ends chains between surfaces that absorb nothing.
-constexpr Real kMinKept = Real(.1), kMaxKept = Real(.95);
+// Bounds of the expected number of reads that the rays of a hit have corrected, where they read as
+// much as the hit. In between, it is the square of the albedo: the variance of nested corrections
+// is then the same at each bounce, and a smaller number would make it grow from bounce to bounce.
+// The upper bound ends chains between surfaces that absorb nothing.
+constexpr Real kMinNested = Real(.1), kMaxNested = Real(.95);
+// Bounds the stack. Reads after so many bounces have no weight.
+constexpr int kMostNested = 100;
 // Rays of a hit. They take little time beside the BSDF and the guide of the hit, which they share.
 constexpr int kRays = 4;
 // Bounds of the share of guided rays, where there is a guide.
@@ -44,13 +46,13 @@ Spectrum ExactRadiance::Correction(const GatherRay::Segment& segment, Real light
 }
 
 // Russian roulette in proportion to what the ray adds to its parent: the error of a read is about
-// as large as its light. `light_` is added to all reads, so that no chance becomes too small, and
-// so that the expected length of chains is bounded: along a chain, the ratios of importances
-// multiply to the ratio of the last and the first one.
+// as large as its light. `light_` is added to all reads, so that no chance becomes too small. Along
+// a chain, the ratios of importances multiply to the ratio of the last and the first one, so its
+// expected length is bounded.
 Real ExactRadiance::Survival(Real importance, Real throughput) const {
   if (!parent_) return 1;
-  const Real ratio = parent_->importance > 0 ? importance / parent_->importance : Real(1);
-  return std::min(parent_->kept * parent_->weight * throughput * ratio, Real(1));
+  const Real ratio = light_ > 0 ? importance / parent_->importance : Real(1);
+  return std::min(parent_->count * parent_->share * std::min(throughput, Real(1)) * ratio, Real(1));
 }
 
 Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectrum& read,
@@ -58,12 +60,15 @@ Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectru
   const Real importance = read.Y() + light_;
   const Real survival = Survival(importance, throughput);
   if (survival < 1 && !(random_->Uniform() < survival)) return {};
+  if (depth_ == kMostNested) return {};
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = gather_.Shade(segment);
   const Real albedo = point.bsdf.Rho(gather_.MappedLobes()).MaxComponent();
   const std::optional<Parent> parent = parent_;
-  parent_ = {std::clamp(albedo, kMinKept, kMaxKept), importance, 0};
+  parent_ = {std::clamp(Square(albedo), kMinNested, kMaxNested), importance, 0};
+  ++depth_;
   const Spectrum exact = Sample(point);
+  --depth_;
   parent_ = parent;
   context_.arena.Rewind(mark);
   return (exact - read) / survival;
@@ -128,18 +133,20 @@ std::optional<BsdfSample> ExactRadiance::Draw(const ShadingPoint& point, const R
 Spectrum ExactRadiance::AlongRays(const ShadingPoint& point, const Rays& rays) {
   std::array<std::optional<GatherRay::Segment>, kRays> segments;
   std::array<BsdfSample, kRays> samples;
+  Real throughput = 0;  // luminance of all rays
   const Point2 u{random_->Uniform(), random_->Uniform()};
   for (int i = 0; i < kRays; ++i) {
     const auto sample = Draw(point, rays, i, u);
     if (!sample || sample->throughput.IsBlack() || !sample->throughput.IsFinite()) continue;
     samples[std::size_t(i)] = *sample;
+    throughput += sample->throughput.Y();
     segments[std::size_t(i)] = gather_.Trace(SpawnRay(point.surface, sample->wi));
   }
   Spectrum sum;
   for (std::size_t i = 0; i < kRays; ++i) {
     if (!segments[i]) continue;
     gather_.LookUp({&*segments[i], 1});
-    parent_->weight = samples[i].throughput.Y();
+    parent_->share = samples[i].throughput.Y() / throughput;
     const auto light = gather_.Follow(*segments[i], point.surface, samples[i].pdf);
     sum += samples[i].throughput * (light.radiance + light.correction);
   }

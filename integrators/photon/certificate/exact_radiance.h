@@ -51,9 +51,9 @@ class ExactRadiance final : private GatherRay::ReadCorrector {
 
   // The corrected read that the rays of a hit belong to.
   struct Parent {
-    Real kept;        // expected number of corrected reads per unit of throughput
-    Real importance;  // of the parent's own read
-    Real weight;      // luminance of the throughput of the current ray
+    Real count;       // expected number of corrected reads, of rays that read as much as it
+    Real importance;  // of its own read
+    Real share;       // of the current ray in the throughput of all rays
   };
 
   Spectrum Correct(const GatherRay::Segment& segment, const Spectrum& read,
@@ -77,6 +77,7 @@ class ExactRadiance final : private GatherRay::ReadCorrector {
   GatherRay gather_;
   Real light_ = 0;
   std::optional<Parent> parent_;
+  int depth_ = 0;  // of the nested reads
 };
 
 }  // namespace exphoton

@@ -120,6 +120,17 @@ TEST(CorrectedRoom, HasCorrectionsOfLittleScatter) {
   EXPECT_LT(std::sqrt(variance), .1 * picture);
 }
 
+// Chains of corrections would not end if each had more corrections than its parent.
+TEST(Corrections, EndBetweenSurfacesThatGainEnergy) {
+  const std::string scene =
+      TestHeader(Integrator("photonmap",
+                            "\"integer indirectphotons\" [200] \"integer finalgathersamples\" [4]"),
+                 8, 8, 4) +
+      FurnaceWorld(1,
+                   "\"plastic\" \"color Kd\" [1 1 1] \"color Ks\" [1 1 1] \"float roughness\" .2");
+  EXPECT_TRUE(std::isfinite(Render(scene, 1).correction));
+}
+
 class CorrectedFurnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
 
 TEST_P(CorrectedFurnace, ShowsEmissionOverOneMinusAlbedo) {
