@@ -65,6 +65,17 @@ inline Vector3 SampleUniformCone(Point2 u, Real oneMinusCos) {
 }
 inline Real UniformConePdf(Real oneMinusCos) { return kInv2Pi / oneMinusCos; }
 
+struct PolarAngle {
+  Real sine, cosine;
+};
+// Samples the polar angle whose cosine is (1 - u)^(1/n), n > 0 and u < 1. The density of directions
+// about +z is then n/(2 pi) cos^(n-1). A sine computed from this cosine would have no digits near
+// the axis. 1 - cosine has all of them.
+inline PolarAngle SampleCosinePower(Real u, Real n) {
+  const Real oneMinusCos = -std::expm1(std::log1p(-u) / n);
+  return {SafeSqrt(oneMinusCos * (2 - oneMinusCos)), 1 - oneMinusCos};
+}
+
 // Returns barycentric coordinates (b1, b2) of a point uniform on a triangle.
 inline Point2 SampleTriangle(Point2 u) {
   const Real s = std::sqrt(u.x);

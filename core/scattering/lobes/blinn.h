@@ -26,8 +26,8 @@ class BlinnDistribution {
   Real D(Real cosH) const { return norm_ * std::pow(cosH, exponent_); }
   // Samples a half vector about +z with density D cos per solid angle.
   Vector3 Sample(Point2 u) const {
-    const Real cosH = std::pow(1 - u.x, 1 / (exponent_ + 2));
-    return SphericalDirection(SafeSqrt((1 - cosH) * (1 + cosH)), cosH, 2 * kPi * u.y);
+    const PolarAngle angle = SampleCosinePower(u.x, exponent_ + 2);
+    return SphericalDirection(angle.sine, angle.cosine, 2 * kPi * u.y);
   }
   Real Pdf(Real cosH) const { return D(cosH) * cosH; }
 

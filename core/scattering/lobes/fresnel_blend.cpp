@@ -80,9 +80,9 @@ std::optional<BxdfSample> BlendedGloss::Sample(const Vector3& wo, Point2 u) cons
   const Real x = std::sqrt(ey_ + 1) * std::cos(angle), y = std::sqrt(ex_ + 1) * std::sin(angle);
   const Real length2 = x * x + y * y;
   const Real exponent = (ex_ * x * x + ey_ * y * y) / length2;
-  const Real cosH = std::pow(1 - u.x, 1 / (exponent + 1));
-  const Real scale = SafeSqrt((1 - cosH) * (1 + cosH) / length2);
-  const Vector3 h = OnSideOf({x * scale, y * scale, cosH}, wo);
+  const PolarAngle polar = SampleCosinePower(u.x, exponent + 1);
+  const Real scale = polar.sine / std::sqrt(length2);
+  const Vector3 h = OnSideOf({x * scale, y * scale, polar.cosine}, wo);
   const Real oh = Dot(wo, h);
   if (!(oh > 0)) return std::nullopt;
   const Vector3 wi = h * (2 * oh) - wo;

@@ -107,9 +107,8 @@ std::optional<BxdfSample> Lafortune::Sample(const Vector3& wo, Point2 u) const {
   if (!picked) return std::nullopt;
   // Sample the cosine power about its axis, and mirror directions below the surface.
   const Real v = std::clamp(left / weight, Real(0), kOneMinusEpsilon);
-  const Real cosine = std::pow(1 - v, 1 / (picked->exponent + 1));
-  const Vector3 local =
-      SphericalDirection(SafeSqrt((1 - cosine) * (1 + cosine)), cosine, 2 * kPi * u.y);
+  const PolarAngle angle = SampleCosinePower(v, picked->exponent + 1);
+  const Vector3 local = SphericalDirection(angle.sine, angle.cosine, 2 * kPi * u.y);
   const Vector3 axis = NormalizeOr(picked->q, {0, 0, 1});
   const Vector3 wi = OnSideOf(Frame::FromZ(axis).ToWorld(local), wo);
   const Real pdf = Pdf(wo, wi);

@@ -5,6 +5,7 @@
 #include "core/math/sampling/sampling.h"
 #include "core/scattering/lobes/albedo_tables.h"
 #include "core/scattering/lobes/fresnel_blend.h"
+#include "core/scattering/lobes/lafortune.h"
 #include "core/scattering/lobes/lambert.h"
 #include "core/scattering/lobes/microfacet.h"
 #include "core/scattering/lobes/oren_nayar.h"
@@ -173,6 +174,31 @@ TEST(Microfacet, RoughnessOutOfRangeIsTheSharpest) {
   EXPECT_EQ(BlinnExponent(Real(1e-30)), 1000);
   EXPECT_EQ(BlinnExponent(std::numeric_limits<Real>::quiet_NaN()), 1000);
   EXPECT_FLOAT_EQ(float(BlinnExponent(10)), .1f);
+}
+
+// Returns the sine of the polar angle with cosine (1 - u)^(1/n).
+double SineOfPower(double u, double n) { return std::sqrt(-std::expm1(2 * std::log1p(-u) / n)); }
+
+// A sine computed from a rounded cosine near 1 has few digits left.
+TEST(NarrowLobes, KeepTheDigitsOfDirectionsNearTheirAxis) {
+  constexpr double kDigits = 1e-6;
+  const Vector3 up(0, 0, 1);
+  const auto sineOf = [](const Vector3& v) { return std::hypot(double(v.x), double(v.y)); };
+  for (const Real exponent : {Real(10), Real(100), Real(1000)}) {
+    const BlendedGloss coat(Spectrum(1), exponent, exponent);
+    const LafortuneFit peak{{Spectrum(-1), Spectrum(1), Spectrum(exponent)}};
+    const Lafortune fitted(peak);
+    for (const Real u : {Real(1e-7), Real(1e-5), Real(1e-3), Real(.1), Real(.3)}) {
+      const double blinn = SineOfPower(double(u), double(exponent) + 2);
+      EXPECT_NEAR(sineOf(BlinnDistribution(exponent).Sample({u, Real(.1)})) / blinn, 1, kDigits);
+      const double half = SineOfPower(double(u), double(exponent) + 1);
+      const double mirrored = 2 * half * std::sqrt(1 - half * half);
+      EXPECT_NEAR(sineOf(coat.Sample(up, {u, Real(.1)})->wi) / mirrored, 1, kDigits);
+      // The three channels take a third of the first variate each.
+      const double lobe = SineOfPower(3 * double(u), double(exponent) + 1);
+      EXPECT_NEAR(sineOf(fitted.Sample(up, {u, Real(.1)})->wi) / lobe, 1, kDigits);
+    }
+  }
 }
 
 // The centre of the highlight must be its brightest place.
