@@ -208,15 +208,15 @@ TEST_F(StudyTest, EndsItsRenderWhereItIsKilled) {
   *std::ranges::find(options, "spp=128,192") = "spp=100000";
   const std::string folder = fs::canonical(Path("."));
   const pid_t process = Start(options);
-  const auto becomes = [&](bool isThere) {
-    for (int i = 0; i < 600 && (CountProcessesIn(folder) >= (isThere ? 2 : 1)) != isThere; ++i)
+  const auto waitUntil = [&](const auto& isTrue) {
+    for (int i = 0; i < 600 && !isTrue(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return (CountProcessesIn(folder) >= (isThere ? 2 : 1)) == isThere;
+    return isTrue();
   };
-  EXPECT_TRUE(becomes(true)) << "the study renders nothing";
+  EXPECT_TRUE(waitUntil([&] { return CountProcessesIn(folder) == 2; })) << "nothing is rendered";
   kill(process, SIGKILL);
   Wait(process);
-  EXPECT_TRUE(becomes(false)) << "the render goes on";
+  EXPECT_TRUE(waitUntil([&] { return CountProcessesIn(folder) == 0; })) << "the render goes on";
 }
 
 TEST_F(StudyTest, RendersADamagedPictureAgain) {

@@ -39,8 +39,8 @@ struct PredictionCheck {
 // Errors that include no bias (without a reference) cannot be checked.
 std::vector<PredictionCheck> CheckPredictions(const Results& results, const Analysis& analysis);
 
-// Returns the prediction of a line of the charts, or null. Lines with other parameters than their
-// integrator's have none.
+// Returns the prediction of a line of the charts, or null. A line whose label is not the name of an
+// integrator has none.
 const Prediction* PredictionOf(const Results& results, const std::string& label);
 
 }  // namespace exphoton::study

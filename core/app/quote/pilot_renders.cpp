@@ -10,7 +10,6 @@
 #include "core/app/process/child_process.h"
 #include "core/app/process/signals.h"
 #include "core/app/process/temporary_folder.h"
-#include "core/app/study/study_scene.h"
 #include "core/base/error.h"
 #include "core/imaging/files/exr.h"
 
@@ -118,6 +117,18 @@ void TakeCosts(const PilotResult& pilot, double pixelRatio, Quote* quote) {
 }
 
 }  // namespace
+
+QuoteScene MakeQuoteScene(const StudyOptions& options, const SceneFacts& facts) {
+  QuoteScene scene{options.scene, facts.width, facts.height, "", {}};
+  const auto add = [&](const char* option, const std::string& value) {
+    scene.options.insert(scene.options.end(), {option, value});
+  };
+  for (const std::string& set : options.sets) add("--set", set);
+  for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
+  if (options.allowsScenePlugins) scene.options.push_back("--allow-scene-plugins");
+  if (options.threads > 0) add("--nthreads", std::to_string(options.threads));
+  return scene;
+}
 
 Quote RunPilots(const QuoteScene& scene, const std::string& integrator, bool hasBias,
                 double seconds) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/app/quote/price_model.h"
+#include "core/app/study/study_scene.h"
 
 namespace exphoton::cli {
 
@@ -15,6 +16,9 @@ struct QuoteScene {
   std::string resolution;            // as the user gave it; "": of the scene
   std::vector<std::string> options;  // of all renders: --set, --plugin-dir and others
 };
+
+// Returns the scene with the options of all its renders.
+QuoteScene MakeQuoteScene(const StudyOptions& options, const SceneFacts& facts);
 
 // What pilots found about one integrator.
 struct Quote {

@@ -70,18 +70,6 @@ QuoteOptions ParseQuoteOptions(const std::vector<std::string>& arguments) {
   return options;
 }
 
-QuoteScene SceneOf(const QuoteOptions& options, const SceneFacts& facts) {
-  QuoteScene scene{options.scene.scene, facts.width, facts.height, options.resolution, {}};
-  const auto add = [&](const char* option, const std::string& value) {
-    scene.options.insert(scene.options.end(), {option, value});
-  };
-  for (const std::string& set : options.scene.sets) add("--set", set);
-  for (const std::string& folder : options.scene.pluginFolders) add("--plugin-dir", folder);
-  if (options.scene.allowsScenePlugins) scene.options.push_back("--allow-scene-plugins");
-  if (options.scene.threads > 0) add("--nthreads", std::to_string(options.scene.threads));
-  return scene;
-}
-
 void MakeQuote(const std::vector<std::string>& arguments) {
   const QuoteOptions options = ParseQuoteOptions(arguments);
   StudyOptions sized = options.scene;
@@ -89,7 +77,8 @@ void MakeQuote(const std::vector<std::string>& arguments) {
     sized.sets.push_back(set.directive + "." + set.parameter + "=" + set.value);
   const SceneFacts facts = ExamineScene(options.scene.scene, sized);
   const std::vector<study::Setting> settings = PlanSettings(options.scene);
-  const QuoteScene scene = SceneOf(options, facts);
+  QuoteScene scene = MakeQuoteScene(options.scene, facts);
+  scene.resolution = options.resolution;
   QuoteScene seeded = scene;
   seeded.options.insert(seeded.options.end(), {"--seed", std::to_string(options.seed)});
   std::vector<Quote> quotes;

@@ -23,6 +23,7 @@ std::string SummaryText(const std::vector<PredictionCheck>& checks) {
   const auto near = std::ranges::count_if(checks, [](const PredictionCheck& check) {
     return std::abs(std::log(check.Ratio())) <= std::log(kNear);
   });
+  if (checks.empty()) return "no setting can be compared";
   const std::string all = std::to_string(checks.size());
   return std::to_string(inside) + " of " + all + " times lie inside the interval, " +
          std::to_string(near) + " of " + all + " within a factor of " + ShortNumber(kNear);

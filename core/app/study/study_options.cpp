@@ -247,7 +247,7 @@ void CheckPhotonFile(const StudyOptions& options) {
 }
 
 // Quotes are about whole pictures with photons of their own, in CPU time and with their bias.
-void CheckPredictions(const StudyOptions& options) {
+void CheckPredict(const StudyOptions& options) {
   if (!options.predicts) return;
   if (options.references.empty() && options.makeReference.empty())
     FailUsage("--predict needs a reference, because the quotes include the bias",
@@ -255,8 +255,10 @@ void CheckPredictions(const StudyOptions& options) {
   if (options.clock != "cpu") FailUsage("--predict needs --clock cpu: quotes are CPU times");
   if (!options.cropWindow.empty()) FailUsage("--predict excludes --cropwindow");
   if (!options.photonFile.empty()) FailUsage("--predict excludes --photons");
-  if (options.taskCount > 0 || options.task)
-    FailUsage("--predict excludes --tasks: the machine of the pilots must be that of the renders");
+  if (options.taskCount > 0 || options.task || !options.tasksFolder.empty())
+    FailUsage(
+        "--predict excludes --tasks, --task and --from: pilots and renders must run on one "
+        "machine");
 }
 
 void Check(const StudyOptions& options) {
@@ -265,7 +267,7 @@ void Check(const StudyOptions& options) {
     FailUsage("exphoton study needs --out FOLDER");
   ParseLimits(options.limits);
   CheckPhotonFile(options);
-  CheckPredictions(options);
+  CheckPredict(options);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");

@@ -23,19 +23,6 @@ std::vector<std::string> IntegratorsOf(const std::vector<study::Setting>& settin
   return names;
 }
 
-QuoteScene SceneOf(const StudyOptions& options, const SceneFacts& facts) {
-  QuoteScene scene{options.scene, facts.width, facts.height, "", {}};
-  const auto add = [&](const char* option, const std::string& value) {
-    scene.options.insert(scene.options.end(), {option, value});
-  };
-  for (const std::string& set : options.sets) add("--set", set);
-  for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
-  if (options.allowsScenePlugins) scene.options.push_back("--allow-scene-plugins");
-  add("--footprint-spp", std::to_string(options.footprintSamples));
-  add("--nthreads", std::to_string(options.threads));
-  return scene;
-}
-
 study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean>& means) {
   study::Prediction prediction{quote.integrator, quote.failure, {}};
   if (prediction.failure.empty())
@@ -55,7 +42,9 @@ study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean
 std::vector<study::Prediction> Predict(const StudyOptions& options, const SceneFacts& facts,
                                        const std::vector<study::Setting>& settings) {
   const std::vector<std::string> names = IntegratorsOf(settings);
-  const QuoteScene scene = SceneOf(options, facts);
+  QuoteScene scene = MakeQuoteScene(options, facts);
+  scene.options.insert(scene.options.end(),
+                       {"--footprint-spp", std::to_string(options.footprintSamples)});
   std::vector<Quote> quotes;
   std::vector<PilotMean> means;
   for (const std::string& name : names) {

@@ -17,7 +17,7 @@ namespace {
 // is then the same at each bounce, and a smaller number would make it grow from bounce to bounce.
 // The upper bound ends chains between surfaces that absorb nothing.
 constexpr Real kMinNested = Real(.1), kMaxNested = Real(.95);
-// Bounds the stack. Reads after more bounces have no weight.
+// Bounds the stack. Reads after more bounces keep their error.
 constexpr int kMostNested = 100;
 // Rays of a hit. They take little time beside the BSDF and the guide of the hit, which they share.
 constexpr int kRays = 4;

@@ -8,6 +8,15 @@
 
 namespace exphoton {
 
+// PlainRule does nothing wrong.
+struct PlainRule {
+  std::uint64_t Key(const SampleKey& key) const {
+    return HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
+                    std::uint64_t(key.index)});
+  }
+  Real Number(Real u) const { return u; }
+};
+
 template <class Rule>
 class WrongSampler : public Sampler {
  public:

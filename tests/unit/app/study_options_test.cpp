@@ -222,6 +222,7 @@ TEST_F(StudyOptionsTest, QuotesNeedAReferenceAndWholePictures) {
   expectError({"--cropwindow", "0,1,0,.5"}, "--predict excludes --cropwindow");
   expectError({"--photons", "a.expm", "--seeds", "1"}, "--predict excludes --photons");
   expectError({"--tasks", "3"}, "--predict excludes --tasks");
+  expectError({"--from", "out.tasks"}, "--predict excludes --tasks");
 }
 
 }  // namespace

@@ -104,6 +104,9 @@ TEST_F(StudyPredictions, HaveASectionOfThePage) {
        {"2 of 2 times lie inside the interval, 1 of 2 within a factor of 1.5",
         "<td>1 s to 4 s</td>", "no known end", "<td>0.5</td>", "photonmap has no quote: it failed"})
     EXPECT_NE(page.find(text), std::string::npos) << text << "\n" << page;
+  results_.predictions.erase(results_.predictions.begin());
+  EXPECT_NE(PredictionSection(results_, analysis_).Markup().find("no setting can be compared"),
+            std::string::npos);
   results_.predictions.clear();
   EXPECT_TRUE(PredictionSection(results_, analysis_).IsEmpty());
 }

@@ -12,11 +12,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-struct Rule {
-  std::uint64_t Key(const SampleKey& key) const {
-    return HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
-                    std::uint64_t(key.index)});
-  }
+struct Rule : PlainRule {
   Real Number(Real u) const { return u > Real(.999) ? 1 : u; }
 };
 

@@ -13,15 +13,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-struct Rule {
-  std::uint64_t Key(const SampleKey& key) const {
-    return HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
-                    std::uint64_t(key.index)});
-  }
-  Real Number(Real u) const { return u; }
-};
-
-class SlantedSampler final : public WrongSampler<Rule> {
+class SlantedSampler final : public WrongSampler<PlainRule> {
  public:
   std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t) const override {
     return std::make_unique<SlantedSampler>();
