@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// CommandOutputs: a line of commands.txt that begins with "$ " is a command, one with "> " names a
+// CommandOutputs: a line of commands.txt that begins with "$ " is a command. One with "% " is a
+// command for which time is a count (clock/counted_clock.cpp), so its times are compared, too; its
+// option --threads 1 makes the count the same in each run. One with "> " names a
 // file that holds the following lines (one with "= ": their hexadecimal digits as bytes), and one
 // with "? " names a text file to print. The line
 // "@ FOLDER" gives the runs of a study fixed times, so that its page can be made again and
@@ -54,9 +56,18 @@ std::string WithoutMeasuredNumbers(std::string line) {
   return std::regex_replace(line, memory, "$1 #");
 }
 
+// Measured times are left out, fixed and counted ones are compared.
+enum class Times { Measured, Fixed, Counted };
+
+// Some commands use all cores.
+std::string WithoutThreads(const std::string& line) {
+  return line.starts_with("threads ") ? "threads #" : line;
+}
+
 // Leaves out what differs from build to build and from run to run, embedded pictures and style
 // sheets. Times are fixed in what "report" prints, and in nothing else.
-std::string Normalized(std::string text, const std::string& folder, bool hasTimes) {
+std::string Normalized(std::string text, const std::string& folder, Times times) {
+  const bool hasTimes = times == Times::Measured;
   for (const std::string& path : {folder + "/", std::string(EXPHOTON_BINARY_DIR "/bin/"),
                                   std::string(EXPHOTON_BINARY_DIR "/")})
     for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
@@ -71,7 +82,8 @@ std::string Normalized(std::string text, const std::string& folder, bool hasTime
     line = std::regex_replace(line, version, "exphoton VERSION");
     if (hasTimes && std::regex_match(line, headline)) continue;
     if (hasTimes) line = std::regex_replace(line, seconds, "TIME");
-    normalized += WithoutMeasuredNumbers(line) + "\n";
+    normalized +=
+        (times == Times::Counted ? WithoutThreads(line) : WithoutMeasuredNumbers(line)) + "\n";
   }
   return normalized;
 }
@@ -119,12 +131,16 @@ std::string Bytes(std::string digits) {
 
 class CommandRunner {
  public:
+  explicit CommandRunner(std::function<bool(const CommandOutput&)> goesOn)
+      : goesOn_(std::move(goesOn)) {}
+
   std::vector<CommandOutput> Run() {
     std::string file, content;
     bool isBinary = false;
     for (const std::string& line : LinesOf("commands.txt")) {
+      if (isStopped_) break;
       const std::string rest = line.size() > 2 ? line.substr(2) : "";
-      if (line.size() > 2 && line[1] == ' ' && std::string(">=$?@").find(line[0]) < 5) {
+      if (line.size() > 2 && line[1] == ' ' && std::string(">=$%?@").find(line[0]) < 6) {
         if (!file.empty()) WriteInFolder(file, isBinary ? Bytes(content) : content);
         file.clear();
         content.clear();
@@ -132,10 +148,11 @@ class CommandRunner {
       isBinary = line.starts_with("= ") || (isBinary && !file.empty());
       if (line.starts_with("> ") || line.starts_with("= "))
         file = rest;
-      else if (line.starts_with("$ "))
-        RunCommand(rest);
+      else if (line.starts_with("$ ") || line.starts_with("% "))
+        RunCommand(rest, line[0] == '%');
       else if (line.starts_with("? "))
-        Add(line, Lines(Normalized(ReadFile(folder_.File(rest)), folder_.Path(), false), ""));
+        Add(line,
+            Lines(Normalized(ReadFile(folder_.File(rest)), folder_.Path(), Times::Fixed), ""));
       else if (line.starts_with("@ "))
         FixStudy(folder_.File(rest));
       else
@@ -150,35 +167,45 @@ class CommandRunner {
     fs::create_directories(fs::path(path).parent_path());
     WriteFile(path, content);
   }
-  void RunCommand(const std::string& command) {
+  void RunCommand(const std::string& command, bool countsTime) {
     ProcessCommand process;
+#ifdef COUNTED_CLOCK
+    if (countsTime) process.environment = {"LD_PRELOAD=" COUNTED_CLOCK};
+#endif
     process.words = {EXPHOTON_BINARY_DIR "/bin/exphoton"};
     std::istringstream words(command);
     for (std::string word; words >> std::quoted(word);) process.words.push_back(word);
     process.folder = folder_.Path();
     const ProcessResult result = RunProcess(process);
     std::vector<std::string> lines;
-    const bool hasTimes = !command.starts_with("report ");
+    const Times times = countsTime                       ? Times::Counted
+                        : command.starts_with("report ") ? Times::Fixed
+                                                         : Times::Measured;
     const auto add = [&](const std::string& text, const std::string& prefix) {
-      for (const std::string& line : Lines(Normalized(text, folder_.Path(), hasTimes), prefix))
+      for (const std::string& line : Lines(Normalized(text, folder_.Path(), times), prefix))
         lines.push_back(line);
     };
     add(result.out, "");
     add(result.err, "! ");
     if (result.status != 0) lines.push_back("status " + std::to_string(result.status));
-    Add("$ " + command, std::move(lines));
+    Add((countsTime ? "% " : "$ ") + command, std::move(lines));
   }
   void Add(const std::string& command, std::vector<std::string> lines) {
     outputs_.push_back({command, std::move(lines)});
+    isStopped_ = goesOn_ && !goesOn_(outputs_.back());
   }
 
   TestFolder folder_;
+  std::function<bool(const CommandOutput&)> goesOn_;
   std::vector<CommandOutput> outputs_;
+  bool isStopped_ = false;
 };
 
 }  // namespace
 
-std::vector<CommandOutput> CommandOutputs() { return CommandRunner().Run(); }
+std::vector<CommandOutput> CommandOutputs(const std::function<bool(const CommandOutput&)>& goesOn) {
+  return CommandRunner(goesOn).Run();
+}
 
 std::string OutputsPath() {
   return std::string(EXPHOTON_SOURCE_DIR) + "/tests/recorded/records/outputs.txt";

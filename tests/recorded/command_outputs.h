@@ -3,6 +3,7 @@
 // collects what they print and write as one text without times, folders and versions.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ struct CommandOutput {
   std::vector<std::string> lines;
 };
 
-// Runs all commands of tests/recorded/commands.txt in their order.
-std::vector<CommandOutput> CommandOutputs();
+// Runs the commands of tests/recorded/commands.txt in their order, until goesOn, which gets each
+// output, returns false.
+std::vector<CommandOutput> CommandOutputs(
+    const std::function<bool(const CommandOutput&)>& goesOn = {});
 
 // The file of all outputs, tests/recorded/records/outputs.txt.
 std::string OutputsPath();

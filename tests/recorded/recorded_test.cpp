@@ -5,13 +5,22 @@
 //   test_recorded --record-outputs      the same for figures and the outputs of commands alone
 //   test_recorded --print SCENE         prints a scene
 //   test_recorded --list                lists the scenes and the CPU seconds of each
+//   test_recorded --check FILE          compares the scenes that the file names, up to the first
+//                                       that differs; a line "outputs" or "figures" stands for
+//                                       those
+//   test_recorded --apart               renders each scene in a process of its own, whose
+//   environment
+//                                       variable EXPHOTON_REACHED_BY is its name
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include "core/base/statistics.h"
@@ -206,6 +215,64 @@ int ListAll() {
   return 0;
 }
 
+// Returns the first difference of the outputs of commands, without the commands after it.
+std::vector<std::string> FirstDifferenceOfOutputs() {
+  const std::vector<CommandOutput> before = ReadOutputs();
+  std::size_t count = 0;
+  std::vector<std::string> differences;
+  CommandOutputs([&](const CommandOutput& now) {
+    differences = count < before.size() ? Compare(before[count], now) : std::vector{now.command};
+    ++count;
+    return differences.empty();
+  });
+  return differences;
+}
+
+// Prints the first of the named scenes that differs from its record and returns 1, or 0 if none
+// does.
+int Check(const std::string& file) {
+  std::map<std::string, std::pair<RecordedScene, std::string>> scenes;
+  for (const std::string& group : GroupNames())
+    for (const RecordedScene& scene : ScenesOf(group)) scenes[scene.name] = {scene, group};
+  std::map<std::string, Records> records;
+  std::ifstream names(file);
+  for (std::string name; std::getline(names, name);) {
+    std::vector<std::string> differences;
+    if (name == "outputs") {
+      differences = FirstDifferenceOfOutputs();
+    } else if (name == "figures") {
+      differences = Compare({"", LinesOf(kFiguresFile)}, {"", Figures()});
+    } else {
+      const auto& [scene, group] = scenes.at(name);
+      if (!records.contains(group)) records[group] = ReadRecords(group);
+      differences = Compare(records[group], scene, Measure(scene, 1));
+    }
+    if (differences.empty()) continue;
+    std::printf("%s%s\n", name.c_str(), Joined(differences, 4).c_str());
+    return 1;
+  }
+  return 0;
+}
+
+int MeasureApart() {
+  for (const std::string& group : GroupNames()) {
+    for (const RecordedScene& scene : ScenesOf(group)) {
+      std::fflush(stdout);
+      const pid_t child = fork();
+      if (child == 0) {
+        setenv("EXPHOTON_REACHED_BY", scene.name.c_str(), 1);
+        const double start = ProcessCpuSeconds();
+        Measure(scene, 1);
+        std::printf("%.4f %s\n", ProcessCpuSeconds() - start, scene.name.c_str());
+        std::exit(0);
+      }
+      int status = 0;
+      waitpid(child, &status, 0);
+    }
+  }
+  return 0;
+}
+
 int Print(const std::string& name) {
   for (const std::string& group : GroupNames())
     for (const RecordedScene& scene : ScenesOf(group))
@@ -228,6 +295,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (command == "--list") return exphoton::recorded::ListAll();
+  if (command == "--apart") return exphoton::recorded::MeasureApart();
+  if (command == "--check" && argc > 2) return exphoton::recorded::Check(argv[2]);
   if (command == "--print" && argc > 2) return exphoton::recorded::Print(argv[2]);
   return RUN_ALL_TESTS();
 }
