@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // CommandOutputs: a line of commands.txt that begins with "$ " is a command. One with "% " is a
 // command for which time is a count (clock/counted_clock.cpp), so its times are compared, too; its
-// option --threads 1 makes the count the same in each run. One with "> " names a
-// file that holds the following lines (one with "= ": their hexadecimal digits as bytes), and one
-// with "? " names a text file to print. The line
+// option --nthreads 1 makes the count the same in each run. Its first word may be "^n": Ctrl-C at
+// the n-th reading of the clock. One with "> " names a file that holds the following lines (one
+// with "= ": their hexadecimal digits as bytes), and one with "? " names a text file to print. The
+// line
 // "@ FOLDER" gives the runs of a study fixed times, so that its page can be made again and
 // compared. Words of a command that contain blanks are in quotes.
 #include "tests/recorded/command_outputs.h"
@@ -174,7 +175,12 @@ class CommandRunner {
 #endif
     process.words = {EXPHOTON_BINARY_DIR "/bin/exphoton"};
     std::istringstream words(command);
-    for (std::string word; words >> std::quoted(word);) process.words.push_back(word);
+    for (std::string word; words >> std::quoted(word);) {
+      if (countsTime && word[0] == '^')
+        process.environment.push_back("COUNTED_INTERRUPT=" + word.substr(1));
+      else
+        process.words.push_back(word);
+    }
     process.folder = folder_.Path();
     const ProcessResult result = RunProcess(process);
     std::vector<std::string> lines;

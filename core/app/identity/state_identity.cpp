@@ -3,7 +3,7 @@
 #include "core/app/identity/state_identity.h"
 
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <map>
 #include <optional>
 
@@ -13,10 +13,10 @@
 namespace exphoton::cli {
 namespace {
 
+// As few digits as give the same number.
 std::string Text(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
 std::string Text(const PixelBounds& bounds) {

@@ -160,6 +160,8 @@ void Shoot(PhotonOptions options) {
     setup.integrator->Preprocess(*setup.scene, context);
   } catch (const PhotonsWritten&) {
     if (!options.shard) log.Notice("wrote photons to \"" + options.outfile + "\"");
+  } catch (const PreprocessStopped&) {
+    throw LoadingStopped();  // to the user it is the same: nothing was written
   }
 }
 

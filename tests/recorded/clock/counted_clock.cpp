@@ -2,7 +2,8 @@
 // A library to preload, in which time is a count: each reading of a clock by the main thread adds
 // 10 ms, and a child process is reported with 50 ms more than the one before it. So the program
 // prints the same times, forecasts and decisions in each run with one thread. Readings of other
-// threads do not add to the time, and the peak memory is 100 MiB.
+// threads do not add to the time, and the peak memory is 100 MiB. If COUNTED_INTERRUPT is n, the
+// main thread gets SIGINT at its n-th reading.
 #include <dlfcn.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -10,20 +11,26 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
 
 namespace {
 
-constexpr std::int64_t kReading = 10000000;             // nanoseconds
-constexpr std::int64_t kStart = 1000000000000000000;   // nanoseconds: in September 2001
-constexpr long kPeakMemory = 100 * 1024;               // KiB
-std::atomic<std::int64_t> elapsed{0};                  // nanoseconds
+constexpr std::int64_t kReading = 10000000;           // nanoseconds
+constexpr std::int64_t kStart = 1000000000000000000;  // nanoseconds: in September 2001
+constexpr long kPeakMemory = 100 * 1024;              // KiB
+std::atomic<std::int64_t> elapsed{0};                 // nanoseconds
 std::atomic<std::int64_t> children{0};
 
 std::int64_t ReadClock() {
   static thread_local const bool isMainThread = syscall(SYS_gettid) == getpid();
-  return isMainThread ? elapsed += kReading : elapsed.load();
+  if (!isMainThread) return elapsed;
+  static const char* const interrupt = std::getenv("COUNTED_INTERRUPT");
+  static long readings = 0;
+  if (++readings == (interrupt ? std::atol(interrupt) : 0)) std::raise(SIGINT);
+  return elapsed += kReading;
 }
 
 }  // namespace
