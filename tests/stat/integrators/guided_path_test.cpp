@@ -46,7 +46,7 @@ TEST(GuidedPathFurnace, OfALimitedDepthShowsAPartialSum) {
     double truth = 0;
     for (int i = 0; i <= depth + 1; ++i) truth += std::pow(.5, i);
     const std::string scene = Furnace("\"integer maxdepth\" " + std::to_string(depth),
-                                      R"("matte" "color Kd" [.5 .5 .5])", 1024);
+                                      R"("matte" "color Kd" [.5 .5 .5])", 256);
     EXPECT_TRUE(IsWithin(kTolerance, Mean(scene), truth)) << depth;
   }
 }

@@ -43,9 +43,9 @@ TEST(Igi, WithAMindistBeyondTheSceneLosesTheStatedShare) {
 // The bound takes away 60 % of the term, and gather rays give it back.
 TEST(Igi, WithAGeometricLimitLosesNothing) {
   const std::string limit = "\"float glimit\" .1 \"integer maxdepth\" ";
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + limit + "12 \"integer gathersamples\" 2", 8)), 2));
+  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + limit + "12 \"integer gathersamples\" 2", 2)), 2));
   // Without gather rays, the limit is a bias.
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + limit + "0", 8)), 1.5 + .5 * .4));
+  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + limit + "0", 2)), 1.5 + .5 * .4));
 }
 
 TEST(Igi, RouletteOnSmallContributionsKeepsTheMean) {
@@ -149,7 +149,7 @@ TEST(Igi, OverTiltedNormalsHasTheIndirectLightOfPathTracing) {
   const std::string lights =
       "\"igi\" \"integer nlights\" 256 \"integer nsets\" 64 \"float mindist\" .02";
   EXPECT_TRUE(
-      IsWithin(.03, indirect(lights, 64), indirect("\"path\" \"integer maxdepth\" 30", 256).mean));
+      IsWithin(.03, indirect(lights, 32), indirect("\"path\" \"integer maxdepth\" 30", 256).mean));
 }
 
 TEST(Igi, ReportsThatItLeavesCausticsOut) {
