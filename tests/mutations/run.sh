@@ -7,6 +7,8 @@
 #   run.sh --everything TABLE [NAME ...]  defects of another table, each with all that ./dev test runs
 #                                     until something fails (everything.sh); the table's ! line is
 #                                     then a remark
+#   run.sh --reach TABLE              defects of another table, each with the quick tests, recorded
+#                                     scenes and commands that reach its line (reach.py)
 #   run.sh --texts                    only looks whether the texts to replace are still there
 #   run.sh --list                     prints name, file and tests of each
 # A defect that keeps its test from ending has the word "endless" after the test. Any other time-out
@@ -22,13 +24,16 @@ copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
 . "$here/everything.sh"
 
-everything=
+everything= reach=
 tables=("$here"/*.txt)
 others=("$here"/*.list)  # these are in the build as well, so that it serves every run
 if [ "${1:-}" = --texts ]; then
   tables+=("${others[@]}") others=()
 elif [ "${1:-}" = --everything ]; then
   everything=yes others=("${tables[@]}" "${others[@]}") tables=("$(realpath "${2:?run.sh --everything TABLE}")")
+  shift 2
+elif [ "${1:-}" = --reach ]; then
+  reach=yes others=() tables=("$(realpath "${2:?run.sh --reach TABLE}")")
   shift 2
 fi
 
@@ -227,8 +232,7 @@ check_all_tests() {
       [ "${programs[i]}" = "$program" ] || continue
       [[ ":$all:" == *":${filters[i]}:"* ]] || all+=${all:+:}${filters[i]}
     done
-    (cd "$build" && timeout 3600 "bin/test_$program" "--gtest_filter=$all" --gtest_brief=1) \
-      >"$folder/part.0" 2>&1 || continue
+    run_gtest "$program" "$all" 3600 --gtest_brief=1 >/dev/null || continue
     for i in "${chosen[@]}"; do
       [ "${programs[i]}" = "$program" ] || continue
       [ -z "$("$build/bin/test_$program" "--gtest_filter=${filters[i]}" --gtest_list_tests)" ] ||
@@ -320,6 +324,14 @@ try_side_by_side() {  # INDEX ...
   wait
   while read -r status i; do count_result "$status" "$i"; done <"$folder/results"
 }
+
+if [ "$reach" ]; then
+  copy_sources
+  configure
+  build_together exphoton plugins test_recorded test_unit test_parser test_plugin test_cli
+  for i in "${!flags[@]}"; do echo "${flags[$i]} ${names[i]}"; done | sort -n >"$folder/names"
+  exec python3 -B "$here/reach.py" "$folder"
+fi
 
 prepare
 in_build=() alone=()

@@ -18,29 +18,59 @@ from pathlib import Path
 
 from rewrite import Source
 
+# A defect is asked for by exphoton_defects[7], which also notes that the line was reached.
 SWITCH_HEADER = """#pragma once
 #ifdef __cplusplus
-extern "C" __attribute__((visibility("default"))) unsigned char exphoton_defects[];
+extern "C" __attribute__((visibility("default"))) unsigned char exphoton_switches[];
+extern "C" __attribute__((visibility("default"))) unsigned char exphoton_reached[];
+struct ExphotonDefects {
+  bool operator[](unsigned number) const {
+    if (!exphoton_reached[number]) exphoton_reached[number] = 1;
+    return exphoton_switches[number];
+  }
+};
+static constexpr ExphotonDefects exphoton_defects{};
 #endif
 """
-SWITCH_FILE = "core/base/error.cpp"  # the variable is added to its end
+SWITCH_FILE = "core/base/error.cpp"  # the variables are added to its end
+# EXPHOTON_REACHED names a file, to which each process adds a line at its end: what
+# EXPHOTON_REACHED_BY says, a tab, and the numbers that were reached.
 SWITCH_SOURCE = """
 #include <cstdlib>
+#include <fcntl.h>
+#include <string>
+#include <unistd.h>
 // Set before the constructors of other files run, because constants may depend on it.
-extern "C" __attribute__((visibility("default"))) unsigned char exphoton_defects[{size}] = {{}};
+extern "C" __attribute__((visibility("default"))) unsigned char exphoton_switches[{size}] = {{}};
+extern "C" __attribute__((visibility("default"))) unsigned char exphoton_reached[{size}] = {{}};
 __attribute__((constructor(101))) static void ReadDefects() {{
   const char* text = std::getenv("EXPHOTON_DEFECTS");
   while (text && *text) {{
     char* end = nullptr;
     const unsigned long number = std::strtoul(text, &end, 10);
     if (end == text) return;
-    if (number < {size}) exphoton_defects[number] = 1;
+    if (number < {size}) exphoton_switches[number] = 1;
     text = *end == ',' ? end + 1 : end;
   }}
+}}
+__attribute__((destructor(101))) static void WriteReached() {{
+  const char* path = std::getenv("EXPHOTON_REACHED");
+  const char* by = std::getenv("EXPHOTON_REACHED_BY");
+  if (!path) return;
+  std::string line = std::string(by ? by : "") + "\\t";
+  for (int i = 0; i < {size}; ++i)
+    if (exphoton_reached[i]) line += std::to_string(i) + " ";
+  line += "\\n";
+  const int file = open(path, O_WRONLY | O_APPEND | O_CREAT, 0644);
+  if (file < 0) return;
+  (void)!write(file, line.data(), line.size());
+  close(file);
 }}
 """
 MESSAGE = re.compile(r"^(/[^:\n]+):(\d+):(\d+):\s+(error|fatal error|note|required from)?", re.M)
 MAX_ROUNDS = 25
+# A defect is left out after this many forms that do not compile.
+MOST_FORMS = int(os.environ.get("MUTATION_FORMS") or 1000)
 MOST_FLAGS = 8192
 
 
@@ -131,6 +161,8 @@ class Together:
         for defect in self.defects():
             if defect.number in changed:
                 defect.chosen += 1
+                if defect.chosen >= MOST_FORMS:
+                    defect.chosen = len(defect.choices)
         return changed
 
     def remember(self):

@@ -62,6 +62,13 @@ TEST(Parser, LetsTheLaterOfTwoParametersCountAndSaysSoIfVerbose) {
             "                               ^\n");
 }
 
+TEST(Parser, LetsTheLaterOfTwoParametersCountIfTheirTypesDiffer) {
+  const auto directives =
+      ParseText("Material \"matte\" \"float sigma\" 3 \"texture sigma\" \"map\"");
+  ASSERT_EQ(directives[0].params.All().size(), 1u);
+  EXPECT_EQ(directives[0].params.Find("sigma")->type, "texture");
+}
+
 struct Case {
   const char* text;
   const char* message;

@@ -167,6 +167,22 @@ TEST(GuidedSun, KeepsWeightsNearlyEqual) {
   EXPECT_GT(sum * sum / squares, .8 * double(photons.size()));
 }
 
+// The guide changes where photons start, and the power of those that it does not choose is that of
+// the light: here the light's power is that of a ray of unit radiance over its disk.
+TEST(GuidedSun, ReportsTheSamePowerWithAndWithoutGuide) {
+  const auto power = [](const char* isGuided) {
+    const std::string integrator =
+        "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 4000 \"integer "
+        "causticphotons\" 0 \"integer directphotons\" 0 \"bool guideemission\" [\"" +
+        std::string(isGuided) + "\"]\n";
+    const TestRender render = RenderSceneText(
+        "Film \"image\" \"integer xresolution\" 1 \"integer yresolution\" 1\n" + integrator + kBox);
+    EXPECT_EQ(render.Counter("photons/guided") > 0, isGuided[0] == 't');
+    return render.Counter("photons/emitted power");
+  };
+  EXPECT_NEAR(power("true"), power("false"), 1e-3 * power("false"));
+}
+
 // Photons from before the guide and from its training are dropped. The table of lights counts none
 // of them.
 TEST(GuidedSun, CountsThePhotonsInTheMapsForItsLight) {
