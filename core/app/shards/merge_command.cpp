@@ -143,13 +143,16 @@ class Merge {
     Statistics statistics;
     const PassesResult result = MergeInto(&films, &statistics, &threads);
     RunRecord run(record_.scene, statistics);
+    for (const Statistics::Phase& phase : statistics.Phases()) {  // until now, of the parts alone
+      run.wallSeconds += phase.wallSeconds;
+      run.cpuSeconds += phase.cpuSeconds;
+    }
     Fill(result, &run);
     run.threads = threads.Count();
     if (record_.passes.kind != PicturePasses::Kind::Single) log_.Notice(StoppingText(run));
     Write(run, MakeImage(films, result, record_.premultipliesAlpha), &statistics);
-    run.wallSeconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    run.cpuSeconds = ProcessCpuSeconds();
+    run.wallSeconds += SecondsSoFar();
+    run.cpuSeconds += ProcessCpuSeconds();
     run.peakMemory = PeakMemoryBytes();
     statistics.SetCounter("memory/peak", run.peakMemory, "largest memory of the process");
     if (options_.printsStatistics) PrintOut(StatisticsTable(run));
@@ -160,6 +163,10 @@ class Merge {
   }
 
  private:
+  double SecondsSoFar() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
   void CheckFiles() {
     RunFiles files;
     for (const std::string& path : parts_.Paths()) files.AddInput(path, "the merge");
@@ -208,8 +215,7 @@ class Merge {
     run->sharingBias = result.render.sharingBias;
     if (record_.passes.targetError > 0) run->targetError = record_.passes.targetError;
     run->aovs = record_.aovs;
-    run->renderSeconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    run->renderSeconds = run->wallSeconds + SecondsSoFar();
   }
 
   void Write(const RunRecord& run, Image image, Statistics* statistics) {
