@@ -85,6 +85,9 @@ bool IsComparable() {
 #endif
 }
 
+// Whether one difference is enough: --gtest_fail_fast.
+bool StopsAtTheFirst() { return GTEST_FLAG_GET(fail_fast); }
+
 class RecordedResults : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RecordedResults, AreAsRecorded) {
@@ -99,6 +102,7 @@ TEST_P(RecordedResults, AreAsRecorded) {
     if (differences.empty()) continue;
     if (++changed <= 5)
       ADD_FAILURE() << scene.name << Joined(differences, 8) << "\n" << Advice(scene);
+    if (StopsAtTheFirst()) return;
   }
   if (changed > 5) ADD_FAILURE() << changed << " scenes changed in all";
   for (const auto& [name, record] : records)
@@ -121,8 +125,26 @@ std::vector<std::string> Compare(const CommandOutput& before, const CommandOutpu
   return differences;
 }
 
+// Returns the first difference of the outputs of commands, without the commands after it.
+std::vector<std::string> FirstDifferenceOfOutputs() {
+  const std::vector<CommandOutput> before = ReadOutputs();
+  std::size_t count = 0;
+  std::vector<std::string> differences;
+  CommandOutputs([&](const CommandOutput& now) {
+    differences = count < before.size() ? Compare(before[count], now) : std::vector{now.command};
+    ++count;
+    return differences.empty();
+  });
+  return differences;
+}
+
 TEST(RecordedOutputs, AreAsRecorded) {
   if (!IsComparable()) GTEST_SKIP() << "recorded by a build for x86-64 without sanitizers";
+  if (StopsAtTheFirst()) {
+    const std::vector<std::string> differences = FirstDifferenceOfOutputs();
+    ASSERT_TRUE(differences.empty()) << Joined(differences, 8);
+    return;
+  }
   const std::vector<CommandOutput> before = ReadOutputs(), now = CommandOutputs();
   ASSERT_EQ(before.size(), now.size()) << "the commands are not those that were recorded";
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -213,19 +235,6 @@ int ListAll() {
     }
   }
   return 0;
-}
-
-// Returns the first difference of the outputs of commands, without the commands after it.
-std::vector<std::string> FirstDifferenceOfOutputs() {
-  const std::vector<CommandOutput> before = ReadOutputs();
-  std::size_t count = 0;
-  std::vector<std::string> differences;
-  CommandOutputs([&](const CommandOutput& now) {
-    differences = count < before.size() ? Compare(before[count], now) : std::vector{now.command};
-    ++count;
-    return differences.empty();
-  });
-  return differences;
 }
 
 // Prints the first of the named scenes that differs from its record and returns 1, or 0 if none
