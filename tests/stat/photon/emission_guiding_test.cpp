@@ -167,8 +167,7 @@ TEST(GuidedSun, KeepsWeightsNearlyEqual) {
   EXPECT_GT(sum * sum / squares, .8 * double(photons.size()));
 }
 
-// The guide changes where photons start, and the power of those that it does not choose is that of
-// the light: here the light's power is that of a ray of unit radiance over its disk.
+// The guide changes where photons start, and not how much power the light emits.
 TEST(GuidedSun, ReportsTheSamePowerWithAndWithoutGuide) {
   const auto power = [](const char* isGuided) {
     const std::string integrator =
