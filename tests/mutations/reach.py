@@ -21,7 +21,8 @@ FOLDER = Path(sys.argv[1]).resolve()
 BIN = FOLDER / "build" / "bin"
 PROGRAMS = ["unit", "parser", "plugin", "cli"]
 LONGEST = 5.  # seconds of a test that is tried
-BUDGET = {"unit": 10., "parser": 8., "plugin": 8., "cli": 20., "scene": 20.}  # seconds for a defect
+# By kind of test: those with the least time that reach a line are tried, up to this many seconds.
+BUDGET = {"unit": 10., "parser": 8., "plugin": 8., "cli": 20., "scene": 20.}
 JOBS = int(os.environ.get("JOBS") or os.cpu_count())
 
 
@@ -126,7 +127,8 @@ def batches(reach, number):
                 yield program, chosen, total
 
 
-def try_defect(reach, number, name):
+def try_defect(reach, number):
+    """Says what notices the defect of a switch, or what reaches its line and does not."""
     defect = {"EXPHOTON_DEFECTS": str(number)}
     for program, names, seconds in batches(reach, number):
         if program == "recorded":
@@ -160,7 +162,7 @@ def main():
     print(f"{len(reach.seconds)} tests and scenes; {time.time() - start:.0f} s", flush=True)
     missed = 0
     with ThreadPoolExecutor(JOBS) as pool:
-        results = [(name, pool.submit(try_defect, reach, int(number), name))
+        results = [(name, pool.submit(try_defect, reach, int(number)))
                    for number, name in defects]
         for name, result in results:
             missed += "NOT NOTICED" in result.result()

@@ -4,8 +4,7 @@
 // option --nthreads 1 makes the count the same in each run. Its first word may be "^n": Ctrl-C at
 // the n-th reading of the clock. One with "> " names a file that holds the following lines (one
 // with "= ": their hexadecimal digits as bytes), and one with "? " names a text file to print. The
-// line
-// "@ FOLDER" gives the runs of a study fixed times, so that its page can be made again and
+// line "@ FOLDER" gives the runs of a study fixed times, so that its page can be made again and
 // compared. Words of a command that contain blanks are in quotes.
 #include "tests/recorded/command_outputs.h"
 
