@@ -5,12 +5,10 @@
 //   test_recorded --record-outputs      the same for figures and the outputs of commands alone
 //   test_recorded --print SCENE         prints a scene
 //   test_recorded --list                lists the scenes and the CPU seconds of each
-//   test_recorded --check FILE          compares the scenes that the file names, up to the first
-//                                       that differs; a line "outputs" or "figures" stands for
-//                                       those
-//   test_recorded --apart               renders each scene in a process of its own, whose
-//   environment
-//                                       variable EXPHOTON_REACHED_BY is its name
+//   test_recorded --check FILE          compares what the lines of the file name until something
+//                                       differs: scenes, "outputs" or "figures"
+//   test_recorded --apart               renders each scene in its own process, where the variable
+//                                       EXPHOTON_REACHED_BY is the scene's name
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -135,6 +133,8 @@ std::vector<std::string> FirstDifferenceOfOutputs() {
     ++count;
     return differences.empty();
   });
+  if (differences.empty() && count < before.size())
+    differences = {"was recorded and is no command any more: " + before[count].command};
   return differences;
 }
 

@@ -223,7 +223,7 @@ TEST(GlossyGather, AMirrorWithAGlossIsAsBrightAsByPathTracing) {
       return MeanRadiance(RenderSceneText(scene, options).image);
     });
   };
-  const double truth = mean(R"("path" "integer maxdepth" 60)", 128).mean;
+  const double truth = mean(R"("path" "integer maxdepth" 60)", 256).mean;
   EXPECT_TRUE(IsWithin(.02, mean(R"("exphotonmap" "integer maxdepth" 60)", 8), truth));
 }
 
