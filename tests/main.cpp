@@ -8,9 +8,9 @@
 #include "tests/support/process.h"
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
   const exphoton::TestFolder folder;
   setenv("TMPDIR", folder.Path().c_str(), 1);
   setenv("TEST_TMPDIR", folder.Path().c_str(), 1);  // what testing::TempDir reads
+  testing::InitGoogleTest(&argc, argv);  // makes parameters of tests, which may write files
   return RUN_ALL_TESTS();
 }
