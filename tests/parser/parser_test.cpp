@@ -69,15 +69,15 @@ TEST(Parser, LetsTheLaterOfTwoParametersCountIfTheirTypesDiffer) {
   EXPECT_EQ(directives[0].params.Find("sigma")->type, "texture");
 }
 
-struct Case {
+struct ParserCase {
   const char* text;
   const char* message;
 };
 
 // The messages are compared without the source line and the caret. Other tests compare
 // full messages.
-void PrintTo(const Case& c, std::ostream* out) { *out << c.text; }
-class ParserError : public testing::TestWithParam<Case> {};
+void PrintTo(const ParserCase& c, std::ostream* out) { *out << c.text; }
+class ParserError : public testing::TestWithParam<ParserCase> {};
 
 TEST_P(ParserError, IsSaidInTheseWords) {
   try {
@@ -96,53 +96,60 @@ TEST_P(ParserError, IsSaidInTheseWords) {
 INSTANTIATE_TEST_SUITE_P(
     Syntax, ParserError,
     testing::Values(
-        Case{"Translte 1 2 3", "1:1: unknown directive Translte | did you mean \"Translate\"?"},
-        Case{"qqqq", "1:1: unknown directive qqqq"},
-        Case{"shape \"sphere\"", "1:1: unknown directive shape | did you mean \"Shape\"?"},
-        Case{"MakeNamedMedium \"m\"",
-             "1:1: this is a scene of pbrt version 3 or 4, recognised by MakeNamedMedium: versions "
-             "1 "
-             "and 2 are read | directives, materials and colours have other names; "
-             "docs/guide/scene-format.md lists the replacements"},
-        Case{"\nIntegrator \"path\"",
-             "2:1: this is a scene of pbrt version 3 or 4, recognised by Integrator: versions 1 "
-             "and 2 "
-             "are read | directives, materials and colours have other names; "
-             "docs/guide/scene-format.md lists the replacements"},
-        Case{"12", "1:1: expected a directive, found a number"},
-        Case{"\"x\"", "1:1: expected a directive, found the string \"x\""},
-        Case{"]", "1:1: expected a directive, found ']'"},
-        Case{"[[[[", "1:1: expected a directive, found '['"},
-        Case{"Translate 1 2", "1:14: Translate takes 3 numbers, found the end of the file after 2"},
-        Case{"Translate 1 2 Scale 1 1 1", "1:15: Translate takes 3 numbers, found Scale after 2"},
-        Case{"Translate 1 2 3 4", "1:17: Translate takes 3 numbers, found one more"},
-        Case{"Transform [1 2]", "1:15: Transform takes 16 numbers, found ']' after 2"},
-        Case{"Scale [1 1 1 Identity", "1:14: expected ']', found Identity"},
-        Case{"Camera 3", "1:8: Camera takes a name in quotes, found a number"},
-        Case{"Texture \"a\" \"float\" Shape",
-             "1:21: Texture takes a name, a type and a class in quotes, found Shape"},
-        Case{"ActiveTransform 1", "1:17: ActiveTransform takes a word, found a number"},
-        Case{"Include 5", "1:9: Include takes the name of a file in quotes, found a number"},
-        Case{"Include \"\"", "1:9: Include names no file"},
-        Case{"Camera \"p\" 5", "1:12: expected a parameter or a directive, found a number"},
-        Case{"Camera \"p\" \"fov\" 5", "1:12: expected a parameter \"type name\", found \"fov\""},
-        Case{"Camera \"p\" \"float a b\" 5",
-             "1:12: expected a parameter \"type name\", found \"float a b\""},
-        Case{"Camera \"p\" \"flaot fov\" 5",
-             "1:12: unknown parameter type \"flaot\" | did you mean \"float\"?"},
-        Case{"Camera \"p\" \"float fov\"",
-             "1:23: parameter \"fov\" has the end of the file for a value"},
-        Case{"Camera \"p\" \"float fov\" \"x\"",
-             "1:24: parameter \"fov\" of type float takes numbers, found the string \"x\""},
-        Case{"Camera \"p\" \"string s\" 5",
-             "1:23: parameter \"s\" of type string takes strings in quotes, found a number"},
-        Case{"Camera \"p\" \"bool b\" true",
-             "1:21: parameter \"b\" has true for a value | write \"true\" in quotes"},
-        Case{"Camera \"p\" \"spectrum s\" [1 \"x\"]",
-             "1:28: parameter \"s\" mixes numbers and strings"},
-        Case{"Camera \"p\" \"float x\" [1 [2]]", "1:25: parameter \"x\" has '[' for a value"},
-        Case{"Camera \"p\" \"float x\" [1 nan]", "1:25: parameter \"x\" has nan for a value"},
-        Case{"Camera \"p\"\n\"float x\" [1 2", "2:11: the list that begins here has no ']'"}));
+        ParserCase{"Translte 1 2 3",
+                   "1:1: unknown directive Translte | did you mean \"Translate\"?"},
+        ParserCase{"qqqq", "1:1: unknown directive qqqq"},
+        ParserCase{"shape \"sphere\"", "1:1: unknown directive shape | did you mean \"Shape\"?"},
+        ParserCase{
+            "MakeNamedMedium \"m\"",
+            "1:1: this is a scene of pbrt version 3 or 4, recognised by MakeNamedMedium: versions "
+            "1 "
+            "and 2 are read | directives, materials and colours have other names; "
+            "docs/guide/scene-format.md lists the replacements"},
+        ParserCase{
+            "\nIntegrator \"path\"",
+            "2:1: this is a scene of pbrt version 3 or 4, recognised by Integrator: versions 1 "
+            "and 2 "
+            "are read | directives, materials and colours have other names; "
+            "docs/guide/scene-format.md lists the replacements"},
+        ParserCase{"12", "1:1: expected a directive, found a number"},
+        ParserCase{"\"x\"", "1:1: expected a directive, found the string \"x\""},
+        ParserCase{"]", "1:1: expected a directive, found ']'"},
+        ParserCase{"[[[[", "1:1: expected a directive, found '['"},
+        ParserCase{"Translate 1 2",
+                   "1:14: Translate takes 3 numbers, found the end of the file after 2"},
+        ParserCase{"Translate 1 2 Scale 1 1 1",
+                   "1:15: Translate takes 3 numbers, found Scale after 2"},
+        ParserCase{"Translate 1 2 3 4", "1:17: Translate takes 3 numbers, found one more"},
+        ParserCase{"Transform [1 2]", "1:15: Transform takes 16 numbers, found ']' after 2"},
+        ParserCase{"Scale [1 1 1 Identity", "1:14: expected ']', found Identity"},
+        ParserCase{"Camera 3", "1:8: Camera takes a name in quotes, found a number"},
+        ParserCase{"Texture \"a\" \"float\" Shape",
+                   "1:21: Texture takes a name, a type and a class in quotes, found Shape"},
+        ParserCase{"ActiveTransform 1", "1:17: ActiveTransform takes a word, found a number"},
+        ParserCase{"Include 5", "1:9: Include takes the name of a file in quotes, found a number"},
+        ParserCase{"Include \"\"", "1:9: Include names no file"},
+        ParserCase{"Camera \"p\" 5", "1:12: expected a parameter or a directive, found a number"},
+        ParserCase{"Camera \"p\" \"fov\" 5",
+                   "1:12: expected a parameter \"type name\", found \"fov\""},
+        ParserCase{"Camera \"p\" \"float a b\" 5",
+                   "1:12: expected a parameter \"type name\", found \"float a b\""},
+        ParserCase{"Camera \"p\" \"flaot fov\" 5",
+                   "1:12: unknown parameter type \"flaot\" | did you mean \"float\"?"},
+        ParserCase{"Camera \"p\" \"float fov\"",
+                   "1:23: parameter \"fov\" has the end of the file for a value"},
+        ParserCase{"Camera \"p\" \"float fov\" \"x\"",
+                   "1:24: parameter \"fov\" of type float takes numbers, found the string \"x\""},
+        ParserCase{"Camera \"p\" \"string s\" 5",
+                   "1:23: parameter \"s\" of type string takes strings in quotes, found a number"},
+        ParserCase{"Camera \"p\" \"bool b\" true",
+                   "1:21: parameter \"b\" has true for a value | write \"true\" in quotes"},
+        ParserCase{"Camera \"p\" \"spectrum s\" [1 \"x\"]",
+                   "1:28: parameter \"s\" mixes numbers and strings"},
+        ParserCase{"Camera \"p\" \"float x\" [1 [2]]", "1:25: parameter \"x\" has '[' for a value"},
+        ParserCase{"Camera \"p\" \"float x\" [1 nan]", "1:25: parameter \"x\" has nan for a value"},
+        ParserCase{"Camera \"p\"\n\"float x\" [1 2",
+                   "2:11: the list that begins here has no ']'"}));
 
 TEST(Parser, ShowsTheLineAndACaret) {
   EXPECT_EQ(ParseErrorOf("Identity\n\tTranslte 1 2 3  # comment\n"),

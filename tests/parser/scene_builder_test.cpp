@@ -9,12 +9,12 @@
 namespace exphoton {
 namespace {
 
-struct Case {
+struct BuilderCase {
   std::string text;
   const char* message;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.text.substr(0, 200); }
+void PrintTo(const BuilderCase& c, std::ostream* out) { *out << c.text.substr(0, 200); }
 
 // Returns "line:column: text | hint" of the error that building the scene reports.
 std::string ShortErrorOf(const std::string& text, LoadOptions options = {}) {
@@ -32,7 +32,7 @@ std::string ShortErrorOf(const std::string& text, LoadOptions options = {}) {
   return "";
 }
 
-class SceneError : public testing::TestWithParam<Case> {};
+class SceneError : public testing::TestWithParam<BuilderCase> {};
 TEST_P(SceneError, IsSaidInTheseWords) {
   EXPECT_EQ(ShortErrorOf(GetParam().text), GetParam().message);
 }
@@ -42,72 +42,80 @@ const std::string kBegin = "Accelerator \"bruteforce\" WorldBegin\n";
 INSTANTIATE_TEST_SUITE_P(
     OutOfPlace, SceneError,
     testing::Values(
-        Case{"", "1:1: the file has no WorldBegin: there is nothing to render"},
-        Case{"# only\nIdentity\n", "3:1: the file has no WorldBegin: there is nothing to render"},
-        Case{"WorldEnd", "1:1: WorldEnd without WorldBegin"},
-        Case{kBegin + "Identity\n", "3:1: WorldEnd is missing: the world begins at scene.pbrt:1"},
-        Case{kBegin + "WorldBegin", "2:1: WorldBegin inside the world that begins at scene.pbrt:1"},
-        Case{"Shape \"sphere\"", "1:1: Shape must be between WorldBegin and WorldEnd"},
-        Case{"AttributeBegin", "1:1: AttributeBegin must be between WorldBegin and WorldEnd"},
-        Case{kBegin + "Camera \"perspective\"", "2:1: Camera must be before WorldBegin"},
-        Case{kBegin + "SearchPath \"x\"", "2:1: SearchPath must be before WorldBegin"},
-        Case{kBegin + "AttributeEnd", "2:1: AttributeEnd without AttributeBegin"},
-        Case{kBegin + "TransformEnd", "2:1: TransformEnd without TransformBegin"},
-        Case{kBegin + "ObjectEnd", "2:1: ObjectEnd without ObjectBegin"},
-        Case{kBegin + "AttributeBegin TransformEnd",
-             "2:16: TransformEnd does not match the AttributeBegin at scene.pbrt:2"},
-        Case{kBegin + "ObjectBegin \"a\" AttributeEnd",
-             "2:17: AttributeEnd does not match the ObjectBegin at scene.pbrt:2"},
-        Case{kBegin + "ObjectBegin \"a\"\nObjectBegin \"b\"",
-             "3:1: ObjectBegin inside the object that begins at scene.pbrt:2"},
-        Case{kBegin + "ObjectBegin \"a\"\nWorldEnd",
-             "3:1: the object that begins at scene.pbrt:2 has no ObjectEnd"}));
+        BuilderCase{"", "1:1: the file has no WorldBegin: there is nothing to render"},
+        BuilderCase{"# only\nIdentity\n",
+                    "3:1: the file has no WorldBegin: there is nothing to render"},
+        BuilderCase{"WorldEnd", "1:1: WorldEnd without WorldBegin"},
+        BuilderCase{kBegin + "Identity\n",
+                    "3:1: WorldEnd is missing: the world begins at scene.pbrt:1"},
+        BuilderCase{kBegin + "WorldBegin",
+                    "2:1: WorldBegin inside the world that begins at scene.pbrt:1"},
+        BuilderCase{"Shape \"sphere\"", "1:1: Shape must be between WorldBegin and WorldEnd"},
+        BuilderCase{"AttributeBegin",
+                    "1:1: AttributeBegin must be between WorldBegin and WorldEnd"},
+        BuilderCase{kBegin + "Camera \"perspective\"", "2:1: Camera must be before WorldBegin"},
+        BuilderCase{kBegin + "SearchPath \"x\"", "2:1: SearchPath must be before WorldBegin"},
+        BuilderCase{kBegin + "AttributeEnd", "2:1: AttributeEnd without AttributeBegin"},
+        BuilderCase{kBegin + "TransformEnd", "2:1: TransformEnd without TransformBegin"},
+        BuilderCase{kBegin + "ObjectEnd", "2:1: ObjectEnd without ObjectBegin"},
+        BuilderCase{kBegin + "AttributeBegin TransformEnd",
+                    "2:16: TransformEnd does not match the AttributeBegin at scene.pbrt:2"},
+        BuilderCase{kBegin + "ObjectBegin \"a\" AttributeEnd",
+                    "2:17: AttributeEnd does not match the ObjectBegin at scene.pbrt:2"},
+        BuilderCase{kBegin + "ObjectBegin \"a\"\nObjectBegin \"b\"",
+                    "3:1: ObjectBegin inside the object that begins at scene.pbrt:2"},
+        BuilderCase{kBegin + "ObjectBegin \"a\"\nWorldEnd",
+                    "3:1: the object that begins at scene.pbrt:2 has no ObjectEnd"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, SceneError,
     testing::Values(
-        Case{"CoordSysTransform \"camera\"", "1:1: no coordinate system \"camera\" has been named"},
-        Case{"CoordinateSystem \"here\" CoordSysTransform \"hree\"",
-             "1:25: no coordinate system \"hree\" has been named | did you mean \"here\"?"},
-        Case{kBegin + "ObjectInstance \"a\"", "2:1: no object \"a\" has been defined"},
-        Case{kBegin + "ObjectBegin \"table\" ObjectEnd ObjectInstance \"tabel\"",
-             "2:31: no object \"tabel\" has been defined | did you mean \"table\"?"},
-        Case{kBegin + "ObjectBegin \"a\" ObjectInstance \"a\"",
-             "2:17: object \"a\" contains an instance of itself"},
-        Case{kBegin + "ObjectBegin \"a\" ObjectEnd ObjectBegin \"b\" ObjectInstance \"a\"",
-             "2:43: an object cannot contain instances of other objects"},
-        Case{kBegin + "NamedMaterial \"m\"", "2:1: no material \"m\" has been defined"},
-        Case{kBegin + "MakeNamedMaterial \"m\" \"color Kd\" [1 1 1]",
-             "2:1: MakeNamedMaterial \"m\" needs a parameter \"string type\" with the material's "
-             "name"},
-        Case{kBegin + "Texture \"t\" \"colour\" \"constant\"",
-             "2:1: texture \"t\" has type \"colour\"; types of textures are \"float\" and "
-             "\"color\""},
-        Case{"Film \"rgbx\"", "1:1: unknown film \"rgbx\"; known: \"image\""},
-        Case{"Renderer \"metropolitan\"",
-             "1:1: unknown renderer \"metropolitan\"; known: \"sampler\", \"metropolis\", "
-             "\"createprobes\", \"surfacepoints\", \"aggregatetest\" | did you mean "
-             "\"metropolis\"?"},
-        Case{"ActiveTransform Alll",
-             "1:1: unknown time \"Alll\" of ActiveTransform; known: All, StartTime, EndTime | did "
-             "you mean \"All\"?"}));
+        BuilderCase{"CoordSysTransform \"camera\"",
+                    "1:1: no coordinate system \"camera\" has been named"},
+        BuilderCase{"CoordinateSystem \"here\" CoordSysTransform \"hree\"",
+                    "1:25: no coordinate system \"hree\" has been named | did you mean \"here\"?"},
+        BuilderCase{kBegin + "ObjectInstance \"a\"", "2:1: no object \"a\" has been defined"},
+        BuilderCase{kBegin + "ObjectBegin \"table\" ObjectEnd ObjectInstance \"tabel\"",
+                    "2:31: no object \"tabel\" has been defined | did you mean \"table\"?"},
+        BuilderCase{kBegin + "ObjectBegin \"a\" ObjectInstance \"a\"",
+                    "2:17: object \"a\" contains an instance of itself"},
+        BuilderCase{kBegin + "ObjectBegin \"a\" ObjectEnd ObjectBegin \"b\" ObjectInstance \"a\"",
+                    "2:43: an object cannot contain instances of other objects"},
+        BuilderCase{kBegin + "NamedMaterial \"m\"", "2:1: no material \"m\" has been defined"},
+        BuilderCase{
+            kBegin + "MakeNamedMaterial \"m\" \"color Kd\" [1 1 1]",
+            "2:1: MakeNamedMaterial \"m\" needs a parameter \"string type\" with the material's "
+            "name"},
+        BuilderCase{kBegin + "Texture \"t\" \"colour\" \"constant\"",
+                    "2:1: texture \"t\" has type \"colour\"; types of textures are \"float\" and "
+                    "\"color\""},
+        BuilderCase{"Film \"rgbx\"", "1:1: unknown film \"rgbx\"; known: \"image\""},
+        BuilderCase{"Renderer \"metropolitan\"",
+                    "1:1: unknown renderer \"metropolitan\"; known: \"sampler\", \"metropolis\", "
+                    "\"createprobes\", \"surfacepoints\", \"aggregatetest\" | did you mean "
+                    "\"metropolis\"?"},
+        BuilderCase{
+            "ActiveTransform Alll",
+            "1:1: unknown time \"Alll\" of ActiveTransform; known: All, StartTime, EndTime | did "
+            "you mean \"All\"?"}));
 
-INSTANTIATE_TEST_SUITE_P(Transformations, SceneError,
-                         testing::Values(Case{"Scale 0 1 1", "1:1: Scale: a factor is 0"},
-                                         Case{"Rotate 10 0 0 0", "1:1: Rotate: the axis is 0 0 0"},
-                                         Case{"LookAt 1 1 1 1 1 1 0 1 0",
-                                              "1:1: LookAt: the eye is the point that it looks at, "
-                                              "or \"up\" is parallel to the direction of "
-                                              "view"},
-                                         Case{"LookAt 0 0 0 0 5 0 0 1 0",
-                                              "1:1: LookAt: the eye is the point that it looks at, "
-                                              "or \"up\" is parallel to the direction of "
-                                              "view"},
-                                         Case{"Transform [1 0 0 0 2 0 0 0 0 0 1 0 0 0 0 1]",
-                                              "1:1: Transform: the matrix is "
-                                              "singular"},
-                                         Case{"ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]",
-                                              "1:1: ConcatTransform: the matrix is singular"}));
+INSTANTIATE_TEST_SUITE_P(
+    Transformations, SceneError,
+    testing::Values(BuilderCase{"Scale 0 1 1", "1:1: Scale: a factor is 0"},
+                    BuilderCase{"Rotate 10 0 0 0", "1:1: Rotate: the axis is 0 0 0"},
+                    BuilderCase{"LookAt 1 1 1 1 1 1 0 1 0",
+                                "1:1: LookAt: the eye is the point that it looks at, "
+                                "or \"up\" is parallel to the direction of "
+                                "view"},
+                    BuilderCase{"LookAt 0 0 0 0 5 0 0 1 0",
+                                "1:1: LookAt: the eye is the point that it looks at, "
+                                "or \"up\" is parallel to the direction of "
+                                "view"},
+                    BuilderCase{"Transform [1 0 0 0 2 0 0 0 0 0 1 0 0 0 0 1]",
+                                "1:1: Transform: the matrix is "
+                                "singular"},
+                    BuilderCase{"ConcatTransform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]",
+                                "1:1: ConcatTransform: the matrix is singular"}));
 
 TEST(SceneBuilder, RefusesAMillionNestedBlocksWithoutOverflow) {
   std::string text = kBegin;

@@ -37,7 +37,7 @@ std::string StringOf(const std::string& text) {
   return strings.at(0);
 }
 
-std::string ErrorOf(const std::string& text) {
+std::string TokenErrorOf(const std::string& text) {
   try {
     TokensOf(text);
   } catch (const Error& error) {
@@ -76,20 +76,20 @@ TEST(Tokenizer, ReadsNumbersAsCWritesThem) {
 TEST(Tokenizer, RefusesWhatIsNoNumber) {
   for (const char* text :
        {"0x10", "1e", "-", "+", ".", "1..2", "1-2", "12abc", "+-1", "--1", "-nan", "+inf", "1e+"}) {
-    EXPECT_EQ(ErrorOf(text), "scene.pbrt:1:1: error: \"" + std::string(text) +
-                                 "\" is not a number\n    " + text + "\n    ^\n");
+    EXPECT_EQ(TokenErrorOf(text), "scene.pbrt:1:1: error: \"" + std::string(text) +
+                                      "\" is not a number\n    " + text + "\n    ^\n");
   }
 }
 
 TEST(Tokenizer, RefusesNumbersOutOfRange) {
   for (const char* text : {"1e999", "-1e999", "1e-999"}) {
-    EXPECT_EQ(ErrorOf(text), "scene.pbrt:1:1: error: the number " + std::string(text) +
-                                 " is out of range\n    " + text + "\n    ^\n");
+    EXPECT_EQ(TokenErrorOf(text), "scene.pbrt:1:1: error: the number " + std::string(text) +
+                                      " is out of range\n    " + text + "\n    ^\n");
   }
 #ifndef EXPHOTON_DOUBLE
-  EXPECT_NE(ErrorOf("1e39"), "");  // finite in double, not in Real
+  EXPECT_NE(TokenErrorOf("1e39"), "");  // finite in double, not in Real
 #endif
-  EXPECT_EQ(ErrorOf("3e38 -3e38 1e-300"), "");
+  EXPECT_EQ(TokenErrorOf("3e38 -3e38 1e-300"), "");
 }
 
 TEST(Tokenizer, DoesNotTakeNanAndInfForNumbers) {
@@ -117,37 +117,38 @@ TEST(Tokenizer, KnowsTheEscapesOfVersion1) {
 }
 
 TEST(Tokenizer, RefusesBadEscapesAndOpenStrings) {
-  EXPECT_EQ(ErrorOf("\"\\25\""),
+  EXPECT_EQ(TokenErrorOf("\"\\25\""),
             "scene.pbrt:1:2: error: an escape must have three decimal digits from \\001 to "
             "\\255\n    \"\\25\"\n     ^\n");
-  EXPECT_NE(ErrorOf("\"\\256\""), "");
-  EXPECT_NE(ErrorOf("\"\\000\""), "");
-  EXPECT_EQ(ErrorOf("1 \"abc\n2"),
+  EXPECT_NE(TokenErrorOf("\"\\256\""), "");
+  EXPECT_NE(TokenErrorOf("\"\\000\""), "");
+  EXPECT_EQ(TokenErrorOf("1 \"abc\n2"),
             "scene.pbrt:1:3: error: the string that begins here has no closing quote on its "
             "line\n    1 \"abc\n      ^\n");
-  EXPECT_NE(ErrorOf("\"abc"), "");
-  EXPECT_NE(ErrorOf("\"abc\\"), "");
-  EXPECT_NE(ErrorOf("\""), "");
+  EXPECT_NE(TokenErrorOf("\"abc"), "");
+  EXPECT_NE(TokenErrorOf("\"abc\\"), "");
+  EXPECT_NE(TokenErrorOf("\""), "");
 }
 
 TEST(Tokenizer, LimitsTheLengthOfStringsAndWords) {
   const std::string mebibyte(1 << 20, 'x'), tooLong(10'000'000, 'x');
   EXPECT_EQ(StringOf('"' + mebibyte + '"').size(), mebibyte.size());
-  EXPECT_NE(ErrorOf('"' + tooLong + '"').find("a string of more than 1 MiB"), std::string::npos);
-  EXPECT_NE(ErrorOf("\"\\n" + tooLong + '"').find("a string of more than 1 MiB"),
+  EXPECT_NE(TokenErrorOf('"' + tooLong + '"').find("a string of more than 1 MiB"),
             std::string::npos);
-  EXPECT_NE(ErrorOf(tooLong).find("a word of more than 1 MiB"), std::string::npos);
-  EXPECT_LT(ErrorOf('"' + tooLong).size(), 1000u);
+  EXPECT_NE(TokenErrorOf("\"\\n" + tooLong + '"').find("a string of more than 1 MiB"),
+            std::string::npos);
+  EXPECT_NE(TokenErrorOf(tooLong).find("a word of more than 1 MiB"), std::string::npos);
+  EXPECT_LT(TokenErrorOf('"' + tooLong).size(), 1000u);
 }
 
 TEST(Tokenizer, RefusesBytesThatAreNoText) {
   using namespace std::string_literals;
   EXPECT_EQ(
-      ErrorOf("Scale \0"s),
+      TokenErrorOf("Scale \0"s),
       "scene.pbrt:1:7: error: a NUL byte: this is not a text file\n    Scale  \n          ^\n");
-  EXPECT_NE(ErrorOf("\"a\0b\""s), "");
-  EXPECT_NE(ErrorOf("\x80").find("unexpected byte 0x80"), std::string::npos);
-  EXPECT_NE(ErrorOf("'").find("unexpected '''"), std::string::npos);
+  EXPECT_NE(TokenErrorOf("\"a\0b\""s), "");
+  EXPECT_NE(TokenErrorOf("\x80").find("unexpected byte 0x80"), std::string::npos);
+  EXPECT_NE(TokenErrorOf("'").find("unexpected '''"), std::string::npos);
 }
 
 TEST(Tokenizer, SkipsByteOrderMarkCommentsAndEveryBlank) {
@@ -174,8 +175,8 @@ TEST(Tokenizer, CountsLinesAndColumnsFromOne) {
 }
 
 TEST(Tokenizer, ShowsOnlyTheStartOfAVeryLongLine) {
-  EXPECT_LT(ErrorOf("? " + std::string(5'000'000, '1')).size(), 1000u);
-  EXPECT_LT(ErrorOf(std::string(500'000, '1') + " ?").size(), 1000u);
+  EXPECT_LT(TokenErrorOf("? " + std::string(5'000'000, '1')).size(), 1000u);
+  EXPECT_LT(TokenErrorOf(std::string(500'000, '1') + " ?").size(), 1000u);
 }
 
 TEST(Tokenizer, ReadsGzipByItsMagicNumber) {

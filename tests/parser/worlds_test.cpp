@@ -7,16 +7,16 @@
 namespace exphoton {
 namespace {
 
-const std::string kBegin = "Accelerator \"bruteforce\" WorldBegin\n";
+const std::string kWorldsBegin = "Accelerator \"bruteforce\" WorldBegin\n";
 
 TEST(SceneBuilder, ForgetsTheCoordinateSystemsOfTheWorldBefore) {
-  const BuiltScene named = BuildText("CoordinateSystem \"mine\"\n" + kBegin + "WorldEnd\n" +
-                                     kBegin + "CoordSysTransform \"mine\"\nWorldEnd\n");
+  const BuiltScene named = BuildText("CoordinateSystem \"mine\"\n" + kWorldsBegin + "WorldEnd\n" +
+                                     kWorldsBegin + "CoordSysTransform \"mine\"\nWorldEnd\n");
   EXPECT_NE(named.error.find("no coordinate system \"mine\" has been named"), std::string::npos)
       << named.error;
   const BuiltScene cameras =
-      BuildText("Translate 7 0 0 Camera \"perspective\"\n" + kBegin + "WorldEnd\n" + kBegin +
-                "CoordSysTransform \"camera\" Shape \"sphere\"\nWorldEnd\n");
+      BuildText("Translate 7 0 0 Camera \"perspective\"\n" + kWorldsBegin + "WorldEnd\n" +
+                kWorldsBegin + "CoordSysTransform \"camera\" Shape \"sphere\"\nWorldEnd\n");
   ASSERT_EQ(cameras.error, "");
   EXPECT_NEAR(double(cameras.setups[1]->scene->WorldBounds().Center().x), 0, 1e-3);
 }
@@ -26,7 +26,7 @@ TEST(SceneBuilder, MirrorsWhatTheCameraSeesAndNotTheWorldInTheDialectOfVersion2)
   v2.dialect = Dialect::V2;
   // Off the axes: mirroring x of the world would give another place than mirroring x of the camera.
   const std::string text =
-      "LookAt 3 1 -5 1 2 4 .2 1 .1\nCamera \"perspective\"\n" + kBegin + "WorldEnd";
+      "LookAt 3 1 -5 1 2 4 .2 1 .1\nCamera \"perspective\"\n" + kWorldsBegin + "WorldEnd";
   const BuiltScene one = BuildText(text), two = BuildText(text, v2);
   ASSERT_EQ(one.error + two.error, "");
   const Point3 p(-2, 6, 9);
@@ -37,8 +37,8 @@ TEST(SceneBuilder, MirrorsWhatTheCameraSeesAndNotTheWorldInTheDialectOfVersion2)
 
 TEST(SceneBuilder, HashesTheStringsOfParameters) {
   const auto hash = [](const std::string& name) {
-    const BuiltScene built =
-        BuildText("Film \"image\" \"string filename\" \"" + name + "\"\n" + kBegin + "WorldEnd");
+    const BuiltScene built = BuildText("Film \"image\" \"string filename\" \"" + name + "\"\n" +
+                                       kWorldsBegin + "WorldEnd");
     EXPECT_EQ(built.error, "");
     return built.setups.at(0)->sceneHash;
   };

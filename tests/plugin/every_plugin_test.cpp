@@ -17,6 +17,7 @@
 #include "core/parser/overrides.h"
 #include "core/plugins/catalogue.h"
 #include "core/plugins/registry.h"
+#include "tests/support/process.h"
 
 namespace exphoton {
 namespace {
@@ -143,17 +144,12 @@ TEST_F(EveryPlugin, DeclaresParametersThatMakeSense) {
   });
 }
 
-std::string ReadText(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
   if (sizeof(Real) != 4) GTEST_SKIP() << "defaults such as 1/3 have more digits in double";
   const fs::path folder = EXPHOTON_SOURCE_DIR "/docs/reference";
   std::set<std::string> files;
   for (const auto& [file, page] : AllReferencePages(registry_)) {
-    const bool isCurrent = ReadText(folder / file) == page;
+    const bool isCurrent = ReadFile(folder / file) == page;
     EXPECT_TRUE(isCurrent) << file
                            << " is stale: run exphoton plugins --write-reference docs/reference";
     files.insert(file);
@@ -167,7 +163,7 @@ TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
 
 TEST_F(EveryPlugin, HasTheParametersAndPicturesOfItsStrips) {
   const fs::path folder = EXPHOTON_SOURCE_DIR "/docs/reference/images";
-  const std::string script = ReadText(folder / "make_strips.py");
+  const std::string script = ReadFile(folder / "make_strips.py");
   auto pages = AllReferencePages(registry_);
   std::set<std::string> names;
   for (const ParameterStrip& strip : ParameterStrips()) {

@@ -5,23 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 
 #include "core/plugins/registry.h"
+#include "tests/support/process.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
 namespace {
 
-std::string ReadText(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST(ExamplePlugin, IsQuotedInTheDocumentationAsItIs) {
-  const std::string page = ReadText(EXPHOTON_SOURCE_DIR "/docs/development/writing-a-plugin.md");
+  const std::string page = ReadFile(EXPHOTON_SOURCE_DIR "/docs/development/writing-a-plugin.md");
   for (const std::string& name : {std::string("openness"), std::string("velvet")}) {
-    const std::string code = ReadText(EXPHOTON_SOURCE_DIR "/tests/plugin/example/" + name + ".cpp");
+    const std::string code = ReadFile(EXPHOTON_SOURCE_DIR "/tests/plugin/example/" + name + ".cpp");
     ASSERT_FALSE(code.empty());
     EXPECT_NE(page.find("```cpp\n" + code + "```\n"), std::string::npos)
         << "docs/development/writing-a-plugin.md does not quote tests/plugin/example/" << name;

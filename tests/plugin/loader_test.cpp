@@ -25,7 +25,7 @@ std::string ReadAll(const std::string& path) {
 
 namespace fs = std::filesystem;
 
-const std::string kPlugins = EXPHOTON_BINARY_DIR "/plugins";
+const std::string kLoaderPlugins = EXPHOTON_BINARY_DIR "/plugins";
 const std::string kFaulty = EXPHOTON_BINARY_DIR "/faulty_plugins";
 
 class Loader : public ::testing::Test {
@@ -69,7 +69,7 @@ class Loader : public ::testing::Test {
 };
 
 TEST_F(Loader, LoadsOnlyWhatIsNamed) {
-  PluginRegistry registry = Registry({kPlugins});
+  PluginRegistry registry = Registry({kLoaderPlugins});
   EXPECT_TRUE(registry.Loaded().empty());
   EXPECT_TRUE(registry.Create<PluginKind::Filter>("box", {}, {}, {}));
   EXPECT_TRUE(registry.Create<PluginKind::Filter>("box", {}, {}, {}));
@@ -77,12 +77,12 @@ TEST_F(Loader, LoadsOnlyWhatIsNamed) {
 }
 
 TEST_F(Loader, ListsWhatThereIsWhereAFilterIsMissing) {
-  const std::string text = Fails("gausian", {kPlugins});
+  const std::string text = Fails("gausian", {kLoaderPlugins});
   EXPECT_EQ(text,
             "there is no filter \"gausian\"; available: box, gaussian, mitchell, "
             "sinc, triangle (looked in " +
-                kPlugins + ")");
-  PluginRegistry registry = Registry({kPlugins});
+                kLoaderPlugins + ")");
+  PluginRegistry registry = Registry({kLoaderPlugins});
   try {
     registry.Find(PluginKind::Filter, "gausian", Here());
     FAIL();
@@ -99,7 +99,7 @@ TEST_F(Loader, ListsWhatThereIsWhereAFilterIsMissing) {
 // only come from memory.
 TEST_F(Loader, LooksUpTheParametersOfAKindOnce) {
   for (const char* name : {"box.so", "mitchell.so"})
-    fs::copy_file(kPlugins + "/filters/" + name, folder_ / "filters" / name);
+    fs::copy_file(kLoaderPlugins + "/filters/" + name, folder_ / "filters" / name);
   PluginRegistry registry = Registry({folder_.string()});
   ParsedParam another;
   another.type = "float";
@@ -121,13 +121,13 @@ TEST_F(Loader, LooksUpTheParametersOfAKindOnce) {
 }
 
 TEST_F(Loader, RefusesNamesThatAreNotNames) {
-  EXPECT_EQ(Fails("", {kPlugins}), "the name of filter \"\" is empty");
+  EXPECT_EQ(Fails("", {kLoaderPlugins}), "the name of filter \"\" is empty");
   for (const std::string name : {"../box", "filters/box", "/etc/passwd", "..", "a..b"}) {
-    EXPECT_EQ(Fails(name, {kPlugins}),
+    EXPECT_EQ(Fails(name, {kLoaderPlugins}),
               "the name of filter \"" + name +
                   "\" contains a path: --plugin-dir or PBRT_SEARCHPATH names folders");
   }
-  EXPECT_EQ(Fails(std::string(5000, 'x'), {kPlugins}).substr(0, 20), "the name of filter \"");
+  EXPECT_EQ(Fails(std::string(5000, 'x'), {kLoaderPlugins}).substr(0, 20), "the name of filter \"");
 }
 
 TEST_F(Loader, SaysWhatIsWrongWithAFile) {
@@ -139,7 +139,7 @@ TEST_F(Loader, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(FailsToLoad("empty", folder_), "is not a library");
   EXPECT_EQ(FailsToLoad("folder", folder_), "is a directory, not a plugin");
   if (geteuid() != 0) {
-    fs::copy_file(kPlugins + "/filters/box.so", filters / "box.so");
+    fs::copy_file(kLoaderPlugins + "/filters/box.so", filters / "box.so");
     fs::permissions(filters / "box.so", fs::perms::none);
     EXPECT_EQ(FailsToLoad("box", folder_), "cannot be read: Permission denied");
   }
@@ -156,7 +156,7 @@ TEST_F(Loader, APluginWhoseConstructorThrowsDoesNotAbortTheProgram) {
 // segments must be reported as truncation. A later cut removes only debug tables, so the library
 // may still load.
 TEST_F(Loader, ATruncatedLibraryIsRefusedAndKillsNothing) {
-  std::ifstream whole(kPlugins + "/filters/box.so", std::ios::binary);
+  std::ifstream whole(kLoaderPlugins + "/filters/box.so", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(whole), {}};
   ASSERT_GT(bytes.size(), 1000u);
   for (std::size_t part = 0; part < 16; ++part) {
@@ -172,7 +172,7 @@ TEST_F(Loader, ATruncatedLibraryIsRefusedAndKillsNothing) {
 }
 
 TEST_F(Loader, GivesTheReasonOfTheSystemForAnotherMachine) {
-  std::ifstream whole(kPlugins + "/filters/box.so", std::ios::binary);
+  std::ifstream whole(kLoaderPlugins + "/filters/box.so", std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(whole), {}};
   bytes[18] = char(0xF7);  // e_machine becomes 247 (EM_BPF), which is no host CPU
   std::ofstream(folder_ / "filters/alien.so", std::ios::binary) << bytes;
@@ -194,7 +194,7 @@ TEST_F(Loader, CodeOfALibraryThatIsNoPluginNeverRuns) {
 // The test damages one byte at a time in the first 4096 bytes of a library, which include its
 // tables. FaultOfLibrary must refuse or accept the file, and must not cause a signal.
 TEST_F(Loader, DamagedTablesOfALibraryAreRefusedOrHarmless) {
-  const std::string bytes = ReadAll(kPlugins + "/filters/box.so");
+  const std::string bytes = ReadAll(kLoaderPlugins + "/filters/box.so");
   const fs::path file = folder_ / "filters/box.so";
   int refused = 0;
   for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 4096); at += 17) {
@@ -210,7 +210,7 @@ TEST_F(Loader, DamagedTablesOfALibraryAreRefusedOrHarmless) {
 
 TEST_F(Loader, AFolderThatASceneNamesIsNotSearchedUnlessItIsAllowed) {
   const std::string faulty = kFaulty;
-  PluginRegistry skipping({{faulty, PluginTrust::Skipped}, {kPlugins}}, &log_);
+  PluginRegistry skipping({{faulty, PluginTrust::Skipped}, {kLoaderPlugins}}, &log_);
   EXPECT_THROW(skipping.Find(PluginKind::Filter, "refusing_factory", Here()), Error);
   try {
     skipping.Find(PluginKind::Filter, "refusing_factory", Here());
@@ -307,20 +307,22 @@ TEST_F(Loader, AFactorysRefusalIsPutAtItsParameter) {
 }
 
 TEST_F(Loader, APluginOfAnotherKindIsNotTaken) {
-  fs::copy_file(kPlugins + "/samplers/random.so", folder_ / "random.so");
-  EXPECT_EQ(Fails("random", {folder_.string(), kPlugins}),
+  fs::copy_file(kLoaderPlugins + "/samplers/random.so", folder_ / "random.so");
+  EXPECT_EQ(Fails("random", {folder_.string(), kLoaderPlugins}),
             "\"random\" has the kind sampler, not filter; available: box, gaussian, "
             "mitchell, sinc, triangle");
 }
 
 TEST_F(Loader, OfTwoFoldersTheFirstCountsEvenWhereItsFileIsBroken) {
   std::ofstream(folder_ / "filters/box.so") << "text";
-  EXPECT_TRUE(Registry({kPlugins, folder_.string()}).Create<PluginKind::Filter>("box", {}, {}, {}));
-  EXPECT_NE(Fails("box", {folder_.string(), kPlugins}).find("is not a library"), std::string::npos);
+  EXPECT_TRUE(
+      Registry({kLoaderPlugins, folder_.string()}).Create<PluginKind::Filter>("box", {}, {}, {}));
+  EXPECT_NE(Fails("box", {folder_.string(), kLoaderPlugins}).find("is not a library"),
+            std::string::npos);
 }
 
 TEST_F(Loader, RemovingAPluginBreaksOnlyWhatNamesIt) {
-  fs::copy(kPlugins + "/filters", folder_ / "filters");
+  fs::copy(kLoaderPlugins + "/filters", folder_ / "filters");
   fs::remove(folder_ / "filters/box.so");
   EXPECT_TRUE(Registry({folder_.string()}).Create<PluginKind::Filter>("gaussian", {}, {}, {}));
   EXPECT_EQ(Fails("box", {folder_.string()}),
@@ -336,7 +338,7 @@ TEST_F(Loader, ReadsTheOlderTableOfSymbols) {
 TEST_F(Loader, SkipsLibrariesOfOtherPrograms) {
   fs::copy(kFaulty + "/filters/no_symbol.so", folder_ / "filters/gaussian.so",
            fs::copy_options::overwrite_existing);
-  PluginRegistry registry = Registry({folder_.string(), kPlugins});
+  PluginRegistry registry = Registry({folder_.string(), kLoaderPlugins});
   EXPECT_STREQ(registry.Load(PluginKind::Filter, "gaussian", {}).name, "gaussian");
   ASSERT_EQ(log_.Messages().size(), 1u);
   EXPECT_NE(log_.Messages()[0].find("is skipped: it is a library, but not a plugin"),
@@ -344,7 +346,7 @@ TEST_F(Loader, SkipsLibrariesOfOtherPrograms) {
 }
 
 TEST_F(Loader, AliasesStandForTheirPlugins) {
-  PluginRegistry registry = Registry({kPlugins});
+  PluginRegistry registry = Registry({kLoaderPlugins});
   EXPECT_STREQ(registry.Load(PluginKind::AreaLight, "diffuse", {}).name, "area");
   EXPECT_STREQ(registry.Load(PluginKind::Sampler, "02sequence", {}).name, "lowdiscrepancy");
   EXPECT_TRUE(log_.Messages().empty());
@@ -364,11 +366,11 @@ TEST_F(Loader, FoldersComeFromTheCommandLineTheEnvironmentAndTheProgram) {
   EXPECT_EQ(folders[0], "/zero");
   EXPECT_EQ(folders[1], "/one");
   EXPECT_EQ(folders[2], "/two");
-  EXPECT_EQ(fs::canonical(folders[3]), fs::canonical(kPlugins));
+  EXPECT_EQ(fs::canonical(folders[3]), fs::canonical(kLoaderPlugins));
 }
 
 TEST_F(Loader, ParametersOfSiblingsAreRecognised) {
-  PluginRegistry registry = Registry({kPlugins});
+  PluginRegistry registry = Registry({kLoaderPlugins});
   ParamSet params;
   ParsedParam tau;
   tau.type = "float";

@@ -10,7 +10,7 @@
 namespace exphoton::recorded {
 namespace {
 
-const std::vector<std::string> kIntegrators{
+const std::vector<std::string> kRandomIntegrators{
     "\"exphotonmap\" \"integer directlights\" 2",
     "\"path\"",
     "\"photonmap\"",
@@ -61,7 +61,7 @@ auto InTurn(const List& list, std::uint64_t seed) {
 RecordedScene SceneOf(std::uint64_t seed) {
   const auto shrinkable = random_scenes::SceneOfSeed(seed);
   random_scenes::TextOptions options;
-  options.integrator = InTurn(kIntegrators, seed);
+  options.integrator = InTurn(kRandomIntegrators, seed);
   options.accelerator = InTurn(kAccelerators, seed);
   options.photons = 150;
   options.gatherRays = 4;

@@ -19,7 +19,7 @@ constexpr const char* kHeader =
     "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 8\n"
     "Sampler \"lowdiscrepancy\" \"integer pixelsamples\" 2\nPixelFilter \"box\"\n";
 
-constexpr std::array<const char*, 4> kIntegrators{
+constexpr std::array<const char*, 4> kStateIntegrators{
     "\"directlighting\"", "\"path\" \"integer maxdepth\" 2",
     "\"exphotonmap\" \"integer indirectphotons\" 100 \"integer causticphotons\" 50 "
     "\"integer finalgathersamples\" 3 \"integer maxphotonpaths\" 2000",
@@ -79,7 +79,7 @@ class StateText {
 
   std::string Scene() {
     const bool isMistaken = draw_.Below(5) == 0;
-    Line("SurfaceIntegrator " + std::string(draw_.From(kIntegrators)));
+    Line("SurfaceIntegrator " + std::string(draw_.From(kStateIntegrators)));
     if (draw_.Below(3) == 0) Line("TransformTimes .1 .9");
     if (draw_.Below(3) == 0) Transformation(6);
     Line("LookAt 0 .5 -3 0 0 0 .1 1 0\nCamera \"perspective\" \"float fov\" 60");

@@ -73,7 +73,7 @@ class Names : public ParameterLookup {
   }
 };
 
-void AddPlans(FigureLines* lines) {
+void AddStudyPlans(FigureLines* lines) {
   for (const char* text : {"path", "Long: path maxdepth=9 spp=4", "Few:photonmap nused=7", "a b",
                            "path spp", ": path", "path =3", "", "A=1: path"}) {
     try {
@@ -186,7 +186,7 @@ std::vector<std::string> StudyFigures() {
   FigureLines lines;
   AddTexts(&lines);
   AddCurves(&lines);
-  AddPlans(&lines);
+  AddStudyPlans(&lines);
   AddPictures(&lines);
   return lines.Take();
 }

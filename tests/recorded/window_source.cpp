@@ -10,7 +10,7 @@
 namespace exphoton::recorded {
 namespace {
 
-constexpr std::array<const char*, 7> kIntegrators{
+constexpr std::array<const char*, 7> kWindowIntegrators{
     "\"directlighting\"",
     "\"path\" \"integer maxdepth\" 2",
     "\"exphotonmap\" \"integer indirectphotons\" 150 \"integer causticphotons\" 50 "
@@ -22,7 +22,7 @@ constexpr std::array<const char*, 7> kIntegrators{
     "\"irradiancecache\" \"integer nsamples\" 9",
     "\"igi\" \"integer nlights\" 4 \"integer nsets\" 2"};
 
-constexpr std::array<const char*, 6> kSamplers{
+constexpr std::array<const char*, 6> kWindowSamplers{
     "\"lowdiscrepancy\" \"integer pixelsamples\" 2",
     "\"halton\" \"integer pixelsamples\" 3",
     "\"stratified\" \"integer xsamples\" 2 \"integer ysamples\" 3",
@@ -30,7 +30,7 @@ constexpr std::array<const char*, 6> kSamplers{
     "\"adaptive\" \"integer minsamples\" 2 \"integer maxsamples\" 6",
     "\"random\" \"integer xsamples\" 2 \"integer ysamples\" 1"};
 
-constexpr std::array<const char*, 7> kFilters{
+constexpr std::array<const char*, 7> kWindowFilters{
     "\"box\"",
     "\"box\" \"float xwidth\" .8 \"float ywidth\" 1.7",
     "\"triangle\" \"float xwidth\" 2.3 \"float ywidth\" .6",
@@ -58,8 +58,8 @@ constexpr std::array<const char*, 8> kCrops{"",
                                             "[.1 .9 .58 .61]",
                                             "[.34 .99 .01 .76]"};
 
-constexpr std::array<const char*, 4> kAovs{"", "albedo,N,P,Z,uv,variance,samples", "variance",
-                                           "light,samples"};
+constexpr std::array<const char*, 4> kWindowAovs{"", "albedo,N,P,Z,uv,variance,samples", "variance",
+                                                 "light,samples"};
 
 constexpr const char* kWorld =
     "WorldBegin\n"
@@ -76,7 +76,7 @@ constexpr const char* kWorld =
     "Material \"uber\" \"color Kd\" [.3 .6 .2] \"color opacity\" [.6 .8 .7]\n"
     "Translate .7 -.2 -.2 Rotate 30 1 1 0 Shape \"cylinder\" \"float radius\" .4\nWorldEnd\n";
 
-RecordedScene SceneOf(std::uint64_t seed) {
+RecordedScene WindowSceneOf(std::uint64_t seed) {
   Draw draw(seed + 1000);
   std::string film = "Film \"image\" \"integer xresolution\" " +
                      std::to_string(2 + draw.Below(14)) + " \"integer yresolution\" " +
@@ -88,14 +88,14 @@ RecordedScene SceneOf(std::uint64_t seed) {
   const auto add = [&](const char* directive, const std::string& words) {
     scene.text += std::string(directive) + " " + words + "\n";
   };
-  add("SurfaceIntegrator", kIntegrators[std::size_t(seed) % kIntegrators.size()]);
-  add("Sampler", draw.From(kSamplers));
-  add("PixelFilter", draw.From(kFilters));
+  add("SurfaceIntegrator", kWindowIntegrators[std::size_t(seed) % kWindowIntegrators.size()]);
+  add("Sampler", draw.From(kWindowSamplers));
+  add("PixelFilter", draw.From(kWindowFilters));
   scene.text += "LookAt .2 .4 -3 0 0 0 .1 1 0\n";
   add("Camera", draw.From(kCameras));
   scene.text += kWorld;
   std::string unknown;
-  const std::string aovs = draw.From(kAovs);
+  const std::string aovs = draw.From(kWindowAovs);
   if (!aovs.empty()) scene.aovs = ParseAovs(aovs, &unknown).value();
   return scene;
 }
@@ -103,7 +103,7 @@ RecordedScene SceneOf(std::uint64_t seed) {
 }  // namespace
 
 std::vector<RecordedScene> WindowScenes(std::uint64_t firstSeed, std::uint64_t lastSeed) {
-  return OfSeeds(firstSeed, lastSeed, SceneOf);
+  return OfSeeds(firstSeed, lastSeed, WindowSceneOf);
 }
 
 }  // namespace exphoton::recorded

@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kTests = 32;
+constexpr int kEmitterTests = 32;
 
 struct Case {
   const char* name;
@@ -120,7 +120,9 @@ class EmitterSampling : public testing::TestWithParam<Case> {
   SurfacePoint ref_;
 };
 
-TEST_P(EmitterSampling, TowardAPointFitsItsDensity) { EXPECT_TRUE(FitsDensity(Test(), kTests)); }
+TEST_P(EmitterSampling, TowardAPointFitsItsDensity) {
+  EXPECT_TRUE(FitsDensity(Test(), kEmitterTests));
+}
 
 TEST_P(EmitterSampling, SaysOfASampleWhatItSaysOfAHit) {
   RandomStream random(4);
@@ -194,7 +196,7 @@ TEST(EmitterArea, IsSampledUniformly) {
       EXPECT_EQ(s.pdf, 1 / emitter->Area());
       return test.toSquare(s.point.p);
     };
-    EXPECT_TRUE(FitsDensity(TestPlane({}, sample, [](Point2) { return 1.0; }), kTests))
+    EXPECT_TRUE(FitsDensity(TestPlane({}, sample, [](Point2) { return 1.0; }), kEmitterTests))
         << test.name;
   }
 }
@@ -222,7 +224,8 @@ TEST(EmitterArea, IsSampledUniformlyTowardsAPointOutside) {
       if (cosine > .01) EXPECT_NEAR(double(s->pdf) / pdf, 1, 1e-3) << name;
       return test.toSquare(s->point.p);
     };
-    EXPECT_TRUE(FitsDensity(TestPlane({}, sample, [](Point2) { return 1.0; }), kTests)) << name;
+    EXPECT_TRUE(FitsDensity(TestPlane({}, sample, [](Point2) { return 1.0; }), kEmitterTests))
+        << name;
     EXPECT_LT(edgeOn, 10) << name;
   }
 }

@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kTests = 10;
+constexpr int kFilterTests = 10;
 
 void TestFilter(const std::string& text) {
   TestPlugins plugins;
@@ -30,7 +30,7 @@ void TestFilter(const std::string& text) {
     return filter->Sample({u, random.Uniform()}).offset;
   };
   const auto pdf = [&](Point2 p) { return std::abs(double(filter->Evaluate(p))) / integral; };
-  EXPECT_TRUE(FitsDensity(TestPlane({{-w, -h}, {w, h}}, sample, pdf), kTests)) << text;
+  EXPECT_TRUE(FitsDensity(TestPlane({{-w, -h}, {w, h}}, sample, pdf), kFilterTests)) << text;
 }
 
 TEST(FilterSampling, OfABoxIsUniform) { TestFilter(R"("box")"); }

@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kTests = 25;
+constexpr int kLightTests = 25;
 const Sphere3 kWorld{{1, -2, Real(.5)}, 3};
 
 // Writes a map with every kind of texel: black, dim, bright and coloured. The rows at the
@@ -41,15 +41,15 @@ Transform Stretched() {
   return *Transform::Rotate(20, {3, 1, 2}) * *Transform::Scale(1, 2, Real(.7));
 }
 
-struct Case {
+struct LightCase {
   const char* name;
   std::string text;
   Transform toWorld;
 
-  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+  friend void PrintTo(const LightCase& c, std::ostream* out) { *out << c.name; }
 };
 
-std::vector<Case> PlainLights() {
+std::vector<LightCase> PlainLights() {
   return {{"Point", R"("point" "point from" [1 2 3])", {}},
           {"Spot", R"("spot" "float coneangle" 50 "float conedeltaangle" 30)", Tilted()},
           {"SharpSpot", R"("spot" "float coneangle" 120 "float conedeltaangle" 0)", Tilted()},
@@ -67,9 +67,9 @@ std::vector<Case> PlainLights() {
           {"ProjectionSquare", "\"projection\" \"float fov\" 120", Tilted()}};
 }
 
-std::string NameOf(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+std::string NameOf(const testing::TestParamInfo<LightCase>& info) { return info.param.name; }
 
-class PlainLight : public testing::TestWithParam<Case> {
+class PlainLight : public testing::TestWithParam<LightCase> {
  protected:
   PlainLight() : light_(plugins_.MakeLight(GetParam().text, GetParam().toWorld)) {
     light_->Prepare(kWorld);
@@ -96,7 +96,7 @@ TEST_P(PlainLight, EmitsDirectionsOfItsDensity) {
     return emission->ray.d;
   };
   const auto pdf = [&](const Vector3& w) { return double(light_->PdfEmission({}, w).direction); };
-  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kTests));
+  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kLightTests));
 }
 
 TEST_P(PlainLight, EmitsItsPowerInTheMean) {
@@ -151,7 +151,7 @@ TEST_P(SkyLight, IsSampledFromAPointByItsDensity) {
     return direct->wi;
   };
   const auto pdf = [&](const Vector3& w) { return double(light_->PdfDirect(ref, w, nullptr)); };
-  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kTests));
+  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf, Options()), kLightTests));
 }
 
 // Every direction with radiance must have a positive density. Otherwise light would be missing.
@@ -180,10 +180,10 @@ TEST_P(SkyLight, EmitsFromADiskThatCoversTheWorld) {
   };
   const PlaneGrid grid{{0, -kPi}, {Real(1.00001), kPi}};
   EXPECT_TRUE(FitsDensity(
-      TestPlane(grid, sample, [](Point2 p) { return p.x <= 1 ? .5 / M_PI : 0; }), kTests));
+      TestPlane(grid, sample, [](Point2 p) { return p.x <= 1 ? .5 / M_PI : 0; }), kLightTests));
 }
 
-std::vector<Case> Skies() {
+std::vector<LightCase> Skies() {
   auto lights = PlainLights();
   return {lights.begin() + 4, lights.begin() + 8};
 }
@@ -216,7 +216,7 @@ TEST(AreaLight, EmitsByTheCosineFromItsWholeSurface) {
     return emission->ray.d;
   };
   const auto pdf = [&](const Vector3& w) { return double(light->PdfEmission(on, w).direction); };
-  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf), kTests));
+  EXPECT_TRUE(FitsDensity(TestDirections({}, sample, pdf), kLightTests));
   EXPECT_NEAR(double(light->PdfEmission(on, on.ng).position), 1 / (4 * M_PI), 1e-6);
 }
 

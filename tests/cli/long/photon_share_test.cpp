@@ -3,17 +3,11 @@
 // has the bytes of the file that one process writes.
 #include <filesystem>
 
+#include "tests/cli/long/names.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {
 namespace {
-
-using Names = std::vector<std::string>;
-
-Names operator+(Names a, const Names& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 // A ball and a lamp within a grey sphere.
 std::string Room(const std::string& photons) {

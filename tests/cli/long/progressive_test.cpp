@@ -3,17 +3,11 @@
 #include <cmath>
 
 #include "core/imaging/files/exr.h"
+#include "tests/cli/long/names.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {
 namespace {
-
-using Names = std::vector<std::string>;
-
-Names operator+(Names a, const Names& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 class Progressive : public ProgramTest {
  protected:

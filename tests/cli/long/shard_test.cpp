@@ -10,17 +10,11 @@
 #include <thread>
 
 #include "core/files/state_file.h"
+#include "tests/cli/long/names.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {
 namespace {
-
-using Names = std::vector<std::string>;
-
-Names operator+(Names a, const Names& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 class Shards : public ProgramTest {
  protected:

@@ -3,19 +3,13 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/cli/long/names.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {
 namespace {
 
 namespace fs = std::filesystem;
-using Names = std::vector<std::string>;
-
-Names operator+(Names a, const Names& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 class StudyTasks : public ProgramTest {
  protected:
   StudyTasks() {

@@ -2,9 +2,11 @@
 // A library to preload, in which time is a count: each reading of a clock by the main thread adds
 // 10 ms, and a child process is reported with 50 ms more than the one before it. So the program
 // prints the same times, forecasts and decisions in each run with one thread. Readings of other
-// threads do not add to the time, and the peak memory is 100 MiB. If COUNTED_INTERRUPT is n, the
-// main thread gets SIGINT at its n-th reading.
+// threads do not add to the time; a thread that waits until a time looks every millisecond whether
+// it has come. The peak memory is 100 MiB. If COUNTED_INTERRUPT is n, the main thread gets SIGINT
+// at its n-th reading.
 #include <dlfcn.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -54,6 +56,23 @@ __attribute__((visibility("default"))) int getrusage(__rusage_who_t, rusage* usa
   *usage = {};
   usage->ru_maxrss = kPeakMemory;
   return 0;
+}
+
+// Waits a real millisecond at most. The caller compares counted times afterwards and waits again.
+__attribute__((visibility("default"))) int pthread_cond_clockwait(pthread_cond_t* condition,
+                                                                  pthread_mutex_t* mutex,
+                                                                  clockid_t clock,
+                                                                  const timespec*) {
+  using Function = int (*)(pthread_cond_t*, pthread_mutex_t*, clockid_t, const timespec*);
+  static const auto original = Function(dlsym(RTLD_NEXT, "pthread_cond_clockwait"));
+  timespec end;
+  syscall(SYS_clock_gettime, clock, &end);
+  end.tv_nsec += 1000000;
+  if (end.tv_nsec >= 1000000000) {
+    end.tv_nsec -= 1000000000;
+    ++end.tv_sec;
+  }
+  return original(condition, mutex, clock, &end);
 }
 
 __attribute__((visibility("default"))) pid_t wait4(pid_t process, int* status, int options,

@@ -121,8 +121,8 @@ TEST_P(BidirectionalAgreement, WithPathTracingHoldsInEveryBlock) {
            TestHeader(integrator + " \"integer maxdepth\" 5", 12, 12, samples) + "WorldBegin\n" +
            GetParam().text + "WorldEnd\n";
   };
-  EXPECT_TRUE(AgreeInBlocks(.03, EstimateBlocks(scene("\"bidirectional\"", 192)),
-                            EstimateBlocks(scene("\"path\"", 320))));
+  EXPECT_TRUE(AgreeInBlocks(.03, EstimateBlocks(scene("\"bidirectional\"", 80)),
+                            EstimateBlocks(scene("\"path\"", 160))));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-TestRender Render(const std::string& integrator, const std::string& world, int samples) {
+TestRender RenderLight(const std::string& integrator, const std::string& world, int samples) {
   TestRenderOptions options;
   options.aovs = {Aov::Indirect};
   return RenderSceneText(
@@ -28,11 +28,12 @@ const std::string kFill =
 TEST(CachedLight, OfASurfaceThatMovesIsFoundOnIt) {
   const std::string cached =
       "\"irradiancecache\" \"integer nsamples\" 64 \"float maxpixelspacing\" 1000";
-  const TestRender render = Render(cached,
-                                   kFill +
-                                       "ActiveTransform EndTime Translate 0 0 -1 ActiveTransform "
-                                       "All\nTranslate 0 0 2 Shape \"disk\" \"float radius\" 3.4",
-                                   16);
+  const TestRender render =
+      RenderLight(cached,
+                  kFill +
+                      "ActiveTransform EndTime Translate 0 0 -1 ActiveTransform "
+                      "All\nTranslate 0 0 2 Shape \"disk\" \"float radius\" 3.4",
+                  16);
   const double gathered = double(render.rays.counts[std::size_t(RayKind::Gather)]);
   EXPECT_LT(gathered, 1.05 * 64 * render.Counter("irradiance/records"));
 }
@@ -42,8 +43,9 @@ TEST(CachedLight, OfALeafIsTransmittedByItsTransmittance) {
   const std::string leaf = kFill +
                            "Material \"translucent\" \"color Ks\" [0 0 0] \"color reflect\" [.1 .1 "
                            ".1] \"color transmit\" [.7 .7 .7]\nTranslate 0 0 .5 Shape \"disk\"";
-  const double cached = Indirect(Render("\"irradiancecache\" \"integer nsamples\" 1024", leaf, 4));
-  const double traced = Indirect(Render("\"path\" \"integer maxdepth\" 3", leaf, 1024));
+  const double cached =
+      Indirect(RenderLight("\"irradiancecache\" \"integer nsamples\" 1024", leaf, 4));
+  const double traced = Indirect(RenderLight("\"path\" \"integer maxdepth\" 3", leaf, 1024));
   EXPECT_NEAR(cached / traced, 1, .05);
 }
 
@@ -52,8 +54,9 @@ TEST(CachedLight, OfFogBetweenDarkWallsIsThatOfPathTracing) {
   const std::string world =
       "Volume \"homogeneous\" \"point p0\" [-4 -4 -4] \"point p1\" [4 4 4] \"color Le\" [.2 .2 "
       ".2]\nMaterial \"matte\" \"color Kd\" [.1 .1 .1]\nShape \"sphere\" \"float radius\" 3";
-  const double cached = Indirect(Render("\"irradiancecache\" \"integer nsamples\" 256", world, 4));
-  const double traced = Indirect(Render("\"path\" \"integer maxdepth\" 3", world, 256));
+  const double cached =
+      Indirect(RenderLight("\"irradiancecache\" \"integer nsamples\" 256", world, 4));
+  const double traced = Indirect(RenderLight("\"path\" \"integer maxdepth\" 3", world, 256));
   EXPECT_GT(traced, 0);
   EXPECT_NEAR(cached / traced, 1, .04);
 }
@@ -67,8 +70,8 @@ TEST(CachedLight, HasNoMirrorAfterItsLastBounce) {
   const std::string cached =
       "\"irradiancecache\" \"integer nsamples\" 256 \"integer "
       "maxspeculardepth\" 0 \"integer maxindirectdepth\" ";
-  EXPECT_EQ(Indirect(Render(cached + "1", world, 4)), 0);
-  EXPECT_GT(Indirect(Render(cached + "2", world, 4)), 0);
+  EXPECT_EQ(Indirect(RenderLight(cached + "1", world, 4)), 0);
+  EXPECT_GT(Indirect(RenderLight(cached + "2", world, 4)), 0);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::string Furnace(const std::string& parameters, const std::string& material, 
          FurnaceWorld(1, material);
 }
 
-SeedEstimate Mean(const std::string& scene) {
+SeedEstimate GuidedMean(const std::string& scene) {
   return EstimateOverSeeds([&](std::uint64_t seed) {
     TestRenderOptions options;
     options.seed = seed;
@@ -36,7 +36,8 @@ TEST(GuidedPathFurnace, ShowsEmissionOverOneMinusAlbedo) {
                {R"("matte" "color Kd" [.8 .8 .8])", .8},
                {R"("uber" "color Kd" [.3 .3 .3] "color Ks" [0 0 0] "color Kr" [0 0 0])", .3}};
   for (const auto& [material, albedo] : cases)
-    EXPECT_TRUE(IsWithin(kTolerance, Mean(Furnace("\"integer maxdepth\" 200", material, 1024)),
+    EXPECT_TRUE(IsWithin(kTolerance,
+                         GuidedMean(Furnace("\"integer maxdepth\" 200", material, 1024)),
                          1 / (1 - albedo)))
         << material;
 }
@@ -47,7 +48,7 @@ TEST(GuidedPathFurnace, OfALimitedDepthShowsAPartialSum) {
     for (int i = 0; i <= depth + 1; ++i) truth += std::pow(.5, i);
     const std::string scene = Furnace("\"integer maxdepth\" " + std::to_string(depth),
                                       R"("matte" "color Kd" [.5 .5 .5])", 256);
-    EXPECT_TRUE(IsWithin(kTolerance, Mean(scene), truth)) << depth;
+    EXPECT_TRUE(IsWithin(kTolerance, GuidedMean(scene), truth)) << depth;
   }
 }
 

@@ -15,7 +15,7 @@ TestRender Render(const std::string& scene, std::uint64_t seed = 1, int threads 
   options.aovs = kLightAovs;
   return RenderSceneText(scene, options);
 }
-SeedEstimate Mean(const std::string& scene) {
+SeedEstimate IgiMean(const std::string& scene) {
   return EstimateOverSeeds(
       [&](std::uint64_t seed) { return MeanRadiance(Render(scene, seed).image); });
 }
@@ -31,27 +31,29 @@ const std::string kMany = "\"integer nlights\" 64 \"integer nsets\" 16 \"float r
 // Inside a sphere the geometric term is 1/4 between any two points, and mindist m <= 2 takes away
 // m^2 / 8 of its integral.
 TEST(Igi, InAFurnaceIsEmissionOverOneMinusAlbedo) {
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + "\"float mindist\" 0")), 2));
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + "\"float mindist\" 1")), 1.5 + .5 * (1 - 1. / 8)));
+  EXPECT_TRUE(IsWithin(.01, IgiMean(Furnace(kMany + "\"float mindist\" 0")), 2));
+  EXPECT_TRUE(
+      IsWithin(.01, IgiMean(Furnace(kMany + "\"float mindist\" 1")), 1.5 + .5 * (1 - 1. / 8)));
 }
 
 // With m >= 2, the term d^2 / (4 m^2) has the mean 1 / (2 m^2).
 TEST(Igi, WithAMindistBeyondTheSceneLosesTheStatedShare) {
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + "\"float mindist\" 4")), 1.5 + .5 / 8));
+  EXPECT_TRUE(IsWithin(.01, IgiMean(Furnace(kMany + "\"float mindist\" 4")), 1.5 + .5 / 8));
 }
 
 // The bound takes away 60 % of the term, and gather rays give it back.
 TEST(Igi, WithAGeometricLimitLosesNothing) {
   const std::string limit = "\"float glimit\" .1 \"integer maxdepth\" ";
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + limit + "12 \"integer gathersamples\" 2", 2)), 2));
+  EXPECT_TRUE(
+      IsWithin(.01, IgiMean(Furnace(kMany + limit + "12 \"integer gathersamples\" 2", 2)), 2));
   // Without gather rays, the limit is a bias.
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(kMany + limit + "0", 2)), 1.5 + .5 * .4));
+  EXPECT_TRUE(IsWithin(.01, IgiMean(Furnace(kMany + limit + "0", 2)), 1.5 + .5 * .4));
 }
 
 TEST(Igi, RouletteOnSmallContributionsKeepsTheMean) {
   const std::string roulette =
       "\"integer nlights\" 64 \"integer nsets\" 64 \"float mindist\" 0 \"float rrthreshold\" 1000";
-  EXPECT_TRUE(IsWithin(.01, Mean(Furnace(roulette, 64)), 2));
+  EXPECT_TRUE(IsWithin(.01, IgiMean(Furnace(roulette, 64)), 2));
   const TestRender all = Render(Furnace(kMany)), some = Render(Furnace(roulette));
   EXPECT_LT(some.rays.counts[std::size_t(RayKind::Shadow)],
             all.rays.counts[std::size_t(RayKind::Shadow)] / 2);
@@ -117,7 +119,7 @@ std::string Room(const std::string& integrator, int samples, const std::string& 
 TEST(Igi, AgreesWithPathTracingInAMatteRoom) {
   const std::string lights =
       "\"igi\" \"integer nlights\" 256 \"integer nsets\" 64 \"float mindist\" .02 ";
-  EXPECT_TRUE(AgreeInBlocks(.03, EstimateBlocks(Room(lights, 64)),
+  EXPECT_TRUE(AgreeInBlocks(.03, EstimateBlocks(Room(lights, 32)),
                             EstimateBlocks(Room("\"path\" \"integer maxdepth\" 30", 256))));
 }
 
@@ -130,7 +132,7 @@ TEST(Igi, OfAMovingSphereAgreesWithPathTracing) {
       "AttributeEnd\n";
   const std::string lights =
       "\"igi\" \"integer nlights\" 256 \"integer nsets\" 64 \"float mindist\" .02 ";
-  EXPECT_TRUE(AgreeInBlocks(.05, EstimateBlocks(Room(lights, 64, moving)),
+  EXPECT_TRUE(AgreeInBlocks(.05, EstimateBlocks(Room(lights, 32, moving)),
                             EstimateBlocks(Room("\"path\" \"integer maxdepth\" 30", 256, moving))));
 }
 

@@ -9,15 +9,15 @@
 namespace exphoton {
 namespace {
 
-TestRender Render(const std::string& scene, std::uint64_t seed = 1) {
+TestRender RenderCached(const std::string& scene, std::uint64_t seed = 1) {
   TestRenderOptions options;
   options.seed = seed;
   options.threads = 2;
   return RenderSceneText(scene, options);
 }
-SeedEstimate Mean(const std::string& scene) {
+SeedEstimate CacheMean(const std::string& scene) {
   return EstimateOverSeeds(
-      [&](std::uint64_t seed) { return MeanRadiance(Render(scene, seed).image); });
+      [&](std::uint64_t seed) { return MeanRadiance(RenderCached(scene, seed).image); });
 }
 
 IrradianceRecord RecordAt(const Point3& p, Real radius) {
@@ -142,7 +142,7 @@ TEST(IrradianceCache, InAFurnaceShowsThePartialSumOfItsDepth) {
         FurnaceWorld(1, R"("matte" "color Kd" [.5 .5 .5])");
     double truth = 0;
     for (int i = 0; i <= depth + 1; ++i) truth += std::pow(.5, i);
-    EXPECT_TRUE(IsWithin(.003, Mean(scene), truth)) << depth;
+    EXPECT_TRUE(IsWithin(.003, CacheMean(scene), truth)) << depth;
   }
 }
 
@@ -154,31 +154,31 @@ TEST(IrradianceCache, WithoutAValidRecordTakesAFreshEstimate) {
           "\"float minpixelspacing\" 0",
           8, 8, 16) +
       FurnaceWorld(1, R"("matte" "color Kd" [.5 .5 .5])");
-  EXPECT_TRUE(IsWithin(.005, Mean(scene), 1.9375));
+  EXPECT_TRUE(IsWithin(.005, CacheMean(scene), 1.9375));
 }
 
-std::string Quad(const std::string& points) {
+std::string CacheQuad(const std::string& points) {
   return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" + points + "]\n";
 }
-std::string Room(const std::string& integrator, int samples, const std::string& more = "") {
+std::string CacheRoom(const std::string& integrator, int samples, const std::string& more = "") {
   return TestHeader(integrator, 24, 24, samples) +
          "WorldBegin\nMaterial \"matte\" \"color Kd\" [.7 "
          ".6 .5]\n" +
-         Quad("-2 -2 0  2 -2 0  2 -2 5  -2 -2 5") + Quad("-2 2 0  2 2 0  2 2 5  -2 2 5") +
-         Quad("-2 -2 5  2 -2 5  2 2 5  -2 2 5") + Quad("-2 -2 0  -2 -2 5  -2 2 5  -2 2 0") +
-         Quad("2 -2 0  2 -2 5  2 2 5  2 2 0") +
+         CacheQuad("-2 -2 0  2 -2 0  2 -2 5  -2 -2 5") + CacheQuad("-2 2 0  2 2 0  2 2 5  -2 2 5") +
+         CacheQuad("-2 -2 5  2 -2 5  2 2 5  -2 2 5") +
+         CacheQuad("-2 -2 0  -2 -2 5  -2 2 5  -2 2 0") + CacheQuad("2 -2 0  2 -2 5  2 2 5  2 2 0") +
          "AttributeBegin\nAreaLightSource \"area\" \"color L\" [3 3 3]\n" +
-         Quad("-1 1.9 2  1 1.9 2  1 1.9 4  -1 1.9 4") + "AttributeEnd\n" + more +
+         CacheQuad("-1 1.9 2  1 1.9 2  1 1.9 4  -1 1.9 4") + "AttributeEnd\n" + more +
          "Translate 0 -1 3\nShape \"sphere\" \"float radius\" .8\nWorldEnd\n";
 }
 const std::string kTranslucentBlind =
     "AttributeBegin\nMaterial \"translucent\" \"color Kd\" [.8 .8 .8] \"color Ks\" [0 0 0]\n" +
-    Quad("-1.5 .5 1.5  1.5 .5 1.5  1.5 .5 4  -1.5 .5 4") + "AttributeEnd\n";
+    CacheQuad("-1.5 .5 1.5  1.5 .5 1.5  1.5 .5 4  -1.5 .5 4") + "AttributeEnd\n";
 const std::string kGlossyFloor =
     "AttributeBegin\nMaterial \"plastic\" \"color Kd\" [.4 .4 .4] \"color Ks\" [.6 .6 .6] \"float "
     "roughness\" "
     ".1\n" +
-    Quad("-2 -1.99 0  2 -1.99 0  2 -1.99 5  -2 -1.99 5") + "AttributeEnd\n";
+    CacheQuad("-2 -1.99 0  2 -1.99 0  2 -1.99 5  -2 -1.99 5") + "AttributeEnd\n";
 const std::string kMoving =
     "AttributeBegin\nActiveTransform EndTime\nTranslate .8 0 0\nActiveTransform All\nTranslate -1 "
     ".6 3\nShape \"sphere\" \"float radius\" .5\nAttributeEnd\n";
@@ -187,17 +187,18 @@ TEST(IrradianceCache, AgreesWithPathTracingOfTheSameDepth) {
   for (const std::string& more : {std::string(), kTranslucentBlind, kGlossyFloor, kMoving}) {
     // The bounds in pixels are for larger pictures.
     const std::string cached =
-        "\"irradiancecache\" \"integer nsamples\" 512 \"float maxerror\" .1 \"float "
+        "\"irradiancecache\" \"integer nsamples\" 256 \"float maxerror\" .1 \"float "
         "minpixelspacing\" .5";
-    EXPECT_TRUE(AgreeInBlocks(.05, EstimateBlocks(Room(cached, 32, more)),
-                              EstimateBlocks(Room("\"path\" \"integer maxdepth\" 3", 128, more))))
+    EXPECT_TRUE(
+        AgreeInBlocks(.05, EstimateBlocks(CacheRoom(cached, 16, more)),
+                      EstimateBlocks(CacheRoom("\"path\" \"integer maxdepth\" 3", 128, more))))
         << more;
   }
 }
 
 double Records(const std::string& parameters) {
   const std::string few = "\"irradiancecache\" \"integer nsamples\" 16 ";
-  return Render(Room(few + parameters, 1)).Counter("irradiance/records");
+  return RenderCached(CacheRoom(few + parameters, 1)).Counter("irradiance/records");
 }
 
 TEST(IrradianceCache, PlacesMoreRecordsForSmallerErrorsSpacingsAndAngles) {
@@ -214,29 +215,29 @@ TEST(IrradianceCache, PlacesMoreRecordsForSmallerErrorsSpacingsAndAngles) {
 }
 
 TEST(IrradianceCache, TakesTheStatedNumberOfRaysForARecord) {
-  const TestRender render = Render(
-      Room("\"irradiancecache\" \"integer nsamples\" 100 \"integer maxindirectdepth\" 1", 1));
+  const TestRender render = RenderCached(
+      CacheRoom("\"irradiancecache\" \"integer nsamples\" 100 \"integer maxindirectdepth\" 1", 1));
   const double gathered = double(render.rays.counts[std::size_t(RayKind::Gather)]);
   EXPECT_NEAR(gathered / (100 * render.Counter("irradiance/records")), 1, .1);
 }
 
 TEST(IrradianceCache, FollowsMirrorsToItsSpecularDepth) {
   const std::string mirror = "AttributeBegin\nMaterial \"mirror\"\n" +
-                             Quad("-1.9 -1.9 4.9  1.9 -1.9 4.9  1.9 1.9 4.9  -1.9 1.9 4.9") +
+                             CacheQuad("-1.9 -1.9 4.9  1.9 -1.9 4.9  1.9 1.9 4.9  -1.9 1.9 4.9") +
                              "AttributeEnd\n";
   const std::string cached =
       "\"irradiancecache\" \"integer nsamples\" 64 \"integer "
       "maxspeculardepth\" ";
-  const TestRender none = Render(Room(cached + "0", 1, mirror));
-  const TestRender one = Render(Room(cached + "1", 1, mirror));
+  const TestRender none = RenderCached(CacheRoom(cached + "0", 1, mirror));
+  const TestRender one = RenderCached(CacheRoom(cached + "1", 1, mirror));
   const PixelBounds middle{9, 8, 15, 12};
   EXPECT_EQ(MeanRadiance(none.image, middle), 0);
   EXPECT_GT(MeanRadiance(one.image, middle), .1);
 }
 
 TEST(IrradianceCache, GivesTheSameBitsForAnyThreadsTilesAndCrop) {
-  const std::string scene = Room("\"irradiancecache\" \"integer nsamples\" 64", 2,
-                                 kTranslucentBlind + kGlossyFloor + kMoving);
+  const std::string scene = CacheRoom("\"irradiancecache\" \"integer nsamples\" 64", 2,
+                                      kTranslucentBlind + kGlossyFloor + kMoving);
   TestRenderOptions options;
   const Image one = RenderSceneText(scene, options).image;
   for (const int threads : {2, 4}) {

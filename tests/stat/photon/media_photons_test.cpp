@@ -12,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-const std::string kBox =
+const std::string kMediaBox =
     "Material \"matte\" \"color Kd\" [.5 .5 .5]\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 2 3 7 2 7 6 "
     "0 2 6 0 6 4 1 5 7 1 7 3] \"point P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 "
@@ -79,7 +79,7 @@ TEST(MediaPhotons, OfFogThatScattersOnceLightSurfacesAsPathTracingSays) {
   const std::string whole = fog(-1, -.5), parts = fog(-1, -.75) + fog(-.75, -.5);
   const auto scene = [](const std::string& integrator, int samples, const std::string& media) {
     return "VolumeIntegrator \"single\" \"float stepsize\" .25\n" +
-           TestHeader(integrator, 6, 6, samples) + "WorldBegin\n" + kBox + media +
+           TestHeader(integrator, 6, 6, samples) + "WorldBegin\n" + kMediaBox + media +
            "LightSource \"spot\" \"color I\" [5 5 5] \"point from\" [0 0 .3] "
            "\"point to\" [0 0 -1] \"float coneangle\" 25\nWorldEnd\n";
   };
@@ -133,7 +133,7 @@ TEST(MediaPhotons, AreNoneWhereMediaOnlyAbsorb) {
 TEST(MediaPhotons, OfAGlowingMediumAloneAreTheSameWithEveryEffectOn) {
   for (const char* integrator : {"\"exphotonmap\"", "\"photonmap\"", "\"path\""}) {
     const std::string scene = "VolumeIntegrator \"emission\"\n" + TestHeader(integrator, 4, 4, 4) +
-                              "WorldBegin\n" + kBox + kGlow + "WorldEnd\n";
+                              "WorldBegin\n" + kMediaBox + kGlow + "WorldEnd\n";
     TestRenderOptions all;
     all.load.effects = "all";
     EXPECT_EQ(RenderSceneText(scene).image.pixels, RenderSceneText(scene, all).image.pixels)

@@ -17,7 +17,7 @@ namespace exphoton {
 namespace {
 
 constexpr int kCoordinates = 14;  // five requests from sequences, two from the stream
-constexpr int kCells = 16, kPaths = 16384;
+constexpr int kPathCells = 16, kPaths = 16384;
 
 using Path = std::array<Real, kCoordinates>;
 
@@ -37,12 +37,13 @@ std::vector<Path> MakePaths(std::uint64_t seed) {
   return paths;
 }
 
-// Returns Pearson's statistic over kCells x kCells cells. Its mean is 255 for independent numbers.
+// Returns Pearson's statistic over kPathCells x kPathCells cells. Its mean is 255 for independent
+// numbers.
 double Statistic(const std::vector<Path>& paths, std::size_t a, std::size_t b) {
-  std::array<int, kCells * kCells> counts{};
+  std::array<int, kPathCells * kPathCells> counts{};
   for (const Path& path : paths)
-    ++counts[std::size_t(int(path[a] * kCells) * kCells + int(path[b] * kCells))];
-  const double expected = double(kPaths) / (kCells * kCells);
+    ++counts[std::size_t(int(path[a] * kPathCells) * kPathCells + int(path[b] * kPathCells))];
+  const double expected = double(kPaths) / (kPathCells * kPathCells);
   double statistic = 0;
   for (const int count : counts) statistic += (count - expected) * (count - expected) / expected;
   return statistic;
@@ -57,7 +58,7 @@ TEST(PhotonPathSampler, FillsTheSquareOfAnyTwoCoordinates) {
     for (std::size_t a = 0; a < kCoordinates; ++a) {
       for (std::size_t b = a + 1; b < kCoordinates; ++b) {
         const double statistic = Statistic(paths, a, b);
-        EXPECT_GT(ChiSquareTail(statistic, kCells * kCells - 1), rate)
+        EXPECT_GT(ChiSquareTail(statistic, kPathCells * kPathCells - 1), rate)
             << "coordinates " << a << " and " << b << ", seed " << seed << ": " << statistic;
       }
     }

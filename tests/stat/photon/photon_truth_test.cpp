@@ -18,7 +18,7 @@ std::string Grey(double value) {
   return "[" + v + " " + v + " " + v + "]";
 }
 
-double Mean(const std::string& scene, std::uint64_t seed) {
+double MeanOf(const std::string& scene, std::uint64_t seed) {
   TestRenderOptions options;
   options.seed = seed;
   return MeanRadiance(RenderSceneText(scene, options).image);
@@ -44,7 +44,7 @@ TEST_P(Furnace, ShowsEmissionOverOneMinusAlbedo) {
                      (albedo > .7 ? " \"string photonroulette\" \"luminance\"" : ""),
                  10, 10, 4) +
       FurnaceWorld(1, "\"matte\" \"color Kd\" " + Grey(albedo));
-  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
   EXPECT_TRUE(IsWithin(.01, estimate, 1 / (1 - albedo)));
 }
 
@@ -65,7 +65,7 @@ TEST_P(ConstantPhotons, ShowTheSameFurnaceAsLuminanceRoulette) {
                 roulette + "\"",
             10, 10, 4) +
         FurnaceWorld(1, GetParam());
-    return EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+    return EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
   };
   const SeedEstimate luminance = mean("luminance");
   EXPECT_TRUE(IsWithin(.015, mean("constant"), luminance.mean));
@@ -87,7 +87,7 @@ TEST_P(GatherFurnace, IsRightAtEveryGatherAngle) {
                      std::to_string(GetParam()) + "] \"integer finalgathersamples\" [64]",
                  8, 8, 4) +
       FurnaceWorld(1, "\"matte\" \"color Kd\" " + Grey(.5));
-  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
   // The total of 2 is the emission 1, direct light .5 and gathered light .5. The first two are
   // exact here, so .4 % of the total is 1.6 % of the gathered light.
   EXPECT_TRUE(IsWithin(.004, estimate, 2));
@@ -111,8 +111,8 @@ TEST_P(LightInSphere, GivesConstantIndirectLightWhereverItIs) {
   const std::string all = scene(std::string("\"") + GetParam() +
                                 "\" \"integer indirectphotons\" [20000] \"float maxdist\" [.2]");
   const std::string direct = scene("\"directlighting\"");
-  const auto estimate =
-      EstimateOverSeeds([&](std::uint64_t seed) { return Mean(all, seed) - Mean(direct, seed); });
+  const auto estimate = EstimateOverSeeds(
+      [&](std::uint64_t seed) { return MeanOf(all, seed) - MeanOf(direct, seed); });
   const double pi = 3.14159265358979, power = 4 * pi * intensity;
   EXPECT_TRUE(IsWithin(.02, estimate, albedo * albedo * power / (4 * pi * pi * (1 - albedo))));
 }
@@ -155,7 +155,8 @@ TEST_P(Caustic, ThroughAGlassSlabLosesWhatFresnelTakes) {
         "]\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 5 4 7 6] \"point P\" "
         "[-2 .9 -2  -2 .9 2  2 .9 2  2 .9 -2  -2 .8 -2  -2 .8 2  2 .8 2  2 .8 -2]\n";
     const std::string scene = CausticScene(Integrator(), slab);
-    const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+    const auto estimate =
+        EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
     EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979 * 2 * index / (index * index + 1)))
         << "index " << index;
   }
@@ -180,7 +181,7 @@ TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
       "Material \"matte\" \"color Kd\" [.01 .01 .01]\n"
       "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
       "[-1 0 -1  -1 0 1  1 0 1  1 0 -1]\nWorldEnd\n";
-  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
   EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979));
 }
 
@@ -202,7 +203,7 @@ TEST_P(SplitLight, LightsAsOneDoes) {
           10, 10, 4) +
       "WorldBegin\n" + lights + "Material \"matte\" \"color Kd\" " + Grey(albedo) +
       "\nReverseOrientation\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
-  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return Mean(scene, seed); });
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
   // The light is at the centre, so the radiance is a I / (pi R^2 (1 - a)).
   EXPECT_TRUE(IsWithin(.01, estimate, albedo / (3.14159265358979 * (1 - albedo))));
 }
@@ -231,7 +232,7 @@ TEST(UnlitRoom, BesideALitOneStaysDark) {
         "WorldBegin\nLightSource \"point\" \"color I\" [5 5 5] \"point from\" [2.5 0 0]\n"
         "Material \"matte\" \"color Kd\" [.7 .7 .7]\n" +
         Box(0) + Box(2.5) + "WorldEnd\n";
-    EXPECT_EQ(Mean(scene, 1), 0) << integrator;
+    EXPECT_EQ(MeanOf(scene, 1), 0) << integrator;
   }
 }
 

@@ -9,7 +9,7 @@
 namespace exphoton::study {
 namespace {
 
-CostPoint At(double seconds, double error, double secondsError = 0, double errorError = 0) {
+CostPoint CostAt(double seconds, double error, double secondsError = 0, double errorError = 0) {
   return {{seconds, secondsError}, {error, errorError}};
 }
 
@@ -31,7 +31,9 @@ Analysis TwoLines(const std::vector<CostPoint>& a, const std::vector<CostPoint>&
   return analysis;
 }
 
-Analysis SevenTimes() { return TwoLines({At(1, .1), At(10, .01)}, {At(7, .1), At(70, .01)}); }
+Analysis SevenTimes() {
+  return TwoLines({CostAt(1, .1), CostAt(10, .01)}, {CostAt(7, .1), CostAt(70, .01)});
+}
 
 void Write(Analysis* analysis) {
   Results results;
@@ -48,7 +50,7 @@ TEST(StudyHeadline, GivesTheShareOfTimeToTheSameError) {
 
 TEST(StudyHeadline, NamesTheErrorThatMostIntegratorsReach) {
   Analysis analysis = SevenTimes();
-  AddLine("path", "path", {At(4, .3), At(430, .03)}, &analysis);
+  AddLine("path", "path", {CostAt(4, .3), CostAt(430, .03)}, &analysis);
   Write(&analysis);
   // Two lines reach .01, but three reach .03.
   ASSERT_TRUE(analysis.target);
@@ -60,8 +62,8 @@ TEST(StudyHeadline, NamesTheErrorThatMostIntegratorsReach) {
 TEST(StudyHeadline, CountsManySettingsOfOneIntegratorAsOne) {
   Analysis analysis = SevenTimes();
   for (const char* label : {"narrow", "wide"})
-    AddLine(label, "fast", {At(1, .1), At(300, .0001)}, &analysis);
-  AddLine("path", "path", {At(4, .3), At(430, .05)}, &analysis);
+    AddLine(label, "fast", {CostAt(1, .1), CostAt(300, .0001)}, &analysis);
+  AddLine("path", "path", {CostAt(4, .3), CostAt(430, .05)}, &analysis);
   Write(&analysis);
   ASSERT_TRUE(analysis.target);
   EXPECT_DOUBLE_EQ(*analysis.target, .05);
@@ -82,7 +84,7 @@ TEST(StudyHeadline, ComparesTheLinesOfASingleIntegrator) {
 TEST(StudyHeadline, TakesAllLinesOfAnIntegratorIfNoneHasItsName) {
   Analysis analysis = SevenTimes();
   analysis.lines[0].integrator = analysis.lines[1].integrator = "photonmap";
-  AddLine("path", "path", {At(10, .1), At(100, .01)}, &analysis);
+  AddLine("path", "path", {CostAt(10, .1), CostAt(100, .01)}, &analysis);
   Write(&analysis);
   ASSERT_EQ(analysis.contenders.size(), 2u);
   EXPECT_EQ(analysis.contenders[0].settings.size(), 4u);
@@ -90,7 +92,8 @@ TEST(StudyHeadline, TakesAllLinesOfAnIntegratorIfNoneHasItsName) {
 }
 
 TEST(StudyHeadline, GivesPerCentForSimilarTimes) {
-  Analysis analysis = TwoLines({At(1, .1), At(10, .01, .05)}, {At(7, .1), At(19, .01, .1)});
+  Analysis analysis =
+      TwoLines({CostAt(1, .1), CostAt(10, .01, .05)}, {CostAt(7, .1), CostAt(19, .01, .1)});
   Write(&analysis);
   EXPECT_EQ(analysis.headline, "On room, to the same error fast needs 53 % of slow's time.");
   EXPECT_EQ(analysis.details, "At relMSE 0.01: fast 10 s, slow 19 s (1.90 ± 0.01 times).");
@@ -98,13 +101,13 @@ TEST(StudyHeadline, GivesPerCentForSimilarTimes) {
 
 TEST(StudyHeadline, SaysWhoDoesNotReachTheError) {
   Analysis analysis = SevenTimes();
-  AddLine("black", "black", {At(.5, .9)}, &analysis);
+  AddLine("black", "black", {CostAt(.5, .9)}, &analysis);
   Write(&analysis);
   EXPECT_EQ(analysis.headline,
             "On room, to the same error fast needs 1/7 of slow's time; black does not reach it.");
   EXPECT_NE(analysis.details.find("black never (at best 0.9, in 0.5 s)"), std::string::npos)
       << analysis.details;
-  AddLine("grey", "grey", {At(.5, .9)}, &analysis);
+  AddLine("grey", "grey", {CostAt(.5, .9)}, &analysis);
   Write(&analysis);
   EXPECT_NE(analysis.headline.find("; black and grey do not reach it."), std::string::npos)
       << analysis.headline;
@@ -113,7 +116,7 @@ TEST(StudyHeadline, SaysWhoDoesNotReachTheError) {
 TEST(StudyHeadline, NamesNoErrorOfABlackPicture) {
   // All three reach an error of 1, but a black picture has nearly this error.
   Analysis analysis = SevenTimes();
-  AddLine("black", "black", {At(.5, 2), At(9, .9)}, &analysis);
+  AddLine("black", "black", {CostAt(.5, 2), CostAt(9, .9)}, &analysis);
   analysis.usefulError = .45;
   Write(&analysis);
   ASSERT_TRUE(analysis.target);
@@ -123,7 +126,7 @@ TEST(StudyHeadline, NamesNoErrorOfABlackPicture) {
 TEST(StudyHeadline, NamesAtMostThreeOthers) {
   Analysis analysis = SevenTimes();
   for (const char* name : {"c", "d", "e"})
-    AddLine(name, name, {At(20, .1), At(200, .01)}, &analysis);
+    AddLine(name, name, {CostAt(20, .1), CostAt(200, .01)}, &analysis);
   Write(&analysis);
   EXPECT_EQ(analysis.headline,
             "On room, to the same error fast needs 1/7 of slow's time, 1/20 of c's and 1/20 of "
@@ -154,14 +157,14 @@ TEST(StudyHeadline, WithoutAReferenceSpeaksOfNoise) {
 
 TEST(StudyHeadline, BoundsTheRatioIfTheCheapestPictureIsMoreAccurate) {
   // The slow line's smallest error is the only one that both have a time for.
-  Analysis analysis = TwoLines({At(1, .1), At(10, .06)}, {At(7, 4), At(70, 2)});
+  Analysis analysis = TwoLines({CostAt(1, .1), CostAt(10, .06)}, {CostAt(7, 4), CostAt(70, 2)});
   Write(&analysis);
   EXPECT_EQ(analysis.headline,
             "On room, to the same error fast needs at most 1/70 of slow's time.");
 }
 
 TEST(StudyHeadline, ComparesErrorsIfNoTimeCanBeCompared) {
-  Analysis analysis = TwoLines({At(10, .1), At(100, .06)}, {At(.7, 4), At(7, 2)});
+  Analysis analysis = TwoLines({CostAt(10, .1), CostAt(100, .06)}, {CostAt(.7, 4), CostAt(7, 2)});
   Write(&analysis);
   EXPECT_FALSE(analysis.target);
   EXPECT_EQ(analysis.headline, "On room, fast has 1/33 of the error of slow at best.");
@@ -172,7 +175,8 @@ TEST(StudyHeadline, NamesAnErrorOfThePriceListThatTwoReach) {
   Results results;
   results.title = "room";
   results.targets = {.075};
-  Analysis analysis = TwoLines({At(1, .09), At(10, .071)}, {At(7, .09), At(70, .072)});
+  Analysis analysis =
+      TwoLines({CostAt(1, .09), CostAt(10, .071)}, {CostAt(7, .09), CostAt(70, .072)});
   WriteHeadline(results, &analysis);
   ASSERT_TRUE(analysis.target);
   EXPECT_DOUBLE_EQ(*analysis.target, .075);
@@ -181,7 +185,7 @@ TEST(StudyHeadline, NamesAnErrorOfThePriceListThatTwoReach) {
 TEST(StudyHeadline, OfOneLineGivesThePriceOfAccuracy) {
   Analysis analysis;
   analysis.hasReference = true;
-  AddLine("path", "path", {At(1, .1), At(10, .01)}, &analysis);
+  AddLine("path", "path", {CostAt(1, .1), CostAt(10, .01)}, &analysis);
   Write(&analysis);
   EXPECT_EQ(analysis.headline,
             "On room, path reaches relMSE 0.01 in 10 s, 10 times the time of 0.1.");
@@ -189,32 +193,32 @@ TEST(StudyHeadline, OfOneLineGivesThePriceOfAccuracy) {
 
 TEST(StudyHeadline, SaysWhereALineWasMoreAccurateFromTheStart) {
   Analysis analysis = SevenTimes();
-  AddLine("fine", "fine", {At(90, .005)}, &analysis);
+  AddLine("fine", "fine", {CostAt(90, .005)}, &analysis);
   Write(&analysis);
   EXPECT_NE(analysis.details.find(", fine at most 90 s."), std::string::npos) << analysis.details;
   EXPECT_EQ(analysis.headline, "On room, to the same error fast needs 1/7 of slow's time.");
 }
 
 TEST(StudyHeadline, OfSingleSettingsNamesTheMostEfficient) {
-  Analysis analysis = TwoLines({At(1, .1)}, {At(2, .01)});
+  Analysis analysis = TwoLines({CostAt(1, .1)}, {CostAt(2, .01)});
   analysis.reference.variance = {.0001, .00001};
   Write(&analysis);
   EXPECT_EQ(analysis.headline,
             "On room, “slow” is 5 ± 0 times as efficient (1 / (error × seconds)) as fast.");
-  analysis = TwoLines({At(1, .1)}, {At(20, .1, .4)});
+  analysis = TwoLines({CostAt(1, .1)}, {CostAt(20, .1, .4)});
   Write(&analysis);
   EXPECT_NE(analysis.headline.find("“slow” is 0.050 ± 0.001 times as efficient"), std::string::npos)
       << analysis.headline;
-  analysis = TwoLines({At(1, .1)}, {At(2, .01)});
+  analysis = TwoLines({CostAt(1, .1)}, {CostAt(2, .01)});
   analysis.reference.variance = {.002, .0001};  // 20 % of the second error
   Write(&analysis);
   EXPECT_EQ(analysis.headline.find("efficient"), std::string::npos) << analysis.headline;
 }
 
 TEST(StudyHeadline, NamesAtMostThreeEfficiencies) {
-  Analysis analysis = TwoLines({At(1, .1)}, {At(2, .1)});
+  Analysis analysis = TwoLines({CostAt(1, .1)}, {CostAt(2, .1)});
   for (const char* seconds : {"4", ".5", "8"})
-    AddLine(std::string("in ") + seconds, seconds, {At(std::stod(seconds), .1)}, &analysis);
+    AddLine(std::string("in ") + seconds, seconds, {CostAt(std::stod(seconds), .1)}, &analysis);
   Write(&analysis);
   EXPECT_EQ(analysis.headline,
             "On room, “in .5” is 2 ± 0 times as efficient (1 / (error × seconds)) as fast; next "

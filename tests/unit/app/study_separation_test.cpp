@@ -11,7 +11,7 @@
 namespace exphoton::study {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
+constexpr int kColumns = 160, kRows = 120;
 
 // Returns a normal variate from two uniform variates (Box and Muller).
 double Normal(RandomStream* random) {
@@ -21,7 +21,7 @@ double Normal(RandomStream* random) {
 
 // Returns a picture whose values are the truth 1 plus the bias plus independent noise.
 Image Noisy(double bias, double deviation, std::uint64_t seed) {
-  Image image(kWidth, kHeight, {"R", "G", "B"});
+  Image image(kColumns, kRows, {"R", "G", "B"});
   RandomStream random(HashKey({seed, 77}));
   for (float& value : image.pixels) value = float(1 + bias + deviation * Normal(&random));
   return image;
@@ -136,7 +136,7 @@ TEST(StudySeparation, AReferenceThatIsTooNoisyIsToldByItsShareOfTheError) {
 TEST(StudySeparation, RefusesPicturesOfOtherSizes) {
   const Reference reference = MakeReference(Noisy(0, 0, 1));
   EXPECT_THROW(Separate({Image(2, 2, {"R", "G", "B"})}, reference), ImageError);
-  EXPECT_THROW(MakeReference(Noisy(0, 0, 1), Image(kWidth, kHeight, {"Y"})), ImageError);
+  EXPECT_THROW(MakeReference(Noisy(0, 0, 1), Image(kColumns, kRows, {"Y"})), ImageError);
 }
 
 }  // namespace

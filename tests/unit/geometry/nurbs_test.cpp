@@ -12,7 +12,7 @@
 namespace exphoton {
 namespace {
 
-std::unique_ptr<TriangleMesh> MakeMesh(TestPlugins& plugins, const std::string& text) {
+std::unique_ptr<TriangleMesh> MakeNurbs(TestPlugins& plugins, const std::string& text) {
   return std::move(std::get<std::unique_ptr<TriangleMesh>>(plugins.MakeShape(text)));
 }
 
@@ -86,7 +86,7 @@ TEST(NurbsSurface, OfOneSpanIsABezierPatch) {
 
 TEST(Nurbs, MakesAnExactTube) {
   TestPlugins plugins;
-  const auto mesh = MakeMesh(plugins, kTube);
+  const auto mesh = MakeNurbs(plugins, kTube);
   ASSERT_EQ(mesh->p.size(), mesh->n.size());
   double area = 0;
   for (std::size_t i = 0; i < mesh->p.size(); ++i) {
@@ -110,7 +110,7 @@ TEST(Nurbs, MakesAnExactTube) {
 TEST(Nurbs, MakesPartOfTheSurface) {
   TestPlugins plugins;
   const auto mesh =
-      MakeMesh(plugins, kTube + std::string(R"("float u0" 1 "float u1" 2 "float v0" .5)"));
+      MakeNurbs(plugins, kTube + std::string(R"("float u0" 1 "float u1" 2 "float v0" .5)"));
   EXPECT_NEAR(mesh->p.front().y, 1, 1e-6);
   EXPECT_NEAR(mesh->p.front().z, 1, 1e-6);
   EXPECT_NEAR(mesh->p.back().x, -1, 1e-6);
@@ -123,7 +123,7 @@ TEST(Nurbs, RefusesWrongCountsAndKnots) {
       R"("nurbs" "integer nu" 2 "integer nv" 2 "integer uorder" 2 "integer vorder" 2 )";
   const std::string knots = R"("float uknots" [0 0 1 1] "float vknots" [0 0 1 1] )";
   const std::string points = R"("point P" [0 0 0  1 0 0  0 1 0  1 1 0] )";
-  EXPECT_NO_THROW(MakeMesh(plugins, counts + knots + points));
+  EXPECT_NO_THROW(MakeNurbs(plugins, counts + knots + points));
   for (const std::string& text :
        {counts + knots, counts + knots + R"("point P" [0 0 0])",
         counts + knots + points + R"("float Pw" [0 0 0 1  1 0 0 1  0 1 0 1  1 1 0 1])",
@@ -136,14 +136,14 @@ TEST(Nurbs, RefusesWrongCountsAndKnots) {
         counts + knots + points + R"("float u0" .5 "float u1" .5)",
         R"("nurbs" "integer nu" 2 "integer nv" 2 "integer uorder" 3 "integer vorder" 2 )" +
             std::string(R"("float uknots" [0 0 0 1 1] "float vknots" [0 0 1 1] )") + points}) {
-    EXPECT_THROW(MakeMesh(plugins, text), Error) << text;
+    EXPECT_THROW(MakeNurbs(plugins, text), Error) << text;
   }
 }
 
 TEST(Heightfield, SpansTheUnitSquare) {
   TestPlugins plugins;
-  const auto mesh =
-      MakeMesh(plugins, R"("heightfield" "integer nu" 3 "integer nv" 2 "float Pz" [0 1 2  3 4 5])");
+  const auto mesh = MakeNurbs(
+      plugins, R"("heightfield" "integer nu" 3 "integer nv" 2 "float Pz" [0 1 2  3 4 5])");
   ASSERT_EQ(mesh->p.size(), 6u);
   EXPECT_EQ(mesh->p[1], Point3(Real(.5), 0, 1));
   EXPECT_EQ(mesh->p[5], Point3(1, 1, 5));
@@ -157,7 +157,7 @@ TEST(Heightfield, SpansTheUnitSquare) {
   for (const char* text : {R"("heightfield" "integer nu" 3 "integer nv" 2 "float Pz" [0 1 2])",
                            R"("heightfield" "integer nu" 1 "integer nv" 2 "float Pz" [0 1])",
                            R"("heightfield" "integer nu" 2 "integer nv" 2)"})
-    EXPECT_THROW(MakeMesh(plugins, text), Error) << text;
+    EXPECT_THROW(MakeNurbs(plugins, text), Error) << text;
 }
 
 }  // namespace

@@ -71,8 +71,8 @@ std::vector<Quadric> Quadrics() {
                  2, .5, .8, 200)};
 }
 
-const Transform kPlace = Transform::Translate({1, -2, 3}) * *Transform::Rotate(35, {1, 2, -1}) *
-                         *Transform::Scale(1, 2, -1.5);
+const Transform kQuadricPlace = Transform::Translate({1, -2, 3}) *
+                                *Transform::Rotate(35, {1, 2, -1}) * *Transform::Scale(1, 2, -1.5);
 
 Vec3d PointToWorld(const Transform& map, const Vec3d& p) {
   const auto& m = map.Matrix().m;
@@ -128,13 +128,13 @@ TEST_F(QuadricFormulas, GiveThePointsNormalsAndDerivatives) {
   for (const Quadric& quadric : Quadrics()) {
     for (const bool reverse : {false, true}) {
       SCOPED_TRACE(quadric.text + (reverse ? " reversed" : ""));
-      const auto shape = Make(quadric.text, kPlace, reverse);
+      const auto shape = Make(quadric.text, kQuadricPlace, reverse);
       const double side = reverse ? -1 : 1;
       const auto point = [&](double u, double v) {
-        return PointToWorld(kPlace, quadric.point(u, v));
+        return PointToWorld(kQuadricPlace, quadric.point(u, v));
       };
       const auto normal = [&](double u, double v) {
-        return NormalToWorld(kPlace, quadric.normal(u, v)) * side;
+        return NormalToWorld(kQuadricPlace, quadric.normal(u, v)) * side;
       };
       for (int i = 0; i < 40; ++i) {
         const double u = double(Between(random, Real(.02), Real(.98)));
@@ -224,7 +224,7 @@ TEST_F(QuadricFormulas, GiveAreaAndSamplesOfPoints) {
 
 TEST_F(QuadricFormulas, BoundAllPointsTightly) {
   for (const Quadric& quadric : Quadrics()) {
-    for (const Transform& place : {Transform(), kPlace}) {
+    for (const Transform& place : {Transform(), kQuadricPlace}) {
       const auto shape = Make(quadric.text, place);
       const Bounds3 bounds = shape->Bounds();
       Bounds3 points;
@@ -232,7 +232,8 @@ TEST_F(QuadricFormulas, BoundAllPointsTightly) {
         for (int j = 0; j <= 50; ++j)
           points.Extend(PointToWorld(place, quadric.point(i / 200., j / 50.)).ToReal());
       const bool isWhole = quadric.text.find("float") == std::string::npos;
-      const bool isTight = isWhole && (quadric.text.starts_with("\"sphere\"") || &place != &kPlace);
+      const bool isTight =
+          isWhole && (quadric.text.starts_with("\"sphere\"") || &place != &kQuadricPlace);
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_LE(bounds.min[axis], points.min[axis] + Real(1e-6)) << quadric.text;
         EXPECT_GE(bounds.max[axis], points.max[axis] - Real(1e-6)) << quadric.text;

@@ -17,13 +17,13 @@
 namespace exphoton {
 namespace {
 
-void ExpectNear(const Vec3& a, const Vec3d& b, double tolerance, const char* what) {
+void ExpectNearVector(const Vec3& a, const Vec3d& b, double tolerance, const char* what) {
   EXPECT_LT(Length(Vec3d(a) - b), tolerance * (1 + Length(b))) << what;
 }
 
 enum Parts { kUv = 1, kNormals = 2, kTangents = 4, kFlip = 8 };
 
-TriangleMesh RandomTriangle(RandomStream& random, int parts) {
+TriangleMesh RandomTriangles(RandomStream& random, int parts) {
   TriangleMesh mesh;
   // The second of two triangles, with vertices in another order.
   mesh.indices = {{0, 1, 2}, {4, 2, 3}};
@@ -83,14 +83,14 @@ void ExpectDerivatives(const OneTriangle& triangle, double b1, double b2,
     return byU * uv.x + byV * uv.y;
   };
   const Point2 first = triangle.first, second = triangle.second;
-  ExpectNear(along(s.dpdu, s.dpdv, first), triangle.Edge(1), 1e-4, "along the first edge");
-  ExpectNear(along(s.dpdu, s.dpdv, second), triangle.Edge(2), 1e-4, "along the second edge");
+  ExpectNearVector(along(s.dpdu, s.dpdv, first), triangle.Edge(1), 1e-4, "along the first edge");
+  ExpectNearVector(along(s.dpdu, s.dpdv, second), triangle.Edge(2), 1e-4, "along the second edge");
   constexpr double e = 1e-4;
   const Vec3d by1 = (triangle.Normal(b1 + e, b2) - triangle.Normal(b1 - e, b2)) * (.5 / e);
   const Vec3d by2 = (triangle.Normal(b1, b2 + e) - triangle.Normal(b1, b2 - e)) * (.5 / e);
   const auto& t = s.shading;
-  ExpectNear(along(t.dndu, t.dndv, first), by1, 1e-4, "normals along the first edge");
-  ExpectNear(along(t.dndu, t.dndv, second), by2, 1e-4, "normals along the second edge");
+  ExpectNearVector(along(t.dndu, t.dndv, first), by1, 1e-4, "normals along the first edge");
+  ExpectNearVector(along(t.dndu, t.dndv, second), by2, 1e-4, "normals along the second edge");
   EXPECT_EQ(s.dndu, Normal3());
   EXPECT_EQ(s.dndv, Normal3());
 }
@@ -105,15 +105,15 @@ void ExpectShadingTangents(const SurfaceInteraction& s, const Vec3d& n, const Ve
     const double side = Dot(Cross(Vec3d(s.dpdu), Vec3d(s.dpdv)), n) < 0 ? -1 : 1;
     second = NormalizeOrZero(Cross(n, first)) * (side * lengthV);
   }
-  ExpectNear(s.shading.dpdu, first, 1e-4, "shading.dpdu");
-  ExpectNear(s.shading.dpdv, second, 1e-4, "shading.dpdv");
+  ExpectNearVector(s.shading.dpdu, first, 1e-4, "shading.dpdu");
+  ExpectNearVector(s.shading.dpdv, second, 1e-4, "shading.dpdv");
 }
 
 TEST(TriangleFormulas, GiveTheSurfaceOfAnyMesh) {
   RandomStream random(1);
   int tested = 0;
   for (int k = 0; k < 800; ++k) {
-    const TriangleMesh mesh = RandomTriangle(random, k % 16);
+    const TriangleMesh mesh = RandomTriangles(random, k % 16);
     const OneTriangle triangle(mesh);
     if (!triangle.IsRegular()) continue;
     ++tested;
@@ -121,13 +121,13 @@ TEST(TriangleFormulas, GiveTheSurfaceOfAnyMesh) {
     const double b2 = double(Between(random, Real(.05), Real(.45)));
     const SurfaceInteraction s = TriangleSurface(mesh, 1, Real(b1), Real(b2));
     SCOPED_TRACE(k);
-    ExpectNear(s.p, triangle.Point(b1, b2), 1e-6, "p");
-    ExpectNear(s.ng, triangle.Ng(), 1e-6, "ng");
+    ExpectNearVector(s.p, triangle.Point(b1, b2), 1e-6, "p");
+    ExpectNearVector(s.ng, triangle.Ng(), 1e-6, "ng");
     const Point2 uv = triangle.uv0 + triangle.first * Real(b1) + triangle.second * Real(b2);
     EXPECT_NEAR(double(s.uv.x), double(uv.x), 1e-5);
     EXPECT_NEAR(double(s.uv.y), double(uv.y), 1e-5);
     const Vec3d n = triangle.Normal(b1, b2);
-    ExpectNear(s.shading.n, n, 1e-5, "shading normal");
+    ExpectNearVector(s.shading.n, n, 1e-5, "shading normal");
     ExpectDerivatives(triangle, b1, b2, s);
     ExpectShadingTangents(s, n, mesh.s.empty() ? Vec3d() : triangle.Blend(mesh.s, b1, b2));
     if (testing::Test::HasFailure()) return;
@@ -187,8 +187,8 @@ TEST(MeshEmitter, SamplesTrianglesByAreaAndPointsUniformly) {
 }
 
 // A unit disk (area pi) that a map places is an ellipse, whose density of area is uniform.
-const Transform kPlace = Transform::Translate({1, -2, 3}) * *Transform::Rotate(35, {1, 2, -1}) *
-                         *Transform::Scale(2, 3, -1.5);
+const Transform kTrianglePlace = Transform::Translate({1, -2, 3}) *
+                                 *Transform::Rotate(35, {1, 2, -1}) * *Transform::Scale(2, 3, -1.5);
 
 std::unique_ptr<Shape> UnitDisk(TestPlugins& plugins) {
   ShapeGeometry geometry = plugins.MakeShape(R"("disk")");
@@ -232,9 +232,9 @@ void ExpectUniformEllipse(const EmitterSurface& emitter, const EmitterSurface& l
 TEST(PlacedEmitterFormulas, AreThoseOfThePlacedSurface) {
   TestPlugins plugins;
   const auto local = UnitDisk(plugins);
-  const PlacedEmitter emitter(UnitDisk(plugins), kPlace);
+  const PlacedEmitter emitter(UnitDisk(plugins), kTrianglePlace);
   EXPECT_NEAR(double(emitter.Area()) / (6 * M_PI), 1, 1e-3);
-  ExpectUniformEllipse(emitter, *local, kPlace, 6 * M_PI, Real(.25));
+  ExpectUniformEllipse(emitter, *local, kTrianglePlace, 6 * M_PI, Real(.25));
 }
 
 TEST(MovingEmitterFormulas, AreThoseOfTheSurfaceAtEachTime) {
@@ -312,10 +312,10 @@ TEST(Differentials, AreStepsOnTheTangentPlane) {
       return o + d * (Dot(n, Vec3d(s.p) - o) / Dot(n, d)) - Vec3d(s.p);
     };
     const Vec3d x = stepOf(ray.xOrigin, ray.xDirection), y = stepOf(ray.yOrigin, ray.yDirection);
-    ExpectNear(s.dpdx, x, 1e-5, "dpdx");
-    ExpectNear(s.dpdy, y, 1e-5, "dpdy");
-    ExpectNear((u * double(s.dudx) + v * double(s.dvdx)).ToReal(), x, 1e-4, "x by u and v");
-    ExpectNear((u * double(s.dudy) + v * double(s.dvdy)).ToReal(), y, 1e-4, "y by u and v");
+    ExpectNearVector(s.dpdx, x, 1e-5, "dpdx");
+    ExpectNearVector(s.dpdy, y, 1e-5, "dpdy");
+    ExpectNearVector((u * double(s.dudx) + v * double(s.dvdx)).ToReal(), x, 1e-4, "x by u and v");
+    ExpectNearVector((u * double(s.dudy) + v * double(s.dvdy)).ToReal(), y, 1e-4, "y by u and v");
     ray.xDirection = s.dpdu;  // parallel to the plane
     s.ComputeDifferentials(ray);
     if (s.hasDifferentials) continue;  // rounding left it slightly inclined

@@ -9,7 +9,7 @@
 namespace exphoton {
 namespace {
 
-constexpr PixelBounds kOnePixel{0, 0, 1, 1};
+constexpr PixelBounds kFilmPixel{0, 0, 1, 1};
 
 TEST(Film, HoldsTheMeanOfEachPixel) {
   Film film({0, 0, 3, 2}, {0, 0, 3, 2});
@@ -38,7 +38,7 @@ TEST(Film, OfACropHasItsWindow) {
 
 TEST(Film, AFlatRegionIsFlatUnderNegativeLobes) {
   for (int samples = 1; samples < 40; ++samples) {
-    Film film(kOnePixel, kOnePixel);
+    Film film(kFilmPixel, kFilmPixel);
     for (int i = 0; i < samples; ++i)
       film.AddSample({0, 0}, Spectrum(Real(.75)), 1, i % 5 == 2 ? Real(-1.2) : Real(1.2));
     const Image image = film.ToImage(true);
@@ -48,14 +48,14 @@ TEST(Film, AFlatRegionIsFlatUnderNegativeLobes) {
 }
 
 TEST(Film, WeightsThatCancelGiveAFinitePixel) {
-  Film film(kOnePixel, kOnePixel);
+  Film film(kFilmPixel, kFilmPixel);
   for (Real weight : {Real(1), Real(-1), Real(1), Real(-1)})
     film.AddSample({0, 0}, Spectrum(1 + weight), 1, weight);
   EXPECT_EQ(film.ToImage(true).At(0, 0, 0), 1);
 }
 
 TEST(Film, WeightsThatCancelGiveTheSamePixelInASumOfFilms) {
-  Film film(kOnePixel, kOnePixel), sum(kOnePixel, kOnePixel);
+  Film film(kFilmPixel, kFilmPixel), sum(kFilmPixel, kFilmPixel);
   for (Real weight : {Real(1), Real(-1), Real(1), Real(-1)})
     film.AddSample({0, 0}, Spectrum(1 + weight, 2, 3), 1, weight);
   sum.Add(film);
@@ -66,10 +66,10 @@ TEST(Film, WeightsThatCancelGiveTheSamePixelInASumOfFilms) {
 }
 
 TEST(Film, ASumOfFilmsHasTheMeanOfAllSamples) {
-  Film sum(kOnePixel, kOnePixel);
+  Film sum(kFilmPixel, kFilmPixel);
   const Real alphas[] = {1, 0, Real(.5)};
   for (int i = 0; i < 3; ++i) {
-    Film film(kOnePixel, kOnePixel);
+    Film film(kFilmPixel, kFilmPixel);
     film.AddSample({0, 0}, Spectrum(Real(i), Real(2 * i), Real(4 * i)), alphas[i], 1);
     sum.Add(film);
   }
@@ -83,7 +83,7 @@ TEST(Film, ASumOfFilmsHasTheMeanOfAllSamples) {
 // If less than half of the total weight remains, the mean uses the weights' absolute values.
 TEST(Film, WeightsThatNearlyCancelDoNotScaleThePixel) {
   const auto pixel = [](int positive, int negative) {
-    Film film(kOnePixel, kOnePixel);
+    Film film(kFilmPixel, kFilmPixel);
     for (int i = 0; i < positive; ++i) film.AddSample({0, 0}, Spectrum(1), 1, 1);
     for (int i = 0; i < negative; ++i) film.AddSample({0, 0}, Spectrum(0), 1, -1);
     return film.ToImage(true).At(0, 0, 0);
@@ -93,7 +93,7 @@ TEST(Film, WeightsThatNearlyCancelDoNotScaleThePixel) {
 }
 
 TEST(Film, APixelIsNeverNegative) {
-  Film film(kOnePixel, kOnePixel);
+  Film film(kFilmPixel, kFilmPixel);
   for (Real weight : {Real(1), Real(1), Real(1), Real(-1)})
     film.AddSample({0, 0}, weight < 0 ? Spectrum(10) : Spectrum(1), weight < 0 ? 1 : Real(.1),
                    weight);
@@ -103,7 +103,7 @@ TEST(Film, APixelIsNeverNegative) {
 }
 
 TEST(Film, AHundredMillionSamplesKeepTheirMean) {
-  Film film(kOnePixel, kOnePixel);
+  Film film(kFilmPixel, kFilmPixel);
   for (int i = 0; i < 100'000'000; ++i)
     film.AddSample({0, 0}, Spectrum(Real(.1), Real(.7), Real(i % 2)), 1, 1);
   const Image image = film.ToImage(true);

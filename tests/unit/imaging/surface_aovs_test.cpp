@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-constexpr PixelBounds kOnePixel{0, 0, 1, 1};
+constexpr PixelBounds kSurfacePixel{0, 0, 1, 1};
 
 // The shiny sphere before the bright floor has edges, and rays beside it escape.
 class SurfaceAovRanges : public testing::TestWithParam<const char*> {};
@@ -113,8 +113,8 @@ WorldEnd
 // Three of four samples of the pixel see the floor.
 TEST(AovFilm, HasTheIdOfTheMajority) {
   for (const bool isFirst : {false, true}) {
-    Film film(kOnePixel, kOnePixel);
-    AovFilm aovs(kOnePixel, {Aov::ObjectId, Aov::Position});
+    Film film(kSurfacePixel, kSurfacePixel);
+    AovFilm aovs(kSurfacePixel, {Aov::ObjectId, Aov::Position});
     for (int i = 0; i < 4; ++i) {
       AovSample sample;
       const bool isOther = i == (isFirst ? 0 : 3);

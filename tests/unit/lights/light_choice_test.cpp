@@ -17,10 +17,10 @@
 namespace exphoton {
 namespace {
 
-using Lights = std::vector<std::unique_ptr<Light>>;
+using LightList = std::vector<std::unique_ptr<Light>>;
 
-Lights Make(const std::vector<std::pair<std::optional<Point3>, Real>>& places) {
-  Lights lights;
+LightList Make(const std::vector<std::pair<std::optional<Point3>, Real>>& places) {
+  LightList lights;
   for (const auto& [place, power] : places)
     lights.push_back(std::make_unique<PlacedLight>(place, power));
   return lights;
@@ -29,7 +29,7 @@ Lights Make(const std::vector<std::pair<std::optional<Point3>, Real>>& places) {
 // Each light's power is mixed with 5 % of the mean power. Of two lights, each is chosen in
 // proportion to its mixed power over its squared distance.
 TEST(LightChoice, OfTwoLightsIsByPowerOverSquaredDistance) {
-  const Lights lights = Make({{Point3{0, 0, 0}, Real(2)}, {Point3{4, 0, 0}, Real(10)}});
+  const LightList lights = Make({{Point3{0, 0, 0}, Real(2)}, {Point3{4, 0, 0}, Real(10)}});
   const TreeLightSampler tree(lights, {{0, 0, 0}, 10});
   const double near = .95 * 2 + .05 * 6, far = .95 * 10 + .05 * 6;
   for (const Point3 p : {Point3{1, 2, 0}, Point3{-3, 0, 5}, Point3{4, 1, 0}}) {
@@ -46,10 +46,10 @@ TEST(LightChoice, OfTwoLightsIsByPowerOverSquaredDistance) {
 // A group of lights counts by its whole power. Within the sphere round its box the distance is the
 // radius of the sphere.
 TEST(LightChoice, OfAGroupIsAtLeastItsRadiusAway) {
-  const Lights lights = Make({{Point3{0, 0, 0}, Real(1)},
-                              {Point3{0, 2, 0}, Real(1)},
-                              {Point3{10, 0, 0}, Real(1)},
-                              {Point3{10, 2, 0}, Real(1)}});
+  const LightList lights = Make({{Point3{0, 0, 0}, Real(1)},
+                                 {Point3{0, 2, 0}, Real(1)},
+                                 {Point3{10, 0, 0}, Real(1)},
+                                 {Point3{10, 2, 0}, Real(1)}});
   const TreeLightSampler tree(lights, {{0, 0, 0}, 20});
   const auto group = [&](const Point3& p) {
     return double(tree.Pmf(p, *lights[0])) + double(tree.Pmf(p, *lights[1]));
@@ -71,7 +71,7 @@ TEST(LightChoice, OfAGroupIsAtLeastItsRadiusAway) {
 // area of the world's disk. Each of both has a probability of at least .1.
 TEST(LightChoice, OfDistantLightsIsByIrradiance) {
   const Sphere3 world{{0, 0, 0}, 10};
-  const Lights lights =
+  const LightList lights =
       Make({{Point3{0, 0, 0}, Real(50)}, {std::nullopt, Real(300)}, {std::nullopt, Real(900)}});
   const TreeLightSampler tree(lights, world);
   const double disk = M_PI * 100, far = 1200 / disk;

@@ -18,7 +18,7 @@ namespace {
 
 using LightList = std::vector<std::unique_ptr<Light>>;
 
-const Sphere3 kWorld{{0, 0, 0}, 10};
+const Sphere3 kSampledWorld{{0, 0, 0}, 10};
 const std::array<Point3, 3> kPoints{Point3{5, 5, 0}, Point3{-40, 2, 3}, Point3{1, 9, Real(.5)}};
 
 // Returns `count` lights that are not black, of random places and powers, and two black lights. The
@@ -46,7 +46,7 @@ class EveryLightSampler : public testing::TestWithParam<std::tuple<LightSelectio
  protected:
   LightList lights_ = RandomLights(std::get<1>(GetParam()));
   std::unique_ptr<const LightSampler> sampler_ =
-      MakeLightSampler(lights_, kWorld, std::get<0>(GetParam()));
+      MakeLightSampler(lights_, kSampledWorld, std::get<0>(GetParam()));
 };
 
 TEST_P(EveryLightSampler, HasProbabilitiesThatSumToOne) {
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(LightSelection, UsesTheTreeFromSixteenLightsThatAreNotBlack) {
   const auto dependsOnPoint = [](int count, LightSelection selection) {
     const LightList lights = RandomLights(count);
-    const auto sampler = MakeLightSampler(lights, kWorld, selection);
+    const auto sampler = MakeLightSampler(lights, kSampledWorld, selection);
     return sampler->Pmf(kPoints[0], *lights[1]) != sampler->Pmf(kPoints[1], *lights[1]);
   };
   EXPECT_FALSE(dependsOnPoint(15, LightSelection::Auto));
@@ -117,7 +117,7 @@ TEST(LightSelection, MixesPowerWithAUniformShare) {
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(1)));
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(3)));
   const auto first = [&](LightSelection selection) {
-    return double(MakeLightSampler(lights, kWorld, selection)->Pmf(kPoints[0], *lights[0]));
+    return double(MakeLightSampler(lights, kSampledWorld, selection)->Pmf(kPoints[0], *lights[0]));
   };
   EXPECT_NEAR(first(LightSelection::Uniform), .5, 1e-6);
   EXPECT_NEAR(first(LightSelection::Power), .95 * .25 + .05 * .5, 1e-6);
@@ -138,10 +138,10 @@ TEST(LightSelection, OfBlackLightsIsEmpty) {
   for (const LightSelection selection :
        {LightSelection::Uniform, LightSelection::Power, LightSelection::Tree}) {
     const LightList lights = RandomLights(0);
-    const auto sampler = MakeLightSampler(lights, kWorld, selection);
+    const auto sampler = MakeLightSampler(lights, kSampledWorld, selection);
     EXPECT_TRUE(sampler->IsEmpty());
     EXPECT_EQ(sampler->Pmf(kPoints[0], *lights[0]), 0);
-    EXPECT_TRUE(MakeLightSampler(LightList(), kWorld, selection)->IsEmpty());
+    EXPECT_TRUE(MakeLightSampler(LightList(), kSampledWorld, selection)->IsEmpty());
   }
 }
 

@@ -19,7 +19,7 @@ void ExpectNear(Real actual, Real expected) {
 
 SurfacePoint Floor(const Point3& p) { return {p, {}, {0, 1, 0}}; }
 
-std::optional<LightLiSample> Direct(const Light& light, const Point3& p) {
+std::optional<LightLiSample> DirectSample(const Light& light, const Point3& p) {
   return light.SampleDirect(Floor(p), {Real(.3), Real(.6)}, Real(.5));
 }
 
@@ -51,7 +51,7 @@ ExitStatus StatusOf(const std::string& text) {
 TEST(PointLight, GivesIntensityOverDistanceSquared) {
   TestPlugins plugins;
   const auto light = plugins.MakeLight(R"("point" "color I" [8 4 2] "point from" [0 2 0])");
-  const auto sample = Direct(*light, {0, 0, 0});
+  const auto sample = DirectSample(*light, {0, 0, 0});
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->Li, Spectrum(2, 1, Real(.5)));
   EXPECT_EQ(sample->wi, Vector3(0, 1, 0));
@@ -70,8 +70,8 @@ TEST(PointLight, OnASurfaceStaysFinite) {
   TestPlugins plugins;
   const auto light = plugins.MakeLight(R"("point" "point from" [1 2 3])");
   light->Prepare({{0, 0, 0}, 1});
-  EXPECT_FALSE(Direct(*light, {1, 2, 3}));
-  const auto near = Direct(*light, {1, 2, NextUp(3)});
+  EXPECT_FALSE(DirectSample(*light, {1, 2, 3}));
+  const auto near = DirectSample(*light, {1, 2, NextUp(3)});
   ASSERT_TRUE(near);
   EXPECT_TRUE(near->Li.IsFinite());
 }
@@ -82,7 +82,7 @@ TEST(PointLight, KeepsItsLightInAHugeWorld) {
        {R"("point" "point from" [1 2 3])", R"("spot" "point from" [1 2 3] "point to" [1 2 2])"}) {
     const auto light = plugins.MakeLight(text);
     light->Prepare({{0, 0, 0}, Real(1e12)});
-    const auto sample = Direct(*light, {1, 2, Real(2.5)});
+    const auto sample = DirectSample(*light, {1, 2, Real(2.5)});
     ASSERT_TRUE(sample);
     EXPECT_EQ(sample->Li, Spectrum(4));
   }
@@ -95,7 +95,7 @@ TEST(SpotLight, FallsOffByTheFourthPowerBetweenItsCones) {
          "float coneangle" 40 "float conedeltaangle" 20)");
   const auto at = [&](Real degrees) {
     const Real a = Radians(degrees);
-    const auto sample = Direct(*light, {std::sin(a), -std::cos(a), 0});
+    const auto sample = DirectSample(*light, {std::sin(a), -std::cos(a), 0});
     return sample ? sample->Li.g : Real(0);
   };
   EXPECT_NEAR(double(at(0)), 1, 1e-5);
@@ -124,7 +124,7 @@ TEST(SpotLight, WorksForNarrowWideAndSharpCones) {
     SCOPED_TRACE(angles);
     const auto light = plugins.MakeLight(std::string("\"spot\" ") + angles);
     ExpectConstantWeights(*light);
-    const auto onAxis = Direct(*light, {0, 0, 1});
+    const auto onAxis = DirectSample(*light, {0, 0, 1});
     ASSERT_TRUE(onAxis);
     ExpectNear(onAxis->Li.g, 1);
   }
@@ -139,7 +139,7 @@ TEST(SpotLight, EmitsWhereItLights) {
   for (int i = 0; i < 1000; ++i) {
     const auto sample = light->SampleEmission({}, {random.Uniform(), random.Uniform()}, 0, 0);
     ASSERT_TRUE(sample);
-    const auto direct = Direct(*light, sample->ray(1));
+    const auto direct = DirectSample(*light, sample->ray(1));
     if (!direct) {
       EXPECT_LT(sample->pdfDirection, 1e-4);
       continue;
@@ -196,7 +196,7 @@ TEST(DistantLight, ShinesFromTowardsToWithUnitDirections) {
       plugins.MakeLight(R"("distant" "color L" [3 3 3] "point from" [0 5 0] "point to" [0 0 0])",
                         *Transform::Scale(2, 7, 2));
   light->Prepare({{1, 2, 3}, 4});
-  const auto sample = Direct(*light, {0, 0, 0});
+  const auto sample = DirectSample(*light, {0, 0, 0});
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->wi, Vector3(0, 1, 0));
   EXPECT_EQ(sample->Li, Spectrum(3));
@@ -245,8 +245,8 @@ TEST(AreaLight, EmitsOnTheSideOfItsNormalOnly) {
   const SurfacePoint on = surface->SamplePoint({Real(.2), Real(.7)}, Real(.5), 0).point;
   EXPECT_EQ(light->L(on, {}, on.ng), Spectrum(5));
   EXPECT_EQ(light->L(on, {}, -on.ng), Spectrum());
-  EXPECT_TRUE(Direct(*light, on.ng * 3));
-  EXPECT_FALSE(Direct(*light, on.ng * Real(-3)));
+  EXPECT_TRUE(DirectSample(*light, on.ng * 3));
+  EXPECT_FALSE(DirectSample(*light, on.ng * Real(-3)));
 }
 
 TEST(AreaLight, PowerIsPiTimesAreaTimesRadiance) {

@@ -14,12 +14,12 @@
 namespace exphoton {
 namespace {
 
-const Sphere3 kWorld{{0, 0, 0}, 10};
+const Sphere3 kTreeWorld{{0, 0, 0}, 10};
 
-using Lights = std::vector<std::unique_ptr<Light>>;
+using TreeLights = std::vector<std::unique_ptr<Light>>;
 
-Lights Scattered(int count) {
-  Lights lights;
+TreeLights Scattered(int count) {
+  TreeLights lights;
   RandomStream random(5);
   for (int i = 0; i < count; ++i) {
     const Real x = random.Uniform(), y = random.Uniform();
@@ -31,11 +31,11 @@ Lights Scattered(int count) {
 
 // Each light has an interval of u, so the light is chosen as often as its probability states.
 TEST(TreeLightSampler, ChoosesWithTheProbabilitiesThatItGives) {
-  Lights lights = Scattered(37);
+  TreeLights lights = Scattered(37);
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(500)));
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(100)));
   lights.push_back(std::make_unique<PlacedLight>(Point3{5, 5, 0}, Real(9), true));
-  const TreeLightSampler tree(lights, kWorld);
+  const TreeLightSampler tree(lights, kTreeWorld);
   for (const Point3 p : {Point3{5, 5, 0}, Point3{-40, 2, 3}, Point3{1, 9, .5f}}) {
     std::vector<double> found(lights.size(), 0.0);
     constexpr int kSteps = 200000;
@@ -56,21 +56,21 @@ TEST(TreeLightSampler, ChoosesWithTheProbabilitiesThatItGives) {
 }
 
 TEST(TreeLightSampler, PrefersWhatIsNear) {
-  Lights lights;
+  TreeLights lights;
   for (int i = 0; i < 100; ++i)
     lights.push_back(std::make_unique<PlacedLight>(Point3{Real(i), 0, 0}, Real(1)));
-  const TreeLightSampler tree(lights, kWorld);
+  const TreeLightSampler tree(lights, kTreeWorld);
   const Point3 p{20, Real(.5), 0};
   EXPECT_GT(tree.Pmf(p, *lights[20]), .1);
   EXPECT_LT(tree.Pmf(p, *lights[90]), .003);
 }
 
 TEST(TreeLightSampler, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
-  Lights lights;
+  TreeLights lights;
   for (int i = 0; i < 5; ++i)  // all at the same point
     lights.push_back(std::make_unique<PlacedLight>(Point3{1, 1, 1}, i == 0 ? Real(0) : Real(1e30)));
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(0)));
-  const TreeLightSampler tree(lights, kWorld);
+  const TreeLightSampler tree(lights, kTreeWorld);
   for (const Point3 p : {Point3{1, 1, 1}, Point3{2, 3, 4}}) {
     double sum = 0;
     for (int i = 0; i < 6; ++i) {
@@ -79,7 +79,7 @@ TEST(TreeLightSampler, StarvesNoLightOfUnknownPowerAndStandsPointsOnLights) {
     }
     EXPECT_NEAR(sum, 1, 1e-6);
   }
-  EXPECT_TRUE(TreeLightSampler(Lights(), kWorld).IsEmpty());
+  EXPECT_TRUE(TreeLightSampler(TreeLights(), kTreeWorld).IsEmpty());
 }
 
 // Returns a floor with 81 small lamps behind the camera, 8 point lights and a sky.

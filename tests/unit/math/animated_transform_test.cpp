@@ -10,7 +10,7 @@ namespace exphoton {
 namespace {
 
 Real Signed(RandomStream& random) { return 2 * random.Uniform() - 1; }
-Vector3 RandomVector(RandomStream& random) {
+Vector3 AnyVector(RandomStream& random) {
   const Real x = Signed(random), y = Signed(random);
   return {x, y, Signed(random)};
 }
@@ -39,10 +39,10 @@ double DistanceFromIdentity(const Matrix4& a) {
 // between 1/8 and 8.
 Transform RandomTransform(RandomStream& random) {
   const auto factor = [&] { return std::exp2(3 * double(Signed(random))); };
-  const Transform rotation = *Transform::Rotate(180 * double(Signed(random)), RandomVector(random));
+  const Transform rotation = *Transform::Rotate(180 * double(Signed(random)), AnyVector(random));
   const double x = factor(), y = factor(), z = factor();
-  const Transform turned = *Transform::Rotate(90 * double(random.Uniform()), RandomVector(random));
-  return Transform::Translate(RandomVector(random) * 4) * rotation * *Transform::Scale(x, y, z) *
+  const Transform turned = *Transform::Rotate(90 * double(random.Uniform()), AnyVector(random));
+  return Transform::Translate(AnyVector(random) * 4) * rotation * *Transform::Scale(x, y, z) *
          turned;
 }
 
@@ -72,7 +72,7 @@ TEST(Polar, TurnsComeBackFromTheirMatrices) {
   RandomStream random(2);
   for (int i = 0; i < 2000; ++i) {
     const double degrees = i % 4 == 0 ? 180 : i % 4 == 1 ? 1e-6 : 180 * double(random.Uniform());
-    const Transform rotation = *Transform::Rotate(degrees, RandomVector(random));
+    const Transform rotation = *Transform::Rotate(degrees, AnyVector(random));
     Matrix3 matrix;
     for (std::size_t j = 0; j < 9; ++j) matrix[j / 3][j % 3] = rotation.Matrix().m[j / 3][j % 3];
     const AxisAngle axisAngle = AxisAngleOf(matrix);
@@ -98,7 +98,7 @@ TEST(AnimatedTransform, RunsWithoutJumpsAndInvertsItself) {
   for (int i = 0; i < 200; ++i) {
     const AnimatedTransform animated =
         Between(RandomTransform(random), RandomTransform(random), 2, 3);
-    const Point3 p = RandomVector(random);
+    const Point3 p = AnyVector(random);
     EXPECT_LT(Distance(animated.At(NextUp(Real(2))).ApplyPoint(p), animated.At(2).ApplyPoint(p)),
               1e-4);
     EXPECT_LT(Distance(animated.At(NextDown(Real(3))).ApplyPoint(p), animated.At(3).ApplyPoint(p)),
@@ -221,7 +221,7 @@ TEST(AnimatedTransform, BoxesHoldAllThatIsEverInThem) {
   RandomStream random(5);
   for (int i = 0; i < 300; ++i) {
     const AnimatedTransform animated = Between(RandomTransform(random), RandomTransform(random));
-    const Bounds3 box(RandomVector(random) * 3, RandomVector(random) * 3);
+    const Bounds3 box(AnyVector(random) * 3, AnyVector(random) * 3);
     ExpectHolds(animated.ApplyBounds(box), box, Motion(animated), random);
     const Motion part =
         Motion(animated).PlacedBy(Between(RandomTransform(random), RandomTransform(random)));

@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-void ExpectNear(const Vec3& a, const Vec3d& b, const char* what) {
+void ExpectNearVector(const Vec3& a, const Vec3d& b, const char* what) {
   EXPECT_LT(Length(Vec3d(a) - b), 2e-6 * (1 + Length(b))) << what;
 }
 
@@ -124,8 +124,8 @@ TEST(Vectors, AreNormalisedAtAnyLength) {
     const Vector3 v = RandomVector(random);
     const Vector3 extreme(std::ldexp(v.x, exponent), std::ldexp(v.y, exponent),
                           std::ldexp(v.z, exponent));
-    ExpectNear(NormalizeOr(extreme, {}), NormalizeOrZero(Vec3d(extreme)), "unit");
-    ExpectNear(NormalizeExtremeOr(extreme, {}), NormalizeOrZero(Vec3d(extreme)), "unit");
+    ExpectNearVector(NormalizeOr(extreme, {}), NormalizeOrZero(Vec3d(extreme)), "unit");
+    ExpectNearVector(NormalizeExtremeOr(extreme, {}), NormalizeOrZero(Vec3d(extreme)), "unit");
   }
   EXPECT_EQ(NormalizeOr({}, {1, 2, 3}), Vec3(1, 2, 3));
   EXPECT_EQ(NormalizeOr({kInfinity, 0, 0}, {1, 2, 3}), Vec3(1, 2, 3));

@@ -13,12 +13,13 @@
 namespace exphoton {
 namespace {
 
-struct Settings {
+struct ColorSettings {
   Spectrum color;
 };
 
-const ParamTable<Settings>& Table() {
-  static const ParamTable<Settings> table{Param("L", &Settings::color, "a color").AtLeast(0)};
+const ParamTable<ColorSettings>& ColorTable() {
+  static const ParamTable<ColorSettings> table{
+      Param("L", &ColorSettings::color, "a color").AtLeast(0)};
   return table;
 }
 
@@ -44,7 +45,7 @@ class ColorParams : public ::testing::Test {
     BindContext context;
     context.what = "light \"x\"";
     context.log = &log_;
-    return Table().Bind(params, context).color;
+    return ColorTable().Bind(params, context).color;
   }
   std::string Fails(ParsedParam param) {
     try {

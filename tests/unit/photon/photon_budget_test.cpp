@@ -19,7 +19,7 @@ LoadedScene Load(const std::string& world) {
   return LoadSceneText("SurfaceIntegrator \"exphotonmap\"\nWorldBegin\n" + world + "\nWorldEnd\n");
 }
 
-const std::string kLamp = "LightSource \"point\" \"point from\" [0 0 2]\n";
+const std::string kBudgetLamp = "LightSource \"point\" \"point from\" [0 0 2]\n";
 const std::string kMatte = "Material \"matte\" Shape \"sphere\" \"float radius\" 3\n";
 const std::string kGlass = "Material \"glass\" Shape \"sphere\"\n";
 
@@ -36,7 +36,7 @@ std::string TargetsOf(const PhotonSettings& settings, const LoadedScene& scene) 
 }
 
 TEST(PhotonTargets, AreThoseOfTheSettings) {
-  const LoadedScene scene = Load(kLamp + kMatte + kGlass);
+  const LoadedScene scene = Load(kBudgetLamp + kMatte + kGlass);
   PhotonSettings settings = Numbers();
   EXPECT_EQ(TargetsOf(settings, scene), "20 direct, 10 caustic, 30 indirect");
   EXPECT_EQ(ChooseTargets(settings, *scene.setup->scene).Least(), 10);
@@ -52,14 +52,14 @@ TEST(PhotonTargets, AreThoseOfTheSettings) {
 
 TEST(PhotonTargets, LeaveOutWhatTheSceneDoesNotNeed) {
   const PhotonSettings settings = Numbers();
-  EXPECT_EQ(TargetsOf(settings, Load(kLamp + kMatte)), "20 direct, 30 indirect");
-  EXPECT_EQ(TargetsOf(settings, Load(kLamp + kGlass)), "");
+  EXPECT_EQ(TargetsOf(settings, Load(kBudgetLamp + kMatte)), "20 direct, 30 indirect");
+  EXPECT_EQ(TargetsOf(settings, Load(kBudgetLamp + kGlass)), "");
   EXPECT_EQ(TargetsOf(settings, Load(kMatte + kGlass)), "");
 }
 
 // Without final gathering, the direct map is of use only where direct light is read from it.
 TEST(PhotonTargets, HaveADirectMapToGatherFromOrToSee) {
-  const LoadedScene scene = Load(kLamp + kMatte + kGlass);
+  const LoadedScene scene = Load(kBudgetLamp + kMatte + kGlass);
   PhotonSettings settings = Numbers();
   settings.finalGather = false;
   EXPECT_EQ(TargetsOf(settings, scene), "10 caustic, 30 indirect");
@@ -71,7 +71,7 @@ TEST(PhotonTargets, HaveADirectMapToGatherFromOrToSee) {
 }
 
 TEST(PhotonTargets, OfAShownMapAreThatMapsAlone) {
-  const LoadedScene scene = Load(kLamp + kMatte + kGlass);
+  const LoadedScene scene = Load(kBudgetLamp + kMatte + kGlass);
   PhotonSettings settings = Numbers();
   settings.directWithPhotons = true;
   const auto shown = [&](ShowMap show) {
@@ -86,7 +86,7 @@ TEST(PhotonTargets, OfAShownMapAreThatMapsAlone) {
 }
 
 TEST(PhotonTargets, HaveRadiancePhotonsToGatherFromOrToSee) {
-  const LoadedScene scene = Load(kLamp + kMatte);
+  const LoadedScene scene = Load(kBudgetLamp + kMatte);
   PhotonSettings settings = Numbers();
   settings.radianceFraction = Real(.5);
   const auto fraction = [&] {
@@ -104,7 +104,7 @@ TEST(PhotonTargets, HaveRadiancePhotonsToGatherFromOrToSee) {
 }
 
 TEST(PhotonBudget, IsExplainedInFourLines) {
-  const LoadedScene scene = Load(kLamp + kMatte);
+  const LoadedScene scene = Load(kBudgetLamp + kMatte);
   PhotonSettings settings = Numbers();
   const auto lines = [&] { return ExplainBudget(settings, *scene.setup->scene); };
   EXPECT_EQ(lines(), (std::vector<std::string>{"photons       20 direct, 30 indirect",
@@ -187,7 +187,7 @@ TEST(PhotonReport, HasACounterForAllThatIsStored) {
 TEST(PhotonReport, NamesTheRadiiThatItChose) {
   const TestRender render =
       Render("\"photonmap\" \"integer indirectphotons\" 200 \"integer causticphotons\" 0",
-             kLamp + "Material \"matte\"\n" + kSphere);
+             kBudgetLamp + "Material \"matte\"\n" + kSphere);
   EXPECT_TRUE(render.Says("maxdist chosen from the photons: direct "));
   EXPECT_TRUE(render.Says(", indirect "));
   EXPECT_TRUE(std::isnan(render.Counter("photons/radiance photons")));
@@ -197,7 +197,7 @@ TEST(PhotonReport, SaysHowFarAMapWasFilled) {
   const TestRender render = Render(
       "\"photonmap\" \"integer indirectphotons\" 0 \"integer directphotons\" 5000 \"integer "
       "causticphotons\" 0 \"integer maxphotonpaths\" 100",
-      kLamp + "Material \"matte\"\n" + kSphere);
+      kBudgetLamp + "Material \"matte\"\n" + kSphere);
   EXPECT_TRUE(render.Says("direct map: 192 of 5000 photons after 192 paths"));
 }
 
@@ -220,7 +220,7 @@ TEST(PhotonReport, WarnsOfTheShareThatTheDepthLimitCuts) {
         "\"photonmap\" \"string photonroulette\" \"luminance\" \"integer "
         "indirectphotons\" 2000 \"integer maxphotonpaths\" 4000 \"integer maxphotondepth\" " +
             std::to_string(depth),
-        kLamp + "Material \"matte\" \"color Kd\" [" + kd + "]\n" + kSphere);
+        kBudgetLamp + "Material \"matte\" \"color Kd\" [" + kd + "]\n" + kSphere);
   };
   // .5^11 is less than a thousandth, .5^9 is more.
   EXPECT_FALSE(says(".5 .5 .5", 11).Says("maxphotondepth"));
@@ -237,7 +237,7 @@ TEST(PhotonReport, NamesAtMostFiveLightsThatStoreNothing) {
   const TestRender render = Render(
       "\"photonmap\" \"integer indirectphotons\" 0 \"integer directphotons\" 2000 \"integer "
       "causticphotons\" 0",
-      lights + kLamp + "Material \"matte\"\n" + kMatte);
+      lights + kBudgetLamp + "Material \"matte\"\n" + kMatte);
   EXPECT_TRUE(render.Says("light 5 (spot) has shot "));
   EXPECT_FALSE(render.Says("light 6 (spot)"));
   EXPECT_TRUE(render.Says("2 more lights shot photons and none was stored"));

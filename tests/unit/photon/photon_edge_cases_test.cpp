@@ -21,7 +21,7 @@ std::string Sphere(const std::string& integrator, const std::string& light,
 }
 
 constexpr const char* kPoint = "LightSource \"point\" \"color I\" [1 1 1]";
-constexpr const char* kMatte = "\"matte\" \"color Kd\" [.5 .5 .5]";
+constexpr const char* kGrey = "\"matte\" \"color Kd\" [.5 .5 .5]";
 
 TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
   for (const char* integrator : {"photonmap", "exphotonmap"})
@@ -31,7 +31,7 @@ TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
                                      "\" \"integer indirectphotons\" [" + std::to_string(indirect) +
                                      "] \"integer causticphotons\" [" + std::to_string(caustic) +
                                      "]";
-        const TestRender render = RenderSceneText(Sphere(settings, kPoint, kMatte));
+        const TestRender render = RenderSceneText(Sphere(settings, kPoint, kGrey));
         EXPECT_EQ(render.result.nonFiniteSamples, 0);
         // Direct light of .5 / pi is always present. All light together is twice this value.
         EXPECT_GT(MeanRadiance(render.image), .159) << settings;
@@ -41,10 +41,10 @@ TEST(PhotonEdgeCases, TinyPhotonCountsRender) {
 
 TEST(PhotonEdgeCases, WithoutIndirectPhotonsTheGatherStillReadsDirectAndCausticLight) {
   const auto render = [](const std::string& counts) {
-    return MeanRadiance(RenderSceneText(Sphere("\"exphotonmap\" " + counts, kPoint, kMatte)).image);
+    return MeanRadiance(RenderSceneText(Sphere("\"exphotonmap\" " + counts, kPoint, kGrey)).image);
   };
   const double direct =
-      MeanRadiance(RenderSceneText(Sphere("\"directlighting\"", kPoint, kMatte)).image);
+      MeanRadiance(RenderSceneText(Sphere("\"directlighting\"", kPoint, kGrey)).image);
   const double once = render("\"integer indirectphotons\" [0] \"integer directphotons\" [20000]");
   // The picture has one bounce more than direct light. The indirect map would add further bounces.
   EXPECT_NEAR(once / direct, 1.5, .05);
@@ -67,22 +67,22 @@ TEST(PhotonEdgeCases, ThePathsOfAWhiteBoxEndAtTheLimit) {
 
 TEST(PhotonEdgeCases, BlackLightsGiveEmissionOnly) {
   const TestRender render = RenderSceneText(
-      Sphere("\"exphotonmap\"", "LightSource \"point\" \"color I\" [0 0 0]", kMatte));
+      Sphere("\"exphotonmap\"", "LightSource \"point\" \"color I\" [0 0 0]", kGrey));
   EXPECT_EQ(MeanRadiance(render.image), 0);
 }
 
 TEST(PhotonEdgeCases, WithoutLightsThePictureIsBlack) {
-  const TestRender render = RenderSceneText(Sphere("\"exphotonmap\"", "", kMatte));
+  const TestRender render = RenderSceneText(Sphere("\"exphotonmap\"", "", kGrey));
   EXPECT_EQ(MeanRadiance(render.image), 0);
 }
 
 TEST(PhotonEdgeCases, WithoutSpecularSurfacesNoCausticPathIsShot) {
   const TestRender asked = RenderSceneText(
       Sphere("\"exphotonmap\" \"integer causticphotons\" [20000] \"integer indirectphotons\" [500]",
-             kPoint, kMatte));
+             kPoint, kGrey));
   const TestRender unasked = RenderSceneText(
       Sphere("\"exphotonmap\" \"integer causticphotons\" [0] \"integer indirectphotons\" [500]",
-             kPoint, kMatte));
+             kPoint, kGrey));
   EXPECT_EQ(asked.image.pixels, unasked.image.pixels);
   EXPECT_LT(asked.Counter("photons/indirect paths"), 1000);
   EXPECT_TRUE(std::isnan(asked.Counter("photons/caustic paths")));
@@ -98,7 +98,7 @@ TEST(PhotonEdgeCases, AMapThatNeverFillsIsReportedWithWhatItHas) {
   const TestRender render = RenderSceneText(
       Sphere("\"exphotonmap\" \"integer maxphotonpaths\" [640] \"integer indirectphotons\" "
              "[1000000]",
-             kPoint, kMatte));
+             kPoint, kGrey));
   EXPECT_TRUE(render.Says("indirect map: "));
   EXPECT_TRUE(render.Says("of 1000000 photons after"));
   EXPECT_GT(render.Counter("photons/indirect stored"), 0);
@@ -148,7 +148,7 @@ TEST(PhotonEdgeCases, EveryShownMapHasItsShareOfTheLight) {
           std::string("\"") + integrator +
               "\" \"integer indirectphotons\" [20000] \"float maxdist\" .2 \"string show\" \"" +
               show + "\"",
-          kPoint, kMatte));
+          kPoint, kGrey));
       EXPECT_NEAR(MeanRadiance(render.image) / (irradiance * .5 / 3.14159265), 1, .06)
           << integrator << " " << show;
     }
@@ -158,19 +158,19 @@ TEST(PhotonEdgeCases, GatherAnglesOutsideTheirRangeAreErrors) {
   for (const char* angle : {"0", "91", "180", "-5"})
     EXPECT_THROW(
         RenderSceneText(Sphere(std::string("\"exphotonmap\" \"float gatherangle\" [") + angle + "]",
-                               kPoint, kMatte)),
+                               kPoint, kGrey)),
         Error)
         << angle;
   EXPECT_NO_THROW(RenderSceneText(
       Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"float gatherangle\" [90]", kPoint,
-             kMatte)));
+             kGrey)));
 }
 
 TEST(PhotonEdgeCases, LightThatHitsNothingEndsWithinItsBudget) {
   const std::string scene =
       TestHeader("\"exphotonmap\" \"integer indirectphotons\" [1000]", 4, 4, 1) +
       "WorldBegin\nLightSource \"spot\" \"point from\" [0 0 5] \"point to\" [0 0 10]\nMaterial " +
-      kMatte + "\nTranslate 0 0 3\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
+      kGrey + "\nTranslate 0 0 3\nShape \"sphere\" \"float radius\" [1]\nWorldEnd\n";
   const TestRender render = RenderSceneText(scene);
   EXPECT_TRUE(render.Says("indirect map: 0 of 1000 photons"));
   EXPECT_EQ(MeanRadiance(render.image), 0);
@@ -185,7 +185,7 @@ TEST(PhotonEdgeCases, PhotonsWithoutFinitePowerAreCountedAndUnderStrictAnError) 
   const std::string text = Sphere(
       "\"photonmap\" \"integer indirectphotons\" 100 "
       "\"integer maxphotonpaths\" 256",
-      kTooBright, kMatte);
+      kTooBright, kGrey);
   TestRenderOptions options;
   options.isStrict = false;
   const TestRender render = RenderSceneText(text, options);

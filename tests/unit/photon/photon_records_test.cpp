@@ -43,15 +43,16 @@ PhotonPassResult Shoot(const std::string& world, const PhotonTargets& targets,
   return ShootPhotons(*loaded.setup->scene, 1, targets, settings);
 }
 
-const std::string kLamp = "LightSource \"point\" \"color I\" [3 2 1] \"point from\" [0 0 2]\n";
-const std::string kFloor = "Shape \"disk\" \"float radius\" 9\n";
+const std::string kRecordLamp =
+    "LightSource \"point\" \"color I\" [3 2 1] \"point from\" [0 0 2]\n";
+const std::string kRecordFloor = "Shape \"disk\" \"float radius\" 9\n";
 
 // The distance of a photon is the length of its path since the light, also over mirrors.
 TEST(PhotonRecords, HaveTheLengthOfThePathFromTheLight) {
   PhotonTargets targets;
   targets[PhotonKind::Direct] = targets[PhotonKind::Caustic] = 1000;
   PhotonPassResult result =
-      Shoot(kLamp + kFloor +
+      Shoot(kRecordLamp + kRecordFloor +
                 "Material \"mirror\" Translate 0 0 4 ReverseOrientation Shape \"disk\" \"float "
                 "radius\" 9\n",
             targets);
@@ -85,7 +86,7 @@ TEST(PhotonRecords, HaveTheLengthSinceTheLastDiffuseBounce) {
   PhotonPassResult result = Shoot(
       "LightSource \"spot\" \"point from\" [0 0 2] \"point to\" [0 0 3] \"float coneangle\" 5 "
       "\"float conedeltaangle\" 0\nMaterial \"matte\" \"color Kd\" [1 1 1]\n" +
-          kFloor + "Translate 0 0 3 ReverseOrientation Shape \"disk\" \"float radius\" .1\n",
+          kRecordFloor + "Translate 0 0 3 ReverseOrientation Shape \"disk\" \"float radius\" .1\n",
       targets, settings);
   const auto shots = ShotsOf(&result, PhotonKind::Indirect);
   ASSERT_GE(shots.size(), 2000u);
@@ -95,7 +96,7 @@ TEST(PhotonRecords, HaveTheLengthSinceTheLastDiffuseBounce) {
   }
 }
 
-const std::string kSphere = "ReverseOrientation Shape \"sphere\" \"float radius\" 5\n";
+const std::string kRecordSphere = "ReverseOrientation Shape \"sphere\" \"float radius\" 5\n";
 
 // All photons of one lamp leave it with its whole power, 4 pi I.
 Spectrum Emitted() { return Spectrum(3, 2, 1) * (4 * kPi); }
@@ -111,7 +112,8 @@ TEST(PhotonRecords, KeepLuminanceOrLargestChannelByRoulette) {
     PhotonSettings settings;
     settings.photonRoulette = roulette;
     PhotonPassResult result =
-        Shoot(kLamp + "Material \"matte\" \"color Kd\" [.2 .6 .8]\n" + kSphere, targets, settings);
+        Shoot(kRecordLamp + "Material \"matte\" \"color Kd\" [.2 .6 .8]\n" + kRecordSphere, targets,
+              settings);
     for (const Shot& photon : ShotsOf(&result, PhotonKind::Direct))
       ExpectRelative(photon.power, Emitted());
     int colored = 0;
@@ -132,8 +134,8 @@ TEST(PhotonRecords, KeepLuminanceOrLargestChannelByRoulette) {
 TEST(PhotonRecords, LosePowerForThreeBouncesAndHalfOfThemAfterwards) {
   PhotonTargets targets;
   targets[PhotonKind::Indirect] = 3000;
-  PhotonPassResult result =
-      Shoot(kLamp + "Material \"matte\" \"color Kd\" [.25 .25 .25]\n" + kSphere, targets);
+  PhotonPassResult result = Shoot(
+      kRecordLamp + "Material \"matte\" \"color Kd\" [.25 .25 .25]\n" + kRecordSphere, targets);
   std::vector<int> counts(12, 0);
   for (const Shot& photon : ShotsOf(&result, PhotonKind::Indirect)) {
     const double lost = double(photon.power.g / Emitted().g);
@@ -160,7 +162,8 @@ TEST(PhotonRecords, CarryThePowerOverTheProbabilityOfTheirLight) {
   for (const LightSelection selection : {LightSelection::Uniform, LightSelection::Power}) {
     PhotonSettings settings;
     settings.lightSelection = selection;
-    PhotonPassResult result = Shoot(lamps + "Material \"matte\"\n" + kSphere, targets, settings);
+    PhotonPassResult result =
+        Shoot(lamps + "Material \"matte\"\n" + kRecordSphere, targets, settings);
     const double power[2] = {4 * M_PI, 12 * M_PI};
     const double y[2] = {double(Spectrum(1).Y()), double(Spectrum(0, 3, 0).Y())};
     int found[2] = {};
@@ -183,11 +186,11 @@ TEST(PhotonRecords, OfRadiancePhotonsHoldTheDiffuseLobesAndTheGlossyShare) {
   targets[PhotonKind::Direct] = 4000;
   targets.radianceFraction = Real(.25);
   PhotonPassResult result = Shoot(
-      kLamp +
+      kRecordLamp +
           "Material \"translucent\" \"color Kd\" [.5 .4 .2] \"color Ks\" [.2 .1 .3] \"color "
           "reflect\" [.4 .4 .6] \"color transmit\" [.5 .3 .2] \"float roughness\" .2 \"string "
           "fresnel\" \"physical\"\n" +
-          kFloor,
+          kRecordFloor,
       targets);
   const auto sites = result.sites.Records();
   EXPECT_NEAR(double(sites.size()) / double(result[PhotonKind::Direct].photons.Size()), .25, .04);
@@ -208,9 +211,9 @@ TEST(PhotonRecords, OfRadiancePhotonsHoldTheDiffuseLobesAndTheGlossyShare) {
     EXPECT_EQ(site.n, Normal3(0, 0, 1));
     EXPECT_NEAR(double(site.p.z), 0, 1e-6);
   }
-  PhotonPassResult coated = Shoot(kLamp + "Material \"substrate\"\n" + kFloor, targets);
+  PhotonPassResult coated = Shoot(kRecordLamp + "Material \"substrate\"\n" + kRecordFloor, targets);
   for (const RadiancePhotonSite& site : coated.sites.Records()) EXPECT_TRUE(site.isCoated);
-  PhotonPassResult matte = Shoot(kLamp + "Material \"matte\"\n" + kFloor, targets);
+  PhotonPassResult matte = Shoot(kRecordLamp + "Material \"matte\"\n" + kRecordFloor, targets);
   for (const RadiancePhotonSite& site : matte.sites.Records()) {
     EXPECT_EQ(site.glossyShare, 0);
     EXPECT_EQ(site.transmittance, Spectrum());
@@ -225,7 +228,8 @@ TEST(PhotonRecords, StopAtTheFirstBatchBeyondTheirLimitOfPaths) {
   PhotonSettings settings;
   for (const auto& [limit, paths] : {std::pair{1, 64}, std::pair{64, 64}, std::pair{65, 192}}) {
     settings.maxPhotonPaths = limit;
-    PhotonPassResult result = Shoot(kLamp + "Material \"matte\"\n" + kSphere, targets, settings);
+    PhotonPassResult result =
+        Shoot(kRecordLamp + "Material \"matte\"\n" + kRecordSphere, targets, settings);
     EXPECT_EQ(result.paths, paths) << limit;
     EXPECT_EQ(result[PhotonKind::Direct].paths, paths);
     EXPECT_EQ(result[PhotonKind::Direct].photons.Size(), std::size_t(paths));
@@ -241,8 +245,8 @@ TEST(PhotonRecords, OfWhiteWallsAreCutWithAllTheirPower) {
   settings.photonRoulette = PhotonRoulette::Luminance;
   settings.maxPhotonDepth = 3;
   settings.maxPhotonPaths = 300;
-  const PhotonPassResult result =
-      Shoot(kLamp + "Material \"matte\" \"color Kd\" [1 1 1]\n" + kSphere, targets, settings);
+  const PhotonPassResult result = Shoot(
+      kRecordLamp + "Material \"matte\" \"color Kd\" [1 1 1]\n" + kRecordSphere, targets, settings);
   EXPECT_NEAR(result.cutPower / result.emittedPower, 1, 1e-3);
   EXPECT_EQ(result.droppedPhotons, 0);
   EXPECT_EQ(result.divergingPaths, 0);

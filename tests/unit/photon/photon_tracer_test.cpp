@@ -49,7 +49,7 @@ TEST(PhotonTracer, StoresNoCausticPhotonAfterADiffuseBounce) {
   EXPECT_GE(up[PhotonKind::Caustic].photons.Size(), 500u);
 }
 
-const char* const kFloor =
+const char* const kTracerFloor =
     "WorldBegin\nLightSource \"point\" \"point from\" [0 0 1]\nMaterial \"matte\" \"color Kd\" "
     "[.5 .5 .5]\nTranslate 0 0 3 Shape \"disk\" \"float radius\" 9\nTranslate 0 0 -6 "
     "Shape \"disk\" \"float radius\" 9\nWorldEnd\n";
@@ -64,7 +64,7 @@ TEST(PhotonReport, CountsThePathsOfEachMap) {
       TestHeader("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 100 "
                  "\"integer indirectphotons\" 20000 \"bool finalgather\" \"false\"",
                  2, 2, 1) +
-      kFloor);
+      kTracerFloor);
   const TestRender render = RenderLoaded(loaded);
   EXPECT_EQ(render.Counter("photons/indirect paths"), render.Counter("photons/shot"));
   EXPECT_GE(render.Counter("photons/direct stored"), 100);
@@ -75,7 +75,7 @@ class PhotonSeeds : public testing::TestWithParam<const char*> {};
 
 TEST_P(PhotonSeeds, ShootOtherPhotons) {
   const std::string scene =
-      TestHeader(std::string("\"") + GetParam() + "\"" + kIntegrator, 8, 8, 1) + kFloor;
+      TestHeader(std::string("\"") + GetParam() + "\"" + kIntegrator, 8, 8, 1) + kTracerFloor;
   const auto photons = [&](std::uint64_t seed) {
     LoadedScene loaded = LoadSceneText(scene);
     TestRenderOptions options;
@@ -98,7 +98,8 @@ TEST_P(PhotonSeeds, ShootOtherPhotons) {
 TEST_P(PhotonSeeds, MakeTheNoiseOfTwoHalvesThatOfMaps) {
   const auto noise = [](int samples) {
     LoadedScene loaded = LoadSceneText(
-        TestHeader(std::string("\"") + GetParam() + "\"" + kIntegrator, 16, 16, samples) + kFloor);
+        TestHeader(std::string("\"") + GetParam() + "\"" + kIntegrator, 16, 16, samples) +
+        kTracerFloor);
     RenderSetup& setup = *loaded.setup;
     Film film(setup.film.Full(), setup.crop), first = film, second = film;
     ThreadPool threads(1);

@@ -7,16 +7,16 @@
 namespace exphoton {
 namespace {
 
-constexpr PixelBounds kOnePixel{0, 0, 1, 1};
+constexpr PixelBounds kSumPixel{0, 0, 1, 1};
 
 Film PassOf(double value, int samples) {
-  Film pass(kOnePixel, kOnePixel);
+  Film pass(kSumPixel, kSumPixel);
   for (int i = 0; i < samples; ++i) pass.AddSample({0, 0}, Spectrum(Real(value)), 1, 1);
   return pass;
 }
 
 TEST(PassSum, StopsAtTheTargetOrAtTheLimit) {
-  Film picture(kOnePixel, kOnePixel);
+  Film picture(kSumPixel, kSumPixel);
   PassSum sum(&picture, {.001, 6});
   sum.Add(PassOf(1.2, 2), 2, 0);
   EXPECT_FALSE(sum.Noise());
@@ -29,7 +29,7 @@ TEST(PassSum, StopsAtTheTargetOrAtTheLimit) {
   EXPECT_EQ(sum.Groups(), 3);
   EXPECT_NEAR(picture.MeanOf({0, 0})[0], 1, 1e-6);
 
-  Film other(kOnePixel, kOnePixel);
+  Film other(kSumPixel, kSumPixel);
   PassSum reached(&other, {.05, 6});
   reached.Add(PassOf(1.2, 2), 2, 0);
   reached.Add(PassOf(.8, 2), 2, 1);
@@ -40,7 +40,7 @@ TEST(PassSum, StopsAtTheTargetOrAtTheLimit) {
 // the error of one group, and their difference suggests 1 - q.
 TEST(PassSum, KnowsThatSuccessiveHalvesCancel) {
   for (const double q : {.35, .42, .5}) {
-    Film picture(kOnePixel, kOnePixel);
+    Film picture(kSumPixel, kSumPixel);
     PassSum sum(&picture, {{}, 100});
     sum.Add(PassOf(1.1, 4), 4, 0);
     sum.Add(PassOf(.9, 4), 4, 1);

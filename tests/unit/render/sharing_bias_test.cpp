@@ -14,7 +14,7 @@
 namespace exphoton {
 namespace {
 
-using LightAt = std::function<double(double x, double y)>;
+using ValueAt = std::function<double(double x, double y)>;
 
 constexpr int kSize = 96, kSamples = 4, kRuns = 16;
 
@@ -26,7 +26,7 @@ struct Shared {
 
 // Returns the result of sharing the gathers of a plane that receives this light. The noise of each
 // sample is uniform, and this is its largest relative value.
-Shared ShareLight(const LightAt& light, double noise, std::uint64_t seed) {
+Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed) {
   const PixelBounds bounds{0, 0, kSize, kSize};
   GatherFragments gathers(bounds, kSamples);
   Film film(bounds, bounds);
@@ -66,7 +66,7 @@ struct Comparison {
   double squaredBias = 0, variance = 0;    // of the pictures, in relMSE; squaredBias without noise
 };
 
-Comparison CompareRuns(const LightAt& light, double noise) {
+Comparison CompareRuns(const ValueAt& light, double noise) {
   Comparison result;
   std::vector<double> sums(std::size_t(kSize * kSize)), squares(sums.size());
   for (int run = 0; run < kRuns; ++run) {

@@ -7,7 +7,7 @@
 namespace exphoton {
 namespace {
 
-const std::string kLamp = "LightSource \"point\" \"point from\" [0 0 -1]\n";
+const std::string kPlainLamp = "LightSource \"point\" \"point from\" [0 0 -1]\n";
 const std::string kBall = "Shape \"sphere\"\n";
 
 RequiredFeatures PlanOf(const std::string& world, const std::string& camera = R"("perspective")") {
@@ -16,10 +16,10 @@ RequiredFeatures PlanOf(const std::string& world, const std::string& camera = R"
   return loaded.setup->scene->Features();
 }
 
-std::string Material(const std::string& text) { return "Material " + text + "\n"; }
+std::string MaterialLine(const std::string& text) { return "Material " + text + "\n"; }
 
 TEST(RequiredFeatures, OfAMatteSceneHasIndirectLightAndNothingElse) {
-  const RequiredFeatures plan = PlanOf(kLamp + Material(R"("matte")") + kBall);
+  const RequiredFeatures plan = PlanOf(kPlainLamp + MaterialLine(R"("matte")") + kBall);
   for (int i = 0; i < kFeatureCount; ++i) {
     EXPECT_EQ(plan.Needs(Feature(i)), Feature(i) == Feature::Indirect) << FeatureName(Feature(i));
     EXPECT_FALSE(plan.Get(Feature(i)).reason.empty());
@@ -28,19 +28,20 @@ TEST(RequiredFeatures, OfAMatteSceneHasIndirectLightAndNothingElse) {
 }
 
 TEST(RequiredFeatures, HasCausticsOnlyWithASpecularSurfaceAReceiverAndALight) {
-  const std::string matte = Material(R"("matte")") + kBall, glass = Material(R"("glass")") + kBall;
-  EXPECT_TRUE(PlanOf(kLamp + matte + glass).Needs(Feature::Caustics));
-  EXPECT_FALSE(PlanOf(kLamp + matte).Needs(Feature::Caustics));
-  EXPECT_FALSE(PlanOf(kLamp + glass).Needs(Feature::Caustics));
+  const std::string matte = MaterialLine(R"("matte")") + kBall,
+                    glass = MaterialLine(R"("glass")") + kBall;
+  EXPECT_TRUE(PlanOf(kPlainLamp + matte + glass).Needs(Feature::Caustics));
+  EXPECT_FALSE(PlanOf(kPlainLamp + matte).Needs(Feature::Caustics));
+  EXPECT_FALSE(PlanOf(kPlainLamp + glass).Needs(Feature::Caustics));
   EXPECT_FALSE(PlanOf(matte + glass).Needs(Feature::Caustics));
 }
 
 TEST(RequiredFeatures, HasIndirectLightUnderAGlowingMediumAlone) {
   const std::string medium =
       "Volume \"homogeneous\" \"point p0\" [-1 -1 -1] \"point p1\" [1 1 1] \"color Le\" [1 1 1]\n";
-  EXPECT_TRUE(PlanOf(medium + Material(R"("matte")") + kBall).Needs(Feature::Indirect));
-  EXPECT_FALSE(PlanOf(Material(R"("matte")") + kBall).Needs(Feature::Indirect));
-  EXPECT_TRUE(PlanOf(medium + Material(R"("plastic")") + kBall).Needs(Feature::Glossy));
+  EXPECT_TRUE(PlanOf(medium + MaterialLine(R"("matte")") + kBall).Needs(Feature::Indirect));
+  EXPECT_FALSE(PlanOf(MaterialLine(R"("matte")") + kBall).Needs(Feature::Indirect));
+  EXPECT_TRUE(PlanOf(medium + MaterialLine(R"("plastic")") + kBall).Needs(Feature::Glossy));
 }
 
 TEST(RequiredFeatures, HasIndirectLightUnderAnyOfSeveralMediaThatGlows) {
@@ -55,28 +56,30 @@ TEST(RequiredFeatures, HasIndirectLightUnderAnyOfSeveralMediaThatGlows) {
 }
 
 TEST(RequiredFeatures, OfSpecularSurfacesOnlyHasNoIndirectLight) {
-  const RequiredFeatures plan = PlanOf(kLamp + Material(R"("mirror")") + kBall);
+  const RequiredFeatures plan = PlanOf(kPlainLamp + MaterialLine(R"("mirror")") + kBall);
   EXPECT_FALSE(plan.Needs(Feature::Indirect));
   EXPECT_EQ(plan.Get(Feature::Indirect).reason, "every surface is specular");
   EXPECT_TRUE(plan.Needs(Feature::Specular));
 }
 
 TEST(RequiredFeatures, TakesABlackCoefficientForNoLobeButATextureForOne) {
-  const std::string black = Material(R"("mirror" "color Kr" [0 0 0])") + kBall;
-  EXPECT_FALSE(PlanOf(kLamp + black).Needs(Feature::Specular));
+  const std::string black = MaterialLine(R"("mirror" "color Kr" [0 0 0])") + kBall;
+  EXPECT_FALSE(PlanOf(kPlainLamp + black).Needs(Feature::Specular));
   const std::string textured =
       "Texture \"t\" \"color\" \"checkerboard\" \"color tex1\" [0 0 0] \"color tex2\" [1 1 1]\n" +
-      Material(R"("mirror" "texture Kr" "t")") + kBall;
-  EXPECT_TRUE(PlanOf(kLamp + textured).Needs(Feature::Specular));
+      MaterialLine(R"("mirror" "texture Kr" "t")") + kBall;
+  EXPECT_TRUE(PlanOf(kPlainLamp + textured).Needs(Feature::Specular));
 }
 
 TEST(RequiredFeatures, HasTransmissionWithATranslucentSurface) {
-  EXPECT_TRUE(PlanOf(kLamp + Material(R"("translucent")") + kBall).Needs(Feature::Transmission));
+  EXPECT_TRUE(
+      PlanOf(kPlainLamp + MaterialLine(R"("translucent")") + kBall).Needs(Feature::Transmission));
 }
 
 TEST(RequiredFeatures, HasTransmissionWithASurfaceThatReflectsNothing) {
   const auto plan = [](const std::string& parameters) {
-    return PlanOf(kLamp + Material("\"translucent\" \"color Ks\" [0 0 0] " + parameters) + kBall);
+    return PlanOf(kPlainLamp + MaterialLine("\"translucent\" \"color Ks\" [0 0 0] " + parameters) +
+                  kBall);
   };
   EXPECT_TRUE(plan("\"color reflect\" [0 0 0]").Needs(Feature::Transmission));
   EXPECT_FALSE(plan("\"color transmit\" [0 0 0]").Needs(Feature::Transmission));
@@ -85,32 +88,34 @@ TEST(RequiredFeatures, HasTransmissionWithASurfaceThatReflectsNothing) {
 TEST(RequiredFeatures, SamplesGlossyLobesOnlyWithAGlossySurfaceAndALight) {
   for (const char* glossy : {R"("plastic")", R"("substrate")", R"("metal")", R"("uber")",
                              R"("shinymetal")", R"("translucent")"}) {
-    EXPECT_TRUE(PlanOf(kLamp + Material(glossy) + kBall).Needs(Feature::Glossy)) << glossy;
-    EXPECT_FALSE(PlanOf(Material(glossy) + kBall).Needs(Feature::Glossy)) << glossy;
+    EXPECT_TRUE(PlanOf(kPlainLamp + MaterialLine(glossy) + kBall).Needs(Feature::Glossy)) << glossy;
+    EXPECT_FALSE(PlanOf(MaterialLine(glossy) + kBall).Needs(Feature::Glossy)) << glossy;
   }
-  const RequiredFeatures matte = PlanOf(kLamp + Material(R"("matte")") + kBall);
+  const RequiredFeatures matte = PlanOf(kPlainLamp + MaterialLine(R"("matte")") + kBall);
   EXPECT_FALSE(matte.Needs(Feature::Glossy));
   EXPECT_EQ(matte.Get(Feature::Glossy).reason, "no glossy surface");
-  const std::string dull = Material(R"("plastic" "color Ks" [0 0 0])") + kBall;
-  EXPECT_FALSE(PlanOf(kLamp + dull).Needs(Feature::Glossy));
+  const std::string dull = MaterialLine(R"("plastic" "color Ks" [0 0 0])") + kBall;
+  EXPECT_FALSE(PlanOf(kPlainLamp + dull).Needs(Feature::Glossy));
 }
 
 TEST(RequiredFeatures, FiltersOnlyFilteredTextures) {
   const auto floor = [](const std::string& textureClass) {
     return "Texture \"t\" \"color\" " + textureClass + "\n" +
-           Material(R"("matte" "texture Kd" "t")") + kBall;
+           MaterialLine(R"("matte" "texture Kd" "t")") + kBall;
   };
-  EXPECT_TRUE(PlanOf(kLamp + floor(R"("checkerboard")")).Needs(Feature::Filtering));
-  EXPECT_FALSE(
-      PlanOf(kLamp + floor(R"("checkerboard" "string aamode" "none")")).Needs(Feature::Filtering));
+  EXPECT_TRUE(PlanOf(kPlainLamp + floor(R"("checkerboard")")).Needs(Feature::Filtering));
+  EXPECT_FALSE(PlanOf(kPlainLamp + floor(R"("checkerboard" "string aamode" "none")"))
+                   .Needs(Feature::Filtering));
 }
 
 TEST(RequiredFeatures, HasLensSamplesOnlyWithALens) {
-  EXPECT_TRUE(PlanOf(kLamp + kBall, R"("perspective" "float lensradius" .1)").Needs(Feature::Lens));
+  EXPECT_TRUE(
+      PlanOf(kPlainLamp + kBall, R"("perspective" "float lensradius" .1)").Needs(Feature::Lens));
 }
 
 TEST(RequiredFeatures, BlursNothingThatDoesNotMove) {
-  const RequiredFeatures open = PlanOf(kLamp + kBall, R"("perspective" "float shutterclose" 1)");
+  const RequiredFeatures open =
+      PlanOf(kPlainLamp + kBall, R"("perspective" "float shutterclose" 1)");
   EXPECT_FALSE(open.Needs(Feature::Motion));
   EXPECT_EQ(open.Get(Feature::Motion).reason, "nothing moves");
 }
@@ -119,17 +124,18 @@ const std::string kMovingBall =
     "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n" + kBall;
 
 TEST(RequiredFeatures, BlursWhatMovesWhileTheShutterIsOpen) {
-  const RequiredFeatures shape = PlanOf(kLamp + kMovingBall);
+  const RequiredFeatures shape = PlanOf(kPlainLamp + kMovingBall);
   EXPECT_TRUE(shape.Needs(Feature::Motion));
   EXPECT_EQ(shape.Get(Feature::Motion).reason, "a shape moves");
   EXPECT_EQ(shape.notes.back(), "time          0 to 1 (of camera rays and photons)");
-  const RequiredFeatures closed = PlanOf(
-      kLamp + kMovingBall, R"("perspective" "float shutteropen" .25 "float shutterclose" .25)");
+  const RequiredFeatures closed =
+      PlanOf(kPlainLamp + kMovingBall,
+             R"("perspective" "float shutteropen" .25 "float shutterclose" .25)");
   EXPECT_FALSE(closed.Needs(Feature::Motion));
   EXPECT_EQ(closed.Get(Feature::Motion).reason, "shutter closed");
   EXPECT_EQ(closed.notes.back(), "time          0.25 (of camera rays and photons)");
-  const RequiredFeatures late =
-      PlanOf(kLamp + kMovingBall, R"("perspective" "float shutteropen" 1 "float shutterclose" 2)");
+  const RequiredFeatures late = PlanOf(
+      kPlainLamp + kMovingBall, R"("perspective" "float shutteropen" 1 "float shutterclose" 2)");
   EXPECT_FALSE(late.Needs(Feature::Motion));
   EXPECT_EQ(late.Get(Feature::Motion).reason, "nothing moves while the shutter is open");
 }
@@ -142,8 +148,9 @@ TEST(RequiredFeatures, BlursWhatAMovingCameraSees) {
                world + "WorldEnd\n")
         .setup->scene->Features();
   };
-  EXPECT_EQ(plan(kLamp + kBall).Get(Feature::Motion).reason, "the camera moves");
-  EXPECT_EQ(plan(kLamp + kMovingBall).Get(Feature::Motion).reason, "the camera and a shape move");
+  EXPECT_EQ(plan(kPlainLamp + kBall).Get(Feature::Motion).reason, "the camera moves");
+  EXPECT_EQ(plan(kPlainLamp + kMovingBall).Get(Feature::Motion).reason,
+            "the camera and a shape move");
 }
 
 TEST(RequiredFeatures, SeesTheSkyOnlyIfItShines) {
@@ -154,7 +161,7 @@ TEST(RequiredFeatures, SeesTheSkyOnlyIfItShines) {
 
 TEST(RequiredFeatures, CountsBlackLightsApart) {
   const RequiredFeatures plan =
-      PlanOf(kLamp + kLamp + "LightSource \"distant\" \"color L\" [0 0 0]\n" + kBall);
+      PlanOf(kPlainLamp + kPlainLamp + "LightSource \"distant\" \"color L\" [0 0 0]\n" + kBall);
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_EQ(plan.notes[0], "lights        3 (1 black, skipped)");
 }
@@ -214,9 +221,9 @@ TEST(RequiredFeatures, LeaveOutWhatTheIntegratorDoesNotCompute) {
 }
 
 TEST(RequiredFeatures, SayWhyTheIntegratorLeavesThemOut) {
-  const LoadedScene scene =
-      LoadSceneText("SurfaceIntegrator \"directlighting\"\nWorldBegin\n" + kLamp +
-                    Material("\"glass\"") + kBall + Material("\"matte\"") + kBall + "WorldEnd\n");
+  const LoadedScene scene = LoadSceneText("SurfaceIntegrator \"directlighting\"\nWorldBegin\n" +
+                                          kPlainLamp + MaterialLine("\"glass\"") + kBall +
+                                          MaterialLine("\"matte\"") + kBall + "WorldEnd\n");
   const std::string text = scene.setup->scene->Features().Describe();
   EXPECT_NE(text.find("caustics      off  this integrator does not compute caustics\n"),
             std::string::npos);

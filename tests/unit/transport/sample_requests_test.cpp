@@ -98,16 +98,16 @@ TEST(SampleRequests, OfAGuidedGatherAreThoseOfEachDivision) {
   EXPECT_EQ(direct.of1D, (Counts{12, 0})) << "no shadow rays";
 }
 
-constexpr int kSide = 8, kSamples = 4;
-constexpr double kCameraRays = double(kSide) * kSide * kSamples;
+constexpr int kRequestSide = 8, kRequestSamples = 4;
+constexpr double kRequestRays = double(kRequestSide) * kRequestSide * kRequestSamples;
 
 TestRender Render(const std::string& integrator, const std::string& world) {
-  return RenderSceneText(TestHeader(integrator, kSide, kSide, kSamples) + "WorldBegin\n" + world +
-                         "WorldEnd\n");
+  return RenderSceneText(TestHeader(integrator, kRequestSide, kRequestSide, kRequestSamples) +
+                         "WorldBegin\n" + world + "WorldEnd\n");
 }
 
 double PerSample(const TestRender& render, RayKind kind) {
-  return double(render.rays.counts[std::size_t(kind)]) / kCameraRays;
+  return double(render.rays.counts[std::size_t(kind)]) / kRequestRays;
 }
 
 const std::string kPlane =
@@ -150,8 +150,8 @@ TEST(RaysPerSample, AreOfTheCameraAloneWhereAllLightIsFromMaps) {
 TEST(RaysPerSample, OfPathsInAWhiteSphereEndByRoulette) {
   const auto rays = [](const std::string& kd, int depth) {
     return PerSample(
-        RenderSceneText(TestHeader("\"path\" \"integer maxdepth\" " + std::to_string(depth), kSide,
-                                   kSide, kSamples) +
+        RenderSceneText(TestHeader("\"path\" \"integer maxdepth\" " + std::to_string(depth),
+                                   kRequestSide, kRequestSide, kRequestSamples) +
                         FurnaceWorld(1, "\"matte\" \"color Kd\" [" + kd + "]")),
         RayKind::Bsdf);
   };
@@ -177,7 +177,7 @@ TEST(CutThroughput, IsWhatMirrorsWouldReflectBeyondTheLimit) {
       const TestRender render = Render(
           "\"" + std::string(integrator) + "\" \"integer maxdepth\" " + std::to_string(depth),
           mirrors);
-      EXPECT_NEAR(render.rays.cutThroughput / kCameraRays, std::pow(.5, depth + 1), 1e-6)
+      EXPECT_NEAR(render.rays.cutThroughput / kRequestRays, std::pow(.5, depth + 1), 1e-6)
           << integrator;
       EXPECT_EQ(PerSample(render, RayKind::Specular), depth) << integrator;
     }

@@ -13,9 +13,9 @@
 namespace exphoton {
 namespace {
 
-const Cone kCone(Radians(5));
-constexpr Real kWidth = Real(.1);
-constexpr int kCount = 20, kPoints = 2000;
+const Cone kTableCone(Radians(5));
+constexpr Real kTableWidth = Real(.1);
+constexpr int kTableCount = 20, kPoints = 2000;
 
 PhotonMap FloorMap() {
   RandomStream random(3);
@@ -37,7 +37,7 @@ std::vector<Point3> Points(std::uint64_t seed) {
   return points;
 }
 
-std::vector<Real> Content(const GuideCell& cell) {
+std::vector<Real> TableContent(const GuideCell& cell) {
   std::vector<Real> content(cell.X(), cell.X() + 4 * cell.RowLength());
   for (const Real x : {cell.Center().x, cell.Center().y, cell.Center().z, cell.Radius2(),
                        cell.IrradiancePerPhoton()})
@@ -47,13 +47,13 @@ std::vector<Real> Content(const GuideCell& cell) {
 
 TEST(GuideTable, ReturnsTheCellsOfItsGrid) {
   const PhotonMap map = FloorMap();
-  const GuideGrid grid(map, kCount, kCone, kWidth);
+  const GuideGrid grid(map, kTableCount, kTableCone, kTableWidth);
   GuideTable table(grid);
   Arena arena;
   for (const Point3& p : Points(5)) {
     const GuideCell* cell = table.At(p, &arena);
     ASSERT_NE(cell, nullptr);
-    ASSERT_EQ(Content(*cell), Content(grid.MakeCell(grid.KeyOf(p), &arena)));
+    ASSERT_EQ(TableContent(*cell), TableContent(grid.MakeCell(grid.KeyOf(p), &arena)));
     ASSERT_EQ(table.At(p, &arena), cell);  // it is kept
   }
   EXPECT_LE(table.CellCount(), 10u * 10 * 3);
@@ -63,21 +63,21 @@ TEST(GuideTable, ReturnsTheCellsOfItsGrid) {
 // In a table of 512 slots, many of the cells meet a slot of another cell.
 TEST(GuideTable, TellsCellsInOneSlotApartByTheirKeys) {
   const PhotonMap map = FloorMap();
-  const GuideGrid grid(map, kCount, kCone, kWidth);
+  const GuideGrid grid(map, kTableCount, kTableCone, kTableWidth);
   constexpr std::size_t kSlots = 512;
   GuideTable table(grid, std::size_t(1) << 28, kSlots);
   Arena arena;
   for (const Point3& p : Points(5)) {
     const GuideCell* cell = table.At(p, &arena);
     if (!cell) continue;  // half of the slots are used
-    ASSERT_EQ(Content(*cell), Content(grid.MakeCell(grid.KeyOf(p), &arena)));
+    ASSERT_EQ(TableContent(*cell), TableContent(grid.MakeCell(grid.KeyOf(p), &arena)));
   }
   EXPECT_GT(table.CellCount(), kSlots * 2 / 5);
 }
 
 TEST(GuideTable, KeepsEachCellOnceForAllThreads) {
   const PhotonMap map = FloorMap();
-  const GuideGrid grid(map, kCount, kCone, kWidth);
+  const GuideGrid grid(map, kTableCount, kTableCone, kTableWidth);
   GuideTable table(grid);
   const std::vector<Point3> points = Points(5);
   std::vector<std::vector<const GuideCell*>> found(4);
@@ -94,7 +94,7 @@ TEST(GuideTable, KeepsEachCellOnceForAllThreads) {
 
 TEST(GuideTable, ReturnsNoNewCellWhenItIsFull) {
   const PhotonMap map = FloorMap();
-  GuideTable table(GuideGrid(map, kCount, kCone, kWidth), 1);
+  GuideTable table(GuideGrid(map, kTableCount, kTableCone, kTableWidth), 1);
   Arena arena;
   const GuideCell* first = table.At({Real(.5), Real(.5), 0}, &arena);
   ASSERT_NE(first, nullptr);
@@ -106,7 +106,7 @@ TEST(GuideTable, ReturnsNoNewCellWhenItIsFull) {
 TEST(GuideCell, KnowsTheIrradianceOfItsPhotons) {
   const PhotonMap map = FloorMap();  // 500 photons of power 1 on an area of 1
   Arena arena;
-  const GuideCell cell(map, {Real(.5), Real(.5), 0}, 200, kCone, &arena);
+  const GuideCell cell(map, {Real(.5), Real(.5), 0}, 200, kTableCone, &arena);
   EXPECT_NEAR(double(cell.IrradiancePerPhoton()) * 200, 500, 50);
 }
 

@@ -18,7 +18,7 @@ namespace exphoton {
 namespace {
 
 constexpr int kPhotons = 8;
-const Cone kCone(Radians(20));
+const Cone kGuideCone(Radians(20));
 const Vector3 kPatch = Normalize(Vector3(1, 0, 1));
 
 enum class Light { OfAPatch, OfTheSky, OfBoth };
@@ -59,7 +59,7 @@ class PhotonGuideTest : public testing::Test {
                          Arena* arenaPointer) {
     const auto& [photons, count] = nearest;
     Arena& arena = *arenaPointer;
-    PhotonGuide guide(count, kCone);
+    PhotonGuide guide(count, kGuideCone);
     guide.Prepare(photons);
     RayCounters rays;
     const CameraSamples samples{SampleLayout()};
