@@ -58,7 +58,8 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--certify", command.certifies ? "on" : "off");
   add("--target-error", command.targetError ? Text(*command.targetError) : "");
   add("--max-passes", command.maxPasses > 0 ? std::to_string(command.maxPasses) : "");
-  add("--progressive", command.isProgressive ? Text(command.progressiveAlpha) : "");
+  add("--progressive", command.isProgressive ? "on" : "off");
+  add("--progressive-alpha", command.isProgressive ? Text(command.progressiveAlpha) : "");
   add("--time-limit", command.timeLimit ? "on" : "off");  // more time may be given
   std::map<std::string, std::string> sets;
   for (const ParameterOverride& set : load.parameters)
