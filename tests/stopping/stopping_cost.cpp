@@ -6,6 +6,7 @@
 //   choice:      to the cheapest of the plain renders whose noise is at most the target
 //   bound:       the least ratio at equal noise for any rule that shoots photons twice, if the
 //                second shot reduced no noise. Cost is counted in rays.
+// Noise is measured between seeds, of which there are at least two.
 //   stopping_cost SCENE,SCENE... WIDTHxHEIGHT SEEDS SAMPLES,SAMPLES... TARGET,TARGET...
 // A negative target -N renders two halves with N samples together.
 #include <algorithm>
@@ -97,8 +98,8 @@ double MedianOf(const std::vector<Measured>& all, const Get& get) {
   return Median(values);
 }
 
-// The converged picture: the mean of all plain renders, weighted by their samples.
-class Converged {
+// The mean of all plain renders. Noise is relative to it.
+class MeanPicture {
  public:
   void Add(const Measured& plain) {
     if (sum_.empty()) sum_.resize(plain.image.pixels.size());
@@ -106,18 +107,26 @@ class Converged {
       sum_[i] += plain.samples * double(plain.image.pixels[i]);
     samples_ += plain.samples;
   }
-  // Returns relMSE. `own` is the part of the picture in the sums.
-  double Error(const Measured& render, double own) const {
-    double error = 0, count = 0;
-    const int channels = render.image.ChannelCount();
+  // Returns the noise part of relMSE of each render, from its difference to the mean of the others:
+  // they have other seeds, so they share neither samples nor photons, and they have the same bias.
+  std::vector<double> Noise(const std::vector<Measured>& renders) const {
+    const double count = double(renders.size());
+    std::vector<double> noise(renders.size());
+    double values = 0;
     for (std::size_t i = 0; i < sum_.size(); ++i) {
-      if (int(i) % channels > 2) continue;
-      const double r = (sum_[i] - own * double(render.image.pixels[i])) / (samples_ - own);
-      const double difference = double(render.image.pixels[i]) - r;
-      error += difference * difference / (r * r + .01);
-      ++count;
+      if (int(i) % renders[0].image.ChannelCount() > 2) continue;
+      const double r = sum_[i] / samples_;
+      double all = 0;
+      for (const Measured& one : renders) all += double(one.image.pixels[i]);
+      for (std::size_t k = 0; k < renders.size(); ++k) {
+        const double own = double(renders[k].image.pixels[i]);
+        const double difference = own - (all - own) / (count - 1);
+        noise[k] += difference * difference * (1 - 1 / count) / (r * r + .01);
+      }
+      ++values;
     }
-    return error / count;
+    for (double& one : noise) one /= values;
+    return noise;
   }
 
  private:
@@ -166,11 +175,11 @@ std::vector<Row> RenderRows(const Scene& scene, int seeds, const std::string& se
   return rows;
 }
 
-PlainCosts PrintPlain(const Converged& converged, std::vector<Row>* rows) {
+PlainCosts PrintPlain(const MeanPicture& mean, std::vector<Row>* rows) {
   PlainCosts costs;
   std::printf("| samples | noise | CPU s | rays | of photons |\n| --- | --- | --- | --- | --- |\n");
   for (Row& row : *rows) {
-    for (const Measured& one : row.renders) row.errors.push_back(converged.Error(one, one.samples));
+    row.errors = mean.Noise(row.renders);
     costs.errors.push_back(Median(row.errors));
     costs.seconds.push_back(MedianOf(row.renders, [](const Measured& m) { return m.cpuSeconds; }));
     costs.rays.push_back(MedianOf(row.renders, [](const Measured& m) { return m.rays; }));
@@ -188,8 +197,8 @@ double ChoiceOf(const PlainCosts& plain, double noise) {
   return plain.rays.back();
 }
 
-void PrintTarget(const Converged& converged, const PlainCosts& plain, Row* row) {
-  for (const Measured& one : row->renders) row->errors.push_back(converged.Error(one, 0));
+void PrintTarget(const MeanPicture& mean, const PlainCosts& plain, Row* row) {
+  row->errors = mean.Noise(row->renders);
   const auto [least, most] = std::minmax_element(row->errors.begin(), row->errors.end());
   const double cpu = MedianOf(row->renders, [](const Measured& m) { return m.cpuSeconds; });
   const double rays = MedianOf(row->renders, [](const Measured& m) { return m.rays; });
@@ -214,23 +223,22 @@ void MeasureScene(const std::string& name, int argc, char** argv) {
   const int seeds = std::atoi(argv[3]);
   std::printf("%s, %s, %d seeds\n\n", name.c_str(), size.c_str(), seeds);
   std::vector<Row> plain = RenderRows(scene, seeds, argv[4], true);
-  Converged converged;
+  MeanPicture mean;
   for (const Row& row : plain)
-    for (const Measured& one : row.renders) converged.Add(one);
-  const PlainCosts costs = PrintPlain(converged, &plain);
+    for (const Measured& one : row.renders) mean.Add(one);
+  const PlainCosts costs = PrintPlain(mean, &plain);
   std::printf(
       "\n| target | noise [min max] | estimate | samples | passes | CPU s | CPU, equal noise | "
       "rays, equal noise | rays, choice | bound |\n| --- | --- | --- | --- | --- | --- | --- | --- "
       "| "
       "--- | --- |\n");
-  for (Row& row : RenderRows(scene, seeds, argv[argc - 1], false))
-    PrintTarget(converged, costs, &row);
+  for (Row& row : RenderRows(scene, seeds, argv[argc - 1], false)) PrintTarget(mean, costs, &row);
   std::printf("\n");
   std::fflush(stdout);
 }
 
 int Main(int argc, char** argv) {
-  if (argc != 6) {
+  if (argc != 6 || std::atoi(argv[3]) < 2) {
     std::fprintf(stderr, "usage: stopping_cost SCENE,... WxH SEEDS SAMPLES,... TARGET,...\n");
     return 2;
   }
