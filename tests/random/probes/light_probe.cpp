@@ -173,6 +173,17 @@ void CheckSelection(const ProbedScene& scene, LightSelection selection, Findings
 
 }  // namespace
 
+void ProbeLamps(const SceneModel& model, const ProbedScene& scene, Findings* findings) {
+  int expected = 0, shining = 0;
+  for (const BodyModel& body : model.bodies) {
+    const bool emits = (body.emission == 1 && body.light.Max() > 0) || body.emission == 2;
+    expected += emits && body.isInstance == 0;
+  }
+  for (const auto& light : scene.World().Lights())
+    shining += !light->IsProvablyBlack() && !light->IsDelta() && !light->IsInfinite();
+  findings->Expect(shining == expected, "lamps that shine", shining, expected);
+}
+
 void ProbeLights(const ProbedScene& scene, Findings* findings) {
   RandomStream random = scene.Stream(5);
   for (const auto& light : scene.World().Lights()) {

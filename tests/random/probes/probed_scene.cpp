@@ -62,6 +62,7 @@ std::string BrokenProbe(const SceneModel& model, std::uint64_t seed) {
     ProbeSurfaces(scene, &findings);
     ProbeCamera(scene, &findings);
     ProbeScattering(scene, &findings);
+    ProbeLamps(model, scene, &findings);
     ProbeLights(scene, &findings);
     ProbeMedia(scene, &findings);
     ProbeSampling(scene, seed, &findings);

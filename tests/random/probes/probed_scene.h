@@ -64,6 +64,7 @@ class Findings {
 void ProbeSurfaces(const ProbedScene& scene, Findings* findings);
 void ProbeCamera(const ProbedScene& scene, Findings* findings);
 void ProbeScattering(const ProbedScene& scene, Findings* findings);
+void ProbeLamps(const SceneModel& model, const ProbedScene& scene, Findings* findings);
 void ProbeLights(const ProbedScene& scene, Findings* findings);
 void ProbeMedia(const ProbedScene& scene, Findings* findings);
 // Compare a scene with other descriptions of the same scene.
