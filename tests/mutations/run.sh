@@ -9,6 +9,8 @@
 #                                     then a remark
 #   run.sh --reach TABLE              defects of another table, each with the quick tests, recorded
 #                                     scenes and commands that reach its line (reach.py)
+#   run.sh --soak LIST [NAME ...]     the defects that LIST names, each with the random scenes until they
+#                                     find it (soak.sh)
 #   run.sh --texts                    only looks whether the texts to replace are still there
 #   run.sh --list                     prints name, file and tests of each
 # A defect that keeps its test from ending has the word "endless" after the test. Any other time-out
@@ -23,8 +25,9 @@ folder=${MUTATION_FOLDER:-$top/build-mutations}
 copy=$folder/src build=$folder/build clean=$folder/clean
 jobs=${JOBS:-$(nproc)}
 . "$here/everything.sh"
+. "$here/soak.sh"
 
-everything= reach=
+everything= reach= soak=
 tables=("$here"/*.txt)
 others=("$here"/*.list)  # these are in the build as well, so that it serves every run
 if [ "${1:-}" = --texts ]; then
@@ -35,6 +38,9 @@ elif [ "${1:-}" = --everything ]; then
 elif [ "${1:-}" = --reach ]; then
   reach=yes others=() tables=("$(realpath "${2:?run.sh --reach TABLE}")")
   shift 2
+elif [ "${1:-}" = --soak ]; then
+  soak=yes others=()
+  read_soak_list "${2:?run.sh --soak LIST}" "${@:3}"
 fi
 
 names=() files=() texts=() insteads=() programs=() filters=() endings=()
@@ -78,6 +84,7 @@ missing_tests() {
   ) <(written_tests | sort -u)
 }
 
+if [ "$soak" ]; then keep_listed; fi
 if [ "${1:-}" = --texts ]; then
   missing=0
   if [ -n "$(missing_tests)" ]; then
@@ -96,6 +103,7 @@ elif [ "${1:-}" = --list ]; then
   exit 0
 fi
 
+if [ "$soak" ]; then set --; fi
 chosen=()
 for ((i = 0; i < count; ++i)); do
   if [ $# = 0 ] || [[ " $* " == *" ${names[i]} "* ]]; then chosen+=("$i"); fi
@@ -127,7 +135,7 @@ configure() {
   fi
   touch -a "$folder/defects.h"
   [ -f "$build/build.ninja" ] ||
-    cmake -S "$copy" -B "$build" -G Ninja -DEXPHOTON_OPTIMIZE=-O1 -DEXPHOTON_TESTS=ON \
+    cmake -S "$copy" -B "$build" -G Ninja "-DEXPHOTON_OPTIMIZE=${MUTATION_OPTIMIZE:--O1}" -DEXPHOTON_TESTS=ON \
       -DEXPHOTON_FILES_TOGETHER=12 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON "${linker[@]}" \
       "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing -include $folder/defects.h" >/dev/null
 }
@@ -325,6 +333,10 @@ try_side_by_side() {  # INDEX ...
   while read -r status i; do count_result "$status" "$i"; done <"$folder/results"
 }
 
+if [ "$soak" ]; then
+  run_soak
+  exit 0
+fi
 if [ "$reach" ]; then
   copy_sources
   configure

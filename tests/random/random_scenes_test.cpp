@@ -19,6 +19,12 @@ TEST(RandomScenes, KeepTheirPixelsWithEveryPlanThreadCountAndAccelerator) {
   ExpectNoFailure(run);
 }
 
+TEST(RandomScenes, HavePartsThatFitTogether) {
+  SceneRun run({});
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) run.CheckProbes(seed);
+  ExpectNoFailure(run);
+}
+
 TEST(RandomScenes, GiveNoMoreEnergyThanTheyGet) {
   SceneRun run({});
   for (std::uint64_t seed = 1; seed <= 200; ++seed) run.CompareEnergy(seed);

@@ -56,6 +56,7 @@ struct Method {
 };
 constexpr Method kPath{"\"path\" \"integer maxdepth\" 60", 32, 1, 0};
 constexpr Method kGuidedPath{"\"guidedpath\" \"integer maxdepth\" 60", 16, 1, 3};
+constexpr Method kBidirectional{"\"bidirectional\" \"integer maxdepth\" 60", 12, 1, 4};
 constexpr Method kPhotonMap{
     "\"photonmap\" \"integer maxdepth\" 24 \"string lightselection\" \"power\"", 4, 4, 2};
 constexpr Method kDensityEstimates{
@@ -94,8 +95,19 @@ TextOptions OptionsOf(const Method& method, const Effort& effort) {
 }
 
 // Means holds means over the channels; luminance is not needed. [0] is the picture, the blocks
-// follow.
-using Means = std::array<std::vector<double>, 1 + kBlocks * kBlocks>;
+// follow, and then the light AOVs if they are compared.
+using Means = std::vector<std::vector<double>>;
+constexpr std::size_t kFirstAov = 1 + kBlocks * kBlocks;
+const std::array<std::pair<Aov, const char*>, 4> kComparedAovs{{{Aov::Direct, "direct"},
+                                                                {Aov::Caustic, "caustic"},
+                                                                {Aov::Indirect, "indirect"},
+                                                                {Aov::Specular, "specular"}}};
+
+double MeanOfAov(const Image& image, const std::string& name) {
+  double sum = 0;
+  for (const char* channel : {".R", ".G", ".B"}) sum += MeanChannel(image, name + channel);
+  return sum / 3;
+}
 
 void SubtractEmission(Image* image) {
   for (const char* name : {"R", "G", "B"}) {
@@ -107,8 +119,9 @@ void SubtractEmission(Image* image) {
 }
 
 // Emission that the camera sees directly would hide errors of other light; hidesLamps subtracts it.
-Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesLamps) {
-  Means means;
+Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesLamps,
+                   bool withAovs = false) {
+  Means means(kFirstAov + (withAovs ? kComparedAovs.size() : 0));
   const int width = kFilmWidth / kBlocks, height = kFilmHeight / kBlocks;
   for (int k = 0; k < kSeeds; ++k) {
     TestRenderOptions options;
@@ -118,7 +131,11 @@ Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesL
     // product of two means.
     options.footprintSamples = 1 << 20;
     if (hidesLamps) options.aovs.Add(Aov::Emission);
+    for (std::size_t i = kFirstAov; i < means.size(); ++i)
+      options.aovs.Add(kComparedAovs[i - kFirstAov].first);
     Image image = RenderSceneText(text, options).image;
+    for (std::size_t i = kFirstAov; i < means.size(); ++i)
+      means[i].push_back(MeanOfAov(image, kComparedAovs[i - kFirstAov].second));
     if (hidesLamps) SubtractEmission(&image);
     means[0].push_back(MeanRadiance(image));
     for (int b = 0; b < kBlocks * kBlocks; ++b) {
@@ -127,6 +144,12 @@ Means MeansOfSeeds(const std::string& text, std::uint64_t firstSeed, bool hidesL
     }
   }
   return means;
+}
+
+std::string PartName(std::size_t i) {
+  if (i == 0) return ", picture";
+  if (i < kFirstAov) return ", block " + std::to_string(i);
+  return std::string(", AOV ") + kComparedAovs[i - kFirstAov].second;
 }
 
 std::string Describe(const Sample& a, const Sample& b) {
@@ -139,25 +162,23 @@ std::string Describe(const Sample& a, const Sample& b) {
 void CompareMeans(const std::string& what, const Means& a, const Means& b,
                   std::vector<Comparison>* comparisons) {
   const double whole = SampleOf(b[0]).mean;
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
     // The scale of a dark block is a part of the picture's mean, as its errors are hardly visible.
     const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
     const double margin = (i == 0 ? kPictureMargin : kBlockMargin) * scale;
-    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
-                            PValueBeyond(left, right, margin), left.mean - right.mean,
-                            Describe(left, right)});
+    comparisons->push_back({what + PartName(i), PValueBeyond(left, right, margin),
+                            left.mean - right.mean, Describe(left, right)});
   }
 }
 
 // Neither method is biased, so there is no margin. A block need not be compared with the picture.
 void CompareUnbiased(const std::string& what, const Means& a, const Means& b,
                      std::vector<Comparison>* comparisons) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
-    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
-                            PValueBeyond(left, right, 0), left.mean - right.mean,
-                            Describe(left, right)});
+    comparisons->push_back({what + PartName(i), PValueBeyond(left, right, 0),
+                            left.mean - right.mean, Describe(left, right)});
   }
 }
 
@@ -172,9 +193,8 @@ void ComparePairs(const std::string& what, const Means& a, const Means& b,
     const Sample left = SampleOf(a[i]), right = SampleOf(b[i]), pairs = SampleOf(differences);
     const double scale = std::max({left.mean, right.mean, i == 0 ? 0 : .5 * whole});
     const double margin = (i == 0 ? kPairPictureMargin : kPairBlockMargin) * scale;
-    comparisons->push_back({what + (i == 0 ? ", picture" : ", block " + std::to_string(i)),
-                            PValueBeyond(pairs, {0, 0, pairs.count}, margin), pairs.mean,
-                            Describe(left, right)});
+    comparisons->push_back({what + PartName(i), PValueBeyond(pairs, {0, 0, pairs.count}, margin),
+                            pairs.mean, Describe(left, right)});
   }
 }
 
@@ -229,7 +249,7 @@ struct IntegratorComparison::Rendered {
     const auto [at, isNew] = means.try_emplace(&method);
     if (isNew)
       at->second = MeansOfSeeds(SceneText(scene, OptionsOf(method, effort)),
-                                effort.firstSeed + method.seed, true);
+                                effort.firstSeed + method.seed, true, effort.comparesMore);
     return at->second;
   }
 };
@@ -247,6 +267,8 @@ std::vector<Comparison> IntegratorComparison::Compare(const std::string& only) {
   };
   if (only.empty() && !(SampleOf(rendered_->Of(kPath)[0]).mean > kDark)) return comparisons;
   compare("guidedpath against path", kGuidedPath, kPath, CompareUnbiased);
+  if (rendered_->effort.comparesMore)
+    compare("bidirectional against path", kBidirectional, kPath, CompareUnbiased);
   compare("exphotonmap against path", kExPhotonMap, kPath, CompareMeans);
   if (HasNarrowLobe(rendered_->scene)) return comparisons;
   compare("exphotonmap against its density estimates", kExPhotonMap, kDensityEstimates,

@@ -26,6 +26,8 @@ struct Effort {
   int factor = 1;        // for samples and photons: 1 in the first stage, 16 in the second
   int photonFactor = 1;  // additional factor for the photons
   std::uint64_t firstSeed = 1;
+  std::uint64_t sceneSeed = 1;  // of choices that belong to the scene, such as points
+  bool comparesMore = false;    // also the light AOVs, and bidirectional with path
 };
 
 // Returns the scene without everything that an integrator is documented not to find, or to find

@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <exception>
 
+#include "tests/random/probes/estimates.h"
+#include "tests/random/probes/probed_scene.h"
+#include "tests/random/probes/rooms.h"
 #include "tests/random/scenes/properties.h"
 #include "tests/random/scenes/scene_generator.h"
 #include "tests/random/scenes/scene_text.h"
@@ -20,12 +23,36 @@ constexpr double kCertain = 1e-6;     // in the second stage
 constexpr int kMorePhotons = 16;      // in the third stage
 constexpr double kStillThere = 1e-4;  // while shrinking, with the effort of the first stage
 
-const std::string kInvariances = "invariances", kEnergy = "energy", kAgreement = "agreement";
+bool IsAgreement(const std::string& property) {
+  return property == kAgreement || property == kRooms;
+}
+
+// Returns the scene whose pictures are compared.
+SceneModel AgreementScene(const std::string& property, const SceneModel& drawn,
+                          std::uint64_t seed) {
+  return property == kRooms ? PhotonRoom(drawn, seed) : drawn;
+}
+
+std::string Broken(const std::string& property, const SceneModel& scene, std::uint64_t seed) {
+  return property == kProbes ? BrokenProbe(scene, seed) : BrokenInvariance(scene);
+}
 
 std::vector<Comparison> Compared(const std::string& property, const SceneModel& scene,
                                  const Effort& effort, const std::string& only = "") {
-  return property == kEnergy ? CompareWithEnergy(scene, effort)
-                             : IntegratorComparison(scene, effort).Compare(only);
+  if (property == kEnergy) return CompareWithEnergy(scene, effort);
+  if (property == kEstimates) return CompareEstimates(scene, effort);
+  if (property == kFurnace) return CompareWithFurnace(scene, effort);
+  Effort more = effort;
+  more.comparesMore = property == kRooms;
+  return IntegratorComparison(AgreementScene(property, scene, effort.sceneSeed), more)
+      .Compare(only);
+}
+
+std::string ComparedText(const std::string& property, const SceneModel& scene, std::uint64_t seed) {
+  if (property == kEnergy) return EnergyText(scene);
+  if (property == kEstimates) return SceneText(scene, {});
+  if (property == kFurnace) return FurnaceText(ExactFurnace(scene, seed));
+  return AgreementText(AgreementScene(property, scene, seed));
 }
 
 // Returns the comparison of that name, or one with a p-value of 1 if there is none.
@@ -39,37 +66,42 @@ Comparison Named(const std::vector<Comparison>& comparisons, const std::string& 
 
 }  // namespace
 
-void SceneRun::CheckInvariances(std::uint64_t seed) {
+void SceneRun::Add(const std::string& property, std::uint64_t seed) {
+  if (property == kInvariances || property == kProbes)
+    Check(property, seed);
+  else
+    Compare(property, seed);
+}
+
+void SceneRun::Check(const std::string& property, std::uint64_t seed) {
   const auto drawn = SceneOfSeed(seed);
-  Tally& tally = tallies_[kInvariances];
+  Tally& tally = tallies_[property];
   ++tally.scenes;
-  std::string broken = BrokenInvariance(drawn.value());
+  std::string broken = Broken(property, drawn.value(), seed);
   if (broken.empty()) return;
   ++tally.failures;
   SceneModel scene = drawn.value();
   if (settings_.maxTries > 0) {
-    const auto fails = [](const SceneModel& s) { return !BrokenInvariance(s).empty(); };
+    const auto fails = [&](const SceneModel& s) { return !Broken(property, s, seed).empty(); };
     scene = Shrink(drawn, fails, settings_.maxTries).scene;
-    broken = BrokenInvariance(scene);
+    broken = Broken(property, scene, seed);
   }
-  failures_.push_back({seed, kInvariances, broken, SceneText(scene, {})});
+  failures_.push_back({seed, property, broken, SceneText(scene, {})});
 }
 
-void SceneRun::Add(const std::string& property, std::uint64_t seed) {
+void SceneRun::Compare(const std::string& property, std::uint64_t seed) {
   ++tallies_[property].scenes;
+  const SceneModel scene = SceneOfSeed(seed).value();
   try {
-    for (const Comparison& comparison :
-         Compared(property, SceneOfSeed(seed).value(), {.factor = 1, .firstSeed = seed}))
+    const Effort effort{.factor = 1, .firstSeed = seed, .sceneSeed = seed};
+    for (const Comparison& comparison : Compared(property, scene, effort))
       records_.push_back({seed, property, comparison});
   } catch (const std::exception& error) {
     ++tallies_[property].failures;
-    const SceneModel scene = SceneOfSeed(seed).value();
     failures_.push_back({seed, property, std::string("an error: ") + error.what(),
-                         property == kEnergy ? EnergyText(scene) : AgreementText(scene)});
+                         ComparedText(property, scene, seed)});
   }
 }
-void SceneRun::CompareEnergy(std::uint64_t seed) { Add(kEnergy, seed); }
-void SceneRun::CompareAgreement(std::uint64_t seed) { Add(kAgreement, seed); }
 
 void SceneRun::JudgeComparisons() {
   std::vector<double> chances;
@@ -81,11 +113,15 @@ std::vector<Comparison> SceneRun::CompareAgain(const SceneModel& scene, const Re
                                                int photonFactor) {
   const Effort effort{.factor = 16,
                       .photonFactor = photonFactor,
-                      .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor)};
-  if (record.property == kEnergy) return CompareWithEnergy(scene, effort);
-  if (comparedSeed_ != record.seed) comparisons_.clear();
+                      .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor),
+                      .sceneSeed = record.seed,
+                      .comparesMore = record.property == kRooms};
+  if (!IsAgreement(record.property)) return Compared(record.property, scene, effort);
+  if (comparedSeed_ != record.seed || comparedProperty_ != record.property) comparisons_.clear();
   comparedSeed_ = record.seed;
-  return comparisons_.try_emplace(photonFactor, scene, effort)
+  comparedProperty_ = record.property;
+  return comparisons_
+      .try_emplace(photonFactor, AgreementScene(record.property, scene, record.seed), effort)
       .first->second.Compare(record.comparison.what);
 }
 
@@ -102,24 +138,24 @@ void SceneRun::Judge(Record* record) {
   };
   const Comparison again = look(1);
   if (!(again.chance < kCertain)) return;
-  if (record->property == kAgreement) {
+  if (IsAgreement(record->property)) {
     const Comparison withMorePhotons = look(kMorePhotons);
     if (std::abs(withMorePhotons.difference) < kBlurFalls * std::abs(again.difference)) {
       blurred_.push_back(
           {record->seed, record->property,
            what + ": " + again.detail + "; with 16 times the photons " + withMorePhotons.detail,
-           AgreementText(drawn.value())});
+           ComparedText(record->property, drawn.value(), record->seed)});
       return;
     }
   }
   ++tallies_[record->property].failures;
   const auto fails = [&](const SceneModel& scene) {
-    const Effort first{.factor = 1, .firstSeed = record->seed};
+    const Effort first{.factor = 1, .firstSeed = record->seed, .sceneSeed = record->seed};
     return Named(Compared(record->property, scene, first, what), what).chance < kStillThere;
   };
   const SceneModel scene = Shrink(drawn, fails, settings_.maxStatisticalTries).scene;
   failures_.push_back({record->seed, record->property, what + ": " + again.detail,
-                       record->property == kEnergy ? EnergyText(scene) : AgreementText(scene)});
+                       ComparedText(record->property, scene, record->seed)});
 }
 
 std::string SceneRun::Summary() const {

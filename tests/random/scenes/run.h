@@ -11,7 +11,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,6 +32,11 @@ struct Tally {
 
 inline constexpr double kBlurFalls = .6;
 
+// The properties. The first two are exact, the others are comparisons of means.
+inline const std::string kInvariances = "invariances", kProbes = "probes";
+inline const std::string kEnergy = "energy", kEstimates = "estimates", kFurnace = "furnace",
+                         kRooms = "rooms", kAgreement = "agreement";
+
 struct RunSettings {
   int maxTries = 300;            // for shrinking by exact properties; 0: none
   int maxStatisticalTries = 60;  // for shrinking by a comparison of means
@@ -42,9 +46,12 @@ class SceneRun {
  public:
   explicit SceneRun(RunSettings settings) : settings_(settings) {}
 
-  void CheckInvariances(std::uint64_t seed);
-  void CompareEnergy(std::uint64_t seed);
-  void CompareAgreement(std::uint64_t seed);
+  void CheckInvariances(std::uint64_t seed) { Check(kInvariances, seed); }
+  void CheckProbes(std::uint64_t seed) { Check(kProbes, seed); }
+  void CompareEnergy(std::uint64_t seed) { Compare(kEnergy, seed); }
+  void CompareAgreement(std::uint64_t seed) { Compare(kAgreement, seed); }
+  // Checks a property of a scene: its exact ones, or its comparisons, which are judged later.
+  void Add(const std::string& property, std::uint64_t seed);
   // Repeats each comparison so far that the Benjamini-Hochberg rule rejects, with fresh seeds and
   // 16 times the samples. The comparison is a failure if its p-value is then below 1e-6. Call this
   // now and then, and at the end.
@@ -60,14 +67,14 @@ class SceneRun {
   std::string Summary() const;
 
  private:
-  using Compare = std::function<std::vector<Comparison>(const SceneModel&, const Effort&)>;
   struct Record {
     std::uint64_t seed;
     std::string property;
     Comparison comparison;
     bool isJudged = false;
   };
-  void Add(const std::string& property, std::uint64_t seed);
+  void Check(const std::string& property, std::uint64_t seed);
+  void Compare(const std::string& property, std::uint64_t seed);
   void Judge(Record* record);
   // Compares with 16 times the samples. The pictures of a scene are kept for all of its alarms.
   std::vector<Comparison> CompareAgain(const SceneModel& scene, const Record& record,
@@ -79,6 +86,7 @@ class SceneRun {
   std::map<std::string, Tally> tallies_;
   std::map<int, IntegratorComparison> comparisons_;  // by photonFactor, for comparedSeed_
   std::uint64_t comparedSeed_ = 0;
+  std::string comparedProperty_;
   int repeated_ = 0;
 };
 

@@ -89,16 +89,23 @@ std::string ShapeText(const BodyModel& body) {
   return BoxMesh(kBoxFaces + kBoxTop, .8);
 }
 
-std::string TransformText(const BodyModel& body, bool keepsLast) {
+std::string MotionText(int motion, double share) {
+  std::string text;
+  if (motion & 1) text += " Translate " + Triple(.4 * share, .2 * share, -.1 * share);
+  if (motion & 2) text += " Rotate " + Number(40 * share) + " 0 1 1";
+  return text;
+}
+
+std::string MotionDirectives(int motion, const TextOptions& options) {
+  if (options.stillAt) return " " + MotionText(motion, *options.stillAt);
+  return "  ActiveTransform EndTime" + MotionText(motion, 1) + " ActiveTransform All";
+}
+
+std::string TransformText(const BodyModel& body, const TextOptions& options) {
   constexpr std::array<double, 3> kSizes{.5, .3, .8};
   constexpr std::array<double, 4> kLast{1, 2, .5, -1};
   std::string text = "  Translate " + PlaceText(body.place) + "\n";
-  if (body.motion != 0) {
-    text += "  ActiveTransform EndTime";
-    if (body.motion & 1) text += " Translate .4 .2 -.1";
-    if (body.motion & 2) text += " Rotate 40 0 1 1";
-    text += " ActiveTransform All\n";
-  }
+  if (body.motion != 0) text += MotionDirectives(body.motion, options) + "\n";
   if (body.turn != 0) text += "  Rotate " + std::to_string(25 * body.turn) + " 1 2 3\n";
   const double s = kSizes[std::size_t(body.size)];
   text += "  Scale " +
@@ -106,7 +113,7 @@ std::string TransformText(const BodyModel& body, bool keepsLast) {
            : body.stretch == 1 ? Triple(1.5 * s, s, .5 * s)
                                : Triple(-s, s, s)) +
           "\n";
-  if (body.last != 0 && keepsLast) {
+  if (body.last != 0 && options.keepsLastElements) {
     const std::string w = Number(kLast[std::size_t(body.last)]);
     text += "  ConcatTransform [" + w + " 0 0 0 0 " + w + " 0 0 0 0 " + w + " 0 0 0 0 " + w + "]\n";
   }
@@ -130,14 +137,16 @@ std::string EmissionText(const BodyModel& body) {
 
 std::string BodyText(const BodyModel& body, const TextOptions& options, int* next) {
   std::string text = "AttributeBegin\n" + MaterialText(body.material, !options.isFurnace, next);
-  const std::string place = TransformText(body, options.keepsLastElements);
+  const std::string place = TransformText(body, options);
   // The normals of boxes point inwards.
   const bool reverses = (body.kind == BodyKind::Box) != (body.reverse != 0);
   const std::string shape = (reverses ? "  ReverseOrientation\n" : "") + ShapeText(body);
   if (body.isInstance != 0) {
     const std::string name = "\"o" + std::to_string((*next)++) + "\"";
-    text += "  ObjectBegin " + name + "\n" + shape + "  ObjectEnd\n" + place + "  ObjectInstance " +
-            name + "\n";
+    const bool movesPart = options.partsMove && body.motion != 0;
+    const std::string part = movesPart ? MotionDirectives(body.motion, options) + "\n" : "";
+    text += "  ObjectBegin " + name + "\n" + part + shape + "  ObjectEnd\n" + place +
+            "  ObjectInstance " + name + "\n";
     if (body.isInstance == 2) text += "  Translate .3 .8 .5 ObjectInstance " + name + "\n";
   } else {
     text += (options.isFurnace ? FurnaceLight(body.material) : EmissionText(body)) + place + shape;
@@ -180,7 +189,7 @@ std::string LightText(const LightModel& light, const SceneModel& scene) {
   return text + "\n";
 }
 
-std::string MediumText(const MediumModel& medium, bool mayEmit) {
+std::string MediumText(const MediumModel& medium, const TextOptions& options) {
   constexpr std::array<const char*, 3> kNames{"homogeneous", "exponential", "volumegrid"};
   const double half = medium.size == 0 ? 2 : .7;
   const Place& p = medium.size == 0 ? Place{} : medium.place;
@@ -194,7 +203,8 @@ std::string MediumText(const MediumModel& medium, bool mayEmit) {
   };
   part(0, "sigma_a", medium.absorbed);
   part(1, "sigma_s", medium.scattered);
-  if (mayEmit) part(2, "Le", medium.emitted);
+  if (!options.isFurnace) part(2, "Le", medium.emitted);
+  if (options.isFurnace && !options.hasSky) part(0, "Le", medium.absorbed);
   if (medium.phase != 0) text += medium.phase == 1 ? " \"float g\" .6" : " \"float g\" -.4";
   if (medium.kind == 1) text += " \"float b\" .5";
   if (medium.kind == 2)
@@ -202,14 +212,18 @@ std::string MediumText(const MediumModel& medium, bool mayEmit) {
   return text + "\n";
 }
 
-std::string CameraText(const CameraModel& camera) {
+std::string CameraText(const CameraModel& camera, std::optional<double> stillAt) {
   constexpr std::array<const char*, 3> kPlaces{"-.1 -.2 1.9", "-.1 -.2 .1", "1.5 .1 1.2"};
   std::string text;
   if (camera.times != 0)
     text = camera.times == 1 ? "TransformTimes 0 .2\n" : "TransformTimes .3 .4\n";
   text += "Translate " + std::string(kPlaces[std::size_t(camera.place)]) + "\n";
-  if (camera.motion == 1) text += "ActiveTransform EndTime Translate .3 0 0 ActiveTransform All\n";
-  if (camera.motion == 2) text += "ActiveTransform EndTime Rotate 20 0 1 0 ActiveTransform All\n";
+  const double share = stillAt.value_or(1);
+  const std::string moved = camera.motion == 1   ? "Translate " + Number(.3 * share) + " 0 0"
+                            : camera.motion == 2 ? "Rotate " + Number(20 * share) + " 0 1 0"
+                                                 : "";
+  if (!moved.empty())
+    text += stillAt ? moved + "\n" : "ActiveTransform EndTime " + moved + " ActiveTransform All\n";
   text += camera.kind == 0   ? "Camera \"perspective\" \"float fov\" 80"
           : camera.kind == 1 ? "Camera \"orthographic\""
                              : "Camera \"environment\"";
@@ -254,16 +268,16 @@ std::string IntegratorText(const SceneModel& scene, const TextOptions& options) 
 }  // namespace
 
 std::string SceneText(const SceneModel& scene, const TextOptions& options) {
-  std::string text = IntegratorText(scene, options) + "Accelerator \"" + options.accelerator +
-                     "\"\n" + SamplerText(scene, options.samples) +
-                     "Film \"image\" \"integer xresolution\" " + std::to_string(kFilmWidth) +
-                     " \"integer yresolution\" " + std::to_string(kFilmHeight) + "\n" +
-                     CameraText(scene.camera) + "WorldBegin\n";
+  std::string text =
+      IntegratorText(scene, options) + "Accelerator \"" + options.accelerator + "\"\n" +
+      SamplerText(scene, options.samples) + "Film \"image\" \"integer xresolution\" " +
+      std::to_string(kFilmWidth) + " \"integer yresolution\" " + std::to_string(kFilmHeight) +
+      "\n" + CameraText(scene.camera, options.stillAt) + "WorldBegin\n" + options.worldScale;
   int next = 1;
-  if (options.isFurnace) text += "LightSource \"infinite\"\n";
+  if (options.isFurnace && options.hasSky) text += "LightSource \"infinite\"\n";
   if (!options.isFurnace)
     for (const LightModel& light : scene.lights) text += LightText(light, scene);
-  for (const MediumModel& medium : scene.media) text += MediumText(medium, !options.isFurnace);
+  for (const MediumModel& medium : scene.media) text += MediumText(medium, options);
   if (scene.room != RoomKind::None)
     text += "AttributeBegin\n" + MaterialText(scene.walls, !options.isFurnace, &next) +
             (options.isFurnace ? FurnaceLight(scene.walls) : "") + RoomText(scene.room) +

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "tests/random/scenes/scene_model.h"
@@ -22,6 +23,11 @@ struct TextOptions {
   // A furnace has an even sky of radiance 1 instead of the scene's lights, and surfaces that emit 1
   // minus their albedo. No radiance outside glass then exceeds 1.
   bool isFurnace = false;
+  bool hasSky = true;  // of a furnace; if not, media emit what they absorb
+  // Everything that moves is held at this share of its motion, in [0,1].
+  std::optional<double> stillAt = std::nullopt;
+  bool partsMove = false;       // parts of instanced objects move as well, within the object
+  const char* worldScale = "";  // a directive before the world's lights and shapes
 };
 
 std::string SceneText(const SceneModel& scene, const TextOptions& options);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // soak is the long run over random scenes. Seeds are consecutive, from a given one or from the
 // clock. Failing scenes are shrunk and written to a folder. The exit status is 1 if a scene failed
-// and 2 if the command line is wrong.
+// and 2 if the command line is wrong. With --until-failure the run ends with the first failure, and
+// no scene is shrunk or written.
 #include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tests/random/scenes/run.h"
 
@@ -23,14 +26,16 @@ struct Options {
   std::uint64_t seed = 0;  // 0: from the clock
   int scenes = 0;          // 0: until the time is over
   int agreementEvery = 10;
-  bool onlyAgreement = false;
+  std::string only;  // a property; empty: all
+  bool untilFailure = false;
   int shrinkTries = RunSettings{}.maxStatisticalTries;
   std::string folder = "failed-scenes";
 };
 
 constexpr const char* kUsage =
-    "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only agreement] "
-    "[--shrink TRIES] [--folder PATH]";
+    "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only PROPERTY] "
+    "[--shrink TRIES] [--until-failure] [--folder PATH]\nproperties: invariances, probes, energy, "
+    "estimates, furnace, rooms, agreement";
 
 // Converts the whole text to a number of type T.
 template <class T>
@@ -57,8 +62,10 @@ Options Parse(int count, char** words) {
       options.scenes = ParseNumber<int>(value());
     else if (word == "--agreement-every")
       options.agreementEvery = ParseNumber<int>(value());
-    else if (word == "--only" && i + 1 < count && words[i + 1] == std::string("agreement"))
-      options.onlyAgreement = value() == "agreement";
+    else if (word == "--only")
+      options.only = value();
+    else if (word == "--until-failure")
+      options.untilFailure = true;
     else if (word == "--shrink")
       options.shrinkTries = ParseNumber<int>(value());
     else if (word == "--folder")
@@ -87,47 +94,104 @@ void Write(const Failure& failure, const std::string& folder) {
               static_cast<unsigned long long>(failure.seed), failure.detail.c_str(), name.c_str());
 }
 
-int RunSoak(const Options& options) {
-  constexpr int kBatch = 100;  // scenes between two evaluations of the comparisons
-  const auto end = Clock::now() + std::chrono::duration<double>(options.hours * 3600);
-  std::printf("seeds from %llu\n", static_cast<unsigned long long>(options.seed));
-  SceneRun run({.maxStatisticalTries = options.shrinkTries});
-  std::size_t written = 0, named = 0;
-  const auto report = [&] {
-    run.JudgeComparisons();
-    for (; written < run.Failures().size(); ++written)
-      Write(run.Failures()[written], options.folder);
-    for (; named < run.Blurred().size(); ++named)
-      std::printf("blur, seed %llu: %s\n",
-                  static_cast<unsigned long long>(run.Blurred()[named].seed),
-                  run.Blurred()[named].detail.c_str());
-  };
-  int done = 0;
-  while (options.scenes > 0 ? done < options.scenes : Clock::now() < end) {
-    const std::uint64_t seed = options.seed + std::uint64_t(done);
-    if (!options.onlyAgreement) {
-      run.CheckInvariances(seed);
-      run.CompareEnergy(seed);
+// How often a property is checked: with every scene, or with every third one and so on.
+struct Share {
+  const std::string& property;
+  int every;
+};
+
+std::vector<Share> SharesOf(const Options& options) {
+  const std::vector<Share> all{{kProbes, 1},
+                               {kEstimates, 1},
+                               {kInvariances, 1},
+                               {kEnergy, 1},
+                               {kFurnace, 0},
+                               {kRooms, 10},
+                               {kAgreement, options.agreementEvery}};
+  if (options.only.empty()) return all;
+  for (const Share& share : all)
+    if (share.property == options.only)
+      return {{share.property, share.property == kAgreement ? options.agreementEvery : 1}};
+  throw std::invalid_argument("there is no property \"" + options.only + "\"\n" + kUsage);
+}
+
+// Soak checks scenes one after the other and reports.
+class Soak {
+ public:
+  explicit Soak(const Options& options)
+      : options_(options),
+        shares_(SharesOf(options)),
+        run_({.maxTries =
+                  options.untilFailure || options.shrinkTries == 0 ? 0 : RunSettings{}.maxTries,
+              .maxStatisticalTries = options.untilFailure ? 0 : options.shrinkTries}) {}
+
+  bool Run() {
+    const auto end = Clock::now() + std::chrono::duration<double>(options_.hours * 3600);
+    const int batch = options_.untilFailure ? 10 : 100;  // scenes between two judgements
+    int done = 0;
+    while (options_.scenes > 0 ? done < options_.scenes : Clock::now() < end) {
+      CheckScene(done++);
+      const bool isTime = done % batch == 0;
+      if (isTime) Report(done);
+      if (options_.untilFailure && !run_.Failures().empty()) break;
     }
-    if (options.agreementEvery > 0 && done % options.agreementEvery == 0)
-      run.CompareAgreement(seed);
-    if (++done % kBatch != 0) continue;
-    report();
-    std::printf("%d scenes, %zu failures\n", done, run.Failures().size());
+    Report(done);
+    if (options_.untilFailure) return !ReportFirst();
+    std::printf("%s%.0f CPU seconds\n", run_.Summary().c_str(),
+                double(std::clock()) / CLOCKS_PER_SEC);
+    std::printf("one scene again: ./dev soak --seed N --scenes 1\n");
+    return run_.Failures().empty();
+  }
+
+ private:
+  void CheckScene(int number) {
+    const std::uint64_t seed = options_.seed + std::uint64_t(number);
+    for (const Share& share : shares_)
+      if (share.every > 0 && number % share.every == 0) run_.Add(share.property, seed);
+  }
+
+  void Report(int done) {
+    run_.JudgeComparisons();
+    if (options_.untilFailure) return;
+    for (; written_ < run_.Failures().size(); ++written_)
+      Write(run_.Failures()[written_], options_.folder);
+    for (; named_ < run_.Blurred().size(); ++named_)
+      std::printf("blur, seed %llu: %s\n",
+                  static_cast<unsigned long long>(run_.Blurred()[named_].seed),
+                  run_.Blurred()[named_].detail.c_str());
+    std::printf("%d scenes, %zu failures\n", done, run_.Failures().size());
     std::fflush(stdout);
   }
-  report();
-  std::printf("%s", run.Summary().c_str());
-  std::printf("one scene again: ./dev soak --seed N --scenes 1\n");
-  return run.Failures().empty() ? 0 : 1;
-}
+
+  // Returns whether there is a failure.
+  bool ReportFirst() const {
+    if (run_.Failures().empty()) {
+      std::printf("nothing found in %d scenes\n", options_.scenes);
+      return false;
+    }
+    const Failure* first = &run_.Failures().front();
+    for (const Failure& failure : run_.Failures())
+      if (failure.seed < first->seed) first = &failure;
+    std::printf("found after %llu scenes: %s: %s\n",
+                static_cast<unsigned long long>(first->seed - options_.seed + 1),
+                first->property.c_str(), first->detail.c_str());
+    return true;
+  }
+
+  Options options_;
+  std::vector<Share> shares_;
+  SceneRun run_;
+  std::size_t written_ = 0, named_ = 0;
+};
 
 }  // namespace
 }  // namespace exphoton::random_scenes
 
 int main(int count, char** words) {
   try {
-    return exphoton::random_scenes::RunSoak(exphoton::random_scenes::Parse(count, words));
+    const auto options = exphoton::random_scenes::Parse(count, words);
+    std::printf("seeds from %llu\n", static_cast<unsigned long long>(options.seed));
+    return exphoton::random_scenes::Soak(options).Run() ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "soak: %s\n", error.what());
     return 2;
