@@ -6,15 +6,23 @@
 
 namespace exphoton {
 
-// A map that scales all axes by s scales areas by s^2. s is linear in time, so Simpson's rule gives
-// the mean exactly. If axes are scaled differently, the mean is an estimate.
+namespace {
+
+// A map that scales all axes by s scales areas by s^2.
+double AreaAt(const EmitterSurface& local, const Transform& map) {
+  if (map.SimilarityScale()) return std::pow(map.VolumeScale(), 2. / 3) * double(local.Area());
+  return double(PlacedArea(local, map));
+}
+
+}  // namespace
+
+// The mean over time is by Simpson's rule. It is exact if all axes are scaled by the same number,
+// which is linear in time, or if only the place changes.
 MovingEmitter::MovingEmitter(std::shared_ptr<const EmitterSurface> local, const Motion& motion)
     : local_(std::move(local)), motion_(motion), bounds_(motion.ApplyBounds(local_->Bounds())) {
-  const auto scale = [&](Real time) { return std::pow(motion.At(time).VolumeScale(), 2. / 3); };
+  const auto area = [&](Real time) { return AreaAt(*local_, motion.At(time)); };
   const Interval times = motion.Times();
-  const double mean =
-      (scale(times.min) + 4 * scale(times.min / 2 + times.max / 2) + scale(times.max)) / 6;
-  area_ = Real(mean * double(local_->Area()));
+  area_ = Real((area(times.min) + 4 * area(times.min / 2 + times.max / 2) + area(times.max)) / 6);
 }
 
 EmitterSample MovingEmitter::SamplePoint(Point2 u, Real uSubLight, Real time) const {

@@ -34,13 +34,13 @@ Real PdfPlacedToward(const EmitterSurface& local, const Transform& toWorld, cons
          SolidAngleScale(toWorld, wi);
 }
 
-Real PlacedEmitter::Area() const {
+Real PlacedArea(const EmitterSurface& local, const Transform& toWorld) {
   constexpr int kSide = 64;
   double sum = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
     const Point2 u((Real(i % kSide) + Real(.5)) / kSide, (Real(i / kSide) + Real(.5)) / kSide);
-    const EmitterSample sample = local_->SamplePoint(u, Real(.5), 0);
-    sum += double(AreaScale(toWorld_, sample.point.ng)) / double(sample.pdf);
+    const EmitterSample sample = local.SamplePoint(u, Real(.5), 0);
+    sum += double(AreaScale(toWorld, sample.point.ng)) / double(sample.pdf);
   }
   return Real(sum / (kSide * kSide));
 }

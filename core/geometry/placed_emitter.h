@@ -22,15 +22,17 @@ std::optional<EmitterSample> SamplePlacedToward(const EmitterSurface& local,
 Real PdfPlacedToward(const EmitterSurface& local, const Transform& toWorld, const SurfacePoint& ref,
                      const Vector3& wi, const SurfacePoint& on);
 
+// Returns the area of `local` under the map. Integrates numerically with 4096 points of the
+// surface. The relative error is below 1e-3.
+Real PlacedArea(const EmitterSurface& local, const Transform& toWorld);
+
 // PlacedEmitter is a surface of one part (not a mesh) that is placed once and does not move.
 class PlacedEmitter final : public EmitterSurface {
  public:
   PlacedEmitter(std::unique_ptr<const EmitterSurface> local, const Transform& toWorld)
       : local_(std::move(local)), toWorld_(toWorld) {}
 
-  // Integrates numerically at each call, with 4096 points of the surface. The relative error is
-  // below 1e-3.
-  Real Area() const override;
+  Real Area() const override { return PlacedArea(*local_, toWorld_); }
   Bounds3 Bounds() const override { return toWorld_.ApplyBounds(local_->Bounds()); }
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
     return SamplePlacedPoint(*local_, toWorld_, u, uSubLight, time);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/moving_emitter.h"
+#include "core/geometry/placed_emitter.h"
 #include "core/math/sampling/random.h"
 #include "core/math/sampling/sampling.h"
 #include "tests/support/test_plugin.h"
@@ -50,6 +51,18 @@ TEST_P(MovingEmitterTest, PointsCoverTheAreaOfTheirTime) {
     }
     EXPECT_NEAR(area, truth, 1e-4 * truth);
   }
+}
+
+// The area of the emitter is the mean over the exposure, also where its axes are stretched
+// unevenly.
+TEST_P(MovingEmitterTest, ItsAreaIsTheMeanOverTime) {
+  constexpr int kTimes = 32;
+  double mean = 0;
+  for (int i = 0; i < kTimes; ++i) {
+    const Transform at = Movement().At((Real(i) + Real(.5)) / kTimes);
+    mean += double(PlacedArea(*local_, at)) / kTimes;
+  }
+  EXPECT_NEAR(double(emitter_.Area()), mean, .01 * mean);
 }
 
 // The irradiance from directions sampled towards the surface must equal the irradiance from points

@@ -106,7 +106,7 @@ double LightByDirect(const ProbedScene& scene, const Light& light, const Point3&
   return double(direct->Li.Y()) / double(direct->pdf);
 }
 
-// The power of a moving lamp that is stretched unevenly is only an approximation.
+// The power of a moving lamp that is stretched unevenly is by Simpson's rule over three times.
 bool HasStretchedMovingLamp(const SceneModel& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyModel& body) {
     return body.emission != 0 && body.motion != 0 && body.stretch == 1;
