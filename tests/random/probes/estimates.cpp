@@ -27,10 +27,14 @@ class EstimateComparison {
  public:
   EstimateComparison(std::uint64_t seed, int factor) : seed_(seed), factor_(factor) {}
 
-  // Compares the means of two estimates from `a` and `b` samples a batch.
-  void Add(const std::string& what, double margin, int a, const Estimate& first, int b,
-           const Estimate& second, double least = kSmall) {
-    const Sample left = Means(a, first), right = Means(b, second);
+  struct Side {
+    int samples;  // of a batch
+    Estimate estimate;
+  };
+  // Compares the means of two estimates.
+  void Add(const std::string& what, double margin, const Side& a, const Side& b,
+           double least = kSmall) {
+    const Sample left = Means(a.samples, a.estimate), right = Means(b.samples, b.estimate);
     const double scale = std::max(std::abs(left.mean), std::abs(right.mean));
     if (!(scale > least)) return;
     // Surfaces at one place hide each other by turns.
@@ -115,10 +119,10 @@ bool HasStretchedMovingLamp(const SceneModel& scene) {
 
 void CompareInBall(const ProbedScene& scene, const Light& light, const Point3& centre,
                    EstimateComparison* comparison) {
-  comparison->Add(
-      "light in a ball", .03, 192,
-      [&](RandomStream* r) { return LightByEmission(scene, light, centre, r); }, 64,
-      [&](RandomStream* r) { return LightByDirect(scene, light, centre, r); }, kDim);
+  comparison->Add("light in a ball", .03,
+                  {192, [&](RandomStream* r) { return LightByEmission(scene, light, centre, r); }},
+                  {64, [&](RandomStream* r) { return LightByDirect(scene, light, centre, r); }},
+                  kDim);
 }
 
 void CompareLight(const ProbedScene& scene, const Light& light, bool comparesPower,
@@ -135,15 +139,15 @@ void CompareLight(const ProbedScene& scene, const Light& light, bool comparesPow
     CompareInBall(scene, light, centre, comparison);
   if (!comparesPower) return;
   const double power = double(light.Power().Y());
-  comparison->Add(
-      "power", .05, 96,
-      [&](RandomStream* r) {
-        const Point2 u = NextPoint(r), v = NextPoint(r);
-        const Real part = r->Uniform();
-        const auto sample = light.SampleEmission(u, v, part, RandomTime(scene, r));
-        return sample ? double(sample->power.Y()) : 0;
-      },
-      1, [&](RandomStream*) { return power; });
+  comparison->Add("power", .05,
+                  {96,
+                   [&](RandomStream* r) {
+                     const Point2 u = NextPoint(r), v = NextPoint(r);
+                     const Real part = r->Uniform();
+                     const auto sample = light.SampleEmission(u, v, part, RandomTime(scene, r));
+                     return sample ? double(sample->power.Y()) : 0;
+                   }},
+                  {1, [&](RandomStream*) { return power; }});
 }
 
 // Directions draws from half a uniform cone and half a sampler, and gives the ratio of the
@@ -190,17 +194,17 @@ void CompareLightDensity(const ProbedScene& scene, const Light& light, const Sur
     if (!direct || scene.World().Occluded(direct->shadowRay)) return std::nullopt;
     return direct->wi;
   };
-  comparison->Add(
-      "density of a light", .02, 64,
-      [&](RandomStream* r) {
-        const bool isUniform = r->Uniform() < Real(.5);
-        const Point2 u = NextPoint(r);
-        const auto w = isUniform ? std::optional<Vector3>(cone.Sample(u)) : draw(r);
-        if (!w) return 0.;
-        const double pdf = VisibleDensity(scene, light, from, *w);
-        return pdf == 0 ? 0. : pdf / (.5 * cone.Pdf(*w) + .5 * pdf);
-      },
-      48, [&](RandomStream* r) { return draw(r) ? 1. : 0.; });
+  comparison->Add("density of a light", .02,
+                  {64,
+                   [&](RandomStream* r) {
+                     const bool isUniform = r->Uniform() < Real(.5);
+                     const Point2 u = NextPoint(r);
+                     const auto w = isUniform ? std::optional<Vector3>(cone.Sample(u)) : draw(r);
+                     if (!w) return 0.;
+                     const double pdf = VisibleDensity(scene, light, from, *w);
+                     return pdf == 0 ? 0. : pdf / (.5 * cone.Pdf(*w) + .5 * pdf);
+                   }},
+                  {48, [&](RandomStream* r) { return draw(r) ? 1. : 0.; }});
 }
 
 void CompareBsdfDensity(const Sight& sight, Arena* arena, EstimateComparison* comparison) {
@@ -213,20 +217,20 @@ void CompareBsdfDensity(const Sight& sight, Arena* arena, EstimateComparison* co
     const Point2 u = NextPoint(r);
     return bsdf.Sample(wo, u, r->Uniform(), mask);
   };
-  comparison->Add(
-      "density of a BSDF", .02, 64,
-      [&](RandomStream* r) {
-        const bool isUniform = r->Uniform() < Real(.5);
-        Vector3 w = SampleUniformSphere(NextPoint(r));
-        if (!isUniform) {
-          const auto sample = draw(r);
-          if (!sample) return 0.;
-          w = sample->wi;
-        }
-        const double pdf = double(bsdf.Pdf(wo, w, mask));
-        return pdf / (.5 * double(kUniformSpherePdf) + .5 * pdf);
-      },
-      48, [&](RandomStream* r) { return draw(r) ? 1. : 0.; });
+  comparison->Add("density of a BSDF", .02,
+                  {64,
+                   [&](RandomStream* r) {
+                     const bool isUniform = r->Uniform() < Real(.5);
+                     Vector3 w = SampleUniformSphere(NextPoint(r));
+                     if (!isUniform) {
+                       const auto sample = draw(r);
+                       if (!sample) return 0.;
+                       w = sample->wi;
+                     }
+                     const double pdf = double(bsdf.Pdf(wo, w, mask));
+                     return pdf / (.5 * double(kUniformSpherePdf) + .5 * pdf);
+                   }},
+                  {48, [&](RandomStream* r) { return draw(r) ? 1. : 0.; }});
 }
 
 // The radiance that media add along a ray, from a uniform point and one sample of each light.
@@ -262,12 +266,13 @@ void CompareMedia(const ProbedScene& scene, const Sight& sight, EstimateComparis
   Arena arena;
   RayCounters rays;
   comparison->Add(
-      "light of media", .03, 24,
-      [&](RandomStream* r) {
-        LiContext context{scene.World(), samples, arena, rays, r->Bits()};
-        return double(volume->Li(ray, context, context.Stream(1)).Y());
-      },
-      64, [&](RandomStream* r) { return MediaByPoints(scene, ray, volume->ScattersLight(), r); });
+      "light of media", .03,
+      {24,
+       [&](RandomStream* r) {
+         LiContext context{scene.World(), samples, arena, rays, r->Bits()};
+         return double(volume->Li(ray, context, context.Stream(1)).Y());
+       }},
+      {64, [&](RandomStream* r) { return MediaByPoints(scene, ray, volume->ScattersLight(), r); }});
 }
 
 }  // namespace

@@ -45,13 +45,17 @@ void CheckSpecularSample(const Bsdf& bsdf, const Vector3& wo, const BsdfSample& 
 
 // Only refracted radiance has a factor. The probabilities of the lobes may differ between the
 // modes.
-void CheckModes(const SurfaceInteraction& surface, const Bsdf& radiance, Arena* arena, Point2 u,
-                Real uLobe, Findings* findings) {
+struct LobePoint {
+  Point2 u;
+  Real lobe;
+};
+void CheckModes(const SurfaceInteraction& surface, const Bsdf& radiance, Arena* arena,
+                const LobePoint& at, Findings* findings) {
   SurfaceInteraction copy = surface;
   const Bsdf importance = surface.material->Evaluate(&copy, TransportMode::Importance, arena);
   const Vector3 wo = surface.wo;
-  const auto a = radiance.Sample(wo, u, uLobe, LobeSet::Specular);
-  const auto b = importance.Sample(wo, u, uLobe, LobeSet::Specular, TransportMode::Importance);
+  const auto a = radiance.Sample(wo, at.u, at.lobe, LobeSet::Specular);
+  const auto b = importance.Sample(wo, at.u, at.lobe, LobeSet::Specular, TransportMode::Importance);
   if (!a || !b || a->IsTransmission() != b->IsTransmission()) return;
   const Real factor = a->IsTransmission() ? a->eta * a->eta : 1;
   const Spectrum seen = a->throughput * a->pdf, carried = b->throughput * (b->pdf * factor);
@@ -87,7 +91,7 @@ void CheckBsdf(const Sight& sight, Arena* arena, RandomStream* random, Findings*
         CheckSmoothSample(bsdf, wo, *sample, mask, findings);
       if (!sample->IsSpecular()) CheckReciprocity(bsdf, wo, sample->wi, findings);
     }
-    CheckModes(sight.surface, bsdf, arena, u, uLobe, findings);
+    CheckModes(sight.surface, bsdf, arena, {u, uLobe}, findings);
     CheckReciprocity(bsdf, wo, SampleUniformSphere(NextPoint(random)), findings);
   }
 }

@@ -96,11 +96,11 @@ void CheckNeighbour(const Ray& ray, const Point3& origin, const Vector3& directi
 }
 
 // Compares a footprint with the meeting point of the neighbouring ray and the tangent plane.
-void CheckFootprint(const SurfaceInteraction& s, const Point3& origin, const Vector3& direction,
-                    const Vector3& dp, Point2 duv, Findings* findings) {
-  const Real along = Dot(s.ng, direction);
+void CheckFootprint(const SurfaceInteraction& s, const Ray& beside, const Vector3& dp, Point2 duv,
+                    Findings* findings) {
+  const Real along = Dot(s.ng, beside.d);
   if (std::abs(along) < Real(.1)) return;
-  const Point3 meeting = origin + direction * (Dot(s.ng, s.p - origin) / along);
+  const Point3 meeting = beside.o + beside.d * (Dot(s.ng, s.p - beside.o) / along);
   const Vector3 expected = meeting - s.p;
   const double size = double(Length(expected));
   if (size > 5) return;
@@ -127,9 +127,9 @@ void CheckCameraRay(const ProbedScene& scene, const CameraSample& sample, Findin
   if (!surface) return;
   surface->ComputeDifferentials(ray);
   if (!surface->hasDifferentials) return;
-  CheckFootprint(*surface, ray.xOrigin, ray.xDirection, surface->dpdx,
+  CheckFootprint(*surface, Ray(ray.xOrigin, ray.xDirection), surface->dpdx,
                  {surface->dudx, surface->dvdx}, findings);
-  CheckFootprint(*surface, ray.yOrigin, ray.yDirection, surface->dpdy,
+  CheckFootprint(*surface, Ray(ray.yOrigin, ray.yDirection), surface->dpdy,
                  {surface->dudy, surface->dvdy}, findings);
 }
 

@@ -58,9 +58,8 @@ class VersionCheck {
   int places_ = 0, normals_ = 0, derivatives_ = 0, shading_ = 0, coordinates_ = 0;
 };
 
-void CompareHits(const char* name, const ProbedScene& scene, const ProbedScene& other, int side,
+void CompareHits(VersionCheck check, const ProbedScene& scene, const ProbedScene& other,
                  std::optional<Real> time, Findings* findings) {
-  VersionCheck check(name, side);
   RandomStream random = scene.Stream(7);
   for (int i = 0; i < kVersionRays; ++i) {
     Ray ray = RandomRay(&random, scene.World().Exposure());
@@ -122,7 +121,7 @@ void ProbeMotion(const SceneModel& model, std::uint64_t seed, Findings* findings
   const auto& times = kTimes[std::size_t(model.camera.times)];
   options.stillAt = std::clamp((double(time) - times[0]) / (times[1] - times[0]), 0., 1.);
   const ProbedScene still(SceneText(model, options), seed, 0);
-  CompareHits("still", scene, still, 1, time, findings);
+  CompareHits({"still", 1}, scene, still, time, findings);
   if (model.camera.motion == 2) return;  // a turn about a point that is not the camera's
   CameraSample sample;
   sample.film = {3, 5};
@@ -145,8 +144,10 @@ void ProbeVersions(const SceneModel& model, std::uint64_t seed, Findings* findin
   for (BodyModel& body : instanced.bodies) body.isInstance = 1 - body.isInstance;
   for (BodyModel& body : reversed.bodies) body.reverse = 1 - body.reverse;
   if (!dark.bodies.empty() && dark.room != RoomKind::None) {
-    CompareHits("instance", scene, ProbedScene(SceneText(instanced, {}), seed, 0), 1, {}, findings);
-    CompareHits("reversed", scene, ProbedScene(SceneText(reversed, {}), seed, 0), -1, {}, findings);
+    CompareHits({"instance", 1}, scene, ProbedScene(SceneText(instanced, {}), seed, 0), {},
+                findings);
+    CompareHits({"reversed", -1}, scene, ProbedScene(SceneText(reversed, {}), seed, 0), {},
+                findings);
   }
   ProbeScale(dark, kLargeAccelerator, seed, findings);
   if (HasMotion(dark)) ProbeMotion(dark, seed, findings);
