@@ -39,7 +39,8 @@ Real PlacedArea(const EmitterSurface& local, const Transform& toWorld) {
   double sum = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
     const Point2 u((Real(i % kSide) + Real(.5)) / kSide, (Real(i / kSide) + Real(.5)) / kSide);
-    const EmitterSample sample = local.SamplePoint(u, Real(.5), 0);
+    const Real part = (Real(i) + Real(.5)) / (kSide * kSide);  // of a mesh: all of its triangles
+    const EmitterSample sample = local.SamplePoint(u, part, 0);
     sum += double(AreaScale(toWorld, sample.point.ng)) / double(sample.pdf);
   }
   return Real(sum / (kSide * kSide));

@@ -37,7 +37,7 @@ class EstimateComparison {
     const Sample left = Means(a.samples, a.estimate), right = Means(b.samples, b.estimate);
     const double scale = std::max(std::abs(left.mean), std::abs(right.mean));
     if (!(scale > least)) return;
-    // Surfaces at one place hide each other by turns.
+    // Surfaces at one place may hide each other by turns. No such scene was examined yet.
     if (what.starts_with("density") && (left.mean == 0 || right.mean == 0)) return;
     char detail[120];
     std::snprintf(detail, sizeof detail, "%.5g +- %.2g against %.5g +- %.2g", left.mean,
