@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -250,4 +251,11 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace exphoton
 
-int main(int argc, char** argv) { return exphoton::Main(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return exphoton::Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "stopping_cost: %s\n", error.what());
+    return 1;
+  }
+}

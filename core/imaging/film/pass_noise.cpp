@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PassNoise: the variance between groups, relative to the local mean of the picture.
+// PassNoise: the variance between groups, relative to its squared radiance.
 #include "core/imaging/film/pass_noise.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/files/byte_archive.h"
-#include "core/imaging/film/box_mean.h"
+#include "core/imaging/film/local_square.h"
 #include "core/imaging/metrics/metrics.h"
 
 namespace exphoton {
@@ -155,11 +155,10 @@ double PassNoise::RelativeVarianceError() const {
 
 std::vector<double> PassNoise::RelativeVariances() const {
   const std::vector<float> variances = Variances();
-  const std::vector<float> smooth = BoxMean(Means(), width_);
+  const std::vector<double> squares = SquaredLevels(Means(), variances, width_);
   std::vector<double> relative(pixelCount_);
   for (std::size_t i = 0; i < variances.size(); ++i) {
-    const double r = smooth[i];
-    relative[i / 3] += double(variances[i]) / (3 * (r * r + kRelMseOffset));
+    relative[i / 3] += double(variances[i]) / (3 * (squares[i] + kRelMseOffset));
   }
   return relative;
 }

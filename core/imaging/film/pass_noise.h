@@ -23,9 +23,9 @@ class PassNoise {
   void Transfer(ByteArchive* archive);
 
   // Estimates the mean over pixels and channels of var / (r^2 + 0.01), the noise part of relMSE.
-  // var is the variance of the picture of all passes, and r is the true picture. The mean of 5 x 5
-  // pixels replaces r, because a single pixel is as noisy as the error it would divide. Returns
-  // infinity if fewer than two groups have samples.
+  // var is the variance of the picture of all passes, and r is the true picture. SquaredLevels
+  // replaces r^2, because a single pixel is as noisy as the error it would divide. Returns infinity
+  // if fewer than two groups have samples.
   double RelativeVariance() const;
   // Returns the standard error of that estimate; infinity with fewer than two groups.
   double RelativeVarianceError() const;

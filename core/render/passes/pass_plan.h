@@ -72,7 +72,8 @@ class PassPlan {
   std::optional<double> SecondsLeft(const State& state) const;
 
   int Groups() const { return groups_; }
-  void Transfer(ByteArchive* archive);  // saves or loads, without the limits
+  std::int64_t FirstSamples() const { return firstSamples_; }  // per pixel, of the first group
+  void Transfer(ByteArchive* archive);                         // saves or loads, without the limits
 
  private:
   std::int64_t GoalByTime(const State& state) const;

@@ -87,6 +87,43 @@ TEST(PassNoise, DoesNotDivergeWhereOnePassMeetsALight) {
   EXPECT_LT(estimate, 2000);
 }
 
+// The edge of a patch of sun crosses the pixels of one column, and each of their samples is lit or
+// dark. A mean over neighbouring pixels mixes the light of the patch into the darker ones, and
+// would find half of this noise.
+TEST(PassNoise, IsRightAtTheEdgeOfBrightLight) {
+  constexpr double kSun = 20, kShadow = .05;
+  constexpr int kSamples = 128, kTrials = 40;
+  const auto share = [](int y) { return .1 + .8 * (y + .5) / kBounds.y1; };
+  const auto pass = [&](std::uint64_t seed) {
+    Film film(kBounds, kBounds);
+    for (int y = 0; y < kBounds.y1; ++y) {
+      for (int x = 0; x < kBounds.x1; ++x) {
+        RandomStream random(HashKey({seed, 9, std::uint64_t(x), std::uint64_t(y)}));
+        double light = x < 32 ? kSun : kShadow;
+        for (int i = 0, lit = 0; x == 32 && i < kSamples; ++i) {
+          lit += random.Uniform() < share(y) ? 1 : 0;
+          light = kShadow + (kSun - kShadow) * lit / kSamples;
+        }
+        film.AddSample({x, y}, Spectrum(Real(light)), 1, kSamples);
+      }
+    }
+    return film;
+  };
+  double expected = 0;
+  for (int y = 0; y < kBounds.y1; ++y) {
+    const double lit = share(y), mean = lit * kSun + (1 - lit) * kShadow;
+    const double variance = lit * (1 - lit) * (kSun - kShadow) * (kSun - kShadow);
+    expected += variance / (2 * kSamples * (mean * mean + kOffset));
+  }
+  double sum = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    PassNoise noise(kBounds, 2);
+    for (int i = 0; i < 2; ++i) noise.Add(i, pass(std::uint64_t(2 * trial + i)), kSamples);
+    sum += noise.RelativeVariance() * kBounds.x1 * kBounds.y1;
+  }
+  EXPECT_NEAR(sum / kTrials / expected, 1, .35);
+}
+
 // The error of the estimate is compared with the spread of many estimates. With `common` errors,
 // neighbouring pixels agree.
 void ExpectErrorOfEstimate(double own, double common, int groups) {

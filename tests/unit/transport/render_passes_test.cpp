@@ -100,7 +100,8 @@ TEST_F(RenderPassesTest, ReachesTheTargetWithoutGoingMuchBeyond) {
       const PassesResult result = Run(rule, 2, seed);
       EXPECT_EQ(result.reason, StopReason::TargetError);
       EXPECT_LE(*result.noise, target);
-      EXPECT_GT(*result.noise, target / 1.5);
+      // Few samples are doubled, which at least halves the noise of camera samples.
+      EXPECT_GT(*result.noise, target / (result.samplesPerPixel <= 16 ? 2 : 1.5));
       images.push_back(image_);
     }
     // The noise between seeds is measured from the finished pictures.

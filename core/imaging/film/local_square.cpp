@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/imaging/film/local_square.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace exphoton {
+namespace {
+
+constexpr std::ptrdiff_t kReach = 2;  // pixels
+constexpr double kDeviations = 3;      // at most, between a value and a neighbour of its kind
+
+// Sums over the neighbours of a value that differ from it by no more than their noise.
+struct Kind {
+  double count = 0, values = 0, squares = 0, variances = 0;
+
+  void Add(double value, double variance) {
+    ++count, values += value, squares += value * value, variances += variance;
+  }
+  double Mean() const { return values / count; }
+  // Returns the variance of the true values: the spread beyond the noise.
+  double Spread() const {
+    if (count < 2) return 0;
+    const double spread = (squares - values * values / count) / (count - 1);
+    return std::max(spread - variances / count, 0.);
+  }
+};
+
+// The picture, one channel at a time.
+class Levels {
+ public:
+  Levels(const std::vector<float>& means, const std::vector<float>& variances, std::size_t width)
+      : means_(means),
+        variances_(variances),
+        columns_(std::ptrdiff_t(width)),
+        rows_(std::ptrdiff_t(means.size() / 3) / columns_) {}
+
+  double SquareAt(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t channel) const {
+    const std::size_t at = Index(x, y, channel);
+    const double mean = double(means_[at]), variance = double(variances_[at]);
+    const bool isNoisy = variance > 0 && variance < std::numeric_limits<double>::infinity();
+    if (!isNoisy) return mean * mean;
+    const Kind kind = KindOf(x, y, channel);
+    // The true value is normally distributed around the mean of its kind.
+    const double spread = kind.Spread();
+    const double level = (spread * mean + variance * kind.Mean()) / (spread + variance);
+    return level * level;
+  }
+
+ private:
+  std::size_t Index(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t channel) const {
+    return std::size_t(3 * (y * columns_ + x) + channel);
+  }
+
+  Kind KindOf(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t channel) const {
+    const std::size_t at = Index(x, y, channel);
+    const double mean = double(means_[at]), variance = double(variances_[at]);
+    Kind kind;  // of which the value itself is a member
+    for (std::ptrdiff_t v = std::max(y - kReach, std::ptrdiff_t(0));
+         v <= std::min(y + kReach, rows_ - 1); ++v) {
+      for (std::ptrdiff_t u = std::max(x - kReach, std::ptrdiff_t(0));
+           u <= std::min(x + kReach, columns_ - 1); ++u) {
+        const std::size_t other = Index(u, v, channel);
+        const double difference = double(means_[other]) - mean;
+        const double noise = variance + double(variances_[other]);
+        if (difference * difference <= kDeviations * kDeviations * noise)
+          kind.Add(double(means_[other]), double(variances_[other]));
+      }
+    }
+    return kind;
+  }
+
+  const std::vector<float>&means_, &variances_;
+  std::ptrdiff_t columns_, rows_;
+};
+
+}  // namespace
+
+std::vector<double> SquaredLevels(const std::vector<float>& means,
+                                  const std::vector<float>& variances, std::size_t width) {
+  const Levels levels(means, variances, width);
+  std::vector<double> squares(means.size());
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    const std::size_t pixel = i / 3;
+    squares[i] = levels.SquareAt(std::ptrdiff_t(pixel % width), std::ptrdiff_t(pixel / width),
+                                 std::ptrdiff_t(i % 3));
+  }
+  return squares;
+}
+
+}  // namespace exphoton

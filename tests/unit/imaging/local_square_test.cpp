@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/imaging/film/local_square.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace exphoton {
+namespace {
+
+constexpr std::size_t kColumns = 9, kRows = 7;
+
+struct Picture {
+  std::vector<float> means = std::vector<float>(3 * kColumns * kRows, 1);
+  std::vector<float> variances = std::vector<float>(3 * kColumns * kRows, 0);
+
+  std::size_t At(std::size_t x, std::size_t y) const { return 3 * (y * kColumns + x); }
+  double Level(std::size_t x, std::size_t y) const {
+    return std::sqrt(SquaredLevels(means, variances, kColumns)[At(x, y)]);
+  }
+};
+
+TEST(SquaredLevels, OfPreciseValuesAreTheirSquares) {
+  Picture picture;
+  picture.means[picture.At(4, 3)] = 5;
+  EXPECT_EQ(picture.Level(4, 3), 5);
+  EXPECT_EQ(picture.Level(3, 3), 1);
+}
+
+// One value of 25 is too bright by three quarters of its standard deviation.
+TEST(SquaredLevels, OfNoisyValuesAreTheMeanOfTheirKind) {
+  Picture picture;
+  std::fill(picture.variances.begin(), picture.variances.end(), 4);
+  picture.means[picture.At(4, 3)] = 2.5;
+  EXPECT_NEAR(picture.Level(4, 3), 1 + 1.5 / 25, 1e-6);
+  // At the border there are 15 values.
+  picture.means[picture.At(4, 3)] = 1;
+  picture.means[picture.At(4, 0)] = 2.5;
+  EXPECT_NEAR(picture.Level(4, 0), 1 + 1.5 / 15, 1e-6);
+}
+
+// A dark pixel whose noise is small keeps its value beside a bright surface.
+TEST(SquaredLevels, IgnoreNeighboursOfAnotherKind) {
+  Picture picture;
+  for (std::size_t y = 0; y < kRows; ++y)
+    for (std::size_t x = 5; x < kColumns; ++x)
+      for (std::size_t c = 0; c < 3; ++c) picture.means[picture.At(x, y) + c] = 100;
+  std::fill(picture.variances.begin(), picture.variances.end(), .01f);
+  EXPECT_NEAR(picture.Level(4, 3), 1, 1e-6);
+  EXPECT_NEAR(picture.Level(5, 3), 100, 1e-4);
+}
+
+// The values of the kind are 0 and 2, and the noise explains a part of their spread. In 5 x 5
+// pixels there are 13 values of 0 and 12 of 2, with the variance 12 * 13 * 4 / (25 * 24) = 1.04.
+TEST(SquaredLevels, StayNearTheValueWhereItsKindDiffers) {
+  Picture picture;
+  std::fill(picture.variances.begin(), picture.variances.end(), .5f);
+  for (std::size_t y = 0; y < kRows; ++y)
+    for (std::size_t x = 0; x < kColumns; ++x) picture.means[picture.At(x, y)] = (x + y) % 2 ? 0 : 2;
+  const double spread = 1.04 - .5, mean = 24. / 25;
+  EXPECT_NEAR(picture.Level(4, 3), .5 * mean / (spread + .5), 1e-6);
+}
+
+TEST(SquaredLevels, OfInfiniteNoiseAreNumbers) {
+  Picture picture;
+  picture.variances[picture.At(4, 3)] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(picture.Level(4, 3), 1);
+  EXPECT_EQ(picture.Level(3, 3), 1);
+}
+
+}  // namespace
+}  // namespace exphoton
