@@ -65,12 +65,15 @@ SurfaceInteraction SurfaceToWorld(const Transform& toWorld, const SurfaceInterac
   surface.dndu = ApplyNormalDerivative(toWorld, local.ng, local.dndu);
   surface.dndv = ApplyNormalDerivative(toWorld, local.ng, local.dndv);
   const auto& shading = local.shading;
-  surface.shading.n =
-      FaceForward(NormalizeOr(toWorld.ApplyNormal(shading.n), surface.ng), surface.ng);
+  const Normal3 n = NormalizeOr(toWorld.ApplyNormal(shading.n), surface.ng);
+  // A stretch can take an interpolated normal to the other side of ng. It is turned back, and its
+  // derivatives with it.
+  const Real side = Dot(n, surface.ng) < 0 ? -1 : 1;
+  surface.shading.n = n * side;
   surface.shading.dpdu = toWorld.ApplyVector(shading.dpdu);
   surface.shading.dpdv = toWorld.ApplyVector(shading.dpdv);
-  surface.shading.dndu = ApplyNormalDerivative(toWorld, shading.n, shading.dndu);
-  surface.shading.dndv = ApplyNormalDerivative(toWorld, shading.n, shading.dndv);
+  surface.shading.dndu = ApplyNormalDerivative(toWorld, shading.n, shading.dndu) * side;
+  surface.shading.dndv = ApplyNormalDerivative(toWorld, shading.n, shading.dndv) * side;
   return surface;
 }
 

@@ -8,7 +8,7 @@ namespace exphoton {
 namespace {
 
 constexpr std::ptrdiff_t kReach = 2;  // pixels
-constexpr double kDeviations = 3;      // at most, between a value and a neighbour of its kind
+constexpr double kDeviations = 3;     // at most, between a value and a neighbour of its kind
 
 // Sums over the neighbours of a value that differ from it by no more than their noise.
 struct Kind {

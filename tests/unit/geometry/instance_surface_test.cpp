@@ -156,5 +156,31 @@ TEST(InstanceSurface, OfAMeshHasTheScaledNormalsAtItsVertices) {
   }
 }
 
+// The stretch along z takes the interpolated normals to the other side of the triangle. They are
+// turned back, and their derivatives are the differences of the turned normals.
+TEST(InstanceSurface, OfAMeshTurnsDerivativesWithItsNormals) {
+  TriangleMesh mesh;
+  mesh.p = {Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, Real(.8), Real(-.6))};
+  mesh.uv = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.indices = {{0, 1, 2}};
+  mesh.n = {Normal3(0, Real(-.5), Real(.9)), Normal3(Real(.2), Real(-.5), Real(.9)),
+            Normal3(0, Real(-.4), Real(.9))};
+  const Transform place = *Transform::Scale(1, 1, 10);
+  const auto at = [&](Real u, Real v) {
+    return SurfaceToWorld(place, TriangleSurface(mesh, 0, u, v));
+  };
+  const Real h = Real(1) / 64;
+  const SurfaceInteraction surface = at(Real(.25), Real(.25));
+  EXPECT_LT(Dot(place.ApplyNormal(mesh.n[0]), surface.ng), 0);
+  EXPECT_GT(Dot(surface.shading.n, surface.ng), 0);
+  const Vector3 du =
+      at(Real(.25) + h, Real(.25)).shading.n - at(Real(.25) - h, Real(.25)).shading.n;
+  const Vector3 dv =
+      at(Real(.25), Real(.25) + h).shading.n - at(Real(.25), Real(.25) - h).shading.n;
+  EXPECT_LT(Distance(surface.shading.dndu, du / (2 * h)), Real(1e-3));
+  EXPECT_LT(Distance(surface.shading.dndv, dv / (2 * h)), Real(1e-3));
+  EXPECT_GT(Length(surface.shading.dndu), Real(.05));
+}
+
 }  // namespace
 }  // namespace exphoton

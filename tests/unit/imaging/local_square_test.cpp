@@ -57,7 +57,8 @@ TEST(SquaredLevels, StayNearTheValueWhereItsKindDiffers) {
   Picture picture;
   std::fill(picture.variances.begin(), picture.variances.end(), .5f);
   for (std::size_t y = 0; y < kRows; ++y)
-    for (std::size_t x = 0; x < kColumns; ++x) picture.means[picture.At(x, y)] = (x + y) % 2 ? 0 : 2;
+    for (std::size_t x = 0; x < kColumns; ++x)
+      picture.means[picture.At(x, y)] = (x + y) % 2 ? 0 : 2;
   const double spread = 1.04 - .5, mean = 24. / 25;
   EXPECT_NEAR(picture.Level(4, 3), .5 * mean / (spread + .5), 1e-6);
 }
