@@ -22,9 +22,9 @@ PassParts::PassParts(const RenderJob& job, const RenderOptions& options,
   if (options_.checkpoints) options_.checkpoints = &checkpoints_;
 }
 
-void PassParts::TakeAovs() {
+void PassParts::TakeAovs(bool isKept) {
   if (!all_) return;
-  all_->Add(*one_);
+  if (isKept) all_->Add(*one_);
   one_->Clear();
 }
 

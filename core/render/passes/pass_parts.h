@@ -30,7 +30,7 @@ class PassParts {
   const RenderOptions& Options() const { return options_; }  // of one pass
 
   bool NeedsVariances() const { return all_ && all_->Wanted().Has(Aov::Variance); }
-  void TakeAovs();                            // adds the AOVs of a pass, which end with it
+  void TakeAovs(bool isKept);                 // ends the AOVs of a pass, and adds them if kept
   void AddAovs(PictureSoFar* picture) const;  // adds the AOVs of earlier passes
   void SaveAovs(StateWriter* writer);
   void LoadAovs(const StateFile& file);

@@ -42,7 +42,7 @@ class Halves {
     const std::uint64_t seed = HashKey({options_.seed, kPassSeed, std::uint64_t(sum_.Passes())});
     const bool isWhole =
         renderer_.Run({seed, seed, 0, sampler_->SamplesPerPixel()}, *sampler_, half);
-    parts_.TakeAovs();
+    parts_.TakeAovs(true);
     if (isWhole) return TakeHalf(*half), true;
     job_.film.Add(*half);
     return false;

@@ -112,8 +112,9 @@ class Passes {
     if (!inner.picture) return outer;
     outer.picture = [this, inner] {
       PictureSoFar pass = inner.picture();
+      if (sum_.Passes() == 0) return pass;
       PictureSoFar picture{job_.film, std::move(pass.aovs), {}};
-      picture.film.Add(pass.film);
+      if (picture.aovs) picture.aovs->Clear();
       parts_.AddAovs(&picture);
       return picture;
     };
@@ -180,11 +181,14 @@ class Passes {
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
     passFilm_.Clear();
     const bool isWhole = renderer_.Run(pass, sequence_ ? *sequence_ : *pattern, &passFilm_);
+    // In a picture of whole passes all pixels have the same samples. The tiles of a part of a pass
+    // may also lack the shared light that their gathers bring later.
+    const bool isShown = isWhole || sum_.Passes() == 0;
     if (isWhole)
       TakePass(step, int(group));
-    else
+    else if (isShown)
       job_.film.Add(passFilm_);
-    parts_.TakeAovs();
+    parts_.TakeAovs(isShown);
     parts_.Show(job_.film);
     return isWhole;
   }

@@ -134,6 +134,28 @@ TEST_F(StoppingTest, KeepsThePassesThatAreDoneWhenInterrupted) {
   EXPECT_EQ(Files(), (Names{"out.exr.state", "out.partial.exr", "scene.pbrt"}));
 }
 
+// The pass that the signal cut off is not in the picture.
+TEST_F(StoppingTest, WritesThePictureOfTheWholePassesWhenInterrupted) {
+  Write("scene.pbrt", NoisyScene());
+  const Names options{"--resolution", "96x64", "--spp", "16", "--target-error", "1e-12", "--float"};
+  Names first{"scene.pbrt", "--max-passes", "100000", "--stats-json", "s.json"};
+  first.insert(first.end(), options.begin(), options.end());
+  const pid_t process = Start(first);
+  ASSERT_TRUE(WaitForMessage("effects"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ASSERT_EQ(kill(process, SIGINT), 0);
+  EXPECT_EQ(Wait(process).status, 130);
+  const std::string json = Read("s.json"), key = "\"passes\":";
+  const std::size_t place = json.find(key);
+  ASSERT_NE(place, std::string::npos) << json;
+  const std::string passes = std::to_string(std::atoi(json.c_str() + place + key.size()));
+  Names second{"--max-passes", passes, "-o", "whole.exr"};
+  second.insert(second.end(), options.begin(), options.end());
+  const ProgramResult whole = RunScene(second);
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_EQ(ReadExr(Path("out.partial.exr")).pixels, ReadExr(Path("whole.exr")).pixels) << passes;
+}
+
 TEST_F(StoppingTest, WritesTwoHalves) {
   const ProgramResult result = RunScene({"--two-halves", "--float", "--spp", "8"});
   EXPECT_EQ(result.status, 0) << result.err;
