@@ -22,8 +22,8 @@ PICTURES = {
     "spiral-staircase": (32, 4, -.1),
     "swimming-hall": (32, 2, -.2),
     "sculpture-hall": (32, 4, -1),
-    "night-corridor": (32, 8, -.3),
-    "blinds-and-haze": (32, 8, .5),
+    "night-corridor": (32, 4, -.3),
+    "blinds-and-haze": (32, 2, .5),
     "dusk-motion": (64, 4, .4),
     "material-gallery": (32, 4, 0),
 }
