@@ -72,7 +72,7 @@ void Judge(const Tokenizer& tokens, std::string_view directive, const Token& nex
     if (isFilm) evidence->sign += " \"" + std::string(name) + "\"";
     evidence->where = tokens.Locate(position);
   }
-  evidence->isOf4 |= isFilm || version == "4" || Contains(kPluginsOf4, directive, name);
+  evidence->isOf4 |= IsOfVersion4(directive, name);
   evidence->isOf3 |= directive == "WorldEnd" || Contains(kPluginsOf3, directive, name);
 }
 
@@ -105,6 +105,11 @@ bool MayBeLater(std::string_view text) {
 }
 
 }  // namespace
+
+bool IsOfVersion4(std::string_view directive, std::string_view name) {
+  return LaterVersionOf(directive) == "4" || Contains(kFilmsOf4, directive, name) ||
+         Contains(kPluginsOf4, directive, name);
+}
 
 void RefuseLaterVersion(SceneSource& source, const std::string& path, const LoadOptions& options) {
   Evidence evidence;

@@ -104,14 +104,12 @@ INSTANTIATE_TEST_SUITE_P(
             "MakeNamedMedium \"m\"",
             "1:1: this is a scene of pbrt version 3 or 4, recognised by MakeNamedMedium: versions "
             "1 "
-            "and 2 are read | directives, materials and colours have other names; "
-            "docs/guide/scene-format.md lists the replacements"},
+            "and 2 are read | exphoton import scene.pbrt -o NEW.pbrt converts it"},
         ParserCase{
             "\nIntegrator \"path\"",
             "2:1: this is a scene of pbrt version 3 or 4, recognised by Integrator: versions 1 "
             "and 2 "
-            "are read | directives, materials and colours have other names; "
-            "docs/guide/scene-format.md lists the replacements"},
+            "are read | exphoton import scene.pbrt -o NEW.pbrt converts it"},
         ParserCase{"12", "1:1: expected a directive, found a number"},
         ParserCase{"\"x\"", "1:1: expected a directive, found the string \"x\""},
         ParserCase{"]", "1:1: expected a directive, found ']'"},

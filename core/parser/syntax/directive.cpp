@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// kDirectives lists the directives of versions 1 and 2, in the order of DirectiveId.
+// kDirectives lists the directives of versions 1 and 2. kLaterOnly lists those that only versions 3
+// and 4 have.
 #include "core/parser/syntax/directive.h"
 
 #include <algorithm>
@@ -66,23 +67,58 @@ const std::array kDirectives{
     Strings("WorldEnd", Id::WorldEnd, World, 0),
 };
 
+const std::array kLaterOnly{
+    Named("Attribute", Id::Attribute, World),
+    Strings("ColorSpace", Id::ColorSpace, Anywhere, 1),
+    Strings("Import", Id::Import, World, 1),
+    Named("Integrator", Id::Integrator, Options),
+    Named("MakeNamedMedium", Id::MakeNamedMedium, Anywhere),
+    Strings("MediumInterface", Id::MediumInterface, Anywhere, 1),
+    Named("Option", Id::Option, Options, 0),
+};
+
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kLaterDirectives{{
     {"Attribute", "4"}, {"ColorSpace", "4"}, {"Import", "4"}, {"Integrator", "3 or 4"},
     {"MakeNamedMedium", "3 or 4"}, {"MediumInterface", "3 or 4"}, {"Option", "4"},
 }};
 // clang-format on
 
-}  // namespace
-
-const DirectiveSpec* FindDirective(std::string_view name) {
-  const auto found = std::find_if(kDirectives.begin(), kDirectives.end(),
-                                  [&](const DirectiveSpec& spec) { return spec.name == name; });
-  return found == kDirectives.end() ? nullptr : &*found;
+// Returns whether versions 3 and 4 have the directive of versions 1 and 2, too.
+bool IsInLater(Id id) {
+  switch (id) {
+    case Id::Renderer:
+    case Id::SearchPath:
+    case Id::SurfaceIntegrator:
+    case Id::Volume:
+    case Id::VolumeIntegrator:
+      return false;
+    default:
+      return true;
+  }
 }
 
-std::vector<std::string> DirectiveNames() {
+template <class List>
+const DirectiveSpec* Find(const List& list, std::string_view name) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const DirectiveSpec& spec) { return spec.name == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const DirectiveSpec* FindDirective(std::string_view name, SceneGrammar grammar) {
+  const DirectiveSpec* found = Find(kDirectives, name);
+  if (grammar == SceneGrammar::Early) return found;
+  return found && IsInLater(found->id) ? found : Find(kLaterOnly, name);
+}
+
+std::vector<std::string> DirectiveNames(SceneGrammar grammar) {
   std::vector<std::string> names;
-  for (const DirectiveSpec& spec : kDirectives) names.emplace_back(spec.name);
+  const bool isLater = grammar == SceneGrammar::Later;
+  for (const DirectiveSpec& spec : kDirectives)
+    if (!isLater || IsInLater(spec.id)) names.emplace_back(spec.name);
+  if (!isLater) return names;
+  for (const DirectiveSpec& spec : kLaterOnly) names.emplace_back(spec.name);
   return names;
 }
 
@@ -94,13 +130,13 @@ std::string_view LaterVersionOf(std::string_view name) {
 
 Error LaterVersionError(std::string_view version, const std::string& sign,
                         const SourceLocation& where) {
-  const std::string page = "docs/guide/scene-format.md lists the replacements";
+  const std::string command = "exphoton import " +
+                              (where.includedFrom ? std::string("SCENE.pbrt") : where.file) +
+                              " -o NEW.pbrt converts it";
   return {ExitStatus::Scene,
           "this is a scene of pbrt version " + std::string(version) + ", recognised by " + sign +
               ": versions 1 and 2 are read",
-          where,
-          version == "3" ? "replace Integrator by SurfaceIntegrator, and media by Volume; " + page
-                         : "directives, materials and colours have other names; " + page};
+          where, command};
 }
 
 }  // namespace exphoton

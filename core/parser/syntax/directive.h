@@ -14,23 +14,30 @@ enum class DirectiveId {
   Accelerator,
   ActiveTransform,
   AreaLightSource,
+  Attribute,
   AttributeBegin,
   AttributeEnd,
   Camera,
+  ColorSpace,
   ConcatTransform,
   CoordSysTransform,
   CoordinateSystem,
   Film,
   Identity,
+  Import,
   Include,
+  Integrator,
   LightSource,
   LookAt,
   MakeNamedMaterial,
+  MakeNamedMedium,
   Material,
+  MediumInterface,
   NamedMaterial,
   ObjectBegin,
   ObjectEnd,
   ObjectInstance,
+  Option,
   PixelFilter,
   Renderer,
   ReverseOrientation,
@@ -51,6 +58,9 @@ enum class DirectiveId {
   WorldBegin,
   WorldEnd,
 };
+
+// Early is the grammar of versions 1 and 2, and Later is the grammar of versions 3 and 4.
+enum class SceneGrammar { Early, Later };
 
 enum class DirectiveScope { Anywhere, Options, World };  // Options: before WorldBegin
 
@@ -74,9 +84,10 @@ struct Directive {
   const SourceLocation& Where() const { return params.where; }
 };
 
-// Returns nullptr if there is no directive of that name.
-const DirectiveSpec* FindDirective(std::string_view name);
-std::vector<std::string> DirectiveNames();
+// Returns nullptr if the grammar has no directive of that name.
+const DirectiveSpec* FindDirective(std::string_view name,
+                                   SceneGrammar grammar = SceneGrammar::Early);
+std::vector<std::string> DirectiveNames(SceneGrammar grammar = SceneGrammar::Early);
 // Returns "4" or "3 or 4" for a directive of these later versions alone, "" for any other word.
 std::string_view LaterVersionOf(std::string_view name);
 // Returns the error about a scene of a later version that `sign` (such as: Film "rgb") shows.

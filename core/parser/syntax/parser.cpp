@@ -64,7 +64,7 @@ std::string Describe(const Token& token) {
 class Parser {
  public:
   Parser(Tokenizer tokens, DirectiveHandler& handler, Log& log)
-      : tokens_(std::move(tokens)), handler_(handler), log_(log) {}
+      : tokens_(std::move(tokens)), handler_(handler), log_(log), grammar_(handler.Grammar()) {}
 
   void Run() {
     Advance();
@@ -92,11 +92,16 @@ class Parser {
   Tokenizer tokens_;
   DirectiveHandler& handler_;
   Log& log_;
+  SceneGrammar grammar_;
   Token token_;  // lookahead: the token to parse next
 };
 
 void Parser::FailUnknown() const {
   const std::string name = Printable(token_.text);
+  if (grammar_ == SceneGrammar::Later)
+    Fail("versions 3 and 4 have no directive " + name,
+         FindDirective(token_.text) ? "it is of versions 1 and 2, which are rendered as they are"
+                                    : DidYouMean(token_.text, DirectiveNames(grammar_)));
   if (const std::string_view version = LaterVersionOf(token_.text); !version.empty())
     throw LaterVersionError(version, name, Here());
   Fail("unknown directive " + name, DidYouMean(token_.text, DirectiveNames()));
@@ -105,7 +110,7 @@ void Parser::FailUnknown() const {
 void Parser::ParseDirective() {
   if (token_.kind != TokenKind::Word) Fail("expected a directive, found " + Describe(token_));
   Directive directive;
-  directive.spec = FindDirective(token_.text);
+  directive.spec = FindDirective(token_.text, grammar_);
   if (!directive.spec) FailUnknown();
   const TextPosition where = token_.position;
   directive.params.where = Here();
@@ -113,7 +118,7 @@ void Parser::ParseDirective() {
   if (directive.spec->id == DirectiveId::Include) return ParseInclude(where);
   if (directive.spec->numbers > 0) ParseNumbers(&directive);
   if (directive.spec->hasWord) {
-    if (token_.kind != TokenKind::Word || FindDirective(token_.text))
+    if (token_.kind != TokenKind::Word || FindDirective(token_.text, grammar_))
       Fail(std::string(directive.spec->name) + " takes a word, found " + Describe(token_));
     directive.strings.emplace_back(token_.text);
     Advance();
@@ -161,6 +166,11 @@ void Parser::ParseStrings(Directive* directive) {
                              : " takes a name in quotes, found ";
       Fail(name + what + Describe(token_));
     }
+    directive->strings.emplace_back(token_.text);
+    Advance();
+  }
+  // The medium outside may be missing.
+  if (directive->spec->id == DirectiveId::MediumInterface && token_.kind == TokenKind::String) {
     directive->strings.emplace_back(token_.text);
     Advance();
   }
@@ -223,8 +233,10 @@ void Parser::ParseValues(ParsedParam* param, ValueKind kind) {
 
 void Parser::ParseValue(ParsedParam* param, ValueKind kind) {
   const auto name = [&] { return "parameter \"" + param->name + "\""; };  // built only for errors
-  if (token_.kind != TokenKind::Number && token_.kind != TokenKind::String) {
-    const bool isBareBool = token_.text == "true" || token_.text == "false";
+  const bool isBareBool =
+      token_.kind == TokenKind::Word && (token_.text == "true" || token_.text == "false");
+  const bool isAllowedBool = isBareBool && grammar_ == SceneGrammar::Later && param->type == "bool";
+  if (token_.kind != TokenKind::Number && token_.kind != TokenKind::String && !isAllowedBool) {
     Fail(name() + " has " + Describe(token_) + " for a value",
          isBareBool ? "write \"" + std::string(token_.text) + "\" in quotes" : std::string());
   }

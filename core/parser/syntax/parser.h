@@ -19,6 +19,7 @@ class DirectiveHandler {
   virtual void Handle(Directive directive) = 0;
   // Called after the last directive; `end` is the end of the file.
   virtual void Finish(const SourceLocation& end) = 0;
+  virtual SceneGrammar Grammar() const { return SceneGrammar::Early; }
 };
 
 // Throws Error(File) if `path` cannot be read and Error(Scene) for syntax errors. Logs warnings,
