@@ -129,8 +129,7 @@ void Explorer::Take(const PilotPicture& picture) {
   gatherRays_ = picture.gatherRays / picture.pilot.samples * pilots_->Pixels() / picture.pixels;
   spent_ += picture.cost.maps + picture.cost.samples;
   next_ = 2 * picture.cost.samples;
-  candidate_.mean = {candidate_.integrator, picture.mean,
-                     std::sqrt(picture.pilot.noise / picture.pixels)};
+  candidate_.mean = {candidate_.integrator, picture.light};
   candidate_.secondsPerCost = picture.seconds / (picture.cost.maps + picture.cost.samples);
 }
 

@@ -16,17 +16,6 @@ namespace {
 
 constexpr double kCorrectedShare = 1. / 16;
 
-double MeanOf(const Film& film) {
-  const PixelBounds& crop = film.Crop();
-  double sum = 0;
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const auto mean = film.MeanOf({x, y});
-      sum += mean[0] + mean[1] + mean[2];
-    }
-  return sum / (3. * crop.Width() * crop.Height());
-}
-
 // Returns a number that the scene gives; 0: it gives none.
 double GivenNumber(const RenderSetup& setup, const std::string& name) {
   const ParsedParam* const given = setup.integratorParameters.Find(name);
@@ -137,7 +126,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.cost = CostOf(statistics, setup.integratorName);
   picture.seconds = ProcessCpuSeconds() - begin;
   picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
-  picture.mean = MeanOf(films.film);
+  picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);
   picture.settings = request.settings;
   const auto photonsOf = [&](const std::string& map) {

@@ -12,6 +12,7 @@
 #include "core/app/dial/small_scene.h"
 #include "core/app/options/options.h"
 #include "core/app/output/picture.h"
+#include "core/app/quote/mean_light.h"
 #include "core/app/quote/price_model.h"
 #include "core/parser/syntax/source.h"
 #include "core/render/certificate/certificate.h"
@@ -33,7 +34,8 @@ struct PilotPicture {
   CountedCost cost;
   int mapCount = 0;    // sets of maps that were made for this pilot
   double seconds = 0;  // CPU time
-  double pixels = 0, mean = 0;
+  double pixels = 0;
+  MeanLight light;
   double gatherRays = 0;                   // of the whole picture
   DialSettings settings;                   // the request's, with the photons of the scene
   bool hasBias = false;                    // whether the integrator can estimate it

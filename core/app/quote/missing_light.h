@@ -6,12 +6,13 @@
 #include <span>
 #include <string>
 
+#include "core/app/quote/mean_light.h"
+
 namespace exphoton::cli {
 
 struct PilotMean {
   std::string integrator;
-  double mean = 0;           // of the picture; 0: there is none
-  double relativeError = 0;  // standard error of the mean
+  MeanLight light;  // of the pilot's picture
 };
 
 // Returns a phrase if the mean lies below the largest one by more than the noise of both; otherwise

@@ -23,7 +23,7 @@ constexpr int kMostPilots = 8;
 
 struct PilotResult {
   Json statistics;
-  double mean = 0;
+  MeanLight light;  // of two halves
   std::string failure;
 
   double Phase(std::initializer_list<const char*> names) const {
@@ -69,21 +69,24 @@ class PilotSeries {
       return result;
     }
     result.statistics = Json::parse(ReadTextFile(statistics));
-    result.mean = MeanOf(ReadExr(picture));
+    result.light = MeanOf(ReadExr(picture));
     return result;
   }
 
  private:
-  static double MeanOf(const Image& image) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t c = 0; c < image.channels.size(); ++c) {
-      if (image.channels[c] != "R" && image.channels[c] != "G" && image.channels[c] != "B")
-        continue;
-      for (std::size_t i = c; i < image.pixels.size(); i += image.channels.size(), ++count)
-        sum += double(image.pixels[i]);
+  // Returns one value per pixel, the mean of three channels such as "half1.R".
+  static std::vector<double> LightOf(const Image& image, const std::string& layer) {
+    std::vector<double> light(std::size_t(image.Width()) * std::size_t(image.Height()));
+    for (const char* name : {".R", ".G", ".B"}) {
+      const int channel = image.FindChannel(layer + name);
+      for (std::size_t i = 0; channel >= 0 && i < light.size(); ++i)
+        light[i] += double(image.pixels[i * image.channels.size() + std::size_t(channel)]) / 3;
     }
-    return count > 0 ? sum / double(count) : 0;
+    return light;
+  }
+  static MeanLight MeanOf(const Image& image) {
+    return MeanOfHalves(LightOf(image, "half1"), LightOf(image, "half2"),
+                        std::size_t(image.Width()));
   }
 
   const QuoteScene& scene_;
@@ -161,8 +164,7 @@ Quote RunPilots(const QuoteScene& scene, const std::string& integrator, bool has
   TakeCosts(last, pixels / pilotPixels, &quote);
   if (hasBias) TakeBias(series.Render(int(pilots.back().samples), scale, "--certify"), &quote);
   quote.model.FitNoise(pilots);
-  quote.mean = last.mean;
-  quote.meanError = std::sqrt(pilots.back().noise / pilotPixels);
+  quote.light = last.light;
   quote.memory = last.statistics.at("peakMemoryBytes").get<double>() + 70 * (pixels - pilotPixels);
   return quote;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/app/quote/mean_light.h"
 #include "core/app/quote/price_model.h"
 #include "core/app/study/study_scene.h"
 
@@ -24,8 +25,7 @@ QuoteScene MakeQuoteScene(const StudyOptions& options, const SceneFacts& facts);
 struct Quote {
   std::string integrator;
   PriceModel model;
-  double mean = 0;                                 // of the pilot's picture
-  double meanError = 0;                            // relative standard error of the mean
+  MeanLight light;                                 // of the last pilot
   double memory = 0;                               // bytes, of the picture that is quoted
   double indirectPhotons = 0, causticPhotons = 0;  // as the scene has them; 0: none
   std::vector<std::string> notCovered;             // by the estimate of the bias

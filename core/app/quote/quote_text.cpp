@@ -27,7 +27,7 @@ std::string Percent(double share) {
   return text;
 }
 
-PilotMean MeanOf(const Quote& quote) { return {quote.integrator, quote.mean, quote.meanError}; }
+PilotMean MeanOf(const Quote& quote) { return {quote.integrator, quote.light}; }
 
 Offer MakeOffer(const Quote& quote, std::span<const PilotMean> means, double accuracy) {
   Offer offer{&quote, {}, quote.failure};

@@ -26,7 +26,7 @@ std::vector<std::string> IntegratorsOf(const std::vector<study::Setting>& settin
 study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean>& means) {
   study::Prediction prediction{quote.integrator, quote.failure, {}};
   if (prediction.failure.empty())
-    prediction.failure = MissingLight({quote.integrator, quote.mean, quote.meanError}, means);
+    prediction.failure = MissingLight({quote.integrator, quote.light}, means);
   if (!prediction.failure.empty()) return prediction;
   for (int i = 0; i < kPoints; ++i) {
     const double t = double(i) / (kPoints - 1);
@@ -55,8 +55,7 @@ std::vector<study::Prediction> Predict(const StudyOptions& options, const SceneF
     } catch (const QuoteInterrupted&) {
       throw StudyInterrupted();
     }
-    if (quotes.back().failure.empty())
-      means.push_back({name, quotes.back().mean, quotes.back().meanError});
+    if (quotes.back().failure.empty()) means.push_back({name, quotes.back().light});
   }
   std::vector<study::Prediction> predictions;
   for (const Quote& quote : quotes) predictions.push_back(PredictionFrom(quote, means));

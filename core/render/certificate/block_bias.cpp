@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/render/certificate/noncentral_chi_square.h"
+
 namespace exphoton {
 namespace {
 
@@ -20,17 +22,26 @@ double SumOfSquares(const std::array<double, 6>& m) {
   return sum;
 }
 
-// Solves (estimate - x)^2 = z^2 (fixed + slope x) for x. `sign` selects the root.
-double Bound(double estimate, double z2, double fixed, double slope, double sign) {
+// Solves (estimate - x)^2 = z^2 (fixed + slope x) for x. Returns the smaller root.
+double LowerBound(double estimate, double z2, double fixed, double slope) {
   const double half = estimate + z2 * slope / 2;
-  return half + sign * std::sqrt(std::max(half * half - estimate * estimate + z2 * fixed, 0.));
+  return half - std::sqrt(std::max(half * half - estimate * estimate + z2 * fixed, 0.));
 }
 
 }  // namespace
 
-// The variance of the estimate is fixed + slope * (squared bias).
+// The variance of the estimate is fixed + slope * (squared bias). The mean of the squares of all
+// blocks without bias has the mean `mean`, and `freedom` degrees of freedom.
 struct BlockBiasEstimator::Noise {
   double fixed = 0, slope = 0;
+  double mean = 0, freedom = 1;
+
+  // Returns the upper end of the interval of the squared bias, for the mean of the squares.
+  double UpperEnd(double squares, double z) const {
+    if (!(mean > 0)) return squares;
+    const double unit = mean / freedom;
+    return unit * NoncentralityBound(std::max(squares, mean) / unit, freedom, z);
+  }
 };
 
 double BlockBias::Root(double squared) { return std::sqrt(std::max(squared, 0.)); }
@@ -85,6 +96,11 @@ std::array<double, 3> BlockBiasEstimator::MeanOf(const Sums& block) const {
 }
 
 // The sum over all ordered pairs of different groups is the square of the sum minus the squares.
+double BlockBiasEstimator::SquareOf(const Sums& block) const {
+  const std::array<double, 3> mean = MeanOf(block);
+  return (mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / 3;
+}
+
 double BlockBiasEstimator::ProductOf(const Sums& block) const {
   const std::array<double, 3> mean = MeanOf(block);
   double product = 0;
@@ -127,6 +143,8 @@ BlockBiasEstimator::Noise BlockBiasEstimator::NoiseOf(const std::vector<Sums>& b
     mean += area * trace;
     squares += area * area * trace * trace;
   }
+  noise.mean = mean / 3 + common;
+  noise.freedom = noise.mean * noise.mean / (squares / 9 + common * common);
   noise.fixed = 2 / pairShare_ * (noise.fixed + common * common);
   noise.slope = 4 * linear * ((mean > 0 ? squares / mean / 3 : 0) + common);
   return noise;
@@ -157,17 +175,18 @@ BlockBias BlockBiasEstimator::Estimate(int blockWidth) const {
   BlockBias bias;
   bias.blockWidth = blockWidth;
   bias.blocks = columns * rows;
-  double pixels = 0;
+  double pixels = 0, squares = 0;
   for (const Sums& block : blocks) {
     bias.squared += block.pixels * ProductOf(block);
+    squares += block.pixels * SquareOf(block);
     pixels += block.pixels;
   }
-  bias.squared /= pixels;
+  bias.squared /= pixels, squares /= pixels;
   const Noise noise = NoiseOf(blocks);
   const double z = Quantile(), z2 = z * z;
-  bias.lower = std::max(Bound(bias.squared, z2, noise.fixed, noise.slope, -1), 0.);
-  bias.upper = Bound(std::max(bias.squared, 0.), z2, noise.fixed, noise.slope, 1);
-  bias.smallest = Bound(0, z2, noise.fixed, noise.slope, 1);
+  bias.lower = std::max(LowerBound(bias.squared, z2, noise.fixed, noise.slope), 0.);
+  bias.smallest = noise.UpperEnd(0, z);
+  bias.upper = std::max(noise.UpperEnd(squares, z), bias.squared);
   return bias;
 }
 

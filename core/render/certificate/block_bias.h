@@ -62,6 +62,8 @@ class BlockBiasEstimator {
   void AddCell(const Sums& cell, Sums* block) const;
   // Returns the weighted mean of a block, over the groups.
   std::array<double, 3> MeanOf(const Sums& block) const;
+  // Returns the mean over channels of the squared mean of all groups. It contains noise.
+  double SquareOf(const Sums& block) const;
   // Returns the mean over pairs of groups of the products of their means.
   double ProductOf(const Sums& block) const;
   Noise NoiseOf(const std::vector<Sums>& blocks) const;

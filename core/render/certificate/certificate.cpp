@@ -38,9 +38,20 @@ double Distance(double distance, const std::optional<SharingBias>& sharing, doub
   return std::hypot(distance, sharing ? quantile * sharing->standardError : 0);
 }
 
+// Larger errors have no digits.
+constexpr double kMostShown = 10;
+// A bias of this size is as large as the picture.
+constexpr double kSaysNothing = 1;
+
 std::string Percent(double squared) {
-  const double percent = 100 * BlockBias::Root(squared);
-  return Format(percent < .995 ? "%.2f" : percent < 99.5 ? "%.1f" : "%.0f", percent);
+  const double error = BlockBias::Root(squared), percent = 100 * error;
+  if (!(error <= kMostShown)) return Format("over %.0f %%", 100 * kMostShown);
+  return Format(percent < .995 ? "%.2f %%" : percent < 99.5 ? "%.1f %%" : "%.0f %%", percent);
+}
+
+std::string Digits(double squared) {
+  std::string text = Percent(squared);
+  return text.substr(0, text.find(" %"));
 }
 
 }  // namespace
@@ -87,11 +98,23 @@ std::optional<Certificate> Certify(const Corrections& corrections, const Film& f
   return certificate;
 }
 
-std::string ErrorText(const Certificate& certificate) {
-  return "error " + Percent(certificate.Error()) + " % = noise " + Percent(certificate.noise) +
-         " %, bias " + Percent(certificate.Bias()) + " % (" + Percent(certificate.LowerBias()) +
-         " to " + Percent(certificate.UpperBias()) + " %)";
+bool Certificate::SaysNothing() const {
+  return !(LowerBias() > 0) && !(UpperBias() < kSaysNothing);
 }
+
+std::string ErrorText(const Certificate& certificate) {
+  if (certificate.SaysNothing())
+    return "error unknown: noise " + Percent(certificate.noise) +
+           ", and the bias may be as large as the picture";
+  return "error " + Percent(certificate.Error()) + " = noise " + Percent(certificate.noise) +
+         ", bias " + Percent(certificate.Bias()) + " (" + Digits(certificate.LowerBias()) + " to " +
+         Percent(certificate.UpperBias()) + ")";
+}
+
+// The advice where the interval says nothing.
+constexpr const char* kAdvice =
+    "these corrections say nothing about the bias; more samples, a larger picture or a larger "
+    "--certify-share do";
 
 std::vector<std::string> DetailTexts(const Certificate& certificate) {
   const BlockBias& bias = certificate.bias;
@@ -99,10 +122,12 @@ std::vector<std::string> DetailTexts(const Certificate& certificate) {
       Format("bias of %d block%s of %d x %d pixels, from %lld corrected gather rays", bias.blocks,
              bias.blocks == 1 ? "" : "s", bias.blockWidth, bias.blockWidth,
              static_cast<long long>(certificate.corrections)),
-      "the interval (95 %) cannot certify a bias below " + Percent(bias.smallest) + " %"};
+      certificate.SaysNothing()
+          ? kAdvice
+          : "the interval (95 %) cannot certify a bias below " + Percent(bias.smallest)};
   if (certificate.sharing)
     texts.push_back("the bias includes " + Percent(certificate.sharing->squared) +
-                    " % by shared gathers");
+                    " by shared gathers");
   std::string notCovered = "not covered: bias of both signs inside a block";
   for (const std::string& text : certificate.notCovered) notCovered += "; " + text;
   texts.push_back(notCovered);

@@ -28,6 +28,8 @@ struct Certificate {
   double LowerBias() const;
   double UpperBias() const;
   double Error() const { return noise + Bias(); }
+  // Whether the interval contains both no bias and a bias as large as the picture.
+  bool SaysNothing() const;
 };
 
 // The interval that a certificate should have.

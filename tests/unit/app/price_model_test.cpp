@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "core/app/quote/missing_light.h"
-
 namespace exphoton::cli {
 namespace {
 
@@ -101,17 +99,6 @@ TEST(PriceModel, SeparatesTheNoiseOfPhotonsBySharedOnes) {
   pilots.back().error = .1;  // the difference is not significant
   model.FitNoise(pilots);
   EXPECT_EQ(model.photonNoise, 0);
-}
-
-TEST(MissingLight, NamesTheIntegratorThatFindsMore) {
-  const std::vector<PilotMean> means{{"path", .5, .01}, {"guidedpath", 1, .01}, {"failed", 0, 0}};
-  EXPECT_EQ(MissingLight(means[1], means), "");
-  EXPECT_NE(MissingLight(means[0], means).find("50 % less light than guidedpath"),
-            std::string::npos);
-  const std::vector<PilotMean> noisy{{"path", .5, .2}, {"guidedpath", 1, .1}};
-  EXPECT_EQ(MissingLight(noisy[0], noisy), "");  // within four standard errors
-  const std::vector<PilotMean> near{{"path", .985, 0}, {"guidedpath", 1, 0}};
-  EXPECT_EQ(MissingLight(near[0], near), "");
 }
 
 // Uncertain noise of the pilots makes the interval wider.

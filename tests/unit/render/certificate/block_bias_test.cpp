@@ -139,6 +139,20 @@ TEST(BlockBias, IsMoreUncertainWithNoiseAndBlocksAreChosenByIt) {
   EXPECT_LT(RunTrial(trial, 32, 1).smallest, much.smallest);
 }
 
+// One block without bias is a squared normal number: its upper end is (1 + 1.96)^2 = 8.8 times the
+// variance where it has its mean size. The estimate of the variance contains noise that all blocks
+// of a group may share, so it is a little larger.
+TEST(BlockBias, OneBlockHasTheIntervalOfANormalNumber) {
+  Trial trial;
+  trial.noise = .2;
+  const double variance = .04 * 1.09 / 2 / (kWidth * kHeight);
+  double smallest = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    smallest += RunTrial(trial, 64, seed).smallest / 20;
+  EXPECT_GT(smallest / variance, 8.7);
+  EXPECT_LT(smallest / variance, 10);
+}
+
 TEST(BlockBias, UsesTheFinestBlocksThatCertifyWhatIsWanted) {
   std::vector<float> a(3 * kWidth * kHeight), b(a.size());
   RandomStream random(3);

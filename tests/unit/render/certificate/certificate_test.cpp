@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests read the texts of certificates.
+#include "core/render/certificate/certificate.h"
+
+#include <gtest/gtest.h>
+
+namespace exphoton {
+namespace {
+
+Certificate Made(double squared, double lower, double upper) {
+  Certificate certificate;
+  certificate.noise = .0016;
+  certificate.bias.squared = squared;
+  certificate.bias.lower = lower;
+  certificate.bias.upper = certificate.bias.smallest = upper;
+  certificate.bias.blocks = 1;
+  return certificate;
+}
+
+std::string AllTexts(const Certificate& certificate) {
+  std::string text = ErrorText(certificate);
+  for (const std::string& detail : DetailTexts(certificate)) text += "; " + detail;
+  return text;
+}
+
+TEST(Certificate, HasTheErrorAndItsParts) {
+  EXPECT_EQ(ErrorText(Made(.0009, .0001, .0025)),
+            "error 5.0 % = noise 4.0 %, bias 3.0 % (1.0 to 5.0 %)");
+}
+
+// A certificate of one block printed "error 5711447 %".
+TEST(Certificate, SaysInWordsThatItKnowsNothing) {
+  const std::string text = AllTexts(Made(3e9, 0, 9e9));
+  EXPECT_NE(text.find("error unknown: noise 4.0 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("say nothing about the bias"), std::string::npos) << text;
+  for (const char* digits : {"000", "477", "948"})
+    EXPECT_EQ(text.find(digits), std::string::npos) << text;
+  EXPECT_EQ(AllTexts(Made(.5, 0, .9)).find("unknown"), std::string::npos);
+}
+
+TEST(Certificate, HasNoDigitsForHugeErrors) {
+  const std::string text = ErrorText(Made(3e9, 1e9, 9e9));
+  EXPECT_EQ(text, "error over 1000 % = noise 4.0 %, bias over 1000 % (over 1000 to over 1000 %)");
+}
+
+}  // namespace
+}  // namespace exphoton
