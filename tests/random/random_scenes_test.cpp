@@ -19,6 +19,19 @@ TEST(RandomScenes, KeepTheirPixelsWithEveryPlanThreadCountAndAccelerator) {
   ExpectNoFailure(run);
 }
 
+TEST(RandomScenes, KeepTheirPixelsWithEachVariation) {
+  SceneRun run({});
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) run.Add(kVariations, seed);
+  ExpectNoFailure(run);
+}
+
+TEST(RandomScenes, ShowTheSumOverTheirBouncesInAFurnace) {
+  SceneRun run({.maxStatisticalTries = 0});
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) run.Add(kFurnace, seed);
+  run.JudgeComparisons();
+  ExpectNoFailure(run);
+}
+
 TEST(RandomScenes, HavePartsThatFitTogether) {
   SceneRun run({});
   for (std::uint64_t seed = 1; seed <= 12; ++seed) run.CheckProbes(seed);

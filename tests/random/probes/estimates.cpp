@@ -9,6 +9,7 @@
 
 #include "core/math/sampling/sampling.h"
 #include "core/transport/volume_integrator.h"
+#include "tests/random/probes/focused_scene.h"
 #include "tests/random/probes/probed_scene.h"
 #include "tests/random/scenes/statistics.h"
 
@@ -277,7 +278,8 @@ void CompareMedia(const ProbedScene& scene, const Sight& sight, EstimateComparis
 
 }  // namespace
 
-std::vector<Comparison> CompareEstimates(const SceneModel& model, const Effort& effort) {
+std::vector<Comparison> CompareEstimates(const SceneModel& drawn, const Effort& effort) {
+  const SceneModel model = SometimesFocused(drawn, effort.sceneSeed);
   // The seed decides the hits too, so it stays the same when a comparison is repeated.
   const ProbedScene scene(SceneText(model, {}), effort.sceneSeed, 24);
   EstimateComparison comparison(effort.firstSeed, effort.factor);

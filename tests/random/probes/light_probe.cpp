@@ -77,6 +77,8 @@ class LightCheck {
   }
 
   void CheckArea(const SurfacePoint& reference, const LightLiSample& direct) {
+    // The reference may lie in the plane of a flat light, which is then seen from its edge.
+    if (AbsDot(reference.ng, direct.wi) < Real(.02)) return;
     const double sampled = double(Length(direct.shadowRay.d));  // its end is at t = 1
     const auto sight = scene_.Look(SpawnRay(reference, direct.wi));
     const double distance =

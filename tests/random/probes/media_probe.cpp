@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ProbeMedia checks media along the rays to the hits: optical depth against sums over points,
 // transmittance, and the phase function.
+#include <array>
 #include <cmath>
 
 #include "tests/random/probes/probed_scene.h"
@@ -47,9 +48,27 @@ void CheckPhase(const Medium& medium, const Vector3& wo, Findings* findings) {
   findings->Expect(std::abs(sum - 1) < .03, "sum of a phase function", sum, 1);
 }
 
+// The density at the middle of a cell of a grid is the cell's.
+void CheckGrid(const MediumModel& model, const Medium& medium, Findings* findings) {
+  const double half = model.size == 0 ? 2 : .7;
+  const Place place = model.size == 0 ? Place{} : model.place;
+  constexpr std::array<double, 4> kDensities{1, 0, .5, 2};
+  double first = 0;
+  for (int cell = 0; cell < 4; ++cell) {
+    const Point3 p(Real(.3 * place.x + half * (cell % 2 - .5)), Real(.3 * place.y),
+                   Real(.3 * place.z + half * (cell / 2 - .5)));
+    const MediumPoint at = medium.At(p);
+    const double density = double((at.absorption + at.scattering + at.emission).Y());
+    if (cell == 0) first = density;
+    const double expected = kDensities[std::size_t(cell)] * first;
+    findings->Expect(std::abs(density - expected) <= 1e-3 * (first + density),
+                     "density in the middle of a cell", density, expected);
+  }
+}
+
 }  // namespace
 
-void ProbeMedia(const ProbedScene& scene, Findings* findings) {
+void ProbeMedia(const SceneModel& model, const ProbedScene& scene, Findings* findings) {
   if (!scene.World().HasMedia()) return;
   RandomStream random = scene.Stream(6);
   for (std::size_t i = 0; i < std::min<std::size_t>(24, scene.Sights().size()); ++i) {
@@ -68,8 +87,10 @@ void ProbeMedia(const ProbedScene& scene, Findings* findings) {
     const double passed = double(scene.World().Transmittance(ray).r);
     findings->Expect(std::abs(passed - expected) < 1e-3, "transmittance", passed, expected);
   }
-  for (const auto& medium : scene.World().Media())
-    CheckPhase(*medium, Vector3(0, Real(.6), Real(.8)), findings);
+  const auto& media = scene.World().Media();
+  for (std::size_t i = 0; i < media.size() && media.size() == model.media.size(); ++i)
+    if (model.media[i].kind == 2) CheckGrid(model.media[i], *media[i], findings);
+  for (const auto& medium : media) CheckPhase(*medium, Vector3(0, Real(.6), Real(.8)), findings);
 }
 
 }  // namespace exphoton::random_scenes

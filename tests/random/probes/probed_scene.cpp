@@ -2,10 +2,12 @@
 // ProbedScene loads a scene with every feature on, so that all of its parts are there.
 #include "tests/random/probes/probed_scene.h"
 
+#include <array>
 #include <cstdio>
 #include <exception>
 
 #include "core/math/sampling/sampling.h"
+#include "tests/random/probes/focused_scene.h"
 #include "tests/random/probes/sampling_probe.h"
 
 namespace exphoton::random_scenes {
@@ -55,16 +57,23 @@ void Findings::Expect(bool isRight, const char* check, double value, double expe
   text_ += line;
 }
 
-std::string BrokenProbe(const SceneModel& model, std::uint64_t seed) {
+std::string BrokenProbe(const SceneModel& drawn, std::uint64_t seed) {
+  constexpr std::array<const char*, 4> kAccelerators{"bvh", "kdtree", "bruteforce", "bvh"};
   try {
     Findings findings;
-    const ProbedScene scene(SceneText(model, {}), seed, kProbeRays);
+    const SceneModel model = SometimesFocused(drawn, seed);
+    TextOptions options;
+    options.accelerator = kAccelerators[std::size_t(seed % kAccelerators.size())];
+    const ProbedScene scene(SceneText(model, options), seed, kProbeRays);
     ProbeSurfaces(scene, &findings);
     ProbeCamera(scene, &findings);
     ProbeScattering(scene, &findings);
     ProbeLamps(model, scene, &findings);
     ProbeLights(scene, &findings);
-    ProbeMedia(scene, &findings);
+    ProbeMedia(model, scene, &findings);
+    ProbeEmission(model, scene, &findings);
+    ProbeTextures(seed, &findings);
+    ProbeMeshes(seed, &findings);
     ProbeSampling(scene, seed, &findings);
     ProbeVersions(model, seed, &findings);
     return findings.Text();

@@ -66,7 +66,12 @@ void ProbeCamera(const ProbedScene& scene, Findings* findings);
 void ProbeScattering(const ProbedScene& scene, Findings* findings);
 void ProbeLamps(const SceneModel& model, const ProbedScene& scene, Findings* findings);
 void ProbeLights(const ProbedScene& scene, Findings* findings);
-void ProbeMedia(const ProbedScene& scene, Findings* findings);
+void ProbeMedia(const SceneModel& model, const ProbedScene& scene, Findings* findings);
+// Compares point lights with maps or cones, and skies, with a second implementation of them.
+void ProbeEmission(const SceneModel& model, const ProbedScene& scene, Findings* findings);
+// Compare textures, bumps and meshes of a random scene of their own with other implementations.
+void ProbeTextures(std::uint64_t seed, Findings* findings);
+void ProbeMeshes(std::uint64_t seed, Findings* findings);
 // Compare a scene with other descriptions of the same scene.
 void ProbeVersions(const SceneModel& scene, std::uint64_t seed, Findings* findings);
 

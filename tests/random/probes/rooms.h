@@ -14,7 +14,10 @@ SceneModel PhotonRoom(const SceneModel& scene, std::uint64_t seed);
 // Returns a closed room in which every radiance is 1. Each surface emits 1 minus its albedo, which
 // is known exactly, and each medium emits what it absorbs.
 SceneModel ExactFurnace(const SceneModel& scene, std::uint64_t seed);
-// Compares the picture of an exact furnace with 1.
+// Returns a furnace with closed bodies and walls of one material.
+SceneModel UniformFurnace(const SceneModel& furnace, bool hasEdges);
+// Compares the picture of an exact furnace with 1, and the picture of a uniform furnace with the
+// sum over the bounces that the integrator follows. The seed chooses the integrators.
 std::vector<Comparison> CompareWithFurnace(const SceneModel& scene, const Effort& effort);
 std::string FurnaceText(const SceneModel& furnace);
 

@@ -3,6 +3,7 @@
 // derivatives against neighbouring hits. ProbeCamera checks ray differentials and footprints.
 #include <cmath>
 
+#include "integrators/photon/maps/rest_pose.h"
 #include "tests/random/probes/probed_scene.h"
 
 namespace exphoton::random_scenes {
@@ -33,6 +34,14 @@ void CheckHit(const ProbedScene& scene, const Sight& sight, Findings* findings) 
   const Ray next = SpawnRay(s, ray.d);
   findings->Expect(next.time == ray.time, "a spawned ray keeps the time", double(next.time),
                    double(ray.time));
+}
+
+// A direction that is taken to the pose at rest and back is the same, whatever its length was.
+void CheckRestPose(const Sight& sight, Findings* findings) {
+  const RestPose rest(sight.surface);
+  const Vector3& w = sight.surface.wo;
+  const double off = Off(rest.DirectionBack(rest.Direction(w)), w);
+  findings->Expect(off < 1e-4, "to the pose at rest and back", off, 0);
 }
 
 int Handedness(const Vector3& u, const Vector3& v, const Normal3& n) {
@@ -139,6 +148,7 @@ void ProbeSurfaces(const ProbedScene& scene, Findings* findings) {
   for (const Sight& sight : scene.Sights()) {
     CheckHit(scene, sight, findings);
     CheckFrame(sight.surface, findings);
+    CheckRestPose(sight, findings);
     CheckDerivatives(scene, sight, sight.surface.dpdu, findings);
     CheckDerivatives(scene, sight, sight.surface.dpdv, findings);
   }

@@ -34,7 +34,7 @@ class VersionCheck {
     };
     derivatives_ += isFar(s.dpdu, t.dpdu) || isFar(s.dpdv, t.dpdv) ||
                     isFar(s.dndu * side, t.dndu) || isFar(s.dndv * side, t.dndv);
-    shading_ += isFar(s.shading.dpdu, t.shading.dpdu) ||
+    shading_ += isFar(s.shading.dpdu, t.shading.dpdu) || isFar(s.shading.dpdv, t.shading.dpdv) ||
                 isFar(s.shading.dndu * side, t.shading.dndu) ||
                 isFar(s.shading.dndv * side, t.shading.dndv);
     coordinates_ += std::abs(s.uv.x - t.uv.x) + std::abs(s.uv.y - t.uv.y) > Real(.01);

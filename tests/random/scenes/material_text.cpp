@@ -4,6 +4,7 @@
 // which has no coefficient to scale.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "tests/random/scenes/scene_text.h"
 
@@ -187,10 +188,17 @@ std::string PartsOfMix(const MaterialModel& m, int* next, std::string* parameter
 
 }  // namespace
 
-std::string ColourText(const Colour& colour, double factor) {
+double SixDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::strtod(text, nullptr);
+}
+
+std::string ColourText(const Colour& colour, double factor, double scale) {
+  const auto channel = [&](int value) { return SixDigits(.1 * factor * value) * scale; };
   char text[80];
-  std::snprintf(text, sizeof text, "[%.6g %.6g %.6g]", .1 * factor * colour.red,
-                .1 * factor * colour.green, .1 * factor * colour.blue);
+  std::snprintf(text, sizeof text, "[%.12g %.12g %.12g]", channel(colour.red),
+                channel(colour.green), channel(colour.blue));
   return text;
 }
 
@@ -263,6 +271,8 @@ class MaterialWriter {
         Add("Kd", m_.diffuse, diffuse);
         Add("Ks", m_.glossy, m_.kind == MaterialKind::Uber ? glossy / 2 : glossy);
         if (m_.kind == MaterialKind::Translucent) Add("transmit", m_.mirror, .5);
+        if (m_.kind == MaterialKind::Translucent && m_.isTransmittingOnly)
+          parameters_ += " \"color reflect\" [0 0 0]";
         if (m_.kind == MaterialKind::Uber) {
           Add("Kr", m_.mirror, glossy / 2);
           parameters_ += OpacityText(m_.opacity, next_, &text_);

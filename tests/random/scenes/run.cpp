@@ -3,17 +3,20 @@
 #include "tests/random/scenes/run.h"
 
 #include <cmath>
-#include <cstdio>
 #include <exception>
 
 #include "tests/random/probes/estimates.h"
+#include "tests/random/probes/focused_scene.h"
 #include "tests/random/probes/probed_scene.h"
 #include "tests/random/probes/rooms.h"
+#include "tests/random/scenes/counts.h"
 #include "tests/random/scenes/properties.h"
 #include "tests/random/scenes/scene_generator.h"
 #include "tests/random/scenes/scene_text.h"
 #include "tests/random/scenes/shrinking.h"
 #include "tests/random/scenes/statistics.h"
+#include "tests/random/variations/pairs.h"
+#include "tests/random/variations/variations.h"
 
 namespace exphoton::random_scenes {
 namespace {
@@ -33,7 +36,13 @@ SceneModel AgreementScene(const std::string& property, const SceneModel& drawn,
   return property == kRooms ? PhotonRoom(drawn, seed) : drawn;
 }
 
+// Returns the text of the scene that an exact property checked.
+std::string CheckedText(const std::string& property, const SceneModel& scene, std::uint64_t seed) {
+  return SceneText(property == kProbes ? SometimesFocused(scene, seed) : scene, {});
+}
+
 std::string Broken(const std::string& property, const SceneModel& scene, std::uint64_t seed) {
+  if (property == kVariations) return BrokenVariation(scene, seed);
   return property == kProbes ? BrokenProbe(scene, seed) : BrokenInvariance(scene);
 }
 
@@ -42,6 +51,7 @@ std::vector<Comparison> Compared(const std::string& property, const SceneModel& 
   if (property == kEnergy) return CompareWithEnergy(scene, effort);
   if (property == kEstimates) return CompareEstimates(scene, effort);
   if (property == kFurnace) return CompareWithFurnace(scene, effort);
+  if (property == kPairs) return ComparePairs(scene, effort);
   Effort more = effort;
   more.comparesMore = property == kRooms;
   return IntegratorComparison(AgreementScene(property, scene, effort.sceneSeed), more)
@@ -50,7 +60,8 @@ std::vector<Comparison> Compared(const std::string& property, const SceneModel& 
 
 std::string ComparedText(const std::string& property, const SceneModel& scene, std::uint64_t seed) {
   if (property == kEnergy) return EnergyText(scene);
-  if (property == kEstimates) return SceneText(scene, {});
+  if (property == kEstimates) return SceneText(SometimesFocused(scene, seed), {});
+  if (property == kPairs) return PairText(scene, seed);
   if (property == kFurnace) return FurnaceText(ExactFurnace(scene, seed));
   return AgreementText(AgreementScene(property, scene, seed));
 }
@@ -67,7 +78,7 @@ Comparison Named(const std::vector<Comparison>& comparisons, const std::string& 
 }  // namespace
 
 void SceneRun::Add(const std::string& property, std::uint64_t seed) {
-  if (property == kInvariances || property == kProbes)
+  if (property == kVariations || property == kInvariances || property == kProbes)
     Check(property, seed);
   else
     Compare(property, seed);
@@ -86,7 +97,7 @@ void SceneRun::Check(const std::string& property, std::uint64_t seed) {
     scene = Shrink(drawn, fails, settings_.maxTries).scene;
     broken = Broken(property, scene, seed);
   }
-  failures_.push_back({seed, property, broken, SceneText(scene, {})});
+  failures_.push_back({seed, property, broken, CheckedText(property, scene, seed)});
 }
 
 void SceneRun::Compare(const std::string& property, std::uint64_t seed) {
@@ -159,15 +170,8 @@ void SceneRun::Judge(Record* record) {
 }
 
 std::string SceneRun::Summary() const {
-  std::string text;
-  for (const auto& [property, tally] : tallies_) {
-    char line[160];
-    std::snprintf(line, sizeof line, "%s: %d scenes, %d failures; rate at most %.3g %% (95 %%)\n",
-                  property.c_str(), tally.scenes, tally.failures,
-                  100 * LargestFailureRate(tally.failures, tally.scenes));
-    text += line;
-  }
-  return text + "comparisons repeated with 16 times the samples: " + std::to_string(repeated_) +
+  return TalliesText(tallies_) +
+         "comparisons repeated with 16 times the samples: " + std::to_string(repeated_) +
          "\nof these blur, which falls with more photons: " + std::to_string(blurred_.size()) +
          "\n";
 }

@@ -32,10 +32,11 @@ struct Tally {
 
 inline constexpr double kBlurFalls = .6;
 
-// The properties. The first two are exact, the others are comparisons of means.
-inline const std::string kInvariances = "invariances", kProbes = "probes";
+// The properties. The first three are exact, the others are comparisons of means.
+inline const std::string kVariations = "variations", kInvariances = "invariances",
+                         kProbes = "probes";
 inline const std::string kEnergy = "energy", kEstimates = "estimates", kFurnace = "furnace",
-                         kRooms = "rooms", kAgreement = "agreement";
+                         kPairs = "pairs", kRooms = "rooms", kAgreement = "agreement";
 
 struct RunSettings {
   int maxTries = 300;            // for shrinking by exact properties; 0: none

@@ -64,6 +64,7 @@ struct MaterialModel {
   int opacity = 0;
   int bump = 0;  // 0: none, 1: constant, 2: checkerboard, 3: bilerp, 4: image
   int isPhysical = 0;
+  bool isTransmittingOnly = false;  // of translucent; the generator does not set it
 
   int Fit() const { return share + 3 * isPhysical; }  // of a fitted material, by alphabet
 };
@@ -102,6 +103,7 @@ struct BodyModel {
   int emission = 0;    // 0: none, 1: a colour, 2: a black-body spectrum, 3: black
   Colour light;
   MaterialModel material;
+  bool isOpenMesh = false;  // of subdivided meshes; the generator does not set it
 };
 
 enum class LightKind {

@@ -14,8 +14,19 @@ std::string Number(double value) {
   return text;
 }
 
+// Prints a power of two exactly, if it is not very small.
+std::string PowerOfTwo(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
+}
+
 std::string Triple(double x, double y, double z) {
   return Number(x) + " " + Number(y) + " " + Number(z);
+}
+
+std::string ScaleText(double size) {
+  return size == 1 ? "" : "Scale " + Triple(size, size, size) + "\n";
 }
 
 constexpr double kStep = .3;
@@ -67,6 +78,10 @@ std::string ShapeText(const BodyModel& body) {
              "[0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4] \"normal N\" "
              "[0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4] \"float uv\" [0 0 1 0 1 1 0 1]\n";
     case BodyKind::Subdivided:
+      if (body.isOpenMesh)
+        return "  Shape \"loopsubdiv\" \"integer nlevels\" 2 \"integer indices\" "
+               "[0 1 2 0 2 3 0 3 4 0 4 5] \"point P\" "
+               "[0 -.2 .3  1 -.2 0  .7 .6 .1  0 .9 0  -.7 .5 -.1  -1 -.3 0]\n";
       return "  Shape \"loopsubdiv\" \"integer nlevels\" 2 \"integer indices\" "
              "[0 1 2 0 2 3 0 3 1 1 3 2] \"point P\" [0 0 1  .9 0 -.4  -.5 .8 -.4  -.5 -.8 -.4]\n";
     case BodyKind::Cone:
@@ -126,11 +141,11 @@ std::string FurnaceLight(const MaterialModel& material) {
          Triple(1 - albedo[0], 1 - albedo[1], 1 - albedo[2]) + "]\n";
 }
 
-std::string EmissionText(const BodyModel& body) {
+std::string EmissionText(const BodyModel& body, double power) {
   if (body.emission == 0) return "";
   return "  AreaLightSource \"area\" " +
-         (body.emission == 1   ? "\"color L\" " + ColourText(body.light, 4)
-          : body.emission == 2 ? "\"blackbody L\" [4000 1]"
+         (body.emission == 1   ? "\"color L\" " + ColourText(body.light, 4, power)
+          : body.emission == 2 ? "\"blackbody L\" [4000 " + Number(power) + "]"
                                : std::string("\"color L\" [0 0 0]")) +
          "\n";
 }
@@ -145,16 +160,20 @@ std::string BodyText(const BodyModel& body, const TextOptions& options, int* nex
     const std::string name = "\"o" + std::to_string((*next)++) + "\"";
     const bool movesPart = options.partsMove && body.motion != 0;
     const std::string part = movesPart ? MotionDirectives(body.motion, options) + "\n" : "";
-    text += "  ObjectBegin " + name + "\n" + part + shape + "  ObjectEnd\n" + place +
-            "  ObjectInstance " + name + "\n";
+    // The instance has the size already.
+    text += "  ObjectBegin " + name + "\n" + ScaleText(1 / options.size) + part + shape +
+            "  ObjectEnd\n" + place + "  ObjectInstance " + name + "\n";
     if (body.isInstance == 2) text += "  Translate .3 .8 .5 ObjectInstance " + name + "\n";
   } else {
-    text += (options.isFurnace ? FurnaceLight(body.material) : EmissionText(body)) + place + shape;
+    text += (options.isFurnace ? FurnaceLight(body.material) : EmissionText(body, options.power)) +
+            place + shape;
   }
   return text + "AttributeEnd\n";
 }
 
-std::string LightText(const LightModel& light, const SceneModel& scene) {
+// `intensity` multiplies the emission of a light at a point, `radiance` of a far one.
+std::string LightText(const LightModel& light, const SceneModel& scene, double intensity,
+                      double radiance) {
   constexpr std::array<const char*, kLightKinds> kNames{
       "point",      "spot",    "goniometric", "goniometric",   "projection",
       "projection", "distant", "infinite",    "infinitesample"};
@@ -166,10 +185,12 @@ std::string LightText(const LightModel& light, const SceneModel& scene) {
                         light.kind == LightKind::ProjectionMap;
   std::string text = "LightSource \"" + std::string(kNames[std::size_t(light.kind)]) + "\"";
   const std::string name = isFar ? "L" : "I";
+  const double factor = isFar ? radiance : intensity;
   if (light.isBlackbody != 0)
-    text += " \"blackbody " + name + "\" [4000 " + (light.isBlackbody == 1 ? "1" : "0") + "]";
+    text += " \"blackbody " + name + "\" [4000 " + PowerOfTwo(light.isBlackbody == 1 ? factor : 0) +
+            "]";
   else
-    text += " \"color " + name + "\" " + ColourText(light.colour, isFar ? 1 : 3);
+    text += " \"color " + name + "\" " + ColourText(light.colour, isFar ? 1 : 3, factor);
   if (isMapped) text += " \"string mapname\" \"" + ImageFile() + "\"";
   if (isSky) return text + "\n";
   const bool isInside = light.isInsideAShape != 0 && !scene.bodies.empty();
@@ -198,8 +219,9 @@ std::string MediumText(const MediumModel& medium, const TextOptions& options) {
                      "\" \"point p0\" [" + Triple(x - half, y - half, z - half) +
                      "] \"point p1\" [" + Triple(x + half, y + half, z + half) + "]";
   const auto part = [&](int number, const char* name, const Colour& colour) {
+    const double scale = (*name == 'L' ? options.power : 1) / options.size;
     if (medium.parts == number || medium.parts == 3)
-      text += " \"color " + std::string(name) + "\" " + ColourText(colour, .5);
+      text += " \"color " + std::string(name) + "\" " + ColourText(colour, .5, scale);
   };
   part(0, "sigma_a", medium.absorbed);
   part(1, "sigma_s", medium.scattered);
@@ -212,7 +234,8 @@ std::string MediumText(const MediumModel& medium, const TextOptions& options) {
   return text + "\n";
 }
 
-std::string CameraText(const CameraModel& camera, std::optional<double> stillAt) {
+std::string CameraText(const CameraModel& camera, const TextOptions& options) {
+  const std::optional<double> stillAt = options.stillAt;
   constexpr std::array<const char*, 3> kPlaces{"-.1 -.2 1.9", "-.1 -.2 .1", "1.5 .1 1.2"};
   std::string text;
   if (camera.times != 0)
@@ -224,6 +247,7 @@ std::string CameraText(const CameraModel& camera, std::optional<double> stillAt)
                                                  : "";
   if (!moved.empty())
     text += stillAt ? moved + "\n" : "ActiveTransform EndTime " + moved + " ActiveTransform All\n";
+  text += ScaleText(1 / options.size);
   text += camera.kind == 0   ? "Camera \"perspective\" \"float fov\" 80"
           : camera.kind == 1 ? "Camera \"orthographic\""
                              : "Camera \"environment\"";
@@ -245,6 +269,15 @@ std::string SamplerText(const SceneModel& scene, int samples) {
          "\n";
 }
 
+std::string FilmText(const TextOptions& options) {
+  std::string text = "Film \"image\" \"integer xresolution\" " + std::to_string(options.width) +
+                     " \"integer yresolution\" " + std::to_string(options.height);
+  const auto& c = options.crop;
+  if (c != TextOptions{}.crop)
+    text += " \"float cropwindow\" [" + Number(c[0]) + " " + Triple(c[1], c[2], c[3]) + "]";
+  return text + "\n";
+}
+
 std::string IntegratorText(const SceneModel& scene, const TextOptions& options) {
   const std::string own = kIntegrators[std::size_t(scene.integrator)];
   std::string text = "SurfaceIntegrator " + (options.integrator.empty() ? own : options.integrator);
@@ -260,23 +293,26 @@ std::string IntegratorText(const SceneModel& scene, const TextOptions& options) 
   if (text.find("guidedpath") != std::string::npos)
     text += " \"integer indirectphotons\" " + std::to_string(options.photons) +
             " \"integer maxphotonpaths\" " + std::to_string(options.maxPhotonPaths);
+  text += options.ending;
   if (scene.volumeIntegrator == 0) return text + "\n";
   return text + "\nVolumeIntegrator " +
-         (scene.volumeIntegrator == 1 ? "\"emission\"" : "\"single\"") + " \"float stepsize\" .5\n";
+         (scene.volumeIntegrator == 1 ? "\"emission\"" : "\"single\"") + " \"float stepsize\" " +
+         (options.size == 1 ? ".5" : Number(.5 * options.size)) + "\n";
 }
 
 }  // namespace
 
 std::string SceneText(const SceneModel& scene, const TextOptions& options) {
-  std::string text =
-      IntegratorText(scene, options) + "Accelerator \"" + options.accelerator + "\"\n" +
-      SamplerText(scene, options.samples) + "Film \"image\" \"integer xresolution\" " +
-      std::to_string(kFilmWidth) + " \"integer yresolution\" " + std::to_string(kFilmHeight) +
-      "\n" + CameraText(scene.camera, options.stillAt) + "WorldBegin\n" + options.worldScale;
+  std::string text = IntegratorText(scene, options) + "Accelerator \"" + options.accelerator +
+                     "\"\n" + SamplerText(scene, options.samples) + FilmText(options) +
+                     CameraText(scene.camera, options) + "WorldBegin\n" + options.worldScale +
+                     ScaleText(options.size);
   int next = 1;
   if (options.isFurnace && options.hasSky) text += "LightSource \"infinite\"\n";
   if (!options.isFurnace)
-    for (const LightModel& light : scene.lights) text += LightText(light, scene);
+    for (const LightModel& light : scene.lights)
+      text += LightText(light, scene, options.power * options.size * options.size, options.power);
+  if (options.hasBlackLight) text += "LightSource \"point\" \"color I\" [0 0 0]\n";
   for (const MediumModel& medium : scene.media) text += MediumText(medium, options);
   if (scene.room != RoomKind::None)
     text += "AttributeBegin\n" + MaterialText(scene.walls, !options.isFurnace, &next) +

@@ -28,6 +28,13 @@ struct TextOptions {
   std::optional<double> stillAt = std::nullopt;
   bool partsMove = false;       // parts of instanced objects move as well, within the object
   const char* worldScale = "";  // a directive before the world's lights and shapes
+  int width = kFilmWidth, height = kFilmHeight;
+  std::array<double, 4> crop{0, 1, 0, 1};  // part of the film
+  // Two changes that leave the picture as it is, but for a factor. `size` multiplies all lengths
+  // and keeps all radiances. `power` multiplies all emission.
+  double size = 1, power = 1;
+  bool hasBlackLight = false;  // one more light, which emits nothing
+  std::string ending = "";     // further parameters of the integrator
 };
 
 std::string SceneText(const SceneModel& scene, const TextOptions& options);
@@ -39,8 +46,11 @@ std::array<double, 3> LargestAlbedo(const MaterialModel& material);
 // Writes the textures of a material and then its Material directive. `next` numbers textures.
 std::string MaterialText(const MaterialModel& material, bool hasBumps, int* next);
 
-// Returns "[.1 .2 .3]", each channel times the factor.
-std::string ColourText(const Colour& colour, double factor);
+// Returns the value that "%.6g" prints.
+double SixDigits(double value);
+
+// Returns "[.1 .2 .3]", each channel times the factor, with six digits, times the scale.
+std::string ColourText(const Colour& colour, double factor, double scale = 1);
 std::string ImageFile();
 std::string MeasurementFile();  // of the material "measured"  // a small image in the source tree
 

@@ -2,7 +2,8 @@
 // soak is the long run over random scenes. Seeds are consecutive, from a given one or from the
 // clock. Failing scenes are shrunk and written to a folder. The exit status is 1 if a scene failed
 // and 2 if the command line is wrong. With --until-failure the run ends with the first failure, and
-// no scene is shrunk or written.
+// no scene is shrunk or written. With --counts FILE the run goes on after the seeds of earlier runs
+// with this file, and adds its scenes to their number.
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -10,10 +11,12 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/random/scenes/counts.h"
 #include "tests/random/scenes/run.h"
 
 namespace exphoton::random_scenes {
@@ -23,19 +26,20 @@ using Clock = std::chrono::steady_clock;
 
 struct Options {
   double hours = 0;
-  std::uint64_t seed = 0;  // 0: from the clock
-  int scenes = 0;          // 0: until the time is over
-  int agreementEvery = 10;
-  std::string only;  // a property; empty: all
+  std::uint64_t seed = 0;   // 0: from the clock
+  int scenes = 0;           // 0: until the time is over
+  int agreementEvery = 20;  // 0: never
+  std::string only;         // a property; empty: all
   bool untilFailure = false;
   int shrinkTries = RunSettings{}.maxStatisticalTries;
   std::string folder = "failed-scenes";
+  std::string counts;  // a file; empty: none
 };
 
 constexpr const char* kUsage =
     "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only PROPERTY] "
-    "[--shrink TRIES] [--until-failure] [--folder PATH]\nproperties: invariances, probes, energy, "
-    "estimates, furnace, rooms, agreement";
+    "[--shrink TRIES] [--until-failure] [--folder PATH] [--counts FILE]\nproperties: variations, "
+    "probes, estimates, energy, pairs, invariances, furnace, rooms, agreement";
 
 // Converts the whole text to a number of type T.
 template <class T>
@@ -70,6 +74,8 @@ Options Parse(int count, char** words) {
       options.shrinkTries = ParseNumber<int>(value());
     else if (word == "--folder")
       options.folder = value();
+    else if (word == "--counts")
+      options.counts = value();
     else if (word.starts_with("-"))
       throw std::invalid_argument("there is no option \"" + word + "\"\n" + kUsage);
     else
@@ -81,6 +87,17 @@ Options Parse(int count, char** words) {
         std::uint64_t(std::chrono::system_clock::now().time_since_epoch().count() / 1'000'000'000) *
         100'000;
   return options;
+}
+
+SoakCounts ReadCounts(const std::string& name) {
+  std::ifstream file(name);
+  if (!file) return {};
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  try {
+    return ParseCounts(text);
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(name + ": " + error.what());
+  }
 }
 
 void Write(const Failure& failure, const std::string& folder) {
@@ -101,13 +118,10 @@ struct Share {
 };
 
 std::vector<Share> SharesOf(const Options& options) {
-  const std::vector<Share> all{{kProbes, 1},
-                               {kEstimates, 1},
-                               {kInvariances, 1},
-                               {kEnergy, 1},
-                               {kFurnace, 0},
-                               {kRooms, 10},
-                               {kAgreement, options.agreementEvery}};
+  const std::vector<Share> all{
+      {kVariations, 1}, {kProbes, 4},  {kEstimates, 2},
+      {kEnergy, 2},     {kPairs, 20},  {kInvariances, 100},
+      {kFurnace, 100},  {kRooms, 200}, {kAgreement, options.agreementEvery}};
   if (options.only.empty()) return all;
   for (const Share& share : all)
     if (share.property == options.only)
@@ -123,7 +137,11 @@ class Soak {
         shares_(SharesOf(options)),
         run_({.maxTries =
                   options.untilFailure || options.shrinkTries == 0 ? 0 : RunSettings{}.maxTries,
-              .maxStatisticalTries = options.untilFailure ? 0 : options.shrinkTries}) {}
+              .maxStatisticalTries = options.untilFailure ? 0 : options.shrinkTries}) {
+    if (!options_.counts.empty()) earlier_ = ReadCounts(options_.counts);
+    if (earlier_.next > 0) options_.seed = earlier_.next;
+    std::printf("seeds from %llu\n", static_cast<unsigned long long>(options_.seed));
+  }
 
   bool Run() {
     const auto end = Clock::now() + std::chrono::duration<double>(options_.hours * 3600);
@@ -137,6 +155,9 @@ class Soak {
     }
     Report(done);
     if (options_.untilFailure) return !ReportFirst();
+    if (!options_.counts.empty())
+      std::printf("all runs together:\n%s",
+                  TalliesText(Sum(earlier_, run_.Tallies()).tallies).c_str());
     std::printf("%s%.0f CPU seconds\n", run_.Summary().c_str(),
                 double(std::clock()) / CLOCKS_PER_SEC);
     std::printf("one scene again: ./dev soak --seed N --scenes 1\n");
@@ -147,12 +168,17 @@ class Soak {
   void CheckScene(int number) {
     const std::uint64_t seed = options_.seed + std::uint64_t(number);
     for (const Share& share : shares_)
-      if (share.every > 0 && number % share.every == 0) run_.Add(share.property, seed);
+      if (share.every > 0 && seed % std::uint64_t(share.every) == 0) run_.Add(share.property, seed);
   }
 
   void Report(int done) {
     run_.JudgeComparisons();
     if (options_.untilFailure) return;
+    if (!options_.counts.empty()) {
+      SoakCounts counts = Sum(earlier_, run_.Tallies());
+      counts.next = options_.seed + std::uint64_t(done);
+      std::ofstream(options_.counts) << CountsText(counts);
+    }
     for (; written_ < run_.Failures().size(); ++written_)
       Write(run_.Failures()[written_], options_.folder);
     for (; named_ < run_.Blurred().size(); ++named_)
@@ -181,6 +207,7 @@ class Soak {
   Options options_;
   std::vector<Share> shares_;
   SceneRun run_;
+  SoakCounts earlier_;  // the runs before
   std::size_t written_ = 0, named_ = 0;
 };
 
@@ -190,7 +217,6 @@ class Soak {
 int main(int count, char** words) {
   try {
     const auto options = exphoton::random_scenes::Parse(count, words);
-    std::printf("seeds from %llu\n", static_cast<unsigned long long>(options.seed));
     return exphoton::random_scenes::Soak(options).Run() ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "soak: %s\n", error.what());

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ComparePairs renders a random scene with two settings that have the same expected picture. The
+// seed chooses the pair of settings. Errors of weights and probabilities differ between the two.
+#pragma once
+
+#include <vector>
+
+#include "tests/random/scenes/agreement.h"
+
+namespace exphoton::random_scenes {
+
+std::vector<Comparison> ComparePairs(const SceneModel& scene, const Effort& effort);
+
+// Returns the scene file with the first settings of the pair.
+std::string PairText(const SceneModel& scene, std::uint64_t seed);
+
+}  // namespace exphoton::random_scenes
