@@ -18,6 +18,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 # The samples a pixel of a pass, the passes, and the exposure of the picture. Each pass shoots its own
 # photons, so that passes also take away the blotches of photons.
 PICTURES = {
+    "cloister": (32, 4, -.3),
     "glass-still-life": (32, 2, .4),
     "spiral-staircase": (32, 4, -.1),
     "swimming-hall": (32, 2, -.2),
