@@ -19,6 +19,7 @@
 #include "core/sampling/filter.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_names.h"
 #include "core/transport/integrator.h"
 #include "core/transport/volume_integrator.h"
 
@@ -60,6 +61,7 @@ struct LoadingStopped {};
 struct RenderSetup {
   std::string sceneName;  // path of the scene file
   std::unique_ptr<Scene> scene;
+  SceneNames names;
   std::unique_ptr<SurfaceIntegrator> integrator;
   std::unique_ptr<VolumeIntegrator> volumeIntegrator;  // null if the scene has no medium
   std::unique_ptr<Sampler> sampler;

@@ -84,12 +84,13 @@ TEST_F(ImportProgram, RenderingALaterSceneNamesTheCommand) {
 
 // A map of one radiance gives the picture of a light without a map.
 TEST_F(ImportProgram, ConvertsTheMapOfASky) {
-  Write("white.pfm", "PF\n4 4\n-1\n" + [] {
-    std::string pixels;
-    const float value = .5f;
-    for (int i = 0; i < 48; ++i) pixels.append(reinterpret_cast<const char*>(&value), 4);
-    return pixels;
-  }());
+  Write(
+      "white.pfm", "PF\n4 4\n-1\n" + [] {
+        std::string pixels;
+        const float value = .5f;
+        for (int i = 0; i < 48; ++i) pixels.append(reinterpret_cast<const char*>(&value), 4);
+        return pixels;
+      }());
   Write("four.pbrt", kExact4 + "LightSource \"infinite\" \"string filename\" \"white.pfm\"\n");
   const ProgramResult imported = Run({"import", "four.pbrt", "-o", "one.pbrt"});
   EXPECT_EQ(imported.status, 0) << imported.err;

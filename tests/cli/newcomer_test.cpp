@@ -203,8 +203,8 @@ TEST_F(Newcomer, HelpNamesCommandsFirstAndFitsTheTerminal) {
   EXPECT_LT(help.find("Commands"), help.find("Examples"));
   EXPECT_LT(help.find("Examples"), help.find("How much to render:"));
   EXPECT_EQ(Run({"help"}).out, help);
-  for (const char* command :
-       {"render", "plugins", "info", "convert", "import", "compare", "study", "report"}) {
+  for (const char* command : {"render", "plugins", "info", "convert", "import", "denoise",
+                              "compare", "study", "report"}) {
     std::istringstream lines(Run({command, "--help"}).out);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   }

@@ -52,7 +52,7 @@ grep -q 'path' log || fail "the message does not name the plugin"
 mv path.so "$prefix/lib/exphoton/plugins/integrators/"
 
 # Completion and manual know every command.
-for command in render explain plugins check-plugin info convert import compare study report; do
+for command in render explain plugins check-plugin info convert import denoise compare study report; do
   grep -q "^\.B $command$" <(zcat -f "$prefix"/share/man/man1/exphoton.1*) ||
     fail "the manual lacks $command"
 done

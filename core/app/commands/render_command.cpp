@@ -318,7 +318,7 @@ FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
     WritePngPicture(picture.path, picture.image, command_.png, log_);
     return picture;
   }
-  picture.image.attributes = PictureAttributes(run, command_.isReproducible);
+  FinishExr(run, command_.isReproducible, &picture.image);
   picture.report = WriteExr(picture.path, picture.image, command_.asHalf);
   return picture;
 }

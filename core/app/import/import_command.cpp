@@ -55,8 +55,8 @@ std::string MapPath(const std::string& scene, const std::string& name) {
 
 void WriteSkyMap(const std::string& source, const std::string& path) {
   const Image image = ReadImage(source);
-  const bool isColor = image.FindChannel("R") >= 0 && image.FindChannel("G") >= 0 &&
-                       image.FindChannel("B") >= 0;
+  const bool isColor =
+      image.FindChannel("R") >= 0 && image.FindChannel("G") >= 0 && image.FindChannel("B") >= 0;
   if (!isColor || image.Width() != image.Height())
     throw Error(ExitStatus::File,
                 "the map \"" + source + "\" of an infinite light " +
@@ -65,7 +65,7 @@ void WriteSkyMap(const std::string& source, const std::string& path) {
 }
 
 void CheckImportFiles(const ImportTask& task, const ImportedScene& scene, const SceneSource& source,
-                Log& log) {
+                      Log& log) {
   RunFiles files;
   std::set<std::string> inputs = source.FilesRead();
   for (const auto& [map, name] : scene.skyMaps) inputs.insert(map);
@@ -93,8 +93,7 @@ int Import(ImportOptions options) {
   log.Summarize();
   const std::string written = "wrote \"" + options.task.outputFile + "\", converted from version " +
                               std::to_string(scene.version) + ": ";
-  log.Notice(written +
-             (report.IsExact() ? "everything has its equivalent" : report.Summary()));
+  log.Notice(written + (report.IsExact() ? "everything has its equivalent" : report.Summary()));
   return report.IsExact() ? 0 : kImportIsInexact;
 }
 

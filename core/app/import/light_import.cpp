@@ -42,7 +42,7 @@ class LightImporter {
     if (params_.TakeBool("twosided", false))
       params_.LeftOut(*params_.Take("twosided"), "only the side of the normal shines");
     if (const ParsedParam* power = params_.Take("power"))
-      params_.LeftOut(*power, "the brightness is that of \"L\"");
+      params_.LeftOut(*power, "\"L\" alone decides the brightness");
     return End(&text);
   }
 

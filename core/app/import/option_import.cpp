@@ -90,9 +90,7 @@ class OptionImporter {
       return text.Text();
     }
     const bool isRandom = type_ == "random" || type_ == "independent";
-    const std::string name = isRandom            ? "random"
-                             : type_ == "halton" ? "halton"
-                                                 : "lowdiscrepancy";
+    const std::string name = isRandom ? "random" : type_ == "halton" ? "halton" : "lowdiscrepancy";
     DirectiveText text("Sampler", {name});
     text.Number("integer pixelsamples", samples);
     if (name != type_) params_.Note("becomes \"" + name + "\": only the noise differs");
@@ -102,9 +100,10 @@ class OptionImporter {
   std::string Filter() {
     const bool isOf3 = context_.version == 3;
     const std::string name = type_ == "sinc" ? "sinc" : type_;
-    const double radius = type_ == "sinc" ? 4 : type_ == "box" ? .5 : !isOf3 && type_ == "gaussian"
-                                                                          ? 1.5
-                                                                          : 2;
+    const double radius = type_ == "sinc"                 ? 4
+                          : type_ == "box"                ? .5
+                          : !isOf3 && type_ == "gaussian" ? 1.5
+                                                          : 2;
     if (!IsFilter()) {
       params_.Replaced("is replaced by \"box\"");
       return DirectiveText("PixelFilter", {"box"}).Text();
@@ -113,8 +112,7 @@ class OptionImporter {
     text.Number("float xwidth", Width('x', radius)).Number("float ywidth", Width('y', radius));
     if (type_ == "gaussian") {
       const double sigma = params_.TakeNumber("sigma", .5);
-      text.Number("float alpha",
-                  isOf3 ? params_.TakeNumber("alpha", 2) : 1 / (2 * sigma * sigma));
+      text.Number("float alpha", isOf3 ? params_.TakeNumber("alpha", 2) : 1 / (2 * sigma * sigma));
     }
     Copy("B", &text);
     Copy("C", &text);
@@ -151,8 +149,8 @@ class OptionImporter {
     else if (type_ != "path" && type_ != "simplepath")
       params_.Note("becomes \"path\": only the noise differs");
     if (type_ == "mlt")
-      params_.Ignore({"bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
-                      "sigma"});
+      params_.Ignore(
+          {"bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability", "sigma"});
     params_.Ignore({"samplelights", "samplebsdf"});
     return WithDepth("path");
   }
@@ -177,8 +175,7 @@ class OptionImporter {
     DirectiveText text("SurfaceIntegrator", {"ambientocclusion"});
     if (const double samples = params_.TakeNumber("nsamples", 64); context_.version == 3)
       text.Number("integer nsamples", samples);
-    if (const ParsedParam* distance = params_.Take("maxdistance"))
-      text.Copy(*distance, "maxdist");
+    if (const ParsedParam* distance = params_.Take("maxdistance")) text.Copy(*distance, "maxdist");
     params_.Ignore({"cossample"});
     return text.Text();
   }

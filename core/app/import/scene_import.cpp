@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ImportScene writes one file: included and imported files become part of it. Named materials are
-// written where they are used, because MakeNamedMaterial would make the scene one of version 2. Only
-// a scene with blends of named materials becomes one of version 2.
+// written where they are used, because MakeNamedMaterial would make the scene one of version 2.
+// Only a scene with blends of named materials becomes one of version 2.
 #include "core/app/import/scene_import.h"
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 #include "core/app/import/directive_text.h"
 #include "core/app/import/import_context.h"
-#include "core/app/import/reading/later_params.h"
-#include "core/app/import/reading/later_scan.h"
 #include "core/app/import/light_import.h"
 #include "core/app/import/materials/material_import.h"
 #include "core/app/import/option_import.h"
+#include "core/app/import/reading/later_params.h"
+#include "core/app/import/reading/later_scan.h"
 #include "core/app/import/shape_import.h"
 #include "core/app/import/texture_import.h"
 #include "core/params/suggestions.h"
@@ -24,7 +24,7 @@ namespace {
 class SceneImporter final : public LaterReader {
  public:
   SceneImporter(SceneSource& source, const LaterScan& scan, ImportContext& context, Log& log,
-           const SceneLimits& limits)
+                const SceneLimits& limits)
       : LaterReader(source, log, limits), scan_(scan), context_(context) {}
 
   const std::string& Text() const { return text_; }
@@ -101,7 +101,8 @@ class SceneImporter final : public LaterReader {
   static std::string MatrixText(const Transform& transform) {
     std::vector<double> numbers;
     for (std::size_t column = 0; column < 4; ++column)
-      for (std::size_t row = 0; row < 4; ++row) numbers.push_back(transform.Matrix().m[row][column]);
+      for (std::size_t row = 0; row < 4; ++row)
+        numbers.push_back(transform.Matrix().m[row][column]);
     return "Transform " + NumbersText(numbers) + "\n";
   }
 
@@ -128,8 +129,8 @@ class SceneImporter final : public LaterReader {
   bool VisitMaterial(const Directive& directive) {
     switch (directive.spec->id) {
       case DirectiveId::Material:
-        UseMaterial(Convert(State().WithAttributes(directive, "material"), {},
-                            directive.strings[0]));
+        UseMaterial(
+            Convert(State().WithAttributes(directive, "material"), {}, directive.strings[0]));
         return true;
       case DirectiveId::MakeNamedMaterial:
         if (IsOf4()) return true;  // written at the beginning, or where it is used
@@ -161,9 +162,8 @@ class SceneImporter final : public LaterReader {
                   directive.Where(), DidYouMean(name, names));
     }
     const auto text = Convert(*definition, {}, NamedMaterialType(*definition));
-    UseMaterial(text && context_.writesVersion2
-                    ? DirectiveText("NamedMaterial", {name}).Text()
-                    : text);
+    UseMaterial(text && context_.writesVersion2 ? DirectiveText("NamedMaterial", {name}).Text()
+                                                : text);
   }
 
   bool VisitContents(const Directive& directive) {
@@ -257,8 +257,8 @@ class SceneImporter final : public LaterReader {
 };
 
 std::string HeadText(const ImportTask& task, const ImportContext& context) {
-  std::string text = "# Converted by exphoton import from " + task.sceneFile + ", a scene of version " +
-                     std::to_string(context.version) + ".\n";
+  std::string text = "# Converted by exphoton import from " + task.sceneFile +
+                     ", a scene of version " + std::to_string(context.version) + ".\n";
   const std::string list = context.report.Comments();
   text += list.empty() ? "# Everything has its equivalent.\n"
                        : "# These parts are expressed otherwise:\n" + list;

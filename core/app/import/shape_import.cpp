@@ -69,8 +69,9 @@ class ShapeImporter {
   std::string Same() {
     DirectiveText text("Shape", {type_});
     for (const char* name :
-         {"radius", "innerradius", "height", "zmin", "zmax", "phimax", "p1", "p2", "nu", "nv",
-          "Pz", "uorder", "vorder", "uknots", "vknots", "u0", "u1", "v0", "v1", "P", "Pw"})
+         {"radius", "innerradius", "height", "zmin", "zmax",   "phimax", "p1",
+          "p2",     "nu",          "nv",     "Pz",   "uorder", "vorder", "uknots",
+          "vknots", "u0",          "u1",     "v0",   "v1",     "P",      "Pw"})
       Copy(name, &text);
     Alpha(nullptr);
     return text.Text();
@@ -136,10 +137,9 @@ class ShapeImporter {
       double side = 0;
       for (std::size_t x = 0; x < 3; ++x) {
         const std::size_t y = (x + 1) % 3, z = (x + 2) % 3;
-        const double cross = (at(points, b, y) - at(points, a, y)) *
-                                 (at(points, c, z) - at(points, a, z)) -
-                             (at(points, b, z) - at(points, a, z)) *
-                                 (at(points, c, y) - at(points, a, y));
+        const double cross =
+            (at(points, b, y) - at(points, a, y)) * (at(points, c, z) - at(points, a, z)) -
+            (at(points, b, z) - at(points, a, z)) * (at(points, c, y) - at(points, a, y));
         side += cross * (at(normals, a, x) + at(normals, b, x) + at(normals, c, x));
       }
       if (side < 0) std::swap((*indices)[t + 1], (*indices)[t + 2]);

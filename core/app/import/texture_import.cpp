@@ -67,8 +67,8 @@ class TextureImporter {
 
   // Takes a value, which may be a texture.
   void Value(const std::string& from, const char* to, double fallback, DirectiveText* text) {
-    if (!isFloat_) return AddColor({from.c_str(), to, {fallback, fallback, fallback}}, params_,
-                                   context_, text);
+    if (!isFloat_)
+      return AddColor({from.c_str(), to, {fallback, fallback, fallback}}, params_, context_, text);
     if (const ParsedParam* param = params_.Take(from)) {
       text->Copy(*param, to);
     } else {
@@ -93,9 +93,9 @@ class TextureImporter {
       text->Copy(*scale, "tex2");
     } else {
       const double factor = scale && scale->numbers.size() == 1 ? scale->numbers[0] : 1;
-      text->Numbers(isFloat_ ? "float tex2" : "color tex2",
-                    isFloat_ ? std::vector<double>{factor}
-                             : std::vector<double>{factor, factor, factor});
+      text->Numbers(
+          isFloat_ ? "float tex2" : "color tex2",
+          isFloat_ ? std::vector<double>{factor} : std::vector<double>{factor, factor, factor});
     }
   }
 

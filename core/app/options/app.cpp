@@ -13,6 +13,7 @@
 #include "core/app/commands/plugins_command.h"
 #include "core/app/commands/render_command.h"
 #include "core/app/commands/render_frames.h"
+#include "core/app/denoise/denoise_command.h"
 #include "core/app/import/import_command.h"
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
@@ -62,6 +63,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "info") return RunInfo(rest);
   if (command == "convert") return RunConvert(rest);
   if (command == "import") return RunImport(rest);
+  if (command == "denoise") return RunDenoise(rest);
   if (command == "compare") return RunCompare(rest);
   if (command == "merge") return RunMerge(rest, CommandLineText(arguments));
   if (command == "cluster") return RunCluster(rest);

@@ -31,6 +31,7 @@ constexpr const char* kCommands =
     "  exphoton info PICTURE ...         print size, channels and attributes\n"
     "  exphoton convert FROM TO          convert between EXR and PNG\n"
     "  exphoton import SCENE -o NEW      convert a scene of pbrt version 3 or 4\n"
+    "  exphoton denoise PICTURE          filter noise of a picture of two halves\n"
     "  exphoton compare REFERENCE NEW    test whether pictures differ\n"
     "  exphoton merge PARTS -o PICTURE   make a picture from parts (--shard)\n"
     "  exphoton cluster SCENE --shards N write scripts that render with Slurm\n"
@@ -378,8 +379,8 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render", "explain", "plugins", "check-plugin", "info",  "convert", "import", "compare",
-          "merge",  "cluster", "photons", "quote",        "study", "report",  "help"};
+  return {"render",  "explain", "plugins", "check-plugin", "info",  "convert", "import", "denoise",
+          "compare", "merge",   "cluster", "photons",      "quote", "study",   "report", "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

@@ -117,7 +117,7 @@ double ParsePercentage(const std::string& option, const std::string& text) {
 std::string AllAovNames() {
   AovSet all;
   for (int i = 0; i < kAovCount; ++i) all.Add(Aov(i));
-  return all.Names() + ", light (all light AOVs)";
+  return all.Names() + ", light (all light AOVs), cryptomatte (both crypto AOVs)";
 }
 
 Shard ParseShard(const std::string& text) {
@@ -140,7 +140,7 @@ Shard ParseShard(const std::string& text) {
 AovSet ParseAovList(const std::string& text) {
   std::string unknown;
   if (const auto aovs = ParseAovs(text, &unknown)) return *aovs;
-  std::vector<std::string> names{"light"};
+  std::vector<std::string> names{"light", "cryptomatte"};
   for (int i = 0; i < kAovCount; ++i) names.emplace_back(GetAovInfo(Aov(i)).name);
   FailUsage("--aov: unknown AOV \"" + unknown + "\"; AOVs are " + AllAovNames(),
             DidYouMean(unknown, names));

@@ -7,6 +7,7 @@
 
 #include "core/app/options/options.h"
 #include "core/app/output/run_record.h"
+#include "core/imaging/film/cryptomatte.h"
 
 namespace exphoton::cli {
 namespace {
@@ -93,6 +94,17 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   attributes["worldToNDC"] = scene.worldToNdc;
   if (!isReproducible) AddTimes(run, &attributes);
   return attributes;
+}
+
+void FinishExr(const RunRecord& run, bool isReproducible, Image* image) {
+  image->attributes = PictureAttributes(run, isReproducible);
+  const SceneNames& names = run.scene.names;
+  FinishCryptomatte(
+      "CryptoObject", [&](std::uint32_t number) { return names.Object(number); },
+      names.ObjectCount(), image);
+  FinishCryptomatte(
+      "CryptoMaterial", [&](std::uint32_t number) { return names.Material(number); },
+      names.MaterialCount(), image);
 }
 
 }  // namespace exphoton::cli

@@ -55,6 +55,8 @@ struct RunRecord {
 // isReproducible: omits times, dates, user, threads and command line, so that equal renders give
 // identical files.
 std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bool isReproducible);
+// Sets the attributes of an EXR picture, and the ids of its Cryptomatte layers.
+void FinishExr(const RunRecord& run, bool isReproducible, Image* image);
 
 // Takes over the amount of rendering and its results.
 void RecordPasses(const PassesResult& result, RunRecord* run);

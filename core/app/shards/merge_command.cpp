@@ -224,7 +224,7 @@ class Merge {
       WritePngPicture(options_.outfile, image, options_.png, log_);
     } else {
       const bool asHalf = !options_.asFloat && (options_.asHalf || record_.asHalf);
-      image.attributes = PictureAttributes(run, isReproducible_);
+      FinishExr(run, isReproducible_, &image);
       const ExrWriteReport report = WriteExr(options_.outfile, image, asHalf);
       if (report.clampedToHalf > 0)
         log_.Warning(std::to_string(report.clampedToHalf) +

@@ -55,6 +55,7 @@ void PartRecord::Transfer(ByteArchive* archive) {
   passes.Transfer(archive);
   archive->Values(&seed, &footprintSamples);
   archive->Text(&aovs);
+  if (aovs.find("crypto") != std::string::npos) scene.names.Transfer(archive);
   for (bool* flag : {&premultipliesAlpha, &asHalf, &isReproducible})
     TransferPartFlag(archive, flag);
   archive->Text(&cameraDepth);

@@ -29,7 +29,8 @@ SceneRecord::SceneRecord(const RenderSetup& setup)
       full(setup.film.Full()),
       crop(setup.crop),
       worldToCamera(MatrixAttribute(setup.camera->CameraToWorld().InverseMatrix())),
-      worldToNdc(MatrixAttribute(setup.camera->WorldToNdc())) {
+      worldToNdc(MatrixAttribute(setup.camera->WorldToNdc())),
+      names(setup.names) {
   for (int i = 0; i < kFeatureCount; ++i) {
     const RequiredFeatures::Row& row = setup.scene->Features().Get(Feature(i));
     const bool isNeeded = setup.scene->Features().Needs(Feature(i));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/imaging/image.h"
+#include "core/scene/scene_names.h"
 
 namespace exphoton {
 class ByteArchive;
@@ -37,6 +38,7 @@ struct SceneRecord {
   std::vector<Effect> effects;
   float exposureTime = 0;
   std::vector<float> worldToCamera, worldToNdc;  // as OpenEXR stores them
+  SceneNames names;  // not saved by Transfer: only Cryptomatte needs them
 };
 
 std::string EffectNames(const RenderSetup& setup);

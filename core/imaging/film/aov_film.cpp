@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// AovFilm: sums of the AOVs, and their output as channels in the order of the AOVs.
+// AovFilm: sums of the AOVs. aov_film_output.cpp makes channels of them.
 #include "core/imaging/film/aov_film.h"
 
 #include <algorithm>
@@ -7,10 +7,6 @@
 
 namespace exphoton {
 namespace {
-
-// AOVs that are means over a pixel's own samples.
-constexpr AovSet kOwn = kSurfaceAovs | AovSet{Aov::PhotonDensity};
-constexpr AovSet kIds{Aov::ObjectId, Aov::MaterialId};
 
 // Writes the values of a light AOV, or of an AOV in kOwn, at one sample to `out`. Returns their
 // number. Ids have no values to average.
@@ -73,6 +69,8 @@ AovFilm::AovFilm(const PixelBounds& crop, AovSet wanted)
   if (surfaceCount_ > 0) surfaceWeights_.resize(pixels);
   if (wanted.Has(Aov::ObjectId)) objects_.resize(pixels);
   if (wanted.Has(Aov::MaterialId)) materials_.resize(pixels);
+  if (wanted.Has(Aov::CryptoObject)) objectShares_ = IdShares(pixels);
+  if (wanted.Has(Aov::CryptoMaterial)) materialShares_ = IdShares(pixels);
   if (wanted.Has(Aov::Variance)) moments_.resize(pixels * 3);
   if (wanted.Has(Aov::Time)) seconds_.resize(pixels);
   if (wanted.Has(Aov::SharingBias)) biases_.resize(pixels);
@@ -131,6 +129,8 @@ void AovFilm::AddSurface(std::size_t pixel, const AovSample& sample, double weig
   ++weights_[pixel].samples;
   if (!objects_.empty()) objects_[pixel].Add(sample.objectId, weight);
   if (!materials_.empty()) materials_[pixel].Add(sample.materialId, weight);
+  if (!objectShares_.IsEmpty()) objectShares_.Add(pixel, sample.objectId, weight);
+  if (!materialShares_.IsEmpty()) materialShares_.Add(pixel, sample.materialId, weight);
   double* sum = surfaceValues_.data() + pixel * surfaceCount_;
   for (const Aov aov : surfaces_) {
     double x[3];
@@ -222,6 +222,8 @@ void AovFilm::Clear() {
   std::ranges::fill(surfaceWeights_, SurfaceWeights());
   std::ranges::fill(objects_, Majority());
   std::ranges::fill(materials_, Majority());
+  objectShares_.Clear();
+  materialShares_.Clear();
   std::ranges::fill(moments_, Moments());
   std::ranges::fill(seconds_, 0.);
   std::ranges::fill(distances_, 0.);
@@ -237,6 +239,8 @@ void AovFilm::ClearPixel(Point2i pixel) {
   if (!surfaceWeights_.empty()) surfaceWeights_[at] = SurfaceWeights();
   if (!objects_.empty()) objects_[at] = Majority();
   if (!materials_.empty()) materials_[at] = Majority();
+  objectShares_.ClearPixel(at);
+  materialShares_.ClearPixel(at);
   if (!moments_.empty()) std::fill_n(moments_.begin() + std::ptrdiff_t(at * 3), 3, Moments());
   if (!seconds_.empty()) seconds_[at] = 0;
   if (!reads_.empty()) distances_[at] = 0, reads_[at] = 0;
@@ -274,6 +278,8 @@ void AovFilm::Add(const AovFilm& other) {
   };
   addVotes(&objects_, other.objects_);
   addVotes(&materials_, other.materials_);
+  objectShares_.Add(other.objectShares_);
+  materialShares_.Add(other.materialShares_);
   for (std::size_t i = 0; i < moments_.size(); ++i) {
     moments_[i].wwLL += other.moments_[i].wwLL;
     moments_[i].wwL += other.moments_[i].wwL;
@@ -285,114 +291,6 @@ void AovFilm::Add(const AovFilm& other) {
     reads_[i] += other.reads_[i];
   }
   for (std::size_t i = 0; i < biases_.size(); ++i) biases_[i].Add(other.biases_[i], 1);
-}
-
-double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
-  const Weights& weights = weights_[pixel];
-  const Value& v = values_[pixel * valueCount_ + value];
-  if (weights.samples == 0) return 0;
-  if (std::abs(weights.sum) >= .5 * double(weights.samples)) return v.sum / weights.sum;
-  return weights.absSum > 0 ? double(v.absSum) / double(weights.absSum) : 0;
-}
-
-// Returns the variance of the quotient R = sum(w L) / sum(w), to first order: the sum of (w (L -
-// R))^2, divided by sum(w)^2. The samples are assumed to be independent. Splatted samples come with
-// covariances that are unbiased already.
-double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
-  const Weights& weights = weights_[pixel];
-  const double n = double(weights.samples), sum = std::max(std::abs(weights.sum), .5 * n);
-  if (weights.samples < 2 && !isSplatted_) return 0;
-  const Moments& m = moments_[pixel * 3 + channel];
-  const double mean = m.wL / sum;
-  const double squares = m.wwLL - 2 * mean * m.wwL + mean * mean * weights.sumOfSquares;
-  if (isSplatted_) return sum > 0 ? std::max(squares, 0.) / (sum * sum) : 0;
-  return std::max(squares, 0.) * n / ((n - 1) * sum * sum);
-}
-
-double AovFilm::SharingBiasOf(std::size_t pixel, std::size_t channel) const {
-  const Bias& bias = biases_[pixel];
-  return bias.samples > 0 ? bias.sums[channel] / bias.samples : 0;
-}
-
-// Normals are averaged to a direction. Properties of a surface are means over the samples that hit
-// one.
-void AovFilm::CollectSurface(Aov aov, std::size_t pixel, const double* sums, float* out) const {
-  const std::size_t count = GetAovInfo(aov).channels.size();
-  double weight = surfaceWeights_[pixel].hit;
-  if (aov == Aov::Albedo || aov == Aov::PhotonDensity) weight = surfaceWeights_[pixel].all;
-  if (aov == Aov::Normal || aov == Aov::GeometricNormal)
-    weight = std::hypot(sums[0], sums[1], sums[2]);
-  for (std::size_t c = 0; c < count; ++c) out[c] = weight > 0 ? float(sums[c] / weight) : 0;
-}
-
-void AovFilm::Collect(std::size_t pixel, const std::array<double, 4>& beauty, double lightScale,
-                      float* out) const {
-  std::size_t value = 0;
-  const double* sums = surfaceValues_.data() + pixel * surfaceCount_;
-  for (const Aov aov : aovs_) {
-    const std::size_t channels = GetAovInfo(aov).channels.size();
-    if (kOwn.Without(kIds).Has(aov)) {
-      CollectSurface(aov, pixel, sums, out);
-      sums += channels;
-      out += channels;
-      continue;
-    }
-    for (std::size_t c = 0; c < channels; ++c) {
-      double x = 0;
-      if (kLightAovs.Has(aov)) {
-        x = MeanOf(pixel, value++) * (beauty[c] < 0 ? 0 : lightScale);
-      } else if (kIds.Has(aov)) {
-        x = (aov == Aov::ObjectId ? objects_ : materials_)[pixel].id;
-      } else if (aov == Aov::Variance) {
-        x = VarianceOf(pixel, c) * lightScale * lightScale;
-      } else if (aov == Aov::Time) {
-        x = 1e3 * seconds_[pixel];
-      } else if (aov == Aov::Samples) {
-        x = double(weights_[pixel].samples);
-      } else if (aov == Aov::SharingBias) {
-        x = SharingBiasOf(pixel, c) * lightScale;
-      } else if (reads_[pixel] > 0) {
-        x = distances_[pixel] / double(reads_[pixel]);
-      }
-      *out++ = float(x);
-    }
-  }
-}
-
-void AovFilm::AppendTo(const Film& film, bool premultiplyAlpha, Image* image) const {
-  std::vector<std::string> names;
-  for (const Aov aov : aovs_) {
-    const auto& channels = GetAovInfo(aov).channels;
-    names.insert(names.end(), channels.begin(), channels.end());
-    if (GetAovInfo(aov).isExact) image->exactChannels.insert(channels.begin(), channels.end());
-  }
-  std::vector<float> values(names.size() * weights_.size());
-  std::size_t at = 0;
-  for (int y = crop_.y0; y < crop_.y1; ++y) {
-    for (int x = crop_.x0; x < crop_.x1; ++x, ++at) {
-      const std::array<double, 4> beauty = film.MeanOf({x, y});
-      const double scale = premultiplyAlpha ? std::clamp(beauty[3], 0., 1.) : 1;
-      Collect(at, beauty, scale, values.data() + at * names.size());
-    }
-  }
-  AppendChannels(names, values, image);
-}
-
-void AppendChannels(const std::vector<std::string>& names, const std::vector<float>& values,
-                    Image* image) {
-  const std::size_t before = image->channels.size(), added = names.size();
-  const std::size_t pixels = added == 0 ? 0 : values.size() / added;
-  std::vector<float> all;
-  all.reserve(image->pixels.size() + values.size());
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const auto old = image->pixels.begin() + std::ptrdiff_t(i * before);
-    const auto own = values.begin() + std::ptrdiff_t(i * added);
-    all.insert(all.end(), old, old + std::ptrdiff_t(before));
-    all.insert(all.end(), own, own + std::ptrdiff_t(added));
-  }
-  if (added == 0) return;
-  image->pixels = std::move(all);
-  image->channels.insert(image->channels.end(), names.begin(), names.end());
 }
 
 }  // namespace exphoton

@@ -11,6 +11,7 @@
 
 #include "core/imaging/film/aovs.h"
 #include "core/imaging/film/film.h"
+#include "core/imaging/film/id_shares.h"
 
 namespace exphoton {
 
@@ -67,6 +68,10 @@ class AovFilm {
   void AppendTo(const Film& film, bool premultiplyAlpha, Image* image) const;
 
  private:
+  // AOVs that are means over a pixel's own samples, and ids, which have no mean.
+  static constexpr AovSet kOwn = kSurfaceAovs | AovSet{Aov::PhotonDensity};
+  static constexpr AovSet kIds = kCryptomatte | AovSet{Aov::ObjectId, Aov::MaterialId};
+
   struct Weights {
     double sum = 0, sumOfSquares = 0;
     std::int64_t samples = 0;
@@ -103,6 +108,7 @@ class AovFilm {
   // Adds what does not depend on the picture's weights. `weight` is positive.
   void AddSurface(std::size_t pixel, const AovSample& sample, double weight);
   void CollectSurface(Aov aov, std::size_t pixel, const double* sums, float* out) const;
+  double OtherValue(Aov aov, std::size_t pixel, std::size_t channel, double lightScale) const;
 
   PixelBounds crop_;
   AovSet wanted_;
@@ -114,6 +120,7 @@ class AovFilm {
   std::vector<double> surfaceValues_;  // sums of w x
   std::vector<SurfaceWeights> surfaceWeights_;
   std::vector<Majority> objects_, materials_;
+  IdShares objectShares_, materialShares_;
   std::vector<Moments> moments_;  // three per pixel
   std::vector<double> seconds_;
   std::vector<double> distances_;  // sums of radianceDistance

@@ -11,6 +11,9 @@ void AovFilm::Transfer(ByteArchive* archive) {
         objects_.size(), materials_.size(), moments_.size(), seconds_.size(), distances_.size(),
         reads_.size(), biases_.size()})
     archive->Same(std::uint64_t(size));
+  for (IdShares* shares : {&objectShares_, &materialShares_})
+    for (std::size_t pixel = 0; pixel < shares->Count(); ++pixel)
+      shares->TransferPixel(archive, pixel);
   char isSplatted = isSplatted_ ? 1 : 0;
   archive->Values(&isSplatted);
   isSplatted_ = isSplatted != 0;
@@ -41,6 +44,8 @@ void AovFilm::TransferPixel(ByteArchive* archive, Point2i pixel) {
   if (!surfaceWeights_.empty()) archive->Values(&surfaceWeights_[at].all, &surfaceWeights_[at].hit);
   for (std::vector<Majority>* ids : {&objects_, &materials_})
     if (!ids->empty()) archive->Values(&(*ids)[at].id, &(*ids)[at].lead);
+  objectShares_.TransferPixel(archive, at);
+  materialShares_.TransferPixel(archive, at);
   for (std::size_t c = 0; c < 3 && !moments_.empty(); ++c) {
     Moments& m = moments_[at * 3 + c];
     archive->Values(&m.wwLL, &m.wwL, &m.wL);

@@ -16,6 +16,14 @@ std::vector<std::string> Axes(const std::string& name) {
   return {name + ".X", name + ".Y", name + ".Z"};
 }
 
+// Cryptomatte stores two pairs of an id and a share in each layer of four channels.
+std::vector<std::string> Pairs(const std::string& name) {
+  std::vector<std::string> channels;
+  for (const char* layer : {"00", "01", "02"})
+    for (const char* channel : {".R", ".G", ".B", ".A"}) channels.push_back(name + layer + channel);
+  return channels;
+}
+
 std::string Lower(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = char(std::tolower(static_cast<unsigned char>(c)));
@@ -59,6 +67,8 @@ const AovInfo& GetAovInfo(Aov aov) {
        "mean distance from gather hits to the radiance photons they read"},
       {"sharingBias", Colors("sharingBias"),
        "estimated error that shared gathers add, with its sign"},
+      {"cryptoObject", Pairs("CryptoObject"), "objects of the pixel and their shares", true},
+      {"cryptoMaterial", Pairs("CryptoMaterial"), "materials of the pixel and their shares", true},
   }};
   return infos[std::size_t(aov)];
 }
@@ -83,8 +93,8 @@ std::optional<AovSet> ParseAovs(std::string_view list, std::string* unknown) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     const std::string item = Lower(list.substr(at, end - at));
     at = end + 1;
-    bool isKnown = item == "light";
-    if (isKnown) set = set | kLightAovs;
+    bool isKnown = item == "light" || item == "cryptomatte";
+    if (isKnown) set = set | (item == "light" ? kLightAovs : kCryptomatte);
     for (int i = 0; i < kAovCount && !isKnown; ++i) {
       isKnown = Matches(item, GetAovInfo(Aov(i)));
       if (isKnown) set.Add(Aov(i));

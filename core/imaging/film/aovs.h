@@ -38,8 +38,10 @@ enum class Aov {
   PhotonDensity,     // photons of all maps per unit area at the first surface
   RadianceDistance,  // mean distance from gather hits to the radiance photons they read
   SharingBias,       // estimated error that shared gathers add to the pixel, with its sign
+  CryptoObject,      // objects of the pixel's samples and their shares (cryptomatte.h)
+  CryptoMaterial,    // the same for materials
 };
-inline constexpr int kAovCount = 19;
+inline constexpr int kAovCount = 21;
 
 struct AovInfo {
   const char* name;                   // for example "albedo", as in --aov
@@ -73,16 +75,17 @@ class AovSet {
 
 inline constexpr AovSet kLightAovs{Aov::Emission, Aov::Direct, Aov::Caustic, Aov::Indirect,
                                    Aov::Specular};
-inline constexpr AovSet kSurfaceAovs{Aov::Albedo,   Aov::Normal,    Aov::GeometricNormal,
-                                     Aov::Position, Aov::Depth,     Aov::TexCoords,
-                                     Aov::ObjectId, Aov::MaterialId};
+inline constexpr AovSet kCryptomatte{Aov::CryptoObject, Aov::CryptoMaterial};
+inline constexpr AovSet kSurfaceAovs =
+    kCryptomatte | AovSet{Aov::Albedo, Aov::Normal,    Aov::GeometricNormal, Aov::Position,
+                          Aov::Depth,  Aov::TexCoords, Aov::ObjectId,        Aov::MaterialId};
 // The AOVs that the renderer fills for every integrator.
 inline constexpr AovSet kRendererAovs =
     kSurfaceAovs | AovSet{Aov::Variance, Aov::Time, Aov::Samples};
 
-// Parses a list such as "albedo,N,direct". "light" selects all light AOVs. Case is ignored, and
-// "albedo.RGB" is the same as "albedo". Returns nullopt if a name is unknown and stores that name
-// in *unknown.
+// Parses a list such as "albedo,N,direct". "light" selects all light AOVs, and "cryptomatte"
+// selects objects and materials. Case is ignored, and "albedo.RGB" is the same as "albedo". Returns
+// nullopt if a name is unknown and stores that name in *unknown.
 std::optional<AovSet> ParseAovs(std::string_view list, std::string* unknown);
 
 // The AOV values of one camera sample. Light AOVs are not yet weighted by the filter; AovFilm does

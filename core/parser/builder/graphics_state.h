@@ -23,6 +23,7 @@ using MaterialMap = std::map<std::string, std::shared_ptr<MaterialSpec>>;
 // with the textures known at that shape. Later shapes share the object.
 struct MaterialSpec {
   std::string name;
+  std::string label;  // the name that MakeNamedMaterial gives; else empty
   ParamSet params;
   MaterialMap parts;                             // the named materials that the parameters refer to
   std::shared_ptr<const TextureTable> textures;  // null: use the textures known at the shape

@@ -235,6 +235,7 @@ void SceneBuilder::MakeNamedMaterial(Directive directive) {
   std::shared_ptr<MaterialSpec> spec =
       world_->MakeMaterialSpec(type->strings[0], params, *state_.namedMaterials);
   spec->textures = state_.textures;
+  spec->label = name;
   MaterialMap& materials = state_.OwnNamedMaterials();
   if (materials.contains(name))
     log_.Warning("material \"" + name + "\" is defined again: later shapes use the new one",

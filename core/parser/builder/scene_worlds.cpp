@@ -41,6 +41,7 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
   render_->Create(*registry_, log_, world_->HasMedia(), setup.get(), &errors_);
   if (!errors_.IsEmpty()) return Reset();  // no time is spent on a scene that will not be rendered
+  setup->names = world_->Names();
   SceneParts parts = world_->Take();
   for (const Statistics::Phase& phase : world_->Times().Phases()) {
     setup->acceleratorSeconds += phase.wallSeconds;

@@ -224,7 +224,9 @@ const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& sh
   if (spec.listed != material.get()) {
     parts_.materials.push_back(material);
     spec.listed = material.get();
-    materialIds_.try_emplace(material.get(), std::uint32_t(materialIds_.size() + 1));
+    const auto number = std::uint32_t(materialIds_.size() + 1);
+    if (materialIds_.try_emplace(material.get(), number).second)
+      names_.AddMaterial(spec.label.empty() ? spec.name : spec.label, !spec.label.empty());
   }
   return material.get();
 }
@@ -284,7 +286,10 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
 
 void WorldBuilder::AddShape(Directive directive, const GraphicsState& state) {
   const std::string& name = directive.strings[0];
-  if (!object_) ++objectCount_;
+  if (!object_) {
+    ++objectCount_;
+    names_.AddObject(name);
+  }
   const SourceLocation where = directive.Where();
   const SplitParams params =
       SplitByUse(name, state.material->name, std::exchange(directive.params, {}));

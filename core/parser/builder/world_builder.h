@@ -47,6 +47,7 @@ class WorldBuilder {
 
   // Returns the finished world. Nothing may be added afterwards.
   SceneParts Take();
+  const SceneNames& Names() const { return names_; }
   // Returns the time spent on building accelerators so far, as phase "accelerator".
   const Statistics& Times() const { return times_; }
 
@@ -103,6 +104,7 @@ class WorldBuilder {
   // Numbers for the AOVs objectId and materialId.
   std::uint32_t objectCount_ = 0;
   std::map<const Material*, std::uint32_t> materialIds_;
+  SceneNames names_;  // of these numbers
   int textureGenerations_ = 0;
   int materialDepth_ = 0;  // materials that are being made, each for the one before
   SharedCache shared_;

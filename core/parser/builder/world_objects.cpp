@@ -47,6 +47,7 @@ void WorldBuilder::AddInstance(const Directive& directive, const GraphicsState& 
   const AnimatedTransform place =
       MotionBetween(state.transform, transformTimes_, "\"" + name + "\"", directive.Where(), log_);
   const std::uint32_t id = ++objectCount_;
+  names_.AddObject(name);
   if (object.geometry->Set().Count() > 0)
     parts_.primitives->AddInstance({place.Start(), object.geometry,
                                     place.Moves() ? std::make_shared<const Motion>(place) : nullptr,

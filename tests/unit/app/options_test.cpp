@@ -219,7 +219,7 @@ TEST(SetOption, RefusesWhatHasNoDirectiveOrParameter) {
 TEST(AovOption, NamesWhatThereIs) {
   const std::string error = ErrorOf([] { ParseAovList("N,colour"); });
   EXPECT_EQ(error, "--aov: unknown AOV \"colour\"; AOVs are " + AllAovNames());
-  EXPECT_TRUE(AllAovNames().ends_with(", light (all light AOVs)"));
+  EXPECT_TRUE(AllAovNames().ends_with(", cryptomatte (both crypto AOVs)"));
 }
 
 }  // namespace

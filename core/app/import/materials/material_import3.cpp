@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ImportMaterial3 converts the materials of version 3. Most have the same name and parameters here;
-// defaults are written out, because those of version 1 differ. The Fresnel term of "plastic" is that
-// of version 1, but those of "uber" and "translucent" go from outside to inside.
+// defaults are written out, because those of version 1 differ. "plastic" keeps the
+// Fresnel term of version 1, but the terms of "uber" and "translucent" go from outside to inside.
 #include "core/app/import/materials/material_parts.h"
 
 namespace exphoton::cli {
 namespace {
-
 
 void AddFloat(const char* name, double fallback, LaterParams& params, DirectiveText* text) {
   const ParsedParam* param = params.Take(name);

@@ -24,9 +24,8 @@ struct DiffuseFresnel {
 double CoatedReflectance(double base, double eta) {
   if (eta <= 1) return base;
   const DiffuseFresnel fresnel(eta);
-  return std::clamp((1 - fresnel.outside) * (1 - fresnel.inside) * base /
-                        (1 - fresnel.inside * base),
-                    0., 1.);
+  return std::clamp(
+      (1 - fresnel.outside) * (1 - fresnel.inside) * base / (1 - fresnel.inside * base), 0., 1.);
 }
 
 double NormalReflectance(double eta, double k) {

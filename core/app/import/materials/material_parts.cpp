@@ -41,9 +41,8 @@ bool AddRoughness(const RoughnessNames& names, LaterParams& params, const Import
   };
   for (const ParsedParam* param : {u, v})
     if (param && param->type == "texture")
-      params.Replaced(*param,
-                      "is a texture: the constant " + ExactText(names.fallback) +
-                          " takes its place");
+      params.Replaced(
+          *param, "is a texture: the constant " + ExactText(names.fallback) + " takes its place");
   if (number(u) == 0 && number(v) == 0) return true;
   const double along = GlossOf(number(u), isRemapped, context.version);
   const double across = GlossOf(number(v), isRemapped, context.version);

@@ -2,8 +2,8 @@
 // These functions convert the parameters that many materials of versions 3 and 4 share.
 #pragma once
 
-#include "core/app/import/reading/later_color.h"
 #include "core/app/import/materials/material_import.h"
+#include "core/app/import/reading/later_color.h"
 
 namespace exphoton::cli {
 

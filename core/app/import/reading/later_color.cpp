@@ -29,8 +29,8 @@ constexpr std::array<NamedColor, 8> kMetals{{
     {"metal-Al-eta", {1.65746, .880369, .521229}},
     {"metal-Al-k", {9.22387, 6.269523, 4.837001}},
 }};
-// Indices at 587.6 nm, from the makers' data sheets. The F5, F10 and F11 of version 4 are the glasses
-// SF5, SF10 and SF11.
+// Indices at 587.6 nm, from the makers' data sheets. The F5, F10 and F11 of version 4 are the
+// glasses SF5, SF10 and SF11.
 constexpr std::array<std::pair<std::string_view, double>, 7> kGlasses{{
     {"glass-BK7", 1.5168},
     {"glass-BAF10", 1.67003},

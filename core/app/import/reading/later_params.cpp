@@ -6,8 +6,8 @@ namespace exphoton::cli {
 namespace {
 
 [[noreturn]] void FailKind(const ParsedParam& param, const std::string& subject, const char* kind) {
-  throw Error(ExitStatus::Scene, "parameter \"" + param.name + "\" of " + subject + " takes " + kind,
-              param.where);
+  throw Error(ExitStatus::Scene,
+              "parameter \"" + param.name + "\" of " + subject + " takes " + kind, param.where);
 }
 
 }  // namespace

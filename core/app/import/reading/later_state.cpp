@@ -27,7 +27,8 @@ std::optional<Transform> StepOf(const Directive& directive) {
     case DirectiveId::Rotate:
       return Transform::Rotate(n[0], StateVector(n, 1));
     case DirectiveId::LookAt: {
-      const auto lookAt = Transform::LookAt(StateVector(n, 0), StateVector(n, 3), StateVector(n, 6));
+      const auto lookAt =
+          Transform::LookAt(StateVector(n, 0), StateVector(n, 3), StateVector(n, 6));
       if (!lookAt) return {};
       return *Transform::Scale(-1, 1, 1) * *lookAt;  // mirrored, as in version 2
     }
@@ -50,7 +51,8 @@ void LaterState::ApplyTransform(const Directive& directive) {
 
 void LaterState::End(DirectiveId begin, const Directive& directive) {
   if (saved_.empty() || saved_.back().begin != begin)
-    throw Error(ExitStatus::Scene, std::string(directive.spec->name) + " ends no block that is open",
+    throw Error(ExitStatus::Scene,
+                std::string(directive.spec->name) + " ends no block that is open",
                 directive.Where());
   const Transform transform = saved_.back().values.transform;
   const bool isActive = saved_.back().values.isActive;

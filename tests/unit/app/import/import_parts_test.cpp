@@ -44,8 +44,9 @@ TEST(Import, ConvertsMaterialsOfVersion4) {
                       "\"rgb transmittance\" [.4 .4 .4] \"float scale\" .5"),
             "Material \"translucent\" \"color Kd\" [0.5 0.5 0.5] \"color Ks\" [0 0 0] "
             "\"color reflect\" [0.1 0.2 0.3] \"color transmit\" [0.4 0.4 0.4]");
-  EXPECT_EQ(Material4("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\""),
-            "Material \"glass\" \"color Kr\" [1 1 1] \"color Kt\" [1 1 1] \"float index\" [1.5168]");
+  EXPECT_EQ(
+      Material4("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\""),
+      "Material \"glass\" \"color Kr\" [1 1 1] \"color Kt\" [1 1 1] \"float index\" [1.5168]");
   EXPECT_NE(Material4("Material \"conductor\" \"float roughness\" .25").find("\"metal\""),
             std::string::npos);
 }
@@ -70,8 +71,7 @@ TEST(Import, SmoothConductorKeepsItsReflectanceAtNormalIncidence) {
 // Without absorption, the coat of index 1.5 reflects 9.2 % of diffuse light, and the rest comes out
 // of the base.
 TEST(Import, CoatedBaseLosesTheLightThatTheCoatReflects) {
-  const std::string text =
-      Material4("Material \"coateddiffuse\" \"rgb reflectance\" [1 .5 0]");
+  const std::string text = Material4("Material \"coateddiffuse\" \"rgb reflectance\" [1 .5 0]");
   const auto kd = ColorIn(text, "Kd");
   EXPECT_NEAR(kd[0], 1 - .092, .002);
   EXPECT_NEAR(kd[1], .908 * .404 * .5 / (1 - .596 * .5), .002);
@@ -155,8 +155,9 @@ TEST(Import, TurnsShiningTrianglesToTheirNormals) {
 
 TEST(Import, TurnsImagesUpsideDown) {
   const std::string line =
-      World3("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" "
-             "\"float vscale\" 2 \"float vdelta\" .25")
+      World3(
+          "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" "
+          "\"float vscale\" 2 \"float vdelta\" .25")
           .Line("Texture");
   EXPECT_NE(line.find("\"float vscale\" [-2] \"float vdelta\" [0.75]"), std::string::npos) << line;
 }

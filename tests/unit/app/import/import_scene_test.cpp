@@ -67,8 +67,7 @@ TEST(Import, EndsNamedMaterialsOfVersion3WithTheirBlock) {
   EXPECT_EQ(World3("AttributeBegin\n" + define + "NamedMaterial \"m\"\nAttributeEnd\n").error, "");
   const std::string error =
       World3("AttributeBegin\n" + define + "AttributeEnd\nNamedMaterial \"m\"\n").error;
-  EXPECT_TRUE(error.starts_with(
-      "scene.pbrt:9:1: error: there is no material of the name \"m\"\n"))
+  EXPECT_TRUE(error.starts_with("scene.pbrt:9:1: error: there is no material of the name \"m\"\n"))
       << error;
 }
 
@@ -105,7 +104,8 @@ TEST(Import, ListsWhatIsLeftOutWithItsPlace) {
         "#   scene.pbrt:8:1: Material \"hair\" is replaced by \"matte\": there is no material "
         "\"hair\" here\n",
         "#   scene.pbrt:9:3: LightSource \"goniometric\" is left out\n",
-        "#   scene.pbrt:10:16: Shape \"sphere\": parameter \"alpha\" is left out: this shape has no "
+        "#   scene.pbrt:10:16: Shape \"sphere\": parameter \"alpha\" is left out: this shape has "
+        "no "
         "holes here\n",
         "#   scene.pbrt:11:20: Material \"diffuse\": parameter \"normalmap\" is left out\n"})
     EXPECT_NE(imported.text.find(line), std::string::npos) << line << imported.text;

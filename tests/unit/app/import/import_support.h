@@ -42,8 +42,7 @@ inline Imported ImportFiles(const Files& files, std::optional<int> version = {})
   ImportReport report(log);
   MemorySource source(files);
   try {
-    ImportedScene scene =
-        ImportScene(source, {"scene.pbrt", "new.pbrt", version, {}}, report, log);
+    ImportedScene scene = ImportScene(source, {"scene.pbrt", "new.pbrt", version, {}}, report, log);
     result.text = scene.text;
     result.version = scene.version;
     result.skyMaps = scene.skyMaps;
@@ -64,7 +63,9 @@ inline const std::string kHead3 =
 inline const std::string kHead4 =
     "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
     "Integrator \"path\"\nPixelFilter \"box\"\nSampler \"halton\"\nWorldBegin\n";
-inline Imported World3(const std::string& world) { return ImportText(kHead3 + world + "\nWorldEnd\n"); }
+inline Imported World3(const std::string& world) {
+  return ImportText(kHead3 + world + "\nWorldEnd\n");
+}
 inline Imported World4(const std::string& world) { return ImportText(kHead4 + world + "\n"); }
 
 }  // namespace exphoton::cli
