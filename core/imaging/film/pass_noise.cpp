@@ -13,6 +13,10 @@
 namespace exphoton {
 namespace {
 
+double Square(double x) { return x * x; }
+
+constexpr double kStandardErrors = 1.1;  // of products, by which a dark pixel must differ
+
 // Returns sum(w), bounded from below for division. Filters with negative lobes can make it small by
 // chance.
 double SafeWeight(double weight, double samples) { return std::max(weight, .5 * samples); }
@@ -153,15 +157,56 @@ double PassNoise::RelativeVarianceError() const {
   return std::sqrt(std::min(common, cells.Differences())) / double(pixelCount_);
 }
 
+// The mean of 5 x 5 pixels is a safe r where a pixel is as noisy as the error that it would divide.
+// But a dark pixel beside bright ones, such as one at the edge of a reflection, is darker than this
+// mean, and its error counts more. Products of independent groups have the expected value r^2. They
+// count where they are smaller by more than their standard error, and less where the noise around
+// the pixel is as large as its light.
 std::vector<double> PassNoise::RelativeVariances() const {
-  const std::vector<float> variances = Variances();
+  const std::vector<float> variances = Variances(), squares = Squares();
   const std::vector<float> smooth = BoxMean(Means(), width_);
+  std::vector<float> noise(variances.size());
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    noise[i] = float(double(variances[i]) / (Square(double(smooth[i])) + kRelMseOffset));
+  noise = BoxMean(noise, width_);
+  const double productError = ProductError();
   std::vector<double> relative(pixelCount_);
   for (std::size_t i = 0; i < variances.size(); ++i) {
-    const double r = smooth[i];
-    relative[i / 3] += double(variances[i]) / (3 * (r * r + kRelMseOffset));
+    const double around = Square(double(smooth[i])), q = double(noise[i]);
+    const double ownError = kStandardErrors * productError * std::sqrt(q) * around;
+    const double own = std::min(std::max(double(squares[i]), 0.) + ownError, around);
+    relative[i / 3] += double(variances[i]) / (3 * ((own + q * around) / (1 + q) + kRelMseOffset));
   }
   return relative;
+}
+
+// If group g has the share w_g and the variance v / w_g around r, the derivative of the mean
+// product with respect to its value is 2 r w_g (1 - w_g) / (1 - sum of squared shares).
+double PassNoise::ProductError() const {
+  double pairs = 1, sum = 0;
+  for (const Group& group : Groups()) {
+    pairs -= group.share * group.share;
+    sum += group.share * (1 - group.share) * (1 - group.share);
+  }
+  return pairs > 0 ? 2 * std::sqrt(sum) / pairs : 0;
+}
+
+std::vector<float> PassNoise::Squares() const {
+  const std::vector<Group> groups = Groups();
+  std::vector<float> squares(3 * pixelCount_);
+  const double samples = SampleCount();
+  double pairs = 1;
+  for (const Group& group : groups) pairs -= group.share * group.share;
+  for (std::size_t i = 0; i < pixelCount_ && pairs > 0; ++i) {
+    const Sums total = TotalOf(groups, i);
+    const double weight = SafeWeight(double(total.weight), samples);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double product = Square(double(total.rgb[c]) / weight);
+      for (const Group& group : groups) product -= Square(double(group.pixels[i].rgb[c]) / weight);
+      squares[3 * i + c] = float(product / pairs);
+    }
+  }
+  return squares;
 }
 
 std::vector<float> PassNoise::Means() const {

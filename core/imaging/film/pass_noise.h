@@ -23,9 +23,9 @@ class PassNoise {
   void Transfer(ByteArchive* archive);
 
   // Estimates the mean over pixels and channels of var / (r^2 + 0.01), the noise part of relMSE.
-  // var is the variance of the picture of all passes, and r is the true picture. The mean of 5 x 5
-  // pixels replaces r, because a single pixel is as noisy as the error it would divide. Returns
-  // infinity if fewer than two groups have samples.
+  // var is the variance of the picture of all passes, and r is the true picture. Returns infinity
+  // if fewer than two groups have samples. docs/decisions/0071-noise-of-dark-pixels.md describes
+  // the estimate of r^2.
   double RelativeVariance() const;
   // Returns the standard error of that estimate; infinity with fewer than two groups.
   double RelativeVarianceError() const;
@@ -45,6 +45,11 @@ class PassNoise {
 
   double SampleCount() const;        // per pixel, over all groups
   std::vector<float> Means() const;  // the picture, three channels
+  // Returns an estimate of the squared true picture, three channels, from products of groups.
+  std::vector<float> Squares() const;
+  // Returns the standard error of such an estimate, relative to the square, where the variance of
+  // the mean of all groups is 1 and much smaller than the square.
+  double ProductError() const;
   // Returns the terms whose mean is RelativeVariance, for each pixel the mean of three channels.
   std::vector<double> RelativeVariances() const;
 
