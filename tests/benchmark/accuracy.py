@@ -3,7 +3,7 @@
 
 Usage: accuracy.py PROGRAM WxH REFERENCE_SECONDS MOST_SECONDS SEEDS SCENE ...
 Renders each scene with accuracies of 10, 5 and 2 %. The error of a picture is measured against a
-reference of guidedpath (picture_errors.py). The grid has path, guidedpath and exphotonmap, the latter
+reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latter
 with the gather rays of the scene and with 16, and 1 to 4096 samples a pixel, as far as a render takes
 at most MOST_SECONDS. "Best" is the CPU time of the cheapest setting for the mean error that the dial
 reached, interpolated in the grid. Accuracies that the grid does not reach are left out, and so are

@@ -34,11 +34,14 @@ class Scene:
         text = run([self.program, "compare", picture, reference, "--max-relmse", "1e30"])
         return float(re.search(r"^relMSE\s+(\S+)", text, re.MULTILINE).group(1))
 
-    def reference(self, seconds):
-        """Renders two halves with guidedpath; keeps them and their squared difference."""
+    def reference(self, cost):
+        """Renders two halves with guidedpath; keeps them and their squared difference. The cost of each
+        is a number of seconds, or of samples, such as "256spp", which other work does not reduce."""
+        rule = (["--spp", cost.removesuffix("spp")] if cost.endswith("spp")
+                else ["--time-limit", f"{cost}s"])
         self.halves = [self.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
-                                   "--set", "SurfaceIntegrator.maxdepth=100",
-                                   "--time-limit", f"{seconds}s")[0] for i in (0, 1)]
+                                   "--set", "SurfaceIntegrator.maxdepth=100", *rule)[0]
+                       for i in (0, 1)]
         self.noise = self.rel_mse(*self.halves)
 
     def error(self, picture):

@@ -64,13 +64,17 @@ TEST_P(TargetErrorTest, IsTheNoiseBetweenSeeds) {
   load.pixelBounds = PixelBounds{8, 14, 56, 48};  // to save time
   LoadedScene scene = LoadSceneFile(GetParam().scene, load);
   std::vector<Image> images(5);
+  double estimated = 0;
   for (std::size_t i = 0; i < images.size(); ++i) {
     const PassesResult result = RenderTo(GetParam().error, 1 + i, scene, &images[i]);
     EXPECT_EQ(result.reason, StopReason::TargetError);
     EXPECT_GT(result.passes, 2);
+    estimated += result.noise.value_or(0) / double(images.size());
   }
+  // A pass can bring the noise far below the target, so the estimate is compared as well.
   const double measured = NoiseBetween(images);
-  EXPECT_GT(measured, GetParam().error / 1.5);
+  EXPECT_GT(measured, estimated / 1.5);
+  EXPECT_LT(measured, estimated * 1.5);
   EXPECT_LT(measured, GetParam().error * 1.5);
 }
 

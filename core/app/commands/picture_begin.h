@@ -11,14 +11,20 @@
 
 namespace exphoton::cli {
 
+inline double ElapsedSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+inline std::chrono::steady_clock::duration AsDuration(double seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(seconds));
+}
+
 struct Begin {
   std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
   double cpu = ProcessCpuSeconds();
   double pilotWall = 0, pilotCpu = 0, loadWall = 0, loadCpu = 0;
 
-  double Wall() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  }
+  double Wall() const { return ElapsedSince(wall); }
   // The pilots of --accuracy come before loading.
   void EndPilots() { pilotWall = Wall(), pilotCpu = ProcessCpuSeconds() - cpu; }
   void EndLoading() {

@@ -16,6 +16,7 @@
 #include "core/app/commands/picture_begin.h"
 #include "core/app/commands/scene_names.h"
 #include "core/app/dial/dial.h"
+#include "core/app/dial/pilot.h"
 #include "core/app/effects/measured_effects.h"
 #include "core/app/options/errors.h"
 #include "core/app/output/live_view.h"
@@ -40,14 +41,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Setups = std::vector<std::unique_ptr<RenderSetup>>;
-
-double ElapsedSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-Clock::duration AsDuration(double seconds) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 // Thrown after an interrupted picture has been written.
 struct Interrupted {};
@@ -111,7 +104,9 @@ class FileRenderer {
   void Announce(const RunRecord& run, const Picture& picture);
   void Report(const RunRecord& run);
 
-  RenderCommand command_;  // with the settings that --accuracy chose
+  RenderCommand command_;                      // with the settings that --accuracy chose
+  std::shared_ptr<PilotRenderer> pilots_;      // of --accuracy
+  std::optional<std::uint64_t> preparedSeed_;  // of photons that the pilots shot
   const OutputNames names_;
   Run& run_;
   Log& log_;
@@ -124,7 +119,7 @@ class FileRenderer {
 Setups FileRenderer::Load(const std::string& path) {
   Begin& begin = begin_.emplace();
   if (command_.accuracy && !command_.dial && command_.mode == RenderMode::Render) {
-    command_ = TurnDial(command_, path, &run_.streams, log_);
+    pilots_ = TurnDial(&command_, path, &run_.streams, log_);
     begin.EndPilots();
   }
   LoadOptions options = command_.load;
@@ -132,6 +127,9 @@ Setups FileRenderer::Load(const std::string& path) {
   options.threads = command_.threadCount;
   FileSource source(&run_.streams);
   Setups setups = LoadScenes(source, path, options, log_);
+  preparedSeed_.reset();
+  if (pilots_ && setups.size() == 1)
+    preparedSeed_ = pilots_->Give(command_.dial->settings, setups.front().get());
   begin.EndLoading();
   return setups;
 }
@@ -170,6 +168,7 @@ RenderOptions FileRenderer::MakeOptions(const PictureFilms& films, const RenderS
     photons_ = MakePhotonFileUse(command_.photonFile, false, command_.load, setup);
   options.photonFile = photons_ ? &*photons_ : nullptr;
   options.corrections = films.corrections.get();
+  options.preparedSeed = preparedSeed_;
   return options;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.h"
 
@@ -17,8 +18,11 @@ constexpr double kBiasShares[] = {.06, .125, .25, .5};  // of the wanted relMSE;
 constexpr double kPilotShare = .1;                      // of the price
 constexpr std::size_t kFirstPilots = 2, kMostPilots = 8;
 constexpr double kFewPhotons = .1;  // of PilotRequest::hasFewPhotons
-constexpr int kMostTries = 3;       // of numbers of photons
-constexpr double kScatter = .25;    // of the noise of the last pilot
+// With few photons, guides are worse and fewer hits have a radiance photon. All photons had up to
+// this factor less noise in the scenes of docs/decisions/0055-accuracy-dial.md.
+constexpr double kGainOfGuide = 2, kGainOfMaps = 20;
+constexpr int kMostTries = 3;     // of numbers of photons
+constexpr double kScatter = .25;  // of the noise of the last pilot
 
 }  // namespace
 
@@ -40,16 +44,25 @@ void Explorer::Guarded(const Step& step) {
   }
 }
 
-void Explorer::Begin(double most) {
+void Explorer::Begin() {
   Guarded([&] {
-    if (MapsAreTooDear(most)) return;
-    while (series_.size() < kFirstPilots) RenderPilot();
+    RenderRoughPilot();
+    while (!isRough_ && series_.size() < kFirstPilots) RenderPilot();
+    TakePrice();
+  });
+}
+
+void Explorer::Settle(double most) {
+  Guarded([&] {
+    if (!isRough_ || IsTooDear(most)) return;
+    RenderPilot();
     TakePrice();
   });
 }
 
 void Explorer::Refine(double most) {
   Guarded([&] {
+    if (isRough_) return;
     while (series_.size() < kMostPilots && !IsTooDear(most) && spent_ + next_ <= Affordable(most))
       RenderPilot();
     if (hasBias_ && !IsTooDear(most)) EstimateBias(most);
@@ -83,6 +96,7 @@ void Explorer::TakePrice() {
   candidate_.settings.photons = split->price.photons;
   candidate_.biasShare = split->biasShare;
   candidate_.photonShare = model_.maps * split->price.photons / split->price.seconds;
+  candidate_.photonSamples = model_.maps * split->price.photons / model_.sample;
   candidate_.hasScatter = model_.relativeError > kScatter;
   if (!hasBias_) return;
   const double rays = std::max(gatherRays_ * split->price.samples, 1.);
@@ -90,15 +104,18 @@ void Explorer::TakePrice() {
       std::clamp(certificate_.Corrections(split->biasShare * Wanted()) / rays, 1. / 1024, 1.);
 }
 
-// A tenth of the photons shows what all of them cost, for each group of passes.
-bool Explorer::MapsAreTooDear(double most) {
-  if (!(most > 0)) return false;
+// A tenth of the photons shows what all of them cost, for each group of passes. Integrators without
+// photons need no such pilot.
+void Explorer::RenderRoughPilot() {
+  if (request_.integrator == "path") return;
   PilotRequest few = request_;
   few.hasFewPhotons = true;
   const PilotPicture picture = pilots_->Render(few);
-  if (!(kGroups * picture.cost.maps / kFewPhotons > most)) return false;
-  candidate_.reason = "its photons alone cost more";
-  return true;
+  isRough_ = picture.cost.maps > 0;
+  if (!isRough_) return;
+  TakeCosts(picture);
+  model_.maps = picture.cost.maps / kFewPhotons;
+  model_.FitNoise({picture.pilot});
 }
 
 // Returns what pilots may cost.
@@ -109,8 +126,17 @@ double Explorer::Affordable(double most) const {
 }
 
 bool Explorer::IsTooDear(double most) const {
+  if (isRough_) return RoughBest() > most;
   const std::optional<Split> split = CheapestSplit();
-  return most > 0 && split && split->price.least > most;
+  return split && split->price.least > most;
+}
+
+// Returns the price if all photons make the noise as much smaller as they may.
+double Explorer::RoughBest() const {
+  Explorer best = *this;
+  best.model_.camera /= hasBias_ ? kGainOfMaps : kGainOfGuide;
+  const std::optional<Split> split = best.CheapestSplit();
+  return split ? split->price.seconds : std::numeric_limits<double>::infinity();
 }
 
 void Explorer::RenderPilot() {
@@ -118,19 +144,24 @@ void Explorer::RenderPilot() {
   request_.samples *= 2;
 }
 
-void Explorer::Take(const PilotPicture& picture) {
-  series_.push_back(picture.pilot);
+void Explorer::TakeCosts(const PilotPicture& picture) {
   hasBias_ = picture.hasBias;
   model_.hasPhotons = hasBias_ && !wish_.keepsPhotons;
-  if (picture.mapCount > 0) TakeMaps(picture);
   costOfSamples_ = picture.cost.samples / picture.pilot.samples;
   model_.sample = costOfSamples_ * pilots_->Pixels() / picture.pixels;
-  model_.FitNoise(series_);
   gatherRays_ = picture.gatherRays / picture.pilot.samples * pilots_->Pixels() / picture.pixels;
   spent_ += picture.cost.maps + picture.cost.samples;
   next_ = 2 * picture.cost.samples;
   candidate_.mean = {candidate_.integrator, picture.light};
   candidate_.secondsPerCost = picture.seconds / (picture.cost.maps + picture.cost.samples);
+}
+
+void Explorer::Take(const PilotPicture& picture) {
+  isRough_ = false;
+  TakeCosts(picture);
+  if (picture.mapCount > 0) TakeMaps(picture);
+  series_.push_back(picture.pilot);
+  model_.FitNoise(series_);
 }
 
 void Explorer::TakeMaps(const PilotPicture& picture) {
@@ -139,9 +170,9 @@ void Explorer::TakeMaps(const PilotPicture& picture) {
 }
 
 // Where a pilot for it is too dear, the first passes of the picture show the bias and the noise of
-// the photons. The first such pilot has the photons of earlier ones in a half.
+// the photons. The first pass of the picture then lacks the photons of the pilots.
 void Explorer::EstimateBias(double most) {
-  if (spent_ + model_.maps + next_ > 2 * Affordable(most)) return;
+  if (spent_ + 2 * model_.maps + next_ > Affordable(most)) return;
   request_.estimatesBias = request_.hasOwnPhotons = true;
   request_.settings = candidate_.settings;
   request_.settings.photons = 1;
@@ -156,7 +187,7 @@ void Explorer::EstimateBias(double most) {
     const std::optional<Split> split = CheapestSplit();
     if (!split || split->price.photons <= request_.settings.photons) return;
     const double maps = 2 * model_.maps * split->price.photons;
-    if (spent_ + maps + next_ > 2 * Affordable(most)) return;
+    if (spent_ + maps + next_ > Affordable(most)) return;
     request_.settings.photons = split->price.photons;
   }
 }

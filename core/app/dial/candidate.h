@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Explorer finds out, with pilots, at what price an integrator reaches an accuracy. Two small
-// pilots give a first price. Refine then spends up to a tenth of the price on larger ones.
+// Explorer finds out, with pilots, at what price an integrator reaches an accuracy. Small pilots
+// give a first price: of integrators with photons, one pilot with a tenth of the photons gives a
+// rough one. Settle then renders a pilot with all photons where the integrator may be the cheapest
+// one, and Refine spends up to a tenth of the price on larger pilots.
 #pragma once
 
 #include <string>
@@ -22,6 +24,7 @@ struct Candidate {
   double correctedShare = 0;  // of the gather rays; 0: no certificate
   double biasShare = 0;       // of the squared error, what the certificate should resolve
   double photonShare = 0;     // of the price, what the photons of one group cost
+  double photonSamples = 0;   // the same, in samples per pixel
   bool hasScatter = false;    // the noise of the pilots is uncertain
 };
 
@@ -33,7 +36,7 @@ struct Wish {
 // What certificates cost. The interval of the bias (relMSE) is inversely proportional to the number
 // of corrections: smallest bias * corrections = constant.
 struct CertificateCost {
-  double constant = 20;    // typical of the scenes in scenes/
+  double constant = 8;     // typical of the scenes in scenes/
   double correction = 28;  // price of one
 
   double Corrections(double wanted) const { return constant / wanted; }
@@ -44,9 +47,11 @@ class Explorer {
   // gatherRays: as in DialSettings.
   Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays, const Wish& wish);
 
-  // `most` is the lowest price of the other candidates; 0: there is none yet. A candidate with a
-  // higher price need not be explored further.
-  void Begin(double most);
+  // `most` is the lowest price of all candidates. A candidate with a higher price need not be
+  // explored further.
+  void Begin();
+  // Replaces a rough price where it may become the lowest one.
+  void Settle(double most);
   void Refine(double most);
   // The results so far.
   const Candidate& Result() const { return candidate_; }
@@ -63,10 +68,12 @@ class Explorer {
   double Wanted() const { return wish_.error * wish_.error; }
   std::optional<Split> CheapestSplit() const;
   void TakePrice();
-  bool MapsAreTooDear(double most);
+  void RenderRoughPilot();
   double Affordable(double most) const;
   bool IsTooDear(double most) const;
+  double RoughBest() const;
   void RenderPilot();
+  void TakeCosts(const PilotPicture& picture);
   void Take(const PilotPicture& picture);
   void TakeMaps(const PilotPicture& picture);
   void EstimateBias(double most);
@@ -78,7 +85,7 @@ class Explorer {
   std::vector<Pilot> series_;
   PriceModel model_;
   CertificateCost certificate_;
-  bool hasBias_ = false;
+  bool hasBias_ = false, isRough_ = false;
   double spent_ = 0, next_ = 0;  // prices of the pilots so far, and of the next one
   double costOfSamples_ = 0;     // of one sample per pixel of a pilot
   double gatherRays_ = 0;        // for one sample per pixel of the picture

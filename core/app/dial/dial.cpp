@@ -26,6 +26,7 @@ constexpr double kMorePhotons = 4, kMostPhotons = 256;
 constexpr double kNotableRatio = 1.1;  // of times
 constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
 constexpr double kGroupShare = .1;     // of the price, for photons of more groups than two
+constexpr double kCheapGroups = 3;     // number of groups that this pays for
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055).
 constexpr int kFewGatherRays = 16;
 
@@ -51,32 +52,35 @@ int GatherRaysFor(const std::string& integrator, int sceneRays) {
   return integrator.ends_with("photonmap") && !isSmall ? kFewGatherRays : 0;
 }
 
+bool IsCheaper(const Explorer& a, const Explorer& b) {
+  const auto price = [](const Candidate& candidate) {
+    return candidate.reason.empty() ? candidate.price.seconds
+                                    : std::numeric_limits<double>::infinity();
+  };
+  return price(a.Result()) < price(b.Result());
+}
+
 // First prices of all candidates come before any of them is explored further, so that a dear one
-// gets small pilots only.
+// gets small pilots only. The cheapest one comes first in each round.
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
                                   const Wish& wish) {
   std::vector<Explorer> explorers;
-  double best = 0;  // price
-  const auto take = [&](const Candidate& candidate) {
-    if (!candidate.reason.empty()) return;
-    const double price = candidate.price.seconds;
-    best = best > 0 ? std::min(best, price) : price;
+  const auto best = [&] {
+    const Candidate cheapest = std::ranges::min_element(explorers, IsCheaper)->Result();
+    return cheapest.reason.empty() ? cheapest.price.seconds
+                                   : std::numeric_limits<double>::infinity();
   };
   for (const std::string& name : names) {
     const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, pilots->SceneGatherRays());
-    explorers.emplace_back(pilots, name, rays, wish).Begin(best);
-    take(explorers.back().Result());
+    explorers.emplace_back(pilots, name, rays, wish).Begin();
   }
-  std::ranges::stable_sort(explorers, {}, [](const Explorer& explorer) {
-    const Candidate& candidate = explorer.Result();
-    return candidate.reason.empty() ? candidate.price.seconds
-                                    : std::numeric_limits<double>::infinity();
-  });
+  std::ranges::stable_sort(explorers, IsCheaper);
+  for (Explorer& explorer : explorers) explorer.Settle(best());
+  std::ranges::stable_sort(explorers, IsCheaper);
   std::vector<Candidate> candidates;
   for (Explorer& explorer : explorers) {
-    explorer.Refine(best);
+    explorer.Refine(best());
     candidates.push_back(explorer.Result());
-    take(candidates.back());
   }
   if (candidates.size() > 1) DropDarkOnes(&candidates);
   return candidates;
@@ -155,7 +159,7 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
 double GroupsOf(const Candidate& chosen) {
   const double most = chosen.correctedShare > 0 ? 4 : 16;
   const double cheap = 2 + kGroupShare / std::max(chosen.photonShare, 1e-6);
-  return std::clamp(cheap, chosen.hasScatter ? 4. : 2., most);
+  return std::floor(std::clamp(cheap, chosen.hasScatter && cheap > kCheapGroups ? 4. : 2., most));
 }
 
 // A time limit should leave time for two groups.
@@ -184,27 +188,29 @@ void CheckDialIntegrator(const std::string& integrator) {
               "--integrator takes path, guidedpath, photonmap or exphotonmap");
 }
 
-RenderCommand TurnDial(const RenderCommand& command, const std::string& scene,
-                       FileSource::Streams* streams, Log& log) {
+std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string& scene,
+                                        FileSource::Streams* streams, Log& log) {
+  const RenderCommand command = *turned;
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
   if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);
-  PilotRenderer pilots(command, scene, {streams, &log});
+  const auto renderer =
+      std::make_shared<PilotRenderer>(command, scene, PilotRenderer::Surroundings{streams, &log});
+  PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{*command.accuracy, command.keepsSettings};
   const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
   const Candidate& chosen = CheapestOf(candidates, accuracy);
-  RenderCommand turned = command;
-  turned.load.integrator = chosen.integrator;
-  turned.dial = DialChoice{FirstSamples(chosen, command), chosen.biasShare, chosen.settings,
-                           ChoiceText(pilots, chosen)};
-  Apply(chosen.settings, &turned);
-  turned.load.samplesPerPixel = 2 * kMostGrowth * turned.dial->firstSamples;
-  turned.certifies = chosen.correctedShare > 0;
-  turned.certifiedShare = turned.certifies ? chosen.correctedShare : turned.certifiedShare;
-  log.Notice("accuracy " + accuracy + ": " + turned.dial->text);
+  turned->load.integrator = chosen.integrator;
+  turned->dial = DialChoice{FirstSamples(chosen, command), chosen.biasShare, chosen.photonSamples,
+                            chosen.settings, ChoiceText(pilots, chosen)};
+  Apply(chosen.settings, turned);
+  turned->load.samplesPerPixel = 2 * kMostGrowth * turned->dial->firstSamples;
+  turned->certifies = chosen.correctedShare > 0;
+  turned->certifiedShare = turned->certifies ? chosen.correctedShare : turned->certifiedShare;
+  log.Notice("accuracy " + accuracy + ": " + turned->dial->text);
   log.Notice(ReasonText(candidates, chosen));
   if (command.keepsSettings) log.Notice(CostOfKeeping(&pilots, chosen, wish));
-  return turned;
+  return renderer;
 }
 
 bool RaisePhotons(RenderCommand* command, Log& log) {

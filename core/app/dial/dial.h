@@ -3,6 +3,7 @@
 // from pilots and counted operations, so they depend on scene, options and seed only.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "core/app/options/options.h"
@@ -10,10 +11,12 @@
 
 namespace exphoton::cli {
 
-// Returns the command with the chosen settings, and logs them. Throws Error if no integrator
-// reaches the accuracy.
-RenderCommand TurnDial(const RenderCommand& command, const std::string& scene,
-                       FileSource::Streams* streams, Log& log);
+class PilotRenderer;
+
+// Writes the chosen settings to the command, and logs them. Returns the pilots, which may have the
+// photons of the first pass. Throws Error if no integrator reaches the accuracy.
+std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* command, const std::string& scene,
+                                        FileSource::Streams* streams, Log& log);
 
 // Multiplies the photons after a render whose bias exceeds the accuracy. Returns false if it must
 // not, or if there would be too many.

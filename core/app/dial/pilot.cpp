@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/app/process/signals.h"
 #include "core/base/error.h"
@@ -79,6 +80,22 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   return *setup_;
 }
 
+std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }
+
+std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings, RenderSetup* setup) {
+  const bool isSame = setup_ && loaded_.integrator == setup->integratorName &&
+                      loaded_.settings.photons == settings.photons &&
+                      loaded_.settings.gatherRays == settings.gatherRays &&
+                      !loaded_.hasFewPhotons && preparedSeed_ == FirstSeed();
+  if (!isSame) return std::nullopt;
+  // The integrators refer to the scene, so they go first.
+  setup->integrator = std::move(setup_->integrator);
+  setup->volumeIntegrator = std::move(setup_->volumeIntegrator);
+  setup->scene = std::move(setup_->scene);
+  setup_.reset();
+  return std::exchange(preparedSeed_, std::nullopt);
+}
+
 // Renders with the photons of the last pilot first, if they are the right ones.
 PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotRequest& request,
                                          PictureFilms* films, PilotPicture* picture) {
@@ -93,8 +110,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
   const std::int64_t samples = job.sampler.SamplesPerPixel();
   for (int half = 0; half < 2; ++half) {
     const std::uint64_t seed = HashKey({command_.seed, kPassSeed, std::uint64_t(half)});
-    const std::uint64_t photonSeed =
-        request.hasOwnPhotons ? seed : HashKey({command_.seed, kPassSeed, 0});
+    const std::uint64_t photonSeed = request.hasOwnPhotons ? seed : FirstSeed();
     picture->mapCount += preparedSeed_ == photonSeed ? 0 : 1;
     Film* const film = films->halves[std::size_t(half)].get();
     if (!renderer.Run({photonSeed, seed, 0, samples}, job.sampler, film)) throw LoadingStopped();

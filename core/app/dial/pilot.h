@@ -55,6 +55,11 @@ class PilotRenderer {
   // Throws Error.
   PilotPicture Render(const PilotRequest& request);
 
+  // If the last pilot had this integrator, these settings and the photons of the first pass of the
+  // picture, moves its scene and its integrator to `setup`, and returns the seed of the photons.
+  // They refer to this object.
+  std::optional<std::uint64_t> Give(const DialSettings& settings, RenderSetup* setup);
+
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }
   int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
@@ -66,7 +71,9 @@ class PilotRenderer {
   PassesResult RenderHalves(const RenderJob& job, const PilotRequest& request, PictureFilms* films,
                             PilotPicture* picture);
 
-  const RenderCommand& command_;
+  std::uint64_t FirstSeed() const;
+
+  const RenderCommand command_;
   SmallScene scene_;
   Log& verbose_;
   std::string sceneIntegrator_;

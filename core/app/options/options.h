@@ -27,6 +27,7 @@ enum class RenderMode { Render, Check, Explain };
 struct DialChoice {
   std::int64_t firstSamples = 1;  // as in StoppingRule::Accuracy
   double biasShare = 0;           // the same
+  double photonSamples = 0;       // the same
   DialSettings settings;
   std::string text;  // what changed
 };

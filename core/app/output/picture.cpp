@@ -86,7 +86,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   if (command.isProgressive) rule.progressiveAlpha = command.progressiveAlpha;
   if (command.accuracy)
     rule.accuracy = StoppingRule::Accuracy{*command.accuracy, command.dial->firstSamples,
-                                           command.dial->biasShare};
+                                           command.dial->biasShare, command.dial->photonSamples};
   return RenderInPasses(job, options, rule);
 }
 

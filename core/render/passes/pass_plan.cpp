@@ -15,6 +15,7 @@ constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two
 constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
 constexpr std::int64_t kFew = 8;         // samples a pixel
 constexpr double kHuge = 0x1p50;
+constexpr double kDearPhotons = .25;  // of the price of the samples of a pass
 
 // Low-discrepancy sequences are best distributed where their length is a power of two, so all
 // groups have such sizes. Returns the largest power of two up to the number, at least 1.
@@ -109,7 +110,10 @@ PassPlan::Step PassPlan::NextForAccuracy(const State& state) const {
     const double fits = std::floor(left / std::max(state.sample, 1e-9));
     if (fits < double(size)) size = fits < 1 ? 0 : PowerOfTwoUpTo(fits);
   }
-  return {true, size};
+  const bool hasDearPhotons = limits_.photonSamples > kDearPhotons * double(size);
+  const std::int64_t most = 2 * firstSamples_ - groupSamples_;
+  if (!hasDearPhotons || groups_ < 2 || most < 1) return {true, size};
+  return {false, std::min(size, most)};
 }
 
 PassPlan::Step PassPlan::Next(const State& state) const {

@@ -42,9 +42,12 @@ class PassPlan {
     std::optional<double> targetError, timeLimit;  // as in StoppingRule
     std::int64_t maxSamples = 0;                   // per pixel
     std::int64_t passSamples = 0;                  // of each pass; 0: chosen by the noise
-    // If positive, every pass is a group. The first two have this number of samples, and later ones
-    // follow State::needed.
+    // If positive, the first two passes are groups with this number of samples, and later ones
+    // follow State::needed. A later pass is a group as well, unless its photons would cost more
+    // than `photonSamples` says: the price of the photons of a group in samples per pixel. The last
+    // group then takes it, but no group becomes more than twice as large as the first one.
     std::int64_t firstSamples = 0;
+    double photonSamples = 0;
   };
   // The state of the render. Times are in seconds and used only with a time limit.
   struct State {

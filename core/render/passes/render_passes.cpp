@@ -47,7 +47,8 @@ class Passes {
         sum_(&job.film, {rule.targetError, rule.maxSamples}),
         forecasts_{GroupForecast(job.film.Crop()), GroupForecast(job.film.Crop())},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
-               rule.accuracy ? rule.accuracy->firstSamples : 0}),
+               rule.accuracy ? rule.accuracy->firstSamples : 0,
+               rule.accuracy ? rule.accuracy->photonSamples : 0}),
         // A certificate compares groups whose samples are independent.
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections) {
     if (rule.accuracy) accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare);

@@ -25,7 +25,8 @@ struct StoppingRule {
   struct Accuracy {
     double error = 0;
     std::int64_t firstSamples = 1;
-    double biasShare = .125;  // of the squared error, what certificates should resolve
+    double biasShare = .125;   // of the squared error, what certificates should resolve
+    double photonSamples = 0;  // as in PassPlan::Limits
   };
   std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs

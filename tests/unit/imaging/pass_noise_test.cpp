@@ -87,6 +87,27 @@ TEST(PassNoise, DoesNotDivergeWhereOnePassMeetsALight) {
   EXPECT_LT(estimate, 2000);
 }
 
+// Every fourth column is dark and has noise. Relative to the mean of its neighbourhood, this noise
+// would be 12 times too small, as at edges of reflections in scenes/glossy-floor-room.
+TEST(PassNoise, CountsTheNoiseOfDarkPixelsBesideBrightOnes) {
+  constexpr double kDark = .1, kNoise = .05;
+  PassNoise noise(kBounds, 2);
+  for (std::uint64_t pass = 0; pass < 2; ++pass) {
+    Film film(kBounds, kBounds);
+    RandomStream random(HashKey({pass, 5}));
+    for (int y = 0; y < kBounds.y1; ++y)
+      for (int x = 0; x < kBounds.x1; ++x) {
+        const double error = kNoise * (double(random.Uniform()) - .5) * std::sqrt(12.);
+        const double light = x % 4 == 0 ? kDark + error : .6;
+        film.AddSample({x, y}, Spectrum(Real(light)), 1, 1);
+      }
+    noise.Add(int(pass), film, 1);
+  }
+  const double truth = .25 * kNoise * kNoise / 2 / (kDark * kDark + kOffset);
+  EXPECT_GT(noise.RelativeVariance(), .5 * truth);
+  EXPECT_LT(noise.RelativeVariance(), 1.3 * truth);
+}
+
 // The edge of a patch of sun crosses the pixels of one column, and each of their samples is lit or
 // dark. A mean over neighbouring pixels mixes the light of the patch into the darker ones, and
 // would find half of this noise.

@@ -66,6 +66,28 @@ TEST(PassPlan, GroupsForAnAccuracyFollowWhatIsNeeded) {
   EXPECT_EQ(size(980, 1e9), 20);
 }
 
+// Where photons are dear, the last group takes more passes, up to twice the size of the first one.
+TEST(PassPlan, DearPhotonsServeMorePassesForAnAccuracy) {
+  for (const double photons : {0., 3., 100.}) {
+    PassPlan plan({.targetError = {},
+                   .timeLimit = {},
+                   .maxSamples = 1000,
+                   .firstSamples = 8,
+                   .photonSamples = photons});
+    const bool isDear = photons > 2;
+    std::int64_t samples = 0;
+    for (const bool isNew : {true, true, !isDear, true, !isDear}) {
+      const PassPlan::Step step =
+          plan.Next({.samples = samples, .noise = {}, .enough = {}, .needed = double(samples) + 5});
+      EXPECT_EQ(step.isNewGroup, isNew) << photons << " " << samples;
+      EXPECT_EQ(step.size, 8) << photons << " " << samples;
+      plan.Take(step);
+      samples += step.size;
+    }
+    EXPECT_EQ(plan.Groups(), isDear ? 3 : 5);
+  }
+}
+
 TEST(PassPlan, AGroupForAnAccuracyFitsIntoTheTime) {
   PassPlan plan({.targetError = {}, .timeLimit = 10, .maxSamples = 1000, .firstSamples = 16});
   const auto size = [&](double elapsed, std::int64_t samples) {
