@@ -121,7 +121,7 @@ std::vector<Share> SharesOf(const Options& options) {
   const std::vector<Share> all{{kVariations, 1}, {kProbes, 4},
                                {kEstimates, 2},  {kEnergy, 2},
                                {kPairs, 20},     {kInvariances, 100},
-                               {kSums, 20},      {kFurnace, 200},
+                               {kSums, 50},      {kFurnace, 200},
                                {kRooms, 200},    {kAgreement, options.agreementEvery}};
   if (options.only.empty()) return all;
   for (const Share& share : all)
