@@ -27,7 +27,7 @@ TEST(RandomScenes, KeepTheirPixelsWithEachVariation) {
 
 TEST(RandomScenes, ShowTheSumOverTheirBouncesInAFurnace) {
   SceneRun run({.maxStatisticalTries = 0});
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) run.Add(kFurnace, seed);
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) run.Add(kSums, seed);
   run.JudgeComparisons();
   ExpectNoFailure(run);
 }

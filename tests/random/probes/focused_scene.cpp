@@ -2,6 +2,8 @@
 // FocusedScene draws from the seed, independently of the generator: its scenes stay the same.
 #include "tests/random/probes/focused_scene.h"
 
+#include <array>
+
 #include "core/math/sampling/random.h"
 
 namespace exphoton::random_scenes {
@@ -23,6 +25,25 @@ SceneModel FocusedScene(const SceneModel& scene, std::uint64_t seed) {
   if (choose(4) == 0) body.material.kind = MaterialKind::Translucent;
   body.material.isTransmittingOnly = choose(2) == 0;
   return focused;
+}
+
+SceneModel LoneLamp(std::uint64_t seed) {
+  RandomStream random(HashKey({seed, 20}));
+  const auto choose = [&](int count) { return int(random.Bits() % std::uint64_t(count)); };
+  constexpr std::array<int, 4> kStretches{0, 1, 1, 2};
+  BodyModel lamp;
+  lamp.kind = BodyKind(choose(kBodyKinds));
+  lamp.size = choose(3), lamp.turn = choose(6), lamp.reverse = choose(2);
+  lamp.stretch = kStretches[std::size_t(choose(4))];
+  lamp.motion = choose(2) * (1 + choose(3));
+  lamp.last = choose(4);
+  lamp.emission = 1, lamp.light = {9, 9, 9};
+  lamp.isOpenMesh = choose(2) == 0;
+  lamp.isGrowing = lamp.motion != 0 && choose(2) == 0;
+  SceneModel scene;
+  scene.room = RoomKind::None;
+  scene.bodies = {lamp};
+  return scene;
 }
 
 SceneModel SometimesFocused(const SceneModel& scene, std::uint64_t seed) {

@@ -12,6 +12,9 @@ namespace exphoton::random_scenes {
 // moved, and it emits or is an instance. Subdivided meshes are open.
 SceneModel FocusedScene(const SceneModel& scene, std::uint64_t seed);
 
+// Returns a lamp of any shape without a room. It is often stretched, turned and moved.
+SceneModel LoneLamp(std::uint64_t seed);
+
 // Returns the focused scene for half of the seeds, else the scene itself.
 SceneModel SometimesFocused(const SceneModel& scene, std::uint64_t seed);
 

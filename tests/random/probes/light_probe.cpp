@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/lights/selection/light_sampler.h"
+#include "tests/random/probes/focused_scene.h"
 #include "tests/random/probes/probed_scene.h"
 
 namespace exphoton::random_scenes {
@@ -47,7 +48,7 @@ class LightCheck {
       Expect(sample->ray.time == time, "time of an emitted ray", double(sample->ray.time),
              double(time));
       if (light_.IsDelta())
-        continue;
+        CheckEmissionOfPoint(*sample);
       else if (light_.IsInfinite())
         CheckEmissionOfSky(*sample);
       else
@@ -98,6 +99,14 @@ class LightCheck {
       const double seen = double(on.areaLight->L(on, on.uv, -direct.wi).Y());
       wrongRadiances_ += !AreClose(seen, double(direct.Li.Y()), .01);
     }
+  }
+
+  void CheckEmissionOfPoint(const LightLeSample& sample) {
+    const SurfacePoint from{sample.ray.o, {}, {}, sample.ray.time};
+    const double pdf = double(light_.PdfEmission(from, sample.ray.d).direction);
+    if (!(pdf > 0)) return;  // all rays have one direction
+    Expect(AreClose(pdf, double(sample.pdfDirection), .02), "density of a direction of a point",
+           pdf, double(sample.pdfDirection));
   }
 
   void CheckEmissionOfSky(const LightLeSample& sample) {
@@ -184,6 +193,17 @@ void ProbeLamps(const SceneModel& model, const ProbedScene& scene, Findings* fin
   for (const auto& light : scene.World().Lights())
     shining += !light->IsProvablyBlack() && !light->IsDelta() && !light->IsInfinite();
   findings->Expect(shining == expected, "lamps that shine", shining, expected);
+}
+
+void ProbeLoneLamps(std::uint64_t seed, Findings* findings) {
+  constexpr std::uint64_t kLamps = 3;
+  for (std::uint64_t i = 0; i < kLamps; ++i) {
+    const SceneModel model = LoneLamp(kLamps * seed + i);
+    const ProbedScene scene(SceneText(model, {}), seed, 24);
+    ProbeSurfaces(scene, findings);
+    ProbeLamps(model, scene, findings);
+    ProbeLights(scene, findings);
+  }
 }
 
 void ProbeLights(const ProbedScene& scene, Findings* findings) {

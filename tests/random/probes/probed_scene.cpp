@@ -70,6 +70,7 @@ std::string BrokenProbe(const SceneModel& drawn, std::uint64_t seed) {
     ProbeScattering(scene, &findings);
     ProbeLamps(model, scene, &findings);
     ProbeLights(scene, &findings);
+    ProbeLoneLamps(seed, &findings);
     ProbeMedia(model, scene, &findings);
     ProbeEmission(model, scene, &findings);
     ProbeTextures(seed, &findings);

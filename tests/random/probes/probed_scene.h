@@ -66,6 +66,8 @@ void ProbeCamera(const ProbedScene& scene, Findings* findings);
 void ProbeScattering(const ProbedScene& scene, Findings* findings);
 void ProbeLamps(const SceneModel& model, const ProbedScene& scene, Findings* findings);
 void ProbeLights(const ProbedScene& scene, Findings* findings);
+// Checks scenes that have a lamp and nothing else.
+void ProbeLoneLamps(std::uint64_t seed, Findings* findings);
 void ProbeMedia(const SceneModel& model, const ProbedScene& scene, Findings* findings);
 // Compares point lights with maps or cones, and skies, with a second implementation of them.
 void ProbeEmission(const SceneModel& model, const ProbedScene& scene, Findings* findings);

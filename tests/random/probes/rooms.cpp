@@ -176,18 +176,23 @@ std::string FurnaceText(const SceneModel& furnace) {
 
 std::vector<Comparison> CompareWithFurnace(const SceneModel& scene, const Effort& effort) {
   const SceneModel furnace = ExactFurnace(scene, effort.sceneSeed);
+  const std::uint64_t choice = HashKey({effort.sceneSeed, 13});
+  const FurnaceMethod& method = kFurnaceMethods[std::size_t(choice % kFurnaceMethods.size())];
+  return {CompareMean(furnace, method, kManyBounces, 1, effort)};
+}
+
+std::vector<Comparison> CompareWithSum(const SceneModel& scene, const Effort& effort) {
   RandomStream random(HashKey({effort.sceneSeed, 13}));
   const auto choose = [&](std::size_t count) { return std::size_t(random.Bits() % count); };
-  const FurnaceMethod& whole = kFurnaceMethods[choose(kFurnaceMethods.size())];
   const UniformMethod& uniform = kUniformMethods[choose(kUniformMethods.size())];
   const int depth = uniform.leastDepth + int(choose(kDepths));
   const int bounces = uniform.firstBounces + (*uniform.method.depth ? depth : 0);
-  const SceneModel closed = UniformFurnace(furnace, !uniform.usesPhotons);
+  const SceneModel furnace =
+      UniformFurnace(ExactFurnace(scene, effort.sceneSeed), !uniform.usesPhotons);
   double expected = 0;
-  for (const double albedo : LargestAlbedo(closed.walls))
+  for (const double albedo : LargestAlbedo(furnace.walls))
     expected += (1 - std::pow(albedo, bounces + 1)) / 3;
-  return {CompareMean(furnace, whole, kManyBounces, 1, effort),
-          CompareMean(closed, uniform.method, depth, expected, effort)};
+  return {CompareMean(furnace, uniform.method, depth, expected, effort)};
 }
 
 SceneModel PhotonRoom(const SceneModel& scene, std::uint64_t seed) {

@@ -16,9 +16,11 @@ SceneModel PhotonRoom(const SceneModel& scene, std::uint64_t seed);
 SceneModel ExactFurnace(const SceneModel& scene, std::uint64_t seed);
 // Returns a furnace with closed bodies and walls of one material.
 SceneModel UniformFurnace(const SceneModel& furnace, bool hasEdges);
-// Compares the picture of an exact furnace with 1, and the picture of a uniform furnace with the
-// sum over the bounces that the integrator follows. The seed chooses the integrators.
+// Compares the picture of an exact furnace with 1, for the integrator that the seed chooses.
 std::vector<Comparison> CompareWithFurnace(const SceneModel& scene, const Effort& effort);
+// Compares the picture of a uniform furnace with the sum over the bounces that an integrator
+// follows.
+std::vector<Comparison> CompareWithSum(const SceneModel& scene, const Effort& effort);
 std::string FurnaceText(const SceneModel& furnace);
 
 }  // namespace exphoton::random_scenes

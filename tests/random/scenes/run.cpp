@@ -51,6 +51,7 @@ std::vector<Comparison> Compared(const std::string& property, const SceneModel& 
   if (property == kEnergy) return CompareWithEnergy(scene, effort);
   if (property == kEstimates) return CompareEstimates(scene, effort);
   if (property == kFurnace) return CompareWithFurnace(scene, effort);
+  if (property == kSums) return CompareWithSum(scene, effort);
   if (property == kPairs) return ComparePairs(scene, effort);
   Effort more = effort;
   more.comparesMore = property == kRooms;
@@ -62,7 +63,7 @@ std::string ComparedText(const std::string& property, const SceneModel& scene, s
   if (property == kEnergy) return EnergyText(scene);
   if (property == kEstimates) return SceneText(SometimesFocused(scene, seed), {});
   if (property == kPairs) return PairText(scene, seed);
-  if (property == kFurnace) return FurnaceText(ExactFurnace(scene, seed));
+  if (property == kFurnace || property == kSums) return FurnaceText(ExactFurnace(scene, seed));
   return AgreementText(AgreementScene(property, scene, seed));
 }
 

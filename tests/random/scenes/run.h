@@ -36,7 +36,8 @@ inline constexpr double kBlurFalls = .6;
 inline const std::string kVariations = "variations", kInvariances = "invariances",
                          kProbes = "probes";
 inline const std::string kEnergy = "energy", kEstimates = "estimates", kFurnace = "furnace",
-                         kPairs = "pairs", kRooms = "rooms", kAgreement = "agreement";
+                         kSums = "sums", kPairs = "pairs", kRooms = "rooms",
+                         kAgreement = "agreement";
 
 struct RunSettings {
   int maxTries = 300;            // for shrinking by exact properties; 0: none

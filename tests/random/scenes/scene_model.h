@@ -103,7 +103,9 @@ struct BodyModel {
   int emission = 0;    // 0: none, 1: a colour, 2: a black-body spectrum, 3: black
   Colour light;
   MaterialModel material;
-  bool isOpenMesh = false;  // of subdivided meshes; the generator does not set it
+  // The generator does not set these.
+  bool isOpenMesh = false;  // of subdivided meshes
+  bool isGrowing = false;   // of moving bodies: the axes grow differently
 };
 
 enum class LightKind {

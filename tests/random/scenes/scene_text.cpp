@@ -121,6 +121,7 @@ std::string TransformText(const BodyModel& body, const TextOptions& options) {
   constexpr std::array<double, 4> kLast{1, 2, .5, -1};
   std::string text = "  Translate " + PlaceText(body.place) + "\n";
   if (body.motion != 0) text += MotionDirectives(body.motion, options) + "\n";
+  if (body.isGrowing) text += "  ActiveTransform EndTime Scale 1.2 .8 1 ActiveTransform All\n";
   if (body.turn != 0) text += "  Rotate " + std::to_string(25 * body.turn) + " 1 2 3\n";
   const double s = kSizes[std::size_t(body.size)];
   text += "  Scale " +
