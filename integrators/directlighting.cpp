@@ -32,7 +32,7 @@ const ParamTable<Settings>& Parameters() {
 class DirectLightingIntegrator final : public SurfaceIntegrator {
  public:
   explicit DirectLightingIntegrator(const Settings& settings) : settings_(settings) {
-    if (settings.strategy == Strategy::Near) direct_ = DirectLighting(1);
+    if (settings.strategy == Strategy::Near) direct_ = DirectLighting(1, 1);
   }
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
@@ -76,7 +76,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
     if (!ChoosesForSample()) return direct_.AllLights(point, context);
     if (lights_->IsEmpty()) return {};
     const CameraSamples& samples = context.samples;
-    const auto choice = lights_->Sample(point.surface.p, samples.Array1D(arrays_.choice1D)[0]);
+    const auto choice = lights_->Sample(point.Receiver(), samples.Array1D(arrays_.choice1D)[0]);
     const DirectLightingVariates sample{
         samples.Array2D(arrays_.light2D)[0], samples.Array1D(arrays_.part1D)[0],
         samples.Array2D(arrays_.bsdf2D)[0], samples.Array1D(arrays_.lobe1D)[0]};

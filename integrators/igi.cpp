@@ -226,7 +226,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
     if (!point.bsdf.Has(LobeSet::NonSpecular)) return {};
     Spectrum sum;
     if (!lights_->IsEmpty()) {
-      const auto choice = lights_->Sample(point.surface.p, random->Uniform());
+      const auto choice = lights_->Sample(point.Receiver(), random->Uniform());
       const Real x = random->Uniform(), y = random->Uniform();
       const SampledLight sampled{choice.light, choice.probability, {x, y}, random->Uniform()};
       sum += FromLightSample(point, sampled, {1, 0}, LobeSet::NonSpecular, context);

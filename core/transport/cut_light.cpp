@@ -74,6 +74,7 @@ class LongPath {
     ray_ = SpawnRay(point.surface, sample->wi);
     if (isSpecular_) AddSpecularDifferentials(point, *sample, &ray_);
     from_ = point.surface;
+    receiver_ = point.Receiver();
     bsdfPdf_ = sample->pdf;
     return true;
   }
@@ -95,13 +96,13 @@ class LongPath {
     return radiance * Weight(*hit->areaLight, hit);
   }
   Real Weight(const Light& light, const SurfacePoint* on) const {
-    const Real lightPdf = lights_.Pmf(from_.p, light) * light.PdfDirect(from_, ray_.d, on);
+    const Real lightPdf = lights_.Pmf(receiver_, light) * light.PdfDirect(from_, ray_.d, on);
     return PowerHeuristic(1, bsdfPdf_, 1, lightPdf);
   }
 
   Spectrum Direct(const ShadingPoint& point) {
     if (lights_.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-    const auto choice = lights_.Sample(point.surface.p, random_.Uniform());
+    const auto choice = lights_.Sample(point.Receiver(), random_.Uniform());
     const Point2 place{random_.Uniform(), random_.Uniform()};
     return FromLightSample(point, {choice.light, choice.probability, place, random_.Uniform()}, {},
                            Lobes(), context_);
@@ -114,8 +115,9 @@ class LongPath {
   Real etaScale_ = 1;  // product of 1/eta^2 at refractions
   bool isScattered_, isSpecular_ = false;
   RayDifferential ray_;
-  SurfacePoint from_;  // the last vertex
-  Real bsdfPdf_ = 0;   // of the ray's direction, per solid angle
+  SurfacePoint from_;       // the last vertex
+  LightReceiver receiver_;  // the same
+  Real bsdfPdf_ = 0;        // of the ray's direction, per solid angle
 };
 
 }  // namespace

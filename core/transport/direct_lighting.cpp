@@ -53,7 +53,7 @@ void DirectLighting::RequestSamples(const Scene& scene, const Sampler& sampler,
   many_.reset();
   const auto& lights = scene.Lights();
   if (scene.NonBlackLightCount() > mostLights_) {
-    many_.emplace().RequestSamples(scene, sampler, mostLights_, layout);
+    many_.emplace().RequestSamples(scene, sampler, chosen_, layout);
     return;
   }
   arrays_.resize(lights.size());

@@ -28,12 +28,15 @@ Spectrum EstimateDirect(const ShadingPoint& point, const Light& light,
                         const DirectLightingVariates& sample, LiContext& context);
 
 // Sums the direct light of all lights; each light has its own number of samples from the sampler's
-// arrays. If more than mostLights lights are not black, mostLights light samples from the light
-// tree estimate the sum instead (ManyLights).
+// arrays. If more than mostLights lights are not black, `chosen` light samples from the light tree
+// estimate the sum instead (ManyLights).
 class DirectLighting {
  public:
-  explicit DirectLighting(int mostLights = std::numeric_limits<int>::max())
-      : mostLights_(mostLights) {}
+  // The numbers for users who choose none.
+  static constexpr int kMostLights = 64, kChosenLights = 16;
+
+  DirectLighting() = default;
+  DirectLighting(int mostLights, int chosen) : mostLights_(mostLights), chosen_(chosen) {}
 
   void RequestSamples(const Scene& scene, const Sampler& sampler, SampleLayout* layout);
   // Covers the non-specular lobes only. Returns 0 for a surface without such lobes.
@@ -44,7 +47,7 @@ class DirectLighting {
     int count = 0;  // samples of this light, at least its SampleCount()
     int light2D = -1, part1D = -1, bsdf2D = -1, lobe1D = -1;
   };
-  int mostLights_;
+  int mostLights_ = std::numeric_limits<int>::max(), chosen_ = kChosenLights;
   std::vector<LightArrays> arrays_;  // per light; count is 0 for black lights
   std::optional<ManyLights> many_;   // replaces the arrays
 };

@@ -33,33 +33,30 @@ Spectrum ManyLights::Estimate(const ShadingPoint& point, LiContext& context) con
   const CameraSamples& samples = context.samples;
   const auto choice = samples.Array1D(choice1D_), part = samples.Array1D(part1D_);
   const auto light = samples.Array2D(light2D_);
+  const LightReceiver receiver = lights_->Prepared(point.Receiver());
   Spectrum byLights, byBsdf;
   for (std::size_t i = 0; i < choice.size(); ++i) {
-    const auto chosen = lights_->Sample(point.surface.p, choice[i]);
+    const auto chosen = lights_->Sample(receiver, choice[i]);
     byLights += FromLightSample(point, {chosen.light, chosen.probability, light[i], part[i]},
                                 {lightCount_, bsdfCount_}, LobeSet::NonSpecular, context);
   }
   const auto bsdf = samples.Array2D(bsdf2D_);
   const auto lobe = samples.Array1D(lobe1D_);
   for (std::size_t i = 0; i < bsdf.size(); ++i)
-    byBsdf += FromBsdf(point, bsdf[i], lobe[i], context);
+    byBsdf += FromBsdf(point, receiver, {bsdf[i], lobe[i]}, context);
   return byLights / Real(lightCount_) + byBsdf / Real(bsdfCount_);
 }
 
-Real ManyLights::LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
-                          const SurfacePoint* on) const {
-  return lights_->Pmf(point.surface.p, light) * light.PdfDirect(point.surface, wi, on);
-}
-
-Spectrum ManyLights::FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe,
-                              LiContext& context) const {
-  const auto scattered = point.bsdf.Sample(point.Wo(), u, uLobe, LobeSet::NonSpecular);
+Spectrum ManyLights::FromBsdf(const ShadingPoint& point, const LightReceiver& receiver,
+                              const BsdfVariates& u, LiContext& context) const {
+  const auto scattered = point.bsdf.Sample(point.Wo(), u.direction, u.lobe, LobeSet::NonSpecular);
   if (!scattered || scattered->throughput.IsBlack()) return {};
   const Ray ray = SpawnRay(point.surface, scattered->wi);
   const auto hit = context.Intersect(ray, RayKind::Bsdf);
   const auto weight = [&](const Light& light, const SurfacePoint* on) {
-    return PowerHeuristic(bsdfCount_, scattered->pdf, lightCount_,
-                          LightPdf(point, light, scattered->wi, on));
+    const Real lightPdf =
+        lights_->Pmf(receiver, light) * light.PdfDirect(point.surface, scattered->wi, on);
+    return PowerHeuristic(bsdfCount_, scattered->pdf, lightCount_, lightPdf);
   };
   Spectrum radiance;
   if (!hit) {

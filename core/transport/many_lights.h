@@ -21,10 +21,14 @@ class ManyLights {
   Spectrum Estimate(const ShadingPoint& point, LiContext& context) const;
 
  private:
-  Spectrum FromBsdf(const ShadingPoint& point, Point2 u, Real uLobe, LiContext& context) const;
-  // Returns the density per solid angle with which a light sample chooses `light` and direction wi.
-  Real LightPdf(const ShadingPoint& point, const Light& light, const Vector3& wi,
-                const SurfacePoint* on) const;
+  // The random numbers of a BSDF sample, uniform in [0,1).
+  struct BsdfVariates {
+    Point2 direction;
+    Real lobe;
+  };
+  // The receiver belongs to the point and is prepared.
+  Spectrum FromBsdf(const ShadingPoint& point, const LightReceiver& receiver, const BsdfVariates& u,
+                    LiContext& context) const;
 
   std::unique_ptr<const LightSampler> lights_;  // a light tree
   int lightCount_ = 0, bsdfCount_ = 0;

@@ -5,6 +5,7 @@
 
 #include "core/geometry/interaction.h"
 #include "core/lights/light.h"
+#include "core/lights/selection/light_receiver.h"
 #include "core/scattering/bsdf.h"
 #include "core/scattering/material.h"
 
@@ -22,6 +23,12 @@ struct ShadingPoint {
   Spectrum Le() const {
     if (!surface.areaLight) return {};
     return surface.areaLight->L(surface, surface.uv, surface.wo);
+  }
+  // Returns the place that lights are chosen for. A surface that only reflects receives light on
+  // the side that the ray came from.
+  LightReceiver Receiver() const {
+    const bool isOneSided = !bsdf.Has(LobeSet::NonSpecularTransmission);
+    return {surface.p, isOneSided ? FaceForward(bsdf.Ng(), Wo()) : Normal3(), bsdf.Ns()};
   }
 };
 

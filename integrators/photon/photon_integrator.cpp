@@ -33,7 +33,8 @@ Real FractionForDisks(Real fraction, double diskArea) {
 
 PhotonIntegrator::PhotonIntegrator(const PhotonSettings& settings)
     : settings_(settings),
-      direct_(settings.directLights),
+      direct_(settings.directLights.value_or(DirectLighting::kMostLights),
+              settings.directLights.value_or(DirectLighting::kChosenLights)),
       gather_(settings),
       correctionGuide_(settings.gatherPhotons, Cone(Radians(settings.gatherAngle))) {}
 

@@ -28,7 +28,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param(
           "directlights", &S::directLights,
           "lights of a scene that are all sampled at each point; where there are more, this number "
-          "of lights is chosen by power and distance")
+          "of lights is chosen by power, distance and cosine; if absent, 64, and 16 are chosen")
           .Range(1, 1 << 20),
       Param("maxdepth", &S::maxDepth, "specular bounces followed").Basic().Range(0, 1000),
       Param("maxspeculardepth", &S::maxDepth, "version 2's name of maxdepth").Range(0, 1000),

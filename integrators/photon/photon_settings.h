@@ -36,7 +36,7 @@ struct PhotonSettings {
   std::optional<std::int64_t> directPhotons;   // absent: same as indirectPhotons
   std::int64_t indirectPhotons = 100000;
   int nUsed = 50;
-  int directLights = 64;
+  std::optional<int> directLights;  // absent: see DirectLighting
   int maxDepth = 5;
   bool finalGather = true;
   int finalGatherSamples = 32;

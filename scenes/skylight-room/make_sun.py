@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Writes skylight.pbrt (ceiling and roof with the hole), sun.pbrt (the sun, a far spot) and
-patch.pbrt (area lights that stand for the patch that the sun lights on the left wall).
+"""Writes skylight.pbrt (ceiling and roof with the hole), sun.pbrt (the sun, a far spot),
+distant_sun.pbrt (the same as a distant light) and patch.pbrt (area lights that stand for the patch
+that the sun lights on the left wall).
 Run it in this folder: python3 make_sun.py. Metres throughout; the numbers below are the design."""
 import math
 
@@ -11,6 +12,7 @@ TOWARDS = (-.75, -.62, -.17)                              # where sunlight goes
 DISTANCE = 26.                                            # of the spot from the skylight
 INTENSITY = (54000., 50000., 44000.)                      # of the spot: W / sr
 WALL = (.84, .82, .77)                                    # reflectance of the lit wall
+THICKNESS = .3                                            # of the black outer walls, with the air
 MARGIN = .08                                              # of the ceiling's hole round the beam
 CELLS_Y, CELLS_Z = 6, 6                                 # area lights for the patch
 
@@ -93,6 +95,24 @@ def sun():
     return text
 
 
+def distant_sun():
+    """The irradiance is that of the spot at the skylight, so the same power enters. The sun shines on
+    the outer sides of two walls, which are black here: photons on them would leak in at the edges of
+    the floor."""
+    text = "# The sun as a distant light, and black outer walls on the sides that it shines on. Made by\n"
+    text += "# make_sun.py.\n"
+    text += f'LightSource "distant" "color L" [ {numbers(*scaled(INTENSITY, DISTANCE ** -2))} ]\n'
+    text += f'  "point from" [ {numbers(*source)} ] "point to" [ {numbers(*centre)} ]\n'
+    text += 'AttributeBegin\nMaterial "matte" "color Kd" [ 0 0 0 ]\n'
+    x0, x1, z0, z1 = -HALF_WIDTH, HALF_WIDTH, -THICKNESS, DEPTH
+    w, e, low = x1 + THICKNESS, z1 + THICKNESS, -THICKNESS
+    text += quad((w, low, z0), (w, low, e), (w, CEILING, e), (w, CEILING, z0))
+    text += quad((w, low, e), (x0, low, e), (x0, CEILING, e), (w, CEILING, e))
+    text += quad((x1, CEILING, z0), (w, CEILING, z0), (w, CEILING, e), (x1, CEILING, e))
+    text += quad((x0, CEILING, z1), (x1, CEILING, z1), (x1, CEILING, e), (x0, CEILING, e))
+    return text + "AttributeEnd\n"
+
+
 def patch():
     """The skylight's image on the wall x = -HALF_WIDTH, cell by cell: the cells are images of equal
     rectangles of the skylight, so they tile the patch exactly. Each has the radiance
@@ -136,6 +156,7 @@ def patch():
     return text
 
 
-for name, text in (("skylight", skylight()), ("sun", sun()), ("patch", patch())):
+for name, text in (("skylight", skylight()), ("sun", sun()), ("distant_sun", distant_sun()),
+                   ("patch", patch())):
     with open(name + ".pbrt", "w") as out:
         out.write(text)

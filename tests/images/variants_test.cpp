@@ -50,17 +50,26 @@ TEST(SceneVariants, DifferInTheIntegratorsLineAlone) {
   }
 }
 
-// emitters.pbrt equals path.pbrt, except for its first line and the patch in place of the sun.
-TEST(SceneVariants, EmittersReplaceTheSunAlone) {
-  const std::vector<std::string> path = ReadLines(kScenes / "skylight-room/path.pbrt");
-  const std::vector<std::string> emitters = ReadLines(kScenes / "skylight-room/emitters.pbrt");
-  ASSERT_EQ(path.size(), emitters.size());
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (path[i] == "Include \"sun.pbrt\"")
-      EXPECT_EQ(emitters[i], "Include \"patch.pbrt\"");
+// Expects that two variants of the skylight room differ in the first line and in the file that is
+// included in place of the sun.
+void ExpectOtherSun(const std::string& variant, const std::string& other, const std::string& sun) {
+  const std::vector<std::string> lines = ReadLines(kScenes / "skylight-room" / variant);
+  const std::vector<std::string> changed = ReadLines(kScenes / "skylight-room" / other);
+  ASSERT_EQ(lines.size(), changed.size());
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i] == "Include \"sun.pbrt\"")
+      EXPECT_EQ(changed[i], "Include \"" + sun + "\"");
     else
-      EXPECT_EQ(emitters[i], path[i]);
+      EXPECT_EQ(changed[i], lines[i]);
   }
+}
+
+TEST(SceneVariants, EmittersReplaceTheSunAlone) {
+  ExpectOtherSun("path.pbrt", "emitters.pbrt", "patch.pbrt");
+}
+
+TEST(SceneVariants, ADistantLightReplacesTheSunAlone) {
+  ExpectOtherSun("exphotonmap.pbrt", "distant.pbrt", "distant_sun.pbrt");
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ class FixedLightSampler : public LightSampler {
   Choice Sample(Real u) const;
   Real Pmf(const Light& light) const { return distribution_.Probability(IndexOf(light)); }
 
-  Choice Sample(const Point3&, Real u) const final { return Sample(u); }
-  Real Pmf(const Point3&, const Light& light) const final { return Pmf(light); }
+  Choice Sample(const LightReceiver&, Real u) const final { return Sample(u); }
+  Real Pmf(const LightReceiver&, const Light& light) const final { return Pmf(light); }
 
  protected:
   // One weight per light, with the same rules as in DiscreteDistribution.

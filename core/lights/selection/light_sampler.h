@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/lights/light.h"
+#include "core/lights/selection/light_receiver.h"
 
 namespace exphoton {
 
@@ -25,12 +26,14 @@ class LightSampler {
 
   // Returns whether every light is provably black. Sample must not be called then.
   bool IsEmpty() const { return isEmpty_; }
-  // Chooses a light for a point in world space. u is uniform in [0,1). A provably black light is
-  // never chosen.
-  virtual Choice Sample(const Point3& p, Real u) const = 0;
-  // Returns the probability with which Sample chooses one of the constructor's lights at p. It is 0
-  // for a provably black light, and positive for every other light.
-  virtual Real Pmf(const Point3& p, const Light& light) const = 0;
+  // Returns the receiver with the values that several calls of Sample and Pmf share, so that they
+  // are computed once. The results of these calls stay the same.
+  virtual LightReceiver Prepared(const LightReceiver& receiver) const { return receiver; }
+  // Chooses a light for a place. u is uniform in [0,1). A provably black light is never chosen.
+  virtual Choice Sample(const LightReceiver& receiver, Real u) const = 0;
+  // Returns the probability with which Sample chooses one of the constructor's lights for the
+  // receiver. It is 0 for a provably black light, and positive for every other light.
+  virtual Real Pmf(const LightReceiver& receiver, const Light& light) const = 0;
 
  protected:
   // The lights must be prepared (Light::Prepare) and outlive this object.

@@ -67,7 +67,7 @@ int TreeLightSampler::Build(std::span<Leaf> leaves, Place place) {
     power += leaf.power;
   }
   const Sphere3 ball = BoundingSphere(bounds);
-  Node node{ball.center, ball.radius * ball.radius, power, -1, -1};
+  Node node{ball.center, ball.radius, power, -1, -1};
   if (leaves.size() == 1) {
     node.light = leaves[0].light;
     places_[std::size_t(node.light)] = place;
@@ -88,30 +88,64 @@ int TreeLightSampler::Build(std::span<Leaf> leaves, Place place) {
   return number;
 }
 
-double TreeLightSampler::Distance2(const Node& node, const Point3& p) {
-  return double(std::max(LengthSquared(node.center - p), node.radius2));
+// A point within the sphere round the node is at most its radius higher above a plane than the
+// centre is.
+inline TreeLightSampler::Importance TreeLightSampler::ImportanceOf(const Node& node,
+                                                                   const LightReceiver& receiver) {
+  const Vector3 to = node.center - receiver.p;
+  const Real d2 = LengthSquared(to), r2 = Square(node.radius);
+  if (!(d2 > r2)) return {node.power, double(r2)};
+  if (receiver.ns == Normal3()) return {node.power, double(d2)};
+  if (Dot(to, receiver.n) < -node.radius) return {0, double(d2)};
+  const Real cosine = (AbsDot(to, receiver.ns) + node.radius) / std::sqrt(d2);
+  return {node.power * double(std::min(cosine, Real(1))), double(d2)};
 }
 
-double TreeLightSampler::LeftProbability(int node, const Point3& p) const {
-  const Node& left = nodes_[std::size_t(node + 1)];
-  const Node& right = nodes_[std::size_t(nodes_[std::size_t(node)].right)];
-  // Compares power / distance^2 of both children, multiplied by both squared distances, because p
-  // may lie on a light.
-  const double a = left.power * Distance2(right, p), b = right.power * Distance2(left, p);
+double TreeLightSampler::LeftProbability(int node, const LightReceiver& receiver) const {
+  const Importance left = ImportanceOf(nodes_[std::size_t(node + 1)], receiver);
+  const Importance right =
+      ImportanceOf(nodes_[std::size_t(nodes_[std::size_t(node)].right)], receiver);
+  // Compares power / distance^2 of both children, multiplied by both squared distances.
+  const double a = left.power * right.distance2, b = right.power * left.distance2;
   return a + b > 0 ? std::clamp(a / (a + b), kLeastChildShare, 1 - kLeastChildShare) : .5;
 }
 
-double TreeLightSampler::DistantProbability(const Point3& p) const {
-  if (distantLights_.empty()) return 0;
-  if (nodes_.empty()) return 1;
-  const double distance2 = Distance2(nodes_[0], p);  // 0 if p and all lights are at one point
-  const double near = distance2 > 0 ? nodes_[0].power / (4 * double(kPi) * distance2)
-                                    : std::numeric_limits<double>::infinity();
-  return std::clamp(far_.Sum() / (far_.Sum() + near), kLeastGroupShare, 1 - kLeastGroupShare);
+// Follows the brighter child from the root down, and adds the irradiance of each other child.
+double TreeLightSampler::NearIrradiance(const LightReceiver& receiver) const {
+  const auto irradiance = [&](int node) {
+    const Importance found = ImportanceOf(nodes_[std::size_t(node)], receiver);
+    if (!(found.distance2 > 0)) return std::numeric_limits<double>::infinity();
+    return found.power / (4 * double(kPi) * found.distance2);
+  };
+  int node = 0;
+  double sum = 0, brighter = irradiance(node);
+  while (nodes_[std::size_t(node)].right >= 0) {
+    const int children[] = {node + 1, nodes_[std::size_t(node)].right};
+    const double left = irradiance(children[0]), right = irradiance(children[1]);
+    sum += std::min(left, right);
+    brighter = std::max(left, right);
+    node = children[left >= right ? 0 : 1];
+  }
+  return sum + brighter;
 }
 
-LightSampler::Choice TreeLightSampler::Sample(const Point3& p, Real u) const {
-  const double farProbability = DistantProbability(p);
+double TreeLightSampler::DistantProbability(const LightReceiver& receiver) const {
+  if (receiver.distantProbability >= 0) return double(receiver.distantProbability);
+  if (distantLights_.empty()) return 0;
+  if (nodes_.empty()) return 1;
+  const double sum = far_.Sum() + NearIrradiance(receiver);
+  const double share = sum > 0 ? far_.Sum() / sum : .5;
+  return double(Real(std::clamp(share, kLeastGroupShare, 1 - kLeastGroupShare)));
+}
+
+LightReceiver TreeLightSampler::Prepared(const LightReceiver& receiver) const {
+  LightReceiver prepared = receiver;
+  prepared.distantProbability = Real(DistantProbability(receiver));
+  return prepared;
+}
+
+LightSampler::Choice TreeLightSampler::Sample(const LightReceiver& receiver, Real u) const {
+  const double farProbability = DistantProbability(receiver);
   double rest = double(u);
   if (rest < farProbability) {
     const auto choice =
@@ -123,7 +157,7 @@ LightSampler::Choice TreeLightSampler::Sample(const Point3& p, Real u) const {
   rest = (rest - farProbability) / probability;
   int node = 0;
   while (nodes_[std::size_t(node)].right >= 0) {
-    const double left = LeftProbability(node, p);
+    const double left = LeftProbability(node, receiver);
     const bool goesLeft = rest < left;
     const double share = goesLeft ? left : 1 - left;
     rest = goesLeft ? rest / share : (rest - left) / share;
@@ -135,15 +169,15 @@ LightSampler::Choice TreeLightSampler::Sample(const Point3& p, Real u) const {
   return {LightAt(index), index, Real(probability), std::min(Real(rest), kOneMinusEpsilon)};
 }
 
-Real TreeLightSampler::Pmf(const Point3& p, const Light& light) const {
+Real TreeLightSampler::Pmf(const LightReceiver& receiver, const Light& light) const {
   const Place& place = places_[std::size_t(IndexOf(light))];
-  const double farProbability = DistantProbability(p);
+  const double farProbability = DistantProbability(receiver);
   if (place.far >= 0) return Real(farProbability) * far_.Probability(place.far);
   if (place.depth < 0) return 0;
   double probability = 1 - farProbability;
   int node = 0;
   for (int depth = 0; depth < place.depth; ++depth) {
-    const double left = LeftProbability(node, p);
+    const double left = LeftProbability(node, receiver);
     const bool goesLeft = (place.turns >> depth & 1) == 0;
     probability *= goesLeft ? left : 1 - left;
     node = goesLeft ? node + 1 : nodes_[std::size_t(node)].right;

@@ -66,7 +66,7 @@ Spectrum PathTracer::Emission(const State& path, const SurfaceInteraction* hit,
 Real PathTracer::EmissionWeight(const State& path, const Light& light,
                                 const SurfacePoint* on) const {
   const Real lightPdf =
-      lights_->Pmf(path.from.p, light) * light.PdfDirect(path.from, path.ray.d, on);
+      lights_->Pmf(path.receiver, light) * light.PdfDirect(path.from, path.ray.d, on);
   return PowerHeuristic(1, path.pdf, 1, lightPdf);
 }
 
@@ -91,6 +91,7 @@ bool PathTracer::Continue(const ShadingPoint& point, const PathDirection& direct
   }
   path->ray = NextRay(point, scattered);
   path->from = point.surface;
+  path->receiver = point.Receiver();
   path->pdf = scattered.pdf;
   path->isSpecular = scattered.IsSpecular();
   path->history.Bounce(path->isSpecular);

@@ -109,6 +109,7 @@ class PathTracer {
     PathWeight weight;
     PathHistory history;
     SurfacePoint from;       // the last vertex
+    LightReceiver receiver;  // the last vertex, as the place that lights are chosen for
     Real pdf = 0;            // of the ray's direction, per solid angle at `from`
     bool isSpecular = true;  // camera ray or delta lobe: no light sample could find the emission
     bool isBranch = false;   // a branch uses no arrays of the sampler; they belong to the main path
@@ -239,7 +240,7 @@ class PathTracer::Walk {
                        const PathVertexVariates& sample) {
     const LightSampler& lights = *tracer_.lights_;
     if (lights.IsEmpty() || !point.bsdf.Has(LobeSet::NonSpecular)) return {};
-    const auto choice = lights.Sample(point.surface.p, sample.lightChoice);
+    const auto choice = lights.Sample(point.Receiver(), sample.lightChoice);
     return FromLightSample(point,
                            {choice.light, choice.probability, sample.light, sample.lightPart},
                            Techniques{vertex}, lobes_, context_);

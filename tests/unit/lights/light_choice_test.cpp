@@ -39,8 +39,8 @@ TEST(LightChoice, OfTwoLightsIsByPowerOverSquaredDistance) {
     EXPECT_NEAR(double(tree.Pmf(p, *lights[1])), b / (a + b), 1e-5);
   }
   // No child is chosen with less than one thousandth.
-  EXPECT_NEAR(double(tree.Pmf({4, 0, 0}, *lights[0])), 1e-3, 1e-6);
-  EXPECT_NEAR(double(tree.Pmf({0, Real(1e-4), 0}, *lights[1])), 1e-3, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf(Point3{4, 0, 0}, *lights[0])), 1e-3, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf(Point3{0, Real(1e-4), 0}, *lights[1])), 1e-3, 1e-6);
 }
 
 // A group of lights counts by its whole power. Within the sphere round its box the distance is the
@@ -67,6 +67,55 @@ TEST(LightChoice, OfAGroupIsAtLeastItsRadiusAway) {
   EXPECT_NEAR(double(tree.Pmf(inside, *lights[0])) / group(inside), c / (c + d), 1e-5);
 }
 
+// A receiver with a normal counts the cosine of the light, too. A light behind the surface keeps
+// the least probability.
+TEST(LightChoice, OfTwoLightsIsByTheCosineAtTheSurface) {
+  const LightList lights = Make({{Point3{0, 0, 0}, Real(2)}, {Point3{4, 0, 0}, Real(2)}});
+  const TreeLightSampler tree(lights, {{0, 0, 0}, 10});
+  const Normal3 n = Normalize(Normal3{1, 1, 0});
+  const Point3 p{1, -2, 0};
+  const double a = (-1 + 2) / std::pow(5., 1.5), b = (3 + 2) / std::pow(13., 1.5);
+  EXPECT_NEAR(double(tree.Pmf({p, n, n}, *lights[0])), a / (a + b), 1e-5);
+  EXPECT_NEAR(double(tree.Pmf({p, n, n}, *lights[1])), b / (a + b), 1e-5);
+  EXPECT_NEAR(double(tree.Pmf({p, {-1, 0, 0}, {-1, 0, 0}}, *lights[1])), 1e-3, 1e-6);
+}
+
+// The cosine of a group is a bound: no point within the sphere round its box is higher above the
+// surface than the centre plus the radius.
+TEST(LightChoice, OfAGroupIsByABoundOnTheCosine) {
+  const LightList lights = Make({{Point3{0, -1, 0}, Real(1)},
+                                 {Point3{0, 1, 0}, Real(1)},
+                                 {Point3{10, -1, 0}, Real(1)},
+                                 {Point3{10, 1, 0}, Real(1)}});
+  const TreeLightSampler tree(lights, {{0, 0, 0}, 20});
+  const Point3 p{4, 0, 0};
+  for (const double degrees : {20., 85., 100., 170.}) {
+    const double angle = degrees / 180 * M_PI;  // between the normal and the second group
+    const Normal3 n{Real(std::cos(angle)), 0, Real(std::sin(angle))};
+    const auto bound = [](double cosine, double distance) {
+      if (cosine < -1 / distance) return 0.;
+      return std::min(std::abs(cosine) + 1 / distance, 1.);
+    };
+    const double a = bound(-std::cos(angle), 4) / 16, b = bound(std::cos(angle), 6) / 36;
+    const LightReceiver receiver{p, n, n};
+    const double found =
+        double(tree.Pmf(receiver, *lights[2])) + double(tree.Pmf(receiver, *lights[3]));
+    EXPECT_NEAR(found, std::clamp(b / (a + b), 1e-3, 1 - 1e-3), 1e-5) << degrees;
+  }
+}
+
+// The geometric normal decides whether a light is behind the surface, the shading normal gives the
+// cosine.
+TEST(LightChoice, CountsTheCosineOfTheShadingNormalOnTheTrueSide) {
+  const LightList lights = Make({{Point3{4, 1, 0}, Real(1)}, {Point3{-4, 1, 0}, Real(1)}});
+  const TreeLightSampler tree(lights, {{0, 0, 0}, 10});
+  const Normal3 tilted{Real(.8), Real(.6), 0};
+  const double a = .8 * 4 + .6, b = .8 * 4 - .6;  // the second is behind the shading normal
+  EXPECT_NEAR(double(tree.Pmf({{}, {0, 1, 0}, tilted}, *lights[0])), a / (a + b), 1e-5);
+  EXPECT_NEAR(double(tree.Pmf({{}, {0, 1, 0}, -tilted}, *lights[0])), a / (a + b), 1e-5);
+  EXPECT_NEAR(double(tree.Pmf({{}, tilted, tilted}, *lights[0])), 1 - 1e-3, 1e-5);
+}
+
 // The tree counts by its irradiance, power / (4 pi d^2), and the distant lights by power over the
 // area of the world's disk. Each of both has a probability of at least .1.
 TEST(LightChoice, OfDistantLightsIsByIrradiance) {
@@ -83,8 +132,20 @@ TEST(LightChoice, OfDistantLightsIsByIrradiance) {
     EXPECT_NEAR(double(tree.Pmf(p, *lights[1])), all * (.95 * .25 + .05 * .5), 1e-5);
     EXPECT_NEAR(double(tree.Pmf(p, *lights[2])), all * (.95 * .75 + .05 * .5), 1e-5);
   }
-  EXPECT_NEAR(double(tree.Pmf({0, Real(.1), 0}, *lights[0])), .9, 1e-6);
-  EXPECT_NEAR(double(tree.Pmf({0, 1000, 0}, *lights[0])), .1, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf(Point3{0, Real(.1), 0}, *lights[0])), .9, 1e-6);
+  EXPECT_NEAR(double(tree.Pmf(Point3{0, 1000, 0}, *lights[0])), .1, 1e-6);
+}
+
+// The tree's irradiance is the sum of a few groups: those beside the way to the brightest light.
+TEST(LightChoice, OfDistantLightsSeesALampThatIsNearInAWideScene) {
+  const Sphere3 world{{0, 0, 0}, 1000};
+  const LightList lights =
+      Make({{Point3{0, 0, 0}, Real(50)}, {Point3{900, 0, 0}, Real(50)}, {std::nullopt, Real(3e6)}});
+  const TreeLightSampler tree(lights, world);
+  const double far = 3e6 / (M_PI * 1e6), near = 50 / (4 * M_PI * 4) + 50 / (4 * M_PI * 810004);
+  EXPECT_NEAR(double(tree.Pmf(Point3{0, 2, 0}, *lights[2])), far / (far + near), 1e-5);
+  // From a surface that faces away from the lamps, the sky remains.
+  EXPECT_NEAR(double(tree.Pmf({{0, 2, 0}, {0, 1, 0}, {0, 1, 0}}, *lights[2])), .9, 1e-6);
 }
 
 LoadedScene RowOfLamps(int count) {

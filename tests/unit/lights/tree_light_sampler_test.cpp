@@ -36,13 +36,19 @@ TEST(TreeLightSampler, ChoosesWithTheProbabilitiesThatItGives) {
   lights.push_back(std::make_unique<PlacedLight>(std::nullopt, Real(100)));
   lights.push_back(std::make_unique<PlacedLight>(Point3{5, 5, 0}, Real(9), true));
   const TreeLightSampler tree(lights, kTreeWorld);
-  for (const Point3 p : {Point3{5, 5, 0}, Point3{-40, 2, 3}, Point3{1, 9, .5f}}) {
+  for (const LightReceiver& p :
+       {LightReceiver({5, 5, 0}), LightReceiver({-40, 2, 3}), LightReceiver({1, 9, .5f}),
+        LightReceiver({5, 5, 0}, {0, 0, 1}, {0, .6f, .8f}),
+        LightReceiver({3, 9, .5f}, {-.6f, -.8f, 0}, {-1, 0, 0}),
+        LightReceiver({3, 9, .5f}, {}, {-1, 0, 0})}) {
+    const LightReceiver prepared = tree.Prepared(p);
     std::vector<double> found(lights.size(), 0.0);
     constexpr int kSteps = 200000;
     for (int i = 0; i < kSteps; ++i) {
       const auto choice = tree.Sample(p, Real((i + .5) / kSteps));
       found[std::size_t(choice.index)] += 1.0 / kSteps;
       ASSERT_NEAR(choice.probability / tree.Pmf(p, *choice.light), 1, 1e-5);
+      ASSERT_EQ(choice.probability, tree.Sample(prepared, Real((i + .5) / kSteps)).probability);
     }
     double sum = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -84,6 +84,16 @@ TEST(SampleRequests, OfManyLightsAreOneBsdfSampleForEightLights) {
   EXPECT_EQ(each.of2D.size(), 42u);
 }
 
+// Without directlights, each of up to 64 lights is sampled. Beyond, 16 lights are chosen.
+TEST(SampleRequests, OfMoreThan64LightsAreSixteenLightSamples) {
+  std::string lights;
+  for (int i = 0; i < 64; ++i) lights += Lamp("");
+  const std::string plain = "\"photonmap\" \"integer finalgathersamples\" 6";
+  EXPECT_EQ(RequestsOf(plain, lights).of1D.size(), 130u);
+  const Requested chosen = RequestsOf(plain, lights + Lamp(""));
+  EXPECT_EQ(chosen.of1D, (Counts{16, 16, 2, 6, 0}));
+}
+
 // Half of 12 gather rays may follow photons, or a quarter, or an eighth.
 TEST(SampleRequests, OfAGuidedGatherAreThoseOfEachDivision) {
   const Requested requested =
