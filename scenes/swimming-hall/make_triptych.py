@@ -87,8 +87,10 @@ def main():
         columns = []
         for integrator in ("exphotonmap", "path", "photonmap"):
             seconds = hall.render_for(integrator, integrator, given.seconds)
-            columns.append((hall.picture(integrator), integrator, "%.0f s, relMSE %.3g"
-                            % (seconds, hall.error(integrator))))
+            error = hall.error(integrator)
+            number = "%.0f" % error if error > 100 else "%.3g" % error
+            columns.append((hall.picture(integrator), integrator,
+                            "%.0f s, relMSE %s" % (seconds, number)))
     width, height = columns[0][0].size
     sheet = Image.new("RGB", (3 * width + 16, height + 2 * LINE + 8), "white")
     draw, font = ImageDraw.Draw(sheet), ImageFont.truetype("DejaVuSans.ttf", 18)
