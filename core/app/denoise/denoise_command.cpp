@@ -60,10 +60,10 @@ void CheckLayers(const Image& picture, const std::string& name) {
   if (missing.empty()) return;
   std::string list;
   for (const std::string& layer : missing) list += (list.empty() ? "" : ", ") + layer;
-  throw Error(ExitStatus::File,
-              "\"" + name + "\" lacks " + (missing.size() == 1 ? "the layer " : "the layers ") +
-                  list,
-              {}, "render with --two-halves --aov albedo,N,Z");
+  throw Error(
+      ExitStatus::File,
+      "\"" + name + "\" lacks " + (missing.size() == 1 ? "the layer " : "the layers ") + list, {},
+      "render with --two-halves --aov albedo,N,Z");
 }
 
 std::string PercentText(double noise) {

@@ -12,10 +12,10 @@
 namespace exphoton {
 namespace {
 
-constexpr int kWindow = 7;        // pixels in each direction
-constexpr int kPatch = 2;         // the same for the patch
-constexpr float kColor = .8f;     // differences below this many standard deviations count less
-constexpr float kFeature = .6f;   // the same for features and their tolerance
+constexpr int kWindow = 7;       // pixels in each direction
+constexpr int kPatch = 2;        // the same for the patch
+constexpr float kColor = .8f;    // differences below this many standard deviations count less
+constexpr float kFeature = .6f;  // the same for features and their tolerance
 // A pixel with little noise does not take over the outliers of a pixel with much noise.
 constexpr float kMostVarianceRatio = 4;
 constexpr int kBandRows = 16;
@@ -48,8 +48,8 @@ float FeatureDistance(const DenoiseLayers& layers, std::size_t p, std::size_t q)
     const std::size_t at = DenoiseLayers::kFeatures * p + f;
     const float difference =
         layers.features[at] - layers.features[DenoiseLayers::kFeatures * q + f];
-    largest = std::max(largest, difference * difference /
-                                    (kFeature * kFeature * layers.tolerances[at]));
+    largest =
+        std::max(largest, difference * difference / (kFeature * kFeature * layers.tolerances[at]));
   }
   return largest;
 }
@@ -99,9 +99,8 @@ class Band {
     Sums& sums = sums_[p - layers_.At(0, y0_)];
     sums.weights[half] += double(weight);
     for (std::size_t c = 0; c < 3; ++c)
-      sums.changes[half][c] +=
-          double(weight) * (double(layers_.halves[half][3 * q + c]) -
-                            double(layers_.halves[half][3 * p + c]));
+      sums.changes[half][c] += double(weight) * (double(layers_.halves[half][3 * q + c]) -
+                                                 double(layers_.halves[half][3 * p + c]));
   }
 
   bool HasPair(int x, int y, int dx, int dy) const {
@@ -129,8 +128,8 @@ class Band {
     int count = 0;
     for (int v = y - kPatch; v <= y + kPatch; ++v)
       for (int u = std::max(x - kPatch, 0); u <= std::min(x + kPatch, layers_.width - 1); ++u) {
-        const std::size_t at = std::size_t(v - y0_ + kPatch) * std::size_t(layers_.width) +
-                               std::size_t(u);
+        const std::size_t at =
+            std::size_t(v - y0_ + kPatch) * std::size_t(layers_.width) + std::size_t(u);
         const float distance = distances_[half][at];
         if (distance == kNone) continue;
         sum += distance;
@@ -211,7 +210,8 @@ void Apply(const DenoiseLayers& layers, const std::vector<float>& changes, Denoi
 
 DenoiseResult Denoise(const Image& picture, ThreadPool& threads) {
   for (const char* channel : {"R", "G", "B"})
-    if (picture.FindChannel(channel) < 0) throw ImageError("the picture has no channels R, G and B");
+    if (picture.FindChannel(channel) < 0)
+      throw ImageError("the picture has no channels R, G and B");
   const DenoiseLayers layers = ReadDenoiseLayers(picture);
   std::vector<float> changes(layers.isValid.size() * 6);
   threads.For((layers.height + kBandRows - 1) / kBandRows, [&](std::int64_t index, int) {

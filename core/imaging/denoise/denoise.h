@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Denoise filters a picture that was rendered as two independent halves. It averages similar pixels
-// of a window: non-local means with the pixels' variance (Rousselle, Knaus and Zwicker 2012), guided
-// by noise-free layers of the first surface (Rousselle, Manzi and Zwicker 2013). The weights of each
-// half come from the other half, so a bright outlier does not choose its own weight.
+// of a window: non-local means with the pixels' variance (Rousselle, Knaus and Zwicker 2012),
+// guided by noise-free layers of the first surface (Rousselle, Manzi and Zwicker 2013). The weights
+// of each half come from the other half, so a bright outlier does not choose its own weight.
 #pragma once
 
 #include <string>
@@ -17,10 +17,10 @@ namespace exphoton {
 std::vector<std::string> MissingDenoiseLayers(const Image& picture);
 
 struct DenoiseResult {
-  Image picture;              // without the layers of halves and variance; all others are kept
-  double noise = 0;           // noise part of relMSE of the picture, from its halves
-  double residualNoise = 0;   // the same for the filtered halves; contains no bias
-  long long nonFinite = 0;    // pixels that are not finite and stay as they are
+  Image picture;             // without the layers of halves and variance; all others are kept
+  double noise = 0;          // noise part of relMSE of the picture, from its halves
+  double residualNoise = 0;  // the same for the filtered halves; contains no bias
+  long long nonFinite = 0;   // pixels that are not finite and stay as they are
 };
 
 // Throws ImageError if the picture has no channels R, G, B. Its layers must not be missing. The

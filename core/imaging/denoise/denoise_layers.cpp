@@ -21,8 +21,8 @@ using Channels = std::vector<int>;
 Channels Find(const Image& picture, const std::string& layer, const char* names) {
   Channels channels;
   for (const char* name = names; *name; ++name)
-    channels.push_back(picture.FindChannel(layer.empty() ? std::string(1, *name)
-                                                         : layer + "." + *name));
+    channels.push_back(
+        picture.FindChannel(layer.empty() ? std::string(1, *name) : layer + "." + *name));
   return channels;
 }
 
@@ -63,8 +63,8 @@ void EstimateVariance(DenoiseLayers* layers) {
       VisitWindow(*layers, x, y, kVarianceRadius, [&](std::size_t pixel) {
         ++count;
         for (std::size_t c = 0; c < 3; ++c) {
-          const double difference = double(layers->halves[0][3 * pixel + c]) -
-                                    double(layers->halves[1][3 * pixel + c]);
+          const double difference =
+              double(layers->halves[0][3 * pixel + c]) - double(layers->halves[1][3 * pixel + c]);
           sums[c] += difference * difference / 2;
         }
       });

@@ -19,7 +19,9 @@ struct DenoiseLayers {
 
   static constexpr int kFeatures = 7;  // albedo, shading normal, depth
 
-  std::size_t At(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
+  std::size_t At(int x, int y) const {
+    return std::size_t(y) * std::size_t(width) + std::size_t(x);
+  }
 };
 
 DenoiseLayers ReadDenoiseLayers(const Image& picture);

@@ -13,8 +13,8 @@ struct LightReceiver {
   LightReceiver(const Point3& point, const Normal3& side, const Normal3& shading)
       : p(point), n(side), ns(shading) {}
 
-  Point3 p;   // in world space
-  Normal3 n;  // geometric, unit; only light from its side counts. 0: light from both sides counts
+  Point3 p;    // in world space
+  Normal3 n;   // geometric, unit; only light from its side counts. 0: light from both sides counts
   Normal3 ns;  // shading normal, unit, of either side; 0: light counts without its cosine
   Real distantProbability = -1;  // set by LightSampler::Prepared
 };

@@ -2,6 +2,7 @@
 #include "core/render/passes/pass_sum.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/files/byte_archive.h"
 
@@ -46,13 +47,14 @@ double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianc
 // holds within each half, where all errors are larger by 1 / q. So the ratio of the differences is
 // q, and the noise is the difference times q / (1 - q). The noise of photons shows between groups
 // only. It raises the ratio, so the noise is overestimated then. Independent samples have the ratio
-// 1/2.
-void PassSum::CorrectForSequence(double within) {
+// 1/2. A rough ratio may be too small, and the noise then lies between that for the ratio and that
+// for 1/2. The geometric mean of both is wrong by a factor of 1.36 at most.
+void PassSum::CorrectForSequence(double within, bool isRough) {
   constexpr double kLeastRatio = .35;
   correction_ = 1;
   if (groups_ > 1 && within > 0) {
     const double q = std::clamp(noise_.RelativeVariance() / within, kLeastRatio, .5);
-    correction_ = q / (1 - q);
+    correction_ = isRough ? std::sqrt(q / (1 - q)) : q / (1 - q);
   }
   known_.reset();
 }

@@ -229,8 +229,8 @@ class Passes {
   void TakeForecast(std::int64_t samples, int group) {
     forecasts_[std::size_t(group)].Add(passFilm_, samples);
     const double a = forecasts_[0].Difference(), b = forecasts_[1].Difference();
-    const bool isKnown = a > 0 && b > 0 && plan_.FirstSamples() >= kLeastOfHalves;
-    if (sequence_ && isKnown) sum_.CorrectForSequence((a + b) / 2);
+    const bool isRough = plan_.FirstSamples() < kLeastOfHalves;
+    if (sequence_ && a > 0 && b > 0) sum_.CorrectForSequence((a + b) / 2, isRough);
   }
 
   // `next` is the step that would follow.

@@ -97,8 +97,8 @@ class CryptomatteProgram : public ProgramTest {
           "Translate 0 -2 4\n"
           "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] "
           "\"point P\" [-3 -.4 0 3 -.4 0 3 .4 0 -3 .4 0]\nWorldEnd\n");
-    std::vector<std::string> words{"scene.pbrt", "-o", name, "--aov", "cryptomatte",
-                                   "--reproducible"};
+    std::vector<std::string> words{"scene.pbrt", "-o",          name,
+                                   "--aov",      "cryptomatte", "--reproducible"};
     words.insert(words.end(), options.begin(), options.end());
     const ProgramResult result = Run(words);
     EXPECT_EQ(result.status, 0) << result.err;

@@ -16,12 +16,13 @@ using Truth = std::function<float(int x, int y, int channel)>;
 
 // Makes a picture with all layers. The halves have independent noise of this standard deviation
 // relative to the truth, and the picture is their mean.
-Image NoisyPicture(int width, int height, const Truth& truth, double noise,
-                   const Truth& albedo = [](int, int, int) { return .5f; }) {
+Image NoisyPicture(
+    int width, int height, const Truth& truth, double noise,
+    const Truth& albedo = [](int, int, int) { return .5f; }) {
   Image image(width, height,
-              {"R", "G", "B", "A", "half1.R", "half1.G", "half1.B", "half2.R", "half2.G",
-               "half2.B", "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "variance.R",
-               "variance.G", "variance.B"});
+              {"R", "G", "B", "A", "half1.R", "half1.G", "half1.B", "half2.R", "half2.G", "half2.B",
+               "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "variance.R", "variance.G",
+               "variance.B"});
   std::mt19937 random(7);
   const auto uniform = [&] { return double(random()) / 4294967296. - .5; };
   for (int y = 0; y < height; ++y)
@@ -78,7 +79,8 @@ TEST(Denoise, PictureWithoutNoiseStaysWithinOneTenThousandth) {
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x)
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(result.picture.At(x, y, c), picture.At(x, y, c), 1e-4 * double(picture.At(x, y, c)));
+        EXPECT_NEAR(result.picture.At(x, y, c), picture.At(x, y, c),
+                    1e-4 * double(picture.At(x, y, c)));
 }
 
 TEST(Denoise, NoiseFalls) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace exphoton {
 namespace {
 
@@ -45,10 +47,13 @@ TEST(PassSum, KnowsThatSuccessiveHalvesCancel) {
     sum.Add(PassOf(1.1, 4), 4, 0);
     sum.Add(PassOf(.9, 4), 4, 1);
     const double difference = *sum.Noise();
-    sum.CorrectForSequence(difference / q);
+    sum.CorrectForSequence(difference / q, false);
     EXPECT_NEAR(*sum.Noise(), difference * q / (1 - q), 1e-9) << q;
+    // A rough ratio is taken for half true.
+    sum.CorrectForSequence(difference / q, true);
+    EXPECT_NEAR(*sum.Noise(), difference * std::sqrt(q / (1 - q)), 1e-9) << q;
     // More noise between the groups than within them comes from photons.
-    sum.CorrectForSequence(difference / .8);
+    sum.CorrectForSequence(difference / .8, false);
     EXPECT_NEAR(*sum.Noise(), difference, 1e-9);
   }
 }
