@@ -20,7 +20,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 PICTURES = {
     "cloister": (32, 4, -.3),
     "glass-still-life": (32, 2, .4),
-    "spiral-staircase": (32, 4, -.1),
+    "spiral-staircase": (32, 2, -.1),
     "swimming-hall": (32, 2, -.2),
     "sculpture-hall": (32, 4, -1),
     "night-corridor": (32, 4, -.3),
