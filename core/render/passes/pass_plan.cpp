@@ -13,7 +13,6 @@ namespace {
 constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
 constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
-constexpr std::int64_t kFew = 8;         // samples a pixel
 constexpr double kHuge = 0x1p50;
 constexpr double kDearPhotons = .25;  // of the price of the samples of a pass
 
@@ -80,15 +79,12 @@ std::int64_t PassPlan::FirstGoal(const State& state) const {
   return std::min(PowerOfTwoUpTo(kRounding * *state.enough / 2), most);
 }
 
-// The second group is as large as the first one. The noise may then come from photons, which larger
-// groups would not reduce. But where samples are few, the third group doubles their number, because
-// a sequence is best distributed at powers of two.
+// The second group is as large as the first one. The noise may then come from photons,
+// which larger groups would not reduce.
 std::int64_t PassPlan::LaterGoal(const State& state) const {
   const std::int64_t most = GoalByTime(state);
   if (!limits_.targetError) return most;
   if (groups_ < 2 || !state.noise) return std::min(PowerOfTwoUpTo(double(firstSamples_)), most);
-  if (groups_ == 2 && state.samples <= kFew)
-    return std::min(PowerOfTwoUpTo(double(state.samples)), most);
   const double missing = double(state.samples) * (*state.noise / *limits_.targetError - 1);
   const double size = std::clamp(missing * kRounding, double(firstSamples_) / 2,
                                  std::max(double(state.samples), double(firstSamples_)) / 2);

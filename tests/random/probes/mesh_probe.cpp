@@ -53,7 +53,8 @@ int HandOf(const Vector3& u, const Vector3& v, const Normal3& n) {
 
 void CheckMeshSight(const SurfaceInteraction& s, Findings* findings) {
   const double cosine = double(AbsDot(s.ng, s.shading.n));
-  findings->Expect(cosine > .85, "the normal of a mesh is nearly that of its faces", cosine, 1);
+  findings->Expect(cosine > .85, "the normal of a mesh is close to the normal of its face", cosine,
+                   1);
   const int hand = HandOf(s.dpdu, s.dpdv, s.ng);
   const int shadingHand = HandOf(s.shading.dpdu, s.shading.dpdv, s.shading.n);
   findings->Expect(hand == shadingHand, "shading tangents have the hand of the coordinates",

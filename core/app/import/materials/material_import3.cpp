@@ -27,10 +27,10 @@ void AddIndex(LaterParams& params, const ImportContext& context, DirectiveText* 
   }
 }
 
-class Material3Importer {
+class Material3Importer : private MaterialImporter {
  public:
   Material3Importer(const MaterialHead& head, LaterParams& params, const ImportContext& context)
-      : head_(head), params_(params), context_(context) {}
+      : MaterialImporter(head, params, context) {}
 
   std::string Matte() {
     DirectiveText text = head_.Text("matte");
@@ -109,14 +109,6 @@ class Material3Importer {
       text->Number("float roughness", .001);
     return End(text);
   }
-  std::string End(DirectiveText* text) {
-    AddBump(params_, text);
-    return text->Text();
-  }
-
-  const MaterialHead& head_;
-  LaterParams& params_;
-  const ImportContext& context_;
 };
 
 }  // namespace

@@ -32,10 +32,10 @@ double NormalReflectance(double eta, double k) {
   return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
 }
 
-class Material4Importer {
+class Material4Importer : private MaterialImporter {
  public:
   Material4Importer(const MaterialHead& head, LaterParams& params, const ImportContext& context)
-      : head_(head), params_(params), context_(context) {}
+      : MaterialImporter(head, params, context) {}
 
   std::string Diffuse() {
     DirectiveText text = head_.Text("matte");
@@ -157,15 +157,6 @@ class Material4Importer {
         "incidence");
     return End(&smooth);
   }
-
-  std::string End(DirectiveText* text) {
-    AddBump(params_, text);
-    return text->Text();
-  }
-
-  const MaterialHead& head_;
-  LaterParams& params_;
-  const ImportContext& context_;
 };
 
 }  // namespace

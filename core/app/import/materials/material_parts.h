@@ -30,6 +30,23 @@ void ReplaceRoughness(const RoughnessNames& names, LaterParams& params);
 // Takes "bumpmap" (version 3) or "displacement" (version 4) and reports "normalmap".
 void AddBump(LaterParams& params, DirectiveText* text);
 
+// What the importers of both versions share: a directive that they begin with the head, fill from
+// the parameters and end with the bump map.
+class MaterialImporter {
+ protected:
+  MaterialImporter(const MaterialHead& head, LaterParams& params, const ImportContext& context)
+      : head_(head), params_(params), context_(context) {}
+
+  std::string End(DirectiveText* text) const {
+    AddBump(params_, text);
+    return text->Text();
+  }
+
+  const MaterialHead& head_;
+  LaterParams& params_;
+  const ImportContext& context_;
+};
+
 std::optional<std::string> ImportMaterial3(const std::string& type, const MaterialHead& head,
                                            LaterParams& params, const ImportContext& context);
 std::optional<std::string> ImportMaterial4(const std::string& type, const MaterialHead& head,

@@ -2,52 +2,9 @@
 // LaterState follows the matrix of the start time only.
 #include "core/app/import/reading/later_state.h"
 
-#include <optional>
+#include "core/parser/builder/transform_directives.h"
 
 namespace exphoton::cli {
-namespace {
-
-Vec3 StateVector(const std::vector<double>& numbers, std::size_t first) {
-  return {Real(numbers[first]), Real(numbers[first + 1]), Real(numbers[first + 2])};
-}
-
-std::optional<Transform> StateMatrix(const std::vector<double>& numbers) {
-  Matrix4 matrix;
-  for (std::size_t i = 0; i < 16; ++i) matrix.m[i % 4][i / 4] = numbers[i];
-  return Transform::FromMatrix(matrix);
-}
-
-std::optional<Transform> StepOf(const Directive& directive) {
-  const std::vector<double>& n = directive.numbers;
-  switch (directive.spec->id) {
-    case DirectiveId::Translate:
-      return Transform::Translate(StateVector(n, 0));
-    case DirectiveId::Scale:
-      return Transform::Scale(n[0], n[1], n[2]);
-    case DirectiveId::Rotate:
-      return Transform::Rotate(n[0], StateVector(n, 1));
-    case DirectiveId::LookAt: {
-      const auto lookAt =
-          Transform::LookAt(StateVector(n, 0), StateVector(n, 3), StateVector(n, 6));
-      if (!lookAt) return {};
-      return *Transform::Scale(-1, 1, 1) * *lookAt;  // mirrored, as in version 2
-    }
-    default:
-      return StateMatrix(n);
-  }
-}
-
-}  // namespace
-
-void LaterState::ApplyTransform(const Directive& directive) {
-  if (!now_.isActive) return;
-  const std::optional<Transform> step = StepOf(directive);
-  if (!step)
-    throw Error(ExitStatus::Scene, std::string(directive.spec->name) + " has no inverse",
-                directive.Where());
-  const bool replaces = directive.spec->id == DirectiveId::Transform;
-  now_.transform = replaces ? *step : now_.transform * *step;
-}
 
 void LaterState::End(DirectiveId begin, const Directive& directive) {
   if (saved_.empty() || saved_.back().begin != begin)
@@ -66,17 +23,12 @@ void LaterState::End(DirectiveId begin, const Directive& directive) {
 }
 
 void LaterState::Handle(const Directive& directive) {
+  if (IsTransformDirective(directive.spec->id)) {
+    // Later versions mirror LookAt as version 2 does.
+    if (now_.isActive) now_.transform = ApplyTransform(now_.transform, directive, Dialect::V2);
+    return;
+  }
   switch (directive.spec->id) {
-    case DirectiveId::Translate:
-    case DirectiveId::Scale:
-    case DirectiveId::Rotate:
-    case DirectiveId::LookAt:
-    case DirectiveId::Transform:
-    case DirectiveId::ConcatTransform:
-      return ApplyTransform(directive);
-    case DirectiveId::Identity:
-      if (now_.isActive) now_.transform = Transform();
-      return;
     case DirectiveId::ActiveTransform:
       now_.isActive = directive.strings[0] != "EndTime";
       return;

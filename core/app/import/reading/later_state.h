@@ -49,7 +49,6 @@ class LaterState {
   };
 
   void HandleBlock(const Directive& directive);
-  void ApplyTransform(const Directive& directive);
   void End(DirectiveId begin, const Directive& directive);
 
   Values now_;
