@@ -4,6 +4,8 @@
 // measurement (docs/decisions/0007-stopping-rules.md), so caustics are path traced here.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/render/passes/render_passes.h"
 #include "tests/images/reference.h"
 
@@ -81,14 +83,16 @@ TEST_P(TargetErrorTest, IsTheNoiseBetweenSeeds) {
 
 std::string NameOf(const testing::TestParamInfo<Target>& info) {
   const std::string name = info.param.scene;
-  return name.substr(0, name.find('-')) + name.substr(name.find('/') + 1);
+  return name.substr(0, name.find('-')) + name.substr(name.find('/') + 1) + "To" +
+         std::to_string(std::lround(1e6 * info.param.error));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, TargetErrorTest,
-    testing::Values(Target{
-        "skylight-room/exphotonmap", .005, {{"SurfaceIntegrator", "indirectphotons", "30000"}}}),
-    NameOf);
+Target RoomTo(double error) {
+  return {"skylight-room/exphotonmap", error, {{"SurfaceIntegrator", "indirectphotons", "30000"}}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TargetErrorTest,
+                         testing::Values(RoomTo(.01), RoomTo(.004), RoomTo(.002)), NameOf);
 // ctest calls a test long if its name begins with this word.
 INSTANTIATE_TEST_SUITE_P(LongScenes, TargetErrorTest,
                          testing::Values(Target{"cornell-caustic/path", .05, {}}), NameOf);

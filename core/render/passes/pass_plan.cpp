@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/files/byte_archive.h"
+#include "core/render/passes/cancelling_errors.h"
 
 namespace exphoton {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
 constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
+constexpr double kWellShared = 8;        // samples of a group whose gathers are shared well
 constexpr double kHuge = 0x1p50;
 constexpr double kDearPhotons = .25;  // of the price of the samples of a pass
 
@@ -39,12 +41,10 @@ void GroupForecast::Add(const Film& pass, std::int64_t samplesPerPixel) {
   noise_->Join();
 }
 
-// If n samples have the error n^-s, then the errors of the two halves of a sequence partly cancel.
-// The difference of the halves suggests the error 1 - 2^-s for their mean, whose error is 2^-s.
 std::optional<double> GroupForecast::SamplesFor(double noise) const {
   if (!(difference_ > 0)) return std::nullopt;
   const double q = std::exp2(-slope_);
-  const double error = difference_ * q / (1 - q);
+  const double error = difference_ * CancellingErrors(q, samples_);
   return double(samples_) * std::pow(error / noise, 1 / slope_);
 }
 
@@ -85,9 +85,11 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
   const std::int64_t most = GoalByTime(state);
   if (!limits_.targetError) return most;
   if (groups_ < 2 || !state.noise) return std::min(PowerOfTwoUpTo(double(firstSamples_)), most);
-  const double missing = double(state.samples) * (*state.noise / *limits_.targetError - 1);
-  const double size = std::clamp(missing * kRounding, double(firstSamples_) / 2,
-                                 std::max(double(state.samples), double(firstSamples_)) / 2);
+  const double samples = double(state.samples);
+  const double missing = samples * (*state.noise / *limits_.targetError - 1);
+  // A small group shoots as many photons as a large one, and its gathers are shared less well.
+  const double least = std::max(samples / 8, std::min(samples / 2, kWellShared));
+  const double size = std::clamp(missing * kRounding, least, samples / 2);
   return std::min(PowerOfTwoUpTo(size), most);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/files/byte_archive.h"
+#include "core/render/passes/cancelling_errors.h"
 
 namespace exphoton {
 
@@ -42,19 +43,15 @@ std::optional<double> PassSum::Noise() const {
 
 double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianceError(); }
 
-// Let the error of n samples of a sequence be n^-s, and q = 2^-s. The difference of two successive
-// halves of n samples each suggests the error 1 - q for their mean, whose error is q. The same
-// holds within each half, where all errors are larger by 1 / q. So the ratio of the differences is
-// q, and the noise is the difference times q / (1 - q). The noise of photons shows between groups
-// only. It raises the ratio, so the noise is overestimated then. Independent samples have the ratio
-// 1/2. A rough ratio may be too small, and the noise then lies between that for the ratio and that
-// for 1/2. The geometric mean of both is wrong by a factor of 1.36 at most.
-void PassSum::CorrectForSequence(double within, bool isRough) {
+// Errors fall by the ratio q from the halves of a group to the group, and so do the differences of
+// halves. The noise of photons shows between groups only. It raises the ratio, so the noise is
+// overestimated then.
+void PassSum::CorrectForSequence(double within, std::int64_t groupSamples) {
   constexpr double kLeastRatio = .35;
   correction_ = 1;
   if (groups_ > 1 && within > 0) {
-    const double q = std::clamp(noise_.RelativeVariance() / within, kLeastRatio, .5);
-    correction_ = isRough ? std::sqrt(q / (1 - q)) : q / (1 - q);
+    const double ratio = std::clamp(noise_.RelativeVariance() / within, kLeastRatio, .5);
+    correction_ = CancellingErrors(ratio, groupSamples);
   }
   known_.reset();
 }

@@ -49,9 +49,8 @@ class PassSum {
 
   // States that the groups continue one sequence of camera samples, whose errors partly cancel.
   // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
-  // after the passes of these groups. `isRough` says that the halves of the groups are so small
-  // that `within` may be too large.
-  void CorrectForSequence(double within, bool isRough);
+  // after the passes of these groups, which have `groupSamples` samples per pixel each.
+  void CorrectForSequence(double within, std::int64_t groupSamples);
 
   // Returns TargetError or Samples if this rule holds.
   std::optional<StopReason> Reason() const;

@@ -23,9 +23,6 @@ constexpr std::int64_t kProgressSteps = 1000;
 // The first samples of a sequence are well distributed if their number is this number times a power
 // of two. A larger number would spoil small passes.
 constexpr std::int64_t kWellDistributed = 2;
-// Halves of smaller groups say little about errors that cancel: shared gathers find better windows
-// in a group than in its halves, so the halves differ more.
-constexpr std::int64_t kLeastOfHalves = 8;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -229,8 +226,7 @@ class Passes {
   void TakeForecast(std::int64_t samples, int group) {
     forecasts_[std::size_t(group)].Add(passFilm_, samples);
     const double a = forecasts_[0].Difference(), b = forecasts_[1].Difference();
-    const bool isRough = plan_.FirstSamples() < kLeastOfHalves;
-    if (sequence_ && a > 0 && b > 0) sum_.CorrectForSequence((a + b) / 2, isRough);
+    if (sequence_ && a > 0 && b > 0) sum_.CorrectForSequence((a + b) / 2, plan_.FirstSamples());
   }
 
   // `next` is the step that would follow.

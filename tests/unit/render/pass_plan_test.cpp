@@ -26,6 +26,23 @@ TEST(PassPlan, ANewGroupFitsIntoTheTimeAfterItsPreprocessing) {
   EXPECT_EQ(next(7.94).size, 0);  // .06 s: no sample
 }
 
+// The groups after the second one have at least half of all samples, at most 8, and then at least
+// an eighth of them: they shoot photons again.
+TEST(PassPlan, LaterGroupsAreNotSmall) {
+  const auto next = [](std::int64_t samples) {
+    PassPlan plan({.targetError = 1e-3, .timeLimit = {}, .maxSamples = 100000});
+    for (const bool isNewGroup : {true, false, true, false})
+      plan.Take({.isNewGroup = isNewGroup, .size = samples / 4});
+    return plan.Next({.samples = samples, .noise = 1.001e-3, .enough = double(samples)});
+  };
+  EXPECT_TRUE(next(4).isNewGroup);
+  EXPECT_EQ(next(4).size, 2);
+  EXPECT_EQ(next(8).size, 4);
+  EXPECT_EQ(next(16).size, 8);
+  EXPECT_EQ(next(64).size, 8);
+  EXPECT_EQ(next(256).size, 32);
+}
+
 // A pass with a given number of samples takes 1.6 s for them and 2 s for its preprocessing.
 TEST(PassPlan, APassOfGivenSizeFitsIntoTheTime) {
   const auto next = [](std::optional<double> timeLimit, double elapsed, std::int64_t samples) {

@@ -47,13 +47,13 @@ TEST(PassSum, KnowsThatSuccessiveHalvesCancel) {
     sum.Add(PassOf(1.1, 4), 4, 0);
     sum.Add(PassOf(.9, 4), 4, 1);
     const double difference = *sum.Noise();
-    sum.CorrectForSequence(difference / q, false);
+    sum.CorrectForSequence(difference / q, 8);
     EXPECT_NEAR(*sum.Noise(), difference * q / (1 - q), 1e-9) << q;
     // A rough ratio is taken for half true.
-    sum.CorrectForSequence(difference / q, true);
+    sum.CorrectForSequence(difference / q, 4);
     EXPECT_NEAR(*sum.Noise(), difference * std::sqrt(q / (1 - q)), 1e-9) << q;
     // More noise between the groups than within them comes from photons.
-    sum.CorrectForSequence(difference / .8, false);
+    sum.CorrectForSequence(difference / .8, 8);
     EXPECT_NEAR(*sum.Noise(), difference, 1e-9);
   }
 }
