@@ -30,9 +30,9 @@ Real PlacedArea(const EmitterSurface& local, const Transform& toWorld);
 class PlacedEmitter final : public EmitterSurface {
  public:
   PlacedEmitter(std::unique_ptr<const EmitterSurface> local, const Transform& toWorld)
-      : local_(std::move(local)), toWorld_(toWorld) {}
+      : local_(std::move(local)), toWorld_(toWorld), area_(PlacedArea(*local_, toWorld_)) {}
 
-  Real Area() const override { return PlacedArea(*local_, toWorld_); }
+  Real Area() const override { return area_; }
   Bounds3 Bounds() const override { return toWorld_.ApplyBounds(local_->Bounds()); }
   EmitterSample SamplePoint(Point2 u, Real uSubLight, Real time) const override {
     return SamplePlacedPoint(*local_, toWorld_, u, uSubLight, time);
@@ -50,6 +50,7 @@ class PlacedEmitter final : public EmitterSurface {
  private:
   std::unique_ptr<const EmitterSurface> local_;
   Transform toWorld_;
+  Real area_;
 };
 
 }  // namespace exphoton
