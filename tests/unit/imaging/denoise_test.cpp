@@ -123,6 +123,28 @@ TEST(Denoise, KeepsTheMeanAndSpreadsAnOutlier) {
   EXPECT_NEAR(after, before, .005 * before);
 }
 
+// The noise is exponential: most values are small, a few are large. Weights that come from the same
+// values would prefer small ones: the picture would lose 1.2 % of its light.
+TEST(Denoise, KeepsTheMeanOfSkewedNoise) {
+  Image picture = NoisyPicture(64, 48, Ramp, 0);
+  std::mt19937 random(3);
+  const auto exponential = [&] { return -std::log((double(random()) + .5) / 4294967296.); };
+  double before = 0, after = 0;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int c = 0; c < 3; ++c) {
+        for (const int half : {4, 7})
+          picture.At(x, y, half + c) = float(double(Ramp(x, y, c)) * exponential());
+        picture.At(x, y, c) = (picture.At(x, y, 4 + c) + picture.At(x, y, 7 + c)) / 2;
+        before += double(picture.At(x, y, c));
+      }
+  const Image filtered = Filtered(picture).picture;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int c = 0; c < 3; ++c) after += double(filtered.At(x, y, c));
+  EXPECT_NEAR(after, before, .004 * before);
+}
+
 // The right side has so much noise that its colours say nothing.
 TEST(Denoise, QuietPixelsDoNotTakeOverOutliers) {
   const auto flat = [](int, int, int) { return .5f; };
