@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The errors of two halves of one sequence of camera samples partly cancel, so the difference of
 // the halves overstates the error of their mean. Derivation and measurements:
-// docs/decisions/0046-gathers-of-several-passes.md and docs/decisions/0082-levels-of-noisy-pixels.md
+// docs/decisions/0046-gathers-of-several-passes.md and
+// docs/decisions/0082-levels-of-noisy-pixels.md
 #pragma once
 
 #include <cmath>

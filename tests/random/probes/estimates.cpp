@@ -17,9 +17,9 @@ namespace exphoton::random_scenes {
 namespace {
 
 constexpr int kBatches = 16;
-constexpr Real kBall = Real(.8);  // radius
-constexpr double kSmall = 1e-4;   // estimates below this are not compared
-constexpr double kDim = .05;      // the same for light, whose rare samples have much weight
+constexpr Real kLargestBall = Real(.8), kSmallestBall = Real(.2);  // radii
+constexpr double kSmall = 1e-4;  // estimates below this are not compared
+constexpr double kDim = .05;     // the same for light, whose rare samples have much weight
 
 using Estimate = std::function<double(RandomStream*)>;
 
@@ -73,38 +73,53 @@ Real RandomTime(const ProbedScene& scene, RandomStream* random) {
   return Lerp(random->Uniform(), times.min, times.max);
 }
 
+struct Ball {
+  Point3 centre;
+  Real radius;
+};
+
 // Returns the length of a ray of unit direction inside the ball, in 0 < t < tMax.
-double LengthInBall(const Ray& ray, const Point3& centre) {
-  const Vector3 to = centre - ray.o;
-  const double middle = double(Dot(to, ray.d));
-  const double half2 = double(kBall) * double(kBall) - double(LengthSquared(to)) + middle * middle;
+double LengthInBall(const Ray& ray, const Ball& ball) {
+  const Vector3 to = ball.centre - ray.o;
+  const double middle = double(Dot(to, ray.d)), radius = double(ball.radius);
+  const double half2 = radius * radius - double(LengthSquared(to)) + middle * middle;
   if (!(half2 > 0)) return 0;
   const double half = std::sqrt(half2);
   return std::max(0., std::min(middle + half, double(ray.tMax)) - std::max(middle - half, 0.));
 }
 
-Point3 PointInBall(const Point3& centre, RandomStream* random) {
-  const Real r = kBall * std::cbrt(random->Uniform());
-  return centre + SampleUniformSphere(NextPoint(random)) * r;
+Point3 PointInBall(const Ball& ball, RandomStream* random) {
+  const Real r = ball.radius * std::cbrt(random->Uniform());
+  return ball.centre + SampleUniformSphere(NextPoint(random)) * r;
 }
 
-double LightByEmission(const ProbedScene& scene, const Light& light, const Point3& centre,
+// Returns a ball about the point that keeps clear of the light: near a lamp, the light by samples
+// of direct light has infinite variance. Returns nullopt if the light is too close.
+std::optional<Ball> BallClearOf(const Light& light, const Point3& centre) {
+  const auto bounds = light.Bounds();
+  if (!bounds) return Ball{centre, kLargestBall};
+  const Point3 nearest = Max(bounds->min, Min(bounds->max, centre));
+  const Real radius = std::min(kLargestBall, Real(.7) * Distance(nearest, centre));
+  return radius < kSmallestBall ? std::nullopt : std::optional(Ball{centre, radius});
+}
+
+double LightByEmission(const ProbedScene& scene, const Light& light, const Ball& ball,
                        RandomStream* random) {
   const Point2 u = NextPoint(random), v = NextPoint(random);
   const Real part = random->Uniform();
   const auto sample = light.SampleEmission(u, v, part, RandomTime(scene, random));
   if (!sample) return 0;
   Ray ray = sample->ray;
-  if (!(LengthInBall(ray, centre) > 0)) return 0;
+  if (!(LengthInBall(ray, ball) > 0)) return 0;
   const auto hit = scene.World().IntersectPoint(ray);
   if (hit) ray.tMax = hit->hit.t;
-  const double volume = 4. / 3 * double(kPi * kBall * kBall * kBall);
-  return double(sample->power.Y()) * LengthInBall(ray, centre) / volume;
+  const double volume = 4. / 3 * double(kPi) * std::pow(double(ball.radius), 3);
+  return double(sample->power.Y()) * LengthInBall(ray, ball) / volume;
 }
 
-double LightByDirect(const ProbedScene& scene, const Light& light, const Point3& centre,
+double LightByDirect(const ProbedScene& scene, const Light& light, const Ball& ball,
                      RandomStream* random) {
-  const SurfacePoint point{PointInBall(centre, random), {}, {}, RandomTime(scene, random)};
+  const SurfacePoint point{PointInBall(ball, random), {}, {}, RandomTime(scene, random)};
   const Point2 u = NextPoint(random);
   const auto direct = light.SampleDirect(point, u, random->Uniform());
   if (!direct || scene.World().Occluded(direct->shadowRay)) return 0;
@@ -118,11 +133,11 @@ bool HasStretchedMovingLamp(const SceneModel& scene) {
   });
 }
 
-void CompareInBall(const ProbedScene& scene, const Light& light, const Point3& centre,
+void CompareInBall(const ProbedScene& scene, const Light& light, const Ball& ball,
                    EstimateComparison* comparison) {
   comparison->Add("light in a ball", .03,
-                  {192, [&](RandomStream* r) { return LightByEmission(scene, light, centre, r); }},
-                  {64, [&](RandomStream* r) { return LightByDirect(scene, light, centre, r); }},
+                  {192, [&](RandomStream* r) { return LightByEmission(scene, light, ball, r); }},
+                  {64, [&](RandomStream* r) { return LightByDirect(scene, light, ball, r); }},
                   kDim);
 }
 
@@ -133,11 +148,13 @@ void CompareLight(const ProbedScene& scene, const Light& light, bool comparesPow
                       half * (2 * random->Uniform() - 1));
   // Rays of far lights cover the world only.
   const Bounds3& world = scene.World().WorldBounds();
-  const Vector3 half3(kBall, kBall, kBall);
+  const Vector3 half3(kLargestBall, kLargestBall, kLargestBall);
   const bool isFar = light.IsDistant() || light.IsInfinite();
-  const Bounds3 ball(centre - half3, centre + half3);
-  if (!isFar || (Min(world.min, ball.min) == world.min && Max(world.max, ball.max) == world.max))
-    CompareInBall(scene, light, centre, comparison);
+  const Bounds3 about(centre - half3, centre + half3);
+  const auto ball = BallClearOf(light, centre);
+  if (ball && (!isFar ||
+               (Min(world.min, about.min) == world.min && Max(world.max, about.max) == world.max)))
+    CompareInBall(scene, light, *ball, comparison);
   if (!comparesPower) return;
   const double power = double(light.Power().Y());
   comparison->Add("power", .05,

@@ -70,8 +70,8 @@ void CheckDerivatives(const ProbedScene& scene, const Sight& sight, const Vector
                       Findings* findings) {
   constexpr Real kStep = Real(.004);
   const SurfaceInteraction& s = sight.surface;
-  // About the pole of a sphere, u runs along a circle of the radius |dpdu| / (2 pi). The step leaves
-  // its tangent by half its length over this radius: at most a sixteenth of the step.
+  // About the pole of a sphere, u runs along a circle of the radius |dpdu| / (2 pi). The step
+  // leaves its tangent by half its length over this radius: at most a sixteenth of the step.
   const Real least = 50 * kStep;
   if (Length(s.dpdu) < least || Length(s.dpdv) < least) return;
   Ray ray = sight.ray;
