@@ -89,7 +89,7 @@ class LightCheck {
       Expect(isOccluded, "a shadow ray that something blocks", distance, sampled);
     } else if (distance > sampled * 1.01) {
       ++misses_;
-    } else if (std::abs(distance - sampled) < 1e-3 * sampled) {
+    } else if (std::abs(distance - sampled) < 1e-4 * sampled) {  // not another face at an edge
       ++meetings_;
       if (sight->surface.areaLight != &light_) return;  // two surfaces at one place
       const SurfaceInteraction& on = sight->surface;
