@@ -121,6 +121,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
   PassesResult result;
   result.render = renderer.Finish();
   sum.Describe(false, &result);
+  if (films->corrections) result.levels = sum.Levels();
   return result;
 }
 
@@ -154,7 +155,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
     picture.settings.indirectPhotons = photonsOf("indirect");
     picture.settings.causticPhotons = photonsOf("caustic");
   }
-  if (films.corrections) picture.certificate = Certify(*films.corrections, films.film, 0, {});
+  if (films.corrections) picture.certificate = Certify(*films.corrections, result.levels, 0, {});
   verbose_.Verbose(TextOf(request, picture));
   return picture;
 }
