@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include <fstream>
 #include <utility>
 
 namespace exphoton {
@@ -102,5 +103,8 @@ double PeakMemoryBytes() {
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
   return double(usage.ru_maxrss) * 1024;  // Linux reports KiB
 }
+
+// Linux resets the peak to the memory that is used now (proc(5), clear_refs).
+void ResetPeakMemory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 }  // namespace exphoton

@@ -94,5 +94,6 @@ class PhaseTimer {
 
 double ProcessCpuSeconds();
 double PeakMemoryBytes();  // of this process so far, in physical memory
+void ResetPeakMemory();    // PeakMemoryBytes then begins anew, where the system allows it
 
 }  // namespace exphoton

@@ -32,6 +32,8 @@ struct ParameterOverride {
   std::string directive, parameter, value;
 };
 
+struct RenderSetup;
+
 struct LoadOptions {
   std::vector<std::string> pluginFolders;  // as PluginRegistry::DefaultFolders returns them
   bool allowsScenePlugins = false;         // also search plugin folders that a scene file names
@@ -54,6 +56,10 @@ struct LoadOptions {
   Real timeOffset = 0;           // the shutter opens and closes later by this
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
   bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
+
+  // If not null, a setup of the same file, without integrators. Its scene and names move to the new
+  // setup, instead of being made again. An error is thrown if the world has changed.
+  RenderSetup* known = nullptr;
 };
 
 struct LoadingStopped {};

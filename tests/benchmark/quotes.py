@@ -6,8 +6,10 @@ Quotes of more than MOST_SECONDS are not rendered. The error of a picture is mea
 reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be samples, such as 256spp. The
 error is a root mean square over three seeds, because the error of one picture can be far from the
 mean where bright samples are rare. "to reach" is the CPU time to reach the accuracy: that of the
-command, times the squared ratio of errors.
+command, with the time of its samples times the squared ratio of errors, but at least one sample.
 """
+import json
+import os
 import sys
 import tempfile
 
@@ -35,14 +37,21 @@ def main():
                     continue
                 at = options.index("--resolution")
                 del options[at:at + 2]
-                errors, times = [], []
+                errors, times, parts = [], [], []
+                report = os.path.join(folder, "report.json")
                 for seed in SEEDS:
-                    picture, seconds = scene.render("picture", *options, "--seed", seed)
+                    picture, seconds = scene.render("picture", *options, "--seed", seed,
+                                                    "--stats-json", report)
                     errors.append(scene.error(picture))
                     times.append(seconds)
-                cpu = sum(times) / len(times)
+                    with open(report, encoding="utf-8") as file:
+                        statistics = json.load(file)
+                    parts += [phase["cpuSeconds"] for phase in statistics["phases"]
+                              if phase["name"] in ("render", "share")]
+                samples = statistics["samplesPerPixel"]
+                cpu, of_samples = sum(times) / len(times), sum(parts) / len(times)
                 error = max(sum(errors) / len(errors), 0) ** .5
-                needed = cpu * (error / accuracy) ** 2
+                needed = cpu + of_samples * (max((error / accuracy) ** 2, 1 / samples) - 1)
                 count += 1
                 near += 1 / 1.5 <= needed / predicted <= 1.5
                 inside += least <= needed <= most

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/imaging/film/box_mean.h"
+#include "core/imaging/film/local_square.h"
 #include "core/imaging/metrics/metrics.h"
 #include "core/render/certificate/certificate.h"
 #include "core/render/passes/render_halves.h"
@@ -64,7 +64,8 @@ Rendered RenderOnce(const std::string& scene, const LoadOptions& load, std::uint
   rendered.halves[1] = ValuesOf(second);
   const double noise = result.noise.value_or(0);
   if (share > 0)
-    rendered.certificate = Certify(corrections, film, noise, CertificateGoal::ForNoise(noise));
+    rendered.certificate =
+        Certify(corrections, result.levels, noise, CertificateGoal::ForNoise(noise));
   return rendered;
 }
 
@@ -72,10 +73,8 @@ Rendered RenderOnce(const std::string& scene, const LoadOptions& load, std::uint
 class TrueBias {
  public:
   TrueBias(const Rendered& reference, int width)
-      : width_(width),
-        reference_(reference),
-        scale_(BoxMean(reference.picture, std::size_t(width))) {
-    for (float& r : scale_) r = float(std::sqrt(double(r) * double(r) + kRelMseOffset));
+      : width_(width), reference_(reference), scale_(LevelsOf(reference, std::size_t(width))) {
+    for (double& r : scale_) r = std::sqrt(r + kRelMseOffset);
   }
   void Add(const Rendered& picture) { pictures_.push_back(picture.picture); }
 
@@ -93,6 +92,15 @@ class TrueBias {
   }
 
  private:
+  // Returns r^2 of each pixel of the mean of two halves.
+  static std::vector<double> LevelsOf(const Rendered& reference, std::size_t width) {
+    std::vector<float> variances;
+    for (std::size_t i = 0; i < reference.picture.size(); ++i) {
+      const double half = (double(reference.halves[0][i]) - double(reference.halves[1][i])) / 2;
+      variances.push_back(float(half * half));
+    }
+    return SquaredLevels(reference.picture, variances, width);
+  }
   // Returns the number of pixels times the product.
   double OfBlock(const PixelBounds& block, int channel) const {
     const auto count = double(block.Width()) * block.Height();
@@ -103,8 +111,8 @@ class TrueBias {
         for (int x = block.x0; x < block.x1; ++x) {
           const auto at = std::size_t(3 * (y * width_ + x) + channel);
           for (int half = 0; half < 2; ++half)
-            errors[half] += (double(picture[at]) - double(reference_.halves[half][at])) /
-                            double(scale_[at]) / count;
+            errors[half] +=
+                (double(picture[at]) - double(reference_.halves[half][at])) / scale_[at] / count;
         }
       for (int half = 0; half < 2; ++half) sums[half] += errors[half];
       own += errors[0] * errors[1];
@@ -115,7 +123,7 @@ class TrueBias {
 
   int width_;
   const Rendered& reference_;
-  std::vector<float> scale_;
+  std::vector<double> scale_;
   std::vector<std::vector<float>> pictures_;
 };
 

@@ -46,5 +46,28 @@ TEST(SceneBuilder, HashesTheStringsOfParameters) {
   EXPECT_NE(hash("one.exr"), hash("two.exr"));
 }
 
+// Pilots render one scene with several integrators.
+TEST(SceneBuilder, TakesTheSceneOfAKnownSetup) {
+  const auto text = [](const std::string& shape) {
+    return "SurfaceIntegrator \"path\"\n" + kWorldsBegin + "AttributeBegin Shape \"" + shape +
+           "\" AttributeEnd\nLightSource \"point\"\nWorldEnd\n";
+  };
+  BuiltScene first = BuildText(text("sphere"));
+  ASSERT_EQ(first.error, "");
+  const auto* const scene = first.setups.at(0)->scene.get();
+  first.setups[0]->integrator.reset();
+  LoadOptions again;
+  again.known = first.setups[0].get();
+  again.integrator = "directlighting";
+  const BuiltScene changed = BuildText(text("disk"), again);
+  EXPECT_NE(changed.error.find("has changed"), std::string::npos) << changed.error;
+  const BuiltScene second = BuildText(text("sphere"), again);
+  ASSERT_EQ(second.error, "");
+  EXPECT_EQ(second.setups.at(0)->scene.get(), scene);
+  EXPECT_EQ(second.setups[0]->integratorName, "directlighting");
+  const BuiltScene third = BuildText(text("sphere"), again);
+  EXPECT_NE(third.error.find("has changed"), std::string::npos) << third.error;
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -68,14 +68,13 @@ void AddQuotes(FigureLines* lines) {
     quote.model = ModelOf(i, i == 3);
     quote.light = {i == 6 ? .7 : 1 + .01 * double(i), .01};
     quote.memory = 12.3e6 * double(i);
-    quote.indirectPhotons = 100000;
-    quote.causticPhotons = i == 3 ? 20000 : 0;
+    if (i == 3) quote.settings = {100000, 20000};
     if (i == 3) quote.notCovered = {"paths with more than 5 bounces", "blur"};
     quotes.push_back(quote);
   }
-  quotes.push_back({"slow", {}, {}, 0, 0, 0, {}, "renders longer than a pilot may"});
-  const QuoteScene plain{"room.pbrt", 800, 600, "", {}};
-  const QuoteScene other{"a room.pbrt", 64, 48, "64x48", {"--set", "Camera.fov=30"}};
+  quotes.push_back({"slow", {}, {}, 0, {}, {}, "renders longer than a pilot may"});
+  const QuoteScene plain{"room.pbrt", {}};
+  const QuoteScene other{"a room.pbrt", {"--set", "Camera.fov=30", "--resolution", "64x48"}};
   for (const QuoteScene& scene : {plain, other}) {
     std::istringstream text(QuoteText(scene, quotes, {.2, .05, .018, .001}));
     for (std::string line; std::getline(text, line);) lines->Add("quote:" + line);

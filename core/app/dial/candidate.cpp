@@ -16,10 +16,9 @@ constexpr int kGroups = 2;          // of passes, at least
 constexpr double kNoiseShare = .9;  // of what the bias leaves; the rest is for the interval
 constexpr double kBiasShares[] = {.06, .125, .25, .5};  // of the wanted relMSE; see AccuracyRule
 constexpr double kPilotShare = .1;                      // of the price
-constexpr std::size_t kFirstPilots = 2, kMostPilots = 8;
-constexpr double kFewPhotons = .1;  // of PilotRequest::hasFewPhotons
-// With few photons, guides are worse and fewer hits have a radiance photon. All photons had up to
-// this factor less noise in the scenes of docs/decisions/0055-accuracy-dial.md.
+constexpr std::size_t kMostPilots = 8;
+// Rough pilots have few pixels, worse guides, and fewer hits with a radiance photon. Others had up
+// to this factor less noise in the scenes of docs/decisions/0055-accuracy-dial.md.
 constexpr double kGainOfGuide = 2, kGainOfMaps = 20;
 constexpr int kMostTries = 3;     // of numbers of photons
 constexpr double kScatter = .25;  // of the noise of the last pilot
@@ -28,9 +27,8 @@ constexpr double kScatter = .25;  // of the noise of the last pilot
 
 Explorer::Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays,
                    const Wish& wish)
-    : pilots_(pilots), wish_(wish) {
-  candidate_.integrator = request_.integrator = integrator;
-  request_.settings.gatherRays = gatherRays;
+    : series_(pilots, integrator, gatherRays, PilotSeries::Unit::CountedCost), wish_(wish) {
+  candidate_.integrator = integrator;
 }
 
 // An integrator that cannot render the scene has no price.
@@ -46,8 +44,8 @@ void Explorer::Guarded(const Step& step) {
 
 void Explorer::Begin() {
   Guarded([&] {
-    RenderRoughPilot();
-    while (!isRough_ && series_.size() < kFirstPilots) RenderPilot();
+    isRough_ = series_.RenderRough();
+    if (!isRough_) series_.Render();
     TakePrice();
   });
 }
@@ -55,7 +53,10 @@ void Explorer::Begin() {
 void Explorer::Settle(double most) {
   Guarded([&] {
     if (!isRough_ || IsTooDear(most)) return;
-    RenderPilot();
+    const auto likely = SplitWithGain(std::sqrt(MostGain()));
+    if (likely) series_.UsePhotons(likely->price.photons);
+    isRough_ = false;
+    series_.Render();
     TakePrice();
   });
 }
@@ -63,25 +64,34 @@ void Explorer::Settle(double most) {
 void Explorer::Refine(double most) {
   Guarded([&] {
     if (isRough_) return;
-    while (series_.size() < kMostPilots && !IsTooDear(most) && spent_ + next_ <= Affordable(most))
-      RenderPilot();
-    if (hasBias_ && !IsTooDear(most)) EstimateBias(most);
+    while (series_.Count() < kMostPilots && !IsTooDear(most) &&
+           series_.Spent() + series_.Next() <= Affordable(most))
+      series_.Render();
+    if (series_.HasBias() && !IsTooDear(most)) EstimateBias(most);
     TakePrice();
   });
 }
 
+PriceModel Explorer::Model() const {
+  PriceModel model = series_.Model();
+  if (wish_.keepsPhotons) model.hasPhotons = false;
+  return model.WithNoise(1 / gain_, model.slope);
+}
+
 std::optional<Explorer::Split> Explorer::CheapestSplit() const {
   std::optional<Split> best;
+  const PriceModel model = Model();
+  const bool hasBias = series_.HasBias();
+  const CertificateCost& certificate = series_.OfCertificates();
   for (const double share : kBiasShares) {
-    const double left = hasBias_ ? kNoiseShare * (1 - share) : kNoiseShare;
-    std::optional<Price> price = PriceOf(model_, {wish_.error * std::sqrt(left), kGroups});
+    const double left = hasBias ? kNoiseShare * (1 - share) : kNoiseShare;
+    std::optional<Price> price = PriceOf(model, {wish_.error * std::sqrt(left), kGroups});
     if (!price) continue;
-    if (hasBias_) {
-      const double certificate =
-          certificate_.correction * certificate_.Corrections(share * Wanted());
-      price->seconds += certificate, price->least += certificate;
+    if (hasBias) {
+      const double extra = certificate.correction * certificate.Corrections(share * Wanted());
+      price->seconds += extra, price->least += extra;
     }
-    if (!best || price->seconds < best->price.seconds) best = {*price, hasBias_ ? share : 0};
+    if (!best || price->seconds < best->price.seconds) best = {*price, hasBias ? share : 0};
   }
   return best;
 }
@@ -92,30 +102,21 @@ void Explorer::TakePrice() {
     candidate_.reason = "its bias needs too many photons";
     return;
   }
+  const PriceModel& model = series_.Model();
   candidate_.price = split->price;
+  candidate_.settings = series_.Settings();
   candidate_.settings.photons = split->price.photons;
+  candidate_.isRough = isRough_;
+  candidate_.mean = {candidate_.integrator, series_.Last().light};
+  candidate_.secondsPerCost = series_.SecondsPerPrice();
   candidate_.biasShare = split->biasShare;
-  candidate_.photonShare = model_.maps * split->price.photons / split->price.seconds;
-  candidate_.photonSamples = model_.maps * split->price.photons / model_.sample;
-  candidate_.hasScatter = model_.relativeError > kScatter;
-  if (!hasBias_) return;
-  const double rays = std::max(gatherRays_ * split->price.samples, 1.);
-  candidate_.correctedShare =
-      std::clamp(certificate_.Corrections(split->biasShare * Wanted()) / rays, 1. / 1024, 1.);
-}
-
-// A tenth of the photons shows what all of them cost, for each group of passes. Integrators without
-// photons need no such pilot.
-void Explorer::RenderRoughPilot() {
-  if (request_.integrator == "path") return;
-  PilotRequest few = request_;
-  few.hasFewPhotons = true;
-  const PilotPicture picture = pilots_->Render(few);
-  isRough_ = picture.cost.maps > 0;
-  if (!isRough_) return;
-  TakeCosts(picture);
-  model_.maps = picture.cost.maps / kFewPhotons;
-  model_.FitNoise({picture.pilot});
+  candidate_.photonShare = model.maps * split->price.photons / split->price.seconds;
+  candidate_.photonSamples = model.maps * split->price.photons / model.sample;
+  candidate_.hasScatter = model.relativeError > kScatter;
+  if (!series_.HasBias()) return;
+  const double rays = std::max(series_.GatherRays() * split->price.samples, 1.);
+  candidate_.correctedShare = std::clamp(
+      series_.OfCertificates().Corrections(split->biasShare * Wanted()) / rays, 1. / 1024, 1.);
 }
 
 // Returns what pilots may cost.
@@ -126,80 +127,32 @@ double Explorer::Affordable(double most) const {
 }
 
 bool Explorer::IsTooDear(double most) const {
-  if (isRough_) return RoughBest() > most;
-  const std::optional<Split> split = CheapestSplit();
-  return split && split->price.least > most;
+  const std::optional<Split> split = isRough_ ? SplitWithGain(MostGain()) : CheapestSplit();
+  return split && (isRough_ ? split->price.seconds : split->price.least) > most;
 }
 
-// Returns the price if all photons make the noise as much smaller as they may.
-double Explorer::RoughBest() const {
-  Explorer best = *this;
-  best.model_.camera /= hasBias_ ? kGainOfMaps : kGainOfGuide;
-  const std::optional<Split> split = best.CheapestSplit();
-  return split ? split->price.seconds : std::numeric_limits<double>::infinity();
-}
+// Returns the factor by which the noise of a rough pilot may be too high.
+double Explorer::MostGain() const { return series_.HasBias() ? kGainOfMaps : kGainOfGuide; }
 
-void Explorer::RenderPilot() {
-  Take(pilots_->Render(request_));
-  request_.samples *= 2;
-}
-
-void Explorer::TakeCosts(const PilotPicture& picture) {
-  hasBias_ = picture.hasBias;
-  model_.hasPhotons = hasBias_ && !wish_.keepsPhotons;
-  costOfSamples_ = picture.cost.samples / picture.pilot.samples;
-  model_.sample = costOfSamples_ * pilots_->Pixels() / picture.pixels;
-  gatherRays_ = picture.gatherRays / picture.pilot.samples * pilots_->Pixels() / picture.pixels;
-  spent_ += picture.cost.maps + picture.cost.samples;
-  next_ = 2 * picture.cost.samples;
-  candidate_.mean = {candidate_.integrator, picture.light};
-  candidate_.secondsPerCost = picture.seconds / (picture.cost.maps + picture.cost.samples);
-}
-
-void Explorer::Take(const PilotPicture& picture) {
-  isRough_ = false;
-  TakeCosts(picture);
-  if (picture.mapCount > 0) TakeMaps(picture);
-  series_.push_back(picture.pilot);
-  model_.FitNoise(series_);
-}
-
-void Explorer::TakeMaps(const PilotPicture& picture) {
-  model_.maps = picture.cost.maps / picture.mapCount;
-  candidate_.settings = picture.settings;
+std::optional<Explorer::Split> Explorer::SplitWithGain(double gain) const {
+  Explorer better = *this;
+  better.gain_ = gain;
+  return better.CheapestSplit();
 }
 
 // Where a pilot for it is too dear, the first passes of the picture show the bias and the noise of
 // the photons. The first pass of the picture then lacks the photons of the pilots.
 void Explorer::EstimateBias(double most) {
-  if (spent_ + 2 * model_.maps + next_ > Affordable(most)) return;
-  request_.estimatesBias = request_.hasOwnPhotons = true;
-  request_.settings = candidate_.settings;
-  request_.settings.photons = 1;
+  double photons = series_.Settings().photons;
   for (int i = 0; i < kMostTries; ++i) {
-    const PilotPicture picture = pilots_->Render(request_);
-    if (i == 0) {
-      series_.push_back(picture.pilot);
-      model_.FitNoise(series_);
-    }
-    TakeBias(picture);
+    const double maps = 2 * series_.Model().maps * photons;
+    if (series_.Spent() + maps + series_.Next() > Affordable(most)) return;
+    series_.RenderBias(photons);
     // Another pilot confirms the number of photons that the model chose.
     const std::optional<Split> split = CheapestSplit();
-    if (!split || split->price.photons <= request_.settings.photons) return;
-    const double maps = 2 * model_.maps * split->price.photons;
-    if (spent_ + maps + next_ > Affordable(most)) return;
-    request_.settings.photons = split->price.photons;
+    if (!split || split->price.photons <= photons) return;
+    photons = split->price.photons;
   }
-}
-
-void Explorer::TakeBias(const PilotPicture& picture) {
-  const Certificate& certificate = *picture.certificate;
-  model_.bias = request_.settings.photons * BlockBias::Root(certificate.bias.squared);
-  model_.biasUpper = request_.settings.photons * BlockBias::Root(certificate.bias.upper);
-  const double corrections = double(certificate.corrections);
-  if (!(corrections > 0)) return;
-  const double extra = std::max(picture.cost.samples - costOfSamples_ * picture.pilot.samples, 0.);
-  certificate_ = {corrections * certificate.bias.smallest, extra / corrections * kCorrectionRay};
 }
 
 }  // namespace exphoton::cli

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Explorer finds out, with pilots, at what price an integrator reaches an accuracy. Small pilots
-// give a first price: of integrators with photons, one pilot with a tenth of the photons gives a
-// rough one. Settle then renders a pilot with all photons where the integrator may be the cheapest
-// one, and Refine spends up to a tenth of the price on larger pilots.
+// Explorer finds out, with pilots, at what price an integrator reaches an accuracy. A rough pilot
+// gives a first price. Settle then renders a pilot of full size where the integrator may be the
+// cheapest one, and Refine spends up to a tenth of the price on larger pilots.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/app/dial/pilot.h"
+#include "core/app/dial/pilot_series.h"
 #include "core/app/quote/missing_light.h"
 
 namespace exphoton::cli {
@@ -20,6 +19,7 @@ struct Candidate {
   Price price;
   DialSettings settings;
   PilotMean mean;             // of the last pilot
+  bool isRough = false;       // the price and the mean are from a rough pilot
   double secondsPerCost = 0;  // CPU time of the pilots, for messages only
   double correctedShare = 0;  // of the gather rays; 0: no certificate
   double biasShare = 0;       // of the squared error, what the certificate should resolve
@@ -31,15 +31,6 @@ struct Candidate {
 struct Wish {
   double error = 0;           // root of relMSE
   bool keepsPhotons = false;  // the number of photons must be the scene's
-};
-
-// What certificates cost. The interval of the bias (relMSE) is inversely proportional to the number
-// of corrections: smallest bias * corrections = constant.
-struct CertificateCost {
-  double constant = 8;     // typical of the scenes in scenes/
-  double correction = 28;  // price of one
-
-  double Corrections(double wanted) const { return constant / wanted; }
 };
 
 class Explorer {
@@ -68,27 +59,17 @@ class Explorer {
   double Wanted() const { return wish_.error * wish_.error; }
   std::optional<Split> CheapestSplit() const;
   void TakePrice();
-  void RenderRoughPilot();
+  PriceModel Model() const;
   double Affordable(double most) const;
   bool IsTooDear(double most) const;
-  double RoughBest() const;
-  void RenderPilot();
-  void TakeCosts(const PilotPicture& picture);
-  void Take(const PilotPicture& picture);
-  void TakeMaps(const PilotPicture& picture);
+  double MostGain() const;
+  std::optional<Split> SplitWithGain(double gain) const;
   void EstimateBias(double most);
-  void TakeBias(const PilotPicture& picture);
 
-  PilotRenderer* pilots_;
+  PilotSeries series_;
   Wish wish_;
-  PilotRequest request_;
-  std::vector<Pilot> series_;
-  PriceModel model_;
-  CertificateCost certificate_;
-  bool hasBias_ = false, isRough_ = false;
-  double spent_ = 0, next_ = 0;  // prices of the pilots so far, and of the next one
-  double costOfSamples_ = 0;     // of one sample per pixel of a pilot
-  double gatherRays_ = 0;        // for one sample per pixel of the picture
+  bool isRough_ = false;
+  double gain_ = 1;  // divides the noise of the model
   Candidate candidate_;
 };
 

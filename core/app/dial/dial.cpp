@@ -27,6 +27,7 @@ constexpr double kNotableRatio = 1.1;  // of times
 constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
 constexpr double kGroupShare = .1;     // of the price, for photons of more groups than two
 constexpr double kCheapGroups = 3;     // number of groups that this pays for
+constexpr double kSharing = 4;         // samples of a group that shares gathers, at least
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055).
 constexpr int kFewGatherRays = 16;
 
@@ -37,12 +38,14 @@ std::vector<std::string> NamesOf(const RenderCommand& command, const std::string
   return {sceneIntegrator};
 }
 
-// A candidate that does not find all light has no price.
+// A candidate that does not find all light has no price. The means of rough pilots say little.
 void DropDarkOnes(std::vector<Candidate>* candidates) {
   std::vector<PilotMean> means;
-  for (const Candidate& candidate : *candidates) means.push_back(candidate.mean);
+  for (const Candidate& candidate : *candidates)
+    if (!candidate.isRough && candidate.mean.light.mean > 0) means.push_back(candidate.mean);
   for (Candidate& candidate : *candidates)
-    if (candidate.reason.empty()) candidate.reason = MissingLight(candidate.mean, means);
+    if (!candidate.isRough && candidate.reason.empty() && !means.empty())
+      candidate.reason = MissingLight(candidate.mean, means);
 }
 
 // Returns the rays as in DialSettings. 0 as the scene's number: the scene leaves the default, which
@@ -155,11 +158,14 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
 
 // Returns the number of groups of passes that should reach the accuracy, at least 2. Many groups
 // can stop before the picture is better than wanted, because the noise of pilots is uncertain. But
-// each group shoots its photons, and small ones say little about the bias of shared gathers.
+// each group shoots its photons. Small groups share few gathers, so they are noisy and say little
+// about the bias of sharing.
 double GroupsOf(const Candidate& chosen) {
-  const double most = chosen.correctedShare > 0 ? 4 : 16;
+  const bool sharesGathers = chosen.correctedShare > 0;
+  const double most = sharesGathers ? std::clamp(chosen.price.samples / kSharing, 2., 4.) : 16;
   const double cheap = 2 + kGroupShare / std::max(chosen.photonShare, 1e-6);
-  return std::floor(std::clamp(cheap, chosen.hasScatter && cheap > kCheapGroups ? 4. : 2., most));
+  const double least = chosen.hasScatter && cheap > kCheapGroups ? 4 : 2;
+  return std::floor(std::clamp(cheap, std::min(least, most), most));
 }
 
 // A time limit should leave time for two groups.
@@ -193,8 +199,8 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   const RenderCommand command = *turned;
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
   if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);
-  const auto renderer =
-      std::make_shared<PilotRenderer>(command, scene, PilotRenderer::Surroundings{streams, &log});
+  const auto renderer = std::make_shared<PilotRenderer>(
+      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{*command.accuracy, command.keepsSettings};

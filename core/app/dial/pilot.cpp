@@ -17,10 +17,37 @@ namespace {
 
 constexpr double kCorrectedShare = 1. / 16;
 
+// Returns the CPU time of the phases, which depends on a clock.
+CountedCost SecondsOf(const Statistics& statistics) {
+  CountedCost seconds;
+  for (const Statistics::Phase& phase : statistics.Phases()) {
+    const bool isOfSamples = phase.name == "render" || phase.name == "share";
+    double& sum = isOfSamples ? seconds.samples : seconds.maps;
+    sum += phase.cpuSeconds;
+  }
+  return seconds;
+}
+
+// Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
+bool HasWholeScene(const RenderSetup& setup) {
+  if (!setup.scene || !setup.integrator) return false;
+  const FeatureSet computed = setup.integrator->ComputedFeatures();
+  return computed.Has(Feature::Environment) && computed.Has(Feature::Media);
+}
+
 // Returns a number that the scene gives; 0: it gives none.
 double GivenNumber(const RenderSetup& setup, const std::string& name) {
   const ParsedParam* const given = setup.integratorParameters.Find(name);
   return given && !given->numbers.empty() ? given->numbers.front() : 0;
+}
+
+// The bias of a gather is about proportional to the share of the photons that an estimate uses. In
+// the scenes of docs/decisions/0050-bias-certificate.md it is up to 4 times this share, as a mean
+// over blocks of pixels. Bias inside blocks is not known.
+double GuessedBias(double usedPhotons, double indirectPhotons) {
+  constexpr double kOfShare = 16, kUsedByDefault = 50;
+  const double used = usedPhotons > 0 ? usedPhotons : kUsedByDefault;
+  return indirectPhotons > 0 ? kOfShare * used / indirectPhotons : 0;
 }
 
 // Returns the photons that a map should have. Where the scene does not say it, `stored` photons are
@@ -35,20 +62,21 @@ double PhotonsOf(const RenderSetup& setup, double stored, const std::string& map
 PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
                              Surroundings surroundings)
     : command_(command),
-      scene_(std::move(scene), "--accuracy", surroundings.streams),
+      scene_(std::move(scene), surroundings.option, surroundings.streams),
       verbose_(*surroundings.log) {
-  std::unique_ptr<RenderSetup> full;
-  small_ = scene_.Options(command, &full);
-  sceneIntegrator_ = full->integratorName;
-  sceneSamples_ = full->sampler->SamplesPerPixel();
-  sceneGatherRays_ = int(GivenNumber(*full, "finalgathersamples"));
-  pixels_ = double(full->crop.Width()) * double(full->crop.Height());
+  const double begin = ProcessCpuSeconds();
+  small_ = scene_.Options(command, &setup_);
+  loadSeconds_ = ProcessCpuSeconds() - begin;
+  sceneIntegrator_ = setup_->integratorName;
+  sceneSamples_ = setup_->sampler->SamplesPerPixel();
+  sceneGatherRays_ = int(GivenNumber(*setup_, "finalgathersamples"));
+  sceneUsedPhotons_ = GivenNumber(*setup_, "nused");
+  width_ = setup_->crop.Width(), height_ = setup_->crop.Height();
   small_.isStrict = false;  // parameters of other integrators are unknown
 }
 
 std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPicture& picture) {
-  std::string text = "pilot of " + request.integrator;
-  if (request.hasFewPhotons) text += " with few photons";
+  std::string text = (request.isRough ? "rough pilot of " : "pilot of ") + request.integrator;
   if (request.settings.photons != 1)
     text += Format(" with %.3g times the photons", request.settings.photons);
   text += Format(", %g samples a pixel: noise %.3g \u00b1 %.2g of relMSE", picture.pilot.samples,
@@ -66,15 +94,19 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   const bool isLoaded = setup_ && loaded_.integrator == request.integrator &&
                         loaded_.settings.photons == request.settings.photons &&
                         loaded_.settings.gatherRays == request.settings.gatherRays &&
-                        loaded_.hasFewPhotons == request.hasFewPhotons;
+                        loaded_.isRough == request.isRough;
   if (isLoaded) return *setup_;
   LoadOptions options = small_;
   options.integrator = request.integrator;
-  options.isQuick = request.hasFewPhotons;
+  options.isQuick = request.isRough;
   for (ParameterOverride& parameter : request.settings.Overrides())
     options.parameters.push_back(std::move(parameter));
-  setup_.reset();
+  options.known = HasWholeScene(*setup_) ? setup_.get() : nullptr;
+  // The integrators refer to the scene, so they go first.
+  setup_->integrator.reset();
+  setup_->volumeIntegrator.reset();
   preparedSeed_.reset();
+  loaded_ = {};
   setup_ = scene_.Load(options);
   loaded_ = request;
   return *setup_;
@@ -85,8 +117,8 @@ std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, 
 std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings, RenderSetup* setup) {
   const bool isSame = setup_ && loaded_.integrator == setup->integratorName &&
                       loaded_.settings.photons == settings.photons &&
-                      loaded_.settings.gatherRays == settings.gatherRays &&
-                      !loaded_.hasFewPhotons && preparedSeed_ == FirstSeed();
+                      loaded_.settings.gatherRays == settings.gatherRays && !loaded_.isRough &&
+                      preparedSeed_ == FirstSeed();
   if (!isSame) return std::nullopt;
   // The integrators refer to the scene, so they go first.
   setup->integrator = std::move(setup_->integrator);
@@ -121,6 +153,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
   PassesResult result;
   result.render = renderer.Finish();
   sum.Describe(false, &result);
+  if (films->corrections) result.levels = sum.Levels();
   return result;
 }
 
@@ -129,7 +162,8 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   const double begin = ProcessCpuSeconds();
   PictureFilms films(setup.film.Full(), setup.crop, {}, true);
   PilotPicture picture;
-  picture.hasBias = setup.integrator->Certification(*setup.scene).has_value();
+  const auto certification = setup.integrator->Certification(*setup.scene);
+  picture.hasBias = certification.has_value();
   if (request.estimatesBias && picture.hasBias)
     films.corrections = std::make_unique<Corrections>(setup.crop, kCorrectedShare);
   SmallRender small(command_.threadCount);
@@ -140,6 +174,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
                    request.hasOwnPhotons};
   picture.cost = CostOf(statistics, setup.integratorName);
+  picture.cpuSeconds = SecondsOf(statistics);
   picture.seconds = ProcessCpuSeconds() - begin;
   picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
@@ -151,10 +186,13 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   };
   const DialSettings& known = request.settings;
   if (picture.mapCount > 0 && !(known.indirectPhotons + known.causticPhotons > 0)) {
-    picture.settings.indirectPhotons = photonsOf("indirect");
-    picture.settings.causticPhotons = photonsOf("caustic");
+    const double factor = request.isRough ? 1 / kFewPhotons : 1;
+    picture.settings.indirectPhotons = factor * photonsOf("indirect");
+    picture.settings.causticPhotons = factor * photonsOf("caustic");
   }
-  if (films.corrections) picture.certificate = Certify(*films.corrections, films.film, 0, {});
+  picture.guessedBias = GuessedBias(sceneUsedPhotons_, picture.settings.indirectPhotons);
+  if (films.corrections) picture.certificate = Certify(*films.corrections, result.levels, 0, {});
+  if (picture.certificate) picture.certificate->notCovered = certification->notCovered;
   verbose_.Verbose(TextOf(request, picture));
   return picture;
 }

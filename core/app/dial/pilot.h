@@ -26,28 +26,34 @@ struct PilotRequest {
   DialSettings settings;
   bool estimatesBias = false;  // the rays of the estimate are counted as samples
   bool hasOwnPhotons = false;  // as in Pilot
-  bool hasFewPhotons = false;  // a tenth, to learn what photons cost
+  bool isRough = false;        // with a sixteenth of the pixels and a tenth of the photons
 };
+
+constexpr double kFewPhotons = .1;  // of PilotRequest::isRough
 
 struct PilotPicture {
   Pilot pilot;
   CountedCost cost;
-  int mapCount = 0;    // sets of maps that were made for this pilot
-  double seconds = 0;  // CPU time
+  CountedCost cpuSeconds;  // the same by the clock
+  int mapCount = 0;        // sets of maps that were made for this pilot
+  double seconds = 0;      // CPU time of everything
   double pixels = 0;
   MeanLight light;
   double gatherRays = 0;                   // of the whole picture
   DialSettings settings;                   // the request's, with the photons of the scene
   bool hasBias = false;                    // whether the integrator can estimate it
+  double guessedBias = 0;                  // of the scene's photons, cautiously; relative
   std::optional<Certificate> certificate;  // for the blocks that certify the least bias
 };
 
 class PilotRenderer {
  public:
   struct Surroundings {
+    const char* option;  // for a message about a file with several scenes
     FileSource::Streams* streams;
     Log* log;  // receives a verbose line for each pilot
   };
+  // Loads the scene once at its own resolution. Throws Error.
   PilotRenderer(const RenderCommand& command, std::string scene, Surroundings surroundings);
   PilotRenderer(const PilotRenderer&) = delete;
   PilotRenderer& operator=(const PilotRenderer&) = delete;
@@ -63,7 +69,11 @@ class PilotRenderer {
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }
   int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
-  double Pixels() const { return pixels_; }                 // of the picture that is wanted
+  // Of the picture that is wanted.
+  int Width() const { return width_; }
+  int Height() const { return height_; }
+  double Pixels() const { return double(width_) * double(height_); }
+  double LoadSeconds() const { return loadSeconds_; }  // CPU time
 
  private:
   static std::string TextOf(const PilotRequest& request, const PilotPicture& picture);
@@ -79,9 +89,11 @@ class PilotRenderer {
   std::string sceneIntegrator_;
   std::int64_t sceneSamples_ = 0;
   int sceneGatherRays_ = 0;
-  double pixels_ = 0;
+  double sceneUsedPhotons_ = 0;  // in a density estimate; 0: the scene does not give them
+  int width_ = 0, height_ = 0;
+  double loadSeconds_ = 0;
   LoadOptions small_;  // with the resolution of pilots
-  // Of the last pilot.
+  // Of the last pilot. All pilots have the scene that was loaded first.
   PilotRequest loaded_;
   std::unique_ptr<RenderSetup> setup_;
   std::optional<std::uint64_t> preparedSeed_;  // of the photons that the integrator has

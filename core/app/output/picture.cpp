@@ -93,7 +93,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
                                          const RenderSetup& setup) {
   if (!films.corrections || !result.noise || !result.render.isComplete) return std::nullopt;
-  std::optional<Certificate> certificate = Certify(*films.corrections, films.film, *result.noise,
+  std::optional<Certificate> certificate = Certify(*films.corrections, result.levels, *result.noise,
                                                    CertificateGoal::ForNoise(*result.noise));
   if (!certificate) return certificate;
   certificate->sharing = result.render.sharingBias;

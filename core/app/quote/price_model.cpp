@@ -10,8 +10,11 @@ namespace {
 constexpr double kMostPhotons = 64;
 constexpr double kMargin = 1.35;  // of the seconds: clocks, and small parts of the scene
 
-// Sequences of n samples have errors of order n^-1.5 at edges, and n^-1 or more elsewhere.
-constexpr double kMostSlope = 1.5;
+// Sequences of n samples have errors of order n^-1.5 at edges, and n^-1 or more elsewhere. A few
+// pilots say little about the slope, so it is drawn to those of many renders.
+constexpr double kLeastSlope = 1, kMostSlope = 1.5;
+constexpr double kUsualSlope = 1.1, kUsualSpread = .1;
+constexpr std::size_t kOctaves = 2;    // of the last pilots, which show the slope
 constexpr double kStandardErrors = 2;  // at which noise of photons is significant
 constexpr double kQuantile90 = 1.645;  // of a two-sided interval of 90 %
 
@@ -19,13 +22,13 @@ constexpr double kQuantile90 = 1.645;  // of a two-sided interval of 90 %
 std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
   std::optional<Price> best;
   const double squared = order.error * order.error, groups = order.groups;
-  for (double k = 1; k <= (model.hasPhotons ? kMostPhotons : 1); k *= 2) {
-    const double bias = model.bias / k;
+  const double first = model.hasPhotons ? model.leastPhotons : 1;
+  for (double k = first; k <= (model.hasPhotons ? kMostPhotons : 1); k *= 2) {
+    const double bias = (k < 1 ? std::max(model.bias, model.biasOfFewer) : model.bias) / k;
     const double left = squared - model.photonNoise / (groups * k) - bias * bias;
     if (!(left > 0)) continue;
-    const double camera = model.camera * std::pow(groups, model.slope - 1);
     Price price;
-    price.samples = std::max(groups, std::ceil(std::pow(camera / left, 1 / model.slope)));
+    price.samples = std::max(groups, std::ceil(groups * model.SamplesFor(left * groups)));
     price.photons = k;
     price.seconds = model.fixed + groups * k * model.maps + price.samples * model.sample;
     if (!best || price.seconds < best->seconds) best = price;
@@ -40,58 +43,66 @@ void PriceModel::FitNoise(const std::vector<Pilot>& pilots) {
   for (const Pilot& pilot : pilots) (pilot.hasOwnPhotons ? own : same).push_back(pilot);
   photonNoise = 0;
   FitCamera(same.empty() ? own : same);
-  if (same.empty() && hasPhotons) FitPhotonNoise(own);
   if (!same.empty() && !own.empty()) TakePhotonNoise(own.back());
 }
 
-// Noise of camera samples falls as 1/n, and sequences of samples may converge faster. A half has
-// n / 2 samples and the noise camera (n / 2)^-slope, and the mean of both halves has half of that.
+// A half has half of the samples and twice the noise of both.
 void PriceModel::FitCamera(const std::vector<Pilot>& pilots) {
+  points.clear();
+  for (const Pilot& pilot : pilots) {
+    if (!(pilot.noise > 0)) continue;
+    while (!points.empty() && points.back().noise <= 2 * pilot.noise) points.pop_back();
+    points.push_back({pilot.samples / 2, 2 * pilot.noise});
+  }
   const Pilot& last = pilots.back();
-  slope = 1;
-  camera = last.noise * last.samples;
-  samples = last.samples;
   relativeError = last.noise > 0 ? last.error / last.noise : 0;
-  if (pilots.size() < 2 || !(last.noise > 0)) return;
-  const Pilot& first = pilots.front();
-  const double octaves = std::log(last.samples / first.samples);
-  slope = std::clamp(std::log(first.noise / last.noise) / octaves, 1., kMostSlope);
+  slope = 1, slopeError = 0;
+  if (pilots.size() > 1 && last.noise > 0)
+    FitSlope(pilots[pilots.size() - std::min(pilots.size(), kOctaves + 1)], last);
   camera = 2 * last.noise * std::pow(last.samples / 2, slope);
+}
+
+// The mean of what the pilots show and of the usual slope, weighted by the inverse variances.
+void PriceModel::FitSlope(const Pilot& first, const Pilot& last) {
+  const double octaves = std::log(last.samples / first.samples);
+  if (!(first.noise > 0) || !(octaves > 0)) return;
+  const double shown = std::log(first.noise / last.noise) / octaves;
+  const double error = std::hypot(first.error / first.noise, relativeError) / octaves;
+  const double weight = kUsualSpread * kUsualSpread / (kUsualSpread * kUsualSpread + error * error);
+  slope = std::clamp(weight * shown + (1 - weight) * kUsualSlope, kLeastSlope, kMostSlope);
+  slopeError = std::sqrt(weight) * error;
+}
+
+double PriceModel::SamplesFor(double noise) const {
+  if (points.empty() || noise <= points.back().noise) return std::pow(camera / noise, 1 / slope);
+  for (std::size_t i = points.size() - 1; i > 0; --i) {
+    const Point &a = points[i - 1], &b = points[i];
+    if (noise > a.noise) continue;
+    const double t = std::log(a.noise / noise) / std::log(a.noise / b.noise);
+    return a.samples * std::pow(b.samples / a.samples, t);
+  }
+  return points.front().samples * points.front().noise / noise;
+}
+
+PriceModel PriceModel::WithNoise(double factor, double otherSlope) const {
+  PriceModel other = *this;
+  for (Point& point : other.points) point.noise *= factor;
+  const double end = points.empty() ? 1 : points.back().samples;
+  other.camera *= factor * std::pow(end, otherSlope - slope);
+  other.slope = otherSlope;
+  return other;
 }
 
 // Two halves with photons of their own contain half the noise of one set of maps. What is not
 // significant counts as 0.
 void PriceModel::TakePhotonNoise(const Pilot& pilot) {
-  const double expected = .5 * camera * std::pow(pilot.samples / 2, -slope);
+  const double half = pilot.samples / 2;
+  double expected = .5 * camera * std::pow(half, -slope);
+  for (const Point& point : points)
+    if (point.samples == half) expected = .5 * point.noise;
   const double excess = pilot.noise - expected;
   const double error = std::hypot(pilot.error, relativeError * expected);
   if (excess > kStandardErrors * error) photonNoise = 2 * excess;
-}
-
-// Fits noise = camera / n + photonNoise / 2 by least squares of relative differences. Does nothing
-// if the noise of photons is not significant.
-void PriceModel::FitPhotonNoise(const std::vector<Pilot>& pilots) {
-  if (pilots.size() < 3) return;
-  // Minimises the sum of (a x + b y - 1)^2 over pilots, with x = 1 / (n noise) and y = 1 / noise.
-  double xx = 0, xy = 0, yy = 0, x1 = 0, y1 = 0;
-  for (const Pilot& pilot : pilots) {
-    if (!(pilot.noise > 0)) return;
-    const double x = 1 / (pilot.samples * pilot.noise), y = 1 / pilot.noise;
-    xx += x * x, xy += x * y, yy += y * y, x1 += x, y1 += y;
-  }
-  const double determinant = xx * yy - xy * xy;
-  if (!(determinant > 0)) return;
-  const double a = (x1 * yy - y1 * xy) / determinant, b = (y1 * xx - x1 * xy) / determinant;
-  double residual = 0;
-  for (const Pilot& pilot : pilots) {
-    const double fitted = (a / pilot.samples + b) / pilot.noise;
-    residual += (fitted - 1) * (fitted - 1);
-  }
-  const double variance = residual / double(pilots.size() - 2) * xx / determinant;
-  if (!(a > 0) || !(b > kStandardErrors * std::sqrt(variance))) return;
-  slope = 1;
-  camera = a;
-  photonNoise = 2 * b;
 }
 
 // The ends of the interval are the prices of two other models: a scene without bias and noise of
@@ -100,12 +111,11 @@ std::optional<Price> PriceOf(const PriceModel& model, const Order& order) {
   std::optional<Price> price = Cheapest(model, order);
   if (!price) return price;
   const double width = kQuantile90 * model.relativeError;
-  PriceModel cheap = model, dear = model;
+  const double steep = std::min(model.slope + kQuantile90 * model.slopeError, kMostSlope);
+  PriceModel cheap = model.WithNoise(1 / (1 + width), std::max(steep, model.slope));
+  PriceModel dear = model.WithNoise(1 + width, std::min(model.slope, kLeastSlope));
   cheap.photonNoise = cheap.bias = 0;
-  cheap.camera /= 1 + width;
   dear.bias = std::max(model.biasUpper, model.bias);
-  dear.slope = 1;
-  dear.camera *= (1 + width) * std::pow(model.samples, 1 - model.slope);
   const auto least = Cheapest(cheap, order);
   const auto most = Cheapest(dear, order);
   price->least = std::min(least ? least->seconds : price->seconds, price->seconds) / kMargin;

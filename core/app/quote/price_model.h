@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PriceModel predicts what an accuracy costs with one integrator, from small renders of the scene
 // (pilots). With n samples a pixel in g groups of passes, and k times the photons in each group,
-//   error^2 = camera g^(slope - 1) / n^slope + photonNoise / (g k) + (bias / k)^2,
+//   error^2 = noise(n / g) / g + photonNoise / (g k) + (bias / k)^2,
 //   seconds = fixed + g k maps + n sample.
-// Errors are roots of relMSE. The area of density estimates falls with the number of photons, and
-// bias is proportional to this area. Samples of one group converge faster than independent groups
-// if the slope exceeds 1.
+// Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots show
+// it, and it falls as m^-slope beyond them. The area of density estimates falls with the number of
+// photons, and bias is proportional to this area.
 #pragma once
 
 #include <optional>
@@ -22,20 +22,31 @@ struct Pilot {
 };
 
 struct PriceModel {
-  double camera = 0, slope = 1;            // noise of camera samples in one group
-  double samples = 1, relativeError = 0;   // of the last pilot, and of its noise
+  struct Point {                    // the noise of one group
+    double samples = 0, noise = 0;  // the former: of the group, a pixel
+  };
+  std::vector<Point> points;               // ascending samples; noise falls
+  double camera = 0, slope = 1;            // beyond the points, noise is camera / samples^slope
+  double slopeError = 0;                   // standard error
+  double relativeError = 0;                // of the noise of the last pilot
   double photonNoise = 0;                  // of one set of maps
   double bias = 0, biasUpper = 0;          // relative; the upper end of the interval
+  double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
+  double leastPhotons = 1;                 // the smallest k
   double fixed = 0, maps = 0, sample = 0;  // CPU seconds
-  bool hasPhotons = false;
+  bool hasPhotons = false;                 // k may differ from 1
 
   // Fits the noise to the pilots, in ascending order of samples. Those whose halves have the same
-  // photons show the noise of camera samples, and the others show the noise of photons as well.
+  // photons show the noise of camera samples. The last other one also has the noise of photons.
   void FitNoise(const std::vector<Pilot>& pilots);
+  // Returns the samples of one group with this noise.
+  double SamplesFor(double noise) const;
+  // Returns the same model with other noise, which falls with another slope beyond the points.
+  PriceModel WithNoise(double factor, double otherSlope) const;
 
  private:
   void FitCamera(const std::vector<Pilot>& pilots);
-  void FitPhotonNoise(const std::vector<Pilot>& pilots);
+  void FitSlope(const Pilot& first, const Pilot& last);
   void TakePhotonNoise(const Pilot& pilot);
 };
 

@@ -5,26 +5,27 @@
 
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
-#include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
 #include "core/app/output/output_files.h"
+#include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
 #include "core/app/quote/quote_text.h"
 #include "core/app/study/study_scene.h"
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 
 namespace exphoton::cli {
 namespace {
 
 struct QuoteOptions {
-  StudyOptions scene;  // the members that concern the scene
-  std::string resolution;
-  std::vector<ParameterOverride> resolutionSets;
+  std::string scene, resolution;
+  std::vector<std::string> integrators, sets, pluginFolders;
   std::vector<double> accuracies;
   double seconds = 5;
   std::uint64_t seed = 0;
-  bool isQuiet = false;
+  int threads = 0;
+  bool allowsScenePlugins = false, isQuiet = false, isVerbose = false;
 };
 
 std::vector<double> ParseAccuracies(const std::string& text) {
@@ -46,51 +47,73 @@ QuoteOptions ParseQuoteOptions(const std::vector<std::string>& arguments) {
       "the scene (pilots) measure cost, noise and bias. The error is the root of relMSE, with "
       "bias.",
       "exphoton quote");
-  app.Add("scene", options.scene.scene, "the scene").Required();
+  app.Add("scene", options.scene, "the scene").Required();
   app.Add("--integrators", integrators, "the integrators to compare").TypeName("LIST");
   app.Add("--accuracies", accuracies, "errors in per cent (default 10,5,2,1%)").TypeName("LIST");
   app.Add("--pilot-time", pilotTime, "about how long all pilots may take (default 5s)")
       .TypeName("TIME");
   app.Add("--resolution", options.resolution, "of the picture").TypeName("WIDTHxHEIGHT");
-  app.Add("--set", options.scene.sets, "as in exphoton render").OnePerUse();
+  app.Add("--set", options.sets, "as in exphoton render").OnePerUse();
   app.Add("--seed", options.seed, "seed of the pilots");
-  app.Add("--nthreads,--ncores", options.scene.threads, "threads of each pilot; 0: all cores")
+  app.Add("--nthreads,--ncores", options.threads, "threads of each pilot; 0: all cores")
       .Between(0, 4096);
-  app.Add("--plugin-dir", options.scene.pluginFolders, "look for plugins in this folder first")
+  app.Add("--plugin-dir", options.pluginFolders, "look for plugins in this folder first")
       .OnePerUse();
-  AddScenePluginsOption(app, &options.scene.allowsScenePlugins);
+  AddScenePluginsOption(app, &options.allowsScenePlugins);
   app.AddFlag("--quiet", options.isQuiet, "no progress");
+  app.AddFlag("--verbose", options.isVerbose, "show the result of each pilot");
   app.Parse(arguments);
   options.accuracies = ParseAccuracies(accuracies);
   options.seconds = ParseDuration("--pilot-time", pilotTime);
-  for (const std::string& name : study::SplitList(integrators))
-    options.scene.plan.bases.push_back(study::ParseSetting(name));
-  if (!options.resolution.empty()) AddResolution(options.resolution, &options.resolutionSets);
-  for (const std::string& set : options.scene.sets) ParseOverride(set);
+  options.integrators = study::SplitList(integrators);
   return options;
+}
+
+// Returns the options that the pilots and the quoted renders have in common.
+std::vector<std::string> SceneOptionsOf(const QuoteOptions& options) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  for (const std::string& set : options.sets) add("--set", set);
+  for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
+  if (options.allowsScenePlugins) words.push_back("--allow-scene-plugins");
+  if (options.threads > 0) add("--nthreads", std::to_string(options.threads));
+  if (!options.resolution.empty()) add("--resolution", options.resolution);
+  return words;
+}
+
+RenderCommand PilotCommand(const QuoteOptions& options, const QuoteScene& scene) {
+  std::vector<std::string> words{scene.path, "--seed", std::to_string(options.seed)};
+  words.insert(words.end(), scene.options.begin(), scene.options.end());
+  return ParseRenderCommand(words, RenderMode::Render);
+}
+
+// Throws Error for an unknown integrator.
+void CheckIntegrators(const QuoteOptions& options) {
+  StudyOptions study;
+  study.pluginFolders = options.pluginFolders;
+  for (const std::string& name : options.integrators) study.plan.bases.push_back({name, name, {}});
+  PlanSettings(study);
 }
 
 void MakeQuote(const std::vector<std::string>& arguments) {
   const QuoteOptions options = ParseQuoteOptions(arguments);
-  StudyOptions sized = options.scene;
-  for (const ParameterOverride& set : options.resolutionSets)
-    sized.sets.push_back(set.directive + "." + set.parameter + "=" + set.value);
-  const SceneFacts facts = ExamineScene(options.scene.scene, sized);
-  const std::vector<study::Setting> settings = PlanSettings(options.scene);
-  QuoteScene scene = MakeQuoteScene(options.scene, facts);
-  scene.resolution = options.resolution;
-  QuoteScene seeded = scene;
-  seeded.options.insert(seeded.options.end(), {"--seed", std::to_string(options.seed)});
+  const QuoteScene scene{options.scene, SceneOptionsOf(options)};
+  const RenderCommand command = PilotCommand(options, scene);
+  const InterruptWatch watch;
+  FileSource::Streams streams;
+  Log log(options.isVerbose ? Log::Level::Verbose : Log::Level::Normal);
+  PilotRenderer renderer(command, scene.path, {"quote", &streams, &log});
+  CheckIntegrators(options);
+  const double cpuSeconds = options.seconds * ThreadPool(options.threads).Count();
   std::vector<Quote> quotes;
-  for (const study::Setting& setting : settings) {
-    if (!options.isQuiet)
-      std::fprintf(stderr, "exphoton: pilots of %s\n", setting.integrator.c_str());
-    const bool hasBias = KeepsPhotons(options.scene, setting.integrator);
-    quotes.push_back(
-        RunPilots(seeded, setting.integrator, hasBias, options.seconds / double(settings.size())));
+  for (const std::string& name : options.integrators) {
+    if (!options.isQuiet) std::fprintf(stderr, "exphoton: pilots of %s\n", name.c_str());
+    quotes.push_back(RunPilots(&renderer, name, cpuSeconds / double(options.integrators.size())));
   }
-  PrintOut(options.scene.scene + ", " + std::to_string(facts.width) + " x " +
-           std::to_string(facts.height) + " pixels\n" +
+  PrintOut(scene.path + ", " + std::to_string(renderer.Width()) + " x " +
+           std::to_string(renderer.Height()) + " pixels\n" +
            QuoteText(scene, quotes, options.accuracies));
 }
 
@@ -101,7 +124,7 @@ int RunQuote(const std::vector<std::string>& arguments) {
   const int status = Guarded([&] {
     try {
       MakeQuote(arguments);
-    } catch (const QuoteInterrupted&) {
+    } catch (const LoadingStopped&) {
       wasInterrupted = true;
     }
   });

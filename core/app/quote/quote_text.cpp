@@ -44,16 +44,11 @@ std::string CommandOf(const QuoteScene& scene, const Offer& offer) {
   const Quote& quote = *offer.quote;
   std::vector<std::string> words{"exphoton", scene.path, "--integrator", quote.integrator};
   words.insert(words.end(), scene.options.begin(), scene.options.end());
-  if (!scene.resolution.empty()) words.insert(words.end(), {"--resolution", scene.resolution});
   words.insert(words.end(), {"--spp", std::to_string(std::int64_t(offer.price->samples))});
-  const auto addPhotons = [&](const char* name, double count) {
-    if (quote.model.hasPhotons && count > 0 && offer.price->photons > 1)
-      words.insert(words.end(),
-                   {"--set", std::string("SurfaceIntegrator.") + name + "=" +
-                                 std::to_string(std::int64_t(count * offer.price->photons))});
-  };
-  addPhotons("indirectphotons", quote.indirectPhotons);
-  addPhotons("causticphotons", quote.causticPhotons);
+  DialSettings settings = quote.settings;
+  settings.photons = offer.price->photons;
+  for (const ParameterOverride& set : settings.Overrides())
+    words.insert(words.end(), {"--set", set.directive + "." + set.parameter + "=" + set.value});
   return CommandLineText(words);
 }
 
@@ -68,7 +63,8 @@ std::string OfferText(const QuoteScene& scene, const Offer& offer) {
   const std::string most =
       std::isfinite(price.most) ? study::SecondsText(price.most) : "no known limit";
   // 60 bytes for each photon and its radiance photon
-  const double photons = offer.quote->indirectPhotons + offer.quote->causticPhotons;
+  const DialSettings& settings = offer.quote->settings;
+  const double photons = settings.indirectPhotons + settings.causticPhotons;
   const double memory = offer.quote->memory + 60 * photons * (price.photons - 1);
   std::snprintf(text, sizeof text, "  %-14s %s (%s to %s), %.0f MB\n", name.c_str(),
                 study::SecondsText(price.seconds).c_str(), study::SecondsText(price.least).c_str(),

@@ -5,9 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "core/app/quote/pilot_renders.h"
+#include "core/app/quote/quote_pilots.h"
 
 namespace exphoton::cli {
+
+// What the commands render.
+struct QuoteScene {
+  std::string path;
+  std::vector<std::string> options;  // such as --set and --resolution
+};
 
 // accuracies: relative, .05 for 5 %.
 std::string QuoteText(const QuoteScene& scene, const std::vector<Quote>& quotes,

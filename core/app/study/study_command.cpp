@@ -179,7 +179,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   StudyRunner runner(options, folder, scene, program);
   results.reference = PrepareReference(options, runner);
   CheckReference(options, scene, results.reference);
-  if (options.predicts) results.predictions = Predict(options, scene, results.settings);
+  if (options.predicts) results.predictions = Predict(options, results.settings);
   results.runs = runner.RunAll(results.settings);
   results.maps = MakeMaps(options, results, runner);
   WriteResults(folder, &results);

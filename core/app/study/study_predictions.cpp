@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/app/quote/missing_light.h"
-#include "core/app/quote/pilot_renders.h"
+#include "core/app/quote/quote_pilots.h"
 #include "core/app/study/study_runner.h"
 
 namespace exphoton::cli {
@@ -39,23 +39,26 @@ study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean
 
 }  // namespace
 
-std::vector<study::Prediction> Predict(const StudyOptions& options, const SceneFacts& facts,
+std::vector<study::Prediction> Predict(const StudyOptions& options,
                                        const std::vector<study::Setting>& settings) {
   const std::vector<std::string> names = IntegratorsOf(settings);
-  QuoteScene scene = MakeQuoteScene(options, facts);
-  scene.options.insert(scene.options.end(),
-                       {"--footprint-spp", std::to_string(options.footprintSamples)});
+  std::vector<std::string> arguments =
+      RenderArguments(options, options.scene, {"", names.front(), {}}, 0);
+  arguments.erase(arguments.begin());  // the name of the command
+  FileSource::Streams streams;
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
   std::vector<Quote> quotes;
   std::vector<PilotMean> means;
-  for (const std::string& name : names) {
-    Say(options, "pilots of " + name);
-    try {
-      quotes.push_back(RunPilots(scene, name, KeepsPhotons(options, name),
-                                 kPilotSeconds / double(names.size())));
-    } catch (const QuoteInterrupted&) {
-      throw StudyInterrupted();
+  try {
+    PilotRenderer renderer(ParseRenderCommand(arguments, RenderMode::Render), options.scene,
+                           {"--predict", &streams, &log});
+    for (const std::string& name : names) {
+      Say(options, "pilots of " + name);
+      quotes.push_back(RunPilots(&renderer, name, kPilotSeconds / double(names.size())));
+      if (quotes.back().failure.empty()) means.push_back({name, quotes.back().light});
     }
-    if (quotes.back().failure.empty()) means.push_back({name, quotes.back().light});
+  } catch (const LoadingStopped&) {
+    throw StudyInterrupted();
   }
   std::vector<study::Prediction> predictions;
   for (const Quote& quote : quotes) predictions.push_back(PredictionFrom(quote, means));

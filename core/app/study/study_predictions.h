@@ -11,7 +11,7 @@ namespace exphoton::cli {
 
 // Returns the quotes of all integrators of the settings, with the scene's own parameters, for
 // errors from 50 to .5 %. Pilots take about five seconds. Throws StudyInterrupted.
-std::vector<study::Prediction> Predict(const StudyOptions& options, const SceneFacts& scene,
+std::vector<study::Prediction> Predict(const StudyOptions& options,
                                        const std::vector<study::Setting>& settings);
 
 }  // namespace exphoton::cli

@@ -81,6 +81,12 @@ bool KeepsPhotons(PluginRegistry& registry, const std::string& integrator, Log& 
       ->KeepsPhotons();
 }
 
+bool KeepsPhotons(const StudyOptions& options, const std::string& integrator) {
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
+  PluginRegistry registry(PluginRegistry::DefaultFolders(options.pluginFolders), &log);
+  return KeepsPhotons(registry, integrator, log);
+}
+
 // Looks up parameters in the declarations of the plugins. Integrators that can render progressive
 // passes have their number as a parameter too.
 class PluginParameterLookup final : public study::ParameterLookup {
@@ -192,12 +198,6 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
   } catch (const std::invalid_argument& error) {
     FailUsage(error.what());
   }
-}
-
-bool KeepsPhotons(const StudyOptions& options, const std::string& integrator) {
-  Log log(Log::Level::Quiet, Log::Sink::Memory);
-  PluginRegistry registry(PluginRegistry::DefaultFolders(options.pluginFolders), &log);
-  return KeepsPhotons(registry, integrator, log);
 }
 
 std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,

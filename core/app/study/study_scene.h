@@ -31,9 +31,6 @@ std::string ReadTextFile(const std::string& path);  // empty if the file cannot 
 // Expands the plan. Throws Error for an unknown integrator or parameter.
 std::vector<study::Setting> PlanSettings(const StudyOptions& options);
 
-// Returns whether an integrator keeps photons (SurfaceIntegrator::KeepsPhotons).
-bool KeepsPhotons(const StudyOptions& options, const std::string& integrator);
-
 // Returns those integrators of the settings that can read photons from a file. Throws Error if
 // there are none.
 std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,

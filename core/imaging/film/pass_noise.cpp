@@ -163,6 +163,10 @@ std::vector<double> PassNoise::RelativeVariances() const {
   return relative;
 }
 
+std::vector<double> PassNoise::Levels() const {
+  return SquaredLevels(Means(), Variances(), width_);
+}
+
 std::vector<float> PassNoise::Means() const {
   const std::vector<Group> groups = Groups();
   std::vector<float> means(3 * pixelCount_);

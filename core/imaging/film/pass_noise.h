@@ -31,6 +31,9 @@ class PassNoise {
   double RelativeVarianceError() const;
   // Returns the estimated variance of each pixel of that picture, three channels per pixel.
   std::vector<float> Variances() const;
+  // Returns the estimated r^2 (SquaredLevels) of each pixel of that picture, three channels per
+  // pixel. Needs two groups with samples.
+  std::vector<double> Levels() const;
 
  private:
   struct Sums {

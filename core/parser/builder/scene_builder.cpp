@@ -122,6 +122,7 @@ void SceneBuilder::HandleOrThrow(Directive directive) {
     default:
       break;
   }
+  if (world_ && options_.known) return;
   if (world_) return HandleWorld(std::move(directive));
   render_->Handle(std::move(directive), state_.transform);
 }

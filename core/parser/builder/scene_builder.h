@@ -51,6 +51,9 @@ class SceneBuilder final : public DirectiveHandler {
   PluginFolder ClassifyPluginFolder(const std::string& path, const SourceLocation& where);
   void BeginWorld(const Directive& directive);
   void EndWorld(const Directive& directive);
+  void CheckKnownWorld(const Directive& directive) const;
+  // Takes the scene at its end, and the names of its parts.
+  void TakeWorld(const Directive& directive, RenderSetup* setup);
   void Reset();  // to the state at the beginning of a file
 
   std::string sceneName_;

@@ -39,8 +39,33 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->sceneHash = hash_;
   setup->worldHash = worldHash_;
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
-  render_->Create(*registry_, log_, world_->HasMedia(), setup.get(), &errors_);
+  CheckKnownWorld(directive);
+  const bool hasMedia = options_.known ? options_.known->scene->HasMedia() : world_->HasMedia();
+  render_->Create(*registry_, log_, hasMedia, setup.get(), &errors_);
   if (!errors_.IsEmpty()) return Reset();  // no time is spent on a scene that will not be rendered
+  if (options_.known) {
+    setup->scene = std::move(options_.known->scene);
+    setup->names = std::move(options_.known->names);
+  } else {
+    TakeWorld(directive, setup.get());
+  }
+  RequiredFeatures plan =
+      ChooseEffects(FindRequiredFeatures(*setup->scene, *setup->camera), options_.effects, log_);
+  plan.KeepComputed(setup->integrator->ComputedFeatures());
+  NoteTimes(*setup->scene, *setup->camera, &plan);
+  setup->scene->SetFeatures(std::move(plan), setup->camera->Shutter());
+  setup->plugins = registry_->Loaded();
+  setups_.push_back(std::move(setup));
+  Reset();
+}
+
+void SceneBuilder::CheckKnownWorld(const Directive& directive) const {
+  const RenderSetup* const known = options_.known;
+  if (known && (!known->scene || known->worldHash != worldHash_))
+    FailAt(directive.Where(), "the scene has changed since it was read first");
+}
+
+void SceneBuilder::TakeWorld(const Directive& directive, RenderSetup* setup) {
   setup->names = world_->Names();
   SceneParts parts = world_->Take();
   for (const Statistics::Phase& phase : world_->Times().Phases()) {
@@ -51,14 +76,6 @@ void SceneBuilder::EndWorld(const Directive& directive) {
                                  [](const auto& medium) { return medium->Emits(); });
   if (parts.lights.empty() && !glows) log_.Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
-  RequiredFeatures plan =
-      ChooseEffects(FindRequiredFeatures(*setup->scene, *setup->camera), options_.effects, log_);
-  plan.KeepComputed(setup->integrator->ComputedFeatures());
-  NoteTimes(*setup->scene, *setup->camera, &plan);
-  setup->scene->SetFeatures(std::move(plan), setup->camera->Shutter());
-  setup->plugins = registry_->Loaded();
-  setups_.push_back(std::move(setup));
-  Reset();
 }
 
 void SceneBuilder::Finish(const SourceLocation& end) {

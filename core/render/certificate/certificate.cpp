@@ -6,28 +6,12 @@
 #include <cmath>
 
 #include "core/base/format.h"
-#include "core/imaging/film/box_mean.h"
 #include "core/imaging/metrics/metrics.h"
 
 namespace exphoton {
 namespace {
 
 constexpr double kLeastWanted = .01 * .01;  // relMSE
-
-// Returns sqrt(r^2 + 0.01) for three channels per pixel. The mean of 5 x 5 pixels replaces r,
-// because the noise of a single pixel correlates with its correction.
-std::vector<float> ScaleOf(const Film& film) {
-  const PixelBounds& crop = film.Crop();
-  std::vector<float> scale;
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const auto mean = film.MeanOf({x, y});
-      for (std::size_t c = 0; c < 3; ++c) scale.push_back(float(std::max(mean[c], 0.)));
-    }
-  scale = BoxMean(scale, std::size_t(crop.Width()));
-  for (float& r : scale) r = float(std::sqrt(double(r) * double(r) + kRelMseOffset));
-  return scale;
-}
 
 double Part(const std::optional<SharingBias>& sharing) {
   return sharing ? std::max(sharing->squared, 0.) : 0;
@@ -71,25 +55,24 @@ CertificateGoal CertificateGoal::ForNoise(double noise) {
   return {.smallest = std::max(noise / 4, kLeastWanted)};
 }
 
-std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise,
-                                   const CertificateGoal& goal) {
+std::optional<Certificate> Certify(const Corrections& corrections, std::span<const double> levels,
+                                   double noise, const CertificateGoal& goal) {
   const auto groups = corrections.Groups();
   if (groups.size() < 2) return std::nullopt;
-  const std::vector<float> scale = ScaleOf(film);
   double samples = 0;
   for (const auto* group : groups) samples += double(group->samplesPerPixel);
   std::vector<std::vector<float>> relative;
   std::vector<BlockBiasEstimator::Group> inputs;
   for (const auto* group : groups) {
-    std::vector<float>& values = relative.emplace_back(scale.size());
+    std::vector<float>& values = relative.emplace_back(levels.size());
     const double factor = 1 / double(group->samplesPerPixel);
-    for (std::size_t i = 0; i < scale.size(); ++i)
-      values[i] = float(group->sums[i] * factor / double(scale[i]));
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      values[i] = float(group->sums[i] * factor / std::sqrt(levels[i] + kRelMseOffset));
   }
   for (std::size_t g = 0; g < groups.size(); ++g)
     inputs.push_back({relative[g], double(groups[g]->samplesPerPixel) / samples});
-  const BlockBiasEstimator estimator(film.Crop().Width(), film.Crop().Height(), inputs,
-                                     goal.quantile);
+  const BlockBiasEstimator estimator(corrections.Crop().Width(), corrections.Crop().Height(),
+                                     inputs, goal.quantile);
   Certificate certificate;
   certificate.noise = noise;
   certificate.bias = estimator.EstimateFor(goal.smallest);

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "core/imaging/film/film.h"
 #include "core/render/certificate/block_bias.h"
 #include "core/render/certificate/corrections.h"
 #include "core/render/sharing/sharing_estimate.h"
@@ -41,10 +41,11 @@ struct CertificateGoal {
   static CertificateGoal ForNoise(double noise);
 };
 
-// Returns nullopt with fewer than two groups. `film` has the picture of all groups, and `noise` is
-// its noise part of relMSE. The blocks are the finest ones that reach the goal.
-std::optional<Certificate> Certify(const Corrections& corrections, const Film& film, double noise,
-                                   const CertificateGoal& goal);
+// Returns nullopt with fewer than two groups. `levels` has r^2 of the picture of all groups, three
+// channels per pixel (PassSum::Levels), and `noise` is its noise part of relMSE. The blocks are the
+// finest ones that reach the goal.
+std::optional<Certificate> Certify(const Corrections& corrections, std::span<const double> levels,
+                                   double noise, const CertificateGoal& goal);
 
 // Returns a line such as "error 2.1 % = noise 1.8 %, bias 1.0 % (0.6 to 1.4 %)".
 std::string ErrorText(const Certificate& certificate);

@@ -27,6 +27,7 @@ struct PassesResult {
   std::vector<float> variances;          // of each pixel, three channels; empty with one pass
   std::optional<double> lastDiskArea{};  // of the last pass; nullopt: passes are not progressive
   std::optional<double> upperError{};    // relMSE; the upper end of its interval (AccuracyRule)
+  std::vector<double> levels{};          // PassSum::Levels, for a certificate; empty without one
 };
 
 class PassSum {
@@ -61,6 +62,9 @@ class PassSum {
   // The estimated noise part of relMSE; nullopt before the second group. Reason is based on it.
   std::optional<double> Noise() const;
   double NoiseError() const;  // its standard error; infinity before the second group
+  // Returns r^2 of each pixel, to which noise is relative: PassNoise::Levels. Certificates divide
+  // the bias by the same r, so that both are parts of one relMSE. Needs two groups.
+  std::vector<double> Levels() const { return noise_.Levels(); }
   // Writes the numbers of passes and samples, the noise and, if wanted, the variances.
   void Describe(bool needsVariances, PassesResult* result) const;
 

@@ -32,6 +32,7 @@ class Halves {
     result.render = renderer_.Finish();
     result.reason = sum_.Passes() < 2 ? StopReason::Signal : StopReason::Samples;
     sum_.Describe(parts_.NeedsVariances(), &result);
+    if (options_.corrections && sum_.Groups() > 1) result.levels = sum_.Levels();
     return result;
   }
 

@@ -210,7 +210,8 @@ class Passes {
     if (sum_.Groups() < 2) return;
     std::optional<Certificate> certificate;
     if (options_.corrections)
-      certificate = Certify(*options_.corrections, job_.film, *sum_.Noise(), accuracy_->NextGoal());
+      certificate =
+          Certify(*options_.corrections, sum_.Levels(), *sum_.Noise(), accuracy_->NextGoal());
     if (certificate) certificate->sharing = renderer_.MeanSharingBias();
     accuracy_->Look({*sum_.Noise(), sum_.NoiseError(), certificate ? &*certificate : nullptr});
     result_.upperError = accuracy_->Upper();
@@ -257,6 +258,7 @@ class Passes {
     job_.progress.End();
     result_.render = renderer_.Finish();
     sum_.Describe(parts_.NeedsVariances(), &result_);
+    if (options_.corrections && sum_.Groups() > 1) result_.levels = sum_.Levels();
     if (result_.reason == StopReason::Signal) result_.render.isComplete = false;
     return std::move(result_);
   }

@@ -114,7 +114,7 @@ TEST_F(AccuracyTest, ShowsItsPilotsOnRequest) {
   EXPECT_NE(result.err.find("pilot of exphotonmap"), std::string::npos) << result.err;
 }
 
-// The first pilot has few photons. The second one makes one set of maps for all later ones.
+// The first pilot is rough. The second one makes one set of maps for all later ones.
 TEST_F(AccuracyTest, PilotsShareTheirPhotons) {
   const std::string err = Render("1%", {"--integrator", "exphotonmap", "--verbose"}).err;
   std::vector<double> prices;
@@ -146,11 +146,20 @@ TEST_F(AccuracyTest, ThePictureTakesThePhotonsOfThePilot) {
   EXPECT_LT(stored(json), .7 * two);
 }
 
-// A tenth of the photons shows whether an integrator may be the cheapest one.
-TEST_F(AccuracyTest, IntegratorsGetFewPhotonsFirst) {
+// They show whether an integrator may be the cheapest one.
+TEST_F(AccuracyTest, IntegratorsGetRoughPilotsFirst) {
   const std::string err = Render("30%", {"--verbose"}).err;
-  EXPECT_NE(err.find("pilot of exphotonmap with few photons"), std::string::npos) << err;
-  EXPECT_NE(err.find("pilot of guidedpath with few photons"), std::string::npos) << err;
+  EXPECT_NE(err.find("rough pilot of exphotonmap"), std::string::npos) << err;
+  EXPECT_NE(err.find("rough pilot of guidedpath"), std::string::npos) << err;
+}
+
+// Few photons are enough for a coarse picture, and cost less.
+TEST_F(AccuracyTest, TakesFewerPhotonsWhereTheyAreMany) {
+  WriteRoom("many.pbrt", "exphotonmap", 200000);
+  const Names one{"--integrator", "exphotonmap"};
+  const ProgramResult few = Render("20%", one, "many.pbrt");
+  EXPECT_NE(few.err.find("indirect photons 200000 -> 50000"), std::string::npos) << few.err;
+  EXPECT_EQ(Render("20%", one).err.find("indirect photons"), std::string::npos);
 }
 
 // 20 photons blur all light, so their bias is far above 2 %.

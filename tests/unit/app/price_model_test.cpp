@@ -26,15 +26,53 @@ TEST(PriceModel, FindsTheNoiseOfCameraSamples) {
   EXPECT_NEAR(model.camera, 3, 1e-9);
 }
 
-TEST(PriceModel, SeparatesTheNoiseOfPhotons) {
+// The noise of the first samples falls fast, and later noise as 1/n.
+TEST(PriceModel, InterpolatesBetweenPilots) {
   PriceModel model;
-  model.hasPhotons = true;
-  model.FitNoise(Pilots(3, .2));
-  EXPECT_NEAR(model.camera, 3, 1e-6);
-  EXPECT_NEAR(model.photonNoise, .2, 1e-7);
-  // With two pilots, it cannot be separated from scatter.
-  model.FitNoise({{2, 1.6}, {4, .85}});
-  EXPECT_EQ(model.photonNoise, 0);
+  model.FitNoise({{2, .8}, {4, .2}, {8, .1}, {16, .05}, {32, .025}});
+  EXPECT_NEAR(model.slope, 1, 1e-9);
+  EXPECT_NEAR(model.SamplesFor(1.6), 1, 1e-9);
+  EXPECT_NEAR(model.SamplesFor(.8), std::sqrt(2.), 1e-9);
+  EXPECT_NEAR(model.SamplesFor(.2), 4, 1e-9);
+  EXPECT_NEAR(model.SamplesFor(.05), 16, 1e-9);
+  EXPECT_NEAR(model.SamplesFor(.0125), 64, 1e-9);
+  const PriceModel noisier = model.WithNoise(2, 1);
+  EXPECT_NEAR(noisier.SamplesFor(.4), 4, 1e-9);
+  EXPECT_NEAR(noisier.SamplesFor(.025), 64, 1e-9);
+}
+
+// By chance, a pilot may have less noise than a larger one.
+TEST(PriceModel, KnowsThatNoiseFalls) {
+  PriceModel model;
+  model.FitNoise({{2, .4}, {4, .05}, {8, .1}});
+  EXPECT_EQ(model.points.size(), 2u);
+  EXPECT_GT(model.SamplesFor(.3), 1);
+  EXPECT_LT(model.SamplesFor(.3), 4);
+}
+
+// Two uncertain pilots say little about the slope.
+TEST(PriceModel, DrawsTheSlopeToTheUsualOne) {
+  PriceModel sure, unsure;
+  sure.FitNoise({{2, 4, .01}, {4, 1.5, .01}});
+  unsure.FitNoise({{2, 4, 1}, {4, 1.5, .5}});
+  EXPECT_GT(sure.slope, 1.4);
+  EXPECT_GT(unsure.slope, 1.05);
+  EXPECT_LT(unsure.slope, 1.15);
+  EXPECT_GT(unsure.slopeError, 5 * sure.slopeError);
+}
+
+// Half of the photons have twice the bias, and a guess counts where the bias is not known.
+TEST(PriceModel, TakesFewerPhotonsWhereTheBiasAllowsIt) {
+  PriceModel model;
+  model.camera = .01, model.maps = 1, model.sample = .001, model.hasPhotons = true;
+  EXPECT_EQ(PriceOf(model, {.1})->photons, 1);
+  model.leastPhotons = 1. / 16;
+  model.biasOfFewer = .01;
+  const auto price = PriceOf(model, {.1});
+  ASSERT_TRUE(price);
+  EXPECT_EQ(price->photons, .125);  // the bias is 8 %, and 16 % with half of these
+  EXPECT_EQ(price->samples, 3);     // .01 / (.01 - .0064)
+  EXPECT_EQ(PriceOf(model, {.012})->photons, 1);
 }
 
 // .05^2 = .0025 = 1 / 400; seconds are 2 + 3 + 400 / 100.
@@ -104,14 +142,15 @@ TEST(PriceModel, SeparatesTheNoiseOfPhotonsBySharedOnes) {
 // Uncertain noise of the pilots makes the interval wider.
 TEST(PriceModel, IntervalsContainTheErrorOfThePilots) {
   PriceModel sure, unsure;
-  sure.FitNoise({{2, .5, 0}, {4, .25, 0}});
-  unsure.FitNoise({{2, .5, .25}, {4, .25, .125}});
+  const double last = .5 / std::pow(2, 1.1);  // the usual slope
+  sure.FitNoise({{2, .5, 0}, {4, last, 0}});
+  unsure.FitNoise({{2, .5, .25}, {4, last, last / 2}});
   sure.sample = unsure.sample = 1;
   const auto a = PriceOf(sure, {.05}), b = PriceOf(unsure, {.05});
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->seconds, b->seconds);
   EXPECT_NEAR(b->most / a->most, 1 + 1.645 * .5, .01);
-  EXPECT_NEAR(a->least / b->least, 1 + 1.645 * .5, .01);
+  EXPECT_GT(a->least / b->least, 1 + 1.645 * .5);  // the slope is uncertain as well
 }
 
 }  // namespace

@@ -34,10 +34,13 @@ TEST(SquaredLevels, OfNoisyValuesAreTheMeanOfTheirKind) {
   std::fill(picture.variances.begin(), picture.variances.end(), 4);
   picture.means[picture.At(4, 3)] = 2.5;
   EXPECT_NEAR(picture.Level(4, 3), 1 + 1.5 / 25, 1e-6);
-  // At the border there are 15 values.
+  // At a border there are 15 values.
   picture.means[picture.At(4, 3)] = 1;
   picture.means[picture.At(4, 0)] = 2.5;
   EXPECT_NEAR(picture.Level(4, 0), 1 + 1.5 / 15, 1e-6);
+  picture.means[picture.At(4, 0)] = 1;
+  picture.means[picture.At(8, 3)] = 2.5;
+  EXPECT_NEAR(picture.Level(8, 3), 1 + 1.5 / 15, 1e-6);
 }
 
 // A dark pixel whose noise is small keeps its value beside a bright surface.

@@ -43,5 +43,25 @@ TEST(Certificate, HasNoDigitsForHugeErrors) {
   EXPECT_EQ(text, "error over 1000 % = noise 4.0 %, bias over 1000 % (over 1000 to over 1000 %)");
 }
 
+// Two groups have the correction .1 in all pixels. Half of the pixels have the radiance 1, and
+// the others 10.
+TEST(Certificate, HasTheBiasRelativeToTheLevelsOfThePicture) {
+  constexpr int kWidth = 16, kHeight = 8;
+  Corrections corrections({0, 0, kWidth, kHeight}, 1);
+  std::vector<double> levels;
+  for (int group = 0; group < 2; ++group) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) corrections.Add({x, y}, {1, Spectrum(Real(.2)), 1}, 1);
+    corrections.EndPass(group, 2);
+  }
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) levels.insert(levels.end(), 3, x < 8 ? 1 : 100);
+  const auto certificate = Certify(corrections, levels, .5, {});
+  ASSERT_TRUE(certificate);
+  EXPECT_NEAR(certificate->bias.squared, .01 / 2 * (1 / 1.01 + 1 / 100.01), 1e-8);
+  EXPECT_EQ(certificate->noise, .5);
+  EXPECT_EQ(certificate->corrections, 2 * kWidth * kHeight);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/dial/pilot_series.h"
+
+#include <algorithm>
+
+namespace exphoton::cli {
+namespace {
+
+constexpr double kLeastPhotons = 1. / 4;  // of the scene's
+
+}  // namespace
+
+PilotSeries::PilotSeries(PilotRenderer* pilots, const std::string& integrator, int gatherRays,
+                         Unit unit)
+    : renderer_(pilots), unit_(unit) {
+  request_.integrator = integrator;
+  request_.settings.gatherRays = gatherRays;
+  model_.fixed = unit == Unit::CpuSeconds ? pilots->LoadSeconds() : 0;
+}
+
+bool PilotSeries::RenderRough() {
+  if (request_.integrator == "path") return false;
+  PilotRequest rough = request_;
+  rough.isRough = true;
+  last_ = renderer_->Render(rough);
+  TakeCosts(last_);
+  settings_ = last_.settings;
+  model_.maps = CostOf(last_).maps / kFewPhotons;
+  // Blur of caustics inside a block is not a part of the known error.
+  model_.leastPhotons = settings_.causticPhotons > 0 ? 1 : kLeastPhotons;
+  model_.biasOfFewer = last_.guessedBias;
+  model_.FitNoise({last_.pilot});
+  return true;
+}
+
+// The photons of the pilot cost nothing in the first pass of the picture.
+void PilotSeries::UsePhotons(double photons) {
+  request_.settings = settings_;
+  request_.settings.photons = photons;
+  model_.leastPhotons = photons;
+}
+
+void PilotSeries::Render() {
+  last_ = renderer_->Render(request_);
+  request_.samples *= 2;
+  TakeCosts(last_);
+  if (last_.mapCount > 0) {
+    model_.maps = CostOf(last_).maps / last_.mapCount / request_.settings.photons;
+    settings_ = last_.settings;
+  }
+  pilots_.push_back(last_.pilot);
+  model_.FitNoise(pilots_);
+}
+
+void PilotSeries::RenderBias(double photons) {
+  PilotRequest request = request_;
+  request.estimatesBias = request.hasOwnPhotons = true;
+  request.samples = std::max(request_.samples / 2, 2);
+  request.settings = settings_;
+  request.settings.photons = photons;
+  last_ = renderer_->Render(request);
+  spent_ += CostOf(last_).maps + CostOf(last_).samples;
+  if (!hasOwnPhotons_) {
+    pilots_.push_back(last_.pilot);
+    model_.FitNoise(pilots_);
+    hasOwnPhotons_ = true;
+  }
+  if (last_.certificate) TakeBias(photons);
+}
+
+CountedCost PilotSeries::CostOf(const PilotPicture& picture) const {
+  return unit_ == Unit::CountedCost ? picture.cost : picture.cpuSeconds;
+}
+
+void PilotSeries::TakeCosts(const PilotPicture& picture) {
+  const CountedCost cost = CostOf(picture);
+  const double pixels = renderer_->Pixels() / picture.pixels;
+  costOfSample_ = cost.samples / picture.pilot.samples;
+  model_.sample = costOfSample_ * pixels;
+  model_.hasPhotons = picture.hasBias;
+  gatherRays_ = picture.gatherRays / picture.pilot.samples * pixels;
+  spent_ += cost.maps + cost.samples;
+  next_ = 2 * cost.samples;
+  secondsPerPrice_ = picture.seconds / (cost.maps + cost.samples);
+}
+
+void PilotSeries::TakeBias(double photons) {
+  const Certificate& certificate = *last_.certificate;
+  model_.bias = photons * BlockBias::Root(certificate.bias.squared);
+  model_.biasUpper = photons * BlockBias::Root(certificate.bias.upper);
+  const double corrections = double(certificate.corrections);
+  if (!(corrections > 0)) return;
+  const double extra = std::max(CostOf(last_).samples - costOfSample_ * last_.pilot.samples, 0.);
+  certificateCost_ = {corrections * certificate.bias.smallest,
+                      extra / corrections * kCorrectionRay};
+}
+
+}  // namespace exphoton::cli
