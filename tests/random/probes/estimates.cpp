@@ -308,7 +308,9 @@ std::vector<Comparison> CompareEstimates(const SceneModel& drawn, const Effort& 
     if (light->IsProvablyBlack()) continue;
     CompareLight(scene, *light, comparesPower, &random, &comparison);
     for (std::size_t i = 0; i < std::min<std::size_t>(2, sights.size()); ++i)
-      if (!light->IsDelta()) CompareLightDensity(scene, *light, sights[i].surface, &comparison);
+      // A point of a flat lamp lies in the lamp's plane, and rounding decides whether it is seen.
+      if (!light->IsDelta() && sights[i].surface.areaLight != light.get())
+        CompareLightDensity(scene, *light, sights[i].surface, &comparison);
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(6, sights.size()); ++i)
     if (sights[i].surface.material) CompareBsdfDensity(sights[i], &arena, &comparison);
