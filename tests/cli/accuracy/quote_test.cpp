@@ -54,6 +54,23 @@ TEST_F(QuoteTest, NeedsMoreTimeForLessError) {
   EXPECT_GT(samples[1], 4 * samples[0]);
 }
 
+// Only the first pilot shoots photons, and the last one, which estimates the bias.
+TEST_F(QuoteTest, ShowsItsPilotsWhichShareTheirPhotons) {
+  const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "40%", "--pilot-time",
+                                   "1s", "--integrators", "exphotonmap", "--verbose"});
+  ASSERT_EQ(quote.status, 0) << quote.err;
+  EXPECT_NE(quote.err.find("pilot of exphotonmap, 2 samples a pixel"), std::string::npos);
+  EXPECT_NE(quote.err.find(", bias "), std::string::npos) << quote.err;
+  const std::regex price("price of maps ([0-9.e+]+)");
+  std::vector<double> prices;
+  for (std::sregex_iterator i(quote.err.begin(), quote.err.end(), price), end; i != end; ++i)
+    prices.push_back(std::stod((*i)[1]));
+  ASSERT_GE(prices.size(), 3u) << quote.err;
+  EXPECT_GT(prices.front(), 0);
+  EXPECT_GT(prices.back(), 0);
+  for (std::size_t i = 1; i + 1 < prices.size(); ++i) EXPECT_EQ(prices[i], 0) << quote.err;
+}
+
 TEST_F(QuoteTest, SaysWhatIsWrong) {
   const auto refused = [&](const Names& more, int status) {
     Names words{"quote", "room.pbrt", "--quiet"};
