@@ -18,6 +18,15 @@ Normal3 ApplyNormalDerivative(const Transform& transform, const Normal3& n, cons
   return ((derivative - unit * Dot(unit, derivative)) * (1 / length)).ToReal();
 }
 
+// Returns the tangent's part across the unit vector n, as long as the tangent.
+Vector3 Across(const Normal3& n, const Vector3& tangent) {
+  const Vec3d normal(n), all(tangent);
+  const Vec3d flat = all - normal * Dot(normal, all);
+  const double length = Length(flat), whole = Length(all);
+  if (!(length > 1e-6 * whole)) return Frame::FromZ(n).x * Real(whole);
+  return (flat * (whole / length)).ToReal();
+}
+
 // Returns the length of the product of a 3x3 matrix with a vector, in double.
 template <class Entry>
 double LengthOf(const Vec3& v, const Entry& entry) {
@@ -72,6 +81,10 @@ SurfaceInteraction SurfaceToWorld(const Transform& toWorld, const SurfaceInterac
   surface.shading.n = n * side;
   surface.shading.dpdu = toWorld.ApplyVector(shading.dpdu);
   surface.shading.dpdv = toWorld.ApplyVector(shading.dpdv);
+  if (side < 0) {  // with these tangents the turned normal would have the wrong hand
+    surface.shading.dpdu = Across(n, surface.dpdu);
+    surface.shading.dpdv = Across(n, surface.dpdv);
+  }
   surface.shading.dndu = ApplyNormalDerivative(toWorld, shading.n, shading.dndu) * side;
   surface.shading.dndv = ApplyNormalDerivative(toWorld, shading.n, shading.dndv) * side;
   return surface;

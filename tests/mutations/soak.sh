@@ -4,6 +4,8 @@
 # defect, and the property that it breaks.
 #   SOAK_SCENES  most scenes for a defect (default 300)
 #   SOAK_SEED    the first seed (default 9000001)
+#   SOAK_ONLY    properties, which are tried one after the other, each alone (default: all together)
+#   SOAK_SECONDS the time for a property (default 900)
 soak_scenes=${SOAK_SCENES:-300}
 soak_seed=${SOAK_SEED:-9000001}
 
@@ -43,15 +45,19 @@ keep() {  # ARRAY INDEX ...
 }
 
 soak_one() {  # LINE: the switches of its defects, and the result of the soak
-  local line=$1 i switches= result
+  local line=$1 i switches= result property only
   for ((i = 0; i < all; ++i)); do
     [[ "+$line+" == *"+${names[i]}+"* ]] || continue
     if [ -z "${flags[$i]:-}" ]; then echo "$line: does not compile with the others"; return; fi
     switches+=${switches:+,}${flags[$i]}
   done
-  result=$(cd "$build" && EXPHOTON_DEFECTS=$switches timeout "${SOAK_SECONDS:-900}" bin/soak \
-    --seed "$soak_seed" --scenes "$soak_scenes" --until-failure 2>&1 | tail -n 1)
-  echo "$line: ${result:-did not end, or crashed}"
+  for property in ${SOAK_ONLY:-all}; do
+    [ "$property" = all ] && only=() || only=(--only "$property")
+    result=$(cd "$build" && EXPHOTON_DEFECTS=$switches timeout "${SOAK_SECONDS:-900}" bin/soak \
+      --seed "$soak_seed" --scenes "$soak_scenes" --until-failure "${only[@]}" 2>&1 | tail -n 1) || true
+    echo "$line: ${SOAK_ONLY:+$property: }${result:-did not end, or crashed}"
+    case "$result" in "found after"*) return ;; esac
+  done
 }
 
 run_soak() {

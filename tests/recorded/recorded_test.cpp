@@ -2,6 +2,7 @@
 // These tests compare the results of tiny scenes and the outputs of commands with those that were
 // recorded. A failure says that something changed, not that it is wrong. The same program records:
 //   test_recorded --record              writes the records anew and lists what changed
+//   test_recorded --record GROUP        the same for the scenes of one group ("random_3")
 //   test_recorded --record-outputs      the same for figures and the outputs of commands alone
 //   test_recorded --print SCENE         prints a scene
 //   test_recorded --list                lists the scenes and the CPU seconds of each
@@ -224,6 +225,18 @@ int RecordAll() {
   return file.good() ? 0 : 1;
 }
 
+// Without lines.txt, which only says which lines of a failure are new.
+int RecordOne(const std::string& group) {
+  const std::vector<std::string> groups = GroupNames();
+  if (!IsComparable() || std::find(groups.begin(), groups.end(), group) == groups.end()) {
+    std::fprintf(stderr, "\"%s\" cannot be recorded\n", group.c_str());
+    return 1;
+  }
+  std::set<std::string> lines;
+  std::printf("%d scenes changed\n", RecordGroup(group, &lines));
+  return 0;
+}
+
 int ListAll() {
   for (const std::string& group : GroupNames()) {
     for (const RecordedScene& scene : ScenesOf(group)) {
@@ -297,6 +310,7 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   std::filesystem::current_path(EXPHOTON_SOURCE_DIR);  // scenes name files from there
   const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "--record" && argc > 2) return exphoton::recorded::RecordOne(argv[2]);
   if (command == "--record") return exphoton::recorded::RecordAll();
   if (command == "--record-outputs") {
     exphoton::recorded::RecordOutputs();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/rounding/measure/results.h"
 
@@ -75,6 +76,26 @@ TEST(RoundingLimits, NameRowsAboveThemAndRowsWithoutOne) {
   EXPECT_EQ(excesses[0], "1: the mean loses 1.00 digits, the limit is 0.9");
   EXPECT_EQ(excesses[1], "2: the median pixel loses 2.00 digits, the limit is 1.9");
   EXPECT_EQ(excesses[2], "3 has no limit");
+}
+
+TEST(RoundingResults, AreReadFromTheLinesOfAnEarlierRun) {
+  const Result result{{"group", "1 a", "text", ""}, {1.25, 2.5, 3, .5}, 1};
+  std::istringstream in("some other line\n" + LineOf(result) + "\n");
+  EarlierLines lines(in);
+  EXPECT_FALSE(lines.Take({"group", "1 b", "text", ""}));
+  const auto spread = lines.Take(result.subject);
+  ASSERT_TRUE(spread);
+  EXPECT_NEAR(spread->mean, 1.25, .051);
+  EXPECT_EQ(spread->median, 2.5);
+  EXPECT_EQ(spread->worst, 3);
+  EXPECT_EQ(spread->decided, .5);
+  EXPECT_FALSE(lines.Take(result.subject));
+}
+
+TEST(RoundingLimits, NameLimitsOfWhatWasNotMeasured) {
+  const std::vector<Row> rows = RowsOf({ResultOf("1 a", 1, 2)});
+  EXPECT_EQ(NotMeasured(rows, {{1, 1, "1"}, {1, 1, "cloister path"}}),
+            std::vector<std::string>{"cloister path"});
 }
 
 }  // namespace

@@ -57,6 +57,10 @@ TestRender RenderLoaded(LoadedScene& scene, const TestRenderOptions& options) {
               threads, *scene.log, progress, statistics, setup.volumeIntegrator.get()},
              renderOptions);
   render.image = film.ToImage(setup.film.premultiplyAlpha);
+  for (int y = setup.crop.y0; y < setup.crop.y1; ++y)
+    for (int x = setup.crop.x0; x < setup.crop.x1; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        render.values.push_back(film.MeanOf({x, y})[std::size_t(channel)]);
   if (aovs) aovs->AppendTo(film, setup.film.premultiplyAlpha, &render.image);
   render.messages = scene.log->Messages();
   render.counters = statistics.Counters();

@@ -32,7 +32,8 @@ struct TestRenderOptions {
 };
 
 struct TestRender {
-  Image image;  // R, G, B, A
+  Image image;                 // R, G, B, A
+  std::vector<double> values;  // R, G, B of each pixel, before they are rounded to float
   RenderResult result;
   std::vector<std::string> messages;  // warnings and notices
   std::vector<Statistics::Counter> counters;

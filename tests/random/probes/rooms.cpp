@@ -151,7 +151,7 @@ SceneModel ExactFurnace(const SceneModel& scene, std::uint64_t seed) {
     if (body.stretch == 2) body.stretch = 0;
     if (body.kind == BodyKind::SmoothMesh || body.kind == BodyKind::Subdivided ||
         body.kind == BodyKind::Nurbs || body.kind == BodyKind::HeightField)
-      body.kind = BodyKind::Cone;              // mirrors with interpolated normals lose light
+      body.kind = BodyKind::Cone;               // mirrors with interpolated normals lose light
     body.place.z = std::max(body.place.z, -1);  // the camera at the front wall stays outside
   }
   for (MediumModel& medium : exact.media) medium.parts = 0;

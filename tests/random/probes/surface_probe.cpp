@@ -58,8 +58,6 @@ void CheckFrame(const SurfaceInteraction& s, Findings* findings) {
   const double lengths = double(Length(s.dpdu) + Length(s.dpdv));
   const double slope = double(AbsDot(s.ng, s.dpdu) + AbsDot(s.ng, s.dpdv));
   findings->Expect(slope < 2e-3 * lengths, "dpdu and dpdv are tangents", slope, lengths);
-  // A normal that is interpolated beyond ng's side is turned, and its tangents are not.
-  if (Dot(s.ng, shading.n) < Real(.35)) return;
   const int sides =
       Handedness(s.dpdu, s.dpdv, s.ng) * Handedness(shading.dpdu, shading.dpdv, shading.n);
   findings->Expect(sides > 0, "the shading tangents have the hand of the true ones", sides, 1);
@@ -95,7 +93,6 @@ void CheckDerivatives(const ProbedScene& scene, const Sight& sight, const Vector
                      double(Length(predicted)));
   };
   compare(o.ng - s.ng, s.dndu * du + s.dndv * dv, "dndu and dndv against a near hit");
-  if (Dot(s.ng, s.shading.n) < Real(.35)) return;
   compare(o.shading.n - s.shading.n, s.shading.dndu * du + s.shading.dndv * dv,
           "shading dndu and dndv against a near hit");
 }

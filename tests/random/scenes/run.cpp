@@ -53,6 +53,7 @@ std::vector<Comparison> Compared(const std::string& property, const SceneModel& 
   if (property == kFurnace) return CompareWithFurnace(scene, effort);
   if (property == kSums) return CompareWithSum(scene, effort);
   if (property == kPairs) return ComparePairs(scene, effort);
+  if (property == kPhotons) return ComparePhotons(scene, effort);
   Effort more = effort;
   more.comparesMore = property == kRooms;
   return IntegratorComparison(AgreementScene(property, scene, effort.sceneSeed), more)
@@ -63,6 +64,7 @@ std::string ComparedText(const std::string& property, const SceneModel& scene, s
   if (property == kEnergy) return EnergyText(scene);
   if (property == kEstimates) return SceneText(SometimesFocused(scene, seed), {});
   if (property == kPairs) return PairText(scene, seed);
+  if (property == kPhotons) return PhotonText(scene, seed);
   if (property == kFurnace || property == kSums) return FurnaceText(ExactFurnace(scene, seed));
   return AgreementText(AgreementScene(property, scene, seed));
 }

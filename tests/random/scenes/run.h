@@ -36,7 +36,7 @@ inline constexpr double kBlurFalls = .6;
 inline const std::string kVariations = "variations", kInvariances = "invariances",
                          kProbes = "probes";
 inline const std::string kEnergy = "energy", kEstimates = "estimates", kFurnace = "furnace",
-                         kSums = "sums", kPairs = "pairs", kRooms = "rooms",
+                         kSums = "sums", kPairs = "pairs", kPhotons = "photons", kRooms = "rooms",
                          kAgreement = "agreement";
 
 struct RunSettings {

@@ -39,7 +39,7 @@ struct Options {
 constexpr const char* kUsage =
     "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only PROPERTY] "
     "[--shrink TRIES] [--until-failure] [--folder PATH] [--counts FILE]\nproperties: variations, "
-    "probes, estimates, energy, pairs, invariances, sums, furnace, rooms, agreement";
+    "probes, estimates, energy, pairs, photons, invariances, sums, furnace, rooms, agreement";
 
 // Converts the whole text to a number of type T.
 template <class T>
@@ -118,11 +118,17 @@ struct Share {
 };
 
 std::vector<Share> SharesOf(const Options& options) {
-  const std::vector<Share> all{{kVariations, 1}, {kProbes, 4},
-                               {kEstimates, 2},  {kEnergy, 2},
-                               {kPairs, 20},     {kInvariances, 100},
-                               {kSums, 50},      {kFurnace, 200},
-                               {kRooms, 200},    {kAgreement, options.agreementEvery}};
+  const std::vector<Share> all{{kVariations, 1},
+                               {kProbes, 4},
+                               {kEstimates, 2},
+                               {kEnergy, 2},
+                               {kPairs, 20},
+                               {kInvariances, 100},
+                               {kSums, 50},
+                               {kFurnace, 200},
+                               {kPhotons, 20},
+                               {kRooms, 200},
+                               {kAgreement, options.agreementEvery}};
   if (options.only.empty()) return all;
   for (const Share& share : all)
     if (share.property == options.only)

@@ -13,6 +13,7 @@
 #include <cstdio>
 
 #include "core/math/sampling/random.h"
+#include "tests/random/probes/rooms.h"
 #include "tests/random/scenes/scene_text.h"
 #include "tests/random/scenes/statistics.h"
 #include "tests/support/test_scene.h"
@@ -72,12 +73,14 @@ std::string SettingText(const SettingsPair& pair, const char* setting) {
   return *pair.name ? "\"" + std::string(pair.name) + "\" " + setting : setting;
 }
 
-std::string PairSceneText(const SceneModel& scene, const std::string& integrator, int factor) {
+// `factor` and `photonFactor` multiply the numbers of samples and of photons.
+std::string PairSceneText(const SceneModel& scene, const std::string& integrator, int factor,
+                          int photonFactor) {
   TextOptions options;
   options.integrator = integrator;
   options.samples = kPairSamples * factor;
-  // The blur of density estimates falls with more photons, a defect does not.
-  options.photons = 500 * factor, options.maxPhotonPaths = 10000 * factor, options.gatherRays = 6;
+  options.photons = 500 * photonFactor, options.maxPhotonPaths = 10000 * photonFactor;
+  options.gatherRays = 6;
   options.width = kPairWidth, options.height = kPairHeight;
   return SceneText(scene, options);
 }
@@ -102,33 +105,123 @@ PartMeans MeansOf(const std::string& text, std::uint64_t firstSeed) {
   return means;
 }
 
+// Differences up to these are allowed, relative to a part of the light and to the picture.
+struct Margins {
+  double ofPart = 0, ofPicture = 0;
+};
+
+// Compares the means of each part. With equal seeds the differences have less noise than the means.
+std::vector<Comparison> CompareParts(const std::string& what, const PartMeans& a,
+                                     const PartMeans& b, const Margins& margins,
+                                     bool hasEqualSeeds) {
+  const double picture = std::max(SampleOf(a[0]).mean, SampleOf(b[0]).mean);
+  std::vector<Comparison> comparisons;
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
+    // Sums of float pixels in another order differ in the last digits.
+    const double margin = std::max(margins.ofPart, 1e-5) * std::max(left.mean, right.mean) +
+                          margins.ofPicture * picture;
+    std::vector<double> differences;
+    for (std::size_t k = 0; k < a[i].size(); ++k) differences.push_back(a[i][k] - b[i][k]);
+    const double chance = hasEqualSeeds
+                              ? PValueBeyond(SampleOf(differences), {0, 0, kPairSeeds}, margin)
+                              : PValueBeyond(left, right, margin);
+    char detail[120];
+    std::snprintf(detail, sizeof detail, "%.5g +- %.2g against %.5g +- %.2g", left.mean,
+                  std::sqrt(left.variance), right.mean, std::sqrt(right.variance));
+    comparisons.push_back({what + ", " + kParts[i], chance, left.mean - right.mean, detail});
+  }
+  return comparisons;
+}
+
+enum class Ingredient { Gloss, ScatteringFog, GlowingFog };
+
+struct PhotonPair {
+  Ingredient ingredient;
+  const char* first;
+  const char* second;
+  bool hasEqualSeeds = false;
+};
+constexpr double kPhotonMargin = .05;  // for the blur of photon maps
+constexpr const char* kLongPaths = R"("path" "integer maxdepth" 60)";
+constexpr const char* kDeepPhotonMap = R"("photonmap" "integer maxdepth" 24)";
+constexpr const char* kDeepExPhotonMap = R"("exphotonmap" "integer maxdepth" 24)";
+constexpr const char* kDeepEstimates =
+    R"("exphotonmap" "integer maxdepth" 24 "bool radiancephotons" "false")";
+constexpr std::array<PhotonPair, 6> kPhotonPairs{{
+    {Ingredient::Gloss, kDeepExPhotonMap, kDeepEstimates, true},
+    {Ingredient::Gloss, kDeepExPhotonMap, kLongPaths},
+    {Ingredient::ScatteringFog, kDeepPhotonMap, kLongPaths},
+    {Ingredient::ScatteringFog, kDeepExPhotonMap, kLongPaths},
+    {Ingredient::GlowingFog, kDeepPhotonMap, kLongPaths},
+    {Ingredient::GlowingFog, kDeepExPhotonMap, kLongPaths},
+}};
+
+const PhotonPair& PhotonPairOf(std::uint64_t seed) {
+  return kPhotonPairs[std::size_t(HashKey({seed, 21}) % kPhotonPairs.size())];
+}
+
+SceneModel PhotonSphere(const SceneModel& drawn, std::uint64_t seed) {
+  const Ingredient ingredient = PhotonPairOf(seed).ingredient;
+  RandomStream random(HashKey({seed, 22}));
+  const auto choose = [&](int count) { return int(random.Bits() % std::uint64_t(count)); };
+  SceneModel scene = PhotonRoom(drawn, seed);
+  scene.room = RoomKind::Sphere;
+  scene.bodies.clear(), scene.media.clear();
+  scene.lights = {{.colour = {9, 8, 7}, .place = {choose(5) - 2, choose(5) - 2, choose(3) - 3}}};
+  scene.volumeIntegrator = 0;
+  if (ingredient == Ingredient::Gloss) {
+    constexpr std::array<MaterialKind, 3> kGlossy{MaterialKind::Plastic, MaterialKind::Substrate,
+                                                  MaterialKind::Metal};
+    scene.walls.kind = kGlossy[std::size_t(choose(3))];
+    scene.walls.share = 2, scene.walls.roughness = choose(2);
+    return scene;
+  }
+  scene.walls.kind = MaterialKind::Matte;
+  scene.walls.share = 0;
+  MediumModel fog{.kind = choose(3), .scattered = {9, 8, 7}, .emitted = {2, 2, 2}};
+  fog.parts = ingredient == Ingredient::ScatteringFog ? 1 : 2;
+  fog.phase = choose(3);
+  scene.media = {fog};
+  scene.volumeIntegrator = ingredient == Ingredient::ScatteringFog ? 2 : 1 + choose(2);
+  if (ingredient == Ingredient::GlowingFog) scene.lights.clear();
+  return scene;
+}
+
 }  // namespace
 
 std::vector<Comparison> ComparePairs(const SceneModel& scene, const Effort& effort) {
   const SettingsPair& pair = PairOf(effort.sceneSeed);
   const SceneModel same = PairScene(scene, pair);
   const std::string first = SettingText(pair, pair.first), second = SettingText(pair, pair.second);
-  const PartMeans a = MeansOf(PairSceneText(same, first, effort.factor), effort.firstSeed);
-  const PartMeans b = MeansOf(PairSceneText(same, second, effort.factor), effort.firstSeed + 7);
-  std::vector<Comparison> comparisons;
-  for (std::size_t i = 0; i < kParts.size(); ++i) {
-    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
-    const double size = std::max(left.mean, right.mean);
-    // Sums of float pixels in another order differ in the last digits.
-    const double picture = std::max(SampleOf(a[0]).mean, SampleOf(b[0]).mean);
-    const double margin = std::max(pair.margin, 1e-5) * size + pair.pictureMargin * picture;
-    char detail[120];
-    std::snprintf(detail, sizeof detail, "%.5g +- %.2g against %.5g +- %.2g", left.mean,
-                  std::sqrt(left.variance), right.mean, std::sqrt(right.variance));
-    comparisons.push_back({first + " against " + second + ", " + kParts[i],
-                           PValueBeyond(left, right, margin), left.mean - right.mean, detail});
-  }
-  return comparisons;
+  // The blur of density estimates falls with more photons, a defect does not.
+  const auto means = [&](const std::string& integrator, std::uint64_t seed) {
+    return MeansOf(PairSceneText(same, integrator, effort.factor, effort.factor), seed);
+  };
+  const PartMeans a = means(first, effort.firstSeed);
+  const PartMeans b = means(second, effort.firstSeed + 7);
+  return CompareParts(first + " against " + second, a, b, {pair.margin, pair.pictureMargin}, false);
 }
 
 std::string PairText(const SceneModel& scene, std::uint64_t seed) {
   const SettingsPair& pair = PairOf(seed);
-  return PairSceneText(PairScene(scene, pair), SettingText(pair, pair.first), 1);
+  return PairSceneText(PairScene(scene, pair), SettingText(pair, pair.first), 1, 1);
+}
+
+std::vector<Comparison> ComparePhotons(const SceneModel& scene, const Effort& effort) {
+  const PhotonPair& pair = PhotonPairOf(effort.sceneSeed);
+  const SceneModel sphere = PhotonSphere(scene, effort.sceneSeed);
+  const auto means = [&](const char* integrator, std::uint64_t seed) {
+    return MeansOf(PairSceneText(sphere, integrator, effort.factor, 4 * effort.factor), seed);
+  };
+  const PartMeans a = means(pair.first, effort.firstSeed);
+  const PartMeans b = means(pair.second, effort.firstSeed + (pair.hasEqualSeeds ? 0 : 7));
+  return CompareParts(std::string(pair.first) + " against " + pair.second, a, b, {kPhotonMargin},
+                      pair.hasEqualSeeds);
+}
+
+std::string PhotonText(const SceneModel& scene, std::uint64_t seed) {
+  return PairSceneText(PhotonSphere(scene, seed), PhotonPairOf(seed).first, 1, 4);
 }
 
 }  // namespace exphoton::random_scenes

@@ -6,21 +6,19 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+
+#include "tests/rounding/measure/print.h"
 
 namespace exphoton::rounding {
 namespace {
 
 constexpr const char* kBegin = "<!-- digits -->\n";
 constexpr const char* kEnd = "<!-- end -->\n";
-
-template <class... Arguments>
-std::string Print(const char* format, Arguments... arguments) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
-}
+constexpr std::size_t kPageWidth = 100;
+constexpr std::size_t kNameWidth = 40;  // in lines
 
 const Limit* LimitOf(const std::vector<Limit>& limits, const std::string& name) {
   for (const Limit& limit : limits)
@@ -44,6 +42,28 @@ std::string LineOf(const Result& result) {
   return Print("%-40.40s mean %.1f  median %.1f  worst %.1f  decided %5.1f %%  %6.2f s",
                NameOf(result.subject).c_str(), spread.mean, spread.median, spread.worst,
                100 * spread.decided, result.seconds);
+}
+
+EarlierLines::EarlierLines(std::istream& in) {
+  for (std::string line; std::getline(in, line);) {
+    Spread spread;
+    if (line.size() < kNameWidth ||
+        std::sscanf(line.c_str() + kNameWidth, " mean %lf median %lf worst %lf decided %lf %%",
+                    &spread.mean, &spread.median, &spread.worst, &spread.decided) != 4)
+      continue;
+    spread.decided /= 100;
+    spreads_.emplace(line.substr(0, kNameWidth), spread);
+  }
+}
+
+std::optional<Spread> EarlierLines::Take(const Subject& subject) {
+  std::string name = NameOf(subject);
+  name.resize(kNameWidth, ' ');
+  const auto found = spreads_.find(name);
+  if (found == spreads_.end()) return {};
+  const Spread spread = found->second;
+  spreads_.erase(found);
+  return spread;
 }
 
 std::vector<Row> RowsOf(const std::vector<Result>& results) {
@@ -104,8 +124,44 @@ std::vector<std::string> Excesses(const std::vector<Row>& rows, const std::vecto
   return excesses;
 }
 
+std::vector<std::string> NotMeasured(const std::vector<Row>& rows,
+                                     const std::vector<Limit>& limits) {
+  std::vector<std::string> names;
+  for (const Limit& limit : limits)
+    if (std::none_of(rows.begin(), rows.end(),
+                     [&](const Row& row) { return row.name == limit.name; }))
+      names.push_back(limit.name);
+  return names;
+}
+
+std::string LeftOutText(const std::vector<LeftOut>& leftOut) {
+  // "3 vertex/nan" and "3 vertex/inf" become "3 vertex (2)".
+  std::map<std::string, std::vector<std::pair<std::string, int>>> byReason;
+  for (const LeftOut& each : leftOut) {
+    auto& names = byReason[each.reason];
+    const std::string name = each.name.substr(0, each.name.find('/'));
+    if (names.empty() || names.back().first != name) names.push_back({name, 0});
+    ++names.back().second;
+  }
+  std::string text;
+  for (const auto& [reason, names] : byReason) {
+    std::string line = "- " + reason + ":";
+    for (const auto& [name, count] : names) {
+      const std::string word = " " + name + (count > 1 ? Print(" (%d)", count) : "") +
+                               (name == names.back().first ? "." : ",");
+      if (line.size() + word.size() > kPageWidth) {
+        text += line + "\n";
+        line = " ";
+      }
+      line += word;
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
 void WriteTables(const std::vector<Row>& rows, const std::vector<Limit>& limits,
-                 const std::string& path) {
+                 const std::vector<LeftOut>& leftOut, const std::string& path) {
   std::string tables, group;
   for (const Row& row : rows) {
     if (row.group != group) {
@@ -120,6 +176,7 @@ void WriteTables(const std::vector<Row>& rows, const std::vector<Limit>& limits,
                     row.runs, row.most.mean, limit->mean, row.most.median, limit->median,
                     row.most.worst, 100 * row.most.decided);
   }
+  if (!leftOut.empty()) tables += "\n**Left out**\n\n" + LeftOutText(leftOut);
   std::ostringstream old;
   old << std::ifstream(path).rdbuf();
   std::string page = old.str();

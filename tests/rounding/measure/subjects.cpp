@@ -11,7 +11,6 @@
 #include "core/parser/render_setup.h"
 #include "core/parser/syntax/source.h"
 #include "tests/hardcases/case_file.h"
-#include "tests/support/test_scene.h"
 
 namespace exphoton::rounding {
 namespace {
@@ -30,22 +29,49 @@ std::string Limited(const std::string& text, const std::string& names, int limit
   return result.append(rest, text.cend());
 }
 
-// Fewer photons; quick renders divide them once more.
+// Fewer photons; quick renders divide them once more. A guided path searches its map of photons at
+// each bounce, which is slow without vectors.
 std::string Small(const std::string& text) {
-  return Limited(text, "directphotons|causticphotons|indirectphotons", 10000);
+  const std::string few = Limited(text, "directphotons|causticphotons|indirectphotons", 10000);
+  const bool isGuided = few.find("\"guidedpath\"") != std::string::npos;
+  return isGuided ? Limited(few, "maxdepth", 20) : few;
+}
+
+// Returns why a run has no picture to compare; empty if it has one.
+std::string ReasonAgainst(const hardcases::Run& run) {
+  if (run.status != 0) return "ends with an error, as it must";
+  const std::string option = run.arguments.empty() ? "" : run.arguments.front();
+  const bool isEqual = option.empty() || option == "--nthreads" || option == "--verbose";
+  return isEqual && run.environment.empty() ? "" : "has another command line";
+}
+
+void AddCase(const hardcases::Group& group, const hardcases::Case& each, Subjects* subjects) {
+  if (each.runs.empty() && each.scripts.empty())
+    subjects->leftOut.push_back({each.id, "has tests of parts, and no scene"});
+  for (const hardcases::Script& script : each.scripts)
+    subjects->leftOut.push_back(
+        {each.id + " " + script.name, "is a script, with renders of its own"});
+  for (const hardcases::Run& run : each.runs) {
+    const std::string name = each.id + " " + run.name, reason = ReasonAgainst(run);
+    if (reason.empty())
+      subjects->all.push_back({group.title, name, Small(run.scene), ""});
+    else
+      subjects->leftOut.push_back({name, reason});
+  }
+}
+
+bool ShootsPhotons(const std::string& integrator) {
+  return integrator.find("photonmap") != std::string::npos ||
+         integrator.find("\"guidedpath\"") != std::string::npos;
 }
 
 }  // namespace
 
-std::vector<Subject> ReadHardCases() {
-  std::vector<Subject> subjects;
+Subjects ReadHardCases() {
+  Subjects subjects;
   const std::string folder = std::string(EXPHOTON_SOURCE_DIR) + "/tests/hardcases/cases";
   for (const auto& group : hardcases::ReadCatalogue(folder))
-    for (const auto& each : group.cases)
-      for (const auto& run : each.runs)
-        if (run.status == 0 && !each.isSlow && !run.isSlow && run.arguments.empty() &&
-            run.scene.find("\"guidedpath\"") == std::string::npos)
-          subjects.push_back({group.title, each.id + " " + run.name, Small(run.scene), ""});
+    for (const auto& each : group.cases) AddCase(group, each, &subjects);
   return subjects;
 }
 
@@ -63,23 +89,43 @@ std::vector<Subject> ReadScenes() {
   return subjects;
 }
 
-Image RenderSubject(const Subject& subject) {
+namespace {
+
+LoadOptions LoadOptionsFor(const Subject& subject) {
   LoadOptions load;
   load.isQuick = true;  // a quarter of the resolution, one sample, and fewer photons
   load.parameters = {{"Film", "xresolution", "32"}, {"Film", "yresolution", "24"}};
-  const std::string& integrator = subject.file.empty() ? subject.text : subject.name;
-  if (integrator.find("photonmap") != std::string::npos)
+  if (ShootsPhotons(subject.file.empty() ? subject.text : subject.name))
     load.parameters.push_back({"SurfaceIntegrator", "maxphotonpaths", "5000"});
-  TestRenderOptions options;
-  options.isStrict = false;
-  options.load = load;
-  if (!subject.text.empty()) return RenderSceneText(subject.text, options).image;
+  return load;
+}
+
+LoadedScene LoadFile(const Subject& subject) {
+  LoadOptions load = LoadOptionsFor(subject);
+  load.pluginFolders = {std::string(EXPHOTON_BINARY_DIR) + "/plugins"};
   LoadedScene scene;
   scene.log = std::make_unique<Log>(Log::Level::Normal, Log::Sink::Memory);
   FileSource source;
-  load.pluginFolders = {std::string(EXPHOTON_BINARY_DIR) + "/plugins"};
   scene.setup = std::move(LoadScenes(source, subject.file, load, *scene.log).front());
-  return RenderLoaded(scene, options).image;
+  return scene;
+}
+
+}  // namespace
+
+std::vector<TestRender> RenderSubject(const Subject& subject, int count,
+                                      const std::function<void(int)>& begin) {
+  TestRenderOptions options;
+  options.isStrict = false;
+  options.load = LoadOptionsFor(subject);
+  LoadedScene scene;
+  if (!subject.file.empty()) scene = LoadFile(subject);
+  std::vector<TestRender> renders;
+  for (int i = 0; i < count; ++i) {
+    begin(i);
+    if (subject.file.empty()) scene = LoadSceneText(subject.text, options.load);
+    renders.push_back(RenderLoaded(scene, options));
+  }
+  return renders;
 }
 
 }  // namespace exphoton::rounding

@@ -3,11 +3,11 @@
 // with fewer samples and photons, and the files of scenes/ with few pixels.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "core/imaging/image.h"
+#include "tests/support/test_scene.h"
 
 namespace exphoton::rounding {
 
@@ -18,13 +18,24 @@ struct Subject {
   std::string file;
 };
 
-// Of cases: each run that must succeed. Slow ones, scripts and runs with other command lines are
-// left out, and so is guidedpath, whose guides take minutes without vectors.
-std::vector<Subject> ReadHardCases();
+// LeftOut names a case, or a run or script of one, that cannot be measured.
+struct LeftOut {
+  std::string name;
+  std::string reason;
+};
+struct Subjects {
+  std::vector<Subject> all;
+  std::vector<LeftOut> leftOut;
+};
+// Slow cases are measured, too, because they have few pixels and photons here.
+Subjects ReadHardCases();
 // By path tracing. Photon maps are in the hard cases, and would take most of the time.
 std::vector<Subject> ReadScenes();
 
-// Renders with one thread and a fixed seed.
-Image RenderSubject(const Subject& subject);
+// Renders `count` times with one thread and a fixed seed, and calls begin(i) before picture i. A
+// hard case is loaded after each of these calls. A scene file is loaded once, before the first,
+// because large meshes take longer to load than their few pixels.
+std::vector<TestRender> RenderSubject(const Subject& subject, int count,
+                                      const std::function<void(int)>& begin);
 
 }  // namespace exphoton::rounding

@@ -156,15 +156,20 @@ TEST(InstanceSurface, OfAMeshHasTheScaledNormalsAtItsVertices) {
   }
 }
 
-// The stretch along z takes the interpolated normals to the other side of the triangle. They are
-// turned back, and their derivatives are the differences of the turned normals.
-TEST(InstanceSurface, OfAMeshTurnsDerivativesWithItsNormals) {
+// A stretch by 10 along z takes the interpolated normals to the other side of this triangle.
+TriangleMesh MeshWithTurnedNormals() {
   TriangleMesh mesh;
   mesh.p = {Point3(0, 0, 0), Point3(1, 0, 0), Point3(0, Real(.8), Real(-.6))};
   mesh.uv = {{0, 0}, {1, 0}, {0, 1}};
   mesh.indices = {{0, 1, 2}};
   mesh.n = {Normal3(0, Real(-.5), Real(.9)), Normal3(Real(.2), Real(-.5), Real(.9)),
             Normal3(0, Real(-.4), Real(.9))};
+  return mesh;
+}
+
+// The normals are turned back, and their derivatives are the differences of the turned normals.
+TEST(InstanceSurface, OfAMeshTurnsDerivativesWithItsNormals) {
+  const TriangleMesh mesh = MeshWithTurnedNormals();
   const Transform place = *Transform::Scale(1, 1, 10);
   const auto at = [&](Real u, Real v) {
     return SurfaceToWorld(place, TriangleSurface(mesh, 0, u, v));
@@ -180,6 +185,20 @@ TEST(InstanceSurface, OfAMeshTurnsDerivativesWithItsNormals) {
   EXPECT_LT(Distance(surface.shading.dndu, du / (2 * h)), Real(1e-3));
   EXPECT_LT(Distance(surface.shading.dndv, dv / (2 * h)), Real(1e-3));
   EXPECT_GT(Length(surface.shading.dndu), Real(.05));
+}
+
+TEST(InstanceSurface, OfAMeshKeepsTheHandOfTangentsWhereItTurnsNormals) {
+  const TriangleMesh mesh = MeshWithTurnedNormals();
+  for (const Real mirror : {1, -1}) {
+    const SurfaceInteraction surface = SurfaceToWorld(
+        *Transform::Scale(mirror, 1, 10), TriangleSurface(mesh, 0, Real(.25), Real(.25)));
+    const auto& shading = surface.shading;
+    const Real hand = Dot(Cross(surface.dpdu, surface.dpdv), surface.ng);
+    EXPECT_GT(Dot(Cross(shading.dpdu, shading.dpdv), shading.n) * hand, 0) << mirror;
+    EXPECT_NEAR(Dot(shading.dpdu, shading.n), 0, 1e-5);
+    EXPECT_NEAR(Dot(shading.dpdv, shading.n), 0, 1e-5);
+    EXPECT_NEAR(Length(shading.dpdv) / Length(surface.dpdv), 1, 1e-5);
+  }
 }
 
 }  // namespace
