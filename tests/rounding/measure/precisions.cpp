@@ -58,8 +58,8 @@ Distance DistanceOf(const std::vector<std::vector<double>>& pictures,
     for (const std::vector<double>& picture : pictures)
       for (std::size_t i = pixel; i < pixel + kChannels; ++i)
         if (picture.at(i) != truth[i])
-          most = std::max(most, std::abs(picture[i] - truth[i]) /
-                                    (std::abs(truth[i]) + .01 * mean));
+          most =
+              std::max(most, std::abs(picture[i] - truth[i]) / (std::abs(truth[i]) + .01 * mean));
     errors.push_back(most);
   }
   if (errors.empty()) throw std::invalid_argument("a picture without pixels");
@@ -101,8 +101,7 @@ std::string TextOf(const std::vector<PrecisionRow>& rows) {
     text += Print("| %s | %.2g | %.1f %% | %.2g | %.1f %% | %.1f %% | %s |\n", row.name.c_str(),
                   row.inFloat.median / 0x1p-23, 100 * row.inFloat.decided,
                   row.inDouble.median / 0x1p-52, 100 * row.inDouble.between,
-                  100 * row.inDouble.decided,
-                  ratio == 0 ? "" : Print("2^%.1f", ratio).c_str());
+                  100 * row.inDouble.decided, ratio == 0 ? "" : Print("2^%.1f", ratio).c_str());
   }
   return text;
 }
