@@ -136,12 +136,10 @@ class LightCheck {
     const Real cosine = Dot(on.ng, w);
     if (!(cosine > Real(.1))) return;
     const auto pdf = light_.PdfEmission(on, w);
-    Expect(AreClose(double(pdf.direction), double(sample.pdfDirection), .03),
-           "density of a direction of a lamp", double(pdf.direction), double(sample.pdfDirection));
+    wrongDensities_ += !AreClose(double(pdf.direction), double(sample.pdfDirection), .03);
     const Spectrum power =
         on.areaLight->L(on, on.uv, w) * (cosine / (sample.pdfPosition * sample.pdfDirection));
-    Expect(AreClose(double(power.Y()), double(sample.power.Y()), .05), "power of a ray of a lamp",
-           double(power.Y()), double(sample.power.Y()));
+    wrongRadiances_ += !AreClose(double(power.Y()), double(sample.power.Y()), .05);
   }
 
   const ProbedScene& scene_;
