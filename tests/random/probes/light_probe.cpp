@@ -121,12 +121,13 @@ class LightCheck {
   }
 
   void CheckEmissionOfArea(const LightLeSample& sample) {
-    constexpr Real kBack = Real(.01);
     const Vector3& w = sample.ray.d;
+    const auto ahead = scene_.Look(sample.ray);  // another face is near where two faces meet
+    const Real distance = std::min(Real(.01), ahead ? ahead->hit.hit.t / 2 : kInfinity);
     Ray back = sample.ray;
-    back.o = sample.ray(kBack), back.d = -w;
+    back.o = sample.ray(distance), back.d = -w;
     const auto sight = scene_.Look(back);
-    if (!sight || std::abs(sight->hit.hit.t - kBack) > Real(1e-3)) {
+    if (!sight || std::abs(sight->hit.hit.t - distance) > distance / 10) {
       ++misses_;
       return;
     }
