@@ -89,6 +89,17 @@ MaterialModel WithExactAlbedo(const MaterialModel& material, bool mayEmit, std::
   return exact;
 }
 
+// Within glass of index n all radiances are n^2. A medium or a matte body there does not emit as
+// much, and bodies may overlap. The glass becomes matte then.
+void ReplaceShiningGlass(SceneModel* furnace) {
+  const auto isMatte = [](const BodyModel& b) { return b.material.kind == MaterialKind::Matte; };
+  if (furnace->media.empty() &&
+      std::none_of(furnace->bodies.begin(), furnace->bodies.end(), isMatte))
+    return;
+  for (BodyModel& body : furnace->bodies)
+    if (body.material.kind == MaterialKind::Glass) body.material.kind = MaterialKind::Matte;
+}
+
 std::string MethodText(const FurnaceMethod& method, int bounces) {
   std::string text = method.integrator;
   if (*method.depth)
@@ -146,9 +157,6 @@ SceneModel ExactFurnace(const SceneModel& scene, std::uint64_t seed) {
     const bool isClosed = body.kind == BodyKind::Sphere || body.kind == BodyKind::Box;
     const bool mayEmit = isClosed && body.isInstance == 0;
     body.material = WithExactAlbedo(body.material, mayEmit, random.Bits());
-    // Within glass of index n all radiances are n^2, which a medium there does not emit.
-    if (!scene.media.empty() && body.material.kind == MaterialKind::Glass)
-      body.material.kind = MaterialKind::Matte;
     body.reverse = 0;
     if (body.stretch == 2) body.stretch = 0;
     if (body.kind == BodyKind::SmoothMesh || body.kind == BodyKind::Subdivided ||
@@ -157,6 +165,7 @@ SceneModel ExactFurnace(const SceneModel& scene, std::uint64_t seed) {
     body.place.z = std::max(body.place.z, -1);  // the camera at the front wall stays outside
   }
   for (MediumModel& medium : exact.media) medium.parts = 0;
+  ReplaceShiningGlass(&exact);
   return exact;
 }
 
