@@ -85,6 +85,7 @@ class IgiIntegrator final : public SurfaceIntegrator {
   AovSet Aovs() const override { return kLightAovs; }
 
   std::optional<int> EmissionDepth() const override { return 0; }
+  bool HasCostlySamples() const override { return true; }
   FeatureSet ComputedFeatures() const override {
     const FeatureSet some =
         FeatureSet::All().Without(kPhotonMapFeatures).Without({Feature::Caustics});

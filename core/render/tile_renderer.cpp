@@ -90,8 +90,12 @@ TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, c
       aovs_(options.aovs),
       differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))),
       // A pass with a time of its own shows this time alone.
-      emitters_(job.scene, job.camera,
-                target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {}
+      movingEmitters_(job.scene, job.camera,
+                      target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {
+  // Splatted samples contribute to other pixels as well, by their own place.
+  if (!target.splats && job.integrator.EmissionDepth() && job.integrator.HasCostlySamples())
+    stillEmitters_.emplace(FilmView{job.scene, job.camera, job.filter, target.film});
+}
 
 void TileRenderer::RenderTile(const PixelBounds& tile, RenderWorker* worker) const {
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -169,10 +173,10 @@ void TileRenderer::MakeUsable(const SampleKey& key, RenderWorker* worker, Spectr
 void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) const {
   CameraSamples& samples = worker->samples;
   target_.sampler.Generate(key, &samples);
-  const Point2 half(Real(.5), Real(.5));
-  const FilterSample filter =
-      target_.splats ? FilterSample{samples.film - half, 1} : job_.filter.Sample(samples.film);
-  const Point2 film = Point2(Real(key.pixel.x), Real(key.pixel.y)) + half + filter.offset;
+  const FilterSample filter = target_.splats
+                                  ? FilterSample{samples.film - Point2(Real(.5), Real(.5)), 1}
+                                  : job_.filter.Sample(samples.film);
+  const Point2 film = PlaceOf(key.pixel, filter);
   const RayDifferential ray = CameraRay(film, samples);
 
   LiContext context = MakeContext(key, worker);
@@ -193,7 +197,9 @@ void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) cons
   const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
   for (const GatherRecord& gather : worker->gathers)
     if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
-  AverageEmission({film, ray, context, specularRays}, worker, &L, &aovs);
+  const TracedSample sample{key.pixel, filter, ray, context, specularRays};
+  AverageTimes(sample, worker, &L, &aovs);
+  AveragePlaces(sample, worker, &L, &aovs);
   MakeUsable(key, worker, &L, &aovs);
   if (target_.gathers) {
     const int group = GatherGroup(key.pixel, key.index);
@@ -223,36 +229,65 @@ LiContext TileRenderer::MakeContext(const SampleKey& key, RenderWorker* worker) 
   return context;
 }
 
-RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& samples) const {
+CameraSample TileRenderer::AtPlace(Point2 film, const CameraSamples& samples) const {
   CameraSample sample;
   sample.film = film;
   sample.lens = Needs(Feature::Lens) ? samples.lens : Point2(Real(.5), Real(.5));
   sample.time = Needs(Feature::Motion) ? target_.pass.time.value_or(samples.time) : 0;
-  RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
+  return sample;
+}
+
+RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& samples) const {
+  RayDifferential ray = job_.camera.GenerateRay(AtPlace(film, samples), Needs(Feature::Filtering));
   if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
   return ray;
 }
 
-void TileRenderer::AverageEmission(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
-                                   AovSample* aovs) const {
+void TileRenderer::AverageTimes(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
+                                AovSample* aovs) const {
   const bool hasBounced =
-      emitters_.FollowsSpecularRays() && SpecularRays(*worker) > sample.specularRays;
-  if (!hasBounced && !emitters_.MayMeet(sample.ray)) return;
+      movingEmitters_.FollowsSpecularRays() && SpecularRays(*worker) > sample.specularRays;
+  if (!hasBounced && !movingEmitters_.MayMeet(sample.ray)) return;
   RayCounters* const rays = &worker->totals.rays;
-  const EmittedLight own = emitters_.Along(sample.ray, sample.context, rays);
+  const EmittedLight own = movingEmitters_.Along(sample.ray, sample.context, rays);
   if (!own.isNear) return;
   EmissionMean mean(own);
   CameraSamples& samples = worker->samples;
+  const Point2 film = PlaceOf(sample.pixel, sample.filter);
   const Real time = samples.time;
   for (int i = 1; i < MovingEmitters::kTimes; ++i) {
     const Real later = time + Real(i) / Real(MovingEmitters::kTimes);
     samples.time = later < 1 ? later : later - 1;
-    mean.Add(emitters_.Along(CameraRay(sample.film, samples), sample.context, rays));
+    mean.Add(movingEmitters_.Along(CameraRay(film, samples), sample.context, rays));
   }
   samples.time = time;
   Replace(own.first + own.specular, mean.First() + mean.Specular(), L);
   Replace(own.first, mean.First(), &aovs->emission);
   Replace(own.specular, mean.Specular(), &aovs->specular);
+}
+
+void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
+                                 AovSample* aovs) const {
+  const int places = stillEmitters_ ? stillEmitters_->PlacesIn(sample.pixel) : 1;
+  if (places == 1) return;
+  const auto own = stillEmitters_->Along(sample.ray);
+  if (!own) return;
+  Spectrum sum = *own * sample.filter.weight;
+  bool isEdge = false;
+  for (int i = 1; i < places; ++i) {
+    const FilterSample filter =
+        job_.filter.Sample(StillEmitters::Place(worker->samples.film, i, places));
+    const CameraSample at = AtPlace(PlaceOf(sample.pixel, filter), worker->samples);
+    worker->totals.rays.Count(RayKind::Camera);
+    const auto other = stillEmitters_->Along(job_.camera.GenerateRay(at, false));
+    if (!other) return;
+    isEdge = isEdge || *other != *own;
+    sum += *other * filter.weight;
+  }
+  if (!isEdge) return;
+  const Spectrum mean = sum / (Real(places) * sample.filter.weight);
+  Replace(*own, mean, L);
+  Replace(*own, mean, &aovs->emission);
 }
 
 void TileRenderer::Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const {

@@ -10,6 +10,7 @@
 #include "core/render/sharing/gather_fragments.h"
 #include "core/render/splat_buffer.h"
 #include "core/render/state/checkpoints.h"
+#include "core/render/still_emitters.h"
 
 namespace exphoton {
 
@@ -66,17 +67,26 @@ class TileRenderer {
   void RenderSample(const SampleKey& key, RenderWorker* worker) const;
   // Begins a sample: clears the worker's data of the last one.
   LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
+  CameraSample AtPlace(Point2 film, const CameraSamples& samples) const;
   RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const;
-  // A camera sample: its place on the film, its ray and its context.
+  // Returns a sample's place on the film.
+  static Point2 PlaceOf(Point2i pixel, const FilterSample& filter) {
+    return Point2(Real(pixel.x) + Real(.5), Real(pixel.y) + Real(.5)) + filter.offset;
+  }
+  // A camera sample: its pixel, its place in the filter, its ray and its context.
   struct TracedSample {
-    Point2 film;
+    Point2i pixel;
+    const FilterSample& filter;
     const RayDifferential& ray;
     const LiContext& context;
     std::uint64_t specularRays;  // of the thread, before the sample
   };
   // Replaces the light of moving emitters in L by the mean over several times.
-  void AverageEmission(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
-                       AovSample* aovs) const;
+  void AverageTimes(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
+                    AovSample* aovs) const;
+  // Replaces the light of still emitters in L by the mean over several places in the filter.
+  void AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
+                     AovSample* aovs) const;
   void MakeUsable(const SampleKey& key, RenderWorker* worker, Spectrum* L, AovSample* aovs) const;
   void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
 
@@ -86,7 +96,8 @@ class TileRenderer {
   NonFiniteLog* log_;
   AovFilm* aovs_;
   Real differentialScale_;
-  MovingEmitters emitters_;
+  MovingEmitters movingEmitters_;
+  std::optional<StillEmitters> stillEmitters_;  // if their light is replaced
 };
 
 }  // namespace exphoton

@@ -149,6 +149,9 @@ class SurfaceIntegrator {
   // surface. The renderer may replace this light by a better estimate
   // (core/render/moving_emitters.h).
   virtual std::optional<int> EmissionDepth() const { return std::nullopt; }
+  // Returns whether Li takes much longer than several camera rays. The renderer then spends such
+  // rays on the edges of lamps (core/render/still_emitters.h).
+  virtual bool HasCostlySamples() const { return false; }
   // Returns whether Li fills LiContext::gathers.
   virtual bool SharesGathers(const Scene& scene) const {
     (void)scene;

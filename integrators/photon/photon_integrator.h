@@ -30,6 +30,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
     if (settings_.show != ShowMap::Nothing) return std::nullopt;
     return settings_.maxDepth;
   }
+  bool HasCostlySamples() const override { return true; }
   bool SharesGathers(const Scene& scene) const override {
     return settings_.sharedGather && GathersIndirectLight(settings_, scene);
   }

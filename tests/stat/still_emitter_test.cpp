@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check the light of lamps that is averaged over several places of the film: which
+// pixels have several places, that the mean stays the same, and that edges become less noisy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/render/still_emitters.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kWidth = 24, kHeight = 18;
+
+const char* const kCosts =
+    "\"exphotonmap\" \"integer indirectphotons\" 0 \"integer causticphotons\" 0 "
+    "\"bool finalgather\" \"false\"";
+
+std::string LampScene(const std::string& options, const std::string& lamp) {
+  return "SurfaceIntegrator \"path\"\nFilm \"image\" \"integer xresolution\" 24 \"integer "
+         "yresolution\" 18\nSampler \"random\" \"integer pixelsamples\" 64\n" +
+         options + "\nWorldBegin\nAreaLightSource \"area\" \"color L\" [50 50 50]\n" + lamp +
+         "\nWorldEnd\n";
+}
+
+int PlacesIn(const LoadedScene& scene, Point2i pixel) {
+  const RenderSetup& setup = *scene.setup;
+  const Film film(setup.film.Full(), setup.crop);
+  return StillEmitters({*setup.scene, *setup.camera, *setup.filter, film}).PlacesIn(pixel);
+}
+
+// Returns the pixels with several places.
+std::set<int> Marked(const std::string& text) {
+  const LoadedScene scene = LoadSceneText(text);
+  std::set<int> marked;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (PlacesIn(scene, {x, y}) > 1) marked.insert(y * kWidth + x);
+  return marked;
+}
+
+TEST(StillEmitters, PlacesOfASampleLieInDifferentRowsAndColumns) {
+  for (const int n : {4, 16}) {
+    for (const Point2 u :
+         {Point2(0, 0), Point2(Real(.3), Real(.95)), Point2(Real(.999), Real(.5))}) {
+      std::set<int> columns, rows;
+      for (int i = 0; i < n; ++i) {
+        const Point2 place = StillEmitters::Place(u, i, n);
+        columns.insert(int(std::floor(place.x * Real(n))));
+        rows.insert(int(std::floor(place.y * Real(n))));
+      }
+      EXPECT_EQ(columns.size(), std::size_t(n));
+      EXPECT_EQ(rows.size(), std::size_t(n));
+      EXPECT_EQ(*columns.begin(), 0);
+      EXPECT_EQ(*rows.rbegin(), n - 1);
+      EXPECT_EQ(StillEmitters::Place(u, 0, n).x, u.x);
+      EXPECT_EQ(StillEmitters::Place(u, 0, n).y, u.y);
+    }
+  }
+}
+
+TEST(StillEmitters, EveryPixelThatShowsALampHasSeveralPlaces) {
+  const std::string cameras[] = {
+      "Camera \"perspective\" \"float fov\" 70",
+      "LookAt .3 -.2 -.5  0 0 2  .2 1 0\nCamera \"perspective\" \"float screenwindow\" [-1 .5 -1 1]",
+      "LookAt .3 -.2 -.5  0 0 2  0 1 0\nCamera \"orthographic\""};
+  const std::string lamps[] = {
+      "Translate .4 .3 2 Shape \"sphere\" \"float radius\" .2",
+      "Translate -.4 -.6 3 Shape \"sphere\" \"float radius\" .02",
+      "Translate -1.4 0 .1 Shape \"sphere\" \"float radius\" 1",  // reaches behind the camera
+      "Translate 0 -.5 1 Rotate 80 1 0 0 Shape \"disk\" \"float radius\" 1.5"};
+  for (const std::string& lamp : lamps) {
+    int shown = 0;
+    for (const std::string& camera : cameras) {
+      const std::string text = LampScene(camera + "\nPixelFilter \"gaussian\"", lamp);
+      const std::set<int> marked = Marked(text);
+      const Image image = RenderSceneText(text).image;
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          if (!(image.At(x, y, 0) > 0)) continue;
+          ++shown;
+          EXPECT_TRUE(marked.count(y * kWidth + x)) << camera << lamp << " " << x << "," << y;
+        }
+      }
+    }
+    EXPECT_GT(shown, 4) << lamp;
+  }
+}
+
+TEST(StillEmitters, OtherPixelsHaveOnePlace) {
+  const std::string lamp = "Translate .4 .3 2 Shape \"sphere\" \"float radius\" .2";
+  const std::string box = "PixelFilter \"box\"\n";
+  EXPECT_LT(Marked(LampScene(box, lamp)).size(), 40u);
+  EXPECT_TRUE(Marked(LampScene(box, "Translate 0 0 -2 Shape \"sphere\" \"float radius\" .2")).empty());
+  EXPECT_TRUE(Marked(LampScene(box, "Shape \"sphere\" \"float radius\" 3")).empty());  // round it
+  EXPECT_TRUE(Marked(LampScene(box + "Camera \"environment\"", lamp)).empty());
+  EXPECT_TRUE(Marked(LampScene(box + "Camera \"perspective\" \"float lensradius\" .1", lamp)).empty());
+}
+
+TEST(StillEmitters, SmallLampsHaveMorePlaces) {
+  const std::string small = "Translate 0 0 2 Shape \"sphere\" \"float radius\" .05";
+  const std::string large = "Translate 0 0 2 Shape \"sphere\" \"float radius\" 1";
+  EXPECT_EQ(PlacesIn(LoadSceneText(LampScene("", small)), {kWidth / 2, kHeight / 2}), 16);
+  EXPECT_EQ(PlacesIn(LoadSceneText(LampScene("", large)), {kWidth / 2, kHeight / 2}), 4);
+}
+
+// The pictures of one lamp for many seeds.
+class LampPictures {
+ public:
+  static constexpr int kSeeds = 80, kSize = 16;
+
+  LampPictures(const std::string& integrator, const std::string& filter, double radius) {
+    const std::string text =
+        "SurfaceIntegrator " + integrator + "\nFilm \"image\" \"integer xresolution\" 16 " +
+        "\"integer yresolution\" 16\nSampler \"random\" \"integer pixelsamples\" 4\nPixelFilter " +
+        filter +
+        "\nCamera \"perspective\" \"float fov\" 90\nWorldBegin\n"
+        "AreaLightSource \"area\" \"color L\" [50 50 50]\nMaterial \"matte\" \"color Kd\" [0 0 0]\n"
+        "Translate .1 .2 2 Shape \"sphere\" \"float radius\" " +
+        std::to_string(radius) + "\nWorldEnd\n";
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      TestRenderOptions options;
+      options.seed = std::uint64_t(seed);
+      pictures_.push_back(RenderSceneText(text, options).values);
+    }
+  }
+
+  std::vector<double> Means() const {
+    std::vector<double> means;
+    for (const auto& picture : pictures_) {
+      means.push_back(0);
+      for (const double value : picture) means.back() += value / double(picture.size());
+    }
+    return means;
+  }
+  // Returns the variance between seeds, summed over the pixels.
+  double Variance() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < pictures_[0].size(); ++i) {
+      double mean = 0, squares = 0;
+      for (const auto& picture : pictures_) mean += picture[i] / kSeeds;
+      for (const auto& picture : pictures_) squares += std::pow(picture[i] - mean, 2);
+      sum += squares / (kSeeds - 1);
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<std::vector<double>> pictures_;
+};
+
+class LampEdgeTest : public testing::TestWithParam<const char*> {};
+
+// `path` does not average over places, and shows the same lamp.
+TEST_P(LampEdgeTest, TheMeanIsTheSameAndTheNoiseIsLess) {
+  for (const double radius : {.06, .4}) {
+    const LampPictures averaged(kCosts, GetParam(), radius), plain("\"path\"", GetParam(), radius);
+    double difference = 0, squares = 0, size = 0;
+    const std::vector<double> a = averaged.Means(), b = plain.Means();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      difference += (a[i] - b[i]) / double(a.size());
+      squares += std::pow(a[i] - b[i], 2);
+      size += b[i] / double(b.size());
+    }
+    const double error = std::sqrt(squares) / double(a.size());
+    EXPECT_LT(std::abs(difference), 4 * error) << radius;
+    EXPECT_LT(error, .2 * size) << radius;
+    EXPECT_LT(averaged.Variance(), plain.Variance() / (radius < .1 ? 8 : 3)) << radius;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, LampEdgeTest,
+                         testing::Values("\"box\"", "\"gaussian\"",
+                                         "\"triangle\" \"float xwidth\" 1.5"));
+
+}  // namespace
+}  // namespace exphoton
