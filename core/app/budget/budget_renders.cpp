@@ -28,7 +28,7 @@ enum class Purpose : std::uint64_t { Photons, First, Second, Chain, Measured, Re
 class BudgetMeasurement {
  public:
   BudgetMeasurement(const RenderCommand& command, const BudgetOptions& options,
-              FileSource::Streams* streams)
+                    FileSource::Streams* streams)
       : command_(command),
         options_(options),
         scene_(command.scenes.front(), "exphoton budget", streams),
@@ -56,8 +56,7 @@ class BudgetMeasurement {
   std::vector<PictureSeeds> Seeds(Purpose photons, std::span<const Purpose> samples) const {
     std::vector<PictureSeeds> seeds;
     for (std::size_t r = 0; r < std::size_t(options_.seeds); ++r)
-      for (const Purpose purpose : samples)
-        seeds.push_back({Seed(photons, r), Seed(purpose, r)});
+      for (const Purpose purpose : samples) seeds.push_back({Seed(photons, r), Seed(purpose, r)});
     return seeds;
   }
   void Say(const char* text) const {
@@ -105,10 +104,9 @@ class BudgetMeasurement {
     if (!(RaysPerSample() > 0)) return;
     Say("with more gather rays");
     constexpr Purpose kTwo[] = {Purpose::First, Purpose::Second};
-    const SettingRenders renders =
-        RenderSetting(*scene_.Load(WithMoreRays(load_, *setup_)),
-                      Request(result_.samples, Seeds(Purpose::Photons, kTwo)),
-                      command_.threadCount);
+    const SettingRenders renders = RenderSetting(
+        *scene_.Load(WithMoreRays(load_, *setup_)),
+        Request(result_.samples, Seeds(Purpose::Photons, kTwo)), command_.threadCount);
     for (std::size_t r = 0; r < seeds_.size(); ++r)
       seeds_[r].withMoreRays = {renders.pictures[2 * r], renders.pictures[2 * r + 1]};
     frame_.rayFactor = kRayFactor;
@@ -144,10 +142,9 @@ class BudgetMeasurement {
 
   SettingRenders RenderLink(const LoadOptions& load) {
     constexpr Purpose kOne[] = {Purpose::Chain};
-    return RenderSetting(
-        *scene_.Load(load),
-        Request(kChainFactor * result_.samples, Seeds(Purpose::Photons, kOne)),
-        command_.threadCount);
+    return RenderSetting(*scene_.Load(load),
+                         Request(kChainFactor * result_.samples, Seeds(Purpose::Photons, kOne)),
+                         command_.threadCount);
   }
 
   void RenderChain() {
@@ -235,8 +232,7 @@ class BudgetMeasurement {
   void SetLevels(std::span<const PictureValues> pictures) {
     PictureValues mean(PictureSize());
     for (const PictureValues& picture : pictures)
-      for (std::size_t i = 0; i < mean.size(); ++i)
-        mean[i] += picture[i] / double(pictures.size());
+      for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += picture[i] / double(pictures.size());
     frame_.levels.clear();
     for (const double value : mean) frame_.levels.push_back(value * value);
   }
@@ -253,9 +249,8 @@ class BudgetMeasurement {
       throw Error(ExitStatus::Internal, "the reference has another size");
     SetLevels(halves.pictures);
     result_.budget = MakeBudget(seeds_, frame_, options_.blockWidth);
-    result_.measured =
-        MeasureError(renders.pictures, {halves.pictures[0], halves.pictures[1]}, frame_,
-                     result_.budget.blockWidth);
+    result_.measured = MeasureError(renders.pictures, {halves.pictures[0], halves.pictures[1]},
+                                    frame_, result_.budget.blockWidth);
   }
 
   // The certificate chooses the blocks.
@@ -284,8 +279,7 @@ class BudgetMeasurement {
     const double within = result_.budget.noise.value - photons;
     const double unshared = (NoiseBetween(chainBegin_, frame_).value - photons) * kChainFactor;
     if (within > 0)
-      result_.costs.sharing =
-          std::max(unshared / within - 1, 0.) * (costs.camera + costs.rays);
+      result_.costs.sharing = std::max(unshared / within - 1, 0.) * (costs.camera + costs.rays);
   }
 
   const RenderCommand& command_;

@@ -29,7 +29,7 @@ struct BudgetCosts {
   double causticMap = 0;          // the caustic map's part of `maps`
   double sharing = 0;             // samples that replace sharing, for the same noise
   double depth = 0, effects = 0;  // added by deeper paths, and by all effects
-  double lowerBound = 0;  // maps, one camera sample and one gather ray a pixel
+  double lowerBound = 0;          // maps, one camera sample and one gather ray a pixel
 
   double Total() const { return maps + camera + rays; }
 };
@@ -39,7 +39,7 @@ struct MeasuredBudget {
   int width = 0, height = 0;
   std::int64_t samples = 0;  // a pixel
   ErrorBudget budget;
-  MeasuredError measured;     // against the reference, or by the certificate
+  MeasuredError measured;  // against the reference, or by the certificate
   bool isByReference = false;
   BudgetCosts costs;
 };

@@ -90,12 +90,13 @@ BudgetRow PartRow(const ErrorPart& part, const MeasuredBudget& measured, const N
   row.share = Format("%.0f %%", percent == 0 ? 0 : percent);  // not -0
   const Halving halving = HalvingOf(part, measured.costs);
   const bool isKnown = std::abs(part.share.value) > numbers.HalfWidth(part.share);
-  if (!isKnown)
+  if (!isKnown || (part.share.value < 0 && part.cause <= ErrorCause::PhotonNoise))
     row.halving = "not distinct from 0";
   else if (part.share.value < 0)
     row.halving = "reduces the other biases";
   else
-    row.halving = "+" + study::SecondsText(halving.seconds) + ": " + halving.how;
+    row.halving =
+        "+" + study::SecondsText(halving.seconds > 1e-9 ? halving.seconds : 0) + ": " + halving.how;
   return row;
 }
 
@@ -138,7 +139,8 @@ std::vector<BudgetRow> BudgetRows(const MeasuredBudget& measured, int seeds) {
     if (at < budget.parts.size() && budget.parts[at].cause == ErrorCause(cause))
       rows.push_back(PartRow(budget.parts[at++], measured, numbers));
     else
-      rows.push_back({ErrorCauseName(ErrorCause(cause)), "0", "", "", AbsenceOf(ErrorCause(cause))});
+      rows.push_back(
+          {ErrorCauseName(ErrorCause(cause)), "0", "", "", AbsenceOf(ErrorCause(cause))});
   }
   rows.push_back(numbers.Row(kSumName, budget.sum));
   rows.back().share = "100 %";
@@ -149,8 +151,9 @@ std::vector<BudgetRow> BudgetRows(const MeasuredBudget& measured, int seeds) {
 
 std::string BudgetHeadline(const MeasuredBudget& budget) {
   const BudgetCosts& costs = budget.costs;
-  return Format("error %.2g %% = noise %.2g %%, bias %.2g %%; ", Percentage(budget.budget.sum.value),
-                Percentage(budget.budget.noise.value), Percentage(budget.budget.bias.value)) +
+  return Format("error %.2g %% = noise %.2g %%, bias %.2g %%; ",
+                Percentage(budget.budget.sum.value), Percentage(budget.budget.noise.value),
+                Percentage(budget.budget.bias.value)) +
          study::SecondsText(costs.Total()) + " of CPU time, " +
          Format("%.2g times the lower bound of ", costs.Total() / costs.lowerBound) +
          study::SecondsText(costs.lowerBound);
@@ -168,11 +171,15 @@ std::vector<std::string> BudgetNotes(const MeasuredBudget& budget, const BudgetO
                     std::to_string(options.referenceSamples) + " samples a pixel");
     const study::Measured& inside = budget.measured.insideBlocks;
     if (budget.budget.blockWidth > 1)
-      notes.push_back(Format("bias of both signs inside the blocks, which is in no part: %.2g \u00b1 ",
-                           inside.value) +
-                    Format("%.1g", StudentQuantile95(options.seeds - 1) * inside.error));
+      notes.push_back(
+          Format("bias of both signs inside the blocks, which is in no part: %.2g \u00b1 ",
+                 inside.value) +
+          Format("%.1g", StudentQuantile95(options.seeds - 1) * inside.error));
   } else {
-    notes.push_back("measured with other seeds by the certificate (--certify)");
+    notes.push_back(
+        "measured with other seeds by the certificate (--certify), which does not see depth limits "
+        "and "
+        "skipped effects");
   }
   notes.push_back(
       "the lower bound is the time of the photon maps, one camera sample and one gather ray a "
@@ -188,7 +195,8 @@ std::string BudgetText(const std::string& scene, const MeasuredBudget& budget,
   text += "  cause                 relMSE          \u00b1   share  half of it for (CPU time)\n";
   for (const BudgetRow& row : BudgetRows(budget, options.seeds)) {
     if (row.name == kSumName) text += "\n";
-    std::string line = "  " + row.name + std::string(18 - std::min<std::size_t>(row.name.size(), 18), ' ') +
+    std::string line = "  " + row.name +
+                       std::string(18 - std::min<std::size_t>(row.name.size(), 18), ' ') +
                        CellOf(row.value, 10) + CellOf(row.halfWidth, 11) + CellOf(row.share, 8) +
                        "  " + row.halving;
     line.erase(line.find_last_not_of(' ') + 1);

@@ -60,7 +60,7 @@ PictureValues Difference(const PictureValues& a, const PictureValues& b) {
 class PairNoise {
  public:
   PairNoise(const std::vector<SeedErrors>& seeds, const Blocks& pixels,
-            std::array<PictureValues, 2> SeedErrors::* pair) {
+            std::array<PictureValues, 2> SeedErrors::*pair) {
     std::vector<PictureValues> first, second, differences;
     for (const SeedErrors& seed : seeds) {
       first.push_back(pixels.Means((seed.*pair)[0]));
@@ -139,8 +139,8 @@ class BudgetStatistics {
     const double photons = noise_.Common(kept), within = noise_.Within(kept);
     double gather = 0;
     if (!withMoreRays_.empty())
-      gather = (within - withMoreRays_.front().Within(kept)) * frame_.rayFactor /
-               (frame_.rayFactor - 1);
+      gather =
+          (within - withMoreRays_.front().Within(kept)) * frame_.rayFactor / (frame_.rayFactor - 1);
     std::vector<double> values{within - gather, gather, photons};
     for (std::size_t i = 0; i < frame_.biasCauses.size(); ++i) {
       values.push_back(bias_.Share(i, kept));
@@ -264,9 +264,10 @@ study::Measured NoiseBetween(const std::vector<PictureValues>& pictures, const B
   std::vector<PictureValues> scaled;
   for (const PictureValues& picture : pictures) scaled.push_back(pixels.Means(picture));
   const PairProducts products(scaled, scaled);
-  return Jackknife(pictures.size(), [&](auto kept) {
-           return std::vector{products.OfSameSeed(kept) - products.OfOtherSeeds(kept)};
-         })
+  return Jackknife(pictures.size(),
+                   [&](auto kept) {
+                     return std::vector{products.OfSameSeed(kept) - products.OfOtherSeeds(kept)};
+                   })
       .front();
 }
 

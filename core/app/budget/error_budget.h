@@ -65,8 +65,8 @@ ErrorBudget MakeBudget(const std::vector<SeedErrors>& seeds, const BudgetFrame& 
 // halves.
 struct MeasuredError {
   study::Measured noise;
-  study::Measured bias;        // squared, in blocks
-  study::Measured sum;         // of both
+  study::Measured bias;          // squared, in blocks
+  study::Measured sum;           // of both
   study::Measured insideBlocks;  // squared bias of pixels minus `bias`
 };
 MeasuredError MeasureError(const std::vector<PictureValues>& pictures,

@@ -48,8 +48,7 @@ void TakeCosts(const Statistics& statistics, const SettingRequest& request,
 
 }  // namespace
 
-SettingRenders RenderSetting(const RenderSetup& setup, const SettingRequest& request,
-                             int threads) {
+SettingRenders RenderSetting(const RenderSetup& setup, const SettingRequest& request, int threads) {
   SettingRenders renders;
   if (request.correctedShare > 0) renders.groups.emplace(setup.crop, request.correctedShare);
   Film film(setup.film.Full(), setup.crop);

@@ -28,10 +28,10 @@ struct SettingRequest {
 };
 
 struct SettingRenders {
-  std::vector<PictureValues> pictures;     // three channels per pixel, row by row
-  std::vector<PictureValues> corrections;  // of each picture; empty: none were requested
-  std::optional<Corrections> groups;       // the same, where each picture is a group
-  RayCounters rays;                        // of all pictures
+  std::vector<PictureValues> pictures;           // three channels per pixel, row by row
+  std::vector<PictureValues> corrections;        // of each picture; empty: none were requested
+  std::optional<Corrections> groups;             // the same, where each picture is a group
+  RayCounters rays;                              // of all pictures
   double storedPhotons = 0, causticPhotons = 0;  // of one set of maps
   // CPU time by the clock. Samples include the sharing of gathers.
   double mapSeconds = 0;     // of one set of maps

@@ -51,9 +51,9 @@ TEST_F(BudgetTest, PrintsPartsThatAddUp) {
   const std::string text = Budget({"--reference-spp", "64"});
   auto values = ValuesOf(text);
   double sum = 0;
-  for (const char* name : {"camera sampling", "gather directions", "photon noise",
-                           "blur of the maps", "caustic kernel", "sharing", "depth limits",
-                           "skipped effects"}) {
+  for (const char* name :
+       {"camera sampling", "gather directions", "photon noise", "blur of the maps",
+        "caustic kernel", "sharing", "depth limits", "skipped effects"}) {
     ASSERT_TRUE(values.contains(name)) << name << text;
     sum += values[name];
   }
@@ -63,8 +63,9 @@ TEST_F(BudgetTest, PrintsPartsThatAddUp) {
   EXPECT_NEAR(values["difference"], total - values["measured"], .02 * total) << text;
   EXPECT_GT(values["camera sampling"], 0) << text;
   EXPECT_GT(values["gather directions"], 0) << text;
-  for (const char* part : {"24 x 16 pixels, 2 samples a pixel, exphotonmap", "times the lower bound",
-                           "no caustic photons", "guidedpath with 64 samples"})
+  for (const char* part :
+       {"24 x 16 pixels, 2 samples a pixel, exphotonmap", "times the lower bound",
+        "no caustic photons", "guidedpath with 64 samples"})
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }
 
@@ -80,6 +81,23 @@ TEST_F(BudgetTest, NamesCausesThatDoNotOccur) {
   EXPECT_NE(text.find("no gather rays"), std::string::npos) << text;
   EXPECT_NE(text.find("gathers are not shared"), std::string::npos) << text;
   EXPECT_NE(text.find("by the certificate"), std::string::npos) << text;
+}
+
+TEST_F(BudgetTest, IsOnThePageOfAStudy) {
+  const ProgramResult run =
+      Run({"study", "room.pbrt", "--integrators", "exphotonmap,path", "--vary", "spp=1", "--seeds",
+           "2", "--no-maps", "--error-budget", "--out", "out"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("error budget of exphotonmap"), std::string::npos) << run.err;
+  const std::string page = Read("out/report.html");
+  EXPECT_NE(page.find("Where the error comes from"), std::string::npos);
+  EXPECT_NE(page.find("times the lower bound"), std::string::npos);
+  EXPECT_EQ(Run({"report", "out"}).status, 0);
+  EXPECT_NE(Read("out/report.html").find("gather directions"), std::string::npos);
+  EXPECT_EQ(Run({"study", "room.pbrt", "--integrators", "path", "--error-budget", "--photons", "a",
+                 "--out", "none"})
+                .status,
+            1);
 }
 
 TEST_F(BudgetTest, SaysWhatIsWrong) {

@@ -44,13 +44,14 @@ PictureValues Bias(double value, bool isStriped) {
 }
 
 BudgetFrame FrameOfOnes() {
-  return {kBudgetWidth, std::vector<double>(kBudgetValues, 1.), 4,
+  return {kBudgetWidth,
+          std::vector<double>(kBudgetValues, 1.),
+          4,
           {ErrorCause::Blur, ErrorCause::Sharing}};
 }
 
 // The truth is 1 everywhere.
-PictureValues InventedPicture(const PictureValues& ofPhotons, double gather,
-                              RandomStream* random) {
+PictureValues InventedPicture(const PictureValues& ofPhotons, double gather, RandomStream* random) {
   PictureValues picture = Sum(Grey(1 + kBlurBias + kSharingBias), ofPhotons);
   return Sum(Sum(std::move(picture), Noise(kCamera, random)), Noise(gather, random));
 }
@@ -79,8 +80,7 @@ const ErrorPart& PartOf(const ErrorBudget& budget, ErrorCause cause) {
 }
 
 // Five standard errors, which must be small themselves.
-void ExpectNear(const study::Measured& measured, double truth, double mostError,
-                const char* what) {
+void ExpectNear(const study::Measured& measured, double truth, double mostError, const char* what) {
   EXPECT_LT(measured.error, mostError) << what;
   EXPECT_GT(measured.error, 0) << what;
   EXPECT_NEAR(measured.value, truth, 5 * measured.error) << what;
