@@ -69,6 +69,19 @@ TEST_F(BudgetTest, PrintsPartsThatAddUp) {
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }
 
+// With 60 photons and 50 of them in each density estimate, blur is most of the error.
+TEST_F(BudgetTest, FindsTheBlurOfFewPhotons) {
+  std::string scene = Read("room.pbrt");
+  scene.replace(scene.find("[.3 .3 .3]"), 10, "[.6 .6 .6]");
+  Write("room.pbrt", scene);
+  auto values = ValuesOf(Budget({"--reference-spp", "256", "--spp", "8", "--set",
+                                 "SurfaceIntegrator.indirectphotons=60", "--set",
+                                 "SurfaceIntegrator.finalgathersamples=16"}));
+  const double measured = values["measured"];
+  EXPECT_GT(values["blur of the maps"], .7 * measured);
+  EXPECT_LT(std::abs(values["difference"]), .3 * measured);
+}
+
 TEST_F(BudgetTest, DoesNotDependOnThreads) {
   const auto one = ValuesOf(Budget({"--nthreads", "1", "--block", "4"}));
   EXPECT_GE(one.size(), 11u);

@@ -62,8 +62,9 @@ TEST(BudgetSection, StaysTheSameInJson) {
   results.budgets = {
       {"exphotonmap", BudgetHeadline(budget), BudgetRows(budget, 8), BudgetNotes(budget, {})}};
   const std::string page = study::BudgetSection(results).Markup();
-  for (const char* text : {"<h3>exphotonmap</h3>", "error 5 %", "<td>0.00120</td>", "no gather rays",
-                           "<li>biases are those of means over blocks of 4 x 4 pixels</li>"})
+  for (const char* text :
+       {"<h3>exphotonmap</h3>", "error 5 %", "<td>0.00120</td>", "no gather rays",
+        "<li>biases are those of means over blocks of 4 x 4 pixels</li>"})
     EXPECT_NE(page.find(text), std::string::npos) << text << page;
   EXPECT_EQ(study::BudgetSection(study::FromJson(study::ToJson(results))).Markup(), page);
 }
