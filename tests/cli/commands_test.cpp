@@ -36,6 +36,7 @@ TEST_F(CommandTest, PrintHelpAndVersionToStandardOutput) {
                                              {"photons", "--help"},
                                              {"check-plugin", "--help"},
                                              {"quote", "--help"},
+                                             {"budget", "--help"},
                                              {"study", "--help"},
                                              {"report", "--help"},
                                              {"explain", "--help"}}) {

@@ -168,6 +168,31 @@ Prediction ToPrediction(const Json& json) {
   return prediction;
 }
 
+Json FromBudget(const BudgetRecord& budget) {
+  Json rows = Json::array();
+  for (const BudgetRecord::Row& row : budget.rows)
+    rows.push_back({{"name", row.name},
+                    {"relMSE", row.value},
+                    {"halfWidth", row.halfWidth},
+                    {"share", row.share},
+                    {"halving", row.halving}});
+  return {{"integrator", budget.integrator},
+          {"headline", budget.headline},
+          {"rows", std::move(rows)},
+          {"notes", budget.notes}};
+}
+
+BudgetRecord ToBudget(const Json& json) {
+  BudgetRecord budget{Text(json, "integrator"),
+                      Text(json, "headline"),
+                      {},
+                      json.at("notes").get<std::vector<std::string>>()};
+  for (const Json& row : json.at("rows"))
+    budget.rows.push_back({Text(row, "name"), Text(row, "relMSE"), Text(row, "halfWidth"),
+                           Text(row, "share"), Text(row, "halving")});
+  return budget;
+}
+
 Results Parse(const std::string& text) {
   const Json json = Json::parse(text);
   if (json.at("format").get<int>() != kFormat)
@@ -191,6 +216,8 @@ Results Parse(const std::string& text) {
   results.reference = ToReference(json.at("reference"));
   for (const Json& prediction : json.value("predictions", Json::array()))
     results.predictions.push_back(ToPrediction(prediction));
+  for (const Json& budget : json.value("budgets", Json::array()))
+    results.budgets.push_back(ToBudget(budget));
   for (const Json& map : json.at("maps"))
     results.maps.push_back(
         {Text(map, "image"), Text(map, "channel"), Text(map, "title"), Text(map, "unit")});
@@ -270,6 +297,7 @@ std::string ToJson(const Results& results) {
   json["reference"] = FromReference(results.reference);
   for (const Prediction& prediction : results.predictions)
     json["predictions"].push_back(FromPrediction(prediction));
+  for (const BudgetRecord& budget : results.budgets) json["budgets"].push_back(FromBudget(budget));
   json["settings"] = Json::array();
   for (const Setting& setting : results.settings) json["settings"].push_back(FromSetting(setting));
   json["maps"] = Json::array();

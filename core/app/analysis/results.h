@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/app/analysis/budget_record.h"
 #include "core/app/analysis/plan.h"
 #include "core/app/analysis/predictions.h"
 #include "core/imaging/metrics/metrics.h"
@@ -72,6 +73,7 @@ struct Results {
   std::vector<Setting> settings;
   ReferenceRecord reference;
   std::vector<Prediction> predictions;  // of each integrator, if the user asked for them
+  std::vector<BudgetRecord> budgets;    // of each photon integrator, if the user asked for them
   std::vector<RunRow> runs;
   std::vector<MapRecord> maps;
 };

@@ -1,7 +1,7 @@
 # Completion of exphoton for bash. Options come from the program's own --help.
 _exphoton() {
   local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} program=${COMP_WORDS[0]}
-  local commands="render explain plugins check-plugin info convert import denoise compare merge cluster photons quote study report help"
+  local commands="render explain plugins check-plugin info convert import denoise compare merge cluster photons quote budget study report help"
   COMPREPLY=()
   case "$word" in
     -*)

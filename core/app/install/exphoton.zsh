@@ -2,7 +2,7 @@
 # Completion of exphoton for zsh: commands, options from the program's own --help, and files.
 _exphoton() {
   local -a commands options
-  commands=(render explain plugins check-plugin info convert import denoise compare merge cluster photons quote study report help)
+  commands=(render explain plugins check-plugin info convert import denoise compare merge cluster photons quote budget study report help)
   local command=${words[2]}
   (( ${commands[(Ie)$command]} )) || command=render
   if [[ ${words[CURRENT]} == -* ]]; then

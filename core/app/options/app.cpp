@@ -7,6 +7,7 @@
 
 #include <cstdio>
 
+#include "core/app/budget/budget_command.h"
 #include "core/app/commands/check_plugin_command.h"
 #include "core/app/commands/compare_command.h"
 #include "core/app/commands/image_commands.h"
@@ -69,6 +70,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
   if (command == "cluster") return RunCluster(rest);
   if (command == "photons") return RunPhotons(rest);
   if (command == "quote") return RunQuote(rest);
+  if (command == "budget") return RunBudget(rest);
   if (command == "study") return RunStudy(rest, CommandLineText(arguments));
   if (command == "report") return RunReport(rest);
   const std::vector<std::string> all(

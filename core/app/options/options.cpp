@@ -37,6 +37,7 @@ constexpr const char* kCommands =
     "  exphoton cluster SCENE --shards N write scripts that render with Slurm\n"
     "  exphoton photons SCENE -o FILE    shoot photons into a file (--photons)\n"
     "  exphoton quote SCENE              predict what accuracies cost\n"
+    "  exphoton budget SCENE             split the error of a picture by cause\n"
     "  exphoton study SCENE --out DIR    compare integrators and settings\n"
     "  exphoton report DIR               make a study's page again\n"
     "\n"
@@ -379,8 +380,9 @@ RenderCommand ParseRenderCommand(const std::vector<std::string>& arguments, Rend
 }
 
 std::vector<std::string> CommandNames() {
-  return {"render",  "explain", "plugins", "check-plugin", "info",  "convert", "import", "denoise",
-          "compare", "merge",   "cluster", "photons",      "quote", "study",   "report", "help"};
+  return {"render", "explain", "plugins", "check-plugin", "info",    "convert",
+          "import", "denoise", "compare", "merge",        "cluster", "photons",
+          "quote",  "budget",  "study",   "report",       "help"};
 }
 
 const char* ShortUsage() { return kCommands; }

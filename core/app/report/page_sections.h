@@ -15,6 +15,7 @@ Html FrontSection(const Results& results, const Analysis& analysis);
 Html PictureSection(const std::string& folder, const Results& results, const Analysis& analysis);
 Html PriceSection(const Results& results, const Analysis& analysis);
 Html PredictionSection(const Results& results, const Analysis& analysis);
+Html BudgetSection(const Results& results);
 Html DoublingSection(const Results& results, const Analysis& analysis);
 Html BarSection(const Results& results, const Analysis& analysis);
 Html MapSection(const std::string& folder, const Results& results);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/app/analysis/summary.h"
+#include "core/app/budget/study_budgets.h"
 #include "core/app/options/errors.h"
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
@@ -180,6 +181,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   results.reference = PrepareReference(options, runner);
   CheckReference(options, scene, results.reference);
   if (options.predicts) results.predictions = Predict(options, results.settings);
+  if (options.makesBudgets) results.budgets = MeasureBudgets(options, results.settings);
   results.runs = runner.RunAll(results.settings);
   results.maps = MakeMaps(options, results, runner);
   WriteResults(folder, &results);

@@ -165,6 +165,8 @@ void AddRender(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
   app.AddFlag("--no-maps", raw.hidesMaps, "no extra render for the maps of cost and photons");
   app.AddFlag("--predict", options.predicts,
               "quote each integrator first, and show the quotes beside the measurements");
+  app.AddFlag("--error-budget", options.makesBudgets,
+              "split the error of photonmap and exphotonmap by cause, as exphoton budget does");
   app.AddFlag("--quiet", options.isQuiet, "no progress");
   app.AddFlag(
       "--plan", options.onlyPlans,
@@ -261,6 +263,14 @@ void CheckPredict(const StudyOptions& options) {
         "machine");
 }
 
+// Budgets shoot their own photons, and their times are those of one machine.
+void CheckBudgets(const StudyOptions& options) {
+  if (!options.makesBudgets) return;
+  if (!options.photonFile.empty()) FailUsage("--error-budget excludes --photons");
+  if (options.taskCount > 0 || options.task || !options.tasksFolder.empty())
+    FailUsage("--error-budget excludes --tasks, --task and --from");
+}
+
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
   if (options.folder.empty() && !options.onlyPlans && options.missingOf == 0)
@@ -268,6 +278,7 @@ void Check(const StudyOptions& options) {
   ParseLimits(options.limits);
   CheckPhotonFile(options);
   CheckPredict(options);
+  CheckBudgets(options);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");

@@ -37,8 +37,9 @@ struct StudyOptions {
   std::vector<double> targets{.1, .03, .01, .003};
   bool makesMaps = true;
   bool isQuiet = false;
-  bool onlyPlans = false;  // print the planned renders and stop
-  bool predicts = false;   // quote each integrator before the renders
+  bool onlyPlans = false;     // print the planned renders and stop
+  bool predicts = false;      // quote each integrator before the renders
+  bool makesBudgets = false;  // make the error budgets of photon integrators
   std::string commandLine;
 
   // Studies as arrays of jobs

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/budget/setting_renders.h"
+
+#include "core/app/dial/counted_cost.h"
+#include "core/app/process/signals.h"
+
+namespace exphoton::cli {
+namespace {
+
+PictureValues ChannelsOf(const Film& film) {
+  const PixelBounds& crop = film.Crop();
+  PictureValues values;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const auto mean = film.MeanOf({x, y});
+      values.insert(values.end(), mean.begin(), mean.begin() + 3);
+    }
+  return values;
+}
+
+PictureValues MeanOfGroup(const Corrections::Group& group) {
+  PictureValues values = group.sums;
+  for (double& value : values) value /= double(group.samplesPerPixel);
+  return values;
+}
+
+int CountMaps(const std::vector<PictureSeeds>& pictures) {
+  int maps = 0;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    maps += i == 0 || pictures[i].photons != pictures[i - 1].photons ? 1 : 0;
+  return maps;
+}
+
+void TakeCosts(const Statistics& statistics, const SettingRequest& request,
+               SettingRenders* renders) {
+  const double maps = CountMaps(request.pictures), count = double(request.pictures.size());
+  for (const Statistics::Phase& phase : statistics.Phases()) {
+    const bool isOfSamples = phase.name == "render" || phase.name == "share";
+    if (isOfSamples)
+      renders->sampleSeconds += phase.cpuSeconds / count;
+    else
+      renders->mapSeconds += phase.cpuSeconds / maps;
+  }
+  renders->rays = statistics.Rays();
+  renders->storedPhotons = StoredPhotons(statistics) / maps;
+  renders->causticPhotons = CounterOf(statistics, "photons/caustic stored") / maps;
+}
+
+}  // namespace
+
+SettingRenders RenderSetting(const RenderSetup& setup, const SettingRequest& request, int threads) {
+  SettingRenders renders;
+  if (request.correctedShare > 0) renders.groups.emplace(setup.crop, request.correctedShare);
+  Film film(setup.film.Full(), setup.crop);
+  SmallRender small(threads);
+  const std::int64_t samples =
+      request.samples > 0 ? request.samples : setup.sampler->SamplesPerPixel();
+  const auto sampler = setup.sampler->WithSamplesPerPixel(samples);
+  const RenderJob job = small.Job(setup, *sampler, &film);
+  RenderOptions options;
+  options.stop = &StopFlag();
+  options.footprintSamples = request.footprintSamples;
+  options.corrections = renders.groups ? &*renders.groups : nullptr;
+  PassRenderer renderer(job, options);
+  for (const PictureSeeds& seeds : request.pictures) {
+    film.Clear();
+    if (!renderer.Run({seeds.photons, seeds.samples, 0, samples}, *sampler, &film))
+      throw LoadingStopped();
+    if (renders.groups) renders.groups->EndPass(int(renders.pictures.size()), samples);
+    renders.pictures.push_back(ChannelsOf(film));
+  }
+  renderer.Finish();
+  if (renders.groups)
+    for (const Corrections::Group* group : renders.groups->Groups())
+      renders.corrections.push_back(MeanOfGroup(*group));
+  TakeCosts(small.Counts(), request, &renders);
+  return renders;
+}
+
+}  // namespace exphoton::cli

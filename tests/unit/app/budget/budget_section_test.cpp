@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests print a budget whose numbers are known, and put it on a study's page.
+#include <gtest/gtest.h>
+
+#include "core/app/budget/budget_text.h"
+#include "core/app/report/page_sections.h"
+
+namespace exphoton::cli {
+namespace {
+
+MeasuredBudget KnownBudget() {
+  MeasuredBudget budget;
+  budget.integrator = "exphotonmap";
+  budget.width = 48, budget.height = 36, budget.samples = 4;
+  ErrorBudget& parts = budget.budget;
+  parts.parts = {{ErrorCause::CameraSampling, {.0012, .0001}, {}},
+                 {ErrorCause::PhotonNoise, {-.00001, .0001}, {}},
+                 {ErrorCause::Blur, {.0008, .0001}, {.0008, .0001}},
+                 {ErrorCause::Sharing, {-.0003, .00001}, {.0001, .0001}}};
+  parts.noise = {.0016, .0001}, parts.bias = {.0009, .0001}, parts.sum = {.0025, .0001};
+  parts.blockWidth = 4;
+  budget.measured.sum = {.0027, .0002};
+  budget.measured.insideBlocks = {.0004, .0001};
+  budget.isByReference = true;
+  budget.costs.maps = 1, budget.costs.camera = 2, budget.costs.rays = 3;
+  budget.costs.lowerBound = 1.5;
+  return budget;
+}
+
+TEST(BudgetText, HasARowForEachCauseAndTheSum) {
+  const std::vector<BudgetRow> rows = BudgetRows(KnownBudget(), 8);
+  ASSERT_EQ(rows.size(), 11u);
+  EXPECT_EQ(rows[0].value, "0.00120");
+  EXPECT_EQ(rows[0].halfWidth, "0.00024");  // Student's t with 7 degrees of freedom: 2.365
+  EXPECT_EQ(rows[0].share, "48 %");
+  EXPECT_EQ(rows[0].halving, "+2 s: twice the samples with half the gather rays each");
+  EXPECT_EQ(rows[1].halving, "no gather rays");
+  EXPECT_EQ(rows[2].halving, "not distinct from 0");
+  EXPECT_EQ(rows[2].share, "0 %");
+  EXPECT_EQ(rows[3].halving, "+0.41 s: more photons");  // the root of 2 times the photons
+  EXPECT_EQ(rows[5].halving, "reduces the other biases");
+  EXPECT_EQ(rows[8].value, "0.00250");
+  EXPECT_EQ(rows[10].value, "-0.00020");
+  EXPECT_EQ(rows[10].halfWidth, "0.00053");  // 2.365 times the root of .0001^2 + .0002^2
+}
+
+TEST(BudgetText, StatesErrorAndLowerBound) {
+  EXPECT_EQ(BudgetHeadline(KnownBudget()),
+            "error 5 % = noise 4 %, bias 3 %; 6 s of CPU time, 4 times the lower bound of 1.5 s");
+  const std::string text = BudgetText("room.pbrt", KnownBudget(), {});
+  EXPECT_NE(text.find("room.pbrt, 48 x 36 pixels, 4 samples a pixel, exphotonmap\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("blocks of 4 x 4 pixels"), std::string::npos) << text;
+  EXPECT_NE(text.find("in no part: 0.0004"), std::string::npos) << text;
+}
+
+TEST(BudgetSection, StaysTheSameInJson) {
+  study::Results results;
+  EXPECT_TRUE(study::BudgetSection(results).IsEmpty());
+  const MeasuredBudget budget = KnownBudget();
+  results.budgets = {
+      {"exphotonmap", BudgetHeadline(budget), BudgetRows(budget, 8), BudgetNotes(budget, {})}};
+  const std::string page = study::BudgetSection(results).Markup();
+  for (const char* text :
+       {"<h3>exphotonmap</h3>", "error 5 %", "<td>0.00120</td>", "no gather rays",
+        "<li>biases are those of means over blocks of 4 x 4 pixels</li>"})
+    EXPECT_NE(page.find(text), std::string::npos) << text << page;
+  EXPECT_EQ(study::BudgetSection(study::FromJson(study::ToJson(results))).Markup(), page);
+}
+
+}  // namespace
+}  // namespace exphoton::cli
