@@ -164,7 +164,7 @@ class OmissionFinder {
   }
 
   void Explain(Feature feature, double share, double time) {
-    log_.Verbose(Format("%s stays on: about %.2g %% of the light, takes %.2g %% of the time",
+    log_.Verbose(Format("%s stays on: %.2g %% of the light, takes %.2g %% of the time",
                         FeatureName(feature), 100 * share, 100 * time));
   }
 

@@ -25,7 +25,7 @@ PilotRenderer::Loan::Loan(PilotRenderer* pilots, const std::string& integrator,
   const auto set = [&](const char* name, double value) {
     options.parameters.push_back({"SurfaceIntegrator", name, std::to_string(std::int64_t(value))});
   };
-  if (settings.indirectPhotons + settings.causticPhotons > 0) {
+  if (integrator.ends_with("photonmap")) {
     const double used = pilots_.sceneUsedPhotons_ > 0 ? pilots_.sceneUsedPhotons_ : kUsedByDefault;
     set("nused", std::max(kFewPhotons * used, kLeastUsed));
     options.parameters.push_back(pilots_.FewPaths());
