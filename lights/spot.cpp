@@ -3,6 +3,7 @@
 // coneangle - conedeltaangle of the axis, and falls by a quartic to 0 at coneangle. Angles are
 // compared by one minus cosine, which keeps narrow cones exact. Photons are sampled in proportion
 // to the falloff, so all have the same weight.
+#include "core/lights/emission_cone.h"
 #include "core/lights/least_distance.h"
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
@@ -41,7 +42,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-class SpotLight final : public Light {
+class SpotLight final : public Light, public ConeEmitter {
  public:
   // totalAngle: half-angle of the cone; innerAngle: half-angle of full intensity. Both in radians.
   SpotLight(const Point3& position, const Vector3& axis, const Spectrum& intensity,
@@ -49,6 +50,7 @@ class SpotLight final : public Light {
       : position_(position),
         axis_(axis),
         intensity_(intensity),
+        totalAngle_(totalAngle),
         inner_(Real(2 * Squared(std::sin(innerAngle / 2)))),
         rim_(Real(2 * std::sin((totalAngle + innerAngle) / 2) *
                   std::sin((totalAngle - innerAngle) / 2))) {}
@@ -93,6 +95,7 @@ class SpotLight final : public Light {
     return LightLeSample{ray, Power(), 1, falloff / EffectiveSolidAngle()};
   }
   std::optional<Real> EmissionBound() const override { return Power().Y(); }
+  EmissionCone Cone() const override { return {position_, axis_, totalAngle_}; }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {0, Falloff(w) / EffectiveSolidAngle()};
   }
@@ -113,6 +116,7 @@ class SpotLight final : public Light {
   Point3 position_;
   Vector3 axis_;  // unit
   Spectrum intensity_;
+  double totalAngle_;
   Real inner_;  // 1 - cos(inner angle)
   Real rim_;    // cos(inner angle) - cos(total angle)
   LeastDistance leastDistance_;

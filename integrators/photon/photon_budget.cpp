@@ -9,6 +9,7 @@
 #include "core/base/memory.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/shooting/emission/caustic_lights.h"
 
 namespace exphoton {
 namespace {
@@ -59,8 +60,9 @@ PhotonTargets ChooseTargets(const PhotonSettings& settings, const Scene& scene) 
   const bool hasIndirect = scene.Features().Needs(Feature::Indirect);
   const bool hasLight = scene.NonBlackLightCount() > 0;  // media fill only the indirect map
   PhotonTargets targets;
-  const bool hasCaustics = hasLight && scene.Features().Needs(Feature::Caustics) &&
-                           scene.Features().Needs(Feature::Specular);
+  const bool hasCaustics =
+      hasLight && settings.CausticPhotons() > 0 && scene.Features().Needs(Feature::Caustics) &&
+      scene.Features().Needs(Feature::Specular) && !CausticLights(scene).AreImpossible();
   if (hasCaustics && (showsAll || show == ShowMap::Caustic))
     targets[PhotonKind::Caustic] = settings.CausticPhotons();
   if (hasIndirect && (showsAll || show == ShowMap::Indirect))
@@ -100,10 +102,16 @@ std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Sce
   const PhotonTargets targets = ChooseTargets(settings, scene);
   const std::string photons = TextOf(targets);
   const auto mebibytes = std::to_string(std::int64_t(BytesOf(targets) / (1 << 20)) + 1);
-  return {"photons       " + (photons.empty() ? "none" : photons),
-          "gather        " + GatherText(settings, scene, targets),
-          "memory        about " + mebibytes + " MiB for the photon maps",
-          "emission      " + EmissionText(settings, targets)};
+  std::vector<std::string> lines{"photons       " + (photons.empty() ? "none" : photons),
+                                 "gather        " + GatherText(settings, scene, targets),
+                                 "memory        about " + mebibytes + " MiB for the photon maps",
+                                 "emission      " + EmissionText(settings, targets)};
+  const int dark = CausticLights(scene).OutOfReachCount();
+  if (scene.Features().Needs(Feature::Caustics) && dark > 0)
+    lines.push_back("proofs        no caustics of " + std::to_string(dark) + " of " +
+                    std::to_string(scene.NonBlackLightCount()) +
+                    " lights, whose cones miss all specular surfaces");
+  return lines;
 }
 
 }  // namespace exphoton

@@ -95,6 +95,16 @@ void ReportEnoughCaustics(const PhotonPassResult& result, const PhotonSettings& 
       {}, "without \"causticphotons\" the number follows from the light of the caustics");
 }
 
+// Reports what the proofs of CausticLights saved.
+void ReportProofs(const PhotonPassResult& result, PreprocessContext& context) {
+  if (result.outOfReach == 0) return;
+  context.statistics.AddToCounter("photons/out of reach", double(result.outOfReach),
+                                  "of the skipped paths, those of lights whose cones miss all "
+                                  "specular surfaces; nothing was emitted");
+  context.log.Verbose(Text("proofs: ", result.outOfReach, " of ", result.paths,
+                           " paths were not emitted, because their lights make no caustics"));
+}
+
 }  // namespace
 
 void NoticeUnusedCaustics(const PhotonTargets& targets, const PhotonSettings& settings,
@@ -205,6 +215,7 @@ void ReportLights(const PhotonPassResult& result, const PhotonTargets& targets, 
     context.statistics.AddToCounter("lights/further stored", double(rest.stored),
                                     "photons that they left, in all maps");
   }
+  ReportProofs(result, context);
   NoticeUnstoredLights(result, targets, scene, context.log);
 }
 

@@ -128,8 +128,9 @@ Setups FileRenderer::Load(const std::string& path) {
   FileSource source(&run_.streams);
   Setups setups = LoadScenes(source, path, options, log_);
   preparedSeed_.reset();
-  if (pilots_ && setups.size() == 1)
+  if (pilots_ && setups.size() == 1 && command_.dial->omitted.empty())
     preparedSeed_ = pilots_->Give(command_.dial->settings, setups.front().get());
+  if (command_.dial) Omit(command_.dial->omitted, *setups.front());
   begin.EndLoading();
   return setups;
 }
@@ -303,7 +304,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
   run->accuracy = command_.accuracy;
-  if (command_.dial) run->choice = command_.dial->text;
+  if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }

@@ -7,6 +7,7 @@ namespace exphoton::cli {
 namespace {
 
 constexpr double kPhotonRay = 1.35;
+constexpr double kSkippedPath = .3;  // a path for caustics that misses all specular surfaces
 
 struct IntegratorCost {
   const char* name;
@@ -23,8 +24,10 @@ CountedCost CostOf(const Statistics& statistics, const std::string& integrator) 
     if (integrator == known.name) cost = known;
   const RayCounters rays = statistics.Rays();
   const double photons = double(rays.counts[std::size_t(RayKind::Photon)]);
-  return {photons * kPhotonRay + StoredPhotons(statistics) * cost.storedPhoton,
-          (double(rays.Total()) - photons) * cost.ray};
+  const double skipped = CounterOf(statistics, "photons/skipped");
+  return {
+      photons * kPhotonRay + skipped * kSkippedPath + StoredPhotons(statistics) * cost.storedPhoton,
+      (double(rays.Total()) - photons) * cost.ray};
 }
 
 double StoredPhotons(const Statistics& statistics) {

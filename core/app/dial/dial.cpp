@@ -8,6 +8,7 @@
 
 #include "core/app/analysis/numbers.h"
 #include "core/app/dial/candidate.h"
+#include "core/app/dial/omissions.h"
 #include "core/base/error.h"
 #include "core/base/format.h"
 #include "core/base/parallel.h"
@@ -132,7 +133,7 @@ std::string ReasonText(const std::vector<Candidate>& candidates, const Candidate
   std::string text =
       "expected CPU time " + study::SecondsText(chosen.price.seconds * chosen.secondsPerCost);
   for (const Candidate& other : candidates) {
-    if (&other == &chosen) continue;
+    if (other.integrator == chosen.integrator) continue;
     text += "; " + other.integrator + ": " +
             (other.reason.empty()
                  ? Format("%.2g times as much", other.price.seconds / chosen.price.seconds)
@@ -205,16 +206,22 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{*command.accuracy, command.keepsSettings};
   const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
-  const Candidate& chosen = CheapestOf(candidates, accuracy);
+  Candidate chosen = CheapestOf(candidates, accuracy);
+  const std::vector<OmittedEffect> omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
-  turned->dial = DialChoice{FirstSamples(chosen, command), chosen.biasShare, chosen.photonSamples,
-                            chosen.settings, ChoiceText(pilots, chosen)};
+  turned->dial = DialChoice{FirstSamples(chosen, command),
+                            chosen.biasShare,
+                            chosen.photonSamples,
+                            chosen.settings,
+                            omitted,
+                            ChoiceText(pilots, chosen)};
   Apply(chosen.settings, turned);
   turned->load.samplesPerPixel = 2 * kMostGrowth * turned->dial->firstSamples;
   turned->certifies = chosen.correctedShare > 0;
   turned->certifiedShare = turned->certifies ? chosen.correctedShare : turned->certifiedShare;
   log.Notice("accuracy " + accuracy + ": " + turned->dial->text);
   log.Notice(ReasonText(candidates, chosen));
+  for (const OmittedEffect& effect : omitted) log.Notice(TextOf(effect));
   if (command.keepsSettings) log.Notice(CostOfKeeping(&pilots, chosen, wish));
   return renderer;
 }

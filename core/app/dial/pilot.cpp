@@ -28,13 +28,6 @@ CountedCost SecondsOf(const Statistics& statistics) {
   return seconds;
 }
 
-// Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
-bool HasWholeScene(const RenderSetup& setup) {
-  if (!setup.scene || !setup.integrator) return false;
-  const FeatureSet computed = setup.integrator->ComputedFeatures();
-  return computed.Has(Feature::Environment) && computed.Has(Feature::Media);
-}
-
 // Returns a number that the scene gives; 0: it gives none.
 double GivenNumber(const RenderSetup& setup, const std::string& name) {
   const ParsedParam* const given = setup.integratorParameters.Find(name);
@@ -71,8 +64,17 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   sceneSamples_ = setup_->sampler->SamplesPerPixel();
   sceneGatherRays_ = int(GivenNumber(*setup_, "finalgathersamples"));
   sceneUsedPhotons_ = GivenNumber(*setup_, "nused");
+  sceneDirectPhotons_ = GivenNumber(*setup_, "directphotons");
+  scenePaths_ = GivenNumber(*setup_, "maxphotonpaths");
   width_ = setup_->crop.Width(), height_ = setup_->crop.Height();
+  pilotPixels_ = std::min(Pixels(), kPilotPixels);
   small_.isStrict = false;  // parameters of other integrators are unknown
+}
+
+bool PilotRenderer::HasWholeScene(const RenderSetup& setup) {
+  if (!setup.scene || !setup.integrator) return false;
+  const FeatureSet computed = setup.integrator->ComputedFeatures();
+  return computed.Has(Feature::Environment) && computed.Has(Feature::Media);
 }
 
 std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPicture& picture) {
@@ -101,6 +103,7 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   options.isQuick = request.isRough;
   for (ParameterOverride& parameter : request.settings.Overrides())
     options.parameters.push_back(std::move(parameter));
+  if (request.isRough) options.parameters.push_back(FewPaths());
   options.known = HasWholeScene(*setup_) ? setup_.get() : nullptr;
   // The integrators refer to the scene, so they go first.
   setup_->integrator.reset();
@@ -110,6 +113,14 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   setup_ = scene_.Load(options);
   loaded_ = request;
   return *setup_;
+}
+
+// Where few paths leave photons, the limit of the paths decides what photons cost.
+ParameterOverride PilotRenderer::FewPaths() const {
+  constexpr double kByDefault = 1 << 24;
+  const double paths = kFewPhotons * (scenePaths_ > 0 ? scenePaths_ : kByDefault);
+  return {"SurfaceIntegrator", "maxphotonpaths",
+          std::to_string(std::max<std::int64_t>(std::int64_t(paths), 1))};
 }
 
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }

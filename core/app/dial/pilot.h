@@ -3,9 +3,11 @@
 // depend on scene, options and seed only. Pilots with the same settings share their photons.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/app/dial/counted_cost.h"
 #include "core/app/dial/dial_settings.h"
@@ -61,9 +63,34 @@ class PilotRenderer {
   // Throws Error.
   PilotPicture Render(const PilotRequest& request);
 
+  // One render with 1000 to 3000 camera samples.
+  struct OnePass {
+    std::vector<double> values;  // three channels per pixel, row by row
+    CountedCost cost;
+  };
+  // Loan is the scene at the resolution of pilots, with a tenth of the photons. Its features may
+  // change. Meanwhile no other pilots can be rendered. Afterwards the last pilot still has its
+  // photons.
+  class Loan {
+   public:
+    // Throws Error.
+    Loan(PilotRenderer* pilots, const std::string& integrator, DialSettings settings);
+    ~Loan();
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    const RenderSetup& Setup() const { return *setup_; }
+
+   private:
+    PilotRenderer& pilots_;
+    std::optional<RequiredFeatures> plan_;  // of the pilots' scene; nullopt: it was not lent
+    std::unique_ptr<RenderSetup> setup_;
+  };
+  // Renders a loan with random numbers of its own for each `number`. Throws LoadingStopped.
+  OnePass RenderOnce(const RenderSetup& setup, std::uint64_t number) const;
+
   // If the last pilot had this integrator, these settings and the photons of the first pass of the
-  // picture, moves its scene and its integrator to `setup`, and returns the seed of the photons.
-  // They refer to this object.
+  // picture, which has all effects of the pilots, moves its scene and its integrator to `setup`,
+  // and returns the seed of the photons. They refer to this object.
   std::optional<std::uint64_t> Give(const DialSettings& settings, RenderSetup* setup);
 
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
@@ -73,15 +100,22 @@ class PilotRenderer {
   int Width() const { return width_; }
   int Height() const { return height_; }
   double Pixels() const { return double(width_) * double(height_); }
+  // Samples per pixel of RenderOnce. Only pictures that are smaller than pilots have more than one.
+  int OnceSamples() const { return std::max(int(1000 / pilotPixels_), 1); }
+  // The price of RenderOnce relative to one sample per pixel of the picture.
+  double OnceShare() const { return OnceSamples() * pilotPixels_ / Pixels(); }
   double LoadSeconds() const { return loadSeconds_; }  // CPU time
 
  private:
   static std::string TextOf(const PilotRequest& request, const PilotPicture& picture);
+  // Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
+  static bool HasWholeScene(const RenderSetup& setup);
   const RenderSetup& Load(const PilotRequest& request);
   PassesResult RenderHalves(const RenderJob& job, const PilotRequest& request, PictureFilms* films,
                             PilotPicture* picture);
 
   std::uint64_t FirstSeed() const;
+  ParameterOverride FewPaths() const;  // limits the paths of kFewPhotons
 
   const RenderCommand command_;
   SmallScene scene_;
@@ -89,8 +123,11 @@ class PilotRenderer {
   std::string sceneIntegrator_;
   std::int64_t sceneSamples_ = 0;
   int sceneGatherRays_ = 0;
-  double sceneUsedPhotons_ = 0;  // in a density estimate; 0: the scene does not give them
+  double sceneUsedPhotons_ = 0;    // in a density estimate; 0: the scene does not give them
+  double sceneDirectPhotons_ = 0;  // the same, of the direct map
+  double scenePaths_ = 0;          // limit of the photon paths; 0: the scene does not give it
   int width_ = 0, height_ = 0;
+  double pilotPixels_ = 0;
   double loadSeconds_ = 0;
   LoadOptions small_;  // with the resolution of pilots
   // Of the last pilot. All pilots have the scene that was loaded first.

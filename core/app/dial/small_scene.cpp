@@ -10,8 +10,6 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr double kPixels = 3000;
-
 // A window in pixels becomes one in fractions, because pilots have other pixels.
 void ScalePicture(const FilmSettings& film, const PixelBounds& crop, double scale,
                   LoadOptions* options) {
@@ -35,7 +33,7 @@ LoadOptions SmallScene::Options(const RenderCommand& command, std::unique_ptr<Re
   options.threads = command.threadCount;
   std::unique_ptr<RenderSetup> setup = Load(options);
   const double pixels = double(setup->crop.Width()) * double(setup->crop.Height());
-  ScalePicture(setup->film, setup->crop, std::min(1., std::sqrt(kPixels / pixels)), &options);
+  ScalePicture(setup->film, setup->crop, std::min(1., std::sqrt(kPilotPixels / pixels)), &options);
   if (full) *full = std::move(setup);
   return options;
 }

@@ -15,6 +15,8 @@
 
 namespace exphoton::cli {
 
+inline constexpr double kPilotPixels = 3000;  // of a small picture, at most about
+
 class SmallScene {
  public:
   // `option` is named in the message about a file with several scenes.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/app/dial/dial_settings.h"
+#include "core/app/dial/omitted_effect.h"
 #include "core/app/options/frames.h"
 #include "core/app/options/limits.h"
 #include "core/app/output/png_output.h"
@@ -29,6 +30,7 @@ struct DialChoice {
   double biasShare = 0;           // the same
   double photonSamples = 0;       // the same
   DialSettings settings;
+  std::vector<OmittedEffect> omitted;
   std::string text;  // what changed
 };
 

@@ -60,6 +60,14 @@ void AddCertificate(const Certificate& certificate,
   (*attributes)["certificate/text"] = text;
 }
 
+void AddOmissions(const std::vector<OmittedEffect>& omitted,
+                  std::map<std::string, ImageAttribute>* attributes) {
+  std::string text;
+  for (const OmittedEffect& effect : omitted) text += (text.empty() ? "" : "; ") + TextOf(effect);
+  (*attributes)["accuracy/omitted"] = text;
+  (*attributes)["accuracy/omittedBound"] = float(BoundOf(omitted));
+}
+
 }  // namespace
 
 std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bool isReproducible) {
@@ -84,6 +92,7 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   if (run.targetError) attributes["targetError"] = float(*run.targetError);
   if (run.accuracy) attributes["accuracy/wanted"] = float(*run.accuracy);
   if (run.accuracy) attributes["accuracy/chosen"] = run.choice;
+  if (!run.omitted.empty()) AddOmissions(run.omitted, &attributes);
   if (run.upperError) attributes["accuracy/upperError"] = float(std::sqrt(*run.upperError));
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
                            "sampler " + scene.sampler + ", filter " + scene.filter + ", camera " +

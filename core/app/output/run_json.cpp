@@ -133,6 +133,15 @@ void AddAccuracy(const RunRecord& run, JsonWriter* json) {
   json->Key("wanted"), json->Number(*run.accuracy);
   if (run.upperError) json->Key("upperError"), json->Number(std::sqrt(*run.upperError));
   json->Key("chosen"), json->Text(run.choice);
+  json->Key("omitted"), json->Open('[');
+  for (const OmittedEffect& effect : run.omitted) {
+    json->Open('{');
+    json->Key("effect"), json->Text(effect.name);
+    json->Key("bound"), json->Number(effect.bound);
+    json->Key("time"), json->Number(effect.time);
+    json->Close('}');
+  }
+  json->Close(']');
   json->Close('}');
 }
 

@@ -156,6 +156,8 @@ std::string AccuracyText(const RunRecord& run) {
                   100 * *run.accuracy);
   const double percent = 100 * std::sqrt(*run.upperError);
   std::string text = Format("the error lies below %.3g %% (at a level of 95 %%)", percent);
+  if (!run.omitted.empty())
+    text += Format(", of which effects left out are at most %.2g %%", 100 * BoundOf(run.omitted));
   if (run.stoppedBy == "accuracy") return text;
   text += Format(", which is not the accuracy of %.3g %%: ", 100 * *run.accuracy);
   if (run.stoppedBy == "bias") return text + "the bias is larger; more photons reduce it";

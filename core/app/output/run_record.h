@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/app/dial/omitted_effect.h"
 #include "core/app/shards/scene_record.h"
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
@@ -47,6 +49,7 @@ struct RunRecord {
   std::optional<double> accuracy;      // --accuracy
   std::optional<double> upperError;    // relMSE; the upper end of its interval (AccuracyRule)
   std::string choice;                  // what --accuracy chose
+  std::vector<OmittedEffect> omitted;  // what it left out
   std::optional<double> lastDiskArea;  // of the last progressive pass, relative to the first
   std::string aovs;                    // "albedo, N"
   std::string commandLine;

@@ -8,9 +8,8 @@
 namespace exphoton {
 namespace {
 
-constexpr double kWrong = .05;  // the chance of any wrong look
-
-double QuantileOfLook(int look) { return NormalQuantile(kWrong / (look * (look + 1.))); }
+constexpr double kWrong = .05;          // the chance of any wrong look
+constexpr double kWrongOmission = .01;  // the chance that the bound of omissions is too low
 
 }  // namespace
 
@@ -24,8 +23,13 @@ double NormalQuantile(double probability) {
   return (low + high) / 2;
 }
 
+double AccuracyRule::Quantile(int look) const {
+  const double wrong = omitted_ > 0 ? kWrong - kWrongOmission : kWrong;
+  return NormalQuantile(wrong / (look * (look + 1.)));
+}
+
 CertificateGoal AccuracyRule::NextGoal() const {
-  return {.smallest = biasShare_ * wanted_, .quantile = QuantileOfLook(looks_ + 1)};
+  return {.smallest = biasShare_ * room_, .quantile = Quantile(looks_ + 1)};
 }
 
 // Noise and bias are estimated from different random numbers, so the distances of their bounds add
@@ -34,12 +38,13 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   ++looks_;
   const Certificate* const certificate = estimate.certificate;
   const double bias = certificate ? certificate->Bias() : 0;
-  const double distance = std::hypot(QuantileOfLook(looks_) * estimate.noiseError,
+  const double distance = std::hypot(Quantile(looks_) * estimate.noiseError,
                                      certificate ? certificate->UpperBias() - bias : 0);
   upper_ = estimate.noise + bias + distance;
+  if (omitted_ > 0) upper_ = std::pow(std::sqrt(upper_) + omitted_, 2);
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
-  growth_ = bias < wanted_ ? (estimate.noise + distance) / (wanted_ - bias)
-                           : std::numeric_limits<double>::infinity();
+  growth_ = bias < room_ ? (estimate.noise + distance) / (room_ - bias)
+                         : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace exphoton

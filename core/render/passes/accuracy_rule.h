@@ -2,7 +2,8 @@
 // AccuracyRule decides whether a picture has reached an accuracy: whether the upper end of the
 // interval of its error lies below the accuracy. It looks at the picture after each group of
 // passes. Look j may be wrong with the probability 5 % / (j (j + 1)), so that the chance of any
-// wrong look is at most 5 %, whenever the render stops.
+// wrong look is at most 5 %, whenever the render stops. If the picture lacks effects, a fifth of
+// the 5 % belongs to their bound, which holds at a level of 99 %.
 #pragma once
 
 #include "core/render/certificate/certificate.h"
@@ -18,23 +19,32 @@ struct ErrorEstimate {
 class AccuracyRule {
  public:
   // error: root of relMSE, > 0. biasShare: of its square, what certificates should resolve.
-  AccuracyRule(double error, double biasShare) : wanted_(error * error), biasShare_(biasShare) {}
+  // omitted: bound of the root of relMSE between the pictures with and without the effects that are
+  // left out; less than `error`. It is added to the error, because it may have the bias's sign.
+  AccuracyRule(double error, double biasShare, double omitted = 0)
+      : wanted_(error * error),
+        room_((error - omitted) * (error - omitted)),
+        biasShare_(biasShare),
+        omitted_(omitted) {}
 
   // Returns the goal of the certificate for the next look.
   CertificateGoal NextGoal() const;
   void Look(const ErrorEstimate& estimate);
 
   // The results of the last look.
-  double Upper() const { return upper_; }  // end of the interval of relMSE
+  double Upper() const { return upper_; }  // end of the interval of relMSE, with `omitted`
   bool IsReached() const { return looks_ > 0 && upper_ <= wanted_; }
   // Returns whether the bias alone exceeds the accuracy.
-  bool IsOutOfReach() const { return lowerBias_ > wanted_; }
+  bool IsOutOfReach() const { return lowerBias_ > room_; }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
   // interval fall as 1 / samples. Returns infinity if the bias leaves no room for noise.
   double Growth() const { return growth_; }
 
  private:
-  double wanted_, biasShare_;  // the former: relMSE
+  double Quantile(int look) const;
+
+  double wanted_, room_, biasShare_;  // relMSE; without and with omissions
+  double omitted_;
   int looks_ = 0;
   double upper_ = 0, lowerBias_ = 0, growth_ = 1;
 };

@@ -48,7 +48,8 @@ class Passes {
                rule.accuracy ? rule.accuracy->photonSamples : 0}),
         // A certificate compares groups whose samples are independent.
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections) {
-    if (rule.accuracy) accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare);
+    if (rule.accuracy)
+      accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
     if (job.sampler.IsProgressive() && hasBatches_)
       sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
     quiet_.SetListener([this] { ShowProgress(); });

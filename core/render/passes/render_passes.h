@@ -27,6 +27,7 @@ struct StoppingRule {
     std::int64_t firstSamples = 1;
     double biasShare = .125;   // of the squared error, what certificates should resolve
     double photonSamples = 0;  // as in PassPlan::Limits
+    double omitted = 0;        // as in AccuracyRule
   };
   std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs

@@ -32,6 +32,10 @@ void PhotonTracer::Path::Trace(Arena* arena, RayCounters* rays) {
   EmissionNumbers u = DrawEmissionNumbers();
   const Source source = ChooseSource(&u);
   if (!tracer_.rejection_.IsInUse()) {
+    if (IsOutOfReach(source)) {
+      if (batch_.isRecorded) Record(source, u);
+      return;
+    }
     const auto power = Emit(source, u);
     if (power && Begin(*power)) Follow(arena, rays);
     if (batch_.isRecorded) Record(source, u);
@@ -97,6 +101,17 @@ bool PhotonTracer::Path::IsSkipped() {
     return true;
   }
   return false;
+}
+
+// The statistics count the power that the light would have emitted. Cones emit constant power.
+bool PhotonTracer::Path::IsOutOfReach(const Source& source) {
+  if (!source.light || !IsOnlyOpen(PhotonKind::Caustic)) return false;
+  if (!tracer_.causticLights_.IsOutOfReach(light_)) return false;
+  if (!batch_.guide)
+    chunk_->emittedPower += double((source.light->Power() / source.probability).Y());
+  chunk_->skipped += 1;
+  isSkipped_ = true;
+  return true;
 }
 
 void PhotonTracer::Path::AddTo(std::span<LightTally> lights) const {

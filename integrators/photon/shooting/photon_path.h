@@ -65,6 +65,8 @@ class PhotonTracer::Path {
   // Follows now_ until it ends or branches.
   void Follow(Arena* arena, RayCounters* rays);
   bool IsSkipped();
+  // Ends the path before it is emitted, if it is for caustics only and its light makes none.
+  bool IsOutOfReach(const Source& source);
   bool Absorb(const Point3& p);
   bool ScatterInMedia(const Point3* end);
   Real Time(Real u) const;

@@ -92,6 +92,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
                      : PhotonRejection()),
       specularBoxes_(scene.Features().Needs(Feature::Specular) ? SpecularBoxes(scene)
                                                                : SpecularBoxes()),
+      causticLights_(scene.Features().Needs(Feature::Specular) ? CausticLights(scene)
+                                                               : CausticLights()),
       lobes_(scene.Features().Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular),
       farthest_(FarthestDistance(scene)) {}
 
@@ -196,6 +198,9 @@ PhotonPassResult PhotonTracer::Pass::Run(ChunkMemo* memo) {
     context_.statistics.AddRays(worker.rays);
     for (std::size_t i = 0; i < worker.lights.size(); ++i) result_.lights[i].Add(worker.lights[i]);
   }
+  for (std::size_t i = 0; i < result_.lights.size(); ++i)
+    if (tracer_.causticLights_.IsOutOfReach(int(i)))
+      result_.outOfReach += result_.lights[i].skipped;
   return std::move(result_);
 }
 
@@ -216,8 +221,9 @@ EmissionGuide PhotonTracer::Pass::Learn(PhotonKind kind) const {
   const auto& lights = tracer_.scene_.Lights();
   std::vector<double> base;
   for (const auto& light : lights) base.push_back(double(tracer_.lights_->Pmf(*light)));
-  const auto [from, to] = tracer_.scene_.Exposure();
-  const int unused = from == to ? 1 : 0;
+  // With --effects all, the exposure may be open although nothing moves.
+  const Scene& scene = tracer_.scene_;
+  const int unused = scene.Primitives().MovesWithin(scene.Exposure()) ? 0 : 1;
   const double defensive = kind == PhotonKind::Indirect ? kDefensiveIndirectShare : kDefensiveShare;
   return LearnEmission(samples_, {kind, base, defensive, EmissionNumbers::kDimensions - unused});
 }

@@ -15,6 +15,7 @@
 #include "integrators/photon/maps/photon.h"
 #include "integrators/photon/photon_settings.h"
 #include "integrators/photon/shooting/distant_light_targeting.h"
+#include "integrators/photon/shooting/emission/caustic_lights.h"
 #include "integrators/photon/shooting/media_photons.h"
 #include "integrators/photon/shooting/photon_rejection.h"
 #include "integrators/photon/shooting/specular_boxes.h"
@@ -65,6 +66,7 @@ struct PhotonPassResult {
   // Paths that were counted but not traced, because only the caustic map was open and the first ray
   // missed all specular surfaces.
   std::int64_t skipped = 0;
+  std::int64_t outOfReach = 0;  // of these, paths of lights that make no caustics (CausticLights)
   // Both over the paths that are not guided.
   double emittedPower = 0;          // luminance, summed over the paths
   double cutPower = 0;              // luminance of the photons that the depth limit ended
@@ -143,6 +145,7 @@ class PhotonTracer {
   Real mediaShare_;  // share of the paths that begin in a medium
   PhotonRejection rejection_;
   SpecularBoxes specularBoxes_;
+  CausticLights causticLights_;
   LobeSet lobes_;  // lobes that scatter photons
   Real farthest_;  // see PhotonBuffer::farthest
 };

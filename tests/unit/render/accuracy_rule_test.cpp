@@ -54,6 +54,22 @@ TEST(AccuracyRule, CountsTheBiasAndItsInterval) {
   EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
 }
 
+// The light that is missing may have the sign of the bias, so roots of relMSE add up.
+TEST(AccuracyRule, AddsWhatIsLeftOut) {
+  AccuracyRule rule(.02, .125, .002);
+  constexpr double kRoom = .018 * .018, kLevel = 2.053749;  // .04 / 2
+  EXPECT_NEAR(rule.NextGoal().smallest, .125 * kRoom, 1e-12);
+  EXPECT_NEAR(rule.NextGoal().quantile, kLevel, 1e-6);
+  rule.Look({.noise = .0003, .noiseError = .00002});
+  const double noise = .0003 + kLevel * .00002;
+  EXPECT_NEAR(std::sqrt(rule.Upper()), std::sqrt(noise) + .002, 1e-9);
+  EXPECT_FALSE(rule.IsReached());  // .0204
+  EXPECT_NEAR(rule.Growth(), noise / kRoom, 1e-6);
+  const Certificate certain = Bias(.00039, .00035, .00041);
+  rule.Look({.noise = 0, .noiseError = 0, .certificate = &certain});
+  EXPECT_TRUE(rule.IsOutOfReach());
+}
+
 TEST(AccuracyRule, NoNumberOfSamplesMakesUpForBias) {
   AccuracyRule rule(.02, .125);
   const Certificate probable = Bias(.0005, .0003, .0008), certain = Bias(.0005, .00045, .0006);

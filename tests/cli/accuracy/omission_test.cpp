@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests render a room whose caustics take most of the time and bring hardly any light, and
+// ask for an accuracy.
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+class OmissionTest : public ProgramTest {
+ protected:
+  OmissionTest() {
+    std::ifstream file(EXPHOTON_SOURCE_DIR "/tests/benchmark/omissions/dim-mirror.pbrt");
+    Write("room.pbrt", {std::istreambuf_iterator<char>(file), {}});
+  }
+  // Returns the messages.
+  std::string Render(const std::vector<std::string>& options) const {
+    std::vector<std::string> words{"room.pbrt", "--integrator", "exphotonmap",    "-o",
+                                   "room.exr",  "--stats-json", "statistics.json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const ProgramResult result = Run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.err;
+  }
+  nlohmann::json Statistics() const { return nlohmann::json::parse(Read("statistics.json")); }
+};
+
+bool Has(const std::string& text, const char* part) { return text.find(part) != text.npos; }
+
+TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
+  const std::string err = Render({"--accuracy", "20%"});
+  EXPECT_TRUE(Has(err, "caustics off: at most 0.")) << err;
+  EXPECT_TRUE(Has(err, " % of the light, would take ")) << err;
+  EXPECT_TRUE(Has(err, "of which effects left out are at most 0.")) << err;
+  const auto json = Statistics();
+  const auto& omitted = json.at("accuracy").at("omitted");
+  ASSERT_EQ(omitted.size(), 1u);
+  EXPECT_EQ(omitted[0].at("effect"), "caustics");
+  const double bound = omitted[0].at("bound"), time = omitted[0].at("time");
+  EXPECT_GT(bound, 0);
+  EXPECT_LE(bound, .02);  // a tenth of the accuracy
+  EXPECT_GT(time, .5);
+  // Without the bound, noise and its interval alone would be the error.
+  const double noise = json.at("noise"), error = json.at("accuracy").at("upperError");
+  EXPECT_GE(error, std::sqrt(noise) + bound);
+  EXPECT_FALSE(json.at("effects").at("caustics").at("on"));
+  EXPECT_FALSE(json.at("counters").contains("photons/caustic stored"));
+  const std::string info = Run({"info", "room.exr"}).out;
+  EXPECT_TRUE(Has(info, "accuracy/omitted caustics off: at most")) << info;
+  EXPECT_TRUE(Has(info, "accuracy/omittedBound")) << info;
+}
+
+TEST_F(OmissionTest, KeepsWhatTheUserNames) {
+  for (const char* effects : {"all", "glossy=on,caustics=on"}) {
+    const std::string err = Render({"--accuracy", "20%", "--effects", effects});
+    EXPECT_FALSE(Has(err, "caustics off")) << err;
+    EXPECT_TRUE(Statistics().at("accuracy").at("omitted").empty());
+    EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
+  }
+}
+
+TEST_F(OmissionTest, LeavesOutNothingWithKeep) {
+  EXPECT_FALSE(Has(Render({"--accuracy", "20%", "--keep"}), "caustics off"));
+  EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
+}
+
+TEST_F(OmissionTest, LeavesOutNothingWithoutAnAccuracy) {
+  const std::string err = Render({"--spp", "2"});
+  EXPECT_TRUE(Has(err, "effects: caustics, ")) << err;
+  EXPECT_FALSE(Has(err, "caustics off")) << err;
+  EXPECT_FALSE(Statistics().contains("accuracy"));
+  EXPECT_GT(Statistics().at("counters").at("photons/caustic stored"), 0);
+}
+
+TEST_F(OmissionTest, DoesNotDependOnThreads) {
+  std::string pictures[3];
+  const char* const threads[] = {"1", "2", "7"};
+  for (int i = 0; i < 3; ++i) {
+    Render({"--accuracy", "20%", "--nthreads", threads[i], "--reproducible"});
+    pictures[i] = Read("room.exr");
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
+  EXPECT_EQ(pictures[0], pictures[2]);
+}
+
+}  // namespace
+}  // namespace exphoton
