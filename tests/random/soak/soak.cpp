@@ -128,8 +128,8 @@ std::vector<Share> SharesOf(const Options& options) {
                                {kSums, 50},
                                {kFurnace, 200},
                                {kPhotons, 20},
-                               {kLayers, 20},
-                               {kGathers, 20},
+                               {kLayers, 50},
+                               {kGathers, 50},
                                {kRooms, 200},
                                {kAgreement, options.agreementEvery}};
   if (options.only.empty()) return all;

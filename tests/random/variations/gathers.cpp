@@ -21,7 +21,8 @@ struct GatherPair {
 };
 constexpr const char* kReference = R"("path" "integer maxdepth" 60)";
 constexpr std::array<GatherPair, 4> kGatherPairs{{
-    {R"("photonmap" "integer maxdepth" 24 "string photonroulette" "luminance")", kReference, true, .05},
+    {R"("photonmap" "integer maxdepth" 24 "string photonroulette" "luminance")", kReference, true,
+     .05},
     {R"("exphotonmap" "integer maxdepth" 24 "bool radiancephotons" "false")", kReference, true,
      .05},
     {R"("exphotonmap" "bool sharedgather" "true")", R"("exphotonmap" "bool sharedgather" "false")",
@@ -62,8 +63,7 @@ std::string TurnedSphere(std::uint64_t seed) {
     }
   return "AttributeBegin Material \"matte\" \"color Kd\" [.8 .7 .6]\nShape \"trianglemesh\" "
          "\"integer indices\" [" +
-         indices + "] \"point P\" [" + points + "] \"normal N\" [" + normals +
-         "]\nAttributeEnd\n";
+         indices + "] \"point P\" [" + points + "] \"normal N\" [" + normals + "]\nAttributeEnd\n";
 }
 
 SceneModel GatherSphere(const SceneModel& drawn, std::uint64_t seed) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Both pictures of a law have the same seeds, so most of the noise cancels in their difference. Light
-// that goes over several surfaces to a lamp is rare, and few seeds would need a large difference to
-// be certain. So there are more seeds than in other comparisons, with fewer samples.
+// Both pictures of a law have the same seeds, so most of the noise cancels in their difference.
+// Light that goes over several surfaces to a lamp is rare, and few seeds would need a large
+// difference to be certain. So there are more seeds than in other comparisons, with fewer samples.
 #include "tests/random/variations/layers.h"
 
 #include <algorithm>

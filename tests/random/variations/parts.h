@@ -20,8 +20,8 @@ inline constexpr std::array<const char*, 6> kParts{"R",         "emission.R", "d
                                                    "caustic.R", "indirect.R", "specular.R"};
 using PartMeans = std::array<std::vector<double>, kParts.size()>;
 
-// Returns the options of a picture of 8 x 6 pixels. `factor` and `photonFactor` multiply the numbers
-// of samples and of photons.
+// Returns the options of a picture of 8 x 6 pixels. `factor` and `photonFactor` multiply the
+// numbers of samples and of photons.
 TextOptions SmallPicture(const std::string& integrator, int factor, int photonFactor);
 std::string SmallSceneText(const SceneModel& scene, const std::string& integrator, int factor,
                            int photonFactor);
