@@ -13,14 +13,15 @@ namespace {
 
 constexpr int kMeshRays = 60;
 
-std::string Jittered(const Vector3& v, double amount, RandomStream* random) {
+std::string PointText(const Vector3& p) {
   char text[80];
-  const auto next = [&](Real x) {
-    return double(x) + amount * (2 * double(random->Uniform()) - 1);
-  };
-  const double x = next(v.x), y = next(v.y), z = next(v.z);
-  std::snprintf(text, sizeof text, "%.6g %.6g %.6g  ", x, y, z);
+  std::snprintf(text, sizeof text, "%.9g %.9g %.9g  ", double(p.x), double(p.y), double(p.z));
   return text;
+}
+
+Vector3 Jittered(Vector3 v, Real amount, RandomStream* random) {
+  for (int axis = 0; axis < 3; ++axis) v[axis] += amount * (2 * random->Uniform() - 1);
+  return v;
 }
 
 // A fan of four faces round a vertex at the edge of the mesh, which is the first point.
@@ -33,24 +34,24 @@ Fan RandomFan(RandomStream* random) {
            {0, Real(.9), 0},
            {Real(-.7), Real(.5), Real(-.1)},
            {-1, Real(-.3), 0}}};
-  for (Vector3& p : fan)
-    for (int axis = 0; axis < 3; ++axis) p[axis] += Real(.1) * (2 * random->Uniform() - 1);
+  for (Vector3& p : fan) p = Jittered(p, Real(.1), random);
   return fan;
 }
 
 std::string FanText(const Fan& fan, int levels) {
   std::string text = "Shape \"loopsubdiv\" \"integer nlevels\" " + std::to_string(levels) +
                      " \"integer indices\" [0 1 2 0 2 3 0 3 4 0 4 5] \"point P\" [";
-  RandomStream unused(1);
-  for (const Vector3& p : fan) text += Jittered(p, 0, &unused);
+  for (const Vector3& p : fan) text += PointText(p);
   return text + "]\n";
 }
 
 std::string TriangleText(RandomStream* random) {
-  const std::string up = Jittered({0, 0, 1}, .3, random) + Jittered({0, 0, 1}, .3, random) +
-                         Jittered({0, 0, 1}, .3, random);
-  const std::string along = Jittered({1, 0, 0}, .3, random) + Jittered({1, 0, 0}, .3, random) +
-                            Jittered({1, 0, 0}, .3, random);
+  const auto three = [&](const Vector3& v) {
+    std::string text;
+    for (int i = 0; i < 3; ++i) text += PointText(Jittered(v, Real(.3), random));
+    return text;
+  };
+  const std::string up = three({0, 0, 1}), along = three({1, 0, 0});
   const bool isMirrored = random->Bits() % 2;
   return "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [-1 -1 0 1 -1 0 0 1 0] "
          "\"normal N\" [" +
@@ -122,8 +123,7 @@ PlanePoints UnevenPlane(RandomStream* random) {
 
 std::string PlaneText(const PlanePoints& points) {
   std::string indices, places;
-  RandomStream unused(1);
-  for (const Vector3& p : points) places += Jittered(p, 0, &unused);
+  for (const Vector3& p : points) places += PointText(p);
   for (int i = 0; i < kSide * (kSide + 1); ++i) {
     if (i % (kSide + 1) == kSide) continue;
     const auto at = [&](int n) { return " " + std::to_string(i + n); };

@@ -14,8 +14,8 @@ namespace {
 constexpr int kLightPaths = 24, kMostVertices = 5;
 constexpr Real kLeastDistance = Real(.05), kLeastCosine = Real(.05);
 
-// Returns the density per area at `to` with which a path that arrives at `from` along wo goes there.
-// Returns a negative number where rounding makes it too inaccurate.
+// Returns the density per area at `to` with which a path that arrives at `from` along wo goes
+// there. Returns a negative number where rounding makes it too inaccurate.
 double DensityAt(const ShadingPoint& to, const ShadingPoint& from, const Vector3& wo,
                  LobeSet lobes) {
   const Vector3 step = to.surface.p - from.surface.p;
