@@ -41,6 +41,20 @@ TEST(RandomScenes, LookTheSameInSpheresWithFogOrGlossyWalls) {
   ExpectNoFailure(run);
 }
 
+TEST(RandomScenes, LoseKnownPartsOfEachAovWhereSurfacesAreDarker) {
+  SceneRun run({.maxStatisticalTries = 0});
+  for (std::uint64_t seed = 9000001; seed <= 9000006; ++seed) run.Add(kLayers, seed);
+  run.JudgeComparisons();
+  ExpectNoFailure(run);
+}
+
+TEST(RandomScenes, LookTheSameWithPhotonsThatPassGlassAndTurnedNormals) {
+  SceneRun run({.maxStatisticalTries = 0});
+  for (std::uint64_t seed = 9000001; seed <= 9000004; ++seed) run.Add(kGathers, seed);
+  run.JudgeComparisons();
+  ExpectNoFailure(run);
+}
+
 TEST(RandomScenes, HavePartsThatFitTogether) {
   SceneRun run({});
   for (std::uint64_t seed = 1; seed <= 12; ++seed) run.CheckProbes(seed);

@@ -141,6 +141,32 @@ void CompareInBall(const ProbedScene& scene, const Light& light, const Ball& bal
                   kDim);
 }
 
+// Returns the radiance that a random line meets on the light, at all places where it crosses its
+// surface from the front, times a factor. A line in a random direction through a random point of a
+// disk of radius R crosses a piece dA from the front dA / (4 pi R^2) times (Cauchy and Crofton), so
+// the mean is the power, which is pi times the integral of the radiance over the surface.
+double PowerByLine(const ProbedScene& scene, const Light& light, const Bounds3& bounds,
+                   RandomStream* random) {
+  constexpr int kMostHits = 64;
+  const Point3 centre = bounds.min * Real(.5) + bounds.max * Real(.5);
+  const Real radius = Distance(bounds.max, bounds.min) * Real(.505);
+  const Frame frame = Frame::FromZ(SampleUniformSphere(NextPoint(random)));
+  const Point2 u = NextPoint(random);
+  const Real r = radius * std::sqrt(u.x), phi = 2 * kPi * u.y;
+  Ray ray;
+  ray.o = centre + frame.x * (r * std::cos(phi)) + frame.y * (r * std::sin(phi)) - frame.z * radius;
+  ray.d = frame.z, ray.tMax = kInfinity, ray.time = RandomTime(scene, random);
+  double sum = 0;
+  for (int i = 0; i < kMostHits; ++i) {
+    const auto sight = scene.Look(ray);
+    if (!sight) break;
+    const SurfaceInteraction& s = sight->surface;
+    if (s.areaLight == &light) sum += double(s.areaLight->L(s, s.uv, s.wo).Y());
+    ray = SpawnRay(s, ray.d);
+  }
+  return sum * 4 * double(kPi) * double(kPi) * double(radius) * double(radius);
+}
+
 void CompareLight(const ProbedScene& scene, const Light& light, bool comparesPower,
                   RandomStream* random, EstimateComparison* comparison) {
   const Real half = Real(.7);
@@ -166,6 +192,21 @@ void CompareLight(const ProbedScene& scene, const Light& light, bool comparesPow
                      return sample ? double(sample->power.Y()) : 0;
                    }},
                   {1, [&](RandomStream*) { return power; }});
+}
+
+// Compares the power of a lamp that is alone with the light that lines meet on it.
+void CompareLoneLamp(std::uint64_t seed, EstimateComparison* comparison) {
+  SceneModel model = LoneLamp(HashKey({seed, 32}));
+  model.bodies.front().motion = 0;  // so that its bounds are tight, and more lines meet it
+  const ProbedScene scene(SceneText(model, {}), seed, 0);
+  for (const auto& light : scene.World().Lights()) {
+    const auto bounds = light->Bounds();
+    if (!bounds) continue;
+    const double power = double(light->Power().Y());
+    comparison->Add("power by lines", .05,
+                    {192, [&](RandomStream* r) { return PowerByLine(scene, *light, *bounds, r); }},
+                    {1, [&](RandomStream*) { return power; }}, kDim);
+  }
 }
 
 // Directions draws from half a uniform cone and half a sampler, and gives the ratio of the
@@ -316,6 +357,7 @@ std::vector<Comparison> CompareEstimates(const SceneModel& drawn, const Effort& 
     if (sights[i].surface.material) CompareBsdfDensity(sights[i], &arena, &comparison);
   for (std::size_t i = 0; i < std::min<std::size_t>(2, sights.size()); ++i)
     CompareMedia(scene, sights[i], &comparison);
+  CompareLoneLamp(effort.sceneSeed, &comparison);
   return comparison.Take();
 }
 

@@ -71,6 +71,7 @@ std::string BrokenProbe(const SceneModel& drawn, std::uint64_t seed) {
     ProbeLamps(model, scene, &findings);
     ProbeLights(scene, &findings);
     ProbeLoneLamps(seed, &findings);
+    ProbeLightPaths(scene, &findings);
     ProbeMedia(model, scene, &findings);
     ProbeEmission(model, scene, &findings);
     ProbeTextures(seed, &findings);

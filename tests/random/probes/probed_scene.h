@@ -69,6 +69,8 @@ void ProbeLights(const ProbedScene& scene, Findings* findings);
 // Checks scenes that have a lamp and nothing else.
 void ProbeLoneLamps(std::uint64_t seed, Findings* findings);
 void ProbeMedia(const SceneModel& model, const ProbedScene& scene, Findings* findings);
+// Compares the densities of light paths, which weigh the techniques of `bidirectional`.
+void ProbeLightPaths(const ProbedScene& scene, Findings* findings);
 // Compares point lights with maps or cones, and skies, with a second implementation of them.
 void ProbeEmission(const SceneModel& model, const ProbedScene& scene, Findings* findings);
 // Compare textures, bumps and meshes of a random scene of their own with other implementations.

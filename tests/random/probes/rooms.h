@@ -21,6 +21,9 @@ std::vector<Comparison> CompareWithFurnace(const SceneModel& scene, const Effort
 // Compares the picture of a uniform furnace with the sum over the bounces that an integrator
 // follows.
 std::vector<Comparison> CompareWithSum(const SceneModel& scene, const Effort& effort);
+// Compares the picture of a photon map with 1, in a spherical furnace full of glass and mirrors.
+std::vector<Comparison> CompareInShell(const SceneModel& scene, const Effort& effort);
+std::string ShellText(const SceneModel& scene, std::uint64_t seed);
 std::string FurnaceText(const SceneModel& furnace);
 
 }  // namespace exphoton::random_scenes

@@ -15,6 +15,8 @@
 #include "tests/random/scenes/scene_text.h"
 #include "tests/random/scenes/shrinking.h"
 #include "tests/random/scenes/statistics.h"
+#include "tests/random/variations/gathers.h"
+#include "tests/random/variations/layers.h"
 #include "tests/random/variations/pairs.h"
 #include "tests/random/variations/variations.h"
 
@@ -54,6 +56,8 @@ std::vector<Comparison> Compared(const std::string& property, const SceneModel& 
   if (property == kSums) return CompareWithSum(scene, effort);
   if (property == kPairs) return ComparePairs(scene, effort);
   if (property == kPhotons) return ComparePhotons(scene, effort);
+  if (property == kLayers) return CompareLayers(scene, effort);
+  if (property == kGathers) return CompareGathers(scene, effort);
   Effort more = effort;
   more.comparesMore = property == kRooms;
   return IntegratorComparison(AgreementScene(property, scene, effort.sceneSeed), more)
@@ -65,6 +69,8 @@ std::string ComparedText(const std::string& property, const SceneModel& scene, s
   if (property == kEstimates) return SceneText(SometimesFocused(scene, seed), {});
   if (property == kPairs) return PairText(scene, seed);
   if (property == kPhotons) return PhotonText(scene, seed);
+  if (property == kLayers) return LayersText(scene, seed);
+  if (property == kGathers) return GathersText(scene, seed);
   if (property == kFurnace || property == kSums) return FurnaceText(ExactFurnace(scene, seed));
   return AgreementText(AgreementScene(property, scene, seed));
 }

@@ -37,7 +37,7 @@ inline const std::string kVariations = "variations", kInvariances = "invariances
                          kProbes = "probes";
 inline const std::string kEnergy = "energy", kEstimates = "estimates", kFurnace = "furnace",
                          kSums = "sums", kPairs = "pairs", kPhotons = "photons", kRooms = "rooms",
-                         kAgreement = "agreement";
+                         kLayers = "layers", kGathers = "gathers", kAgreement = "agreement";
 
 struct RunSettings {
   int maxTries = 300;            // for shrinking by exact properties; 0: none

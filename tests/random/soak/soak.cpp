@@ -39,7 +39,8 @@ struct Options {
 constexpr const char* kUsage =
     "usage: soak HOURS | --scenes K [--seed N] [--agreement-every M] [--only PROPERTY] "
     "[--shrink TRIES] [--until-failure] [--folder PATH] [--counts FILE]\nproperties: variations, "
-    "probes, estimates, energy, pairs, photons, invariances, sums, furnace, rooms, agreement";
+    "probes, estimates, energy, pairs, photons, layers, gathers, invariances, sums, furnace, "
+    "rooms, agreement";
 
 // Converts the whole text to a number of type T.
 template <class T>
@@ -127,6 +128,8 @@ std::vector<Share> SharesOf(const Options& options) {
                                {kSums, 50},
                                {kFurnace, 200},
                                {kPhotons, 20},
+                               {kLayers, 50},
+                               {kGathers, 50},
                                {kRooms, 200},
                                {kAgreement, options.agreementEvery}};
   if (options.only.empty()) return all;

@@ -9,20 +9,13 @@
 #include "tests/random/variations/pairs.h"
 
 #include <array>
-#include <cmath>
-#include <cstdio>
 
 #include "core/math/sampling/random.h"
 #include "tests/random/probes/rooms.h"
-#include "tests/random/scenes/scene_text.h"
-#include "tests/random/scenes/statistics.h"
-#include "tests/support/test_scene.h"
+#include "tests/random/variations/parts.h"
 
 namespace exphoton::random_scenes {
 namespace {
-
-constexpr int kPairSeeds = 6, kPairSamples = 4;
-constexpr int kPairWidth = 8, kPairHeight = 6;
 
 struct SettingsPair {
   const char* name;  // of the integrator of both
@@ -71,67 +64,6 @@ SceneModel PairScene(const SceneModel& scene, const SettingsPair& pair) {
 
 std::string SettingText(const SettingsPair& pair, const char* setting) {
   return *pair.name ? "\"" + std::string(pair.name) + "\" " + setting : setting;
-}
-
-// `factor` and `photonFactor` multiply the numbers of samples and of photons.
-std::string PairSceneText(const SceneModel& scene, const std::string& integrator, int factor,
-                          int photonFactor) {
-  TextOptions options;
-  options.integrator = integrator;
-  options.samples = kPairSamples * factor;
-  options.photons = 500 * photonFactor, options.maxPhotonPaths = 10000 * photonFactor;
-  options.gatherRays = 6;
-  options.width = kPairWidth, options.height = kPairHeight;
-  return SceneText(scene, options);
-}
-
-constexpr std::array<const char*, 5> kParts{"R", "direct.R", "caustic.R", "indirect.R",
-                                            "specular.R"};
-
-using PartMeans = std::array<std::vector<double>, kParts.size()>;
-
-PartMeans MeansOf(const std::string& text, std::uint64_t firstSeed) {
-  PartMeans means;
-  for (int k = 0; k < kPairSeeds; ++k) {
-    TestRenderOptions options;
-    options.seed = firstSeed + std::uint64_t(k) * 1000;
-    options.footprintSamples = 1 << 20;
-    for (const Aov aov : {Aov::Direct, Aov::Caustic, Aov::Indirect, Aov::Specular})
-      options.aovs.Add(aov);
-    const Image image = RenderSceneText(text, options).image;
-    for (std::size_t i = 0; i < kParts.size(); ++i)
-      means[i].push_back(MeanChannel(image, kParts[i]));
-  }
-  return means;
-}
-
-// Differences up to these are allowed, relative to a part of the light and to the picture.
-struct Margins {
-  double ofPart = 0, ofPicture = 0;
-};
-
-// Compares the means of each part. With equal seeds the differences have less noise than the means.
-std::vector<Comparison> CompareParts(const std::string& what, const PartMeans& a,
-                                     const PartMeans& b, const Margins& margins,
-                                     bool hasEqualSeeds) {
-  const double picture = std::max(SampleOf(a[0]).mean, SampleOf(b[0]).mean);
-  std::vector<Comparison> comparisons;
-  for (std::size_t i = 0; i < kParts.size(); ++i) {
-    const Sample left = SampleOf(a[i]), right = SampleOf(b[i]);
-    // Sums of float pixels in another order differ in the last digits.
-    const double margin = std::max(margins.ofPart, 1e-5) * std::max(left.mean, right.mean) +
-                          margins.ofPicture * picture;
-    std::vector<double> differences;
-    for (std::size_t k = 0; k < a[i].size(); ++k) differences.push_back(a[i][k] - b[i][k]);
-    const double chance = hasEqualSeeds
-                              ? PValueBeyond(SampleOf(differences), {0, 0, kPairSeeds}, margin)
-                              : PValueBeyond(left, right, margin);
-    char detail[120];
-    std::snprintf(detail, sizeof detail, "%.5g +- %.2g against %.5g +- %.2g", left.mean,
-                  std::sqrt(left.variance), right.mean, std::sqrt(right.variance));
-    comparisons.push_back({what + ", " + kParts[i], chance, left.mean - right.mean, detail});
-  }
-  return comparisons;
 }
 
 enum class Ingredient { Gloss, ScatteringFog, GlowingFog };
@@ -196,7 +128,7 @@ std::vector<Comparison> ComparePairs(const SceneModel& scene, const Effort& effo
   const std::string first = SettingText(pair, pair.first), second = SettingText(pair, pair.second);
   // The blur of density estimates falls with more photons, a defect does not.
   const auto means = [&](const std::string& integrator, std::uint64_t seed) {
-    return MeansOf(PairSceneText(same, integrator, effort.factor, effort.factor), seed);
+    return MeansOf(SmallSceneText(same, integrator, effort.factor, effort.factor), seed);
   };
   const PartMeans a = means(first, effort.firstSeed);
   const PartMeans b = means(second, effort.firstSeed + 7);
@@ -205,14 +137,14 @@ std::vector<Comparison> ComparePairs(const SceneModel& scene, const Effort& effo
 
 std::string PairText(const SceneModel& scene, std::uint64_t seed) {
   const SettingsPair& pair = PairOf(seed);
-  return PairSceneText(PairScene(scene, pair), SettingText(pair, pair.first), 1, 1);
+  return SmallSceneText(PairScene(scene, pair), SettingText(pair, pair.first), 1, 1);
 }
 
 std::vector<Comparison> ComparePhotons(const SceneModel& scene, const Effort& effort) {
   const PhotonPair& pair = PhotonPairOf(effort.sceneSeed);
   const SceneModel sphere = PhotonSphere(scene, effort.sceneSeed);
   const auto means = [&](const char* integrator, std::uint64_t seed) {
-    return MeansOf(PairSceneText(sphere, integrator, effort.factor, 4 * effort.factor), seed);
+    return MeansOf(SmallSceneText(sphere, integrator, effort.factor, 4 * effort.factor), seed);
   };
   const PartMeans a = means(pair.first, effort.firstSeed);
   const PartMeans b = means(pair.second, effort.firstSeed + (pair.hasEqualSeeds ? 0 : 7));
@@ -221,7 +153,7 @@ std::vector<Comparison> ComparePhotons(const SceneModel& scene, const Effort& ef
 }
 
 std::string PhotonText(const SceneModel& scene, std::uint64_t seed) {
-  return PairSceneText(PhotonSphere(scene, seed), PhotonPairOf(seed).first, 1, 4);
+  return SmallSceneText(PhotonSphere(scene, seed), PhotonPairOf(seed).first, 1, 4);
 }
 
 }  // namespace exphoton::random_scenes

@@ -46,7 +46,51 @@ void WithoutAbsoluteValues(Take* take) {
     take->text.ending = " \"float rrthreshold\" 0";
 }
 
-const std::array<PictureChange, 14> kPictureChanges{{
+// A room that no light leaves, with an integrator that chooses no photons: those of fog take random
+// numbers. The volume integrator is named, because fog in the scene decides which is the default.
+// Lamps stay still, because the program finds moving ones without fog at more times than with it.
+void InClosedRoom(Take* take) {
+  constexpr std::array<const char*, 4> kWithoutPhotons{
+      R"("directlighting" "string strategy" "near")", R"("path")", R"("bidirectional")",
+      R"("directlighting")"};
+  SceneModel& scene = take->scene;
+  scene.room = scene.room == RoomKind::Box ? RoomKind::Box : RoomKind::Sphere;
+  scene.walls.kind = scene.walls.roughness % 2 ? MaterialKind::Plastic : MaterialKind::Matte;
+  std::erase_if(scene.lights, [](const LightModel& l) { return l.kind >= LightKind::Distant; });
+  scene.volumeIntegrator = std::max(scene.volumeIntegrator, 1);
+  if (scene.camera.kind == 1) scene.camera.kind = 0;
+  scene.camera.motion = 0;
+  for (BodyModel& body : scene.bodies)
+    if (body.emission != 0) body.motion = 0;
+  take->text.integrator = kWithoutPhotons[std::size_t(scene.integrator) % kWithoutPhotons.size()];
+}
+
+// Fills nearly half of all directions, outside of every room.
+const char* const kFogOutside =
+    "Volume \"homogeneous\" \"point p0\" [3.1 -9 -9] \"point p1\" [9 9 9] \"color sigma_a\" "
+    "[.5 .6 .7]\nVolume \"homogeneous\" \"point p0\" [-9 -9 -9] \"point p1\" [-3.1 9 9] \"color "
+    "sigma_a\" [.5 .6 .7]\n";
+
+// All motion ends at .2, before the exposure begins. Half of the scenes get fog, which scatters.
+void AfterAllMotion(Take* take) {
+  SceneModel& scene = take->scene;
+  scene.room = RoomKind::Sphere;
+  std::erase_if(scene.lights, [](const LightModel& l) { return l.kind >= LightKind::Distant; });
+  scene.camera.times = 1, scene.camera.shutter = 2;
+  if (scene.sampler % 2 || !scene.media.empty()) return;
+  MediumModel fog;
+  fog.parts = 1, fog.scattered = {4, 4, 4};
+  scene.media = {fog};
+  scene.volumeIntegrator = 2;
+}
+
+// A disk across the room, which shrinks and moves into a corner of the room's bounds.
+const char* const kLeavingPlate =
+    "AttributeBegin ActiveTransform EndTime Translate 2.6 2.6 2.6 Scale .05 .05 .05 "
+    "ActiveTransform All\nMaterial \"matte\" Shape \"disk\" \"float radius\" 2.8\n"
+    "AttributeEnd\n";
+
+const std::array<PictureChange, 16> kPictureChanges{{
     {"every feature on", [](Take* t) { t->render.load.effects = "all"; }},
     {"7 threads, tiles of 3", [](Take* t) { t->render.threads = 7, t->render.tileSize = 3; }},
     {"2 threads, tiles of 64", [](Take* t) { t->render.threads = 2, t->render.tileSize = 64; }},
@@ -67,6 +111,10 @@ const std::array<PictureChange, 14> kPictureChanges{{
     {"8 times the light", [](Take* t) { t->text.power = 8; }, WithoutAbsoluteValues, 8},
     {"1/8 of the light", [](Take* t) { t->text.power = .125; }, WithoutAbsoluteValues, .125F},
     {"one more light, which is black", [](Take* t) { t->text.hasBlackLight = true; }},
+    {"fog outside of a closed room", [](Take* t) { t->text.worldScale = kFogOutside; },
+     InClosedRoom},
+    {"a plate that leaves before the exposure", [](Take* t) { t->text.worldScale = kLeavingPlate; },
+     AfterAllMotion},
 }};
 
 // Integrators that SceneModel::integrator does not have.
