@@ -221,7 +221,9 @@ TEST(EmitterArea, IsSampledUniformlyTowardsAPointOutside) {
       const Vector3 to = s->point.p - ref.p;
       const double cosine = double(AbsDot(s->point.ng, to) / Length(to));
       const double pdf = double(LengthSquared(to)) / (cosine * test.area);
-      if (cosine > .01) EXPECT_NEAR(double(s->pdf) / pdf, 1, 1e-3) << name;
+      if (cosine > .01) {
+        EXPECT_NEAR(double(s->pdf) / pdf, 1, 1e-3) << name;
+      }
       return test.toSquare(s->point.p);
     };
     EXPECT_TRUE(FitsDensity(TestPlane({}, sample, [](Point2) { return 1.0; }), kEmitterTests))

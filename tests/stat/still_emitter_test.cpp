@@ -62,10 +62,10 @@ TEST(StillEmitters, PlacesOfASampleLieInDifferentRowsAndColumns) {
 }
 
 TEST(StillEmitters, EveryPixelThatShowsALampHasSeveralPlaces) {
-  const std::string cameras[] = {
-      "Camera \"perspective\" \"float fov\" 70",
-      "LookAt .3 -.2 -.5  0 0 2  .2 1 0\nCamera \"perspective\" \"float screenwindow\" [-1 .5 -1 1]",
-      "LookAt .3 -.2 -.5  0 0 2  0 1 0\nCamera \"orthographic\""};
+  const std::string cameras[] = {"Camera \"perspective\" \"float fov\" 70",
+                                 "LookAt .3 -.2 -.5  0 0 2  .2 1 0\nCamera \"perspective\" \"float "
+                                 "screenwindow\" [-1 .5 -1 1]",
+                                 "LookAt .3 -.2 -.5  0 0 2  0 1 0\nCamera \"orthographic\""};
   const std::string lamps[] = {
       "Translate .4 .3 2 Shape \"sphere\" \"float radius\" .2",
       "Translate -.4 -.6 3 Shape \"sphere\" \"float radius\" .02",
@@ -93,10 +93,12 @@ TEST(StillEmitters, OtherPixelsHaveOnePlace) {
   const std::string lamp = "Translate .4 .3 2 Shape \"sphere\" \"float radius\" .2";
   const std::string box = "PixelFilter \"box\"\n";
   EXPECT_LT(Marked(LampScene(box, lamp)).size(), 40u);
-  EXPECT_TRUE(Marked(LampScene(box, "Translate 0 0 -2 Shape \"sphere\" \"float radius\" .2")).empty());
+  EXPECT_TRUE(
+      Marked(LampScene(box, "Translate 0 0 -2 Shape \"sphere\" \"float radius\" .2")).empty());
   EXPECT_TRUE(Marked(LampScene(box, "Shape \"sphere\" \"float radius\" 3")).empty());  // round it
   EXPECT_TRUE(Marked(LampScene(box + "Camera \"environment\"", lamp)).empty());
-  EXPECT_TRUE(Marked(LampScene(box + "Camera \"perspective\" \"float lensradius\" .1", lamp)).empty());
+  EXPECT_TRUE(
+      Marked(LampScene(box + "Camera \"perspective\" \"float lensradius\" .1", lamp)).empty());
 }
 
 TEST(StillEmitters, SmallLampsHaveMorePlaces) {

@@ -21,7 +21,7 @@ constexpr Feature kCandidates[] = {Feature::Caustics, Feature::Glossy, Feature::
                                    Feature::Specular};
 
 constexpr double kBudget = .1;       // of the accuracy, for the bounds of all omissions
-constexpr double kPilotShare = .15;  // of the price, for the first pairs
+constexpr double kPairShare = .15;   // of the price, for the first pairs
 constexpr double kSavedShare = .5;   // of what an omission saves, for its other pairs
 constexpr double kWorthwhile = .95;  // of the time, at most, with an omission
 
@@ -52,7 +52,7 @@ class OmissionFinder {
     return !command_.keepsSettings && command_.load.effects != "all" &&
            2 * FirstCost() < Affordable();
   }
-  double Affordable() const { return kPilotShare * chosen_.price.seconds; }
+  double Affordable() const { return kPairShare * chosen_.price.seconds; }
   // Returns the expected cost of one render with all effects.
   double FirstCost() const {
     const double price = chosen_.price.seconds, maps = chosen_.photonShare * price;

@@ -164,7 +164,7 @@ class PathTracer::Walk {
         context_(context),
         lobes_(Lobes(context.scene)),
         random_(context.Stream(kPathStream)),
-        path_{ray, {}, PathHistory(context.scene.Features(), context.aovs), {}} {}
+        path_{ray, {}, PathHistory(context.scene.Features(), context.aovs), {}, {}} {}
 
   Spectrum Trace() {
     for (;;) {

@@ -201,7 +201,7 @@ std::vector<Comparison> CompareWithFurnace(const SceneModel& scene, const Effort
 SceneModel ShellFurnace(const SceneModel& scene, std::uint64_t seed) {
   RandomStream random(HashKey({seed, 30}));
   SceneModel shell = UniformFurnace(ExactFurnace(scene, seed), false);
-  shell.walls.diffuse.first = {9, 9, 9};  // with strong colours few photons have most power
+  shell.walls.diffuse.first = {9, 9, 9};  // photons have equal powers in all channels
   shell.camera.kind = shell.camera.motion = shell.camera.lens = 0;
   for (int corner = 0; corner < 8; ++corner) {
     BodyModel body;
