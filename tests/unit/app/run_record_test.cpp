@@ -147,11 +147,13 @@ TEST_F(RunRecordTest, IsALineOfJson) {
   run.isComplete = true;
   run.noise = .25, run.noiseError = .0625, run.timeLimit = 9;
   run.accuracy = .5, run.upperError = .0625, run.choice = "more";
+  run.omitted = {{"glossy", .125, .75}};
   const std::string other = StatisticsJson(run);
   EXPECT_EQ(other.find("footprint"), std::string::npos);
   EXPECT_NE(other.find("\"complete\":true,"), std::string::npos);
   EXPECT_NE(other.find("\"noise\":0.25,\"noiseError\":0.0625,\"targetError\":0.125,"
-                       "\"accuracy\":{\"wanted\":0.5,\"upperError\":0.25,\"chosen\":\"more\"},"
+                       "\"accuracy\":{\"wanted\":0.5,\"upperError\":0.25,\"chosen\":\"more\","
+                       "\"omitted\":[{\"effect\":\"glossy\",\"bound\":0.125,\"time\":0.75}]},"
                        "\"timeLimit\":9,"),
             std::string::npos)
       << other;
