@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// OmittedEffect is an effect that --accuracy leaves out, because its light is small with a known confidence.
+// OmittedEffect is an effect that --accuracy leaves out, because its light is small with a known
+// confidence.
 #pragma once
 
 #include <string>
