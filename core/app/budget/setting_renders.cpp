@@ -7,17 +7,6 @@
 namespace exphoton::cli {
 namespace {
 
-PictureValues ChannelsOf(const Film& film) {
-  const PixelBounds& crop = film.Crop();
-  PictureValues values;
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const auto mean = film.MeanOf({x, y});
-      values.insert(values.end(), mean.begin(), mean.begin() + 3);
-    }
-  return values;
-}
-
 PictureValues MeanOfGroup(const Corrections::Group& group) {
   PictureValues values = group.sums;
   for (double& value : values) value /= double(group.samplesPerPixel);
@@ -67,7 +56,7 @@ SettingRenders RenderSetting(const RenderSetup& setup, const SettingRequest& req
     if (!renderer.Run({seeds.photons, seeds.samples, 0, samples}, *sampler, &film))
       throw LoadingStopped();
     if (renders.groups) renders.groups->EndPass(int(renders.pictures.size()), samples);
-    renders.pictures.push_back(ChannelsOf(film));
+    renders.pictures.push_back(ValuesOf(film));
   }
   renderer.Finish();
   if (renders.groups)

@@ -61,11 +61,7 @@ PilotRenderer::OnePass PilotRenderer::RenderOnce(const RenderSetup& setup,
     throw LoadingStopped();
   OnePass pass;
   pass.cost = CostOf(small.Counts(), setup.integratorName);
-  for (int y = setup.crop.y0; y < setup.crop.y1; ++y)
-    for (int x = setup.crop.x0; x < setup.crop.x1; ++x) {
-      const auto mean = film.MeanOf({x, y});
-      pass.values.insert(pass.values.end(), mean.begin(), mean.begin() + 3);
-    }
+  pass.values = ValuesOf(film);
   return pass;
 }
 

@@ -61,4 +61,15 @@ RenderJob SmallRender::Job(const RenderSetup& setup, const Sampler& sampler, Fil
           setup.integratorName};
 }
 
+std::vector<double> ValuesOf(const Film& film) {
+  const PixelBounds& crop = film.Crop();
+  std::vector<double> values;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const auto mean = film.MeanOf({x, y});
+      values.insert(values.end(), mean.begin(), mean.begin() + 3);
+    }
+  return values;
+}
+
 }  // namespace exphoton::cli

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/app/options/options.h"
 #include "core/base/parallel.h"
@@ -51,5 +52,8 @@ class SmallRender {
   ProgressReporter progress_{ProgressReporter::Mode::Quiet};
   Statistics statistics_;
 };
+
+// Returns the means of R, G and B of each pixel of the film's crop window, row by row.
+std::vector<double> ValuesOf(const Film& film);
 
 }  // namespace exphoton::cli

@@ -41,17 +41,6 @@ struct Times {
   }
 };
 
-Values ValuesOf(const Film& film) {
-  const PixelBounds& crop = film.Crop();
-  Values values;
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const auto mean = film.MeanOf({x, y});
-      values.insert(values.end(), mean.begin(), mean.begin() + 3);
-    }
-  return values;
-}
-
 double PixelsOf(const RenderSetup& setup) {
   return double(setup.crop.Width()) * double(setup.crop.Height());
 }

@@ -87,8 +87,7 @@ void CheckFan(const Fan& fan, int levels, std::uint64_t seed, Findings* findings
   const auto coarse = sight(levels), fine = sight(kFineLevels);
   if (!coarse || !fine) return;
   const double cosine = double(AbsDot(coarse->surface.shading.n, fine->surface.ng));
-  findings->Expect(cosine > .97, "the normal of a subdivided mesh is that of finer faces", cosine,
-                   1);
+  findings->Expect(cosine > .97, "normal of a subdivided mesh, against finer faces", cosine, 1);
 }
 
 // A mesh has the same tangents as an instance and without.
