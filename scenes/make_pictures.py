@@ -24,7 +24,7 @@ PICTURES = {
     "spiral-staircase": (32, 2, -.1),
     "swimming-hall": (32, 2, -.2),
     "sculpture-hall": (32, 4, -1),
-    "night-corridor": (32, 4, -.3),
+    "night-corridor": (32, 2, -.3),
     "blinds-and-haze": (32, 2, .5),
     "dusk-motion": (64, 2, .4),
     "material-gallery": (32, 1, 0),

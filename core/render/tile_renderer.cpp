@@ -94,7 +94,8 @@ TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, c
                       target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {
   // Splatted samples contribute to other pixels as well, by their own place.
   if (!target.splats && job.integrator.EmissionDepth() && job.integrator.HasCostlySamples())
-    stillEmitters_.emplace(FilmView{job.scene, job.camera, job.filter, target.film});
+    stillEmitters_.emplace(FilmView{job.scene, job.camera, job.filter, target.film},
+                           *job.integrator.EmissionDepth());
 }
 
 void TileRenderer::RenderTile(const PixelBounds& tile, RenderWorker* worker) const {
@@ -268,26 +269,57 @@ void TileRenderer::AverageTimes(const TracedSample& sample, RenderWorker* worker
 
 void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
                                  AovSample* aovs) const {
-  const int places = stillEmitters_ ? stillEmitters_->PlacesIn(sample.pixel) : 1;
+  if (!stillEmitters_ || !target_.film.Crop().Contains(sample.pixel.x, sample.pixel.y)) return;
+  const StillEmitters& emitters = *stillEmitters_;
+  const auto raysIn = [&](Point2i pixel) { return RaysOfReflection(pixel, worker); };
+  const int ofReflections = emitters.PlacesForReflections(sample.pixel, raysIn);
+  const bool isReflected = ofReflections > 1;
+  const int places = std::max(emitters.PlacesIn(sample.pixel), ofReflections);
   if (places == 1) return;
-  const auto own = stillEmitters_->Along(sample.ray);
-  if (!own) return;
-  Spectrum sum = *own * sample.filter.weight;
+  RayCounters* const rays = &worker->totals.rays;
+  const auto lightAlong = [&](const RayDifferential& ray) {
+    return isReflected ? emitters.AllAlong(ray, sample.context, rays)
+                       : EmittedLight{emitters.FirstAlong(ray), {}};
+  };
+  const EmittedLight own = lightAlong(sample.ray);
+  EmittedLight mean;
+  mean.Add(own, Real(1) / Real(places));
   bool isEdge = false;
   for (int i = 1; i < places; ++i) {
     const FilterSample filter =
         job_.filter.Sample(StillEmitters::Place(worker->samples.film, i, places));
-    const CameraSample at = AtPlace(PlaceOf(sample.pixel, filter), worker->samples);
-    worker->totals.rays.Count(RayKind::Camera);
-    const auto other = stillEmitters_->Along(job_.camera.GenerateRay(at, false));
-    if (!other) return;
-    isEdge = isEdge || *other != *own;
-    sum += *other * filter.weight;
+    const EmittedLight other =
+        lightAlong(CameraRay(PlaceOf(sample.pixel, filter), worker->samples));
+    if (!isReflected) rays->Count(RayKind::Camera);
+    isEdge = isEdge || !other.HasSameColors(own);
+    mean.Add(other, filter.weight / (Real(places) * sample.filter.weight));
   }
   if (!isEdge) return;
-  const Spectrum mean = sum / (Real(places) * sample.filter.weight);
-  Replace(*own, mean, L);
-  Replace(*own, mean, &aovs->emission);
+  Replace(own.first + own.specular, mean.first + mean.specular, L);
+  Replace(own.first, mean.first, &aovs->emission);
+  Replace(own.specular, mean.specular, &aovs->specular);
+}
+
+int TileRenderer::RaysOfReflection(Point2i pixel, RenderWorker* worker) const {
+  constexpr std::uint64_t kReflectionStream = 0x7265666c6563ull;
+  const std::uint64_t key = HashKey(
+      {target_.pass.sampleSeed, std::uint64_t(pixel.x), std::uint64_t(pixel.y), kReflectionStream});
+  RandomStream random(key);
+  CameraSamples samples = worker->samples;
+  samples.time = random.Uniform();
+  RayCounters rays;  // not of the render: two threads may count the same rays
+  const LiContext context{job_.scene, samples, worker->arena, rays, key};
+  constexpr int kMaxTrees = 4;  // 1 if the first tree has no specular rays
+  constexpr std::uint64_t kManyRays = 12;
+  int trees = 0;
+  bool isShown = false;
+  do {
+    const Point2 film(Real(pixel.x) + random.Uniform(), Real(pixel.y) + random.Uniform());
+    const EmittedLight light = stillEmitters_->AllAlong(CameraRay(film, samples), context, &rays);
+    isShown = isShown || !light.specular.IsBlack();
+    ++trees;
+  } while (trees < kMaxTrees && rays.Total() > std::uint64_t(trees) && rays.Total() < kManyRays);
+  return isShown ? int(std::min<std::uint64_t>(rays.Total() / std::uint64_t(trees), 1000)) : 0;
 }
 
 void TileRenderer::Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const {

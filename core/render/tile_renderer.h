@@ -4,13 +4,13 @@
 #pragma once
 
 #include "core/render/done_pixels.h"
-#include "core/render/moving_emitters.h"
+#include "core/render/emitters/moving_emitters.h"
+#include "core/render/emitters/still_emitters.h"
 #include "core/render/render.h"
 #include "core/render/render_totals.h"
 #include "core/render/sharing/gather_fragments.h"
 #include "core/render/splat_buffer.h"
 #include "core/render/state/checkpoints.h"
-#include "core/render/still_emitters.h"
 
 namespace exphoton {
 
@@ -87,6 +87,9 @@ class TileRenderer {
   // Replaces the light of still emitters in L by the mean over several places in the filter.
   void AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
                      AovSample* aovs) const;
+  // Traces a few specular trees in the pixel. Returns the number of rays of one tree, or 0 if they
+  // meet no still emitter. These rays are not counted.
+  int RaysOfReflection(Point2i pixel, RenderWorker* worker) const;
   void MakeUsable(const SampleKey& key, RenderWorker* worker, Spectrum* L, AovSample* aovs) const;
   void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
 

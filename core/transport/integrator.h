@@ -147,10 +147,10 @@ class SurfaceIntegrator {
   // Returns the number of specular bounces after which Li contains emission as a SpecularTree of
   // this depth finds it, in the AOVs emission and specular. 0: only the emission of the first
   // surface. The renderer may replace this light by a better estimate
-  // (core/render/moving_emitters.h).
+  // (core/render/emitters/moving_emitters.h).
   virtual std::optional<int> EmissionDepth() const { return std::nullopt; }
   // Returns whether Li takes much longer than several camera rays. The renderer then spends such
-  // rays on the edges of lamps (core/render/still_emitters.h).
+  // rays on the edges of lamps (core/render/emitters/still_emitters.h).
   virtual bool HasCostlySamples() const { return false; }
   // Returns whether Li fills LiContext::gathers.
   virtual bool SharesGathers(const Scene& scene) const {

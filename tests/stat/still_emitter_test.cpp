@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/render/still_emitters.h"
+#include "core/render/emitters/still_emitters.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
@@ -28,7 +28,7 @@ std::string LampScene(const std::string& options, const std::string& lamp) {
 int PlacesIn(const LoadedScene& scene, Point2i pixel) {
   const RenderSetup& setup = *scene.setup;
   const Film film(setup.film.Full(), setup.crop);
-  return StillEmitters({*setup.scene, *setup.camera, *setup.filter, film}).PlacesIn(pixel);
+  return StillEmitters({*setup.scene, *setup.camera, *setup.filter, film}, 0).PlacesIn(pixel);
 }
 
 // Returns the pixels with several places.
@@ -108,20 +108,44 @@ TEST(StillEmitters, SmallLampsHaveMorePlaces) {
   EXPECT_EQ(PlacesIn(LoadSceneText(LampScene("", large)), {kWidth / 2, kHeight / 2}), 4);
 }
 
-// The pictures of one lamp for many seeds.
+// Settings of a picture of 16 x 16 pixels. They end before `WorldBegin`.
+std::string SmallPicture(const std::string& integrator, const std::string& filter) {
+  return "SurfaceIntegrator " + integrator +
+         "\nFilm \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+         "Sampler \"random\" \"integer pixelsamples\" 4\nPixelFilter " +
+         filter + "\nCamera \"perspective\" \"float fov\" 90\n";
+}
+
+std::string Lamp(double radius) {
+  return "AreaLightSource \"area\" \"color L\" [50 50 50]\nMaterial \"matte\" \"color Kd\" [0 0 "
+         "0]\n"
+         "Shape \"sphere\" \"float radius\" " +
+         std::to_string(radius) + "\n";
+}
+
+// A lamp in front of the camera.
+std::string LampAhead(double radius) { return "Translate .1 .2 2 " + Lamp(radius); }
+
+// A lamp behind the camera and a mirror in front of it.
+std::string LampInAMirror(double radius) {
+  return "AttributeBegin\nTranslate .2 .4 -1 " + Lamp(radius) +
+         "AttributeEnd\nMaterial \"mirror\" \"color Kr\" [.9 .8 .7]\n"
+         "Translate 0 0 1 Shape \"disk\" \"float radius\" 3\n";
+}
+
+// A lamp behind the surface of a glass that begins at the plane z = 1.
+std::string LampInGlass(double radius) {
+  return "AttributeBegin\n" + LampAhead(radius) +
+         "AttributeEnd\nMaterial \"glass\"\n"
+         "Translate 0 0 1 Rotate 180 0 1 0 Shape \"disk\" \"float radius\" 3\n";
+}
+
+// The pictures of a scene for many seeds.
 class LampPictures {
  public:
-  static constexpr int kSeeds = 80, kSize = 16;
+  static constexpr int kSeeds = 80;
 
-  LampPictures(const std::string& integrator, const std::string& filter, double radius) {
-    const std::string text =
-        "SurfaceIntegrator " + integrator + "\nFilm \"image\" \"integer xresolution\" 16 " +
-        "\"integer yresolution\" 16\nSampler \"random\" \"integer pixelsamples\" 4\nPixelFilter " +
-        filter +
-        "\nCamera \"perspective\" \"float fov\" 90\nWorldBegin\n"
-        "AreaLightSource \"area\" \"color L\" [50 50 50]\nMaterial \"matte\" \"color Kd\" [0 0 0]\n"
-        "Translate .1 .2 2 Shape \"sphere\" \"float radius\" " +
-        std::to_string(radius) + "\nWorldEnd\n";
+  explicit LampPictures(const std::string& text) {
     for (int seed = 1; seed <= kSeeds; ++seed) {
       TestRenderOptions options;
       options.seed = std::uint64_t(seed);
@@ -155,22 +179,64 @@ class LampPictures {
 
 class LampEdgeTest : public testing::TestWithParam<const char*> {};
 
-// `path` does not average over places, and shows the same lamp.
-TEST_P(LampEdgeTest, TheMeanIsTheSameAndTheNoiseIsLess) {
-  for (const double radius : {.06, .4}) {
-    const LampPictures averaged(kCosts, GetParam(), radius), plain("\"path\"", GetParam(), radius);
-    double difference = 0, squares = 0, size = 0;
-    const std::vector<double> a = averaged.Means(), b = plain.Means();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      difference += (a[i] - b[i]) / double(a.size());
-      squares += std::pow(a[i] - b[i], 2);
-      size += b[i] / double(b.size());
-    }
-    const double error = std::sqrt(squares) / double(a.size());
-    EXPECT_LT(std::abs(difference), 4 * error) << radius;
-    EXPECT_LT(error, .2 * size) << radius;
-    EXPECT_LT(averaged.Variance(), plain.Variance() / (radius < .1 ? 8 : 3)) << radius;
+void ExpectLessNoise(const std::string& filter, const std::string& world, double factor) {
+  const std::string end = "WorldBegin\n" + world + "WorldEnd\n";
+  // `path` does not average over places, and shows the same lamp.
+  const LampPictures averaged(SmallPicture(kCosts, filter) + end);
+  const LampPictures plain(SmallPicture("\"path\" \"integer maxdepth\" 10", filter) + end);
+  double difference = 0, squares = 0, size = 0;
+  const std::vector<double> a = averaged.Means(), b = plain.Means();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference += (a[i] - b[i]) / double(a.size());
+    squares += std::pow(a[i] - b[i], 2);
+    size += b[i] / double(b.size());
   }
+  const double error = std::sqrt(squares) / double(a.size());
+  EXPECT_LT(std::abs(difference), 4 * error);
+  EXPECT_LT(error, .2 * size);
+  EXPECT_LT(averaged.Variance(), plain.Variance() / factor);
+}
+
+TEST_P(LampEdgeTest, TheMeanIsTheSameAndTheNoiseIsLess) {
+  ExpectLessNoise(GetParam(), LampAhead(.06), 8);
+  ExpectLessNoise(GetParam(), LampAhead(.4), 3);
+}
+
+TEST_P(LampEdgeTest, LampsBehindSpecularSurfacesToo) {
+  ExpectLessNoise(GetParam(), LampInAMirror(.2), 8);
+  ExpectLessNoise(GetParam(), LampInAMirror(.4), 8);
+  ExpectLessNoise(GetParam(), LampInGlass(.2), 8);
+  ExpectLessNoise(GetParam(), LampInGlass(.4), 8);
+}
+
+TEST_P(LampEdgeTest, AMediumDimsTheLampsAtAllPlaces) {
+  const std::string fog =
+      "Volume \"homogeneous\" \"color sigma_a\" [.3 .4 .5] \"color sigma_s\" [0 0 0] "
+      "\"point p0\" [-9 -9 -9] \"point p1\" [9 9 9]\n";
+  ExpectLessNoise(GetParam(), fog + LampAhead(.4), 3);
+  ExpectLessNoise(GetParam(), fog + LampInAMirror(.4), 8);
+}
+
+// The pixels that have several places for reflections are found while the picture is rendered.
+TEST_P(LampEdgeTest, ThreadsTilesAndCropsChangeNothing) {
+  const auto render = [&](const std::string& crop, int threads, int tileSize) {
+    const std::string text = SmallPicture(kCosts, std::string(GetParam()) + crop) + "WorldBegin\n" +
+                             LampInAMirror(.2) + "WorldEnd\n";
+    TestRenderOptions options;
+    options.threads = threads;
+    options.tileSize = tileSize;
+    return RenderSceneText(text, options);
+  };
+  const TestRender whole = render("", 1, 16), other = render("", 7, 3);
+  EXPECT_EQ(whole.values, other.values);
+  EXPECT_EQ(whole.rays.counts, other.rays.counts);
+  const TestRender part = render(
+      "\nFilm \"image\" \"integer xresolution\" 16 \"integer "
+      "yresolution\" 16 \"float cropwindow\" [.25 .75 .125 .625]",
+      2, 5);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      EXPECT_EQ(part.image.At(x, y, 0), whole.image.At(x + 4, y + 2, 0)) << x << "," << y;
 }
 
 INSTANTIATE_TEST_SUITE_P(Filters, LampEdgeTest,

@@ -48,7 +48,6 @@ void WithoutAbsoluteValues(Take* take) {
 
 // A room that no light leaves, with an integrator that chooses no photons: those of fog take random
 // numbers. The volume integrator is named, because fog in the scene decides which is the default.
-// Lamps stay still, because the program finds moving ones without fog at more times than with it.
 void InClosedRoom(Take* take) {
   constexpr std::array<const char*, 4> kWithoutPhotons{
       R"("directlighting" "string strategy" "near")", R"("path")", R"("bidirectional")",
@@ -60,8 +59,6 @@ void InClosedRoom(Take* take) {
   scene.volumeIntegrator = std::max(scene.volumeIntegrator, 1);
   if (scene.camera.kind == 1) scene.camera.kind = 0;
   scene.camera.motion = 0;
-  for (BodyModel& body : scene.bodies)
-    if (body.emission != 0) body.motion = 0;
   take->text.integrator = kWithoutPhotons[std::size_t(scene.integrator) % kWithoutPhotons.size()];
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // StillEmitters projects the boxes of emitters to the film.
-#include "core/render/still_emitters.h"
+#include "core/render/emitters/still_emitters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,10 +65,18 @@ void AddEdge(const Clip& a, const Clip& b, FilmBox* box) {
   }
 }
 
+// Returns the farthest pixel that a filter of this half-width meets. It is at least the next one,
+// because a ray for each pixel misses small emitters.
+int Reach(Real width) { return std::max(int(width + Real(.5)), 1); }
+
 }  // namespace
 
-StillEmitters::StillEmitters(const FilmView& view)
-    : scene_(view.scene), shutter_(view.camera.Shutter()), crop_(view.film.Crop()) {
+StillEmitters::StillEmitters(const FilmView& view, int depth)
+    : scene_(view.scene),
+      depth_(depth),
+      reach_{Reach(view.filter.XWidth()), Reach(view.filter.YWidth())},
+      shutter_(view.camera.Shutter()),
+      crop_(view.film.Crop()) {
   const RequiredFeatures& features = view.scene.Features();
   if (!features.Needs(Feature::Motion)) shutter_.max = shutter_.min;
   const bool hasLens = view.camera.HasLens() && features.Needs(Feature::Lens);
@@ -78,7 +86,10 @@ StillEmitters::StillEmitters(const FilmView& view)
   const std::vector<Bounds3> moving = view.scene.Primitives().MovingEmitters(shutter_);
   for (const auto& light : view.scene.Lights()) {
     const auto box = light->IsDelta() ? std::nullopt : light->Bounds();
-    if (!box || box->Contains(eye)) continue;
+    if (!box) continue;
+    if (depth > 0 && features.Needs(Feature::Specular) && !reflections_)
+      reflections_.emplace(Reached());
+    if (box->Contains(eye)) continue;
     const bool moves = std::any_of(moving.begin(), moving.end(), [&](const Bounds3& swept) {
       return swept.Contains(box->min) && swept.Contains(box->max);
     });
@@ -97,7 +108,7 @@ void StillEmitters::Mark(const Bounds3& box, const FilmView& view) {
   const PixelBounds marked =
       onFilm.Pixels(crop_, double(view.filter.XWidth()), double(view.filter.YWidth()));
   if (marked.IsEmpty()) return;
-  const int places = onFilm.Area() <= kSmallArea ? kPlacesOfSmall : kPlaces;
+  const int places = onFilm.Area() <= kSmallArea ? kMostPlaces : kPlaces;
   pixels_.resize(std::size_t(crop_.Width()) * std::size_t(crop_.Height()), std::uint8_t(1));
   for (int y = marked.y0; y < marked.y1; ++y) {
     for (int x = marked.x0; x < marked.x1; ++x) {
@@ -118,15 +129,14 @@ Point2 StillEmitters::Place(Point2 u, int i, int n) {
   return {shifted(u.x, i), shifted(u.y, reversed)};
 }
 
-std::optional<Spectrum> StillEmitters::Along(Ray ray) const {
+Spectrum StillEmitters::FirstAlong(Ray ray) const {
   const auto first = scene_.IntersectPoint(ray);
   if (!first) return Spectrum();
   const AreaLight* const light = scene_.Primitives().Attributes(first->hit).areaLight;
-  if (!light || (first->motion && first->motion->MovesWithin(shutter_))) return Spectrum();
+  if (!light || !IsStill(first->motion)) return Spectrum();
   const SurfaceInteraction surface = scene_.Complete(ray, first->hit);
   ray.tMax = first->hit.t;
-  if (!(scene_.Transmittance(ray) == Spectrum(1))) return std::nullopt;
-  return light->L(surface, surface.uv, surface.wo);
+  return light->L(surface, surface.uv, surface.wo) * scene_.Transmittance(ray);
 }
 
 }  // namespace exphoton

@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "core/imaging/film/camera.h"
-#include "core/transport/integrator.h"
+#include "core/render/emitters/emitted_light.h"
 
 namespace exphoton {
-
-// EmittedLight is the light of moving emitters along one camera ray.
-struct EmittedLight {
-  Spectrum first, specular;  // from the first surface, and over specular surfaces
-  bool isNear = false;       // whether the ray, or one that follows from it, meets their bounds
-};
 
 class MovingEmitters {
  public:
@@ -24,20 +18,24 @@ class MovingEmitters {
   // sixteenth of the exposure is seen by nearly all samples.
   static constexpr int kTimes = 16;
 
-  // `depth` is SurfaceIntegrator::EmissionDepth. Empty if the camera moves or there are media. The
-  // scene must outlive this object.
+  // `depth` is SurfaceIntegrator::EmissionDepth. Empty if the camera moves. The scene must outlive
+  // this object.
   MovingEmitters(const Scene& scene, const Camera& camera, std::optional<int> depth);
 
   // Returns whether the ray may hit one of the emitters at some time.
   bool MayMeet(const Ray& ray) const;
   // Returns whether specular rays count, and not only the camera ray.
   bool FollowsSpecularRays() const { return depth_ > 0 && !bounds_.empty(); }
+  // Returns whether a surface moves while the shutter is open.
+  bool Contain(const SurfaceInteraction& surface) const {
+    return surface.motion && surface.motion->MovesWithin(shutter_);
+  }
   // Traces the ray, and specular rays that follow from it. `rays` counts them.
-  EmittedLight Along(const RayDifferential& ray, const LiContext& sample, RayCounters* rays) const;
+  EmittedLight Along(const RayDifferential& ray, const LiContext& sample, RayCounters* rays) const {
+    return LightAlong(ray, *this, depth_, sample, rays);
+  }
 
  private:
-  class Shade;
-
   int depth_ = 0;
   Interval shutter_;
   std::vector<Bounds3> bounds_;  // each contains an emitter at all times
@@ -51,8 +49,7 @@ class EmissionMean {
   explicit EmissionMean(const EmittedLight& own) : sum_(own) {}
   void Add(const EmittedLight& other) {
     if (!other.isNear) return;
-    sum_.first += other.first;
-    sum_.specular += other.specular;
+    sum_.Add(other, 1);
     ++count_;
   }
   Spectrum First() const { return sum_.first / Real(count_); }
