@@ -46,6 +46,11 @@ void WithoutAbsoluteValues(Take* take) {
     take->text.ending = " \"float rrthreshold\" 0";
 }
 
+// Photons and camera rays leave the room through other walls.
+void MakeWallsOpaque(SceneModel* scene) {
+  scene->walls.kind = scene->walls.roughness % 2 ? MaterialKind::Plastic : MaterialKind::Matte;
+}
+
 // A room that no light leaves, with an integrator that chooses no photons: those of fog take random
 // numbers. The volume integrator is named, because fog in the scene decides which is the default.
 void InClosedRoom(Take* take) {
@@ -54,7 +59,7 @@ void InClosedRoom(Take* take) {
       R"("directlighting")"};
   SceneModel& scene = take->scene;
   scene.room = scene.room == RoomKind::Box ? RoomKind::Box : RoomKind::Sphere;
-  scene.walls.kind = scene.walls.roughness % 2 ? MaterialKind::Plastic : MaterialKind::Matte;
+  MakeWallsOpaque(&scene);
   std::erase_if(scene.lights, [](const LightModel& l) { return l.kind >= LightKind::Distant; });
   scene.volumeIntegrator = std::max(scene.volumeIntegrator, 1);
   if (scene.camera.kind == 1) scene.camera.kind = 0;
@@ -69,9 +74,11 @@ const char* const kFogOutside =
     "sigma_a\" [.5 .6 .7]\n";
 
 // All motion ends at .2, before the exposure begins. Half of the scenes get fog, which scatters.
+// The walls are opaque, because the plate stays outside of them.
 void AfterAllMotion(Take* take) {
   SceneModel& scene = take->scene;
   scene.room = RoomKind::Sphere;
+  MakeWallsOpaque(&scene);
   std::erase_if(scene.lights, [](const LightModel& l) { return l.kind >= LightKind::Distant; });
   scene.camera.times = 1, scene.camera.shutter = 2;
   if (scene.sampler % 2 || !scene.media.empty()) return;
