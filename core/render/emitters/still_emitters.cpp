@@ -65,9 +65,10 @@ void AddEdge(const Clip& a, const Clip& b, FilmBox* box) {
   }
 }
 
-// Returns the farthest pixel that a filter of this half-width meets. It is at least the next one,
-// because a ray for each pixel misses small emitters.
-int Reach(Real width) { return std::max(int(width + Real(.5)), 1); }
+// Returns the farthest pixel that a filter of this half-width meets, but at most 4, because all
+// pixels up to it are examined. It is at least the next one, because the trees in a pixel miss
+// small emitters.
+int Reach(Real width) { return int(std::clamp(width + Real(.5), Real(1), Real(4))); }
 
 }  // namespace
 

@@ -54,7 +54,8 @@ class StillEmitters {
   static Point2 Place(Point2 u, int i, int n);
 
   // Returns the number of places for each sample of a pixel whose filter meets pixels in which
-  // specular surfaces show an emitter, and 1 for other pixels. raysIn(pixel) is the number of rays
+  // specular surfaces show an emitter, and 1 for other pixels. Of a filter, 4 pixels on each side
+  // count. raysIn(pixel) is the number of rays
   // in a specular tree of a pixel, or 0 if some trees meet no emitter. It must be a
   // function of the pixel alone, which may lie outside of the film.
   template <class RaysIn>  // signature: int(Point2i)
@@ -93,7 +94,7 @@ class StillEmitters {
 
   const Scene& scene_;
   int depth_;
-  Point2i reach_;  // the farthest pixel that the filter of a pixel meets, by axis
+  Point2i reach_;  // the farthest pixel whose reflections count for a pixel, by axis
   Interval shutter_;
   PixelBounds crop_;
   std::vector<std::uint8_t> pixels_;  // places, of the crop row by row; empty: none
