@@ -39,7 +39,7 @@ struct Disks {
   }
 
   // Replaces *best if the block has a closer disk, and returns whether it does. Ties go to the
-  // lowest index, so padding lanes, which repeat the last point, never win.
+  // lowest index.
   bool Scan(std::uint32_t number, const ClosestQuery& query, ClosestPoint* best) const {
     const DiskBlock& block = Block(number);
     Real16 dx, dy, dz;
@@ -47,7 +47,7 @@ struct Disks {
     unsigned lanes = LessEqualMask(distance2, Real16::All(best->distance2));
     if (lanes == 0) return false;
     lanes &= LessEqualMask(distance2, Real16::Load(block.radius2)) &
-             NormalsAgreeMask(block, Point16(query.n));
+             NormalsAgreeMask(block, Point16(query.n)) & Present(view, -1, number);
     if (lanes == 0) return false;
     const Real nearest2 = LeastOf(distance2, lanes);
     const std::uint32_t index =

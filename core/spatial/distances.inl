@@ -67,7 +67,8 @@ HWY_INLINE Real16 PointDistance2(const PointBlock& block, const Point16& p, Real
 
 // Returns the mask of the children that exist among a node's 16. At level -1, the children are the
 // points of a block. The other lanes repeat the last child (PointBvh, BlockStore), so that all
-// lanes hold finite numbers.
+// lanes hold finite numbers. A search must not choose them: where operations round at random
+// (EXPHOTON_STOCHASTIC), equal lanes have different distances.
 inline unsigned Present(const PointTreeView& view, int level, std::uint32_t node) {
   const std::uint32_t last = (view.count - 1) >> (4 * (level + 1));
   return node < last >> 4 ? 0xffff : (2u << (last & 15)) - 1;
@@ -83,13 +84,12 @@ inline void PrefetchBlock(const PointBlock& block, std::size_t bytes) {
 }
 
 // Descends to the nearest box at each level. The block found is near p but not always the nearest,
-// and its users need no more. Ties go to the lowest lane, so padding lanes, which repeat the last
-// child, are never chosen.
+// and its users need no more. Ties go to the lowest lane.
 inline std::uint32_t BlockNear(const PointTreeView& view, const Point16& p) {
   std::uint32_t node = 0;
   for (int level = view.tree->Levels() - 1; level >= 0; --level)
-    node =
-        node * kBoxChildren + NearestLane(BoxDistance2(view.tree->Level(level)[node], p), 0xffff);
+    node = node * kBoxChildren + NearestLane(BoxDistance2(view.tree->Level(level)[node], p),
+                                             Present(view, level, node));
   return node;
 }
 

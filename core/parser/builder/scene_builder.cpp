@@ -177,6 +177,11 @@ void SceneBuilder::EndBlock(StateStack::Block block, const Directive& directive)
 
 void SceneBuilder::ChangeTransform(const Directive& directive) {
   MovingTransform& current = state_.transform;
+  if (state_.active == ActiveTimes::All && !current.Moves()) {
+    // Equal transformations stay equal, however operations round.
+    current.end = current.start = ApplyTransform(current.start, directive, dialect_);
+    return;
+  }
   if (state_.active != ActiveTimes::End)
     current.start = ApplyTransform(current.start, directive, dialect_);
   if (state_.active != ActiveTimes::Start)

@@ -3,6 +3,7 @@
 // reflected and refracted footprint (Igehy 1999). The caller supplies the radiance along each ray.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -30,6 +31,14 @@ std::optional<SpecularRay> SampleSpecularRay(const ShadingPoint& point, LobeSet 
 // From this depth on, one randomly chosen specular lobe is followed instead of both. This bounds
 // the number of rays of a deep recursion.
 inline constexpr int kMaxSplitDepth = 8;
+
+// Returns the probability with which Russian roulette continues a specular ray of this weight. Rays
+// above 0.1 times `excess` survive, so the roulette adds little noise. No probability is below
+// 1e-3, so that a rare survivor does not become a firefly.
+inline Real SpecularSurvival(const Spectrum& weight, Real excess) {
+  constexpr Real kSafeWeight = Real(.1);
+  return std::clamp(weight.MaxComponent() / (kSafeWeight * excess), Real(1e-3), Real(1));
+}
 
 // Sums throughput * incident(ray) over specular reflection and transmission.
 template <class Incident>  // signature: Spectrum(const SpecularRay&)

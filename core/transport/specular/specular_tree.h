@@ -47,16 +47,12 @@ class SpecularTree {
   static constexpr std::uint64_t kPlainRays = 64;
 
   // Returns the Russian roulette probability of a ray whose throughput to the camera is `weight`.
-  // Weights above 0.1 survive, so that little noise is added. If a material reflects and transmits
-  // without loss, at most 10 rays of each depth are expected. If it amplifies light, the growing
-  // number of rays raises the threshold.
+  // If a material reflects and transmits without loss, at most 10 rays of each depth are expected.
+  // If it amplifies light, the growing number of rays raises the threshold of the weight.
   Real Survival(const Spectrum& weight, int depth) {
     ++rays_;
     if (depth <= kPlainDepth && rays_ <= kPlainRays) return 1;
-    constexpr Real kSafeWeight = Real(.1);
-    const Real excess = std::max(Real(rays_) / Real(kPlainRays), Real(1));
-    // At least 1e-3, so that a rare survivor does not become a firefly.
-    return std::clamp(weight.MaxComponent() / (kSafeWeight * excess), Real(1e-3), Real(1));
+    return SpecularSurvival(weight, std::max(Real(rays_) / Real(kPlainRays), Real(1)));
   }
 
   template <class Shade>

@@ -6,6 +6,7 @@
 
 #include "core/math/sampling/mis.h"
 #include "core/transport/light_sample.h"
+#include "core/transport/specular/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
 #include "integrators/photon/maps/rest_pose.h"
 
@@ -166,6 +167,9 @@ bool GatherRay::BounceSpecular(const ShadingPoint& point, Walk* walk) const {
   const auto bounce = FollowSpecular(point, random_);
   if (!bounce) return false;
   walk->throughput *= bounce->throughput;
+  const Real chance = SpecularSurvival(walk->throughput, 1);
+  if (chance < 1 && !(random_->Uniform() < chance)) return false;
+  walk->throughput /= chance;
   walk->glossyPdf = 0;
   ++walk->specularBounces;
   walk->segment = TraceAndLookUp(SpawnRay(walk->segment.hit->point, bounce->wi));

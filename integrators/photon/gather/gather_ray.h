@@ -2,8 +2,9 @@
 // GatherRay computes the radiance along a gather ray. Diffuse lobes of the hit read the nearest
 // valid radiance photon, or the density estimates of the three maps if there is none or the ray is
 // too short (shortrays). Glossy lobes take a light sample and one ray that reads the radiance at
-// its end. Specular lobes are followed. Emission at a hit counts only after a glossy bounce;
-// elsewhere direct lighting or the caustic map contains it (docs/theory/exphotonmap.md, section 4).
+// its end. Specular lobes are followed. Russian roulette ends walks of small throughput. Emission
+// at a hit counts only after a glossy bounce; elsewhere direct lighting or the caustic map contains
+// it (docs/theory/exphotonmap.md, section 4).
 #pragma once
 
 #include "core/lights/selection/light_sampler.h"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "tests/random/probes/estimates.h"
 #include "tests/random/probes/focused_scene.h"
@@ -25,7 +26,7 @@ namespace {
 
 constexpr double kFalseAlarms = .05;  // of the first stage
 constexpr double kCertain = 1e-6;     // in the second stage
-constexpr int kMorePhotons = 16;      // in the third stage
+constexpr int kMore = 16;             // in the third stage, times the second
 constexpr double kStillThere = 1e-4;  // while shrinking, with the effort of the first stage
 
 bool IsAgreement(const std::string& property) {
@@ -131,12 +132,15 @@ void SceneRun::JudgeComparisons() {
 
 std::vector<Comparison> SceneRun::CompareAgain(const SceneModel& scene, const Record& record,
                                                int photonFactor) {
-  const Effort effort{.factor = 16,
-                      .photonFactor = photonFactor,
-                      .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor),
-                      .sceneSeed = record.seed,
-                      .comparesMore = record.property == kRooms};
-  if (!IsAgreement(record.property)) return Compared(record.property, scene, effort);
+  Effort effort{.factor = 16,
+                .photonFactor = photonFactor,
+                .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor),
+                .sceneSeed = record.seed,
+                .comparesMore = record.property == kRooms};
+  if (!IsAgreement(record.property)) {
+    effort.factor *= std::exchange(effort.photonFactor, 1);
+    return Compared(record.property, scene, effort);
+  }
   if (comparedSeed_ != record.seed || comparedProperty_ != record.property) comparisons_.clear();
   comparedSeed_ = record.seed;
   comparedProperty_ = record.property;
@@ -158,15 +162,15 @@ void SceneRun::Judge(Record* record) {
   };
   const Comparison again = look(1);
   if (!(again.chance < kCertain)) return;
-  if (IsAgreement(record->property)) {
-    const Comparison withMorePhotons = look(kMorePhotons);
-    if (std::abs(withMorePhotons.difference) < kBlurFalls * std::abs(again.difference)) {
-      blurred_.push_back(
-          {record->seed, record->property,
-           what + ": " + again.detail + "; with 16 times the photons " + withMorePhotons.detail,
-           ComparedText(record->property, drawn.value(), record->seed)});
-      return;
-    }
+  const Comparison withMore = look(kMore);
+  if (!IsAgreement(record->property)) {
+    if (!(withMore.chance < kCertain)) return;
+  } else if (std::abs(withMore.difference) < kBlurFalls * std::abs(again.difference)) {
+    blurred_.push_back(
+        {record->seed, record->property,
+         what + ": " + again.detail + "; with 16 times the photons " + withMore.detail,
+         ComparedText(record->property, drawn.value(), record->seed)});
+    return;
   }
   ++tallies_[record->property].failures;
   const auto fails = [&](const SceneModel& scene) {

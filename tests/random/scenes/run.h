@@ -8,6 +8,10 @@
 // therefore tested in a third stage with 16 times the photons, which reduces the radius to 1/4. If
 // the difference falls below kBlurFalls of its former value, it is counted as blur and not as a
 // failure. This misses a lasting error e only if blur exceeds 1.14 e.
+//
+// Other comparisons are tested in a third stage with 256 times the samples. Where few samples find
+// a light, all pictures of one method can be nearly black in the second stage, and a t-test takes
+// their equal means for a small error.
 #pragma once
 
 #include <cstdint>
@@ -78,7 +82,8 @@ class SceneRun {
   void Check(const std::string& property, std::uint64_t seed);
   void Compare(const std::string& property, std::uint64_t seed);
   void Judge(Record* record);
-  // Compares with 16 times the samples. The pictures of a scene are kept for all of its alarms.
+  // Compares with 16 times the samples and photonFactor times the photons, or without photons, with
+  // 16 * photonFactor times the samples. The pictures of a scene are kept for all of its alarms.
   std::vector<Comparison> CompareAgain(const SceneModel& scene, const Record& record,
                                        int photonFactor);
 

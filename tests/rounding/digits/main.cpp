@@ -109,22 +109,35 @@ int TakeCensus(const Options& options) {
   return 0;
 }
 
-int WritePictures(const Options& options) {
-  std::ofstream file(options.pictures);
-  for (const Subject& subject : ReadSubjects(options).all) {
-    ScenePictures scene{NameOf(subject), {}};
-    try {
-      const auto renders = RenderSubject(subject, 1 + options.roundings, [&](int i) {
-        RoundAtRandom(i == 0 ? 0 : options.key + std::uint64_t(i) - 1);
-      });
-      for (const TestRender& render : renders) scene.pictures.push_back(render.values);
-      Write(scene, file);
-    } catch (const std::exception& error) {
-      std::printf("%s is left out: %s\n", scene.name.c_str(), error.what());
-    }
-    RoundAtRandom(0);
+// Appends the pictures of a subject to the file.
+void WritePicturesOf(const Subject& subject, const Options& options) {
+  std::ofstream file(options.pictures, std::ios::app);
+  ScenePictures scene{NameOf(subject), {}};
+  try {
+    const auto renders = RenderSubject(subject, 1 + options.roundings, [&](int i) {
+      RoundAtRandom(i == 0 ? 0 : options.key + std::uint64_t(i) - 1);
+    });
+    for (const TestRender& render : renders) scene.pictures.push_back(render.values);
+    Write(scene, file);
+  } catch (const std::exception& error) {
+    std::printf("%s is left out: %s\n", scene.name.c_str(), error.what());
+    std::fflush(stdout);
   }
   if (!file.flush()) throw std::runtime_error(options.pictures + " cannot be written");
+}
+
+// Each subject has a process of its own, as in MeasureAll.
+int WritePictures(const Options& options) {
+  std::ofstream(options.pictures).close();
+  for (const Subject& subject : ReadSubjects(options).all) {
+    if (fork() == 0) {
+      WritePicturesOf(subject, options);
+      _exit(0);
+    }
+    int status = 0;
+    wait(&status);
+    if (status != 0) throw std::runtime_error(NameOf(subject) + " has no pictures");
+  }
   return 0;
 }
 
@@ -165,7 +178,7 @@ Measured MeasureOrFail(const Subject& subject, const Options& options) {
   return measured;
 }
 
-// Measures each subject in one of several processes. Subjects that fail are left out.
+// Measures the subjects in several processes. Subjects that fail are left out.
 std::vector<Result> MeasureAll(Subjects* subjects, const Options& options) {
   const std::vector<Subject>& all = subjects->all;
   const std::size_t bytes = sizeof(Measured) * std::max(all.size(), std::size_t(1));
@@ -179,10 +192,15 @@ std::vector<Result> MeasureAll(Subjects* subjects, const Options& options) {
     for (std::size_t i = 0; i < all.size(); ++i)
       if (const auto spread = earlier.Take(all[i])) measured[i] = {*spread, 0, true, ""};
   }
-  for (std::size_t job = 0; job < options.jobs; ++job) {
+  // Each subject has a process of its own. Tables that are made on first use would otherwise hold
+  // the roundings of an earlier subject.
+  std::size_t running = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (measured[i].isDone) continue;
+    if (running == options.jobs) wait(nullptr), --running;
+    ++running;
     if (fork() != 0) continue;
-    for (std::size_t i = job; i < all.size(); i += options.jobs)
-      if (!measured[i].isDone) measured[i] = MeasureOrFail(all[i], options);
+    measured[i] = MeasureOrFail(all[i], options);
     _exit(0);
   }
   while (wait(nullptr) > 0) {

@@ -80,13 +80,17 @@ double PrecisionRow::Shrinks() const {
 std::vector<PrecisionRow> ComparePrecisions(const std::vector<ScenePictures>& inFloat,
                                             const std::vector<ScenePictures>& inDouble) {
   std::vector<PrecisionRow> rows;
+  std::vector<bool> isTaken(inDouble.size());
   for (const ScenePictures& a : inFloat) {
-    for (const ScenePictures& b : inDouble) {
-      if (a.name != b.name) continue;
+    for (std::size_t i = 0; i < inDouble.size(); ++i) {
+      const ScenePictures& b = inDouble[i];
+      if (isTaken[i] || a.name != b.name) continue;
+      isTaken[i] = true;
       const std::vector<double>& truth = b.pictures.at(0);
       if (a.pictures.at(0).size() != truth.size()) throw std::runtime_error(a.name + ": sizes");
       rows.push_back({a.name, DistanceOf({a.pictures[0]}, truth),
                       DistanceOf({b.pictures.begin() + 1, b.pictures.end()}, truth)});
+      break;
     }
   }
   return rows;

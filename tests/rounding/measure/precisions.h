@@ -43,7 +43,8 @@ struct PrecisionRow {
   // log2 of the ratio of the medians; 0 if one of them is 0. Roundings have 2^-29.
   double Shrinks() const;
 };
-// Compares the scenes that both lists have, and that have equally many pixels.
+// Compares the scenes that both lists have, and that have equally many pixels. Scenes of one name
+// are compared in their order.
 std::vector<PrecisionRow> ComparePrecisions(const std::vector<ScenePictures>& inFloat,
                                             const std::vector<ScenePictures>& inDouble);
 // Medians are in epsilons of their precision (2^-23 and 2^-52).

@@ -9,6 +9,7 @@
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
+#include "tests/support/equivalence.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton {
@@ -148,6 +149,47 @@ TEST_F(SheetTest, DimsGatherRaysByWhatItReflects) {
   double sum = 0;
   for (int i = 0; i < kRays; ++i) sum += ReadFrom({0, 0, 3}, {0, 0, -1}, nullptr).radiance;
   EXPECT_NEAR(sum / kRays / bare, .96 / 1.04, .01);
+}
+
+// A walk inside this sphere meets a weak mirror at each of up to 24 hits. Walks that went on for 24
+// bounces made a picture 10 times as slow as the light in them was worth. Its walls emit .5 and
+// reflect half of the light, so each radiance is 1.
+constexpr const char* kWeakMirrors =
+    "WorldBegin\nMakeNamedMaterial \"wall\" \"string type\" \"matte\" \"color Kd\" [.5 .5 .5]\n"
+    "MakeNamedMaterial \"weak\" \"string type\" \"mirror\" \"color Kr\" [.5 .5 .5]\n"
+    "Material \"mix\" \"color amount\" [.8 .8 .8] \"string namedmaterial1\" \"wall\" "
+    "\"string namedmaterial2\" \"weak\"\n"
+    "AreaLightSource \"area\" \"color L\" [.5 .5 .5]\n"
+    "ReverseOrientation Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
+
+TestRender RenderWeakMirrors(const std::string& parameters, std::uint64_t seed) {
+  TestRenderOptions options;
+  options.seed = seed;
+  return RenderSceneText(
+      TestHeader("\"exphotonmap\" \"integer maxdepth\" 24 \"integer finalgathersamples\" 8 "
+                 "\"float rrthreshold\" 0 \"integer indirectphotons\" 4000 " +
+                     parameters,
+                 6, 6, 1) +
+          kWeakMirrors,
+      options);
+}
+
+TEST(GatherRays, EndWhereMirrorsLeaveLittleOfTheirWeight) {
+  for (const char* parameters : {"", "\"bool radiancephotons\" \"false\""}) {
+    const RayCounters rays = RenderWeakMirrors(parameters, 1).rays;
+    const auto count = [&](RayKind kind) { return double(rays.counts[std::size_t(kind)]); };
+    const double started = 8 * (count(RayKind::Camera) + count(RayKind::Specular));
+    // The first ray, the ray after the first bounce, and a tenth of the rays after each other one.
+    EXPECT_LT(count(RayKind::Gather) / started, 2.3) << parameters;
+    EXPECT_GT(count(RayKind::Gather) / started, 2) << parameters;
+  }
+}
+
+TEST(GatherRays, LoseAndAddNoLightByRouletteAtMirrors) {
+  const auto mean = EstimateOverSeeds([](std::uint64_t seed) {
+    return MeanRadiance(RenderWeakMirrors("\"bool radiancephotons\" \"false\"", seed).image);
+  });
+  EXPECT_TRUE(IsWithin(.01, mean, 1));
 }
 
 }  // namespace
