@@ -6,6 +6,8 @@
 // that leaves the light, the polar angle theta is measured from +y and the azimuth phi = atan2(z,
 // x). The column is phi / (2 pi) of the width, and the row is theta / pi of the height, from the
 // top. EnvironmentMap is about the z axis, so y and z change places.
+#include <algorithm>
+
 #include "core/math/sampling/sampling.h"
 #include "lights/environment/environment_map.h"
 #include "lights/environment/map_texels.h"
@@ -42,10 +44,29 @@ class UniformIntensity final : public IntensityMap {
   Spectrum value_;
 };
 
+// Returns a cone about +y or -y that contains all directions with light. Interpolation spreads a
+// texel over its neighbours, and another row is a margin.
+IntensityMap::Cone ConeOf(const MapTexels& map) {
+  constexpr double kHeight = 3.14159265358979323846;
+  constexpr int kMargin = 2;  // rows
+  int first = map.height, last = -1;
+  for (int row = 0; row < map.height; ++row)
+    for (int column = 0; column < map.width; ++column) {
+      if (map.texels[std::size_t(row) * std::size_t(map.width) + std::size_t(column)].IsBlack())
+        continue;
+      first = std::min(first, row), last = row;
+    }
+  const double fromTop = kHeight * (last + 1 + kMargin) / map.height;
+  const double fromBottom = kHeight * (map.height - first + kMargin) / map.height;
+  if (fromTop < fromBottom) return {{0, 1, 0}, fromTop};
+  return {{0, -1, 0}, fromBottom};
+}
+
 class GoniometricMap final : public IntensityMap {
  public:
   explicit GoniometricMap(MapTexels texels)
-      : map_(std::move(texels.texels), texels.width, texels.height) {}
+      : cone_(ConeOf(texels)), map_(std::move(texels.texels), texels.width, texels.height) {}
+  Cone EmissionCone() const override { return cone_; }
   Spectrum Evaluate(const Vector3& w) const override { return map_.Evaluate(SwapYZ(w)); }
   Vector3 Sample(Point2 u) const override { return SwapYZ(map_.Sample(u)); }
   Real Pdf(const Vector3& w) const override { return map_.Pdf(SwapYZ(w)); }
@@ -56,6 +77,7 @@ class GoniometricMap final : public IntensityMap {
  private:
   static Vector3 SwapYZ(const Vector3& w) { return {w.x, w.z, w.y}; }
 
+  Cone cone_;
   EnvironmentMap map_;
 };
 

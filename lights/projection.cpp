@@ -95,6 +95,9 @@ class ProjectedImage final : public IntensityMap {
     return largest;
   }
 
+  // The corners of the image are the farthest directions from the axis.
+  Cone EmissionCone() const override { return {{0, 0, 1}, std::atan(std::hypot(a_, b_))}; }
+
   Spectrum Evaluate(const Vector3& w) const override {
     const auto p = OnImage(w);
     return p ? Interpolate(p->s, p->t) : Spectrum();

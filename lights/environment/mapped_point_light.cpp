@@ -2,13 +2,14 @@
 // MappedPointLight samples photons by its map, so that their weights are nearly constant.
 #include "lights/environment/mapped_point_light.h"
 
+#include "core/lights/emission_cone.h"
 #include "core/lights/least_distance.h"
 #include "lights/environment/light_directions.h"
 
 namespace exphoton {
 namespace {
 
-class MappedPointLight final : public Light {
+class MappedPointLight final : public Light, public ConeEmitter {
  public:
   MappedPointLight(const Transform& lightToWorld, const Spectrum& intensity,
                    std::unique_ptr<const IntensityMap> map)
@@ -51,6 +52,14 @@ class MappedPointLight final : public Light {
   }
   EmissionPdf PdfEmission(const SurfacePoint&, const Vector3& w) const override {
     return {0, DirectionPdf(w)};
+  }
+
+  // A transformation that stretches directions has no bound.
+  EmissionCone Cone() const override {
+    constexpr double kAll = 4;  // more than pi
+    const IntensityMap::Cone cone = map_->EmissionCone();
+    const bool isKnown = directions_.KeepsSolidAngles();
+    return {position_, directions_.ToWorld(cone.axis), isKnown ? cone.halfAngle : kAll};
   }
 
  private:

@@ -23,6 +23,13 @@ class IntensityMap {
   virtual Spectrum Largest() const = 0;
   // Returns a bound on Evaluate / Pdf for each channel. The call may be slow.
   virtual Spectrum LargestWeight() const = 0;
+
+  // A cone about an axis that contains every direction of Sample. The angle is in radians.
+  struct Cone {
+    Vector3 axis{0, 0, 1};
+    double halfAngle = 4;  // more than pi: all directions
+  };
+  virtual Cone EmissionCone() const { return {}; }
 };
 
 struct MappedPointLightSettings {

@@ -7,11 +7,14 @@
 
 #include "core/app/analysis/numbers.h"
 #include "core/base/format.h"
+#include "core/base/terminal.h"
 #include "core/imaging/metrics/noise_test.h"
 
 namespace exphoton::cli {
 namespace {
 
+constexpr int kColumns = 100;       // of a line
+constexpr int kHalvingColumn = 51;  // where the last column begins
 constexpr const char* kSumName = "sum of the parts";
 
 // Returns the quantile of Student's distribution for a two-sided interval of 95 %.
@@ -63,6 +66,13 @@ int DecimalsOf(double number, int digits) {
   return std::clamp(digits - 1 - int(std::floor(std::log10(number))), 1, 12);
 }
 
+// Writes a number with these decimals. What rounds to 0 has no sign.
+std::string Fixed(double number, int decimals) {
+  const std::string text = Format("%.*f", decimals, number);
+  const bool isZero = text.find_first_not_of("-0.") == std::string::npos;
+  return isZero && text.front() == '-' ? text.substr(1) : text;
+}
+
 // Writes numbers with the decimals that show three digits of the sum and two of the half-width, but
 // at most two decimals more than the sum.
 class Numbers {
@@ -74,8 +84,7 @@ class Numbers {
   BudgetRow Row(const std::string& name, const study::Measured& measured) const {
     const double halfWidth = HalfWidth(measured);
     const int decimals = std::clamp(DecimalsOf(halfWidth, 2), decimals_, decimals_ + 2);
-    return {name, Format("%.*f", decimals, measured.value), Format("%.*f", decimals, halfWidth), "",
-            ""};
+    return {name, Fixed(measured.value, decimals), Fixed(halfWidth, decimals), "", ""};
   }
   double HalfWidth(const study::Measured& measured) const { return quantile_ * measured.error; }
 
@@ -87,7 +96,7 @@ class Numbers {
 BudgetRow PartRow(const ErrorPart& part, const MeasuredBudget& measured, const Numbers& numbers) {
   BudgetRow row = numbers.Row(ErrorCauseName(part.cause), part.share);
   const double percent = std::round(100 * part.share.value / measured.budget.sum.value);
-  row.share = Format("%.0f %%", percent == 0 ? 0 : percent);  // not -0
+  row.share = Fixed(percent, 0) + " %";
   const Halving halving = HalvingOf(part, measured.costs);
   const bool isKnown = std::abs(part.share.value) > numbers.HalfWidth(part.share);
   if (!isKnown || (part.share.value < 0 && part.cause <= ErrorCause::PhotonNoise))
@@ -189,21 +198,26 @@ std::vector<std::string> BudgetNotes(const MeasuredBudget& budget, const BudgetO
 
 std::string BudgetText(const std::string& scene, const MeasuredBudget& budget,
                        const BudgetOptions& options) {
-  std::string text = scene + Format(", %d x %d pixels, ", budget.width, budget.height) +
-                     std::to_string(budget.samples) + " samples a pixel, " + budget.integrator +
-                     "\n" + BudgetHeadline(budget) + "\n\n";
+  const std::string settings = Format("%d x %d pixels, ", budget.width, budget.height) +
+                               std::to_string(budget.samples) + " samples a pixel, " +
+                               budget.integrator + "\n";
+  const bool fits = scene.size() + settings.size() < std::size_t(kColumns);
+  std::string text = scene + (fits ? ", " : ",\n") + settings +
+                     WrappedText(BudgetHeadline(budget), 0, kColumns) + "\n";
   text += "  cause                 relMSE          \u00b1   share  half of it for (CPU time)\n";
   for (const BudgetRow& row : BudgetRows(budget, options.seeds)) {
     if (row.name == kSumName) text += "\n";
-    std::string line = "  " + row.name +
-                       std::string(18 - std::min<std::size_t>(row.name.size(), 18), ' ') +
-                       CellOf(row.value, 10) + CellOf(row.halfWidth, 11) + CellOf(row.share, 8) +
-                       "  " + row.halving;
-    line.erase(line.find_last_not_of(' ') + 1);
+    std::string line =
+        "  " + row.name + std::string(18 - std::min<std::size_t>(row.name.size(), 18), ' ') +
+        CellOf(row.value, 10) + CellOf(row.halfWidth, 11) + CellOf(row.share, 8) + "  ";
+    if (!row.halving.empty())
+      line += WrappedText(row.halving, kHalvingColumn, kColumns).substr(kHalvingColumn);
+    line.erase(line.find_last_not_of(" \n") + 1);
     text += line + "\n";
   }
   text += "\n";
-  for (const std::string& note : BudgetNotes(budget, options)) text += note + "\n";
+  for (const std::string& note : BudgetNotes(budget, options))
+    text += WrappedText(note, 0, kColumns);
   return text;
 }
 

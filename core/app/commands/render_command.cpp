@@ -292,11 +292,10 @@ void FileRenderer::WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFa
 
 // A complete picture needs neither its state nor the picture so far.
 void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
-  if (run.isComplete) {
+  if (run.isComplete)
     keeper->Remove();
-  } else if (keeper->HasWritten()) {
+  else if (keeper->HasWritten())
     log_.Notice("the same command with --resume continues from \"" + keeper->Path() + "\"");
-  }
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
@@ -305,6 +304,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->targetError = command_.targetError;
   run->accuracy = command_.accuracy;
   if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
+  if (pilots_) run->pilots = pilots_->Work();
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }

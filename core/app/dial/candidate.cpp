@@ -109,9 +109,11 @@ void Explorer::TakePrice() {
   candidate_.isRough = isRough_;
   candidate_.mean = {candidate_.integrator, series_.Last().light};
   candidate_.secondsPerCost = series_.SecondsPerPrice();
+  candidate_.parts = series_.Last().parts;
   candidate_.biasShare = split->biasShare;
-  candidate_.photonShare = model.maps * split->price.photons / split->price.seconds;
-  candidate_.photonSamples = model.maps * split->price.photons / model.sample;
+  const double maps = model.MapsFor(split->price.photons);
+  candidate_.photonShare = maps / split->price.seconds;
+  candidate_.photonSamples = maps / model.sample;
   candidate_.hasScatter = model.relativeError > kScatter;
   if (!series_.HasBias()) return;
   const double rays = std::max(series_.GatherRays() * split->price.samples, 1.);
@@ -145,7 +147,7 @@ std::optional<Explorer::Split> Explorer::SplitWithGain(double gain) const {
 void Explorer::EstimateBias(double most) {
   double photons = series_.Settings().photons;
   for (int i = 0; i < kMostTries; ++i) {
-    const double maps = 2 * series_.Model().maps * photons;
+    const double maps = 2 * series_.Model().MapsFor(photons);
     if (series_.Spent() + maps + series_.Next() > Affordable(most)) return;
     series_.RenderBias(photons);
     // Another pilot confirms the number of photons that the model chose.

@@ -18,14 +18,15 @@ struct Candidate {
   // Prices are in units of CountedCost, and photons in factors of the scene's.
   Price price;
   DialSettings settings;
-  PilotMean mean;             // of the last pilot
-  bool isRough = false;       // the price and the mean are from a rough pilot
-  double secondsPerCost = 0;  // CPU time of the pilots, for messages only
-  double correctedShare = 0;  // of the gather rays; 0: no certificate
-  double biasShare = 0;       // of the squared error, what the certificate should resolve
-  double photonShare = 0;     // of the price, what the photons of one group cost
-  double photonSamples = 0;   // the same, in samples per pixel
-  bool hasScatter = false;    // the noise of the pilots is uncertain
+  PilotMean mean;                    // of the last pilot
+  bool isRough = false;              // the price and the mean are from a rough pilot
+  double secondsPerCost = 0;         // CPU time of the pilots, for messages only
+  double correctedShare = 0;         // of the gather rays; 0: no certificate
+  double biasShare = 0;              // of the squared error, what the certificate should resolve
+  double photonShare = 0;            // of the price, what the photons of one group cost
+  double photonSamples = 0;          // the same, in samples per pixel
+  bool hasScatter = false;           // the noise of the pilots is uncertain
+  std::vector<MeasuredLight> parts;  // of the light of the last pilot
 };
 
 struct Wish {

@@ -10,8 +10,9 @@
 namespace exphoton::cli {
 
 struct CountedCost {
-  double maps = 0;     // shooting photons and building the maps
-  double samples = 0;  // rendering
+  double maps = 0;         // shooting photons and building the maps
+  double samples = 0;      // rendering
+  double causticMaps = 0;  // about the part of `maps` that is for the caustic map alone
 };
 CountedCost CostOf(const Statistics& statistics, const std::string& integrator);
 
@@ -21,5 +22,15 @@ constexpr double kCorrectionRay = 2.3;
 // Returns the number of photons that the statistics count, in all maps.
 double StoredPhotons(const Statistics& statistics);
 double CounterOf(const Statistics& statistics, const std::string& name);  // 0: no such counter
+
+// PilotWork adds up what the small renders of --accuracy traced and stored.
+struct PilotWork {
+  int renders = 0;
+  RayCounters rays;
+  double direct = 0, caustic = 0, indirect = 0;  // photons that were stored
+  bool givesPhotons = false;  // the first group of passes has photons of the last pilot
+
+  void Add(const Statistics& statistics);
+};
 
 }  // namespace exphoton::cli

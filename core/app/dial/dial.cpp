@@ -116,12 +116,11 @@ std::string ChoiceText(const PilotRenderer& pilots, const Candidate& chosen) {
                      Change("samples a pixel", std::to_string(pilots.SceneSamples()),
                             "about " + Count(chosen.price.samples));
   const DialSettings& settings = chosen.settings;
-  const auto photons = [&](const char* what, double count) {
-    if (count > 0 && settings.photons != 1)
-      text += ", " + Change(what, Count(count), Count(count * settings.photons));
+  const auto photons = [&](const char* what, double count, double factor) {
+    if (count > 0 && factor != 1) text += ", " + Change(what, Count(count), Count(count * factor));
   };
-  photons("indirect photons", settings.indirectPhotons);
-  photons("caustic photons", settings.causticPhotons);
+  photons("indirect photons", settings.indirectPhotons, settings.photons);
+  photons("caustic photons", settings.causticPhotons, std::max(settings.photons, 1.));
   const int rays = pilots.SceneGatherRays();
   if (settings.gatherRays > 0)
     text += ", " + Change("gather rays", rays > 0 ? std::to_string(rays) : "default",

@@ -12,7 +12,8 @@ std::vector<ParameterOverride> DialSettings::Overrides() const {
     overrides.push_back({"SurfaceIntegrator", name, std::to_string(std::int64_t(value))});
   };
   if (photons != 1 && indirectPhotons > 0) set("indirectphotons", indirectPhotons * photons);
-  if (photons != 1 && causticPhotons > 0) set("causticphotons", causticPhotons * photons);
+  // Fewer photons would blur caustics, and this blur is not a part of the known error.
+  if (photons > 1 && causticPhotons > 0) set("causticphotons", causticPhotons * photons);
   if (gatherRays > 0) set("finalgathersamples", gatherRays);
   return overrides;
 }

@@ -20,9 +20,11 @@ namespace {
 constexpr Feature kCandidates[] = {Feature::Caustics, Feature::Glossy, Feature::Indirect,
                                    Feature::Specular};
 
-constexpr double kBudget = .1;       // of the accuracy, for the bounds of all omissions
-constexpr double kPairShare = .15;   // of the price, for the first pairs
-constexpr double kSavedShare = .5;   // of what an omission saves, for its other pairs
+constexpr double kBudget = .1;      // of the accuracy, for the bounds of all omissions
+constexpr double kPairShare = .15;  // of the price, for the first pairs
+constexpr double kDearer = 1.2;     // a small render may cost this much more than expected
+constexpr double kSavedShare = .5;  // of what an omission saves, for its other pairs
+constexpr double kClear = 3;        // times this budget: an effect with more light in a pilot stays
 constexpr double kWorthwhile = .95;  // of the time, at most, with an omission
 
 // What the picture costs relative to its price, if it lacks an effect.
@@ -50,7 +52,7 @@ class OmissionFinder {
  private:
   bool MayBeOmitted() const {
     return !command_.keepsSettings && command_.load.effects != "all" &&
-           2 * FirstCost() < Affordable();
+           kDearer * 2 * FirstCost() < Affordable();
   }
   double Affordable() const { return kPairShare * chosen_.price.seconds; }
   // Returns the expected cost of one render with all effects.
@@ -63,13 +65,28 @@ class OmissionFinder {
 
   std::vector<Feature> Candidates() const {
     std::vector<Feature> candidates;
+    const std::string named = "," + command_.load.effects;
+    const auto isIn = [&](const std::string& text) { return named.find(text) != named.npos; };
     for (const Feature feature : kCandidates) {
-      const bool isNamed =
-          ("," + command_.load.effects).find("," + std::string(FeatureName(feature)) + "=") !=
-          std::string::npos;
-      if (setup_->scene->Features().Needs(feature) && !isNamed) candidates.push_back(feature);
+      // Caustics need specular surfaces.
+      const bool isNamed = isIn("," + std::string(FeatureName(feature)) + "=") ||
+                           (feature == Feature::Specular && isIn(",caustics=on"));
+      if (setup_->scene->Features().Needs(feature) && !isNamed && !BringsMuchLight(feature))
+        candidates.push_back(feature);
     }
     return candidates;
+  }
+
+  // The parts of the light have the names of effects. `glossy` is not one of them.
+  bool BringsMuchLight(Feature feature) const {
+    for (const MeasuredLight& part : chosen_.parts) {
+      if (part.name != FeatureName(feature) || part.share < kClear * kBudget * *command_.accuracy)
+        continue;
+      log_.Verbose(Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature),
+                          100 * part.share));
+      return true;
+    }
+    return false;
   }
 
   PilotRenderer::OnePass RenderPair(std::uint64_t pair) {

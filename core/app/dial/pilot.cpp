@@ -136,6 +136,7 @@ std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings, R
   setup->volumeIntegrator = std::move(setup_->volumeIntegrator);
   setup->scene = std::move(setup_->scene);
   setup_.reset();
+  work_.givesPhotons = true;
   return std::exchange(preparedSeed_, std::nullopt);
 }
 
@@ -147,6 +148,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
   render.stop = &StopFlag();
   render.footprintSamples = command_.footprintSamples;
   render.corrections = films->corrections.get();
+  render.aovs = films->aovs.get();
   render.preparedSeed = preparedSeed_;
   PassRenderer renderer(job, render);
   PassSum sum(&job.film, {});
@@ -171,7 +173,8 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
 PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   const RenderSetup& setup = Load(request);
   const double begin = ProcessCpuSeconds();
-  PictureFilms films(setup.film.Full(), setup.crop, {}, true);
+  const bool hasParts = kLightAovs.Without(setup.integrator->Aovs()).IsEmpty();
+  PictureFilms films(setup.film.Full(), setup.crop, hasParts ? kLightAovs : AovSet{}, true);
   PilotPicture picture;
   const auto certification = setup.integrator->Certification(*setup.scene);
   picture.hasBias = certification.has_value();
@@ -182,6 +185,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   const PassesResult result =
       RenderHalves(small.Job(setup, *sampler, &films.film), request, &films, &picture);
   const Statistics& statistics = small.Counts();
+  work_.Add(statistics);
   picture.pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
                    request.hasOwnPhotons};
   picture.cost = CostOf(statistics, setup.integratorName);
@@ -189,6 +193,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.seconds = ProcessCpuSeconds() - begin;
   picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
+  if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);
   picture.settings = request.settings;
   const auto photonsOf = [&](const std::string& map) {

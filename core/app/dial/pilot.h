@@ -12,6 +12,7 @@
 #include "core/app/dial/counted_cost.h"
 #include "core/app/dial/dial_settings.h"
 #include "core/app/dial/small_scene.h"
+#include "core/app/effects/light_parts.h"
 #include "core/app/options/options.h"
 #include "core/app/output/picture.h"
 #include "core/app/quote/mean_light.h"
@@ -41,6 +42,7 @@ struct PilotPicture {
   double seconds = 0;      // CPU time of everything
   double pixels = 0;
   MeanLight light;
+  std::vector<MeasuredLight> parts;        // of the light; none: the integrator does not divide it
   double gatherRays = 0;                   // of the whole picture
   DialSettings settings;                   // the request's, with the photons of the scene
   bool hasBias = false;                    // whether the integrator can estimate it
@@ -86,7 +88,7 @@ class PilotRenderer {
     std::unique_ptr<RenderSetup> setup_;
   };
   // Renders a loan with random numbers of its own for each `number`. Throws LoadingStopped.
-  OnePass RenderOnce(const RenderSetup& setup, std::uint64_t number) const;
+  OnePass RenderOnce(const RenderSetup& setup, std::uint64_t number);
 
   // If the last pilot had this integrator, these settings and the photons of the first pass of the
   // picture, which has all effects of the pilots, moves its scene and its integrator to `setup`,
@@ -105,6 +107,7 @@ class PilotRenderer {
   // The price of RenderOnce relative to one sample per pixel of the picture.
   double OnceShare() const { return OnceSamples() * pilotPixels_ / Pixels(); }
   double LoadSeconds() const { return loadSeconds_; }  // CPU time
+  const PilotWork& Work() const { return work_; }      // of all renders so far
 
  private:
   static std::string TextOf(const PilotRequest& request, const PilotPicture& picture);
@@ -129,6 +132,7 @@ class PilotRenderer {
   int width_ = 0, height_ = 0;
   double pilotPixels_ = 0;
   double loadSeconds_ = 0;
+  PilotWork work_;
   LoadOptions small_;  // with the resolution of pilots
   // Of the last pilot. All pilots have the scene that was loaded first.
   PilotRequest loaded_;

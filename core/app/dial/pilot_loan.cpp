@@ -19,12 +19,18 @@ PilotRenderer::Loan::Loan(PilotRenderer* pilots, const std::string& integrator,
     : pilots_(*pilots) {
   LoadOptions options = pilots_.small_;
   options.integrator = integrator;
-  settings.photons *= kFewPhotons;
+  const double factor = settings.photons;
+  settings.photons = 1;
   for (ParameterOverride& parameter : settings.Overrides())
     options.parameters.push_back(std::move(parameter));
   const auto set = [&](const char* name, double value) {
     options.parameters.push_back({"SurfaceIntegrator", name, std::to_string(std::int64_t(value))});
   };
+  const auto few = [&](const char* name, double photons) {
+    if (photons > 0) set(name, kFewPhotons * photons);
+  };
+  few("indirectphotons", settings.indirectPhotons * factor);
+  few("causticphotons", settings.causticPhotons * std::max(factor, 1.));
   if (integrator.ends_with("photonmap")) {
     const double used = pilots_.sceneUsedPhotons_ > 0 ? pilots_.sceneUsedPhotons_ : kUsedByDefault;
     set("nused", std::max(kFewPhotons * used, kLeastUsed));
@@ -48,8 +54,7 @@ PilotRenderer::Loan::~Loan() {
   pilots_.setup_->names = std::move(setup_->names);
 }
 
-PilotRenderer::OnePass PilotRenderer::RenderOnce(const RenderSetup& setup,
-                                                 std::uint64_t number) const {
+PilotRenderer::OnePass PilotRenderer::RenderOnce(const RenderSetup& setup, std::uint64_t number) {
   SmallRender small(command_.threadCount);
   RenderOptions options;
   options.seed = HashKey({command_.seed, kSingleSeed, number});
@@ -60,6 +65,7 @@ PilotRenderer::OnePass PilotRenderer::RenderOnce(const RenderSetup& setup,
   if (!exphoton::Render(small.Job(setup, *sampler, &film), options).isComplete)
     throw LoadingStopped();
   OnePass pass;
+  work_.Add(small.Counts());
   pass.cost = CostOf(small.Counts(), setup.integratorName);
   pass.values = ValuesOf(film);
   return pass;

@@ -26,8 +26,8 @@ bool PilotSeries::RenderRough() {
   TakeCosts(last_);
   settings_ = last_.settings;
   model_.maps = CostOf(last_).maps / kFewPhotons;
-  // Blur of caustics inside a block is not a part of the known error.
-  model_.leastPhotons = settings_.causticPhotons > 0 ? 1 : kLeastPhotons;
+  model_.causticMaps = CostOf(last_).causticMaps / kFewPhotons;
+  model_.leastPhotons = settings_.indirectPhotons > 0 ? kLeastPhotons : 1;
   model_.biasOfFewer = last_.guessedBias;
   model_.FitNoise({last_.pilot});
   return true;
@@ -45,11 +45,18 @@ void PilotSeries::Render() {
   request_.samples *= 2;
   TakeCosts(last_);
   if (last_.mapCount > 0) {
-    model_.maps = CostOf(last_).maps / last_.mapCount / request_.settings.photons;
+    TakeMaps(request_.settings.photons);
     settings_ = last_.settings;
   }
   pilots_.push_back(last_.pilot);
   model_.FitNoise(pilots_);
+}
+
+void PilotSeries::TakeMaps(double photons) {
+  const CountedCost cost = CostOf(last_);
+  const double maps = cost.maps / last_.mapCount, caustic = cost.causticMaps / last_.mapCount;
+  model_.causticMaps = photons < 1 ? caustic : caustic / photons;
+  model_.maps = photons < 1 ? caustic + (maps - caustic) / photons : maps / photons;
 }
 
 void PilotSeries::RenderBias(double photons) {

@@ -106,25 +106,11 @@ class Measurement {
   }
 
   std::vector<MeasuredLight> PartsOf(const RenderSetup& setup) {
-    std::vector<MeasuredLight> parts;
-    if (!kLightAovs.Without(setup.integrator->Aovs()).IsEmpty()) return parts;
+    if (!kLightAovs.Without(setup.integrator->Aovs()).IsEmpty()) return {};
     Film film(setup.film.Full(), setup.crop);
     AovFilm aovs(setup.crop, kLightAovs);
     RenderInto(setup, 0, &film, &aovs);
-    Image image = film.ToImage(false);
-    const std::size_t first = image.channels.size();
-    aovs.AppendTo(film, false, &image);
-    const std::vector<Aov> list = kLightAovs.List();
-    const double mean = Mean(ValuesOf(film));
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      double sum = 0;
-      for (int y = 0; y < image.Height(); ++y)
-        for (int x = 0; x < image.Width(); ++x)
-          for (std::size_t c = 0; c < 3; ++c) sum += double(image.At(x, y, int(first + 3 * i + c)));
-      const double count = 3. * image.Width() * image.Height();
-      parts.push_back({GetAovInfo(list[i]).name, sum / (count * mean)});
-    }
-    return parts;
+    return LightPartsOf(film, aovs);
   }
 
   MeasuredEffect Compare(const std::string& name, const Halves& whole) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/app/effects/light_parts.h"
 #include "core/app/options/options.h"
 #include "core/parser/syntax/source.h"
 
@@ -17,11 +18,6 @@ struct MeasuredEffect {
   double lightError = 0;  // standard error
   double change = 0;      // root of relMSE between the pictures, without their noise
   double time = 0;        // share of wholeSeconds; negative: the effect saves time
-};
-
-struct MeasuredLight {
-  std::string name;  // of a light AOV
-  double share = 0;  // of the light of the picture
 };
 
 struct MeasuredEffects {

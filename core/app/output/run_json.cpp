@@ -127,6 +127,26 @@ void AddCertificate(const Certificate& certificate, JsonWriter* json) {
   json->Close('}');
 }
 
+void AddRays(const RayCounters& rays, JsonWriter* json) {
+  json->Key("rays"), json->Open('{');
+  for (int i = 0; i < kRayKindCount; ++i) {
+    json->Key(RayKindName(RayKind(i)));
+    json->Integer(static_cast<long long>(rays.counts[std::size_t(i)]));
+  }
+  json->Close('}');
+}
+
+void AddPilots(const PilotWork& pilots, JsonWriter* json) {
+  json->Key("pilots"), json->Open('{');
+  json->Key("renders"), json->Integer(pilots.renders);
+  AddRays(pilots.rays, json);
+  json->Key("directPhotons"), json->Number(pilots.direct);
+  json->Key("causticPhotons"), json->Number(pilots.caustic);
+  json->Key("indirectPhotons"), json->Number(pilots.indirect);
+  json->Key("givesPhotons"), json->Bool(pilots.givesPhotons);
+  json->Close('}');
+}
+
 // Errors are roots of parts of relMSE.
 void AddAccuracy(const RunRecord& run, JsonWriter* json) {
   json->Key("accuracy"), json->Open('{');
@@ -142,6 +162,7 @@ void AddAccuracy(const RunRecord& run, JsonWriter* json) {
     json->Close('}');
   }
   json->Close(']');
+  if (run.pilots) AddPilots(*run.pilots, json);
   json->Close('}');
 }
 
@@ -168,13 +189,7 @@ void AddStatistics(const Statistics& statistics, JsonWriter* json) {
     json->Close('}');
   }
   json->Close(']');
-  const RayCounters rays = statistics.Rays();
-  json->Key("rays"), json->Open('{');
-  for (int i = 0; i < kRayKindCount; ++i) {
-    json->Key(RayKindName(RayKind(i)));
-    json->Integer(static_cast<long long>(rays.counts[std::size_t(i)]));
-  }
-  json->Close('}');
+  AddRays(statistics.Rays(), json);
   json->Key("counters"), json->Open('{');
   for (const Statistics::Counter& counter : statistics.Counters())
     json->Key(counter.name), json->Number(counter.value);

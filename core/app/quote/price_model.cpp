@@ -30,7 +30,7 @@ std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
     Price price;
     price.samples = std::max(groups, std::ceil(groups * model.SamplesFor(left * groups)));
     price.photons = k;
-    price.seconds = model.fixed + groups * k * model.maps + price.samples * model.sample;
+    price.seconds = model.fixed + groups * model.MapsFor(k) + price.samples * model.sample;
     if (!best || price.seconds < best->seconds) best = price;
   }
   return best;
@@ -71,6 +71,11 @@ void PriceModel::FitSlope(const Pilot& first, const Pilot& last) {
   const double weight = kUsualSpread * kUsualSpread / (kUsualSpread * kUsualSpread + error * error);
   slope = std::clamp(weight * shown + (1 - weight) * kUsualSlope, kLeastSlope, kMostSlope);
   slopeError = std::sqrt(weight) * error;
+}
+
+// Fewer photons leave the caustic map as it is.
+double PriceModel::MapsFor(double k) const {
+  return k < 1 ? k * (maps - causticMaps) + causticMaps : k * maps;
 }
 
 double PriceModel::SamplesFor(double noise) const {

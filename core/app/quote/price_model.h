@@ -2,7 +2,7 @@
 // PriceModel predicts what an accuracy costs with one integrator, from small renders of the scene
 // (pilots). With n samples a pixel in g groups of passes, and k times the photons in each group,
 //   error^2 = noise(n / g) / g + photonNoise / (g k) + (bias / k)^2,
-//   seconds = fixed + g k maps + n sample.
+//   seconds = fixed + g MapsFor(k) + n sample.
 // Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots show
 // it, and it falls as m^-slope beyond them. The area of density estimates falls with the number of
 // photons, and bias is proportional to this area.
@@ -34,11 +34,14 @@ struct PriceModel {
   double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
   double leastPhotons = 1;                 // the smallest k
   double fixed = 0, maps = 0, sample = 0;  // CPU seconds
+  double causticMaps = 0;                  // the part of `maps` that does not fall where k < 1
   bool hasPhotons = false;                 // k may differ from 1
 
   // Fits the noise to the pilots, in ascending order of samples. Those whose halves have the same
   // photons show the noise of camera samples. The last other one also has the noise of photons.
   void FitNoise(const std::vector<Pilot>& pilots);
+  // Returns what the maps of one group cost with k times the photons.
+  double MapsFor(double k) const;
   // Returns the samples of one group with this noise.
   double SamplesFor(double noise) const;
   // Returns the same model with other noise, which falls with another slope beyond the points.

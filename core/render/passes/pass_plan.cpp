@@ -24,6 +24,12 @@ std::int64_t PowerOfTwoUpTo(double samples) {
   return std::int64_t(std::exp2(std::floor(std::log2(std::clamp(samples, 1., kHuge)))));
 }
 
+// Samples m 2^k to (m + 1) 2^k of a low-discrepancy sequence are well distributed. Returns the
+// largest 2^k for which samples that begin at this number are such a range.
+std::int64_t LargestPowerOfTwoIn(std::int64_t samples) {
+  return std::max<std::int64_t>(samples & -samples, 1);
+}
+
 }  // namespace
 
 void GroupForecast::Add(const Film& pass, std::int64_t samplesPerPixel) {
@@ -101,6 +107,7 @@ PassPlan::Step PassPlan::NextForAccuracy(const State& state) const {
     // shared gathers, so groups are not small.
     const double least = std::max(double(state.samples) / 4, double(limits_.firstSamples));
     size = PowerOfTwoUpTo(std::clamp(missing * kRounding, least, double(state.samples)));
+    size = std::min(size, std::max(LargestPowerOfTwoIn(state.samples), limits_.firstSamples));
   }
   size = std::max<std::int64_t>(std::min(size, limits_.maxSamples - state.samples), 1);
   if (limits_.timeLimit && state.samples > 0) {

@@ -46,11 +46,13 @@ class Passes {
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
                rule.accuracy ? rule.accuracy->firstSamples : 0,
                rule.accuracy ? rule.accuracy->photonSamples : 0}),
-        // A certificate compares groups whose samples are independent.
+        // A certificate needs the light of each sample before and after sharing, pass by pass.
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections) {
     if (rule.accuracy)
       accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
-    if (job.sampler.IsProgressive() && hasBatches_)
+    // The noise for an accuracy is estimated as if the groups were independent. It is rather too
+    // high, because the errors of one sequence partly cancel.
+    if (job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy))
       sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
     quiet_.SetListener([this] { ShowProgress(); });
   }
@@ -174,7 +176,6 @@ class Passes {
       pass.diskArea = DiskAreaOfPass(int(group), *rule_.progressiveAlpha);
       pass.time = TimeOfPass(int(group), options_.seed);
     }
-    // A certificate needs the light of each sample before and after sharing, pass by pass.
     if (hasBatches_)
       pass.sharing =
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
@@ -275,14 +276,15 @@ class Passes {
   PassSum sum_;
   std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
-  const bool hasBatches_;  // whether passes share gathers and continue one sequence
+  const bool hasBatches_;  // whether the passes of a group share their gathers together
   std::optional<AccuracyRule> accuracy_;
   PassPlan::Step step_;  // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   Clock::time_point begin_;
   std::atomic<double> expectedSeconds_{0};  // since begin_; 0: unknown
-  std::unique_ptr<Sampler> sequence_;       // null if the sampler is not progressive
+  // The camera samples that all passes continue. Null: each pass has a pattern of its own.
+  std::unique_ptr<Sampler> sequence_;
   PassesResult result_;
   std::optional<StopReason> reasonMet_;
 };

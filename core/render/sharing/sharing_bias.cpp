@@ -10,7 +10,8 @@
 namespace exphoton {
 namespace {
 
-constexpr int kBlock = 32;  // pixels; windows that are this far apart have no gather in common
+constexpr int kStride = 2;  // pixels between checks, along rows and columns
+constexpr int kBlock = 16;  // pixels
 
 // The weight of a fragment's light in its pixel.
 std::vector<Spectrum> WeightsOf(const GatherFragments::Pixel& gathered, double samples) {
@@ -31,7 +32,6 @@ double RelativeProduct(const CheckedPixel& checked, const Film& film) {
 }  // namespace
 
 std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, FitNeighbours* scratch) const {
-  constexpr int kStride = SharingWindows::kStride;
   const Point2i next{pixel.x + 1, pixel.y};
   if (pixel.x % kStride != 0 || pixel.y % kStride != 0) return std::nullopt;
   if (!gathers_.Bounds().Contains(next.x, next.y)) return std::nullopt;

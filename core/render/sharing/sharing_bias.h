@@ -27,7 +27,7 @@ struct CheckedPixel {
   std::array<double, 3> product;  // by channel
 };
 
-// Checks a pixel and the next one of its row. Only every fourth pixel of every fourth row is
+// Checks a pixel and the next one of its row. Only every second pixel of every second row is
 // checked, because a check takes two fits. Returns nullopt for other pixels and where a checking
 // group has no record. `samples` is the number of camera samples of a pixel.
 class SharingChecker {

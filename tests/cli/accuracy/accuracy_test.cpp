@@ -142,6 +142,11 @@ TEST_F(AccuracyTest, ThePictureTakesThePhotonsOfThePilot) {
       Run({"room.pbrt", "--two-halves", "-o", "halves.exr", "--stats-json", "halves.json"});
   ASSERT_EQ(halves.status, 0) << halves.err;
   const double two = stored(nlohmann::json::parse(Read("halves.json")));
+  const auto& pilots = json.at("accuracy").at("pilots");
+  EXPECT_EQ(pilots.at("givesPhotons"), true);
+  EXPECT_GE(pilots.at("renders"), 2);
+  EXPECT_GT(pilots.at("indirectPhotons").get<double>(), .3 * two);
+  EXPECT_GT(pilots.at("rays").at("photon"), 0);
   EXPECT_GT(stored(json), .3 * two);
   EXPECT_LT(stored(json), .7 * two);
 }

@@ -4,11 +4,13 @@
 // are no intensity. The light "infinitesample" must be the light "infinite".
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
 #include "core/imaging/files/exr.h"
+#include "core/lights/emission_cone.h"
 #include "core/math/sampling/sampling.h"
 #include "tests/support/test_plugin.h"
 
@@ -288,6 +290,34 @@ TEST_F(MappedPointLights, InfiniteSampleIsTheLightInfiniteBitForBit) {
     EXPECT_EQ(x->Li, y->Li);
     EXPECT_EQ(x->pdf, y->pdf);
   }
+}
+
+// Returns the half-angle of the light's cone. Expects that it contains the rays of photons.
+double ConeAngleOf(const Light& light) {
+  const auto* const emitter = dynamic_cast<const ConeEmitter*>(&light);
+  if (!emitter) return 0;
+  const EmissionCone cone = emitter->Cone();
+  for (int i = 0; i < 10000; ++i) {
+    const Point2 u{Real((i % 100 + .5) / 100), Real((i / 100 + .5) / 100)};
+    const auto sample = light.SampleEmission({}, u, 0, 0);
+    if (!sample) continue;
+    const double cosine = std::clamp(double(Dot(sample->ray.d, cone.axis)), -1., 1.);
+    EXPECT_LE(std::acos(cosine), cone.angle + 1e-3);
+  }
+  return cone.angle;
+}
+
+// The corner of a square image with an angle of 90 degrees is 54.7 degrees away from the axis.
+TEST_F(MappedPointLights, HaveCones) {
+  const Transform turn = *Transform::Rotate(40, {1, 2, 3});
+  EXPECT_NEAR(ConeAngleOf(*Make("\"projection\" \"float fov\" 90", turn)), std::atan(std::sqrt(2.)),
+              1e-6);
+  std::vector<float> down(4 * 32), up(4 * 32);
+  down[4 * 31] = up[4 * 3 + 2] = 1;
+  EXPECT_NEAR(ConeAngleOf(*Make("\"goniometric\"" + Map(4, 32, down), turn)), 3 * M_PI / 32, 1e-6);
+  EXPECT_NEAR(ConeAngleOf(*Make("\"goniometric\"" + Map(4, 32, up), turn)), 6 * M_PI / 32, 1e-6);
+  EXPECT_GT(ConeAngleOf(*Make("\"goniometric\"")), M_PI);
+  EXPECT_GT(ConeAngleOf(*Make("\"projection\"", *Transform::Scale(1, 1, 2))), M_PI);
 }
 
 }  // namespace

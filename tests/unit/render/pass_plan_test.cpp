@@ -79,6 +79,7 @@ TEST(PassPlan, GroupsForAnAccuracyFollowWhatIsNeeded) {
   EXPECT_EQ(size(64, 65), 32);
   EXPECT_EQ(size(64, 90), 32);
   EXPECT_EQ(size(64, 1e9), 64);
+  EXPECT_EQ(size(96, 1e9), 32);  // samples 96 to 160 are no good range of a sequence
   EXPECT_EQ(size(256, 257), 64);
   EXPECT_EQ(size(980, 1e9), 20);
 }

@@ -63,15 +63,18 @@ Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed) {
 
 struct Comparison {
   double estimate = 0, standardError = 0;  // mean of the estimates of all runs
+  double spread = 0;                       // standard error of this mean, from the runs
   double squaredBias = 0, variance = 0;    // of the pictures, in relMSE; squaredBias without noise
 };
 
 Comparison CompareRuns(const ValueAt& light, double noise) {
   Comparison result;
+  double squaredEstimates = 0;
   std::vector<double> sums(std::size_t(kSize * kSize)), squares(sums.size());
   for (int run = 0; run < kRuns; ++run) {
     const Shared shared = ShareLight(light, noise, std::uint64_t(run));
     result.estimate += shared.bias.squared / kRuns;
+    squaredEstimates += shared.bias.squared * shared.bias.squared / kRuns;
     result.standardError += shared.bias.standardError * shared.bias.standardError;
     for (std::size_t i = 0; i < sums.size(); ++i) {
       sums[i] += shared.picture[i];
@@ -79,6 +82,7 @@ Comparison CompareRuns(const ValueAt& light, double noise) {
     }
   }
   result.standardError = std::sqrt(result.standardError) / kRuns;
+  result.spread = std::sqrt((squaredEstimates - result.estimate * result.estimate) / (kRuns - 1));
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double mean = sums[i] / kRuns;
     const double wanted = light(double(i % kSize) + .5, double(i / kSize) + .5);
@@ -93,6 +97,17 @@ Comparison CompareRuns(const ValueAt& light, double noise) {
 TEST(SharingBias, IsZeroForConstantLight) {
   const Comparison runs = CompareRuns([](double, double) { return 1; }, .9);
   EXPECT_LT(std::abs(runs.estimate), 4 * runs.standardError);
+}
+
+// Checks are close to each other, so their errors must not depend on each other much. 16 runs show
+// the spread to 18 %.
+TEST(SharingBias, HasTheStandardErrorThatRunsShow) {
+  for (const double wave : {0., .3}) {
+    const Comparison runs =
+        CompareRuns([&](double, double y) { return 1 + wave * std::sin(y); }, 1);
+    EXPECT_LT(runs.spread, 1.6 * runs.standardError) << wave;
+    EXPECT_GT(runs.spread, runs.standardError / 2) << wave;
+  }
 }
 
 // Sharing flattens light that waves quickly. The noise is so large that it pays all the same.

@@ -2,6 +2,8 @@
 // These tests print a budget whose numbers are known, and put it on a study's page.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "core/app/budget/budget_text.h"
 #include "core/app/report/page_sections.h"
 
@@ -42,6 +44,19 @@ TEST(BudgetText, HasARowForEachCauseAndTheSum) {
   EXPECT_EQ(rows[8].value, "0.00250");
   EXPECT_EQ(rows[10].value, "-0.00020");
   EXPECT_EQ(rows[10].halfWidth, "0.00053");  // 2.365 times the root of .0001^2 + .0002^2
+}
+
+// -.0000001 would be "-0.00000". A hint that exceeds the line continues under itself.
+TEST(BudgetText, HasNoNegativeZeroAndNoLongLine) {
+  MeasuredBudget budget = KnownBudget();
+  budget.budget.parts[1].share = {-1e-7, 1e-4};
+  budget.budget.parts[3].share = {.0003, .00001};
+  EXPECT_EQ(BudgetRows(budget, 8)[2].value, "0.00000");
+  const std::string text =
+      BudgetText(std::string(70, 'a') + "/" + std::string(20, 'b') + ".pbrt", budget, {});
+  EXPECT_NE(text.find(std::string(51, ' ') + "the same noise\n"), std::string::npos) << text;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 101u) << line;
 }
 
 TEST(BudgetText, StatesErrorAndLowerBound) {

@@ -68,6 +68,26 @@ TEST(CausticLights, AreKnownByTheirCones) {
   EXPECT_FALSE(CausticLights(*point.setup->scene).AreImpossible());
 }
 
+// It shines downwards.
+const std::string kProjector =
+    "AttributeBegin Translate -2 2 2 Rotate 90 1 0 0 LightSource \"projection\" \"float fov\" 40 "
+    "\"color I\" [9 9 9] AttributeEnd\n";
+
+TEST(CausticLights, ProjectorsHaveCones) {
+  const LoadedScene scene = LoadSceneText(CausticWorld(kProjector + kTowards));
+  const CausticLights lights(*scene.setup->scene);
+  EXPECT_TRUE(lights.IsOutOfReach(0));
+  EXPECT_FALSE(lights.IsOutOfReach(1));
+  std::string towards = kProjector;
+  towards.replace(towards.find("90 1 0 0"), 8, "60 0 1 0");
+  const LoadedScene other = LoadSceneText(CausticWorld(towards));
+  EXPECT_FALSE(CausticLights(*other.setup->scene).IsOutOfReach(0));
+  std::string stretched = kProjector;
+  stretched.replace(stretched.find("LightSource"), 11, "Scale 1 1 .1 LightSource");
+  const LoadedScene unknown = LoadSceneText(CausticWorld(stretched));
+  EXPECT_FALSE(CausticLights(*unknown.setup->scene).IsOutOfReach(0));
+}
+
 // Returns 0 where there is no such counter.
 double CountOf(const TestRender& render, const char* name) {
   const double count = render.Counter(name);
@@ -93,7 +113,7 @@ TEST(CausticLights, LeaveGuidedEmissionAsItIs) {
 
 // Both pictures have the same photons, of paths with the same numbers.
 TEST(CausticLights, LeaveThePictureAsItIs) {
-  for (const std::string& lights : {kAway + kTowards, kAway + kAway}) {
+  for (const std::string& lights : {kAway + kTowards, kProjector + kTowards, kAway + kAway}) {
     Image images[2];
     double skipped[2], outOfReach[2], stored[2];
     for (int i = 0; i < 2; ++i) {

@@ -75,6 +75,15 @@ TEST(PriceModel, TakesFewerPhotonsWhereTheBiasAllowsIt) {
   EXPECT_EQ(PriceOf(model, {.012})->photons, 1);
 }
 
+// A quarter of the photons leaves the caustic map as it is.
+TEST(PriceModel, KeepsTheCausticMapWithFewerPhotons) {
+  PriceModel model;
+  model.maps = 5, model.causticMaps = 1;
+  EXPECT_EQ(model.MapsFor(.25), 2);
+  EXPECT_EQ(model.MapsFor(1), 5);
+  EXPECT_EQ(model.MapsFor(4), 20);
+}
+
 // .05^2 = .0025 = 1 / 400; seconds are 2 + 3 + 400 / 100.
 TEST(PriceModel, OfCameraNoiseAloneIsExact) {
   PriceModel model;
