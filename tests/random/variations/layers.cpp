@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/math/sampling/random.h"
+#include "tests/random/variations/mirror_furnace.h"
 #include "tests/random/variations/parts.h"
 
 namespace exphoton::random_scenes {
@@ -144,6 +145,7 @@ std::vector<Comparison> CompareLayers(const SceneModel& drawn, const Effort& eff
   const Sample left = SampleOf(b[kDirect]), right = SampleOf(direct[kDirect]);
   add("direct without a bounce",
       {"", PValueBeyond(left, right, 0), left.mean - right.mean, TextOf(left, right)});
+  for (const Comparison& each : CompareInMirrorFurnace(effort)) comparisons.push_back(each);
   return comparisons;
 }
 
