@@ -43,8 +43,8 @@ std::vector<Comparison> CompareInMirrorFurnace(const Effort& effort) {
   const double diffuseShare = .25 * double(1 + random.Bits() % 3);
   const double d = kReflectance * diffuseShare, s = kReflectance - d, e = 1 - kReflectance;
   const double mirrored = e / (1 - s);
-  const std::array<double, kParts.size()> exact{
-      1, e, d * e, d * (mirrored - e), d * (1 - mirrored), s};
+  const std::array<double, kParts.size()> exact{1, e, d * e, d * (mirrored - e), d * (1 - mirrored),
+                                                s};
   const PartMeans means =
       MeansOf(WallText(integrator, diffuseShare, kSamples * effort.factor), effort.firstSeed);
   std::vector<Comparison> comparisons;

@@ -162,32 +162,37 @@ constexpr const char* kWeakMirrors =
     "AreaLightSource \"area\" \"color L\" [.5 .5 .5]\n"
     "ReverseOrientation Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
 
-TestRender RenderWeakMirrors(const std::string& parameters, std::uint64_t seed) {
+// `integrator` is its name and further parameters.
+TestRender RenderWeakMirrors(const std::string& integrator, std::uint64_t seed) {
   TestRenderOptions options;
   options.seed = seed;
   return RenderSceneText(
-      TestHeader("\"exphotonmap\" \"integer maxdepth\" 24 \"integer finalgathersamples\" 8 "
-                 "\"float rrthreshold\" 0 \"integer indirectphotons\" 4000 " +
-                     parameters,
-                 6, 6, 1) +
-          kWeakMirrors,
-      options);
+      TestHeader(integrator + " \"integer maxdepth\" 24", 6, 6, 1) + kWeakMirrors, options);
 }
 
+const std::string kGathers =
+    "\"exphotonmap\" \"integer finalgathersamples\" 8 \"float rrthreshold\" 0 "
+    "\"integer indirectphotons\" 4000";
+const std::string kGathersDensities = kGathers + " \"bool radiancephotons\" \"false\"";
+
 TEST(GatherRays, EndWhereMirrorsLeaveLittleOfTheirWeight) {
-  for (const char* parameters : {"", "\"bool radiancephotons\" \"false\""}) {
-    const RayCounters rays = RenderWeakMirrors(parameters, 1).rays;
-    const auto count = [&](RayKind kind) { return double(rays.counts[std::size_t(kind)]); };
-    const double started = 8 * (count(RayKind::Camera) + count(RayKind::Specular));
+  const auto count = [](const TestRender& render, RayKind kind) {
+    return double(render.rays.counts[std::size_t(kind)]);
+  };
+  // `whitted` has the same specular trees, without further rays for the emission.
+  const TestRender trees = RenderWeakMirrors("\"whitted\"", 1);
+  const double started = 8 * (count(trees, RayKind::Camera) + count(trees, RayKind::Specular));
+  for (const std::string& integrator : {kGathers, kGathersDensities}) {
+    const double rays = count(RenderWeakMirrors(integrator, 1), RayKind::Gather);
     // The first ray, the ray after the first bounce, and a tenth of the rays after each other one.
-    EXPECT_LT(count(RayKind::Gather) / started, 2.3) << parameters;
-    EXPECT_GT(count(RayKind::Gather) / started, 2) << parameters;
+    EXPECT_LT(rays / started, 2.3) << integrator;
+    EXPECT_GT(rays / started, 2) << integrator;
   }
 }
 
 TEST(GatherRays, LoseAndAddNoLightByRouletteAtMirrors) {
   const auto mean = EstimateOverSeeds([](std::uint64_t seed) {
-    return MeanRadiance(RenderWeakMirrors("\"bool radiancephotons\" \"false\"", seed).image);
+    return MeanRadiance(RenderWeakMirrors(kGathersDensities, seed).image);
   });
   EXPECT_TRUE(IsWithin(.01, mean, 1));
 }
