@@ -77,11 +77,11 @@ class OmissionFinder {
     return candidates;
   }
 
-  // The parts of the light have the names of effects. `glossy` is not one of them.
+  // `glossy` has no part of the light of its own, and `caustics` are the part `caustic`.
   bool BringsMuchLight(Feature feature) const {
+    const std::string name = feature == Feature::Caustics ? "caustic" : FeatureName(feature);
     for (const MeasuredLight& part : chosen_.parts) {
-      if (part.name != FeatureName(feature) || part.share < kClear * kBudget * *command_.accuracy)
-        continue;
+      if (part.name != name || part.share < kClear * kBudget * *command_.accuracy) continue;
       log_.Verbose(Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature),
                           100 * part.share));
       return true;

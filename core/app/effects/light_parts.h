@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// LightPartsOf divides the light of a small picture by the last path of each contribution, as the
-// light AOVs do.
+// LightPartsOf returns the share of each light AOV in the light of a small picture.
 #pragma once
 
 #include <string>

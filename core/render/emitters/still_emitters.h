@@ -34,8 +34,9 @@ class StillEmitters {
   // cover at most kSmallArea pixels, and for others.
   static constexpr int kMostPlaces = 16, kPlaces = 4;
   static constexpr double kSmallArea = 64;
-  // The rays of a sample's specular trees at all places are at most about this number, because a
-  // tree behind glass may have dozens of rays.
+  // PlacesForReflections allows about this number of rays in the specular trees of a sample,
+  // because a tree behind glass may have dozens of rays. A box of an emitter in the same pixel may
+  // ask for more places.
   static constexpr int kRaysForReflections = 32;
 
   // Finds the pixels that may show one of the emitters. None is found if the camera moves or has a
@@ -54,10 +55,10 @@ class StillEmitters {
   static Point2 Place(Point2 u, int i, int n);
 
   // Returns the number of places for each sample of a pixel whose filter meets pixels in which
-  // specular surfaces show an emitter, and 1 for other pixels. Of a filter, 4 pixels on each side
-  // count. raysIn(pixel) is the number of rays
-  // in a specular tree of a pixel, or 0 if some trees meet no emitter. It must be a
-  // function of the pixel alone, which may lie outside of the film.
+  // specular surfaces show an emitter, and 1 for other pixels. At least 1 and at most 4 pixels on
+  // each side count. raysIn(pixel) is the number of rays in a specular tree of a pixel, or 0 if
+  // none of a few trees meets an emitter. It must be a function of the pixel alone, which may lie
+  // outside of the film.
   template <class RaysIn>  // signature: int(Point2i)
   int PlacesForReflections(Point2i pixel, const RaysIn& raysIn) const {
     if (!reflections_) return 1;
