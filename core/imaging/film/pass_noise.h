@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PassNoise estimates the noise of the mean of several independent passes from their differences.
-// Passes are collected into a few mutually independent groups. Bias, which all groups share, does
-// not show. Derivation: docs/decisions/0007-stopping-rules.md.
+// Passes are collected into a few groups, which count as independent. The errors of groups that
+// continue one sequence partly cancel, so the estimate is then rather too high. Bias, which all
+// groups share, does not show. Derivation: docs/decisions/0007-stopping-rules.md.
 #pragma once
 
 #include <vector>
