@@ -94,8 +94,8 @@ double MeanTransmittanceOfSlab(double depth) {
 }
 
 // A lamp passes each point in a sixteenth of the time. If a sample saw one time only, the pixels
-// would differ from each other by about their mean. `before` stands between WorldBegin and the
-// lamp, and `mean` is the mean of the picture.
+// would differ from each other by about their mean. `before` is text of the scene file that
+// precedes the lamp. `mean` is the mean of the picture.
 void ExpectLampInAllSamples(const std::string& before, double mean) {
   const std::string world = "WorldBegin\n" + before + kBackdrop + kEmits + kEnd +
                             "Translate 4 0 0 " + kAll + Square(-2.25, -2, -2, 2, 1) + "WorldEnd\n";

@@ -55,13 +55,18 @@ const std::string kAway =
 const std::string kTowards =
     "LightSource \"spot\" \"point from\" [-2 2 2] \"point to\" [2 0 4] \"color I\" [.2 .2 .2]\n";
 
-TEST(CausticLights, AreKnownByTheirCones) {
-  const LoadedScene scene = LoadSceneText(CausticWorld(kAway + kTowards));
+// Of the light `first` and kTowards, only `first` makes no caustics.
+void ExpectOutOfReach(const std::string& first) {
+  const LoadedScene scene = LoadSceneText(CausticWorld(first + kTowards));
   const CausticLights lights(*scene.setup->scene);
-  EXPECT_TRUE(lights.IsOutOfReach(0));
-  EXPECT_FALSE(lights.IsOutOfReach(1));
-  EXPECT_EQ(lights.OutOfReachCount(), 1);
-  EXPECT_FALSE(lights.AreImpossible());
+  EXPECT_TRUE(lights.IsOutOfReach(0)) << first;
+  EXPECT_FALSE(lights.IsOutOfReach(1)) << first;
+  EXPECT_EQ(lights.OutOfReachCount(), 1) << first;
+  EXPECT_FALSE(lights.AreImpossible()) << first;
+}
+
+TEST(CausticLights, AreKnownByTheirCones) {
+  ExpectOutOfReach(kAway);
   const LoadedScene dark = LoadSceneText(CausticWorld(kAway + kAway));
   EXPECT_TRUE(CausticLights(*dark.setup->scene).AreImpossible());
   const LoadedScene point = LoadSceneText(CausticWorld(kAway + "LightSource \"point\"\n"));
@@ -74,10 +79,7 @@ const std::string kProjector =
     "\"color I\" [9 9 9] AttributeEnd\n";
 
 TEST(CausticLights, ProjectorsHaveCones) {
-  const LoadedScene scene = LoadSceneText(CausticWorld(kProjector + kTowards));
-  const CausticLights lights(*scene.setup->scene);
-  EXPECT_TRUE(lights.IsOutOfReach(0));
-  EXPECT_FALSE(lights.IsOutOfReach(1));
+  ExpectOutOfReach(kProjector);
   std::string towards = kProjector;
   towards.replace(towards.find("90 1 0 0"), 8, "60 0 1 0");
   const LoadedScene other = LoadSceneText(CausticWorld(towards));
