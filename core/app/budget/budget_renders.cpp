@@ -92,10 +92,7 @@ class BudgetMeasurement {
     result_.costs.maps = base_.mapSeconds, result_.costs.camera = base_.sampleSeconds;
   }
 
-  double RaysPerSample() const {
-    return double(base_.rays.counts[std::size_t(RayKind::Gather)]) /
-           double(std::max<std::uint64_t>(base_.rays.counts[std::size_t(RayKind::Camera)], 1));
-  }
+  double RaysPerSample() const { return base_.GatherRaysPerSample(); }
 
   void RenderMoreRays() {
     BudgetCosts& costs = result_.costs;

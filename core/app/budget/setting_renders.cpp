@@ -31,6 +31,7 @@ void TakeCosts(const Statistics& statistics, const SettingRequest& request,
       renders->mapSeconds += phase.cpuSeconds / maps;
   }
   renders->rays = statistics.Rays();
+  renders->cameraSamples = CounterOf(statistics, "render/camera samples");
   renders->storedPhotons = StoredPhotons(statistics) / maps;
   renders->causticPhotons = CounterOf(statistics, "photons/caustic stored") / maps;
 }

@@ -3,6 +3,7 @@
 // scene, options and seeds only.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -32,10 +33,16 @@ struct SettingRenders {
   std::vector<PictureValues> corrections;        // of each picture; empty: none were requested
   std::optional<Corrections> groups;             // the same, where each picture is a group
   RayCounters rays;                              // of all pictures
+  double cameraSamples = 0;                      // of all pictures
   double storedPhotons = 0, causticPhotons = 0;  // of one set of maps
   // CPU time by the clock. Samples include the sharing of gathers.
   double mapSeconds = 0;     // of one set of maps
   double sampleSeconds = 0;  // of one picture
+
+  // Camera rays that only read emission at the edges of lamps are not samples.
+  double GatherRaysPerSample() const {
+    return double(rays.counts[std::size_t(RayKind::Gather)]) / std::max(cameraSamples, 1.);
+  }
 };
 
 // Throws Error, and LoadingStopped after a signal. threads: as in RenderCommand.
