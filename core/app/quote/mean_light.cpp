@@ -4,19 +4,19 @@
 #include <cmath>
 #include <vector>
 
+#include "core/app/dial/small_scene.h"
+
 namespace exphoton::cli {
 namespace {
 
 constexpr std::size_t kCell = 8;  // pixels; neighbours share photons and gathers
 
+// Returns the mean of the channels of each pixel.
 std::vector<double> LightOf(const Film& film) {
-  const PixelBounds& crop = film.Crop();
-  std::vector<double> light;
-  for (int y = crop.y0; y < crop.y1; ++y)
-    for (int x = crop.x0; x < crop.x1; ++x) {
-      const auto mean = film.MeanOf({x, y});
-      light.push_back((mean[0] + mean[1] + mean[2]) / 3);
-    }
+  const std::vector<double> values = ValuesOf(film);
+  std::vector<double> light(values.size() / 3);
+  for (std::size_t i = 0; i < light.size(); ++i)
+    light[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;
   return light;
 }
 
