@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <exception>
 #include <fstream>
@@ -126,11 +128,18 @@ void WritePicturesOf(const Subject& subject, const Options& options) {
   if (!file.flush()) throw std::runtime_error(options.pictures + " cannot be written");
 }
 
+// Returns whether this is the new process. Throws if there is none.
+bool IsNewProcess() {
+  const pid_t process = fork();
+  if (process < 0) throw std::runtime_error(std::string("no new process: ") + std::strerror(errno));
+  return process == 0;
+}
+
 // Each subject has a process of its own, as in MeasureAll.
 int WritePictures(const Options& options) {
   std::ofstream(options.pictures).close();
   for (const Subject& subject : ReadSubjects(options).all) {
-    if (fork() == 0) {
+    if (IsNewProcess()) {
       WritePicturesOf(subject, options);
       _exit(0);
     }
@@ -199,7 +208,7 @@ std::vector<Result> MeasureAll(Subjects* subjects, const Options& options) {
     if (measured[i].isDone) continue;
     if (running == options.jobs) wait(nullptr), --running;
     ++running;
-    if (fork() != 0) continue;
+    if (!IsNewProcess()) continue;
     measured[i] = MeasureOrFail(all[i], options);
     _exit(0);
   }
