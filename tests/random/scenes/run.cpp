@@ -131,10 +131,10 @@ void SceneRun::JudgeComparisons() {
 }
 
 std::vector<Comparison> SceneRun::CompareAgain(const SceneModel& scene, const Record& record,
-                                               int photonFactor) {
+                                               int moreFactor) {
   Effort effort{.factor = 16,
-                .photonFactor = photonFactor,
-                .firstSeed = record.seed + 500'000'000 * std::uint64_t(photonFactor),
+                .photonFactor = moreFactor,
+                .firstSeed = record.seed + 500'000'000 * std::uint64_t(moreFactor),
                 .sceneSeed = record.seed,
                 .comparesMore = record.property == kRooms};
   if (!IsAgreement(record.property)) {
@@ -145,7 +145,7 @@ std::vector<Comparison> SceneRun::CompareAgain(const SceneModel& scene, const Re
   comparedSeed_ = record.seed;
   comparedProperty_ = record.property;
   return comparisons_
-      .try_emplace(photonFactor, AgreementScene(record.property, scene, record.seed), effort)
+      .try_emplace(moreFactor, AgreementScene(record.property, scene, record.seed), effort)
       .first->second.Compare(record.comparison.what);
 }
 
@@ -157,8 +157,8 @@ void SceneRun::Judge(Record* record) {
   ++repeated_;
   const auto drawn = SceneOfSeed(record->seed);
   const std::string what = record->comparison.what;
-  const auto look = [&](int photonFactor) {
-    return Named(CompareAgain(drawn.value(), *record, photonFactor), what);
+  const auto look = [&](int moreFactor) {
+    return Named(CompareAgain(drawn.value(), *record, moreFactor), what);
   };
   const Comparison again = look(1);
   if (!(again.chance < kCertain)) return;

@@ -82,16 +82,16 @@ class SceneRun {
   void Check(const std::string& property, std::uint64_t seed);
   void Compare(const std::string& property, std::uint64_t seed);
   void Judge(Record* record);
-  // Compares with 16 times the samples and photonFactor times the photons, or without photons, with
-  // 16 * photonFactor times the samples. The pictures of a scene are kept for all of its alarms.
+  // Compares with 16 times the samples and moreFactor times the photons. Properties without photons
+  // have 16 * moreFactor times the samples. The pictures of a scene are kept for all of its alarms.
   std::vector<Comparison> CompareAgain(const SceneModel& scene, const Record& record,
-                                       int photonFactor);
+                                       int moreFactor);
 
   RunSettings settings_;
   std::vector<Record> records_;
   std::vector<Failure> failures_, blurred_;
   std::map<std::string, Tally> tallies_;
-  std::map<int, IntegratorComparison> comparisons_;  // by photonFactor, for comparedSeed_
+  std::map<int, IntegratorComparison> comparisons_;  // by moreFactor, for comparedSeed_
   std::uint64_t comparedSeed_ = 0;
   std::string comparedProperty_;
   int repeated_ = 0;
