@@ -62,6 +62,15 @@ TEST_F(OmissionTest, KeepsWhatTheUserNames) {
   }
 }
 
+// An effect with more than three tenths of the accuracy needs no pairs of renders.
+TEST_F(OmissionTest, TriesNoEffectThatBringsMuchLight) {
+  const std::string accurate = Render({"--accuracy", "20%", "--verbose"});
+  EXPECT_TRUE(Has(accurate, "indirect stays on: 20 % of the light of a pilot")) << accurate;
+  EXPECT_FALSE(Has(accurate, "caustics stays on")) << accurate;
+  EXPECT_FALSE(Has(accurate, "specular stays on")) << accurate;
+  EXPECT_TRUE(Statistics().at("effects").at("indirect").at("on"));
+}
+
 TEST_F(OmissionTest, LeavesOutNothingWithKeep) {
   EXPECT_FALSE(Has(Render({"--accuracy", "20%", "--keep"}), "caustics off"));
   EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
