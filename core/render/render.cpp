@@ -108,6 +108,17 @@ struct PassRenderer::State {
     }
   }
 
+  // Returns the emitters whose light is averaged over places of the film. Null: none. Passes share
+  // them, so the specular trees that look for reflected emitters are traced once in each pixel.
+  const StillEmitters* EmittersIn(const Film& film) {
+    const std::optional<int> depth = job.integrator.EmissionDepth();
+    // Splatted samples contribute to other pixels as well, by their own place.
+    if (splatWeights || !depth || !job.integrator.HasCostlySamples()) return nullptr;
+    if (!stillEmitters || !stillEmitters->AreOf(film))
+      stillEmitters.emplace(FilmView{job.scene, job.camera, job.filter, film}, *depth);
+    return &*stillEmitters;
+  }
+
   PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
     return {splatWeights.get(), sharing.isOn,        pass.sampleCount, options.sharingMemory,
             passBatch,          options.corrections, pass.diskArea};
@@ -147,8 +158,9 @@ struct PassRenderer::State {
     if (splatWeights) splats.emplace(*splatWeights, film, options.aovs);
     std::optional<GatherFragments> gathers;
     DonePixels done(rendered);
-    TileRenderer::Target target{
-        pass, sampler, *film, job.progress, nullptr, splats ? &*splats : nullptr, &done};
+    TileRenderer::Target target{pass,         sampler,          *film,
+                                job.progress, nullptr,          splats ? &*splats : nullptr,
+                                &done,        EmittersIn(*film)};
     const double rowBytes =
         GatherFragments::BytesPerPixel(pass.sampleCount) * rendered.Width() / writer.Of().count;
     if (options.pixelsBegun) *options.pixelsBegun = true;
@@ -187,8 +199,14 @@ struct PassRenderer::State {
     SharingBands* const shared = buffers.Bands();
     PassState passState({pass, film, options.aovs, buffers.Splats(), shared}, rendered);
     Resume(&passState);
-    const TileRenderer::Target target{
-        pass, sampler, *film, job.progress, buffers.Gathers(), buffers.Splats(), &passState.Done()};
+    const TileRenderer::Target target{pass,
+                                      sampler,
+                                      *film,
+                                      job.progress,
+                                      buffers.Gathers(),
+                                      buffers.Splats(),
+                                      &passState.Done(),
+                                      EmittersIn(*film)};
     if (options.pixelsBegun) *options.pixelsBegun = true;
     job.progress.Begin("Rendering", target.done->CountOpen(rendered.y0, rendered.y1));
     if (shared)
@@ -255,6 +273,7 @@ struct PassRenderer::State {
   const RenderOptions& options;
   const std::unique_ptr<const SplatWeights> splatWeights;  // null: samples are not splatted
   const SharingPlan sharing;
+  std::optional<StillEmitters> stillEmitters;  // of the last film
   std::deque<RenderWorker> workers;
   bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;

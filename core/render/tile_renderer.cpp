@@ -91,12 +91,7 @@ TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, c
       differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))),
       // A pass with a time of its own shows this time alone.
       movingEmitters_(job.scene, job.camera,
-                      target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {
-  // Splatted samples contribute to other pixels as well, by their own place.
-  if (!target.splats && job.integrator.EmissionDepth() && job.integrator.HasCostlySamples())
-    stillEmitters_.emplace(FilmView{job.scene, job.camera, job.filter, target.film},
-                           *job.integrator.EmissionDepth());
-}
+                      target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {}
 
 void TileRenderer::RenderTile(const PixelBounds& tile, RenderWorker* worker) const {
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -238,8 +233,8 @@ CameraSample TileRenderer::AtPlace(Point2 film, const CameraSamples& samples) co
   return sample;
 }
 
-RayDifferential TileRenderer::CameraRay(Point2 film, const CameraSamples& samples) const {
-  RayDifferential ray = job_.camera.GenerateRay(AtPlace(film, samples), Needs(Feature::Filtering));
+RayDifferential TileRenderer::CameraRay(const CameraSample& sample) const {
+  RayDifferential ray = job_.camera.GenerateRay(sample, Needs(Feature::Filtering));
   if (ray.hasDifferentials) ScaleDifferentials(&ray, differentialScale_);
   return ray;
 }
@@ -269,8 +264,9 @@ void TileRenderer::AverageTimes(const TracedSample& sample, RenderWorker* worker
 
 void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
                                  AovSample* aovs) const {
-  if (!stillEmitters_ || !target_.film.Crop().Contains(sample.pixel.x, sample.pixel.y)) return;
-  const StillEmitters& emitters = *stillEmitters_;
+  if (!target_.stillEmitters || !target_.film.Crop().Contains(sample.pixel.x, sample.pixel.y))
+    return;
+  const StillEmitters& emitters = *target_.stillEmitters;
   const auto raysIn = [&](Point2i pixel) { return RaysOfReflection(pixel, worker); };
   const int ofReflections = emitters.PlacesForReflections(sample.pixel, raysIn);
   const bool isReflected = ofReflections > 1;
@@ -302,20 +298,23 @@ void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worke
 
 int TileRenderer::RaysOfReflection(Point2i pixel, RenderWorker* worker) const {
   constexpr std::uint64_t kReflectionStream = 0x7265666c6563ull;
-  const std::uint64_t key = HashKey(
-      {target_.pass.sampleSeed, std::uint64_t(pixel.x), std::uint64_t(pixel.y), kReflectionStream});
+  const std::uint64_t key =
+      HashKey({options_.seed, std::uint64_t(pixel.x), std::uint64_t(pixel.y), kReflectionStream});
   RandomStream random(key);
-  CameraSamples samples = worker->samples;
-  samples.time = random.Uniform();
-  RayCounters rays;  // not of the render: two threads may count the same rays
-  const LiContext context{job_.scene, samples, worker->arena, rays, key};
+  const Real time = random.Uniform();  // also in passes with a time of their own
+  RayCounters rays;                    // not of the render: two threads may count the same rays
+  const LiContext context{job_.scene, worker->samples, worker->arena, rays, key};
   constexpr int kMaxTrees = 4;  // 1 if the first tree has no specular rays
   constexpr std::uint64_t kManyRays = 12;
   int trees = 0;
   bool isShown = false;
   do {
-    const Point2 film(Real(pixel.x) + random.Uniform(), Real(pixel.y) + random.Uniform());
-    const EmittedLight light = stillEmitters_->AllAlong(CameraRay(film, samples), context, &rays);
+    CameraSample sample;
+    sample.film.y = Real(pixel.y) + random.Uniform();
+    sample.film.x = Real(pixel.x) + random.Uniform();
+    sample.lens = Point2(Real(.5), Real(.5));
+    sample.time = Needs(Feature::Motion) ? time : 0;
+    const EmittedLight light = target_.stillEmitters->AllAlong(CameraRay(sample), context, &rays);
     isShown = isShown || !light.specular.IsBlack();
     ++trees;
   } while (trees < kMaxTrees && rays.Total() > std::uint64_t(trees) && rays.Total() < kManyRays);

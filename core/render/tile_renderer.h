@@ -41,9 +41,10 @@ class TileRenderer {
     const Sampler& sampler;
     Film& film;
     ProgressReporter& progress;
-    GatherFragments* gathers;  // null if gathers are not shared
-    SplatBuffer* splats;       // null if samples contribute to their own pixels only
-    DonePixels* done;          // pixels that are left out; receives the finished ones
+    GatherFragments* gathers;            // null if gathers are not shared
+    SplatBuffer* splats;                 // null if samples contribute to their own pixels only
+    DonePixels* done;                    // pixels that are left out; receives the finished ones
+    const StillEmitters* stillEmitters;  // whose light is averaged over places; null: none
   };
 
   // All arguments must outlive this object.
@@ -68,7 +69,10 @@ class TileRenderer {
   // Begins a sample: clears the worker's data of the last one.
   LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
   CameraSample AtPlace(Point2 film, const CameraSamples& samples) const;
-  RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const;
+  RayDifferential CameraRay(const CameraSample& sample) const;
+  RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const {
+    return CameraRay(AtPlace(film, samples));
+  }
   // Returns a sample's place on the film.
   static Point2 PlaceOf(Point2i pixel, const FilterSample& filter) {
     return Point2(Real(pixel.x) + Real(.5), Real(pixel.y) + Real(.5)) + filter.offset;
@@ -88,7 +92,7 @@ class TileRenderer {
   void AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
                      AovSample* aovs) const;
   // Traces a few specular trees in the pixel. Returns the number of rays of one tree, or 0 if they
-  // meet no still emitter. These rays are not counted.
+  // meet no still emitter. These rays are not counted. The result is the same in all passes.
   int RaysOfReflection(Point2i pixel, RenderWorker* worker) const;
   void MakeUsable(const SampleKey& key, RenderWorker* worker, Spectrum* L, AovSample* aovs) const;
   void Drop(const Spectrum& L, const SampleKey& key, RenderWorker* worker) const;
@@ -100,7 +104,6 @@ class TileRenderer {
   AovFilm* aovs_;
   Real differentialScale_;
   MovingEmitters movingEmitters_;
-  std::optional<StillEmitters> stillEmitters_;  // if their light is replaced
 };
 
 }  // namespace exphoton

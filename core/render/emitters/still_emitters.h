@@ -44,6 +44,9 @@ class StillEmitters {
   // object.
   StillEmitters(const FilmView& view, int depth);
 
+  // Returns whether the pixels are those of this film.
+  bool AreOf(const Film& film) const { return crop_ == film.Crop(); }
+
   // Returns the number of places for each sample of a pixel, a power of two: 1 if the filter of the
   // pixel meets no box of an emitter. A box that contains the camera, or that lies within the box
   // of a moving emitter, does not count.

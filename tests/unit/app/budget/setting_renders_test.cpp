@@ -13,12 +13,14 @@ constexpr int kRays = 6;
 
 // A matte room with a lamp. Nearly all camera samples send the gather rays.
 std::string LampInARoom() {
-  return TestHeader("\"exphotonmap\" \"integer indirectphotons\" 500 \"integer causticphotons\" 0 "
-                    "\"integer finalgathersamples\" " +
-                        std::to_string(kRays),
-                    12, 8, 2) +
+  return TestHeader(
+             "\"exphotonmap\" \"integer indirectphotons\" 500 \"integer causticphotons\" 0 "
+             "\"integer finalgathersamples\" " +
+                 std::to_string(kRays),
+             12, 8, 2) +
          "WorldBegin\nMaterial \"matte\"\nReverseOrientation Shape \"sphere\" \"float radius\" 6\n"
-         "AreaLightSource \"area\"\nTranslate 0 0 4 Shape \"sphere\" \"float radius\" .5\nWorldEnd\n";
+         "AreaLightSource \"area\"\nTranslate 0 0 4 Shape \"sphere\" \"float radius\" "
+         ".5\nWorldEnd\n";
 }
 
 // The edges of the lamp are averaged over several camera rays for each sample.
