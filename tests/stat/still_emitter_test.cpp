@@ -179,11 +179,7 @@ class LampPictures {
 
 class LampEdgeTest : public testing::TestWithParam<const char*> {};
 
-void ExpectLessNoise(const std::string& filter, const std::string& world, double factor) {
-  const std::string end = "WorldBegin\n" + world + "WorldEnd\n";
-  // `path` does not average over places, and shows the same lamp.
-  const LampPictures averaged(SmallPicture(kCosts, filter) + end);
-  const LampPictures plain(SmallPicture("\"path\" \"integer maxdepth\" 10", filter) + end);
+void ExpectSameMean(const LampPictures& averaged, const LampPictures& plain) {
   double difference = 0, squares = 0, size = 0;
   const std::vector<double> a = averaged.Means(), b = plain.Means();
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -194,6 +190,14 @@ void ExpectLessNoise(const std::string& filter, const std::string& world, double
   const double error = std::sqrt(squares) / double(a.size());
   EXPECT_LT(std::abs(difference), 4 * error);
   EXPECT_LT(error, .2 * size);
+}
+
+void ExpectLessNoise(const std::string& filter, const std::string& world, double factor) {
+  const std::string end = "WorldBegin\n" + world + "WorldEnd\n";
+  // `path` does not average over places, and shows the same lamp.
+  const LampPictures averaged(SmallPicture(kCosts, filter) + end);
+  const LampPictures plain(SmallPicture("\"path\" \"integer maxdepth\" 10", filter) + end);
+  ExpectSameMean(averaged, plain);
   EXPECT_LT(averaged.Variance(), plain.Variance() / factor);
 }
 
@@ -237,6 +241,36 @@ TEST_P(LampEdgeTest, ThreadsTilesAndCropsChangeNothing) {
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 8; ++x)
       EXPECT_EQ(part.image.At(x, y, 0), whole.image.At(x + 4, y + 2, 0)) << x << "," << y;
+}
+
+// The parts of the light add up to the picture, also where a lamp and its reflection are averaged.
+TEST(StillEmitters, PartsOfTheLightAddUp) {
+  const std::string world = "WorldBegin\nAttributeBegin\nTranslate -.3 0 .6 " + Lamp(.1) +
+                            "AttributeEnd\n" + LampInAMirror(.3) + "WorldEnd\n";
+  TestRenderOptions options;
+  options.load.samplesPerPixel = 3;
+  options.aovs = kLightAovs;
+  const Image image = RenderSceneText(SmallPicture(kCosts, "\"gaussian\"") + world, options).image;
+  EXPECT_GT(MeanChannel(image, "emission.R"), .01);
+  EXPECT_GT(MeanChannel(image, "specular.R"), .01);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      double sum = 0;
+      for (const char* part : {"emission.R", "direct.R", "caustic.R", "indirect.R", "specular.R"})
+        sum += double(image.At(x, y, image.FindChannel(part)));
+      EXPECT_NEAR(sum, double(image.At(x, y, 0)), 1e-5 * (1 + sum)) << x << "," << y;
+    }
+}
+
+// The light of a lamp that moves is averaged over times and not over places.
+TEST(StillEmitters, ALampMayPassInFrontOfAnother) {
+  const std::string end = "ActiveTransform EndTime Translate 1.5 0 0 ActiveTransform All\n";
+  const std::string world = "WorldBegin\nAttributeBegin\n" + LampAhead(.4) +
+                            "AttributeEnd\nAttributeBegin\n" + end + "Translate -.8 .1 1.2 " +
+                            Lamp(.12) + "AttributeEnd\nWorldEnd\n";
+  const LampPictures averaged(SmallPicture(kCosts, "\"box\"") + world);
+  const LampPictures plain(SmallPicture("\"path\"", "\"box\"") + world);
+  ExpectSameMean(averaged, plain);
 }
 
 INSTANTIATE_TEST_SUITE_P(Filters, LampEdgeTest,

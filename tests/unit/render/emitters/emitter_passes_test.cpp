@@ -29,9 +29,10 @@ class CountingCamera final : public Camera {
 
 // A lamp behind the camera, which a mirror shows.
 std::string LampInAMirror() {
-  return TestHeader("\"exphotonmap\" \"integer indirectphotons\" 0 \"integer causticphotons\" 0 "
-                    "\"bool finalgather\" \"false\"",
-                    12, 8, 2) +
+  return TestHeader(
+             "\"exphotonmap\" \"integer indirectphotons\" 0 \"integer causticphotons\" 0 "
+             "\"bool finalgather\" \"false\"",
+             12, 8, 2) +
          "WorldBegin\nAttributeBegin\nAreaLightSource \"area\"\nTranslate .2 .4 -1 Shape "
          "\"sphere\" \"float radius\" .3\nAttributeEnd\nMaterial \"mirror\"\nTranslate 0 0 1 Shape "
          "\"disk\" \"float radius\" 3\nWorldEnd\n";
