@@ -41,6 +41,20 @@ bool HasStoredNothing(const LightTally& light, const PhotonTargets& targets) {
          targets[PhotonKind::Indirect] > 0;
 }
 
+// With survival probability 1/2, the squared power grows by the factor 2 albedo^2 in a bounce. In a
+// closed room of an albedo above .71 its mean is infinite.
+void ReportGrowth(const PhotonPassResult& result, Log& log) {
+  constexpr std::int64_t kFewRays = 1000;
+  constexpr double kBounded = 1.02;  // a sum of random numbers may exceed 1 by chance
+  if (result.halvedRays < kFewRays) return;
+  const double growth = result.squaredGrowth / double(result.halvedRays);
+  if (!(growth > kBounded)) return;
+  log.Notice(Text("photonroulette \"half\": the squared power of a photon grows by a factor of ",
+                  std::round(100 * growth) / 100,
+                  " in a bounce on average, so few photons have most of the light of many bounces"),
+             {}, "\"string photonroulette\" \"luminance\" keeps the powers nearly equal");
+}
+
 void NoticeUnstoredLights(const PhotonPassResult& result, const PhotonTargets& targets,
                           const Scene& scene, Log& log) {
   int found = 0;
@@ -160,6 +174,7 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
     context.statistics.AddToCounter("photons/beyond bound", double(result.beyondBound),
                                     "of these, accepted with more than the constant luminance");
   }
+  ReportGrowth(result, context.log);
   if (result.cutPower > kMaxUnreportedCut * result.emittedPower)
     context.log.Warning(
         Text("maxphotondepth ", settings.maxPhotonDepth, " cut ",

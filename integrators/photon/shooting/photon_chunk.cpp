@@ -42,8 +42,8 @@ void PhotonChunk::Clear() {
   sites.clear();
   samples.clear();
   lights.clear();
-  emittedPower = cutPower = 0;
-  dropped = diverging = skipped = candidates = beyondBound = 0;
+  emittedPower = cutPower = squaredGrowth = 0;
+  dropped = diverging = skipped = candidates = beyondBound = halvedRays = 0;
   firstDropped = -1;
 }
 
@@ -77,6 +77,8 @@ void Merge(std::span<const PhotonChunk> chunks, const PhotonTargets& targets, Th
     result->skipped += chunk.skipped;
     result->candidates += chunk.candidates;
     result->beyondBound += chunk.beyondBound;
+    result->halvedRays += chunk.halvedRays;
+    result->squaredGrowth += chunk.squaredGrowth;
   }
   result->paths += std::int64_t(chunks.size()) * PhotonTracer::kChunkPaths;
 }

@@ -23,7 +23,8 @@ struct alignas(128) PhotonChunk {
   double emittedPower = 0, cutPower = 0;
   std::int64_t dropped = 0, firstDropped = -1;  // photons; path index of the first one
   std::int64_t diverging = 0, skipped = 0;
-  std::int64_t candidates = 0, beyondBound = 0;  // see PhotonPassResult
+  std::int64_t candidates = 0, beyondBound = 0, halvedRays = 0;  // see PhotonPassResult
+  double squaredGrowth = 0;                                      // the same
 
   void Clear();  // keeps the memory
 };

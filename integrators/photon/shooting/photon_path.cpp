@@ -14,6 +14,8 @@ namespace {
 // surfaces that reflect more than they receive, and its power could overflow sums over the map.
 // Russian roulette never comes near this limit.
 constexpr Real kMaxGrowth = Real(std::uint64_t(1) << 40);
+// With "half", photons survive this number of bounces.
+constexpr int kPlainBounces = 3;
 // Most branches of a path with photonroulette "constant". Only surfaces that reflect more than they
 // receive come near it.
 constexpr int kMaxBranches = 1 << 14;
@@ -299,10 +301,15 @@ bool PhotonTracer::Path::Scatter(const ShadingPoint& point) {
   const auto scattered = SampleBsdf(point, uChoice.x, u, &next);
   if (!scattered) return false;
   const Real survival = SurvivalProbability(*scattered);
+  if (IsHalved() && now_.hits > kPlainBounces) {
+    const double growth = double(SafeDivide(scattered->Y(), now_.alpha.Y(), Real(0)));
+    chunk_->squaredGrowth += growth * growth / double(survival);
+  }
   if (!(uChoice.y < survival)) return false;
   next.alpha = *scattered / survival;
   next.hits = now_.hits;
   if (IsCut(next.alpha)) return false;
+  chunk_->halvedRays += IsHalved() && now_.hits >= kPlainBounces;
   now_ = next;
   return true;
 }
@@ -366,10 +373,16 @@ bool PhotonTracer::Path::HasTooManyBranches() {
   return true;
 }
 
+// Returns whether the squared power is counted. Paths end at diffuse surfaces if they are for
+// caustics only.
+bool PhotonTracer::Path::IsHalved() const {
+  return tracer_.settings_.photonRoulette == PhotonRoulette::Half &&
+         batch_.open[std::size_t(PhotonKind::Indirect)];
+}
+
 // With Luminance (MaxComponent), the survivor has the luminance (largest channel) from before the
 // bounce, so photon weights stay nearly constant.
 Real PhotonTracer::Path::SurvivalProbability(const Spectrum& scattered) const {
-  constexpr int kPlainBounces = 3;
   const Spectrum& alpha = now_.alpha;
   switch (tracer_.settings_.photonRoulette) {
     case PhotonRoulette::Half:

@@ -85,6 +85,7 @@ class PhotonTracer::Path {
   std::optional<Spectrum> Accept(const Spectrum& power, int copies, Real u);
   bool HasTooManyBranches();
   Real SurvivalProbability(const Spectrum& scattered) const;
+  bool IsHalved() const;
 
   const PhotonTracer& tracer_;
   std::uint64_t index_;

@@ -77,6 +77,10 @@ struct PhotonPassResult {
   // rejected, and accepted samples above one unit of luminance, because their bound was unknown or
   // too low.
   std::int64_t candidates = 0, beyondBound = 0;
+  // With photonroulette "half": rays of photons that roulette may end, and the sum over these rays
+  // of the growth of the squared power in a bounce. 0 for chunks of other processes.
+  std::int64_t halvedRays = 0;
+  double squaredGrowth = 0;
 
   PhotonBuffer& operator[](PhotonKind kind) { return buffers[std::size_t(kind)]; }
   const PhotonBuffer& operator[](PhotonKind kind) const { return buffers[std::size_t(kind)]; }

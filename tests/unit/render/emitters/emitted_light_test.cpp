@@ -102,9 +102,8 @@ TEST_F(EmittedLightTest, TheNextPixelsAreAskedForReflections) {
 }
 
 TEST_F(EmittedLightTest, ALampThatMovesHasNoPlaces) {
-  const std::string lamp =
-      "Shape \"sphere\" \"float radius\" .2\nAttributeEnd\n",
-      before = "AttributeBegin\nAreaLightSource \"area\"\nTranslate 0 0 3\n";
+  const std::string lamp = "Shape \"sphere\" \"float radius\" .2\nAttributeEnd\n",
+                    before = "AttributeBegin\nAreaLightSource \"area\"\nTranslate 0 0 3\n";
   Load(before + lamp);
   EXPECT_GT(emitters_->PlacesIn({kLampWidth / 2, kLampHeight / 2}), 1);
   Load(before + "ActiveTransform EndTime Translate .5 0 0 ActiveTransform All\n" + lamp);
