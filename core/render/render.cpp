@@ -119,6 +119,14 @@ struct PassRenderer::State {
     return &*stillEmitters;
   }
 
+  // Returns the pixels that get more samples. Null: none do. Passes share them.
+  const EdgePixels* EdgesIn(const PixelBounds& window) {
+    if (job.integrator.EdgeSamples() == 1) return nullptr;
+    if (!edges || edges->Window() != window)
+      edges.emplace(job.scene, job.camera, job.filter, window);
+    return &*edges;
+  }
+
   PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
     return {splatWeights.get(), sharing.isOn,        pass.sampleCount, options.sharingMemory,
             passBatch,          options.corrections, pass.diskArea};
@@ -158,9 +166,9 @@ struct PassRenderer::State {
     if (splatWeights) splats.emplace(*splatWeights, film, options.aovs);
     std::optional<GatherFragments> gathers;
     DonePixels done(rendered);
-    TileRenderer::Target target{pass,         sampler,          *film,
-                                job.progress, nullptr,          splats ? &*splats : nullptr,
-                                &done,        EmittersIn(*film)};
+    TileRenderer::Target target{pass,         sampler,           *film,
+                                job.progress, nullptr,           splats ? &*splats : nullptr,
+                                &done,        EmittersIn(*film), EdgesIn(rendered)};
     const double rowBytes =
         GatherFragments::BytesPerPixel(pass.sampleCount) * rendered.Width() / writer.Of().count;
     if (options.pixelsBegun) *options.pixelsBegun = true;
@@ -206,7 +214,8 @@ struct PassRenderer::State {
                                       buffers.Gathers(),
                                       buffers.Splats(),
                                       &passState.Done(),
-                                      EmittersIn(*film)};
+                                      EmittersIn(*film),
+                                      EdgesIn(rendered)};
     if (options.pixelsBegun) *options.pixelsBegun = true;
     job.progress.Begin("Rendering", target.done->CountOpen(rendered.y0, rendered.y1));
     if (shared)
@@ -274,6 +283,7 @@ struct PassRenderer::State {
   const std::unique_ptr<const SplatWeights> splatWeights;  // null: samples are not splatted
   const SharingPlan sharing;
   std::optional<StillEmitters> stillEmitters;  // of the last film
+  std::optional<EdgePixels> edges;             // of the last window
   std::deque<RenderWorker> workers;
   bool wasStopped = false;  // while preprocessing
   NonFiniteLog nonFinite;

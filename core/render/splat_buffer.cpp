@@ -108,14 +108,14 @@ void SplatBuffer::Pixel::Add(const SplatSample& sample) {
     squares_[0] = 1;
     for (std::size_t c = 0; c < 3; ++c) squares_[1 + c] = v[c], squares_[4 + c] = v[c] * v[c];
   }
-  AddValues(sample.place);
+  AddValues(sample.place, sample.share);
   ++samples_;
   if (!buffer_->film_->Crop().Contains(pixel_.x, pixel_.y)) return;
   buffer_->film_->AddOwn(pixel_, L, sample.alpha);
   if (sample.aovs) buffer_->aovs_->AddOwn(pixel_, *sample.aovs);
 }
 
-void SplatBuffer::Pixel::AddLight(Point2 place, const Spectrum& L, Aov lightAov) {
+void SplatBuffer::Pixel::AddLight(Point2 place, Real share, const Spectrum& L, Aov lightAov) {
   std::ranges::fill(values_, 0.);
   std::ranges::fill(squares_, 0.);
   const double l[3] = {double(L.r), double(L.g), double(L.b)};
@@ -123,16 +123,17 @@ void SplatBuffer::Pixel::AddLight(Point2 place, const Spectrum& L, Aov lightAov)
   AovFilm* aovs = buffer_->aovs_;
   const auto at = aovs ? aovs->FirstValueOf(lightAov) : std::nullopt;
   if (at) std::copy_n(l, 3, values_.begin() + std::ptrdiff_t(kFilmValues + *at));
-  AddValues(place);
+  AddValues(place, share);
   if (!buffer_->film_->Crop().Contains(pixel_.x, pixel_.y)) return;
   buffer_->film_->AddOwnLight(pixel_, L);
   if (at) aovs->AddOwnLight(pixel_, *at, L);
 }
 
-void SplatBuffer::Pixel::AddValues(Point2 place) {
+void SplatBuffer::Pixel::AddValues(Point2 place, Real share) {
   buffer_->weights_.Fill(place, &weights_);
   double* sum = sums_.data();
-  for (const double w : weights_) {
+  for (const double weight : weights_) {
+    const double w = weight * double(share);
     for (const double x : values_) *sum++ += w * x;
     for (const double x : squares_) *sum++ += w * w * x;
   }

@@ -20,6 +20,7 @@ struct SplatSample {
   Spectrum L;
   Real alpha = 1;
   const AovSample* aovs = nullptr;  // null: no AOVs
+  Real share = 1;                   // of a sample; several may divide one
 };
 
 class SplatBuffer {
@@ -37,12 +38,13 @@ class SplatBuffer {
    public:
     void Begin(SplatBuffer* buffer, Point2i pixel);
     void Add(const SplatSample& sample);
-    // Adds radiance to a sample that was added before at this place, also in another object.
-    void AddLight(Point2 place, const Spectrum& L, Aov lightAov);
+    // Adds radiance to a sample that was added before with this place and share, also in another
+    // object.
+    void AddLight(Point2 place, Real share, const Spectrum& L, Aov lightAov);
     void End();  // adds the sums to the buffer
 
    private:
-    void AddValues(Point2 place);
+    void AddValues(Point2 place, Real share);
 
     SplatBuffer* buffer_ = nullptr;
     Point2i pixel_;

@@ -91,7 +91,13 @@ TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, c
       differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))),
       // A pass with a time of its own shows this time alone.
       movingEmitters_(job.scene, job.camera,
-                      target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {}
+                      target.pass.time ? std::nullopt : job.integrator.EmissionDepth()) {
+  // A progressive sampler goes on beyond its number of samples.
+  const Sampler& sampler = target.sampler;
+  if (target.edges && !sampler.IsProgressive())
+    edgeSampler_ =
+        sampler.WithSamplesPerPixel(sampler.SamplesPerPixel() * job.integrator.EdgeSamples());
+}
 
 void TileRenderer::RenderTile(const PixelBounds& tile, RenderWorker* worker) const {
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -141,13 +147,14 @@ bool TileRenderer::RenderSamples(Point2i pixel, RenderWorker* worker) const {
 }
 
 bool TileRenderer::RenderAllSamples(Point2i pixel, RenderWorker* worker) const {
+  const int parts = target_.edges && target_.edges->Has(pixel) ? job_.integrator.EdgeSamples() : 1;
   const std::int64_t end = target_.pass.firstSample + target_.pass.sampleCount;
-  for (std::int64_t i = target_.pass.firstSample; i < end; ++i) {
+  for (std::int64_t i = target_.pass.firstSample * parts; i < end * parts; ++i) {
     if (IsStopped()) {
       worker->wasStopped = true;
       return false;
     }
-    RenderSample({target_.pass.sampleSeed, pixel, i}, worker);
+    RenderSample({target_.pass.sampleSeed, pixel, i}, parts, worker);
   }
   return true;
 }
@@ -166,16 +173,19 @@ void TileRenderer::MakeUsable(const SampleKey& key, RenderWorker* worker, Spectr
   }
 }
 
-void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) const {
+void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* worker) const {
   CameraSamples& samples = worker->samples;
-  target_.sampler.Generate(key, &samples);
+  const bool isDivided = parts > 1;
+  (isDivided && edgeSampler_ ? *edgeSampler_ : target_.sampler).Generate(key, &samples);
   const FilterSample filter = target_.splats
                                   ? FilterSample{samples.film - Point2(Real(.5), Real(.5)), 1}
                                   : job_.filter.Sample(samples.film);
+  const Real share = 1 / Real(parts), weight = filter.weight * share;
   const Point2 film = PlaceOf(key.pixel, filter);
   const RayDifferential ray = CameraRay(film, samples);
 
   LiContext context = MakeContext(key, worker);
+  context.isDivided = isDivided;
   CorrectionSample correction;
   if (options_.corrections) {
     correction.share = options_.corrections->Share();
@@ -199,17 +209,17 @@ void TileRenderer::RenderSample(const SampleKey& key, RenderWorker* worker) cons
   MakeUsable(key, worker, &L, &aovs);
   if (target_.gathers) {
     const int group = GatherGroup(key.pixel, key.index);
-    target_.gathers->At(key.pixel).Add(worker->gathers, film, filter.weight, group);
+    target_.gathers->At(key.pixel).Add(worker->gathers, film, weight, {group, share});
     for (const GatherRecord& gather : worker->gathers)
       aovs.ownGathers += gather.light * gather.weight;
   }
   // A block of pixels is much wider than the filter, so splatted samples count in their own pixel.
-  if (options_.corrections)
-    options_.corrections->Add(key.pixel, correction, target_.splats ? Real(1) : filter.weight);
-  if (target_.splats) return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr});
+  if (options_.corrections) options_.corrections->Add(key.pixel, correction, weight);
+  if (target_.splats)
+    return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr, share});
   if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
-  target_.film.AddSample(key.pixel, L, alpha, filter.weight);
-  if (aovs_) aovs_->AddSample(key.pixel, aovs, L, filter.weight);
+  target_.film.AddSample(key.pixel, L, alpha, weight);
+  if (aovs_) aovs_->AddSample(key.pixel, aovs, L, weight);
 }
 
 LiContext TileRenderer::MakeContext(const SampleKey& key, RenderWorker* worker) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/render/done_pixels.h"
+#include "core/render/edges/edge_pixels.h"
 #include "core/render/emitters/moving_emitters.h"
 #include "core/render/emitters/still_emitters.h"
 #include "core/render/render.h"
@@ -45,6 +46,7 @@ class TileRenderer {
     SplatBuffer* splats;                 // null if samples contribute to their own pixels only
     DonePixels* done;                    // pixels that are left out; receives the finished ones
     const StillEmitters* stillEmitters;  // whose light is averaged over places; null: none
+    const EdgePixels* edges;             // pixels with more samples; null: none
   };
 
   // All arguments must outlive this object.
@@ -65,7 +67,8 @@ class TileRenderer {
   bool RenderSamples(Point2i pixel, RenderWorker* worker) const;
   bool RenderAllSamples(Point2i pixel, RenderWorker* worker) const;
 
-  void RenderSample(const SampleKey& key, RenderWorker* worker) const;
+  // Renders a sample of a pixel whose samples are divided into `parts` each.
+  void RenderSample(const SampleKey& key, int parts, RenderWorker* worker) const;
   // Begins a sample: clears the worker's data of the last one.
   LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
   CameraSample AtPlace(Point2 film, const CameraSamples& samples) const;
@@ -103,6 +106,7 @@ class TileRenderer {
   NonFiniteLog* log_;
   AovFilm* aovs_;
   Real differentialScale_;
+  std::unique_ptr<const Sampler> edgeSampler_;  // of pixels on edges; null: as in other pixels
   MovingEmitters movingEmitters_;
 };
 

@@ -77,6 +77,9 @@ struct LiContext {
   ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
   const VolumeIntegrator* volume = nullptr;  // light from media; null: none
   std::uint64_t mediaSegments = 0;           // ray segments through media so far
+  // Whether this is one of the SurfaceIntegrator::EdgeSamples() samples that divide the work of
+  // one.
+  bool isDivided = false;
 
   // Returns random numbers for one purpose of this sample. `stream` is a constant that the
   // integrator chooses for the purpose.
@@ -152,6 +155,10 @@ class SurfaceIntegrator {
   // Returns whether Li takes much longer than several camera rays. The renderer then spends such
   // rays on the edges of lamps (core/render/emitters/still_emitters.h).
   virtual bool HasCostlySamples() const { return false; }
+  // Returns the number of camera samples that the renderer takes for one where a pixel shows more
+  // than one surface. Li divides most of its work among them, by LiContext::isDivided. 1: no more
+  // than elsewhere.
+  virtual int EdgeSamples() const { return 1; }
   // Returns whether Li fills LiContext::gathers.
   virtual bool SharesGathers(const Scene& scene) const {
     (void)scene;

@@ -31,6 +31,9 @@ class PhotonIntegrator final : public SurfaceIntegrator {
     return settings_.maxDepth;
   }
   bool HasCostlySamples() const override { return true; }
+  int EdgeSamples() const override {
+    return settings_.finalGather && settings_.show == ShowMap::Nothing ? settings_.edgeSamples : 1;
+  }
   bool SharesGathers(const Scene& scene) const override {
     return settings_.sharedGather && GathersIndirectLight(settings_, scene);
   }

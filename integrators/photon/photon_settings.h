@@ -60,6 +60,7 @@ struct PhotonSettings {
   PhotonTargeting photonTargeting = PhotonTargeting::Off;
   ShowMap show = ShowMap::Nothing;
   bool sharedGather = false;
+  int edgeSamples = 1;
   bool guideEmission = false;
   bool directWithPhotons = false;  // direct light from the direct map; a parameter of photonmap
 

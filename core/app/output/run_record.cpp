@@ -45,6 +45,15 @@ std::string SharingRow(const RenderSetup& setup) {
   return Row("shared gather", (plan.isOn ? "on   " : "off  ") + plan.reason);
 }
 
+// Returns "" if no pixel has more samples than the others.
+std::string EdgeRow(const RenderSetup& setup) {
+  const int samples = setup.integrator->EdgeSamples();
+  if (samples == 1) return "";
+  return Row("edges", Format("%d camera samples for one where a pixel shows several surfaces, each "
+                             "with 1/%d of the gather rays",
+                             samples, samples));
+}
+
 // Describes a phase of Statistics; "" for phases of plugins, which have descriptive names.
 const char* PhaseMeaning(const std::string& name) {
   const std::pair<const char*, const char*> meanings[] = {
@@ -238,7 +247,7 @@ std::string ExplainText(const RenderSetup& setup) {
          Row("accelerator", setup.acceleratorName) +
          Row("picture", Resolution(setup.film.Full(), setup.crop)) +
          Row("primitives", std::to_string(setup.scene->Primitives().Count())) +
-         setup.scene->Features().Describe() + computed + SharingRow(setup) +
+         setup.scene->Features().Describe() + computed + SharingRow(setup) + EdgeRow(setup) +
          Row("plugins", plugins);
 }
 

@@ -14,7 +14,7 @@
 #include "core/imaging/film/camera.h"
 #include "core/imaging/film/film.h"
 #include "core/render/emitters/emitted_light.h"
-#include "core/render/emitters/lazy_pixel_bytes.h"
+#include "core/render/lazy_pixel_bytes.h"
 #include "core/sampling/filter.h"
 #include "core/scene/scene.h"
 

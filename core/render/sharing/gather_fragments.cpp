@@ -65,8 +65,8 @@ void GatherFragments::MoveDown(int y0, int y1) {
   pixels_.resize(width * std::size_t(bounds_.Height()));
 }
 
-void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real filterWeight,
-                                 int group) {
+void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real sampleWeight,
+                                 GatherShare share) {
   for (const GatherRecord& record : records) {
     const auto isOnSurface = [&](const GatherFragment& fragment) {
       return fragment.depth == record.depth &&
@@ -79,12 +79,13 @@ void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real
       fragment->ng = record.ng;
       fragment->depth = record.depth;
     }
-    fragment->film = fragment->film + film;
-    fragment->p += record.p;
-    fragment->n += record.n;
-    fragment->lights[std::size_t(group)] += record.light;
-    fragment->count[std::size_t(group)] += 1;
-    samples.push_back({film, record.n, record.light, record.weight, filterWeight,
+    const auto group = std::size_t(share.group);
+    fragment->film = fragment->film + film * share.records;
+    fragment->p += record.p * share.records;
+    fragment->n += record.n * share.records;
+    fragment->lights[group] += record.light * share.records;
+    fragment->count[group] += share.records;
+    samples.push_back({film, record.n, record.light, record.weight, sampleWeight,
                        std::uint32_t(fragment - fragments.begin()), record.depth});
   }
 }
@@ -124,7 +125,7 @@ void GatherFragments::Pixel::Transfer(ByteArchive* archive) {
   }
   samples.resize(archive->Count(samples.size(), 12 * sizeof(Real)));
   for (GatherSample& sample : samples) {
-    archive->Values(&sample.film.x, &sample.film.y, &sample.filterWeight, &sample.fragment,
+    archive->Values(&sample.film.x, &sample.film.y, &sample.sampleWeight, &sample.fragment,
                     &sample.depth);
     vector(&sample.n), color(&sample.light), color(&sample.weight);
     if (sample.fragment >= fragments.size()) throw ArchiveError("a gather has no fragment");

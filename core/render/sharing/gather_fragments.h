@@ -40,18 +40,24 @@ inline int GatherGroup(Point2i pixel, std::int64_t sample) {
   return int(pair == 0 ? (sample + parity) & 1 : 2 + parity);
 }
 
+// What a camera sample contributes to the fragments of its pixel.
+struct GatherShare {
+  int group;
+  Real records = 1;  // the part of a record that each of its gathers counts for
+};
+
 struct GatherFragment {
   Point2 film;  // mean position, in pixels
   Point3 p;     // mean
   Normal3 n, ng;
   int depth = 0;
-  std::array<Real, kGatherGroups> count{};       // of records, by group
+  std::array<Real, kGatherGroups> count{};       // of records, by group; parts count as parts
   std::array<Spectrum, kGatherGroups> lights{};  // their sums, by group
 
   Real Count() const { return (count[0] + count[1]) + (count[2] + count[3]); }
   Spectrum Light() const { return (lights[0] + lights[1]) + (lights[2] + lights[3]); }
   Spectrum Mean(int group) const {
-    return lights[std::size_t(group)] / std::max(count[std::size_t(group)], Real(1));
+    return HasGroup(group) ? lights[std::size_t(group)] / count[std::size_t(group)] : Spectrum();
   }
   bool HasGroup(int group) const { return count[std::size_t(group)] > 0; }
 };
@@ -61,7 +67,7 @@ struct GatherSample {
   Point2 film;
   Normal3 n;
   Spectrum light, weight;
-  Real filterWeight;
+  Real sampleWeight;  // of the camera sample in the mean of its pixel, or its share if splatted
   std::uint32_t fragment;  // index in its pixel
   int depth;
 };
@@ -74,7 +80,7 @@ class GatherFragments {
     std::vector<GatherSample> samples;
 
     // Adds the records of one camera sample.
-    void Add(const GatherRecords& records, Point2 film, Real filterWeight, int group);
+    void Add(const GatherRecords& records, Point2 film, Real sampleWeight, GatherShare share);
     void Finish();                        // turns sums into means
     void Join(const Pixel& other);        // adds the records of another pass; both are finished
     void Transfer(ByteArchive* archive);  // saves or loads

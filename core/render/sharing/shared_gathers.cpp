@@ -84,14 +84,14 @@ SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads
         const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
         if (target.corrections)
           target.corrections->AddLight(pixel, sample.weight * sample.light - L,
-                                       target.splats ? Real(1) : sample.filterWeight);
+                                       sample.sampleWeight);
         const Aov aov = sample.depth == 0 ? Aov::Indirect : Aov::Specular;
         if (target.splats) {
-          splat.AddLight(sample.film - Point2(Real(x), Real(pixel.y)), L, aov);
+          splat.AddLight(sample.film - Point2(Real(x), Real(pixel.y)), sample.sampleWeight, L, aov);
           continue;
         }
-        target.film->AddLight(pixel, L, sample.filterWeight);
-        if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.filterWeight);
+        target.film->AddLight(pixel, L, sample.sampleWeight);
+        if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.sampleWeight);
       }
       if (target.splats) splat.End();
     }

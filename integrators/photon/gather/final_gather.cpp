@@ -35,19 +35,29 @@ FinalGather::FinalGather(const PhotonSettings& settings)
     : cone_(Radians(settings.gatherAngle)), rrThreshold_(settings.rrThreshold) {
   const int rays = settings.finalGatherSamples;
   const bool isGuided = settings.gatherSampling != GatherSampling::Bsdf && rays > 1;
-  for (int guided = isGuided ? rays / 2 : 0; guided > 0; guided /= 2)
-    splits_.push_back({rays - guided, guided});
-  splits_.push_back({rays, 0});
+  splits_ = SplitsOf(rays, isGuided);
+  // Two rays at least, because a single ray has no guide.
+  dividedSplits_ = SplitsOf(std::max(rays / settings.edgeSamples, std::min(rays, 2)), isGuided);
   guide_ = PhotonGuide(isGuided ? settings.gatherPhotons : 0, cone_, settings.gatherSampling);
 }
 
+std::vector<FinalGather::Split> FinalGather::SplitsOf(int rays, bool isGuided) {
+  std::vector<Split> splits;
+  for (int guided = isGuided ? rays / 2 : 0; guided > 0; guided /= 2)
+    splits.push_back({rays - guided, guided});
+  splits.push_back({rays, 0});
+  return splits;
+}
+
 void FinalGather::RequestSamples(bool gathers, SampleLayout* layout) {
-  for (Split& split : splits_) {
-    const int bsdf = gathers ? split.bsdfRays : 0, photons = gathers ? split.photonRays : 0;
-    split.directions = layout->Request2D(bsdf);
-    split.lobes = layout->Request1D(bsdf);
-    split.cones = layout->Request2D(photons);
-    split.radii = layout->Request1D(photons);
+  for (std::vector<Split>* splits : {&splits_, &dividedSplits_}) {
+    for (Split& split : *splits) {
+      const int bsdf = gathers ? split.bsdfRays : 0, photons = gathers ? split.photonRays : 0;
+      split.directions = layout->Request2D(bsdf);
+      split.lobes = layout->Request1D(bsdf);
+      split.cones = layout->Request2D(photons);
+      split.radii = layout->Request1D(photons);
+    }
   }
 }
 
@@ -83,7 +93,7 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonM
   const Bsdf& bsdf = point.bsdf;
   const GuidedDirections guide = guide_.Directions(point, photons, context);
   const GuideDensity density(guide, cone_);
-  const Split& split = SplitFor(guide);
+  const Split& split = SplitFor(guide, context.isDivided ? dividedSplits_ : splits_);
   const Vector3& wo = point.Wo();
   RandomStream roulette = context.Stream(kRouletteStream + std::uint64_t(point.depth));
 

@@ -62,11 +62,13 @@ class FinalGather {
     int cones = -1, radii = -1;       // of the guided rays: 2D, 1D
   };
 
+  // Returns all divisions of this number of rays.
+  static std::vector<Split> SplitsOf(int rays, bool isGuided);
   // Let S be the total number of rays. The number of guided rays is the smallest of S/2, S/4, S/8
   // ... that is at least guide.share * S, or S/2 if none is. Without guiding directions it is 0.
-  const Split& SplitFor(const GuidedDirections& guide) const {
-    if (guide.axes.size() == 0) return splits_.back();
-    const Split* split = splits_.data();
+  static const Split& SplitFor(const GuidedDirections& guide, const std::vector<Split>& splits) {
+    if (guide.axes.size() == 0) return splits.back();
+    const Split* split = splits.data();
     const Real wanted = guide.share * Real(split->bsdfRays + split->photonRays);
     while (split[1].photonRays > 0 && Real(split[1].photonRays) >= wanted) ++split;
     return *split;
@@ -94,7 +96,8 @@ class FinalGather {
   // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
   Rays DrawRays(const ShadingPoint& point, const PhotonMap& photons, LiContext& context) const;
 
-  std::vector<Split> splits_;  // by descending photonRays, which is 0 in the last
+  std::vector<Split> splits_;         // by descending photonRays, which is 0 in the last
+  std::vector<Split> dividedSplits_;  // the same for samples with LiContext::isDivided
   PhotonGuide guide_;
   Cone cone_;
   Real rrThreshold_ = 0;

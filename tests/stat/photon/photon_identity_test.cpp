@@ -61,7 +61,7 @@ const std::string kPlain =
         "\"exphotonmap\" \"string lightselection\" \"uniform\" \"string photonroulette\" "
         "\"half\" \"bool radiancephotons\" \"false\" \"string gathersampling\" \"bsdf\" "
         "\"string kernel\" \"constant\" \"float rrthreshold\" 0 \"bool sharedgather\" \"false\" "
-        "\"bool guideemission\" \"false\"") +
+        "\"bool guideemission\" \"false\" \"integer edgesamples\" 1") +
     kCounts;
 
 TEST(PhotonIdentity, ExphotonmapWithPlainSwitchesIsPhotonmapBitForBit) {

@@ -35,7 +35,7 @@ GatherFragments PlaneGathers(int size, const LightAt& light, std::uint64_t seed 
                                   {0, 0, 1},
                                   light(place, &random),
                                   Spectrum(1)};
-        gathers.At({x, y}).Add({record}, {place.x, place.y}, 1, group);
+        gathers.At({x, y}).Add({record}, {place.x, place.y}, 1, {group});
       }
       gathers.At({x, y}).Finish();
     }
@@ -69,9 +69,9 @@ TEST(GatherFragments, DivideAPixelByItsSurfacesAndDepths) {
   more.light = Spectrum(3);
   table.p = {0, 1, 1};
   reflected.depth = 1;
-  pixel.Add({floor, reflected}, {4, 4}, 1, 0);
-  pixel.Add({table}, {5, 4}, 1, 1);
-  pixel.Add({more}, {5, 5}, 1, 0);
+  pixel.Add({floor, reflected}, {4, 4}, 1, {0});
+  pixel.Add({table}, {5, 4}, 1, {1});
+  pixel.Add({more}, {5, 5}, 1, {0});
   pixel.Finish();
   ASSERT_EQ(pixel.fragments.size(), 3u);
   EXPECT_EQ(pixel.fragments[0].count[0], 2);
@@ -102,8 +102,8 @@ TEST(GatherFragments, DivideDepthsInAnyOrder) {
   const GatherRecord floor{{0, 0, 0}, z, z, Spectrum(1), Spectrum(1)};
   GatherRecord reflected = floor;
   reflected.depth = 1;
-  pixel.Add({reflected}, {0, 0}, 1, 0);
-  pixel.Add({floor, reflected}, {0, 0}, 1, 1);
+  pixel.Add({reflected}, {0, 0}, 1, {0});
+  pixel.Add({floor, reflected}, {0, 0}, 1, {1});
   pixel.Finish();
   ASSERT_EQ(pixel.fragments.size(), 2u);
   EXPECT_EQ(pixel.fragments[0].depth, 1);

@@ -41,7 +41,7 @@ Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed) {
                                   {0, 0, 1},
                                   Spectrum(Real(light(x + .5, y + .5) * factor)),
                                   Spectrum(1)};
-        gathers.At({x, y}).Add({record}, at, 1, GatherGroup({x, y}, i));
+        gathers.At({x, y}).Add({record}, at, 1, {GatherGroup({x, y}, i)});
         film.AddSample({x, y}, Spectrum(), 1, 1);
       }
       gathers.At({x, y}).Finish();
