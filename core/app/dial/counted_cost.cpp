@@ -9,8 +9,8 @@ namespace exphoton::cli {
 namespace {
 
 constexpr double kPhotonRay = 1.35;
-constexpr double kEmissionRay = .55;  // a camera ray that only reads emission (StillEmitters)
-constexpr double kSkippedPath = .3;   // a path for caustics that misses all specular surfaces
+constexpr double kEmissionRay = .9;  // a camera ray that only reads emission (StillEmitters)
+constexpr double kSkippedPath = .3;  // a path for caustics that misses all specular surfaces
 
 struct IntegratorCost {
   const char* name;

@@ -77,14 +77,15 @@ void CompareHits(VersionCheck check, const ProbedScene& scene, const ProbedScene
 // Compares hits with those of the scene times a power of two, which rounds in the same way.
 void ProbeScale(const SceneModel& model, const char* accelerator, std::uint64_t seed,
                 Findings* findings) {
-  SceneModel still = model;  // without instances, which lose hits at this scale
-  for (BodyModel& body : still.bodies) body.isInstance = body.motion = 0;
-  const ProbedScene scene(SceneText(still, {}), seed, 0);
+  const ProbedScene scene(SceneText(model, {}), seed, 0);
   constexpr Real kScale = Real(0x1p61);
   TextOptions options;
   options.accelerator = accelerator;
   options.worldScale = "Scale 2305843009213693952 2305843009213693952 2305843009213693952\n";
-  const ProbedScene large(SceneText(still, options), seed, 0);
+  options.objectScale =
+      "Scale 4.33680868994201773602981e-19 4.33680868994201773602981e-19 "
+      "4.33680868994201773602981e-19\n";
+  const ProbedScene large(SceneText(model, options), seed, 0);
   RandomStream random = scene.Stream(13);
   int differences = 0, hits = 0;
   for (int i = 0; i < kVersionRays; ++i) {

@@ -162,8 +162,8 @@ std::string BodyText(const BodyModel& body, const TextOptions& options, int* nex
     const bool movesPart = options.partsMove && body.motion != 0;
     const std::string part = movesPart ? MotionDirectives(body.motion, options) + "\n" : "";
     // The instance has the size already.
-    text += "  ObjectBegin " + name + "\n" + ScaleText(1 / options.size) + part + shape +
-            "  ObjectEnd\n" + place + "  ObjectInstance " + name + "\n";
+    text += "  ObjectBegin " + name + "\n" + options.objectScale + ScaleText(1 / options.size) +
+            part + shape + "  ObjectEnd\n" + place + "  ObjectInstance " + name + "\n";
     if (body.isInstance == 2) text += "  Translate .3 .8 .5 ObjectInstance " + name + "\n";
   } else {
     text += (options.isFurnace ? FurnaceLight(body.material) : EmissionText(body, options.power)) +

@@ -26,8 +26,9 @@ struct TextOptions {
   bool hasSky = true;  // of a furnace; if not, media emit what they absorb
   // Everything that moves is held at this share of its motion, in [0,1].
   std::optional<double> stillAt = std::nullopt;
-  bool partsMove = false;       // parts of instanced objects move as well, within the object
-  const char* worldScale = "";  // a directive before the world's lights and shapes
+  bool partsMove = false;        // parts of instanced objects move as well, within the object
+  const char* worldScale = "";   // a directive before the world's lights and shapes
+  const char* objectScale = "";  // its inverse, for objects: their instances are scaled already
   int width = kFilmWidth, height = kFilmHeight;
   std::array<double, 4> crop{0, 1, 0, 1};  // part of the film
   // Two changes that leave the picture as it is, but for a factor. `size` multiplies all lengths

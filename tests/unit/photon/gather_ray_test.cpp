@@ -151,6 +151,31 @@ TEST_F(SheetTest, DimsGatherRaysByWhatItReflects) {
   EXPECT_NEAR(sum / kRays / bare, .96 / 1.04, .01);
 }
 
+// WeakMirrorTest places a mirror over a matte surface.
+class WeakMirrorTest : public PaneTest {
+ protected:
+  WeakMirrorTest()
+      : PaneTest(
+            "Shape \"disk\" \"float radius\" 5\nMaterial \"mirror\" \"color Kr\" [.04 .04 .04]\n"
+            "Translate 0 0 2 Shape \"disk\" \"float radius\" 5\n") {}
+};
+
+// Roulette ends six of ten gather rays at this mirror.
+TEST_F(WeakMirrorTest, SendsGatherRaysWhatItReflects) {
+  Fill();
+  const double bare = ReadFrom({0, 0, Real(.5)}, {0, 0, -1}, nullptr).radiance;
+  constexpr int kRays = 4000;
+  double sum = 0;
+  int ended = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const double radiance = ReadFrom({0, 0, 1}, {0, 0, 1}, nullptr).radiance;
+    sum += radiance;
+    ended += radiance == 0;
+  }
+  EXPECT_NEAR(double(ended) / kRays, .6, .04);
+  EXPECT_NEAR(sum / kRays / bare, .04, .003);
+}
+
 // A walk inside this sphere meets a weak mirror at each of up to 24 hits. Walks that went on for 24
 // bounces made a picture 10 times as slow as the light in them was worth. Its walls emit .5 and
 // reflect half of the light, so each radiance is 1.

@@ -20,9 +20,10 @@ constexpr int kLampWidth = 20, kLampHeight = 12;
 
 class EmittedLightTest : public testing::Test {
  protected:
-  void Load(const std::string& world) {
-    loaded_ = LoadSceneText(TestHeader("\"path\"", kLampWidth, kLampHeight, 1) + "WorldBegin\n" +
-                            world + "WorldEnd\n");
+  // `view` precedes the camera.
+  void Load(const std::string& world, const std::string& view = "") {
+    loaded_ = LoadSceneText(view + TestHeader("\"path\"", kLampWidth, kLampHeight, 1) +
+                            "WorldBegin\n" + world + "WorldEnd\n");
     film_.emplace(loaded_.setup->film.Full(), loaded_.setup->crop);
     emitters_.emplace(FilmView{*Setup().scene, *Setup().camera, *Setup().filter, *film_}, 3);
   }
@@ -108,6 +109,19 @@ TEST_F(EmittedLightTest, ALampThatMovesHasNoPlaces) {
   EXPECT_GT(emitters_->PlacesIn({kLampWidth / 2, kLampHeight / 2}), 1);
   Load(before + "ActiveTransform EndTime Translate .5 0 0 ActiveTransform All\n" + lamp);
   EXPECT_EQ(emitters_->PlacesIn({kLampWidth / 2, kLampHeight / 2}), 1);
+}
+
+// In the camera's space, a thin rod begins at (3, 0, -1) and ends at (-1, 0, 1). It passes the
+// plane of the camera at (1, 0, 0), so it covers the picture from pixel 4 to the right edge.
+TEST_F(EmittedLightTest, ALampThatReachesBehindTheCameraHasPlaces) {
+  Load(
+      "AreaLightSource \"area\"\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point "
+      "P\" "
+      "[-3.13 -.01 .447  1.34 -.01 .447  1.34 .01 .447  -3.13 .01 .447]\n",
+      "LookAt 0 0 0 .447 0 .894 0 1 0\n");
+  for (const int x : {5, kLampWidth / 2, kLampWidth - 2})
+    EXPECT_GT(emitters_->PlacesIn({x, kLampHeight / 2}), 1) << x;
+  EXPECT_EQ(emitters_->PlacesIn({1, kLampHeight / 2}), 1);
 }
 
 // Places on a diagonal would have equally many rows and columns.
