@@ -199,7 +199,7 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
   }
   const std::uint64_t specularRays = SpecularRays(*worker);
   Spectrum L = job_.integrator.Li(ray, context);
-  ++worker->totals.cameraSamples;
+  if (key.index % parts == 0) ++worker->totals.cameraSamples;  // its parts count as one
   const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
   for (const GatherRecord& gather : worker->gathers)
     if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either

@@ -32,7 +32,7 @@ bool ShowOneSurface(const std::optional<Place>& a, const std::optional<Place>& b
 
 // Returns half of a filter's half-width, within limits: the whole pixel counts, and no more than 25
 // rays are needed.
-Real Reach(Real width) { return std::clamp(width / 2, Real(.5), Real(2)); }
+Real GridReach(Real width) { return std::clamp(width / 2, Real(.5), Real(2)); }
 
 }  // namespace
 
@@ -40,8 +40,8 @@ EdgePixels::EdgePixels(const Scene& scene, const Camera& camera, const Filter& f
                        const PixelBounds& window)
     : scene_(scene),
       camera_(camera),
-      xReach_(Reach(filter.XWidth())),
-      yReach_(Reach(filter.YWidth())),
+      xReach_(GridReach(filter.XWidth())),
+      yReach_(GridReach(filter.YWidth())),
       window_(window),
       values_(window) {}
 
@@ -49,11 +49,13 @@ bool EdgePixels::IsOnEdge(Point2i pixel) const {
   const int columns = int(std::ceil(2 * xReach_)), rows = int(std::ceil(2 * yReach_));
   const Point2 first(Real(pixel.x) + Real(.5) - xReach_, Real(pixel.y) + Real(.5) - yReach_);
   const Point2 step(2 * xReach_ / Real(columns), 2 * yReach_ / Real(rows));
+  // Without motion, everything stays where it is when the shutter opens.
+  const Real time = scene_.Features().Needs(Feature::Motion) ? Real(.5) : Real(0);
   const auto seenAt = [&](int x, int y) {
     CameraSample sample;
     sample.film = first + Point2(step.x * Real(x), step.y * Real(y));
     sample.lens = Point2(Real(.5), Real(.5));
-    sample.time = Real(.5);
+    sample.time = time;
     return Seen(scene_, camera_.GenerateRay(sample, false));
   };
   const std::optional<Place> corner = seenAt(0, 0);

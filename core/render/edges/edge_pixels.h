@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// EdgePixels tells which pixels show more than one surface. Most noise of a picture with final
-// gathers comes from these pixels, so the renderer takes several camera samples there for each one
+// EdgePixels finds the pixels that show more than one surface. Most noise of a picture with final
+// gathers comes from them, so the renderer takes several camera samples there for each one
 // of other pixels (SurfaceIntegrator::EdgeSamples). A few rays decide, one through each corner of
 // the pixel. No camera sample uses them, so the decision is independent of the samples, and the
 // picture stays unbiased. docs/decisions/0089-edges-of-surfaces.md has the measurements.
@@ -22,8 +22,8 @@ class EdgePixels {
   const PixelBounds& Window() const { return window_; }
   // Returns whether rays through the pixel meet different surfaces or materials, or a surface that
   // turns away. They form a grid over the inner half of the filter's width and height, at most a
-  // pixel apart: at least over the pixel, and at most 2 pixels to each side. Several threads may ask at once. These rays are not
-  // counted.
+  // pixel apart: at least over the pixel, and at most 2 pixels to each side. Several threads may
+  // ask at once. These rays are not counted.
   bool Has(Point2i pixel) const {
     return values_.At(pixel, [this](Point2i p) { return int(IsOnEdge(p)); }) > 0;
   }

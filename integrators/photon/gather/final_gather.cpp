@@ -37,7 +37,8 @@ FinalGather::FinalGather(const PhotonSettings& settings)
   const bool isGuided = settings.gatherSampling != GatherSampling::Bsdf && rays > 1;
   splits_ = SplitsOf(rays, isGuided);
   // Two rays at least, because a single ray has no guide.
-  dividedSplits_ = SplitsOf(std::max(rays / settings.edgeSamples, std::min(rays, 2)), isGuided);
+  if (settings.edgeSamples > 1)
+    dividedSplits_ = SplitsOf(std::max(rays / settings.edgeSamples, std::min(rays, 2)), isGuided);
   guide_ = PhotonGuide(isGuided ? settings.gatherPhotons : 0, cone_, settings.gatherSampling);
 }
 

@@ -31,7 +31,7 @@ class OmissionTest : public ProgramTest {
 bool Has(const std::string& text, const char* part) { return text.find(part) != text.npos; }
 
 TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
-  const std::string err = Render({"--accuracy", "20%"});
+  const std::string err = Render({"--accuracy", "10%"});
   EXPECT_TRUE(Has(err, "caustics off: at most 0.")) << err;
   EXPECT_TRUE(Has(err, " % of the light, would take ")) << err;
   EXPECT_TRUE(Has(err, "of which effects left out are at most 0.")) << err;
@@ -41,7 +41,7 @@ TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
   EXPECT_EQ(omitted[0].at("effect"), "caustics");
   const double bound = omitted[0].at("bound"), time = omitted[0].at("time");
   EXPECT_GT(bound, 0);
-  EXPECT_LE(bound, .02);  // a tenth of the accuracy
+  EXPECT_LE(bound, .01);  // a tenth of the accuracy
   EXPECT_GT(time, .5);
   // Without the bound, noise and its interval alone would be the error.
   const double noise = json.at("noise"), error = json.at("accuracy").at("upperError");
@@ -55,7 +55,7 @@ TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
 
 TEST_F(OmissionTest, KeepsWhatTheUserNames) {
   for (const char* effects : {"all", "glossy=on,caustics=on"}) {
-    const std::string err = Render({"--accuracy", "20%", "--effects", effects});
+    const std::string err = Render({"--accuracy", "10%", "--effects", effects});
     EXPECT_FALSE(Has(err, "caustics off")) << err;
     EXPECT_TRUE(Statistics().at("accuracy").at("omitted").empty());
     EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
@@ -64,15 +64,15 @@ TEST_F(OmissionTest, KeepsWhatTheUserNames) {
 
 // An effect with more than three tenths of the accuracy needs no pairs of renders.
 TEST_F(OmissionTest, TriesNoEffectThatBringsMuchLight) {
-  const std::string accurate = Render({"--accuracy", "20%", "--verbose"});
-  EXPECT_TRUE(Has(accurate, "indirect stays on: 20 % of the light of a pilot")) << accurate;
+  const std::string accurate = Render({"--accuracy", "10%", "--verbose"});
+  EXPECT_TRUE(Has(accurate, "indirect stays on: 19 % of the light of a pilot")) << accurate;
   EXPECT_FALSE(Has(accurate, "caustics stays on")) << accurate;
   EXPECT_FALSE(Has(accurate, "specular stays on")) << accurate;
   EXPECT_TRUE(Statistics().at("effects").at("indirect").at("on"));
 }
 
 TEST_F(OmissionTest, LeavesOutNothingWithKeep) {
-  EXPECT_FALSE(Has(Render({"--accuracy", "20%", "--keep"}), "caustics off"));
+  EXPECT_FALSE(Has(Render({"--accuracy", "10%", "--keep"}), "caustics off"));
   EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
 }
 
@@ -88,7 +88,7 @@ TEST_F(OmissionTest, DoesNotDependOnThreads) {
   std::string pictures[3];
   const char* const threads[] = {"1", "2", "7"};
   for (int i = 0; i < 3; ++i) {
-    Render({"--accuracy", "20%", "--nthreads", threads[i], "--reproducible"});
+    Render({"--accuracy", "10%", "--nthreads", threads[i], "--reproducible"});
     pictures[i] = Read("room.exr");
   }
   EXPECT_EQ(pictures[0], pictures[1]);

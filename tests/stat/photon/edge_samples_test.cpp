@@ -61,7 +61,8 @@ Measured Measure(const std::string& scene) {
     found.error2 += (mean - found.mean) * (mean - found.mean) / (kSeeds * (kSeeds - 1));
   for (std::size_t i = 0; i < size; ++i) {
     double sum = 0, squares = 0;
-    for (const Image& image : images) sum += image.pixels[i], squares += image.pixels[i] * image.pixels[i];
+    for (const Image& image : images)
+      sum += image.pixels[i], squares += image.pixels[i] * image.pixels[i];
     found.noise += (squares - sum * sum / kSeeds) / (kSeeds - 1) / double(size);
   }
   return found;

@@ -19,7 +19,8 @@ using Sharing = RenderPass::Sharing;
 std::string Room(const std::string& filter) {
   return "PixelFilter \"" + filter + "\"\n" +
          TestHeader(R"("exphotonmap" "integer indirectphotons" [ 5000 ] "integer causticphotons" )"
-                    R"([ 0 ] "integer finalgathersamples" [ 8 ] "bool sharedgather" "true")",
+                    R"([ 0 ] "integer finalgathersamples" [ 8 ] "bool sharedgather" "true" )"
+                    R"("integer edgesamples" 1)",
                     40, 32, 4) +
          R"(WorldBegin
     AttributeBegin

@@ -94,14 +94,15 @@ TEST(SampleRequests, OfMoreThan64LightsAreSixteenLightSamples) {
   EXPECT_EQ(chosen.of1D, (Counts{16, 16, 2, 6, 0}));
 }
 
-// Half of 12 gather rays may follow photons, or a quarter, or an eighth.
+// Half of 12 gather rays may follow photons, or a quarter, or an eighth. In pixels on edges, one of
+// three.
 TEST(SampleRequests, OfAGuidedGatherAreThoseOfEachDivision) {
   const Requested requested =
       RequestsOf("\"exphotonmap\" \"integer finalgathersamples\" 12", "LightSource \"point\"\n");
-  EXPECT_EQ(requested.of1D, (Counts{6, 6, 9, 3, 11, 1, 12, 0}));
-  EXPECT_EQ(requested.of2D, (Counts{6, 6, 9, 3, 11, 1, 12, 0}));
+  EXPECT_EQ(requested.of1D, (Counts{6, 6, 9, 3, 11, 1, 12, 0, 2, 1, 3, 0}));
+  EXPECT_EQ(requested.of2D, (Counts{6, 6, 9, 3, 11, 1, 12, 0, 2, 1, 3, 0}));
   const Requested off = RequestsOf("\"exphotonmap\" \"integer finalgathersamples\" 12", "");
-  EXPECT_EQ(off.of1D, Counts(8, 0)) << "there is nothing to gather";
+  EXPECT_EQ(off.of1D, Counts(12, 0)) << "there is nothing to gather";
   const Requested direct = RequestsOf(
       "\"photonmap\" \"bool directwithphotons\" \"true\" \"integer finalgathersamples\" 12",
       kLights);

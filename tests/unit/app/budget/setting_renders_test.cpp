@@ -9,7 +9,7 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr int kRays = 6;
+constexpr int kRays = 8;
 
 // A matte room with a lamp. Nearly all camera samples send the gather rays.
 std::string LampInARoom() {
