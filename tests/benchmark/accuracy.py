@@ -2,21 +2,27 @@
 """Measures whether `--accuracy` keeps its promise, and what it costs.
 
 Usage: accuracy.py PROGRAM WxH REFERENCE_SECONDS MOST_SECONDS SEEDS SCENE ...
-Renders each scene with accuracies of 10, 5 and 2 %. The error of a picture is measured against a
-reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latter
-with the gather rays of the scene and with 16, and 1 to 4096 samples a pixel, as far as a render takes
-at most MOST_SECONDS. "Best" is the CPU time of the cheapest setting for the mean error that the dial
-reached, interpolated in the grid. Accuracies that the grid does not reach are left out, and so are
-those where the noise of the reference exceeds a fifth of the squared error.
+                   [--accuracies PERCENT,...] [--cache FOLDER]
+Renders each scene with accuracies of 10, 5 and 2 %, or with those that are given. The error of a
+picture is measured against a reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be
+samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latter with the gather
+rays of the scene and with 16, and 1 to 4096 samples a pixel, as far as a render takes at most
+MOST_SECONDS. "Best" is the CPU time of the cheapest setting for the mean error that the dial
+reached, interpolated in the grid. "Times best" is the ratio of both. Accuracies that the grid does
+not reach are left out, and so are those where the noise of the reference exceeds a fifth of the
+squared error. The folder of --cache keeps references and grids for later runs. Another reference or
+size has other files there. The seconds of a grid are comparable only with runs on the same machine
+under the same load, so delete grid-*.json there where this has changed.
 """
+import argparse
 import json
 import math
 import os
-import sys
 import tempfile
 
 from picture_errors import Scene
 
+THREAD = ("--nthreads", "1")
 SETTINGS = {"path": [], "guidedpath": [], "exphotonmap": [],
             "exphotonmap with 16 rays": ["--set", "SurfaceIntegrator.finalgathersamples=16"]}
 ACCURACIES = (.10, .05, .02)
@@ -24,16 +30,22 @@ ACCURACIES = (.10, .05, .02)
 
 def grid_of(scene, most_seconds):
     """Returns for each setting a list of (relMSE, seconds), by falling error."""
+    kept = os.path.join(scene.folder, f"grid-{most_seconds:g}.json")
+    if os.path.exists(kept):
+        with open(kept, encoding="utf-8") as file:
+            return json.load(file)
     grid = {}
     for name, options in SETTINGS.items():
         points = []
         for octave in range(0, 13):
             picture, cpu = scene.render("grid", "--integrator", name.split()[0], "--spp",
-                                        str(2 ** octave), "--seed", "500", *options)
+                                        str(2 ** octave), "--seed", "500", *THREAD, *options)
             points.append((max(scene.error(picture), 1e-12), cpu))
             if 2 * cpu > most_seconds:
                 break
         grid[name] = points
+    with open(kept, "w", encoding="utf-8") as file:
+        json.dump(grid, file)
     return grid
 
 
@@ -57,55 +69,91 @@ def best_of(grid, rel_mse):
     return name, times[name]
 
 
+def arguments():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    for name in ("program", "size", "reference"):
+        parser.add_argument(name)
+    parser.add_argument("most_seconds", type=float)
+    parser.add_argument("seeds", type=int)
+    parser.add_argument("scenes", nargs="+")
+    parser.add_argument("--accuracies", default="10,5,2")
+    parser.add_argument("--cache")
+    return parser.parse_args()
+
+
+def folder_of(given, path, temporary):
+    """Returns the folder of a scene's pictures."""
+    if not given.cache:
+        return temporary
+    folder = os.path.join(given.cache, f"{path.split('/')[-2]}-{given.size}-{given.reference}")
+    os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+class Table:
+    def __init__(self, given):
+        self.given = given
+        self.count = self.kept = self.thrifty = 0
+        self.ratios = []
+        print("| scene | accuracy | chosen | true errors | kept | CPU s (of it pilots) | best, CPU s |"
+              " times best |")
+        print("| --- | --- | --- | --- | --- | --- | --- | --- |", flush=True)
+
+    def add_scene(self, path):
+        with tempfile.TemporaryDirectory() as temporary:
+            scene = Scene(self.given.program, path, self.given.size,
+                          folder_of(self.given, path, temporary))
+            scene.reference(self.given.reference)
+            grid = grid_of(scene, self.given.most_seconds)
+            scene.folder = temporary
+            for percent in map(float, self.given.accuracies.split(",")):
+                label = f"| {path.split('/')[-2]} | {percent:g} % |"
+                if scene.noise / 4 > .2 * (percent / 100) ** 2:
+                    print(label, "the reference is too noisy | | | | | |", flush=True)
+                elif best_of(grid, (percent / 100) ** 2)[1] is None:
+                    print(label, "out of reach | | | | | |", flush=True)
+                else:
+                    self.add_row(label, scene, grid, percent / 100)
+
+    def add_row(self, label, scene, grid, accuracy):
+        errors, times, pilots, chosen = [], [], [], set()
+        report = os.path.join(scene.folder, "report.json")
+        for seed in range(1, self.given.seeds + 1):
+            picture, cpu = scene.render("picture", "--accuracy", f"{100 * accuracy:g}%", "--seed",
+                                        str(seed), "--stats-json", report, *THREAD)
+            with open(report, encoding="utf-8") as file:
+                statistics = json.load(file)
+            errors.append(max(scene.error(picture), 0) ** .5)
+            times.append(cpu)
+            pilots += [phase["cpuSeconds"] for phase in statistics["phases"]
+                       if phase["name"] == "pilots"]
+            chosen.add(statistics["integrator"])
+        hits = sum(error <= accuracy for error in errors)
+        self.count += len(errors)
+        self.kept += hits
+        self.thrifty += sum(error >= accuracy / 2 for error in errors)
+        name, best = best_of(grid, sum(error ** 2 for error in errors) / len(errors))
+        time = sum(times) / len(times)
+        if best:
+            self.ratios.append(time / best)
+        print(label, f"{', '.join(sorted(chosen))} | "
+              f"{', '.join(f'{100 * error:.2g}' for error in errors)} % | "
+              f"{hits} of {len(errors)} | {time:.3g} ({sum(pilots) / len(pilots):.2g}) | "
+              + (f"{name}, {best:.3g} | {time / best:.2f} |" if best else "not in the grid | |"),
+              flush=True)
+
+    def print_sums(self):
+        print(f"{self.kept} of {self.count} promises kept; {self.thrifty} errors above half of the "
+              f"accuracy; times {', '.join(f'{ratio:.2g}' for ratio in sorted(self.ratios))} times "
+              "the best")
+
+
 def main():
-    if len(sys.argv) < 7:
-        sys.exit(__doc__)
-    program, size, reference, most_seconds, seeds = sys.argv[1:6]
-    count = kept = thrifty = 0
-    ratios = []
-    print("| scene | accuracy | chosen | true errors | kept | CPU s (of it pilots) | best, CPU s |")
-    print("| --- | --- | --- | --- | --- | --- | --- |", flush=True)
-    for path in sys.argv[6:]:
-        with tempfile.TemporaryDirectory() as folder:
-            scene = Scene(program, path, size, folder)
-            scene.reference(reference)
-            grid = grid_of(scene, float(most_seconds))
-            label = path.split("/")[-2]
-            for accuracy in ACCURACIES:
-                if scene.noise / 4 > .2 * accuracy ** 2:
-                    print(f"| {label} | {100 * accuracy:g} % | the reference is too noisy | | | | |",
-                          flush=True)
-                    continue
-                if best_of(grid, accuracy ** 2)[1] is None:
-                    print(f"| {label} | {100 * accuracy:g} % | out of reach | | | | |", flush=True)
-                    continue
-                errors, times, pilots, chosen = [], [], [], set()
-                for seed in range(1, int(seeds) + 1):
-                    report = os.path.join(folder, "report.json")
-                    picture, cpu = scene.render("picture", "--accuracy", f"{100 * accuracy:g}%",
-                                                "--seed", str(seed), "--stats-json", report)
-                    with open(report, encoding="utf-8") as file:
-                        statistics = json.load(file)
-                    errors.append(max(scene.error(picture), 0) ** .5)
-                    times.append(cpu)
-                    pilots += [phase["cpuSeconds"] for phase in statistics["phases"]
-                               if phase["name"] == "pilots"]
-                    chosen.add(statistics["integrator"])
-                count += len(errors)
-                hits = sum(error <= accuracy for error in errors)
-                kept += hits
-                thrifty += sum(error >= accuracy / 2 for error in errors)
-                mean = sum(error ** 2 for error in errors) / len(errors)
-                name, best = best_of(grid, mean)
-                time = sum(times) / len(times)
-                if best:
-                    ratios.append(time / best)
-                print(f"| {label} | {100 * accuracy:g} % | {', '.join(sorted(chosen))} | "
-                      f"{', '.join(f'{100 * error:.2g}' for error in errors)} % | "
-                      f"{hits} of {len(errors)} | {time:.3g} ({sum(pilots) / len(pilots):.2g}) | "
-                      + (f"{name}, {best:.3g} |" if best else "not in the grid |"), flush=True)
-    print(f"{kept} of {count} promises kept; {thrifty} errors above half of the accuracy; times "
-          f"{', '.join(f'{ratio:.2g}' for ratio in sorted(ratios))} times the best")
+    given = arguments()
+    table = Table(given)
+    for path in given.scenes:
+        table.add_scene(path)
+    table.print_sums()
 
 
 main()

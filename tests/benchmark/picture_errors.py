@@ -36,12 +36,15 @@ class Scene:
 
     def reference(self, cost):
         """Renders two halves with guidedpath; keeps them and their squared difference. The cost of each
-        is a number of seconds, or of samples, such as "256spp", which other work does not reduce."""
+        is a number of seconds, or of samples, such as "256spp", which other work does not reduce.
+        Halves that are in the folder already are not rendered again."""
         rule = (["--spp", cost.removesuffix("spp")] if cost.endswith("spp")
                 else ["--time-limit", f"{cost}s"])
-        self.halves = [self.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
-                                   "--set", "SurfaceIntegrator.maxdepth=100", *rule)[0]
-                       for i in (0, 1)]
+        self.halves = [os.path.join(self.folder, f"half{i}.exr") for i in (0, 1)]
+        for i in (0, 1):
+            if not os.path.exists(self.halves[i]):
+                self.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
+                            "--set", "SurfaceIntegrator.maxdepth=100", *rule)
         self.noise = self.rel_mse(*self.halves)
 
     def error(self, picture):
