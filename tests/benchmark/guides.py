@@ -86,7 +86,7 @@ def main():
             row = f"| {name} |"
             for settings in GUIDES.values():
                 options = ["--resolution", size]
-                for setting in (f"finalgathersamples={RAYS}", "sharedgather=false", *settings):
+                for setting in (f"finalgathersamples={RAYS}", "sharedgather=false", "edgesamples=1", *settings):
                     options += ["--set", "SurfaceIntegrator." + setting]
                 found = [render(program, scene, folder, [*options, "--seed", str(seed)])
                          for seed in range(1, seeds + 1)]
