@@ -13,15 +13,15 @@ namespace {
 
 struct Settings : PhotonSettings {
   Settings() {
-    // The seven improvements; each is a parameter of photonmap too.
+    // The six improvements; each is a parameter of photonmap too.
     photonRoulette = PhotonRoulette::Luminance;  // photons of nearly constant weight
     radiancePhotons = true;
     gatherSampling = GatherSampling::Photons;
     kernel = DensityKernel::Simpson;
     lightSelection = LightSelection::Power;
     sharedGather = true;
+    // The other defaults
     edgeSamples = 4;
-    // The other three defaults
     rrThreshold = Real(.05);
     photonTargeting = PhotonTargeting::Auto;
     guideEmission = true;

@@ -176,9 +176,9 @@ INSTANTIATE_TEST_SUITE_P(
         View{"\"bidirectional\" \"integer maxdepth\" [30]", 64},
         View{"\"irradiancecache\" \"integer maxindirectdepth\" 30 \"integer nsamples\" 1024", 16},
         View{"\"igi\" \"integer nlights\" 256 \"integer nsets\" 16 \"float mindist\" .01", 16},
-        View{"\"exphotonmap\" \"integer indirectphotons\" [100000] \"integer finalgathersamples\" "
+        View{"\"exphotonmap\" \"integer indirectphotons\" [200000] \"integer finalgathersamples\" "
              "[8]",
-             32},
+             64},
         View{
             "\"photonmap\" \"integer indirectphotons\" [100000] \"integer finalgathersamples\" [8]",
             32}));

@@ -38,7 +38,7 @@ reference() {
 reference skylight-room skylight-room/emitters 1024
 reference cornell-caustic cornell-caustic/path 4096
 reference glossy-room glossy-room/path 2048
-reference glossy-floor-room glossy-floor-room/path 4096
+reference glossy-floor-room glossy-floor-room/path 16384
 reference furnace furnace/path 1024
 reference veach-mis veach-mis/path 2048
 reference moving-spheres moving-spheres/path 1024

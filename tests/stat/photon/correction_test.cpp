@@ -3,6 +3,8 @@
 // small and of large bias. They also check that corrections leave the picture alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -108,16 +110,21 @@ TEST(CorrectedRoom, HasCorrectionsOfLittleScatter) {
       "\"float coneangle\" [4] \"float conedeltaangle\" [1] \"color I\" [400 400 400]\nMaterial " +
       kMatte + "\nShape \"sphere\" \"float radius\" [4]\nWorldEnd\n";
   constexpr int kSeeds = 48;
-  double picture = 0, sum = 0, squares = 0;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Means means = Render(scene, seed);
-    picture += means.picture / kSeeds;
-    sum += means.correction;
-    squares += means.correction * means.correction;
+  std::array<double, 3> scatters;  // relative, each of kSeeds pictures
+  for (std::size_t group = 0; group < scatters.size(); ++group) {
+    double picture = 0, sum = 0, squares = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const Means means = Render(scene, 1000 * group + seed);
+      picture += means.picture / kSeeds;
+      sum += means.correction;
+      squares += means.correction * means.correction;
+    }
+    scatters[group] = std::sqrt((squares - sum * sum / kSeeds) / (kSeeds - 1)) / picture;
   }
-  const double variance = (squares - sum * sum / kSeeds) / (kSeeds - 1);
-  // Measured: .07, and .15 with roulette by the albedo alone.
-  EXPECT_LT(std::sqrt(variance), .1 * picture);
+  // One picture of about 1000 has a rare large correction, so the median counts. Measured: .07, and
+  // .15 with roulette by the albedo alone.
+  std::ranges::sort(scatters);
+  EXPECT_LT(scatters[1], .1);
 }
 
 // Chains of corrections would not end if each had more corrections than its parent.

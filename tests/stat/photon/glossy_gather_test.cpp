@@ -180,7 +180,7 @@ void ExpectAgreement(const std::string& material, const std::string& light, int 
 class GlossyBox : public testing::TestWithParam<MaterialCase> {};
 
 TEST_P(GlossyBox, UnderAPointLightIsAsBrightAsByPathTracing) {
-  ExpectAgreement(GetParam().text, kPoint, 8);
+  ExpectAgreement(GetParam().text, kPoint, 16);
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, GlossyBox, testing::ValuesIn(kMaterials), NameOf);
