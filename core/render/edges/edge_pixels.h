@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // EdgePixels finds the pixels that show more than one surface. Most noise of a picture with final
-// gathers comes from them, so the renderer takes several camera samples there for each one
-// of other pixels (SurfaceIntegrator::EdgeSamples). A few rays decide, one through each corner of
-// the pixel. No camera sample uses them, so the decision is independent of the samples, and the
-// picture stays unbiased. docs/decisions/0089-edges-of-surfaces.md has the measurements.
+// gathers comes from them, so the renderer takes several camera samples there for each one of other
+// pixels (SurfaceIntegrator::EdgeSamples). A few rays decide, one through each corner of the pixel.
+// No camera sample uses them, so the decision is independent of the samples, and the picture stays
+// unbiased. docs/decisions/0089-edges-of-surfaces.md has the measurements.
 #pragma once
 
 #include "core/imaging/film/camera.h"

@@ -89,7 +89,9 @@ class GatherFragments {
   // Throws Error(Resource) if memory is insufficient for this number of samples a pixel.
   GatherFragments(const PixelBounds& bounds, std::int64_t samplesPerPixel);
 
-  static double BytesPerPixel(std::int64_t samplesPerPixel);  // including FragmentRows
+  // Returns the memory of a pixel, including FragmentRows. A pixel on an edge takes more, because
+  // each part of a divided sample takes the place of a sample.
+  static double BytesPerPixel(std::int64_t samplesPerPixel);
 
   // Moves the bounds down, to rows y0 to y1 - 1. Rows that stay within the bounds keep their
   // gathers, and the others are empty.
