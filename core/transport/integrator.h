@@ -73,6 +73,10 @@ struct LiContext {
   GatherRecords* gathers = nullptr;
   // Li adds the correction of this sample here. Null if the bias is not certified.
   CorrectionSample* correction = nullptr;
+  // Li adds its result as it would be if the photons of each path had a random sign. The expected
+  // value is 0. The variance shows the noise that photons cause (docs/theory/exphotonmap.md,
+  // section 5.3). Null if it is not wanted.
+  Spectrum* signedLight = nullptr;
   PixelState* pixelState = nullptr;          // of the pixel; null: no state is kept
   ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
   const VolumeIntegrator* volume = nullptr;  // light from media; null: none
@@ -169,6 +173,8 @@ class SurfaceIntegrator {
     (void)scene;
     return std::nullopt;
   }
+  // Returns whether Li fills LiContext::signedLight.
+  virtual bool FillsSignedLight() const { return false; }
   // Returns the radiance along the camera ray.
   virtual Spectrum Li(const RayDifferential& ray, LiContext& context) const = 0;
 

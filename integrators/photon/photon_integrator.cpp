@@ -111,7 +111,11 @@ Spectrum PhotonIntegrator::Seen(PhotonKind kind, const ShadingPoint& point,
   if (context.correction)
     context.correction->sum +=
         point.throughput * maps_.KernelCorrection(kind, point, &context.arena);
-  return maps_.Radiance(kind, point, &context.arena);
+  Spectrum signedRadiance;
+  const Spectrum radiance = maps_.Radiance(kind, point, &context.arena, LobeSet::NonSpecular,
+                                           context.signedLight ? &signedRadiance : nullptr);
+  if (context.signedLight) *context.signedLight += point.throughput * signedRadiance;
+  return radiance;
 }
 
 Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& context) const {

@@ -44,6 +44,7 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   std::vector<std::string> Explain(const Scene& scene) const override;
   AovSet Aovs() const override;
   bool KeepsPhotons() const override { return true; }
+  bool FillsSignedLight() const override { return settings_.show == ShowMap::Nothing; }
   std::vector<std::string> PhotonMapNames() const override;
   std::vector<StoredPhoton> PhotonsNear(const Point3& p, std::size_t map, int count) const override;
 

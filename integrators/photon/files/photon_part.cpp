@@ -13,14 +13,15 @@ namespace {
 constexpr const char* kChunks = "photon chunks";
 
 bool IsUsable(const PhotonRecord& photon) {
-  const Real sum =
-      photon.p.x + photon.p.y + photon.p.z + photon.alpha.r + photon.alpha.g + photon.alpha.b;
+  const Spectrum power = photon.power.Power();
+  const Real sum = photon.p.x + photon.p.y + photon.p.z + power.r + power.g + power.b;
   return std::isfinite(sum);
 }
 
 void TransferRecord(PhotonRecord* photon, ByteArchive* archive) {
-  archive->Values(&photon->p.x, &photon->p.y, &photon->p.z, &photon->direction, &photon->alpha.r,
-                  &photon->alpha.g, &photon->alpha.b);
+  Spectrum& power = photon->power.Packed();
+  archive->Values(&photon->p.x, &photon->p.y, &photon->p.z, &photon->direction, &power.r, &power.g,
+                  &power.b);
   if (!IsUsable(*photon)) throw ArchiveError("a photon is not finite");
 }
 

@@ -78,13 +78,25 @@ void GatherRay::LookUp(std::span<Segment> segments) const {
   look();
 }
 
-Spectrum GatherRay::Along(const Segment& segment) const {
-  Walk walk(segment);
+Spectrum GatherRay::Along(Segment* segment) const {
+  Walk walk(*segment);
   // Fast path for most segments: without media, a segment without lobes to follow ends the walk.
-  if (!context_.scene.HasMedia() && !Any(LobesToFollow(segment)))
-    return segment.hit && segment.hit->material ? FromMaps(&walk) : Spectrum();
-  Complete(&walk);
+  if (!context_.scene.HasMedia() && !Any(LobesToFollow(*segment))) {
+    if (segment->hit && segment->hit->material) walk.radiance = FromMaps(&walk);
+  } else {
+    Complete(&walk);
+  }
+  if (context_.signedLight) segment->signedRadiance = walk.signedRadiance;
   return walk.radiance;
+}
+
+void GatherRay::Observe(const ShadingPoint& point, const Reads& reads) const {
+  if (observer_) observer_->Observe(point, reads);
+  if (!context_.signedLight) return;
+  Spectrum sum;
+  for (std::size_t i = 0; i < reads.segments.size(); ++i)
+    sum += reads.weights[i] * reads.segments[i].signedRadiance;
+  *context_.signedLight += point.throughput * sum;
 }
 
 GatherRay::Arriving GatherRay::Follow(const Segment& segment, const SurfacePoint& from,
@@ -145,7 +157,10 @@ bool GatherRay::Bounce(LobeSet lobes, Walk* walk) const {
 }
 
 bool GatherRay::BounceGlossy(const ShadingPoint& point, Walk* walk) const {
-  walk->Add(maps_.Radiance(PhotonKind::Caustic, point, &context_.arena, LobeSet::Glossy));
+  Spectrum signedCaustic;
+  walk->Add(maps_.Radiance(PhotonKind::Caustic, point, &context_.arena, LobeSet::Glossy,
+                           context_.signedLight ? &signedCaustic : nullptr));
+  walk->signedRadiance += walk->throughput * signedCaustic;
   walk->Add(GlossyDirect(point));
   const Point2 u{random_->Uniform(), random_->Uniform()};
   const auto bounce = point.bsdf.Sample(point.Wo(), u, random_->Uniform(), LobeSet::Glossy);
@@ -212,13 +227,15 @@ ShadingPoint GatherRay::Shade(const Segment& segment) const {
 Spectrum GatherRay::FromMaps(Walk* walk) const {
   const Segment& segment = walk->segment;
   if (!Intersects(segment.hit->material->PossibleLobes(), mappedLobes_)) return {};
-  const Spectrum read = ReadMaps(segment);
+  Spectrum signedRead;
+  const Spectrum read = ReadMaps(segment, context_.signedLight ? &signedRead : nullptr);
+  if (context_.signedLight) walk->signedRadiance += walk->throughput * signedRead;
   if (corrector_)
     walk->correction += walk->throughput * corrector_->Correct(segment, read, walk->throughput.Y());
   return read;
 }
 
-Spectrum GatherRay::ReadMaps(const Segment& segment) const {
+Spectrum GatherRay::ReadMaps(const Segment& segment, Spectrum* signedRadiance) const {
   const Scene::HitPoint& hit = *segment.hit;
   bool isShort = false;
   if (radianceMap_) {
@@ -230,12 +247,14 @@ Spectrum GatherRay::ReadMaps(const Segment& segment) const {
         context_.aovs->radianceDistance += double(std::sqrt(entry->distance2));
         ++context_.aovs->radiancePhotonsRead;
       }
-      return entry->Value(AbsDot(hit.point.ng, segment.ray.d));
+      const Real absCos = AbsDot(hit.point.ng, segment.ray.d);
+      if (signedRadiance) *signedRadiance = entry->SignedValue(absCos);
+      return entry->Value(absCos);
     }
   }
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = Shade(segment);
-  const Spectrum radiance = maps_.Radiance(point, &context_.arena, mappedLobes_);
+  const Spectrum radiance = maps_.Radiance(point, &context_.arena, mappedLobes_, signedRadiance);
   context_.arena.Rewind(mark);
   return radiance;
 }

@@ -21,6 +21,9 @@ class GatherRay {
     Ray ray;
     std::optional<Scene::HitPoint> hit;
     std::optional<RadiancePhotonMap::Entry> entry;  // valid for the hit; set by LookUp
+    // The radiance along the segment with the sign of each photon (signed_power.h). Read sets it if
+    // LiContext::signedLight is wanted.
+    Spectrum signedRadiance;
   };
 
   // Reads are the rays of one gather. Each ray adds weight times radiance to the radiance that
@@ -57,17 +60,15 @@ class GatherRay {
   void SetCorrector(ReadCorrector* corrector) { corrector_ = corrector; }
 
   Segment Trace(const Ray& ray) const {
-    return {ray, context_.IntersectPoint(ray, RayKind::Gather), std::nullopt};
+    return {ray, context_.IntersectPoint(ray, RayKind::Gather), std::nullopt, {}};
   }
   // Finds the radiance photons that are valid for the hits.
   void LookUp(std::span<Segment> segments) const;
   // Returns the radiance arriving along the ray. LookUp must be called first.
-  Spectrum Read(const Segment& segment) const { return Along(segment); }
+  Spectrum Read(Segment& segment) const { return Along(&segment); }
   // Whether FinalGather is to call Observe.
-  bool IsObserved() const { return observer_ != nullptr; }
-  void Observe(const ShadingPoint& point, const Reads& reads) const {
-    observer_->Observe(point, reads);
-  }
+  bool IsObserved() const { return observer_ || context_.signedLight; }
+  void Observe(const ShadingPoint& point, const Reads& reads) const;
 
   // The lobes whose radiance a hit reads from the maps.
   LobeSet MappedLobes() const { return mappedLobes_; }
@@ -87,8 +88,9 @@ class GatherRay {
   struct Walk {
     Segment segment;
     Spectrum throughput{1};
-    Spectrum radiance;    // found so far
-    Spectrum correction;  // of the maps that were read, if there is a corrector
+    Spectrum radiance;        // found so far
+    Spectrum correction;      // of the maps that were read, if there is a corrector
+    Spectrum signedRadiance;  // if it is wanted
     int specularBounces = 0, glossyBounces = 0;
     // Origin and density, per solid angle, of the glossy bounce that the segment begins with. The
     // density is 0 if the segment does not begin with a glossy bounce.
@@ -109,7 +111,7 @@ class GatherRay {
     if (!segment.hit || !segment.hit->material) return LobeSet::None;
     return segment.hit->material->PossibleLobes() & followedLobes_;
   }
-  Spectrum Along(const Segment& segment) const;
+  Spectrum Along(Segment* segment) const;
   void Complete(Walk* walk) const;
   // Replaces the segment by the next one. Returns false if the walk ends.
   bool Continue(Walk* walk) const;
@@ -118,10 +120,10 @@ class GatherRay {
   bool BounceGlossy(const ShadingPoint& point, Walk* walk) const;
   bool BounceSpecular(const ShadingPoint& point, Walk* walk) const;
   // Returns the radiance from the hit to the ray's origin by the lobes that read maps, and adds its
-  // correction to the walk.
+  // correction and the signed radiance to the walk.
   Spectrum FromMaps(Walk* walk) const;
-  // The same without correction, for a hit with such lobes.
-  Spectrum ReadMaps(const Segment& segment) const;
+  // The same alone, for a hit with such lobes. signedRadiance may be null.
+  Spectrum ReadMaps(const Segment& segment, Spectrum* signedRadiance) const;
   // Next event estimation for the glossy lobes towards wo, with one light chosen at random.
   Spectrum GlossyDirect(const ShadingPoint& point) const;
   // Returns the emission at the end of a segment that begins with a glossy bounce, with the MIS

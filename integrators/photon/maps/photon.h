@@ -7,6 +7,7 @@
 #include "core/math/spectrum.h"
 #include "core/spatial/block_store.h"
 #include "integrators/photon/maps/photon_distance.h"
+#include "integrators/photon/maps/signed_power.h"
 
 namespace exphoton {
 
@@ -18,6 +19,7 @@ struct Photon {
   // Path length since the emission or the last non-specular scattering, as a fraction of
   // PhotonBuffer::farthest.
   Real distance = 1;
+  bool hasNegativeSign = false;  // see SignedPower
 };
 
 // RadiancePhotonSite is a stored photon at which radiance will be precomputed.
@@ -43,27 +45,30 @@ inline const char* PhotonKindName(PhotonKind kind) {
 struct PhotonRecord {
   Point3 p;
   std::uint32_t direction = 0;  // EncodeOctahedral
-  Spectrum alpha;
+  SignedPower power;
 
   PhotonRecord() = default;
   explicit PhotonRecord(const Photon& photon)
       : p(photon.p),
         direction(EncodeOctahedral(photon.wi, EncodeDistance(photon.distance))),
-        alpha(photon.alpha) {}
+        power(photon.alpha, photon.hasNegativeSign) {}
 };
 
 // PhotonBlock stores sixteen photons as a structure of arrays.
 struct PhotonBlock : PointBlock {
   using Record = PhotonRecord;
 
-  Real r[kBlockPoints], g[kBlockPoints], b[kBlockPoints];  // alpha
+  Real r[kBlockPoints], g[kBlockPoints], b[kBlockPoints];  // SignedPower::Packed
 
-  Spectrum Alpha(std::uint32_t lane) const { return {r[lane], g[lane], b[lane]}; }
+  Spectrum Alpha(std::uint32_t lane) const {
+    return SignedPower::PowerOf(r[lane], g[lane], b[lane]);
+  }
+  Real Sign(std::uint32_t lane) const { return SignedPower::SignOf(r[lane]); }
   void Set(std::uint32_t lane, const PhotonRecord& photon) {
     PointBlock::Set(lane, {photon.p, photon.direction});
-    r[lane] = photon.alpha.r;
-    g[lane] = photon.alpha.g;
-    b[lane] = photon.alpha.b;
+    r[lane] = photon.power.Packed().r;
+    g[lane] = photon.power.Packed().g;
+    b[lane] = photon.power.Packed().b;
   }
 };
 

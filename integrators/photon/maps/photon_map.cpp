@@ -63,16 +63,17 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
 PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena) const {
   const Arena::Mark mark = arena->GetMark();
   const PhotonNeighbourhood around = Find(query, arena);
-  Spectrum sum;
+  Spectrum positive, negative;  // of the photons with either sign
   for (std::size_t at = 0; at < around.photons.size(); ++at) {
     if (around.distance2[at] > around.radius2) continue;
     const std::uint32_t i = around.photons[at];
     const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1);
-    sum += Alpha(i) * coat;
+    (Sign(i) > 0 ? positive : negative) += Alpha(i) * coat;
   }
   arena->Rewind(mark);
-  if (around.photons.empty()) return {{}, std::sqrt(around.radius2)};
-  return {sum * (kInvPi / (Real(paths_) * around.radius2)), std::sqrt(around.radius2)};
+  if (around.photons.empty()) return {{}, {}, std::sqrt(around.radius2)};
+  const Real scale = kInvPi / (Real(paths_) * around.radius2);
+  return {(positive + negative) * scale, (positive - negative) * scale, std::sqrt(around.radius2)};
 }
 
 NearPoints PhotonMap::Nearest(const Point3& p, int k, Arena* arena) const {

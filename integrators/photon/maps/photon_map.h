@@ -71,6 +71,7 @@ class PhotonMap {
     return Position(i) + Direction(i) * (farthest_ * part);
   }
   Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }
+  Real Sign(std::uint32_t i) const { return tree_.BlockOf(i).Sign(tree_.Lane(i)); }
   std::size_t MemoryBytes() const;
 
   // Finds the k nearest photons within maxDistance. If there are k, the farthest is left out and
@@ -80,9 +81,10 @@ class PhotonMap {
   PhotonNeighbourhood Find(const PhotonQuery& query, Arena* arena) const;
 
   // Estimates the irradiance on the side of n with the constant kernel, sum(alpha) / (N pi r^2).
-  // Returns r too.
+  // Returns r too, and the estimate in which each photon has its sign.
   struct Irradiance {
     Spectrum e;
+    Spectrum signedE;
     Real radius = 0;
   };
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena) const;

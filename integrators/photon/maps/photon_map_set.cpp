@@ -19,6 +19,15 @@ Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns)
   return std::min(AbsDot(wi, ns) / geometric, kMaxShadingNormalFactor);
 }
 
+struct SignedSum {
+  Spectrum plain, withSigns;
+
+  void Add(const Spectrum& value, Real sign) {
+    plain += value;
+    if (sign != 0) withSigns += value * sign;
+  }
+};
+
 // Returns the lower bound of a search radius, relative to the scene radius. It applies if photons
 // coincide, or if they are too few to measure their spacing.
 Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
@@ -56,11 +65,12 @@ PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& setti
 }
 
 Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
-                                LobeSet lobes) const {
+                                LobeSet lobes, Spectrum* signedRadiance) const {
+  if (signedRadiance) *signedRadiance = {};
   if (Map(kind).IsEmpty() || !point.bsdf.Has(lobes)) return {};
   const Arena::Mark mark = arena->GetMark();
-  const PhotonNeighbourhood around = Around(kind, point, lobes, arena);
-  const Spectrum radiance = Estimate(kind, point, lobes, around, around.radius2);
+  const PhotonNeighbourhood around = Around({kind, lobes}, point, arena);
+  const Spectrum radiance = Estimate({kind, lobes}, point, around, around.radius2, signedRadiance);
   arena->Rewind(mark);
   return radiance;
 }
@@ -69,26 +79,29 @@ Spectrum PhotonMapSet::KernelCorrection(PhotonKind kind, const ShadingPoint& poi
                                         LobeSet lobes) const {
   if (Map(kind).IsEmpty() || !point.bsdf.Has(lobes)) return {};
   const Arena::Mark mark = arena->GetMark();
-  const PhotonNeighbourhood around = Around(kind, point, lobes, arena);
-  const Spectrum wide = Estimate(kind, point, lobes, around, around.radius2);
-  const Spectrum narrow = Estimate(kind, point, lobes, around, around.radius2 / 2);
+  const Part part{kind, lobes};
+  const PhotonNeighbourhood around = Around(part, point, arena);
+  const Spectrum wide = Estimate(part, point, around, around.radius2, nullptr);
+  const Spectrum narrow = Estimate(part, point, around, around.radius2 / 2, nullptr);
   arena->Rewind(mark);
   return (narrow - wide) * 2;
 }
 
-PhotonNeighbourhood PhotonMapSet::Around(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
+PhotonNeighbourhood PhotonMapSet::Around(const Part& part, const ShadingPoint& point,
                                          Arena* arena) const {
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
-  const bool isOneSided = !point.bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
+  const bool isOneSided = !point.bsdf.Has(part.lobes & LobeSet::NonSpecularTransmission);
   const RestPose rest(point.surface);
-  return Map(kind).Find({rest.Point(point.surface.p), rest.Normal(n), nUsed_, MaxDistance(kind),
-                         isOneSided, false, diskArea_},
-                        arena);
+  return Map(part.kind).Find({rest.Point(point.surface.p), rest.Normal(n), nUsed_,
+                              MaxDistance(part.kind), isOneSided, false, diskArea_},
+                             arena);
 }
 
-Spectrum PhotonMapSet::Estimate(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
-                                const PhotonNeighbourhood& around, Real radius2) const {
-  const PhotonMap& map = Map(kind);
+Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
+                                const PhotonNeighbourhood& around, Real radius2,
+                                Spectrum* signedRadiance) const {
+  const LobeSet lobes = part.lobes;
+  const PhotonMap& map = Map(part.kind);
   const Bsdf& bsdf = point.bsdf;
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
@@ -97,7 +110,7 @@ Spectrum PhotonMapSet::Estimate(PhotonKind kind, const ShadingPoint& point, Lobe
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
   const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && !bsdf.IsCoated();
   const KernelDisk disk(kernel_, radius2);
-  Spectrum front, back, glossy;
+  SignedSum front, back, glossy;
   // If the surface is also one-sided and has no separate shading normal, photon directions do not
   // matter: the search has already tested the side.
   const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.surface.ng;
@@ -105,31 +118,39 @@ Spectrum PhotonMapSet::Estimate(PhotonKind kind, const ShadingPoint& point, Lobe
     if (around.distance2[i] > radius2) continue;
     const std::uint32_t photon = around.photons[i];
     const Spectrum weighted = map.Alpha(photon) * disk.Weight(around.distance2[i]);
+    const Real sign = signedRadiance ? map.Sign(photon) : Real(0);
     if (isPlain) {
-      front += weighted;
+      front.Add(weighted, sign);
       continue;
     }
     const Vector3 wi = rest.DirectionBack(map.Direction(photon));
     const Spectrum flux = weighted * GeometricToShading(wi, point.surface.ng, bsdf.Ns());
-    if (!isDiffuse) {
-      glossy += bsdf.f(point.Wo(), wi, lobes) * flux;
-    } else if (Dot(wi, n) > 0) {
-      front += flux;
-    } else {
-      back += flux;
-    }
+    if (!isDiffuse)
+      glossy.Add(bsdf.f(point.Wo(), wi, lobes) * flux, sign);
+    else
+      (Dot(wi, n) > 0 ? front : back).Add(flux, sign);
   }
-  if (isDiffuse) {
-    glossy = front * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
-    if (!isOneSided) glossy += back * bsdf.Rho(lobes & LobeSet::NonSpecularTransmission) * kInvPi;
-  }
-  return glossy / Real(map.Paths());
+  const auto scattered = [&](Spectrum SignedSum::*sum) {
+    if (!isDiffuse) return glossy.*sum / Real(map.Paths());
+    Spectrum both = front.*sum * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
+    if (!isOneSided)
+      both += back.*sum * bsdf.Rho(lobes & LobeSet::NonSpecularTransmission) * kInvPi;
+    return both / Real(map.Paths());
+  };
+  if (signedRadiance) *signedRadiance = scattered(&SignedSum::withSigns);
+  return scattered(&SignedSum::plain);
 }
 
-Spectrum PhotonMapSet::Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes) const {
-  return Radiance(PhotonKind::Direct, point, arena, lobes) +
-         Radiance(PhotonKind::Caustic, point, arena, lobes) +
-         Radiance(PhotonKind::Indirect, point, arena, lobes);
+Spectrum PhotonMapSet::Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes,
+                                Spectrum* signedRadiance) const {
+  Spectrum sum, signedSum;
+  for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
+    Spectrum signedPart;
+    sum += Radiance(kind, point, arena, lobes, signedRadiance ? &signedPart : nullptr);
+    signedSum += signedPart;
+  }
+  if (signedRadiance) *signedRadiance = signedSum;
+  return sum;
 }
 
 double PhotonMapSet::PhotonDensity(const ShadingPoint& point, Arena* arena) const {
@@ -157,6 +178,7 @@ PhotonMap::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const No
     const auto part =
         maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated, diskArea_}, arena);
     total.e += part.e;
+    total.signedE += part.signedE;
     weight += part.e.Y();
     weightedRadius += part.e.Y() * part.radius;
     total.radius = std::max(total.radius, part.radius);

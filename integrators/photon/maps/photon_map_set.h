@@ -34,11 +34,13 @@ class PhotonMapSet {
   // Returns the radiance leaving the point towards wo by `lobes` (all non-specular), estimated from
   // the photons of one map: 1/N sum K f alpha (docs/theory/exphotonmap.md, eq. 12). Photons measure
   // power per geometric area, so the estimate corrects for the shading normal.
+  // signedRadiance receives the same with the sign of each photon (signed_power.h); null: it is not
+  // wanted.
   Spectrum Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
-                    LobeSet lobes = LobeSet::NonSpecular) const;
+                    LobeSet lobes = LobeSet::NonSpecular, Spectrum* signedRadiance = nullptr) const;
   // Sums the radiance over all three maps.
-  Spectrum Radiance(const ShadingPoint& point, Arena* arena,
-                    LobeSet lobes = LobeSet::NonSpecular) const;
+  Spectrum Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes = LobeSet::NonSpecular,
+                    Spectrum* signedRadiance = nullptr) const;
 
   // Estimates the true radiance minus Radiance(kind, ...), as far as the kernel's blur causes the
   // difference. The bias of a smooth illumination grows with the square of the radius. The same
@@ -56,12 +58,16 @@ class PhotonMapSet {
                                            bool isCoated = false) const;
 
  private:
-  // Returns the photons around a point that may contribute to these lobes.
-  PhotonNeighbourhood Around(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
-                             Arena* arena) const;
-  // Returns the estimate from the photons within radius2.
-  Spectrum Estimate(PhotonKind kind, const ShadingPoint& point, LobeSet lobes,
-                    const PhotonNeighbourhood& around, Real radius2) const;
+  // Part is the light that an estimate contains.
+  struct Part {
+    PhotonKind kind;
+    LobeSet lobes;
+  };
+  // Returns the photons around a point that may contribute to a part.
+  PhotonNeighbourhood Around(const Part& part, const ShadingPoint& point, Arena* arena) const;
+  // Returns the estimate from the photons within radius2. signedRadiance may be null.
+  Spectrum Estimate(const Part& part, const ShadingPoint& point, const PhotonNeighbourhood& around,
+                    Real radius2, Spectrum* signedRadiance) const;
 
   std::array<PhotonMap, kPhotonKindCount> maps_;
   std::array<Real, kPhotonKindCount> radii_{};

@@ -21,20 +21,25 @@ int CountEntries(const RadiancePhotonSite& site, bool needsTransmission) {
 void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Arena* arena,
                     std::span<RadianceRecord> entries) {
   if (entries.empty()) return;
-  const auto entry = [&](const Normal3& n, Real radius, const Spectrum& value) {
-    return RadianceRecord{site.p, EncodeOctahedral(n), Square(radius),
-                          PackedRadiance(value, site.glossyShare, site.isCoated)};
-  };
   const Spectrum rho = site.reflectance * kInvPi, tau = site.transmittance * kInvPi;
+  using Irradiance = PhotonMap::Irradiance;
+  const auto entry = [&](const Normal3& n, Real radius, const Irradiance& on,
+                         const Irradiance& behind) {
+    const Spectrum value = rho * on.e + tau * behind.e;
+    const Spectrum signedValue = rho * on.signedE + tau * behind.signedE;
+    return RadianceRecord{site.p, EncodeOctahedral(n), Square(radius),
+                          PackedRadiance(value, site.glossyShare, site.isCoated),
+                          PackedRatios(signedValue, value)};
+  };
   const auto front = maps.EstimateIrradiance(site.p, site.n, arena, site.isCoated);
   if (entries.size() == 1) {
-    entries[0] = entry(site.n, front.radius, rho * front.e);
+    entries[0] = entry(site.n, front.radius, front, {});
     return;
   }
   const auto back = maps.EstimateIrradiance(site.p, -site.n, arena, site.isCoated);
   const Real radius = std::max(front.radius, back.radius);
-  entries[0] = entry(site.n, radius, rho * front.e + tau * back.e);
-  entries[1] = entry(-site.n, radius, rho * back.e + tau * front.e);
+  entries[0] = entry(site.n, radius, front, back);
+  entries[1] = entry(-site.n, radius, back, front);
 }
 
 }  // namespace
@@ -89,8 +94,8 @@ void RadiancePhotonMap::Find(std::span<const Place> places, std::optional<Entry>
       if (closest[i].index == ClosestPoint::kNone) continue;
       const RadianceBlock& block = tree_.BlockOf(closest[i].index);
       const std::uint32_t lane = tree_.Lane(closest[i].index);
-      *found = {block.value[lane], SafeDivide(block.radius2[lane], Square(reach_), 0),
-                closest[i].distance2};
+      *found = {block.value[lane], block.signedRatios[lane],
+                SafeDivide(block.radius2[lane], Square(reach_), 0), closest[i].distance2};
     }
   }
 }

@@ -11,11 +11,12 @@
 #include "core/spatial/nearest_search.h"
 #include "core/spatial/search_start.h"
 #include "integrators/photon/maps/packed_radiance.h"
+#include "integrators/photon/maps/packed_ratios.h"
 #include "integrators/photon/maps/photon_map_set.h"
 
 namespace exphoton {
 
-// RadianceRecord stores a radiance photon in 32 bytes. Its normal is within 7e-5 radians of the
+// RadianceRecord stores a radiance photon in 36 bytes. Its normal is within 7e-5 radians of the
 // surface's normal.
 struct RadianceRecord {
   Point3 p;
@@ -24,16 +25,19 @@ struct RadianceRecord {
   // Radiance that the diffuse lobes scatter to that side. On a coated surface it includes the
   // coat's transmission on the way in. Entry::Value applies the transmission on the way out.
   PackedRadiance value;
+  PackedRatios signedRatios;  // of the value with the sign of each photon
 };
 
 struct RadianceBlock : DiskBlock {
   using Record = RadianceRecord;
 
   PackedRadiance value[kBlockPoints];  // only read for single lanes
+  PackedRatios signedRatios[kBlockPoints];
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
     radius2[lane] = record.radius2;
     value[lane] = record.value;
+    signedRatios[lane] = record.signedRatios;
   }
 };
 
@@ -42,6 +46,7 @@ class RadiancePhotonMap {
   // The radiance photon that is valid for a surface point.
   struct Entry {
     PackedRadiance packed;
+    PackedRatios signedRatios;
     Real radius2 = 0;    // squared radius of its density estimate
     Real distance2 = 0;  // squared distance from the point
 
@@ -51,6 +56,8 @@ class RadiancePhotonMap {
       const Spectrum value = packed.Radiance();
       return packed.IsCoated() ? value * CoatTransmission(absCos) : value;
     }
+    // Returns the same with the sign of each photon (signed_power.h).
+    Spectrum SignedValue(Real absCos) const { return signedRatios.PartOf(Value(absCos)); }
   };
 
   static constexpr std::size_t kGridCellsPerEntry = 2;

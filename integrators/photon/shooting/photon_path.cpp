@@ -241,8 +241,8 @@ void PhotonTracer::Path::Store(PhotonKind kind, const ShadingPoint& point) {
   const RestPose rest(surface);
   const Point3 p = rest.Point(surface.p);
   const Spectrum power = surface.motion ? now_.alpha * rest.PowerScale(surface.ng) : now_.alpha;
-  chunk_->photons[std::size_t(kind)].emplace_back(
-      Photon{p, rest.Direction(point.Wo()), power, now_.distance / tracer_.farthest_});
+  chunk_->photons[std::size_t(kind)].emplace_back(Photon{
+      p, rest.Direction(point.Wo()), power, now_.distance / tracer_.farthest_, HasNegativeSign()});
   ++stored_;
   caustic_ += kind == PhotonKind::Caustic;
   hasStored_[std::size_t(kind)] = true;

@@ -72,6 +72,7 @@ class PhotonTracer::Path {
   Real Time(Real u) const;
 
   void Store(PhotonKind kind, const ShadingPoint& point);
+  bool HasNegativeSign() const { return (HashKey({tracer_.seed_, kSignKey, index_}) & 1) != 0; }
   void Drop();
   bool IsOnlyOpen(PhotonKind kind) const;
   bool IsWantedAfter(bool isSpecular) const;
@@ -86,6 +87,8 @@ class PhotonTracer::Path {
   bool HasTooManyBranches();
   Real SurvivalProbability(const Spectrum& scattered) const;
   bool IsHalved() const;
+
+  static constexpr std::uint64_t kSignKey = 0x7369676eull;  // "sign" in ASCII
 
   const PhotonTracer& tracer_;
   std::uint64_t index_;

@@ -69,7 +69,7 @@ Real MediaShare(const Scene& scene, const MediaPhotons& media, const LightSample
 // Returns the sum of the luminances.
 double PowerOf(std::span<const PhotonRecord> photons) {
   double sum = 0;
-  for (const PhotonRecord& photon : photons) sum += double(photon.alpha.Y());
+  for (const PhotonRecord& photon : photons) sum += double(photon.power.Power().Y());
   return sum;
 }
 

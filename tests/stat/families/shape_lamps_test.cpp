@@ -78,7 +78,7 @@ TEST_P(LampFamily, ShootsItsPower) {
   double sum = 0;
   PhotonBuffer& direct = result[PhotonKind::Direct];
   for (std::size_t i = 0; i < direct.photons.Size(); ++i)
-    sum += double(direct.photons.Records()[i].alpha.g);
+    sum += double(direct.photons.Records()[i].power.Power().g);
   double power = 0;
   for (const auto& light : loaded.setup->scene->Lights()) power += double(light->Power().g);
   EXPECT_NEAR(sum / double(direct.paths) / power, 1, GetParam().isLight ? .01 : 1e-3);

@@ -44,7 +44,7 @@ Powers PowersOf(PhotonPassResult* result, PhotonKind kind, double side) {
   Powers powers{};
   const double paths = double((*result)[kind].paths);
   for (const PhotonRecord& photon : (*result)[kind].photons.Records()) {
-    const double power = double(photon.alpha.Y()) / paths;
+    const double power = double(photon.power.Power().Y()) / paths;
     powers.back() += power;
     const int x = int(std::floor((double(photon.p.x) / side + .5) * kCells));
     const int y = int(std::floor((double(photon.p.y) / side + .5) * kCells));
@@ -161,8 +161,8 @@ TEST(GuidedSun, KeepsWeightsNearlyEqual) {
   double sum = 0, squares = 0;
   const auto photons = result[PhotonKind::Indirect].photons.Records();
   for (const PhotonRecord& photon : photons) {
-    sum += double(photon.alpha.Y());
-    squares += double(photon.alpha.Y()) * double(photon.alpha.Y());
+    sum += double(photon.power.Power().Y());
+    squares += double(photon.power.Power().Y()) * double(photon.power.Power().Y());
   }
   EXPECT_GT(sum * sum / squares, .8 * double(photons.size()));
 }
@@ -212,7 +212,7 @@ TEST(GuidedEmissionThreads, DoNotChangeTheMaps) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].p, b[i].p) << i;
-    ASSERT_EQ(a[i].alpha, b[i].alpha) << i;
+    ASSERT_EQ(a[i].power.Power(), b[i].power.Power()) << i;
   }
 }
 

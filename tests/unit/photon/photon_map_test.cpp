@@ -97,13 +97,18 @@ TEST(PhotonMap, HoldsPowersAsTheyAreAndDirectionsToAThousandthOfARadian) {
   std::vector<Photon> photons;
   for (int i = 0; i < 1000; ++i) {
     const auto u = [&] { return 2 * random.Uniform() - 1; };
-    photons.push_back({{Real(i), 0, 0}, NormalizeOr({u(), u(), u()}, {0, 0, 1}), {u(), u(), u()}});
+    photons.push_back({{Real(i), 0, 0},
+                       NormalizeOr({u(), u(), u()}, {0, 0, 1}),
+                       {std::abs(u()), std::abs(u()), std::abs(u())}});
+    photons.back().hasNegativeSign = i % 3 == 0;
   }
+  photons[3].alpha.r = 0;
   const PhotonMap map = MapOf(photons, 1);
   ASSERT_EQ(map.Size(), photons.size());
   for (std::uint32_t i = 0; i < map.Size(); ++i) {
     const Photon& photon = photons[std::size_t(map.Position(i).x)];
     EXPECT_EQ(map.Alpha(i), photon.alpha);
+    EXPECT_EQ(map.Sign(i), photon.hasNegativeSign ? -1 : 1);
     EXPECT_LT(Distance(map.Direction(i), photon.wi), 1.2e-3);
   }
 }

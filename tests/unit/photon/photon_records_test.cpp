@@ -32,7 +32,7 @@ std::vector<Shot> ShotsOf(PhotonPassResult* result, PhotonKind kind) {
     const PhotonRecord& photon = buffer.photons.Records()[i];
     shots.push_back({photon.p,
                      double(DecodeDistance(OctahedralPayload(photon.direction)) * buffer.farthest),
-                     DecodeOctahedral(photon.direction), photon.alpha});
+                     DecodeOctahedral(photon.direction), photon.power.Power()});
   }
   return shots;
 }

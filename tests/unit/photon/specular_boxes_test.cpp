@@ -109,7 +109,7 @@ TEST(SpecularBoxes, DoNotChangeThePhotonsOfTheCausticMap) {
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     ASSERT_EQ(expected[i].p, found[i].p);
-    ASSERT_EQ(expected[i].alpha, found[i].alpha);
+    ASSERT_EQ(expected[i].power.Power(), found[i].power.Power());
   }
 }
 

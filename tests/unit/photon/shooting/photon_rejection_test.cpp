@@ -97,7 +97,7 @@ Shots ShootConstant(const std::string& world, std::int64_t count = 4000) {
   shots.result = ShootPhotons(*loaded.setup->scene, 1, targets, settings);
   for (PhotonBuffer& buffer : shots.result.buffers) {
     for (std::size_t i = 0; i < buffer.photons.Size(); ++i) {
-      shots.powers.push_back(buffer.photons.Records()[i].alpha);
+      shots.powers.push_back(buffer.photons.Records()[i].power.Power());
       shots.luminances.push_back(shots.powers.back().Y());
     }
   }
@@ -244,7 +244,7 @@ TEST(PhotonRoulettes, EndInASphereThatGainsLight) {
     for (PhotonBuffer& buffer : result.buffers) {
       EXPECT_LT(buffer.photons.Size(), 1000000u);
       for (std::size_t i = 0; i < buffer.photons.Size(); ++i)
-        ASSERT_TRUE(buffer.photons.Records()[i].alpha.IsFinite());
+        ASSERT_TRUE(buffer.photons.Records()[i].power.Power().IsFinite());
     }
   }
 }
