@@ -28,6 +28,7 @@ namespace exphoton {
 
 class Checkpoints;
 class Corrections;
+class PhotonNoise;
 class ShardWriter;
 class StateFile;
 class StateWriter;
@@ -111,7 +112,8 @@ struct RenderPass {
   Sharing sharing = Sharing::Alone;
   // As in PreprocessContext. The windows of shared gathers shrink by the same factor of area.
   double diskArea = 1;
-  std::optional<Real> time{};  // of camera rays and photons
+  std::optional<Real> time{};          // of camera rays and photons
+  PhotonNoise* photonNoise = nullptr;  // receives signed light; null: it is not wanted
 };
 
 // Renders pass by pass. Passes may differ in every member of RenderPass. Statistics and warnings

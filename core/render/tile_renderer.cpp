@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/render/certificate/corrections.h"
+#include "core/render/photon_noise.h"
 #include "core/transport/shading_point.h"
 
 namespace exphoton {
@@ -186,11 +187,8 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
 
   LiContext context = MakeContext(key, worker);
   context.isDivided = isDivided;
-  CorrectionSample correction;
-  if (options_.corrections) {
-    correction.share = options_.corrections->Share();
-    context.correction = &correction;
-  }
+  ErrorSample errors;
+  RequestErrors(&context, &errors);
   AovSample aovs;
   if (aovs_) {
     aovs.wanted = aovs_->Wanted();
@@ -213,8 +211,7 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
     for (const GatherRecord& gather : worker->gathers)
       aovs.ownGathers += gather.light * gather.weight;
   }
-  // A block of pixels is much wider than the filter, so splatted samples count in their own pixel.
-  if (options_.corrections) options_.corrections->Add(key.pixel, correction, weight);
+  AddErrors(key.pixel, errors, weight);
   if (target_.splats)
     return worker->splat.Add({samples.film, L, alpha, aovs_ ? &aovs : nullptr, share});
   if (!target_.film.Crop().Contains(key.pixel.x, key.pixel.y)) return;
@@ -233,6 +230,21 @@ LiContext TileRenderer::MakeContext(const SampleKey& key, RenderWorker* worker) 
   worker->gathers.clear();
   if (target_.gathers) context.gathers = &worker->gathers;
   return context;
+}
+
+void TileRenderer::RequestErrors(LiContext* context, ErrorSample* errors) const {
+  if (options_.corrections) {
+    errors->correction.share = options_.corrections->Share();
+    context->correction = &errors->correction;
+  }
+  if (target_.pass.photonNoise) context->signedLight = &errors->signedLight;
+}
+
+// A block of pixels is much wider than the filter, and so is the noise of photons, so splatted
+// samples count in their own pixel.
+void TileRenderer::AddErrors(Point2i pixel, const ErrorSample& errors, Real weight) const {
+  if (options_.corrections) options_.corrections->Add(pixel, errors.correction, weight);
+  if (target_.pass.photonNoise) target_.pass.photonNoise->Add(pixel, errors.signedLight, weight);
 }
 
 CameraSample TileRenderer::AtPlace(Point2 film, const CameraSamples& samples) const {

@@ -71,6 +71,13 @@ class TileRenderer {
   void RenderSample(const SampleKey& key, int parts, RenderWorker* worker) const;
   // Begins a sample: clears the worker's data of the last one.
   LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
+  // What a sample says about the errors of the picture.
+  struct ErrorSample {
+    CorrectionSample correction;
+    Spectrum signedLight;
+  };
+  void RequestErrors(LiContext* context, ErrorSample* errors) const;
+  void AddErrors(Point2i pixel, const ErrorSample& errors, Real weight) const;
   CameraSample AtPlace(Point2 film, const CameraSamples& samples) const;
   RayDifferential CameraRay(const CameraSample& sample) const;
   RayDifferential CameraRay(Point2 film, const CameraSamples& samples) const {

@@ -43,8 +43,9 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   upper_ = estimate.noise + bias + distance;
   if (omitted_ > 0) upper_ = std::pow(std::sqrt(upper_) + omitted_, 2);
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
-  growth_ = bias < room_ ? (estimate.noise + distance) / (room_ - bias)
-                         : std::numeric_limits<double>::infinity();
+  const double left = room_ - bias - estimate.fixedNoise;
+  growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + distance) / left
+                     : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace exphoton

@@ -13,6 +13,7 @@ namespace exphoton {
 // What a look knows, as parts of relMSE.
 struct ErrorEstimate {
   double noise = 0, noiseError = 0;          // the latter: standard error
+  double fixedNoise = 0;                     // the part that more samples do not reduce
   const Certificate* certificate = nullptr;  // null: the integrator has no bias
 };
 
@@ -37,7 +38,7 @@ class AccuracyRule {
   // Returns whether the bias alone exceeds the accuracy.
   bool IsOutOfReach() const { return lowerBias_ > room_; }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
-  // interval fall as 1 / samples. Returns infinity if the bias leaves no room for noise.
+  // interval fall as 1 / samples. Returns infinity if bias and fixed noise leave no room.
   double Growth() const { return growth_; }
 
  private:

@@ -43,6 +43,7 @@ void GroupForecast::Add(const Film& pass, std::int64_t samplesPerPixel) {
     const double octaves = std::log2(double(samples_) / double(before));
     slope_ = std::clamp(std::log2(difference_ / difference) / octaves, 1., 2.);
   }
+  levels_ = difference_ > 0 ? std::vector<double>() : noise_->Levels();
   difference_ = difference;
   noise_->Join();
 }
@@ -50,7 +51,7 @@ void GroupForecast::Add(const Film& pass, std::int64_t samplesPerPixel) {
 std::optional<double> GroupForecast::SamplesFor(double noise) const {
   if (!(difference_ > 0)) return std::nullopt;
   const double q = std::exp2(-slope_);
-  const double error = difference_ * CancellingErrors(q, samples_);
+  const double error = difference_ * CancellingErrors(q, TrustIn(samples_, sharesGathers_));
   return double(samples_) * std::pow(error / noise, 1 / slope_);
 }
 

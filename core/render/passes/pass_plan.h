@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/imaging/film/pass_noise.h"
 
@@ -16,7 +17,9 @@ namespace exphoton {
 // not show.
 class GroupForecast {
  public:
-  explicit GroupForecast(const PixelBounds& crop) : noise_(std::in_place, crop, 2) {}
+  // sharesGathers: whether the passes of the group share their gathers together.
+  GroupForecast(const PixelBounds& crop, bool sharesGathers)
+      : noise_(std::in_place, crop, 2), sharesGathers_(sharesGathers) {}
 
   // Adds a pass. The forecast assumes that it has about as many samples as the passes before it.
   void Add(const Film& pass, std::int64_t samplesPerPixel);
@@ -26,13 +29,20 @@ class GroupForecast {
   // Returns the noise of all passes, if the last pass and the passes before it are independent;
   // 0 before the second pass.
   double Difference() const { return difference_; }
-  void Release() { noise_.reset(); }    // frees the memory
+  // Returns r^2 of each pixel (PassNoise::Levels). Must be called after the second pass only.
+  const std::vector<double>& Levels() const { return levels_; }
+  void Release() {  // frees the memory
+    noise_.reset();
+    levels_ = {};
+  }
   void Transfer(ByteArchive* archive);  // saves or loads
 
  private:
   std::optional<PassNoise> noise_;
+  bool sharesGathers_;
   std::int64_t samples_ = 0;
   double difference_ = 0;
+  std::vector<double> levels_;
   double slope_ = 1.5;  // the error falls as samples^-slope
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/files/byte_archive.h"
-#include "core/render/passes/cancelling_errors.h"
+#include "core/imaging/metrics/metrics.h"
 
 namespace exphoton {
 
@@ -37,7 +37,7 @@ void PassSum::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
 }
 
 std::optional<double> PassSum::Noise() const {
-  if (groups_ > 1 && !known_) known_ = correction_ * noise_.RelativeVariance();
+  if (HasTwoGroups() && !known_) known_ = correction_ * noise_.RelativeVariance() + photonNoise_;
   return known_;
 }
 
@@ -46,18 +46,30 @@ double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianc
 // Errors fall by the ratio q from the halves of a group to the group, and so do the differences of
 // halves. The noise of photons shows between groups only. It raises the ratio, so the noise is
 // overestimated then.
-void PassSum::CorrectForSequence(double within, std::int64_t groupSamples) {
+void PassSum::CorrectForSequence(double within, Trust trust) {
   constexpr double kLeastRatio = .35;
   correction_ = 1;
   if (groups_ > 1 && within > 0) {
     const double ratio = std::clamp(noise_.RelativeVariance() / within, kLeastRatio, .5);
-    correction_ = CancellingErrors(ratio, groupSamples);
+    correction_ = CancellingErrors(ratio, trust);
   }
   known_.reset();
 }
 
+void PassSum::SetPhotonNoise(double relative) {
+  photonNoise_ = relative;
+  known_.reset();
+}
+
+void PassSum::JoinGroups() {
+  if (groups_ > 1) noise_.Join();
+  joined_ = groups_;
+  photonNoise_ = 0;
+  known_.reset();
+}
+
 std::optional<StopReason> PassSum::Reason() const {
-  if (limits_.targetError && groups_ > 1 && *Noise() <= *limits_.targetError)
+  if (limits_.targetError && HasTwoGroups() && *Noise() <= *limits_.targetError)
     return StopReason::TargetError;
   if (samples_ >= limits_.maxSamples) return StopReason::Samples;
   return std::nullopt;
@@ -68,15 +80,20 @@ void PassSum::Describe(bool needsVariances, PassesResult* result) const {
   result->samplesPerPixel = samples_;
   result->noise = Noise();
   result->noiseError = result->noise ? NoiseError() : 0;
-  if (!needsVariances || groups_ < 2) return;
+  if (!needsVariances || !HasTwoGroups()) return;
   result->variances = noise_.Variances();
-  for (float& variance : result->variances) variance *= float(correction_);
+  const std::vector<double> levels =
+      photonNoise_ > 0 ? noise_.Levels() : std::vector<double>(result->variances.size());
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    result->variances[i] = float(double(result->variances[i]) * correction_ +
+                                 photonNoise_ * (levels[i] + kRelMseOffset));
 }
 
 void PassSum::TransferCounts(ByteArchive* archive) {
-  archive->Values(&passes_, &groups_, &samples_, &correction_);
+  archive->Values(&passes_, &groups_, &joined_, &samples_, &correction_, &photonNoise_);
   if (groups_ < 0 || groups_ > passes_ || samples_ < 0 || samples_ > limits_.maxSamples ||
-      !(correction_ > 0 && correction_ <= 1))
+      !(correction_ > 0 && correction_ <= 1) || !(photonNoise_ >= 0) || joined_ < 0 ||
+      joined_ > groups_)
     throw ArchiveError("its counts of passes contradict each other");
   known_.reset();
 }

@@ -5,11 +5,13 @@
 // independent of each other, or they continue one sequence.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/imaging/film/pass_noise.h"
+#include "core/render/passes/cancelling_errors.h"
 #include "core/render/render.h"
 
 namespace exphoton {
@@ -50,8 +52,15 @@ class PassSum {
 
   // States that the groups continue one sequence of camera samples, whose errors partly cancel.
   // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
-  // after the passes of these groups, which have `groupSamples` samples per pixel each.
-  void CorrectForSequence(double within, std::int64_t groupSamples);
+  // after the passes of these groups.
+  void CorrectForSequence(double within, Trust trust);
+
+  // States that all passes have the same photons, which cause this noise part of relMSE. It does
+  // not show between groups.
+  void SetPhotonNoise(double relative);
+  // States that the groups so far have the same photons, and that each later group has its own. The
+  // former then count as one group.
+  void JoinGroups();
 
   // Returns TargetError or Samples if this rule holds.
   std::optional<StopReason> Reason() const;
@@ -59,7 +68,8 @@ class PassSum {
   int Passes() const { return passes_; }
   int Groups() const { return groups_; }
   std::int64_t SamplesPerPixel() const { return samples_; }
-  // The estimated noise part of relMSE; nullopt before the second group. Reason is based on it.
+  // The estimated noise part of relMSE; nullopt before the second group, and between JoinGroups and
+  // the next group. Reason is based on it.
   std::optional<double> Noise() const;
   double NoiseError() const;  // its standard error; infinity before the second group
   // Returns r^2 of each pixel, to which noise is relative: PassNoise::Levels. Certificates divide
@@ -73,12 +83,16 @@ class PassSum {
   void TransferNoise(ByteArchive* archive) { noise_.Transfer(archive); }
 
  private:
+  bool HasTwoGroups() const { return groups_ > std::max(joined_, 1); }
+
   Film* picture_;
   Limits limits_;
   PassNoise noise_;
   int passes_ = 0, groups_ = 0;
+  int joined_ = 0;  // groups that count as one
   std::int64_t samples_ = 0;
   double correction_ = 1;                // factor on the noise of independent groups
+  double photonNoise_ = 0;               // of photons that all passes share
   mutable std::optional<double> known_;  // result of Noise for the passes so far
 };
 

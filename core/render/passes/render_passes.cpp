@@ -12,6 +12,7 @@
 #include "core/render/passes/accuracy_rule.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
+#include "core/render/passes/photon_sets.h"
 #include "core/render/passes/progressive.h"
 
 namespace exphoton {
@@ -42,12 +43,16 @@ class Passes {
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
         sum_(&job.film, {rule.targetError, rule.maxSamples}),
-        forecasts_{GroupForecast(job.film.Crop()), GroupForecast(job.film.Crop())},
+        sharesGathers_(job.integrator.SharesGathers(job.scene)),
+        forecasts_{GroupForecast(job.film.Crop(), sharesGathers_),
+                   GroupForecast(job.film.Crop(), sharesGathers_)},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
                rule.accuracy ? rule.accuracy->firstSamples : 0,
                rule.accuracy ? rule.accuracy->photonSamples : 0}),
         // A certificate needs the light of each sample before and after sharing, pass by pass.
-        hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections) {
+        hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections),
+        photons_(job.film.Crop(), job.integrator.FillsSignedLight() &&
+                                      (rule.accuracy || (rule.targetError && hasBatches_))) {
     if (rule.accuracy)
       accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
@@ -85,6 +90,7 @@ class Passes {
     archive->Values(&isNewGroup, &step_.size);
     step_.isNewGroup = isNewGroup != 0;
     archive->Values(&groupSamples_, &preprocessSeconds_, &renderSeconds_);
+    photons_.Transfer(archive);
     sum_.TransferCounts(archive);
     const bool isPossible = step_.size >= 1 && step_.size <= rule_.maxSamples &&
                             plan_.Groups() == sum_.Groups() &&
@@ -144,8 +150,13 @@ class Passes {
   PassPlan::State State() const {
     PassPlan::State state;
     state.samples = sum_.SamplesPerPixel();
-    if (rule_.targetError) state.noise = sum_.Noise();
-    if (rule_.targetError) state.enough = forecasts_[0].SamplesFor(*rule_.targetError);
+    if (rule_.targetError) {
+      // More samples do not reduce the noise of photons that all groups share.
+      const double shared = photons_.SharedNoise(), room = *rule_.targetError - shared;
+      if (const auto noise = sum_.Noise())
+        state.noise = (*noise - shared) * *rule_.targetError / room;
+      state.enough = forecasts_[0].SamplesFor(room);
+    }
     if (accuracy_) state.needed = double(sum_.SamplesPerPixel()) * accuracy_->Growth();
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
     state.preprocess = preprocessSeconds_;
@@ -161,7 +172,8 @@ class Passes {
     if (step.isNewGroup) groupSamples_ = 0;
     const std::uint64_t group = std::uint64_t(plan_.Groups() - (step.isNewGroup ? 0 : 1));
     RenderPass pass;
-    pass.preprocessSeed = HashKey({options_.seed, kPassSeed, group});
+    pass.preprocessSeed =
+        HashKey({options_.seed, kPassSeed, std::uint64_t(photons_.SetOf(int(group)))});
     pass.sampleCount = step.size;
     std::unique_ptr<Sampler> pattern;
     if (sequence_) {
@@ -179,6 +191,7 @@ class Passes {
     if (hasBatches_)
       pass.sharing =
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
+    pass.photonNoise = photons_.Measurement();
     passFilm_.Clear();
     const bool isWhole = renderer_.Run(pass, sequence_ ? *sequence_ : *pattern, &passFilm_);
     // In a picture of whole passes all pixels have the same samples. The tiles of a part of a pass
@@ -197,10 +210,13 @@ class Passes {
     if (rule_.progressiveAlpha)
       result_.lastDiskArea = DiskAreaOfPass(group, *rule_.progressiveAlpha);
     plan_.Take(step);
+    if (step.isNewGroup && photons_.Divides(group)) sum_.JoinGroups();
     sum_.Add(passFilm_, step.size, group);
     if (options_.corrections) options_.corrections->EndPass(group, step.size);
-    if (accuracy_) LookAtError();
     if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
+    photons_.EndPass(step.size);
+    TakePhotonNoise(group);
+    if (accuracy_) LookAtError();
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup) preprocessSeconds_ = renderer_.PreprocessSeconds();
@@ -208,14 +224,27 @@ class Passes {
     groupSamples_ += step.size;
   }
 
+  void TakePhotonNoise(int group) {
+    const std::vector<double> levels = photons_.IsKnown()
+                                           ? (group > 0 ? sum_.Levels() : forecasts_[0].Levels())
+                                           : std::vector<double>();
+    if (levels.empty()) return;
+    const double wanted =
+        accuracy_ ? rule_.accuracy->error * rule_.accuracy->error : *rule_.targetError;
+    photons_.Decide(levels, wanted, group + 1);
+    sum_.SetPhotonNoise(photons_.FirstNoise());
+    job_.log.Verbose(Format("the photons cause a noise of %.3g of relMSE", photons_.FirstNoise()));
+  }
+
   void LookAtError() {
-    if (sum_.Groups() < 2) return;
+    if (!sum_.Noise()) return;
     std::optional<Certificate> certificate;
     if (options_.corrections)
       certificate =
           Certify(*options_.corrections, sum_.Levels(), *sum_.Noise(), accuracy_->NextGoal());
     if (certificate) certificate->sharing = renderer_.MeanSharingBias();
-    accuracy_->Look({*sum_.Noise(), sum_.NoiseError(), certificate ? &*certificate : nullptr});
+    accuracy_->Look({*sum_.Noise(), sum_.NoiseError(), photons_.SharedNoise(),
+                     certificate ? &*certificate : nullptr});
     result_.upperError = accuracy_->Upper();
     job_.log.Verbose(
         Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
@@ -229,7 +258,8 @@ class Passes {
   void TakeForecast(std::int64_t samples, int group) {
     forecasts_[std::size_t(group)].Add(passFilm_, samples);
     const double a = forecasts_[0].Difference(), b = forecasts_[1].Difference();
-    if (sequence_ && a > 0 && b > 0) sum_.CorrectForSequence((a + b) / 2, plan_.FirstSamples());
+    if (sequence_ && a > 0 && b > 0)
+      sum_.CorrectForSequence((a + b) / 2, TrustIn(plan_.FirstSamples(), sharesGathers_));
   }
 
   // `next` is the step that would follow.
@@ -274,9 +304,11 @@ class Passes {
   PassRenderer renderer_;
   Film passFilm_;
   PassSum sum_;
+  const bool sharesGathers_;
   std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
   const bool hasBatches_;  // whether the passes of a group share their gathers together
+  PhotonSets photons_;
   std::optional<AccuracyRule> accuracy_;
   PassPlan::Step step_;  // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;

@@ -2,6 +2,8 @@
 // PassState: each part of the pass is a section of the file.
 #include "core/render/state/pass_state.h"
 
+#include "core/render/photon_noise.h"
+
 namespace exphoton {
 
 void PassState::TransferPass(ByteArchive* archive) {
@@ -52,6 +54,7 @@ void PassState::ClearOpenPixels() {
       if (done_.Has({x, y})) continue;
       parts_.film->ClearPixel({x, y});
       if (parts_.aovs) parts_.aovs->ClearPixel({x, y});
+      if (parts_.pass.photonNoise) parts_.pass.photonNoise->ClearPixel({x, y});
     }
   }
 }

@@ -54,6 +54,15 @@ TEST(AccuracyRule, CountsTheBiasAndItsInterval) {
   EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
 }
 
+TEST(AccuracyRule, ExpectsNoLessFixedNoiseFromMoreSamples) {
+  AccuracyRule rule(.02, .125);
+  rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = .0001});
+  EXPECT_NEAR(rule.Upper(), .0006, 1e-9);
+  EXPECT_NEAR(rule.Growth(), .0005 / .0003, 1e-6);
+  rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = .0004});
+  EXPECT_TRUE(std::isinf(rule.Growth()));
+}
+
 // The light that is missing may have the sign of the bias, so roots of relMSE add up.
 TEST(AccuracyRule, AddsWhatIsLeftOut) {
   AccuracyRule rule(.02, .125, .002);

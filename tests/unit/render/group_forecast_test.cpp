@@ -14,7 +14,7 @@ constexpr PixelBounds kOnePixel{0, 0, 1, 1};
 // Adds passes of 1, 1, 2, 4 ... samples. Each is farther from the mean of the passes before it by
 // `ratio` times the distance of the last one.
 GroupForecast ForecastOf(double ratio) {
-  GroupForecast forecast(kOnePixel);
+  GroupForecast forecast(kOnePixel, false);
   double mean = 1, distance = .02;
   int samples = 0;
   for (const int size : {1, 1, 2, 4, 8}) {
@@ -44,7 +44,7 @@ TEST(GroupForecast, FollowsThePowerByWhichTheErrorFalls) {
 }
 
 TEST(GroupForecast, KnowsNothingAfterOnePass) {
-  GroupForecast forecast(kOnePixel);
+  GroupForecast forecast(kOnePixel, false);
   Film pass(kOnePixel, kOnePixel);
   pass.AddSample({0, 0}, Spectrum(1), 1, 1);
   forecast.Add(pass, 1);

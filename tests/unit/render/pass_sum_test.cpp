@@ -38,6 +38,37 @@ TEST(PassSum, StopsAtTheTargetOrAtTheLimit) {
   EXPECT_EQ(reached.Reason(), StopReason::TargetError);
 }
 
+TEST(PassSum, AddsTheNoiseOfPhotonsThatAllPassesShare) {
+  Film picture(kSumPixel, kSumPixel);
+  PassSum sum(&picture, {.01, 100});
+  sum.Add(PassOf(1.05, 2), 2, 0);
+  sum.SetPhotonNoise(.008);
+  EXPECT_FALSE(sum.Noise());
+  sum.Add(PassOf(.95, 2), 2, 1);
+  const double between = .0025 / 1.01;
+  EXPECT_NEAR(*sum.Noise(), between + .008, 1e-6);
+  EXPECT_FALSE(sum.Reason());
+  PassesResult result;
+  sum.Describe(true, &result);
+  ASSERT_EQ(result.variances.size(), 3u);
+  EXPECT_NEAR(double(result.variances[0]), .0025 + .008 * 1.01, 1e-5);
+}
+
+// Groups with the same photons are one of the groups that show the noise.
+TEST(PassSum, JoinsGroupsWithTheSamePhotons) {
+  Film picture(kSumPixel, kSumPixel);
+  PassSum sum(&picture, {.01, 100});
+  sum.Add(PassOf(1.2, 2), 2, 0);
+  sum.Add(PassOf(1.0, 2), 2, 1);
+  sum.SetPhotonNoise(.008);
+  sum.JoinGroups();
+  EXPECT_FALSE(sum.Noise());
+  EXPECT_FALSE(sum.Reason());
+  sum.Add(PassOf(.9, 4), 4, 2);  // the others have the mean 1.1
+  EXPECT_NEAR(*sum.Noise(), .01 / 1.01, 1e-6);
+  EXPECT_EQ(sum.Groups(), 3);
+}
+
 // The error of n samples is n^-s, and q = 2^-s. The error of the mean of two groups is q times
 // the error of one group, and their difference suggests 1 - q.
 TEST(PassSum, KnowsThatSuccessiveHalvesCancel) {
@@ -47,13 +78,13 @@ TEST(PassSum, KnowsThatSuccessiveHalvesCancel) {
     sum.Add(PassOf(1.1, 4), 4, 0);
     sum.Add(PassOf(.9, 4), 4, 1);
     const double difference = *sum.Noise();
-    sum.CorrectForSequence(difference / q, 8);
+    sum.CorrectForSequence(difference / q, Trust::Full);
     EXPECT_NEAR(*sum.Noise(), difference * q / (1 - q), 1e-9) << q;
     // A rough ratio is taken for half true.
-    sum.CorrectForSequence(difference / q, 4);
+    sum.CorrectForSequence(difference / q, Trust::Half);
     EXPECT_NEAR(*sum.Noise(), difference * std::sqrt(q / (1 - q)), 1e-9) << q;
     // More noise between the groups than within them comes from photons.
-    sum.CorrectForSequence(difference / .8, 8);
+    sum.CorrectForSequence(difference / .8, Trust::Full);
     EXPECT_NEAR(*sum.Noise(), difference, 1e-9);
   }
 }

@@ -31,15 +31,21 @@ class NoisyIntegrator final : public SurfaceIntegrator {
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     RandomStream random = context.Stream(1);
     if (keepsRays) rays.push_back({ray.d.x, ray.d.y});
-    RandomStream blotch(HashKey({passSeed_, std::uint64_t(100 + int(100 * ray.d.x)),
-                                 std::uint64_t(100 + int(100 * ray.d.y))}));
-    return Spectrum(1 + sampleNoise * (random.Uniform() - Real(.5)) +
-                    passNoise * (blotch.Uniform() - Real(.5)));
+    RandomStream blotch(HashKey({passSeed_, std::uint64_t(100 + int(blotches * ray.d.x)),
+                                 std::uint64_t(100 + int(blotches * ray.d.y))}));
+    const Spectrum light(1 + sampleNoise * (random.Uniform() - Real(.5)) +
+                         passNoise * (blotch.Uniform() - Real(.5)));
+    if (context.signedLight)
+      *context.signedLight += Spectrum(passNoise * (blotch.Uniform() - Real(.5)) +
+                                       sampleNoise * (random.Uniform() - Real(.5)) / 8);
+    return light;
   }
+  bool FillsSignedLight() const override { return fillsSignedLight; }
 
   Real sampleNoise = 1, passNoise = Real(.5);
-  int sleep = 0;  // milliseconds per preprocessing
-  bool keepsRays = false;
+  Real blotches = 100;  // per unit of direction; they have the noise of a pass
+  int sleep = 0;        // milliseconds per preprocessing
+  bool keepsRays = false, fillsSignedLight = false;
   mutable std::vector<std::pair<Real, Real>> rays;  // recorded with one thread only
   std::set<std::uint64_t> seeds;
   std::vector<std::chrono::steady_clock::time_point> begun;  // of each preprocessing
@@ -142,6 +148,50 @@ TEST_F(RenderPassesTest, GroupsOfPassesSharePhotons) {
   const PassesResult result = Run(rule);
   EXPECT_GE(integrator_.seeds.size(), 2u);
   EXPECT_LT(integrator_.seeds.size(), std::size_t(result.passes));
+}
+
+// Blotches are larger than pixels. The variance of a uniform number is 1/12, so the photons cause a
+// noise of at most .1^2 / 12 of relMSE.
+TEST_F(RenderPassesTest, KeepsPhotonsOfLittleNoiseAndCountsTheirNoise) {
+  integrator_.fillsSignedLight = true;
+  integrator_.blotches = 10;
+  integrator_.passNoise = Real(.1);
+  std::vector<std::vector<float>> images;
+  StoppingRule rule;
+  rule.targetError = .004;
+  rule.maxSamples = 1 << 14;  // ends a run whose noise does not fall
+  double estimated = 0, variances = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    integrator_.seeds.clear();
+    const PassesResult result = Run(rule, 1, seed);
+    EXPECT_EQ(result.reason, StopReason::TargetError);
+    EXPECT_EQ(integrator_.seeds.size(), 1u);
+    estimated += *result.noise / 8;
+    images.push_back(image_.pixels);
+  }
+  for (std::size_t i = 0; i < image_.pixels.size(); i += 4) {
+    double mean = 0, squares = 0;
+    for (const auto& image : images) mean += double(image[i]) / 8;
+    for (const auto& image : images) squares += std::pow(double(image[i]) - mean, 2) / 7;
+    variances += squares / (1.01 * 48 * 36);
+  }
+  EXPECT_NEAR(variances / estimated, 1, .1);
+}
+
+TEST_F(RenderPassesTest, ShootsAgainWherePhotonsCauseTheNoise) {
+  integrator_.fillsSignedLight = true;
+  integrator_.blotches = 10;
+  StoppingRule rule;
+  rule.targetError = .004;  // the noise of the photons is up to .02
+  rule.maxSamples = 1 << 14;
+  const PassesResult result = Run(rule);
+  EXPECT_EQ(result.reason, StopReason::TargetError);
+  EXPECT_GE(integrator_.seeds.size(), 4u);
+  // The photons decide, so there is no reason to measure their noise and others as well.
+  integrator_.fillsSignedLight = false;
+  const std::vector<float> expected = image_.pixels;
+  Run(rule);
+  EXPECT_EQ(image_.pixels, expected);
 }
 
 TEST_F(RenderPassesTest, UsesPhotonsThatAnotherRendererPrepared) {

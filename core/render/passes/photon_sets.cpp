@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/render/passes/photon_sets.h"
+
+#include <limits>
+
+#include "core/files/byte_archive.h"
+
+namespace exphoton {
+namespace {
+
+// Photons are kept if they cause at most this share of the wanted noise. The samples must make up
+// for it, and a second set would halve it.
+constexpr double kSmallShare = .25;
+
+}  // namespace
+
+PhotonSets::PhotonSets(const PixelBounds& crop, bool isMeasured)
+    : firstOwn_(isMeasured ? std::numeric_limits<int>::max() : 0) {
+  if (isMeasured) noise_.emplace(crop);
+}
+
+void PhotonSets::EndPass(std::int64_t samplesPerPixel) {
+  if (noise_) noise_->EndPass(samplesPerPixel);
+}
+
+void PhotonSets::Decide(const std::vector<double>& levels, double wanted, int nextGroup) {
+  relative_ = noise_->RelativeVariance(levels);
+  if (relative_ <= kSmallShare * wanted) return;
+  firstOwn_ = nextGroup;
+  noise_.reset();
+}
+
+void PhotonSets::Transfer(ByteArchive* archive) {
+  char isMeasured = noise_ ? 1 : 0;
+  archive->Values(&isMeasured, &firstOwn_, &relative_);
+  const bool isPossible = isMeasured ? noise_.has_value() : firstOwn_ >= 0;
+  if (!isPossible || !(relative_ >= 0)) throw ArchiveError("its photons contradict its passes");
+  if (!isMeasured) noise_.reset();
+  if (noise_) noise_->Transfer(archive);
+}
+
+}  // namespace exphoton
