@@ -98,6 +98,7 @@ class PilotRenderer {
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }
   int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
+  bool GivesDirectPhotons() const { return sceneDirectPhotons_ > 0; }  // the scene does
   // Of the picture that is wanted.
   int Width() const { return width_; }
   int Height() const { return height_; }

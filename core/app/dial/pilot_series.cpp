@@ -25,8 +25,9 @@ bool PilotSeries::RenderRough() {
   last_ = renderer_->Render(rough);
   TakeCosts(last_);
   settings_ = last_.settings;
-  model_.maps = CostOf(last_).maps / kFewPhotons;
-  model_.causticMaps = CostOf(last_).causticMaps / kFewPhotons;
+  const MapPrices tenth = OneSetOf(last_);
+  model_.FitMaps({tenth.all / kFewPhotons, tenth.caustic / kFewPhotons, tenth.direct / kFewPhotons},
+                 1);
   model_.leastPhotons = settings_.indirectPhotons > 0 ? kLeastPhotons : 1;
   model_.biasOfFewer = last_.guessedBias;
   model_.FitNoise({last_.pilot});
@@ -45,18 +46,20 @@ void PilotSeries::Render() {
   request_.samples *= 2;
   TakeCosts(last_);
   if (last_.mapCount > 0) {
-    TakeMaps(request_.settings.photons);
+    model_.FitMaps(OneSetOf(last_), request_.settings.photons);
     settings_ = last_.settings;
   }
   pilots_.push_back(last_.pilot);
   model_.FitNoise(pilots_);
 }
 
-void PilotSeries::TakeMaps(double photons) {
-  const CountedCost cost = CostOf(last_);
-  const double maps = cost.maps / last_.mapCount, caustic = cost.causticMaps / last_.mapCount;
-  model_.causticMaps = photons < 1 ? caustic : caustic / photons;
-  model_.maps = photons < 1 ? caustic + (maps - caustic) / photons : maps / photons;
+// Returns the prices of the maps of one group. Direct photons become fewer with indirect ones
+// unless the scene gives their number.
+MapPrices PilotSeries::OneSetOf(const PilotPicture& picture) const {
+  const CountedCost cost = CostOf(picture);
+  const double sets = std::max(picture.mapCount, 1);
+  return {cost.maps / sets, cost.causticMaps / sets,
+          renderer_->GivesDirectPhotons() ? cost.directMaps / sets : 0};
 }
 
 void PilotSeries::RenderBias(double photons) {

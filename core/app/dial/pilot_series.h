@@ -56,7 +56,7 @@ class PilotSeries {
  private:
   CountedCost CostOf(const PilotPicture& picture) const;
   void TakeCosts(const PilotPicture& picture);
-  void TakeMaps(double photons);
+  MapPrices OneSetOf(const PilotPicture& picture) const;
   void TakeBias(double photons);
 
   PilotRenderer* renderer_;
