@@ -108,6 +108,13 @@ TEST_F(AccuracyTest, UsesFewerGatherRaysThanTheScene) {
   EXPECT_NE(Render("30%", options).err.find("gather rays 100 -> 16"), std::string::npos);
 }
 
+// Few rays would make the bias of shared gathers uncertain.
+TEST_F(AccuracyTest, UsesMoreGatherRaysThanTwo) {
+  const Names options{"--integrator", "exphotonmap", "--set",
+                      "SurfaceIntegrator.finalgathersamples=2"};
+  EXPECT_NE(Render("30%", options).err.find("gather rays 2 -> 16"), std::string::npos);
+}
+
 TEST_F(AccuracyTest, ShowsItsPilotsOnRequest) {
   const ProgramResult result = Render("30%", {"--verbose"});
   EXPECT_NE(result.err.find("pilot of path, 2 samples a pixel: noise "), std::string::npos);
