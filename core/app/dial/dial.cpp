@@ -199,7 +199,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
   if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);
   const auto renderer = std::make_shared<PilotRenderer>(
-      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log});
+      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{*command.accuracy, command.keepsSettings};

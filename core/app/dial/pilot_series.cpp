@@ -49,7 +49,15 @@ void PilotSeries::Render() {
     model_.FitMaps(OneSetOf(last_), request_.settings.photons);
     settings_ = last_.settings;
   }
-  pilots_.push_back(last_.pilot);
+  AddPilot();
+}
+
+// Takes the noise that the picture would have.
+void PilotSeries::AddPilot() {
+  Pilot pilot = last_.pilot;
+  pilot.noise *= last_.noiseOfPicture;
+  pilot.error *= last_.noiseOfPicture;
+  pilots_.push_back(pilot);
   model_.FitNoise(pilots_);
 }
 
@@ -71,8 +79,7 @@ void PilotSeries::RenderBias(double photons) {
   last_ = renderer_->Render(request);
   spent_ += CostOf(last_).maps + CostOf(last_).samples;
   if (!hasOwnPhotons_) {
-    pilots_.push_back(last_.pilot);
-    model_.FitNoise(pilots_);
+    AddPilot();
     hasOwnPhotons_ = true;
   }
   if (last_.certificate) TakeBias(photons);

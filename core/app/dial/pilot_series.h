@@ -59,6 +59,7 @@ class PilotSeries {
   MapPrices OneSetOf(const PilotPicture& picture) const;
   void TakeBias(double photons);
 
+  void AddPilot();
   PilotRenderer* renderer_;
   PilotRequest request_;  // of the next pilot
   Unit unit_;
