@@ -28,6 +28,7 @@ bool PilotSeries::RenderRough() {
   const MapPrices tenth = OneSetOf(last_);
   model_.FitMaps({tenth.all / kFewPhotons, tenth.caustic / kFewPhotons, tenth.direct / kFewPhotons},
                  1);
+  causticMaps_ = tenth.caustic / kFewPhotons;
   model_.leastPhotons = settings_.indirectPhotons > 0 ? kLeastPhotons : 1;
   model_.biasOfFewer = last_.guessedBias;
   model_.FitNoise({last_.pilot});
@@ -47,6 +48,7 @@ void PilotSeries::Render() {
   TakeCosts(last_);
   if (last_.mapCount > 0) {
     model_.FitMaps(OneSetOf(last_), request_.settings.photons);
+    causticMaps_ = OneSetOf(last_).caustic / std::max(request_.settings.photons, 1.);
     settings_ = last_.settings;
   }
   AddPilot();
