@@ -58,7 +58,8 @@ struct LoadOptions {
   bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
 
   // If not null, a setup of the same file, without integrators. Its scene and names move to the new
-  // setup, instead of being made again. An error is thrown if the world has changed.
+  // setup, instead of being made again, and its dialect holds. An error is thrown if the world has
+  // changed.
   RenderSetup* known = nullptr;
 };
 
@@ -86,6 +87,7 @@ struct RenderSetup {
   // Of the directives that decide where light goes: the world, the times of its transformations
   // and the volume integrator. Camera, film, sampler and integrator have no influence.
   std::uint64_t worldHash = 0;
+  Dialect dialect = Dialect::V1;  // that was given or recognised
 };
 
 // SourceLocation::file of errors in command-line values.

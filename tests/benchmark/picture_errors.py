@@ -31,7 +31,7 @@ class Scene:
         return picture, cpu_seconds() - before
 
     def rel_mse(self, picture, reference):
-        text = run([self.program, "compare", picture, reference, "--max-relmse", "1e30"])
+        text = run([self.program, "compare", reference, picture, "--max-relmse", "1e30"])
         return float(re.search(r"^relMSE\s+(\S+)", text, re.MULTILINE).group(1))
 
     def reference(self, cost):

@@ -31,6 +31,20 @@ Point2 ReachOf(const RenderSetup& setup) {
   return reach;
 }
 
+// The file is not searched for directives of version 2 again.
+TEST(RenderSetup, OfAKnownWorldHasItsDialect) {
+  const std::string text = "Renderer \"sampler\"\n" + InWorld("Shape \"sphere\"");
+  const BuiltScene first = BuildText(text);
+  EXPECT_NE(first.Messages().find("scene language version 2"), std::string::npos);
+  EXPECT_EQ(Only(first).dialect, Dialect::V2);
+  first.setups.at(0)->integrator.reset();
+  LoadOptions options;
+  options.known = first.setups.at(0).get();
+  const BuiltScene second = BuildText(text, options);
+  EXPECT_EQ(Only(second).dialect, Dialect::V2);
+  EXPECT_EQ(second.Messages().find("scene language version 2"), std::string::npos);
+}
+
 TEST(RenderSetupDefaults, AreThoseOfVersion1) {
   const BuiltScene built = BuildText("WorldBegin Volume \"homogeneous\" WorldEnd");
   const RenderSetup& setup = Only(built);

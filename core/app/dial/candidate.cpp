@@ -114,6 +114,7 @@ void Explorer::TakePrice() {
   const double maps = model.MapsFor(split->price.photons);
   candidate_.photonShare = maps / split->price.seconds;
   candidate_.photonSamples = maps / model.sample;
+  candidate_.causticShare = series_.CausticMaps() / split->price.seconds;
   candidate_.hasScatter = model.relativeError > kScatter;
   if (!series_.HasBias()) return;
   const double rays = std::max(series_.GatherRays() * split->price.samples, 1.);

@@ -25,6 +25,7 @@ struct Candidate {
   double biasShare = 0;              // of the squared error, what the certificate should resolve
   double photonShare = 0;            // of the price, what the photons of one group cost
   double photonSamples = 0;          // the same, in samples per pixel
+  double causticShare = 0;           // of the price, what the caustic map of one group costs
   bool hasScatter = false;           // the noise of the pilots is uncertain
   std::vector<MeasuredLight> parts;  // of the light of the last pilot
 };

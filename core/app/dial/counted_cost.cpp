@@ -41,10 +41,13 @@ CountedCost CostOf(const Statistics& statistics, const std::string& integrator) 
   const double ofEmission = std::max(ofCamera - CounterOf(statistics, "render/camera samples"), 0.);
   const double others = double(rays.Total()) - photons - ofEmission;
   const double maps = photons * kPhotonRay + skipped * kSkippedPath;
-  return {maps + StoredPhotons(statistics) * cost.storedPhoton,
-          others * cost.ray + ofEmission * kEmissionRay,
-          photons * kPhotonRay * CausticPathShare(statistics) + skipped * kSkippedPath +
-              CounterOf(statistics, "photons/caustic stored") * cost.storedPhoton};
+  const double directRays = std::min(CounterOf(statistics, "photons/direct paths"), photons);
+  return {
+      maps + StoredPhotons(statistics) * cost.storedPhoton,
+      others * cost.ray + ofEmission * kEmissionRay,
+      photons * kPhotonRay * CausticPathShare(statistics) + skipped * kSkippedPath +
+          CounterOf(statistics, "photons/caustic stored") * cost.storedPhoton,
+      directRays * kPhotonRay + CounterOf(statistics, "photons/direct stored") * cost.storedPhoton};
 }
 
 double StoredPhotons(const Statistics& statistics) {

@@ -13,6 +13,7 @@ struct CountedCost {
   double maps = 0;         // shooting photons and building the maps
   double samples = 0;      // rendering
   double causticMaps = 0;  // about the part of `maps` that is for the caustic map alone
+  double directMaps = 0;   // the same for the direct map, with the first rays of its paths
 };
 CountedCost CostOf(const Statistics& statistics, const std::string& integrator);
 

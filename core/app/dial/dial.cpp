@@ -29,8 +29,9 @@ constexpr double kFirstShare = .25;    // of a time limit, for the first group o
 constexpr double kGroupShare = .1;     // of the price, for photons of more groups than two
 constexpr double kCheapGroups = 3;     // number of groups that this pays for
 constexpr double kSharing = 4;         // samples of a group that shares gathers, at least
-// Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055).
-constexpr int kFewGatherRays = 16;
+// Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
+// rays would make the bias of sharing uncertain.
+constexpr int kGatherRays = 16;
 
 std::vector<std::string> NamesOf(const RenderCommand& command, const std::string& sceneIntegrator) {
   if (command.load.integrator) return {*command.load.integrator};
@@ -49,11 +50,9 @@ void DropDarkOnes(std::vector<Candidate>* candidates) {
       candidate.reason = MissingLight(candidate.mean, means);
 }
 
-// Returns the rays as in DialSettings. 0 as the scene's number: the scene leaves the default, which
-// is larger.
+// Returns the rays as in DialSettings.
 int GatherRaysFor(const std::string& integrator, int sceneRays) {
-  const bool isSmall = sceneRays > 0 && sceneRays <= kFewGatherRays;
-  return integrator.ends_with("photonmap") && !isSmall ? kFewGatherRays : 0;
+  return integrator.ends_with("photonmap") && sceneRays != kGatherRays ? kGatherRays : 0;
 }
 
 bool IsCheaper(const Explorer& a, const Explorer& b) {
@@ -200,7 +199,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
   if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);
   const auto renderer = std::make_shared<PilotRenderer>(
-      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log});
+      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{*command.accuracy, command.keepsSettings};

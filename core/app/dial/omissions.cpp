@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/app/dial/counted_cost.h"
 #include "core/app/dial/omission_bound.h"
@@ -20,11 +21,11 @@ namespace {
 constexpr Feature kCandidates[] = {Feature::Caustics, Feature::Glossy, Feature::Indirect,
                                    Feature::Specular};
 
-constexpr double kBudget = .1;      // of the accuracy, for the bounds of all omissions
-constexpr double kPairShare = .15;  // of the price, for the first pairs
-constexpr double kDearer = 1.2;     // a small render may cost this much more than expected
-constexpr double kSavedShare = .5;  // of what an omission saves, for its other pairs
-constexpr double kClear = 3;        // times this budget: an effect with more light in a pilot stays
+constexpr double kBudget = .1;  // of the accuracy, for the bounds of all omissions
+// Of the price, for the first pairs. Only caustics may save most of it.
+constexpr double kCausticPairShare = .15, kPairShare = .05;
+constexpr double kDearer = 1.2;      // a small render may cost this much more than expected
+constexpr double kSavedShare = .5;   // of what an omission saves, for its other pairs
 constexpr double kWorthwhile = .95;  // of the time, at most, with an omission
 
 // What the picture costs relative to its price, if it lacks an effect.
@@ -52,9 +53,12 @@ class OmissionFinder {
  private:
   bool MayBeOmitted() const {
     return !command_.keepsSettings && command_.load.effects != "all" &&
-           kDearer * 2 * FirstCost() < Affordable();
+           IsAffordable(kCausticPairShare);
   }
-  double Affordable() const { return kPairShare * chosen_.price.seconds; }
+  bool IsAffordable(double share) const {
+    return kDearer * 2 * FirstCost() < share * chosen_.price.seconds;
+  }
+  double Affordable() const { return kCausticPairShare * chosen_.price.seconds; }
   // Returns the expected cost of one render with all effects.
   double FirstCost() const {
     const double price = chosen_.price.seconds, maps = chosen_.photonShare * price;
@@ -71,21 +75,32 @@ class OmissionFinder {
       // Caustics need specular surfaces.
       const bool isNamed = isIn("," + std::string(FeatureName(feature)) + "=") ||
                            (feature == Feature::Specular && isIn(",caustics=on"));
-      if (setup_->scene->Features().Needs(feature) && !isNamed && !BringsMuchLight(feature))
+      if (setup_->scene->Features().Needs(feature) && !isNamed && MayPay(feature) &&
+          (feature == Feature::Caustics || IsAffordable(kPairShare)))
         candidates.push_back(feature);
     }
     return candidates;
   }
 
-  // `glossy` has no part of the light of its own, and `caustics` are the part `caustic`.
-  bool BringsMuchLight(Feature feature) const {
+  // Returns the share of the light of a pilot. `glossy` has no part of its own, and `caustics` are
+  // the part `caustic`.
+  std::optional<double> LightOf(Feature feature) const {
     const std::string name = feature == Feature::Caustics ? "caustic" : FeatureName(feature);
-    for (const MeasuredLight& part : chosen_.parts) {
-      if (part.name != name || part.share < kClear * kBudget * *command_.accuracy) continue;
-      log_.Verbose(Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature),
-                          100 * part.share));
-      return true;
-    }
+    for (const MeasuredLight& part : chosen_.parts)
+      if (part.name == name) return part.share;
+    return std::nullopt;
+  }
+
+  // The bound of an effect would exceed its light. Two groups make a caustic map each.
+  bool MayPay(Feature feature) const {
+    const std::optional<double> light = LightOf(feature);
+    if (!light) return true;
+    const bool isCaustics = feature == Feature::Caustics;
+    const double time = isCaustics ? std::min(2 * chosen_.causticShare, 1.) : 1;
+    if (IsCovered(*light) && (1 - time) * GrowthFor(*light) < kWorthwhile) return true;
+    log_.Verbose(
+        Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature), 100 * *light) +
+        (isCaustics ? Format(", would take %.2g %% of the time", 100 * time) : ""));
     return false;
   }
 

@@ -11,11 +11,15 @@
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/render/passes/pass_parts.h"
+#include "core/render/sharing/sharing_plan.h"
 
 namespace exphoton::cli {
 namespace {
 
 constexpr double kCorrectedShare = 1. / 16;
+// A pilot of a small picture would take as long as a part of the picture.
+constexpr double kPixelShare = .25, kFewestPixels = 750;
+constexpr double kMostShrinking = 16;  // of pixels, for which the noise is known
 
 // Returns the CPU time of the phases, which depends on a clock.
 CountedCost SecondsOf(const Statistics& statistics) {
@@ -69,6 +73,12 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   width_ = setup_->crop.Width(), height_ = setup_->crop.Height();
   pilotPixels_ = std::min(Pixels(), kPilotPixels);
   small_.isStrict = false;  // parameters of other integrators are unknown
+  fewer_ = small_;
+  if (surroundings.savesPixels)
+    SmallScene::SetPixels(
+        *setup_,
+        std::clamp(kPixelShare * Pixels(), std::min(kFewestPixels, pilotPixels_), kPilotPixels),
+        &fewer_);
 }
 
 bool PilotRenderer::HasWholeScene(const RenderSetup& setup) {
@@ -98,7 +108,8 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
                         loaded_.settings.gatherRays == request.settings.gatherRays &&
                         loaded_.isRough == request.isRough;
   if (isLoaded) return *setup_;
-  LoadOptions options = small_;
+  const bool hasMaps = request.integrator.ends_with("photonmap");
+  LoadOptions options = hasMaps && !request.isRough ? fewer_ : small_;
   options.integrator = request.integrator;
   options.isQuick = request.isRough;
   for (ParameterOverride& parameter : request.settings.Overrides())
@@ -121,6 +132,13 @@ ParameterOverride PilotRenderer::FewPaths() const {
   const double paths = kFewPhotons * (scenePaths_ > 0 ? scenePaths_ : kByDefault);
   return {"SurfaceIntegrator", "maxphotonpaths",
           std::to_string(std::max<std::int64_t>(std::int64_t(paths), 1))};
+}
+
+// With more pixels, more gathers lie near each other on a surface. The noise of shared gathers
+// falls about with the fifth root of the number of pixels (docs/decisions/0091-smaller-pilots.md).
+double PilotRenderer::NoiseOfPicture(const RenderSetup& setup, double pixels) const {
+  if (!PlanSharing(*setup.integrator, *setup.scene, *setup.camera).isOn) return 1;
+  return std::pow(std::clamp(pixels / Pixels(), 1 / kMostShrinking, 1.), .2);
 }
 
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }
@@ -192,6 +210,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.cpuSeconds = SecondsOf(statistics);
   picture.seconds = ProcessCpuSeconds() - begin;
   picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
+  picture.noiseOfPicture = NoiseOfPicture(setup, picture.pixels);
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
   if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);

@@ -41,6 +41,7 @@ struct PilotPicture {
   int mapCount = 0;        // sets of maps that were made for this pilot
   double seconds = 0;      // CPU time of everything
   double pixels = 0;
+  double noiseOfPicture = 1;  // expected with the pixels of the picture; relative to the pilot's
   MeanLight light;
   std::vector<MeasuredLight> parts;        // of the light; none: the integrator does not divide it
   double gatherRays = 0;                   // of the whole picture
@@ -55,7 +56,8 @@ class PilotRenderer {
   struct Surroundings {
     const char* option;  // for a message about a file with several scenes
     FileSource::Streams* streams;
-    Log* log;  // receives a verbose line for each pilot
+    Log* log;                  // receives a verbose line for each pilot
+    bool savesPixels = false;  // pilots of photon maps have at most a quarter of the picture's
   };
   // Loads the scene once at its own resolution. Throws Error.
   PilotRenderer(const RenderCommand& command, std::string scene, Surroundings surroundings);
@@ -98,6 +100,7 @@ class PilotRenderer {
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }
   int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
+  bool GivesDirectPhotons() const { return sceneDirectPhotons_ > 0; }  // the scene does
   // Of the picture that is wanted.
   int Width() const { return width_; }
   int Height() const { return height_; }
@@ -114,6 +117,7 @@ class PilotRenderer {
   // Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
   static bool HasWholeScene(const RenderSetup& setup);
   const RenderSetup& Load(const PilotRequest& request);
+  double NoiseOfPicture(const RenderSetup& setup, double pixels) const;
   PassesResult RenderHalves(const RenderJob& job, const PilotRequest& request, PictureFilms* films,
                             PilotPicture* picture);
 
@@ -134,6 +138,7 @@ class PilotRenderer {
   double loadSeconds_ = 0;
   PilotWork work_;
   LoadOptions small_;  // with the resolution of pilots
+  LoadOptions fewer_;  // with the resolution of pilots of photon maps
   // Of the last pilot. All pilots have the scene that was loaded first.
   PilotRequest loaded_;
   std::unique_ptr<RenderSetup> setup_;

@@ -25,8 +25,10 @@ bool PilotSeries::RenderRough() {
   last_ = renderer_->Render(rough);
   TakeCosts(last_);
   settings_ = last_.settings;
-  model_.maps = CostOf(last_).maps / kFewPhotons;
-  model_.causticMaps = CostOf(last_).causticMaps / kFewPhotons;
+  const MapPrices tenth = OneSetOf(last_);
+  model_.FitMaps({tenth.all / kFewPhotons, tenth.caustic / kFewPhotons, tenth.direct / kFewPhotons},
+                 1);
+  causticMaps_ = tenth.caustic / kFewPhotons;
   model_.leastPhotons = settings_.indirectPhotons > 0 ? kLeastPhotons : 1;
   model_.biasOfFewer = last_.guessedBias;
   model_.FitNoise({last_.pilot});
@@ -45,18 +47,29 @@ void PilotSeries::Render() {
   request_.samples *= 2;
   TakeCosts(last_);
   if (last_.mapCount > 0) {
-    TakeMaps(request_.settings.photons);
+    model_.FitMaps(OneSetOf(last_), request_.settings.photons);
+    causticMaps_ = OneSetOf(last_).caustic / std::max(request_.settings.photons, 1.);
     settings_ = last_.settings;
   }
-  pilots_.push_back(last_.pilot);
+  AddPilot();
+}
+
+// Takes the noise that the picture would have.
+void PilotSeries::AddPilot() {
+  Pilot pilot = last_.pilot;
+  pilot.noise *= last_.noiseOfPicture;
+  pilot.error *= last_.noiseOfPicture;
+  pilots_.push_back(pilot);
   model_.FitNoise(pilots_);
 }
 
-void PilotSeries::TakeMaps(double photons) {
-  const CountedCost cost = CostOf(last_);
-  const double maps = cost.maps / last_.mapCount, caustic = cost.causticMaps / last_.mapCount;
-  model_.causticMaps = photons < 1 ? caustic : caustic / photons;
-  model_.maps = photons < 1 ? caustic + (maps - caustic) / photons : maps / photons;
+// Returns the prices of the maps of one group. Direct photons become fewer with indirect ones
+// unless the scene gives their number.
+MapPrices PilotSeries::OneSetOf(const PilotPicture& picture) const {
+  const CountedCost cost = CostOf(picture);
+  const double sets = std::max(picture.mapCount, 1);
+  return {cost.maps / sets, cost.causticMaps / sets,
+          renderer_->GivesDirectPhotons() ? cost.directMaps / sets : 0};
 }
 
 void PilotSeries::RenderBias(double photons) {
@@ -68,8 +81,7 @@ void PilotSeries::RenderBias(double photons) {
   last_ = renderer_->Render(request);
   spent_ += CostOf(last_).maps + CostOf(last_).samples;
   if (!hasOwnPhotons_) {
-    pilots_.push_back(last_.pilot);
-    model_.FitNoise(pilots_);
+    AddPilot();
     hasOwnPhotons_ = true;
   }
   if (last_.certificate) TakeBias(photons);

@@ -47,7 +47,8 @@ class PilotSeries {
   bool HasBias() const { return last_.hasBias; }
   const PilotPicture& Last() const { return last_; }
   const DialSettings& Settings() const { return settings_; }  // with the photons of the scene
-  double GatherRays() const { return gatherRays_; }  // for one sample per pixel of the picture
+  double CausticMaps() const { return causticMaps_; }  // price for one group, with few photons
+  double GatherRays() const { return gatherRays_; }    // for one sample per pixel of the picture
   // Prices of the pilots so far, and of the next one.
   double Spent() const { return spent_; }
   double Next() const { return next_; }
@@ -56,8 +57,9 @@ class PilotSeries {
  private:
   CountedCost CostOf(const PilotPicture& picture) const;
   void TakeCosts(const PilotPicture& picture);
-  void TakeMaps(double photons);
+  MapPrices OneSetOf(const PilotPicture& picture) const;
   void TakeBias(double photons);
+  void AddPilot();
 
   PilotRenderer* renderer_;
   PilotRequest request_;  // of the next pilot
@@ -67,6 +69,7 @@ class PilotSeries {
   CertificateCost certificateCost_;
   PilotPicture last_;
   DialSettings settings_;
+  double causticMaps_ = 0;
   double spent_ = 0, next_ = 0, secondsPerPrice_ = 0, gatherRays_ = 0;
   double costOfSample_ = 0;  // of one sample per pixel of a pilot without an estimate of the bias
   bool hasOwnPhotons_ = false;  // whether a pilot has shown the noise of photons

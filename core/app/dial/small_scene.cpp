@@ -32,10 +32,14 @@ LoadOptions SmallScene::Options(const RenderCommand& command, std::unique_ptr<Re
   options.stop = &StopFlag();
   options.threads = command.threadCount;
   std::unique_ptr<RenderSetup> setup = Load(options);
-  const double pixels = double(setup->crop.Width()) * double(setup->crop.Height());
-  ScalePicture(setup->film, setup->crop, std::min(1., std::sqrt(kPilotPixels / pixels)), &options);
+  SetPixels(*setup, kPilotPixels, &options);
   if (full) *full = std::move(setup);
   return options;
+}
+
+void SmallScene::SetPixels(const RenderSetup& full, double pixels, LoadOptions* options) {
+  const double all = double(full.crop.Width()) * double(full.crop.Height());
+  ScalePicture(full.film, full.crop, std::min(1., std::sqrt(pixels / all)), options);
 }
 
 std::unique_ptr<RenderSetup> SmallScene::Load(const LoadOptions& options) {

@@ -73,9 +73,14 @@ void PriceModel::FitSlope(const Pilot& first, const Pilot& last) {
   slopeError = std::sqrt(weight) * error;
 }
 
-// Fewer photons leave the caustic map as it is.
+void PriceModel::FitMaps(const MapPrices& prices, double k) {
+  const double kept = prices.direct + prices.caustic;
+  keptMaps = k < 1 ? kept : prices.direct + prices.caustic / k;
+  maps = k < 1 ? kept + (prices.all - kept) / k : prices.all / k;
+}
+
 double PriceModel::MapsFor(double k) const {
-  return k < 1 ? k * (maps - causticMaps) + causticMaps : k * maps;
+  return k < 1 ? k * (maps - keptMaps) + keptMaps : k * maps;
 }
 
 double PriceModel::SamplesFor(double noise) const {

@@ -21,6 +21,14 @@ struct Pilot {
   bool hasOwnPhotons = true;  // each half has photons of its own; false: both have the same ones
 };
 
+// MapPrices are the prices of the maps of one group.
+struct MapPrices {
+  double all = 0;
+  // Parts of it. Fewer photons leave the caustic map as it is. The number of direct photons may be
+  // given, so that they never change; 0: it is not given.
+  double caustic = 0, direct = 0;
+};
+
 struct PriceModel {
   struct Point {                    // the noise of one group
     double samples = 0, noise = 0;  // the former: of the group, a pixel
@@ -34,12 +42,14 @@ struct PriceModel {
   double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
   double leastPhotons = 1;                 // the smallest k
   double fixed = 0, maps = 0, sample = 0;  // CPU seconds
-  double causticMaps = 0;                  // the part of `maps` that does not fall where k < 1
+  double keptMaps = 0;                     // the part of `maps` that does not fall where k < 1
   bool hasPhotons = false;                 // k may differ from 1
 
   // Fits the noise to the pilots, in ascending order of samples. Those whose halves have the same
   // photons show the noise of camera samples. The last other one also has the noise of photons.
   void FitNoise(const std::vector<Pilot>& pilots);
+  // Takes the prices of maps with k times the photons.
+  void FitMaps(const MapPrices& prices, double k);
   // Returns what the maps of one group cost with k times the photons.
   double MapsFor(double k) const;
   // Returns the samples of one group with this noise.

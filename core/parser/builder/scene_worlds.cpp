@@ -38,6 +38,7 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->sceneName = sceneName_;
   setup->sceneHash = hash_;
   setup->worldHash = worldHash_;
+  setup->dialect = dialect_;
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
   CheckKnownWorld(directive);
   const bool hasMedia = options_.known ? options_.known->scene->HasMedia() : world_->HasMedia();
@@ -115,8 +116,9 @@ std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const 
                                                      const LoadOptions& options, Log& log) {
   try {
     RefuseLaterVersion(source, path, options);
-    const Dialect dialect =
-        options.dialect ? *options.dialect : RecogniseDialect(source, path, options, log);
+    const Dialect dialect = options.known     ? options.known->dialect
+                            : options.dialect ? *options.dialect
+                                              : RecogniseDialect(source, path, options, log);
     SceneBuilder builder(path == "-" ? "<stdin>" : path, options, dialect, log);
     ParseAll(source, path, options, log, &builder);
     std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();

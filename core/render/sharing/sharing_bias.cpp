@@ -13,11 +13,11 @@ namespace {
 constexpr int kStride = 2;  // pixels between checks, along rows and columns
 constexpr int kBlock = 16;  // pixels
 
-// The weight of a fragment's light in its pixel.
+// The weight of a fragment's light in its pixel. Parts of a divided sample count as parts.
 std::vector<Spectrum> WeightsOf(const GatherFragments::Pixel& gathered, double samples) {
   std::vector<Spectrum> weights(gathered.fragments.size());
   for (const GatherSample& sample : gathered.samples)
-    weights[sample.fragment] += sample.weight * Real(1 / samples);
+    weights[sample.fragment] += sample.weight * Real(double(sample.sampleWeight) / samples);
   return weights;
 }
 

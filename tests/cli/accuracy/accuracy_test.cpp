@@ -108,6 +108,45 @@ TEST_F(AccuracyTest, UsesFewerGatherRaysThanTheScene) {
   EXPECT_NE(Render("30%", options).err.find("gather rays 100 -> 16"), std::string::npos);
 }
 
+// Few rays would make the bias of shared gathers uncertain.
+TEST_F(AccuracyTest, UsesMoreGatherRaysThanTwo) {
+  const Names options{"--integrator", "exphotonmap", "--set",
+                      "SurfaceIntegrator.finalgathersamples=2"};
+  EXPECT_NE(Render("30%", options).err.find("gather rays 2 -> 16"), std::string::npos);
+}
+
+// A pilot of a small picture would take as long as a part of the picture. Those of a quote have all
+// pixels.
+TEST_F(AccuracyTest, PilotsOfPhotonMapsHaveAQuarterOfThePixels) {
+  const auto priceOf = [](const std::string& text) {
+    const std::size_t pilot = text.find("note: pilot of exphotonmap");
+    const std::string before = "of samples ";
+    const std::size_t at = text.find(before, text.find("; price", pilot));
+    return at == std::string::npos ? 0 : std::atof(text.c_str() + at + before.size());
+  };
+  const std::string size = "64x48", rays = "SurfaceIntegrator.finalgathersamples=16";
+  const std::string few =
+      Render("30%", {"--integrator", "exphotonmap", "--resolution", size, "--verbose"}).err;
+  const std::string all = Run({"quote", "room.pbrt", "--integrators", "exphotonmap", "--resolution",
+                               size, "--set", rays, "--pilot-time", "1s", "--verbose"})
+                              .err;
+  EXPECT_GT(priceOf(few), 0) << few;
+  EXPECT_NEAR(priceOf(all) / priceOf(few), 4, 1) << few << all;
+}
+
+// Shared gathers have less noise in a larger picture, whose pilots have the same pixels.
+TEST_F(AccuracyTest, LargePicturesNeedFewerSamples) {
+  const auto samples = [&](const char* size) {
+    const std::string quote =
+        Run({"quote", "room.pbrt", "--integrators", "exphotonmap", "--accuracies", "1%",
+             "--resolution", size, "--pilot-time", ".001s", "--quiet"})
+            .out;
+    return NumberAfter(quote, "--spp ");
+  };
+  EXPECT_GT(samples("576x384"), 0);
+  EXPECT_LT(samples("576x384"), samples("144x96"));
+}
+
 TEST_F(AccuracyTest, ShowsItsPilotsOnRequest) {
   const ProgramResult result = Render("30%", {"--verbose"});
   EXPECT_NE(result.err.find("pilot of path, 2 samples a pixel: noise "), std::string::npos);

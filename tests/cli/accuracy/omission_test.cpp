@@ -62,13 +62,24 @@ TEST_F(OmissionTest, KeepsWhatTheUserNames) {
   }
 }
 
-// An effect with more than three tenths of the accuracy needs no pairs of renders.
+// An effect with more light than a tenth of the accuracy needs no pairs of renders.
 TEST_F(OmissionTest, TriesNoEffectThatBringsMuchLight) {
   const std::string accurate = Render({"--accuracy", "10%", "--verbose"});
   EXPECT_TRUE(Has(accurate, "indirect stays on: 19 % of the light of a pilot")) << accurate;
   EXPECT_FALSE(Has(accurate, "caustics stays on")) << accurate;
   EXPECT_FALSE(Has(accurate, "specular stays on")) << accurate;
   EXPECT_TRUE(Statistics().at("effects").at("indirect").at("on"));
+}
+
+// Caustics take 5 % of the time here, and gains by glossy surfaces are not known before the pairs.
+TEST_F(OmissionTest, TriesNothingThatCannotPay) {
+  const ProgramResult result =
+      Run({EXPHOTON_SOURCE_DIR "/scenes/glossy-room/exphotonmap.pbrt", "--resolution", "64x48",
+           "--accuracy", "5%", "--verbose", "-o", "glossy.exr"});
+  EXPECT_TRUE(Has(result.err, "caustics stays on: 0.21 % of the light of a pilot, would take "))
+      << result.err;
+  EXPECT_TRUE(Has(result.err, "indirect stays on: ")) << result.err;
+  EXPECT_FALSE(Has(result.err, "glossy stays on: ")) << result.err;
 }
 
 TEST_F(OmissionTest, LeavesOutNothingWithKeep) {

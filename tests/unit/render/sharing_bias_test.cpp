@@ -25,15 +25,17 @@ struct Shared {
 };
 
 // Returns the result of sharing the gathers of a plane that receives this light. The noise of each
-// sample is uniform, and this is its largest relative value.
-Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed) {
+// sample is uniform, and this is its largest relative value. Samples are divided into parts, as at
+// edges.
+Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed, int parts = 1) {
   const PixelBounds bounds{0, 0, kSize, kSize};
   GatherFragments gathers(bounds, kSamples);
   Film film(bounds, bounds);
   RandomStream random(seed);
+  const Real share = 1 / Real(parts);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
-      for (int i = 0; i < kSamples; ++i) {
+      for (int i = 0; i < kSamples * parts; ++i) {
         const Point2 at{Real(x) + random.Uniform(), Real(y) + random.Uniform()};
         const double factor = 1 + noise * (2 * double(random.Uniform()) - 1);
         const GatherRecord record{{at.x / 100, at.y / 100, 0},
@@ -41,8 +43,8 @@ Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed) {
                                   {0, 0, 1},
                                   Spectrum(Real(light(x + .5, y + .5) * factor)),
                                   Spectrum(1)};
-        gathers.At({x, y}).Add({record}, at, 1, {GatherGroup({x, y}, i)});
-        film.AddSample({x, y}, Spectrum(), 1, 1);
+        gathers.At({x, y}).Add({record}, at, share, {GatherGroup({x, y}, i), share});
+        film.AddSample({x, y}, Spectrum(), 1, share);
       }
       gathers.At({x, y}).Finish();
     }
@@ -67,12 +69,12 @@ struct Comparison {
   double squaredBias = 0, variance = 0;    // of the pictures, in relMSE; squaredBias without noise
 };
 
-Comparison CompareRuns(const ValueAt& light, double noise) {
+Comparison CompareRuns(const ValueAt& light, double noise, int parts = 1) {
   Comparison result;
   double squaredEstimates = 0;
   std::vector<double> sums(std::size_t(kSize * kSize)), squares(sums.size());
   for (int run = 0; run < kRuns; ++run) {
-    const Shared shared = ShareLight(light, noise, std::uint64_t(run));
+    const Shared shared = ShareLight(light, noise, std::uint64_t(run), parts);
     result.estimate += shared.bias.squared / kRuns;
     squaredEstimates += shared.bias.squared * shared.bias.squared / kRuns;
     result.standardError += shared.bias.standardError * shared.bias.standardError;
@@ -113,6 +115,13 @@ TEST(SharingBias, HasTheStandardErrorThatRunsShow) {
 // Sharing flattens light that waves quickly. The noise is so large that it pays all the same.
 TEST(SharingBias, IsTheBiasOfThePicturesWhereLightWaves) {
   const Comparison runs = CompareRuns([](double, double y) { return 1 + .3 * std::sin(y); }, 1);
+  EXPECT_GT(runs.squaredBias, 8 * runs.standardError) << "the test could not fail";
+  EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
+}
+
+// Four parts have the noise of one sample together.
+TEST(SharingBias, CountsPartsOfSamplesAsParts) {
+  const Comparison runs = CompareRuns([](double, double y) { return 1 + .3 * std::sin(y); }, 2, 4);
   EXPECT_GT(runs.squaredBias, 8 * runs.standardError) << "the test could not fail";
   EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
 }

@@ -40,6 +40,15 @@ TEST(CountedCost, KnowsThePartOfTheCausticMap) {
   EXPECT_NEAR(cost.causticMaps, 100 * 1.35 + 100 * .3 + 10 * .6, 1e-9);
 }
 
+// Each of 150 paths has a first ray for the direct map, and 50 photons are stored there.
+TEST(CountedCost, KnowsThePartOfTheDirectMap) {
+  Statistics statistics;
+  FillIn(&statistics);
+  statistics.SetCounter("photons/direct paths", 150, "");
+  statistics.SetCounter("photons/direct stored", 50, "");
+  EXPECT_NEAR(CostOf(statistics, "exphotonmap").directMaps, 150 * 1.35 + 50 * .6, 1e-9);
+}
+
 TEST(PilotWork, AddsUpRenders) {
   Statistics statistics;
   FillIn(&statistics);

@@ -75,13 +75,28 @@ TEST(PriceModel, TakesFewerPhotonsWhereTheBiasAllowsIt) {
   EXPECT_EQ(PriceOf(model, {.012})->photons, 1);
 }
 
-// A quarter of the photons leaves the caustic map as it is.
-TEST(PriceModel, KeepsTheCausticMapWithFewerPhotons) {
+// A quarter of the photons leaves some maps as they are.
+TEST(PriceModel, KeepsSomeMapsWithFewerPhotons) {
   PriceModel model;
-  model.maps = 5, model.causticMaps = 1;
+  model.maps = 5, model.keptMaps = 1;
   EXPECT_EQ(model.MapsFor(.25), 2);
   EXPECT_EQ(model.MapsFor(1), 5);
   EXPECT_EQ(model.MapsFor(4), 20);
+}
+
+// The scene gives the number of direct photons, so they stay as well.
+TEST(PriceModel, KeepsDirectPhotonsThatTheSceneGives) {
+  PriceModel model;
+  model.FitMaps({10, 1, 4}, .25);
+  EXPECT_EQ(model.MapsFor(.25), 10);
+  EXPECT_EQ(model.MapsFor(.5), 15);
+  EXPECT_EQ(model.MapsFor(1), 25);
+  model.FitMaps({50, 2, 4}, 2);
+  EXPECT_EQ(model.MapsFor(2), 50);
+  EXPECT_EQ(model.MapsFor(1), 25);
+  EXPECT_EQ(model.MapsFor(.25), 10);
+  model.FitMaps({10, 1, 0}, .25);
+  EXPECT_EQ(model.MapsFor(1), 37);
 }
 
 // .05^2 = .0025 = 1 / 400; seconds are 2 + 3 + 400 / 100.
