@@ -112,9 +112,9 @@ void Explorer::TakePrice() {
   candidate_.parts = series_.Last().parts;
   candidate_.biasShare = split->biasShare;
   const double maps = model.MapsFor(split->price.photons);
-  candidate_.photonShare = maps / split->price.seconds;
+  candidate_.photonShare = split->price.sets * maps / split->price.seconds;
   candidate_.photonSamples = maps / model.sample;
-  candidate_.causticShare = series_.CausticMaps() / split->price.seconds;
+  candidate_.causticShare = split->price.sets * series_.CausticMaps() / split->price.seconds;
   candidate_.hasScatter = model.relativeError > kScatter;
   if (!series_.HasBias()) return;
   const double rays = std::max(series_.GatherRays() * split->price.samples, 1.);
@@ -148,7 +148,7 @@ std::optional<Explorer::Split> Explorer::SplitWithGain(double gain) const {
 void Explorer::EstimateBias(double most) {
   double photons = series_.Settings().photons;
   for (int i = 0; i < kMostTries; ++i) {
-    const double maps = 2 * series_.Model().MapsFor(photons);
+    const double maps = series_.HasPhotons(photons) ? 0 : series_.Model().MapsFor(photons);
     if (series_.Spent() + maps + series_.Next() > Affordable(most)) return;
     series_.RenderBias(photons);
     // Another pilot confirms the number of photons that the model chose.

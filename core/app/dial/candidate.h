@@ -23,9 +23,9 @@ struct Candidate {
   double secondsPerCost = 0;         // CPU time of the pilots, for messages only
   double correctedShare = 0;         // of the gather rays; 0: no certificate
   double biasShare = 0;              // of the squared error, what the certificate should resolve
-  double photonShare = 0;            // of the price, what the photons of one group cost
-  double photonSamples = 0;          // the same, in samples per pixel
-  double causticShare = 0;           // of the price, what the caustic map of one group costs
+  double photonShare = 0;            // of the price, what all photons cost
+  double photonSamples = 0;          // what one set of photons costs, in samples per pixel
+  double causticShare = 0;           // of the price, what all caustic maps cost
   bool hasScatter = false;           // the noise of the pilots is uncertain
   std::vector<MeasuredLight> parts;  // of the light of the last pilot
 };

@@ -157,12 +157,13 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
 
 // Returns the number of groups of passes that should reach the accuracy, at least 2. Many groups
 // can stop before the picture is better than wanted, because the noise of pilots is uncertain. But
-// each group shoots its photons. Small groups share few gathers, so they are noisy and say little
-// about the bias of sharing.
+// each group may have to shoot photons. Small groups share few gathers, so they are noisy and say
+// little about the bias of sharing.
 double GroupsOf(const Candidate& chosen) {
   const bool sharesGathers = chosen.correctedShare > 0;
   const double most = sharesGathers ? std::clamp(chosen.price.samples / kSharing, 2., 4.) : 16;
-  const double cheap = 2 + kGroupShare / std::max(chosen.photonShare, 1e-6);
+  const double oneSet = chosen.photonShare / chosen.price.sets;
+  const double cheap = 2 + kGroupShare / std::max(oneSet, 1e-6);
   const double least = chosen.hasScatter && cheap > kCheapGroups ? 4 : 2;
   return std::floor(std::clamp(cheap, std::min(least, most), most));
 }

@@ -61,7 +61,8 @@ class OmissionFinder {
   double Affordable() const { return kCausticPairShare * chosen_.price.seconds; }
   // Returns the expected cost of one render with all effects.
   double FirstCost() const {
-    const double price = chosen_.price.seconds, maps = chosen_.photonShare * price;
+    const double price = chosen_.price.seconds;
+    const double maps = chosen_.photonShare * price / chosen_.price.sets;
     const double sample =
         chosen_.photonSamples > 0 ? maps / chosen_.photonSamples : price / chosen_.price.samples;
     return kFewPhotons * maps + sample * pilots_.OnceShare();
@@ -91,12 +92,12 @@ class OmissionFinder {
     return std::nullopt;
   }
 
-  // The bound of an effect would exceed its light. Two groups make a caustic map each.
+  // The bound of an effect would exceed its light.
   bool MayPay(Feature feature) const {
     const std::optional<double> light = LightOf(feature);
     if (!light) return true;
     const bool isCaustics = feature == Feature::Caustics;
-    const double time = isCaustics ? std::min(2 * chosen_.causticShare, 1.) : 1;
+    const double time = isCaustics ? std::min(chosen_.causticShare, 1.) : 1;
     if (IsCovered(*light) && (1 - time) * GrowthFor(*light) < kWorthwhile) return true;
     log_.Verbose(
         Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature), 100 * *light) +
@@ -146,7 +147,7 @@ class OmissionFinder {
 
   // Returns the share of the time that an omission saves.
   double TimeOf(const Saving& saving) const {
-    const double maps = std::min(2 * chosen_.photonShare, 1.);
+    const double maps = std::min(chosen_.photonShare, 1.);
     return maps * saving.maps + (1 - maps) * saving.samples;
   }
 

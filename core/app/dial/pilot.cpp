@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/render/passes/pass_parts.h"
+#include "core/render/photon_noise.h"
 #include "core/render/sharing/sharing_plan.h"
 
 namespace exphoton::cli {
@@ -93,6 +94,8 @@ std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPictur
     text += Format(" with %.3g times the photons", request.settings.photons);
   text += Format(", %g samples a pixel: noise %.3g \u00b1 %.2g of relMSE", picture.pilot.samples,
                  picture.pilot.noise, picture.pilot.error);
+  if (picture.pilot.photonNoise > 0)
+    text += Format(", of the photons %.3g", picture.pilot.photonNoise);
   if (picture.certificate)
     text += Format(", bias %.3g to %.3g", picture.certificate->bias.lower,
                    picture.certificate->bias.upper);
@@ -159,8 +162,8 @@ std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings, R
 }
 
 // Renders with the photons of the last pilot first, if they are the right ones.
-PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotRequest& request,
-                                         PictureFilms* films, PilotPicture* picture) {
+PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* films,
+                                         PilotPicture* picture) {
   RenderOptions render;
   render.seed = command_.seed;
   render.stop = &StopFlag();
@@ -170,21 +173,26 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, const PilotReques
   render.preparedSeed = preparedSeed_;
   PassRenderer renderer(job, render);
   PassSum sum(&job.film, {});
+  PhotonNoise photonNoise(job.film.Crop());
   const std::int64_t samples = job.sampler.SamplesPerPixel();
   for (int half = 0; half < 2; ++half) {
     const std::uint64_t seed = HashKey({command_.seed, kPassSeed, std::uint64_t(half)});
-    const std::uint64_t photonSeed = request.hasOwnPhotons ? seed : FirstSeed();
-    picture->mapCount += preparedSeed_ == photonSeed ? 0 : 1;
+    picture->mapCount += preparedSeed_ == FirstSeed() ? 0 : 1;
     Film* const film = films->halves[std::size_t(half)].get();
-    if (!renderer.Run({photonSeed, seed, 0, samples}, job.sampler, film)) throw LoadingStopped();
-    preparedSeed_ = photonSeed;
+    RenderPass pass{FirstSeed(), seed, 0, samples};
+    if (job.integrator.FillsSignedLight()) pass.photonNoise = &photonNoise;
+    if (!renderer.Run(pass, job.sampler, film)) throw LoadingStopped();
+    preparedSeed_ = FirstSeed();
     sum.Add(*film, samples, half);
+    photonNoise.EndPass(samples);
     if (films->corrections) films->corrections->EndPass(half, samples);
   }
   PassesResult result;
   result.render = renderer.Finish();
   sum.Describe(false, &result);
-  if (films->corrections) result.levels = sum.Levels();
+  result.levels = sum.Levels();
+  picture->pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
+                    photonNoise.RelativeVariance(result.levels)};
   return result;
 }
 
@@ -201,11 +209,9 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   SmallRender small(command_.threadCount);
   const auto sampler = setup.sampler->WithSamplesPerPixel(std::max(request.samples / 2, 1));
   const PassesResult result =
-      RenderHalves(small.Job(setup, *sampler, &films.film), request, &films, &picture);
+      RenderHalves(small.Job(setup, *sampler, &films.film), &films, &picture);
   const Statistics& statistics = small.Counts();
   work_.Add(statistics);
-  picture.pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
-                   request.hasOwnPhotons};
   picture.cost = CostOf(statistics, setup.integratorName);
   picture.cpuSeconds = SecondsOf(statistics);
   picture.seconds = ProcessCpuSeconds() - begin;

@@ -28,7 +28,6 @@ struct PilotRequest {
   int samples = 2;  // a pixel
   DialSettings settings;
   bool estimatesBias = false;  // the rays of the estimate are counted as samples
-  bool hasOwnPhotons = false;  // as in Pilot
   bool isRough = false;        // with a sixteenth of the pixels and a tenth of the photons
 };
 
@@ -118,8 +117,7 @@ class PilotRenderer {
   static bool HasWholeScene(const RenderSetup& setup);
   const RenderSetup& Load(const PilotRequest& request);
   double NoiseOfPicture(const RenderSetup& setup, double pixels) const;
-  PassesResult RenderHalves(const RenderJob& job, const PilotRequest& request, PictureFilms* films,
-                            PilotPicture* picture);
+  PassesResult RenderHalves(const RenderJob& job, PictureFilms* films, PilotPicture* picture);
 
   std::uint64_t FirstSeed() const;
   ParameterOverride FewPaths() const;  // limits the paths of kFewPhotons

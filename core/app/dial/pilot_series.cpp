@@ -31,7 +31,7 @@ bool PilotSeries::RenderRough() {
   causticMaps_ = tenth.caustic / kFewPhotons;
   model_.leastPhotons = settings_.indirectPhotons > 0 ? kLeastPhotons : 1;
   model_.biasOfFewer = last_.guessedBias;
-  model_.FitNoise({last_.pilot});
+  model_.FitNoise({PilotOf(last_, kFewPhotons)});
   return true;
 }
 
@@ -51,16 +51,18 @@ void PilotSeries::Render() {
     causticMaps_ = OneSetOf(last_).caustic / std::max(request_.settings.photons, 1.);
     settings_ = last_.settings;
   }
-  AddPilot();
-}
-
-// Takes the noise that the picture would have.
-void PilotSeries::AddPilot() {
-  Pilot pilot = last_.pilot;
+  Pilot pilot = PilotOf(last_, request_.settings.photons);
   pilot.noise *= last_.noiseOfPicture;
   pilot.error *= last_.noiseOfPicture;
   pilots_.push_back(pilot);
   model_.FitNoise(pilots_);
+}
+
+// Returns the pilot with the noise of the scene's photons.
+Pilot PilotSeries::PilotOf(const PilotPicture& picture, double photons) {
+  Pilot pilot = picture.pilot;
+  pilot.photonNoise *= photons;
+  return pilot;
 }
 
 // Returns the prices of the maps of one group. Direct photons become fewer with indirect ones
@@ -74,16 +76,13 @@ MapPrices PilotSeries::OneSetOf(const PilotPicture& picture) const {
 
 void PilotSeries::RenderBias(double photons) {
   PilotRequest request = request_;
-  request.estimatesBias = request.hasOwnPhotons = true;
+  request.estimatesBias = true;
   request.samples = std::max(request_.samples / 2, 2);
   request.settings = settings_;
   request.settings.photons = photons;
   last_ = renderer_->Render(request);
   spent_ += CostOf(last_).maps + CostOf(last_).samples;
-  if (!hasOwnPhotons_) {
-    AddPilot();
-    hasOwnPhotons_ = true;
-  }
+  model_.photonNoise = PilotOf(last_, photons).photonNoise;
   if (last_.certificate) TakeBias(photons);
 }
 

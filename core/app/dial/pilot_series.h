@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PilotSeries makes a PriceModel of one integrator from pilots. Pilots with doubling numbers of
-// samples share their photons and show the noise of camera samples. A last one, whose halves have
-// photons of their own, shows the noise of the photons and estimates the bias. A rough pilot may
-// come first.
+// samples share their photons. They show the noise of camera samples and of the photons. A last one
+// estimates the bias. A rough pilot may come first.
 #pragma once
 
 #include <string>
@@ -36,8 +35,7 @@ class PilotSeries {
   void UsePhotons(double photons);
   // Renders the next pilot, with twice the samples of the last one.
   void Render();
-  // Renders a pilot with this factor of the photons, which estimates the bias. The first one of
-  // them also shows the noise of the photons.
+  // Renders a pilot with this factor of the photons, which estimates the bias.
   void RenderBias(double photons);
 
   const std::string& Integrator() const { return request_.integrator; }
@@ -46,6 +44,8 @@ class PilotSeries {
   std::size_t Count() const { return pilots_.size(); }  // rough ones do not count
   bool HasBias() const { return last_.hasBias; }
   const PilotPicture& Last() const { return last_; }
+  // Returns whether the last pilot had this factor of the photons, so that the next one has them.
+  bool HasPhotons(double photons) const { return last_.settings.photons == photons; }
   const DialSettings& Settings() const { return settings_; }  // with the photons of the scene
   double CausticMaps() const { return causticMaps_; }  // price for one group, with few photons
   double GatherRays() const { return gatherRays_; }    // for one sample per pixel of the picture
@@ -59,7 +59,7 @@ class PilotSeries {
   void TakeCosts(const PilotPicture& picture);
   MapPrices OneSetOf(const PilotPicture& picture) const;
   void TakeBias(double photons);
-  void AddPilot();
+  static Pilot PilotOf(const PilotPicture& picture, double photons);
 
   PilotRenderer* renderer_;
   PilotRequest request_;  // of the next pilot
@@ -72,7 +72,6 @@ class PilotSeries {
   double causticMaps_ = 0;
   double spent_ = 0, next_ = 0, secondsPerPrice_ = 0, gatherRays_ = 0;
   double costOfSample_ = 0;  // of one sample per pixel of a pilot without an estimate of the bias
-  bool hasOwnPhotons_ = false;  // whether a pilot has shown the noise of photons
 };
 
 }  // namespace exphoton::cli

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/render/passes/photon_sets.h"
+
 namespace exphoton::cli {
 namespace {
 
@@ -15,7 +17,6 @@ constexpr double kMargin = 1.35;  // of the seconds: clocks, and small parts of 
 constexpr double kLeastSlope = 1, kMostSlope = 1.5;
 constexpr double kUsualSlope = 1.1, kUsualSpread = .1;
 constexpr std::size_t kOctaves = 2;    // of the last pilots, which show the slope
-constexpr double kStandardErrors = 2;  // at which noise of photons is significant
 constexpr double kQuantile90 = 1.645;  // of a two-sided interval of 90 %
 
 // The cheapest setting.
@@ -25,12 +26,15 @@ std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
   const double first = model.hasPhotons ? model.leastPhotons : 1;
   for (double k = first; k <= (model.hasPhotons ? kMostPhotons : 1); k *= 2) {
     const double bias = (k < 1 ? std::max(model.bias, model.biasOfFewer) : model.bias) / k;
-    const double left = squared - model.photonNoise / (groups * k) - bias * bias;
+    const double photonNoise = model.photonNoise / k;
+    const double sets = photonNoise <= PhotonSets::kSmallShare * squared ? 1 : groups;
+    const double left = squared - photonNoise / sets - bias * bias;
     if (!(left > 0)) continue;
     Price price;
     price.samples = std::max(groups, std::ceil(groups * model.SamplesFor(left * groups)));
     price.photons = k;
-    price.seconds = model.fixed + groups * model.MapsFor(k) + price.samples * model.sample;
+    price.sets = int(sets);
+    price.seconds = model.fixed + sets * model.MapsFor(k) + price.samples * model.sample;
     if (!best || price.seconds < best->seconds) best = price;
   }
   return best;
@@ -39,11 +43,8 @@ std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
 }  // namespace
 
 void PriceModel::FitNoise(const std::vector<Pilot>& pilots) {
-  std::vector<Pilot> same, own;
-  for (const Pilot& pilot : pilots) (pilot.hasOwnPhotons ? own : same).push_back(pilot);
-  photonNoise = 0;
-  FitCamera(same.empty() ? own : same);
-  if (!same.empty() && !own.empty()) TakePhotonNoise(own.back());
+  FitCamera(pilots);
+  photonNoise = pilots.back().photonNoise;
 }
 
 // A half has half of the samples and twice the noise of both.
@@ -101,18 +102,6 @@ PriceModel PriceModel::WithNoise(double factor, double otherSlope) const {
   other.camera *= factor * std::pow(end, otherSlope - slope);
   other.slope = otherSlope;
   return other;
-}
-
-// Two halves with photons of their own contain half the noise of one set of maps. What is not
-// significant counts as 0.
-void PriceModel::TakePhotonNoise(const Pilot& pilot) {
-  const double half = pilot.samples / 2;
-  double expected = .5 * camera * std::pow(half, -slope);
-  for (const Point& point : points)
-    if (point.samples == half) expected = .5 * point.noise;
-  const double excess = pilot.noise - expected;
-  const double error = std::hypot(pilot.error, relativeError * expected);
-  if (excess > kStandardErrors * error) photonNoise = 2 * excess;
 }
 
 // The ends of the interval are the prices of two other models: a scene without bias and noise of

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // PriceModel predicts what an accuracy costs with one integrator, from small renders of the scene
-// (pilots). With n samples a pixel in g groups of passes, and k times the photons in each group,
-//   error^2 = noise(n / g) / g + photonNoise / (g k) + (bias / k)^2,
-//   seconds = fixed + g MapsFor(k) + n sample.
+// (pilots). With n samples a pixel in g groups of passes, and m sets of maps with k times the
+// photons,
+//   error^2 = noise(n / g) / g + photonNoise / (m k) + (bias / k)^2,
+//   seconds = fixed + m MapsFor(k) + n sample.
+// m is 1 where the groups may keep their photons (core/render/passes/photon_sets.h), otherwise g.
 // Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots show
 // it, and it falls as m^-slope beyond them. The area of density estimates falls with the number of
 // photons, and bias is proportional to this area.
@@ -13,12 +15,12 @@
 
 namespace exphoton::cli {
 
-// Pilot is one render in two halves.
+// Pilot is one render in two halves with the same photons.
 struct Pilot {
-  double samples = 0;         // a pixel, in both halves
-  double noise = 0;           // estimated noise part of relMSE of their mean
-  double error = 0;           // its standard error
-  bool hasOwnPhotons = true;  // each half has photons of its own; false: both have the same ones
+  double samples = 0;      // a pixel, in both halves
+  double noise = 0;        // of relMSE, what their difference shows
+  double error = 0;        // its standard error
+  double photonNoise = 0;  // noise part of relMSE that one set of the scene's photons causes
 };
 
 // MapPrices are the prices of the maps of one group.
@@ -45,8 +47,8 @@ struct PriceModel {
   double keptMaps = 0;                     // the part of `maps` that does not fall where k < 1
   bool hasPhotons = false;                 // k may differ from 1
 
-  // Fits the noise to the pilots, in ascending order of samples. Those whose halves have the same
-  // photons show the noise of camera samples. The last other one also has the noise of photons.
+  // Fits the noise to the pilots, in ascending order of samples. The last one knows the noise of
+  // the photons best.
   void FitNoise(const std::vector<Pilot>& pilots);
   // Takes the prices of maps with k times the photons.
   void FitMaps(const MapPrices& prices, double k);
@@ -60,13 +62,13 @@ struct PriceModel {
  private:
   void FitCamera(const std::vector<Pilot>& pilots);
   void FitSlope(const Pilot& first, const Pilot& last);
-  void TakePhotonNoise(const Pilot& pilot);
 };
 
 // Price is a setting that reaches an accuracy, with 90 % intervals by experience.
 struct Price {
   double samples = 1;  // a pixel
   double photons = 1;  // factor
+  int sets = 1;        // of maps
   double seconds = 0, least = 0, most = 0;
 };
 struct Order {

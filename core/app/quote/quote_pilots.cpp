@@ -14,10 +14,10 @@ constexpr std::size_t kLeastPilots = 2, kMostPilots = 8;
 constexpr double kBiasTime = 3;
 constexpr double kPixelMemory = 70;  // bytes for each pixel of a picture
 
-// The next pilot takes twice as long, and then comes one with new photons that estimates the bias.
+// The next pilot takes twice as long, and then comes one that estimates the bias.
 void RenderSeries(PilotSeries* series, double cpuSeconds) {
   const auto fits = [&] {
-    const double bias = series->HasBias() ? kBiasTime * series->Next() + series->Model().maps : 0;
+    const double bias = series->HasBias() ? kBiasTime * series->Next() : 0;
     return series->Spent() + series->Next() + bias <= cpuSeconds;
   };
   while (series->Count() < kLeastPilots || (series->Count() < kMostPilots && fits()))

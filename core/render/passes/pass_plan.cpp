@@ -116,7 +116,8 @@ PassPlan::Step PassPlan::NextForAccuracy(const State& state) const {
     const double fits = std::floor(left / std::max(state.sample, 1e-9));
     if (fits < double(size)) size = fits < 1 ? 0 : PowerOfTwoUpTo(fits);
   }
-  const bool hasDearPhotons = limits_.photonSamples > kDearPhotons * double(size);
+  const bool hasDearPhotons =
+      !state.keepsPhotons && limits_.photonSamples > kDearPhotons * double(size);
   const std::int64_t most = 2 * firstSamples_ - groupSamples_;
   if (!hasDearPhotons || groups_ < 2 || most < 1) return {true, size};
   return {false, std::min(size, most)};

@@ -65,6 +65,7 @@ class PassPlan {
     std::optional<double> noise;     // of the picture; known if there are two groups
     std::optional<double> enough;    // samples that two groups need to reach the target
     std::optional<double> needed{};  // samples at which an accuracy is expected
+    bool keepsPhotons = false;       // later groups shoot none
     double elapsed = 0;              // since the start of the time limit
     double preprocess = 0;           // for one preprocessing
     double sample = 0;               // for one sample per pixel

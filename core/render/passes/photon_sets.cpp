@@ -6,13 +6,6 @@
 #include "core/files/byte_archive.h"
 
 namespace exphoton {
-namespace {
-
-// Photons are kept if they cause at most this share of the wanted noise. The samples must make up
-// for it, and a second set would halve it.
-constexpr double kSmallShare = .25;
-
-}  // namespace
 
 PhotonSets::PhotonSets(const PixelBounds& crop, bool isMeasured)
     : firstOwn_(isMeasured ? std::numeric_limits<int>::max() : 0) {

@@ -14,6 +14,10 @@ namespace exphoton {
 
 class PhotonSets {
  public:
+  // Photons are kept if they cause at most this share of the wanted noise. The samples must make up
+  // for it, and a second set would halve it.
+  static constexpr double kSmallShare = .25;
+
   // Without measurement, each group has photons of its own.
   PhotonSets(const PixelBounds& crop, bool isMeasured);
 
@@ -21,6 +25,7 @@ class PhotonSets {
   PhotonNoise* Measurement() { return noise_ ? &*noise_ : nullptr; }
   // Must be called after each pass.
   void EndPass(std::int64_t samplesPerPixel);
+  // Whether the noise is known. Never true for groups with photons of their own.
   bool IsKnown() const { return noise_ && noise_->IsKnown(); }
   // Estimates the noise, which must be known, and decides whether the groups from `nextGroup` on
   // keep the photons. levels: as in PhotonNoise. wanted: noise part of relMSE that the picture may

@@ -157,6 +157,7 @@ class Passes {
         state.noise = (*noise - shared) * *rule_.targetError / room;
       state.enough = forecasts_[0].SamplesFor(room);
     }
+    state.keepsPhotons = photons_.IsKnown();
     if (accuracy_) state.needed = double(sum_.SamplesPerPixel()) * accuracy_->Growth();
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
     state.preprocess = preprocessSeconds_;

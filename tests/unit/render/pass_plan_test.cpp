@@ -106,6 +106,23 @@ TEST(PassPlan, DearPhotonsServeMorePassesForAnAccuracy) {
   }
 }
 
+TEST(PassPlan, PhotonsThatAreKeptAreNotDear) {
+  PassPlan plan({.targetError = {},
+                 .timeLimit = {},
+                 .maxSamples = 1000,
+                 .firstSamples = 8,
+                 .photonSamples = 100});
+  for (int pass = 0; pass < 4; ++pass) {
+    const PassPlan::Step step = plan.Next({.samples = 8 * pass,
+                                           .noise = {},
+                                           .enough = {},
+                                           .needed = 8. * pass + 5,
+                                           .keepsPhotons = true});
+    EXPECT_TRUE(step.isNewGroup) << pass;
+    plan.Take(step);
+  }
+}
+
 TEST(PassPlan, AGroupForAnAccuracyFitsIntoTheTime) {
   PassPlan plan({.targetError = {}, .timeLimit = 10, .maxSamples = 1000, .firstSamples = 16});
   const auto size = [&](double elapsed, std::int64_t samples) {

@@ -127,8 +127,8 @@ TEST(PriceModel, TakesMorePhotonsForLessBias) {
   EXPECT_FALSE(PriceOf(model, {.05}));
 }
 
-// Two groups have maps of their own, which cost twice as much and have half the noise. Where noise
-// falls faster than 1/n, two groups of n/2 samples have more noise than one of n.
+// Two groups may have maps of their own, which have half the noise. Where noise falls faster than
+// 1/n, two groups of n/2 samples have more noise than one of n.
 TEST(PriceModel, KnowsGroupsOfPasses) {
   PriceModel model;
   model.camera = 1, model.slope = 1.5, model.maps = 1, model.sample = .01;
@@ -136,31 +136,37 @@ TEST(PriceModel, KnowsGroupsOfPasses) {
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->samples, std::ceil(std::pow(400., 1 / 1.5)));
   EXPECT_EQ(two->samples, std::ceil(std::pow(400. * std::sqrt(2.), 1 / 1.5)));
-  EXPECT_NEAR(two->seconds, 2 + .01 * two->samples, 1e-9);
+  EXPECT_NEAR(two->seconds, 1 + .01 * two->samples, 1e-9);
   model.camera = 1e-6, model.photonNoise = .004;
   EXPECT_FALSE(PriceOf(model, {.05}));
   EXPECT_TRUE(PriceOf(model, {.05, 2}));
 }
 
-// Pilots whose halves have the same photons show the noise of camera samples, and a last one with
-// photons of its own shows theirs.
-TEST(PriceModel, SeparatesTheNoiseOfPhotonsBySharedOnes) {
+TEST(PriceModel, TakesTheNoiseOfPhotonsFromTheLastPilot) {
   std::vector<Pilot> pilots = Pilots(2, 0, 1.25);
-  for (Pilot& pilot : pilots) pilot.hasOwnPhotons = false;
-  Pilot own = pilots.back();
-  own.hasOwnPhotons = true;
-  own.noise += .3 / 2;
-  own.error = .01;
-  pilots.push_back(own);
+  pilots.front().photonNoise = .2;
+  pilots.back().photonNoise = .3;
   PriceModel model;
-  model.hasPhotons = true;
   model.FitNoise(pilots);
   EXPECT_NEAR(model.slope, 1.25, 1e-6);
   EXPECT_NEAR(model.camera, 2, 1e-6);
   EXPECT_NEAR(model.photonNoise, .3, 1e-6);
-  pilots.back().error = .1;  // the difference is not significant
-  model.FitNoise(pilots);
-  EXPECT_EQ(model.photonNoise, 0);
+}
+
+// Two groups share one set of maps, unless its noise is more than a quarter of the squared error.
+TEST(PriceModel, PaysForOneSetOfMapsWhereItsNoiseIsSmall) {
+  PriceModel model;
+  model.camera = 1e-6, model.maps = 100, model.sample = 1e-3;
+  model.photonNoise = .0006;
+  const auto one = PriceOf(model, {.05, 2});
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->sets, 1);
+  EXPECT_NEAR(one->seconds, 100, .1);
+  model.photonNoise = .0007;
+  const auto two = PriceOf(model, {.05, 2});
+  ASSERT_TRUE(two);
+  EXPECT_EQ(two->sets, 2);
+  EXPECT_NEAR(two->seconds, 200, .1);
 }
 
 // Uncertain noise of the pilots makes the interval wider.
