@@ -27,7 +27,7 @@ class SmallScene {
   // Returns the options of the command, at a resolution of about 3000 pixels. `full`, if not null,
   // receives the scene at its own resolution. Throws Error.
   LoadOptions Options(const RenderCommand& command, std::unique_ptr<RenderSetup>* full = nullptr);
-  // Sets a resolution of about this number of pixels, and at most that of the full scene.
+  // Sets a resolution of about this number of pixels. It is not above the one of the full scene.
   static void SetPixels(const RenderSetup& full, double pixels, LoadOptions* options);
   // Throws Error, also if the file does not hold one scene.
   std::unique_ptr<RenderSetup> Load(const LoadOptions& options);
