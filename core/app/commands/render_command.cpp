@@ -128,8 +128,9 @@ Setups FileRenderer::Load(const std::string& path) {
   FileSource source(&run_.streams);
   Setups setups = LoadScenes(source, path, options, log_);
   preparedSeed_.reset();
-  if (pilots_ && setups.size() == 1 && command_.dial->omitted.empty())
-    preparedSeed_ = pilots_->Give(command_.dial->settings, setups.front().get());
+  if (pilots_ && setups.size() == 1)
+    preparedSeed_ =
+        pilots_->Give(command_.dial->settings, command_.dial->omitted, setups.front().get());
   if (command_.dial) Omit(command_.dial->omitted, *setups.front());
   begin.EndLoading();
   return setups;

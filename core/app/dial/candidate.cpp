@@ -61,6 +61,18 @@ void Explorer::Settle(double most) {
   });
 }
 
+void Explorer::FindOmissions() {
+  Guarded([&] {
+    if (!isRough_ || !wish_.findOmissions) return;
+    const Candidate before = candidate_;
+    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&candidate_);
+    candidate_ = before;
+    candidate_.omitted = omitted;
+    series_.LeaveOut(omitted);
+    wish_.error -= BoundOf(omitted);
+  });
+}
+
 void Explorer::Refine(double most) {
   Guarded([&] {
     if (isRough_) return;

@@ -4,6 +4,7 @@
 // cheapest one, and Refine spends up to a tenth of the price on larger pilots.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,14 @@ struct Candidate {
   double causticShare = 0;           // of the price, what all caustic maps cost
   bool hasScatter = false;           // the noise of the pilots is uncertain
   std::vector<MeasuredLight> parts;  // of the light of the last pilot
+  std::vector<OmittedEffect> omitted;
 };
 
 struct Wish {
   double error = 0;           // root of relMSE
   bool keepsPhotons = false;  // the number of photons must be the scene's
+  // Returns the effects that a candidate may leave out, and changes its price. Null: none.
+  std::function<std::vector<OmittedEffect>(Candidate*)> findOmissions{};
 };
 
 class Explorer {
@@ -45,6 +49,8 @@ class Explorer {
   void Begin();
   // Replaces a rough price where it may become the lowest one.
   void Settle(double most);
+  // Leaves out effects before all photons are shot.
+  void FindOmissions();
   void Refine(double most);
   // The results so far.
   const Candidate& Result() const { return candidate_; }

@@ -55,6 +55,10 @@ int GatherRaysFor(const std::string& integrator, int sceneRays) {
   return integrator.ends_with("photonmap") && sceneRays != kGatherRays ? kGatherRays : 0;
 }
 
+bool HasPhotonMaps(const Candidate& candidate) {
+  return candidate.integrator.ends_with("photonmap");
+}
+
 bool IsCheaper(const Explorer& a, const Explorer& b) {
   const auto price = [](const Candidate& candidate) {
     return candidate.reason.empty() ? candidate.price.seconds
@@ -78,6 +82,7 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
     explorers.emplace_back(pilots, name, rays, wish).Begin();
   }
   std::ranges::stable_sort(explorers, IsCheaper);
+  if (HasPhotonMaps(explorers.front().Result())) explorers.front().FindOmissions();
   for (Explorer& explorer : explorers) explorer.Settle(best());
   std::ranges::stable_sort(explorers, IsCheaper);
   std::vector<Candidate> candidates;
@@ -143,6 +148,7 @@ std::string ReasonText(const std::vector<Candidate>& candidates, const Candidate
 // Compares the settings that --keep keeps with those that would be chosen without it.
 std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wish) {
   wish.keepsPhotons = false;
+  wish.findOmissions = nullptr;
   std::vector<std::string> names(std::begin(kAutomatic), std::end(kAutomatic));
   const Candidate* best = nullptr;
   const std::vector<Candidate> others = ExploreAll(pilots, names, wish);
@@ -203,16 +209,19 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
       command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
-  const Wish wish{*command.accuracy, command.keepsSettings};
+  const Wish wish{*command.accuracy, command.keepsSettings, [&](Candidate* candidate) {
+                    return FindOmissions(command, &pilots, candidate, log);
+                  }};
   const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
   Candidate chosen = CheapestOf(candidates, accuracy);
-  const std::vector<OmittedEffect> omitted = FindOmissions(command, &pilots, &chosen, log);
+  // The pilots of photon maps lack the effects already.
+  if (!HasPhotonMaps(chosen)) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
   turned->dial = DialChoice{FirstSamples(chosen, command),
                             chosen.biasShare,
                             chosen.photonSamples,
                             chosen.settings,
-                            omitted,
+                            chosen.omitted,
                             ChoiceText(pilots, chosen)};
   Apply(chosen.settings, turned);
   turned->load.samplesPerPixel = 2 * kMostGrowth * turned->dial->firstSamples;
@@ -220,7 +229,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   turned->certifiedShare = turned->certifies ? chosen.correctedShare : turned->certifiedShare;
   log.Notice("accuracy " + accuracy + ": " + turned->dial->text);
   log.Notice(ReasonText(candidates, chosen));
-  for (const OmittedEffect& effect : omitted) log.Notice(TextOf(effect));
+  for (const OmittedEffect& effect : chosen.omitted) log.Notice(TextOf(effect));
   if (command.keepsSettings) log.Notice(CostOfKeeping(&pilots, chosen, wish));
   return renderer;
 }

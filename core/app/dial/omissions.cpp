@@ -23,7 +23,7 @@ constexpr Feature kCandidates[] = {Feature::Caustics, Feature::Glossy, Feature::
 
 constexpr double kBudget = .1;  // of the accuracy, for the bounds of all omissions
 // Of the price, for the first pairs. Only caustics may save most of it.
-constexpr double kCausticPairShare = .15, kPairShare = .05;
+constexpr double kCausticPairShare = .3, kPairShare = .05;
 constexpr double kDearer = 1.2;      // a small render may cost this much more than expected
 constexpr double kSavedShare = .5;   // of what an omission saves, for its other pairs
 constexpr double kWorthwhile = .95;  // of the time, at most, with an omission
@@ -216,6 +216,10 @@ class OmissionFinder {
 std::string TextOf(const OmittedEffect& effect) {
   return Format("%s off: at most %.2g %% of the light, would take %.2g %% of the time",
                 effect.name.c_str(), 100 * effect.bound, 100 * effect.time);
+}
+
+bool HaveSameNames(const std::vector<OmittedEffect>& a, const std::vector<OmittedEffect>& b) {
+  return std::ranges::equal(a, b, {}, &OmittedEffect::name, &OmittedEffect::name);
 }
 
 double BoundOf(const std::vector<OmittedEffect>& effects) {

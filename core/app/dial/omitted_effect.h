@@ -20,6 +20,7 @@ struct OmittedEffect {
 
 // Returns "caustics off: at most 0.04 % of the light, would take 22 % of the time".
 std::string TextOf(const OmittedEffect& effect);
+bool HaveSameNames(const std::vector<OmittedEffect>& a, const std::vector<OmittedEffect>& b);
 // Returns the bound of all effects together, by the triangle inequality.
 double BoundOf(const std::vector<OmittedEffect>& effects);
 // Switches the effects off in a loaded scene. Effects that it does not need keep their reason.

@@ -109,7 +109,8 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   const bool isLoaded = setup_ && loaded_.integrator == request.integrator &&
                         loaded_.settings.photons == request.settings.photons &&
                         loaded_.settings.gatherRays == request.settings.gatherRays &&
-                        loaded_.isRough == request.isRough;
+                        loaded_.isRough == request.isRough &&
+                        HaveSameNames(loaded_.omitted, request.omitted);
   if (isLoaded) return *setup_;
   const bool hasMaps = request.integrator.ends_with("photonmap");
   LoadOptions options = hasMaps && !request.isRough ? fewer_ : small_;
@@ -125,6 +126,7 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   preparedSeed_.reset();
   loaded_ = {};
   setup_ = scene_.Load(options);
+  Omit(request.omitted, *setup_);
   loaded_ = request;
   return *setup_;
 }
@@ -146,11 +148,13 @@ double PilotRenderer::NoiseOfPicture(const RenderSetup& setup, double pixels) co
 
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }
 
-std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings, RenderSetup* setup) {
+std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings,
+                                                 const std::vector<OmittedEffect>& omitted,
+                                                 RenderSetup* setup) {
   const bool isSame = setup_ && loaded_.integrator == setup->integratorName &&
                       loaded_.settings.photons == settings.photons &&
                       loaded_.settings.gatherRays == settings.gatherRays && !loaded_.isRough &&
-                      preparedSeed_ == FirstSeed();
+                      HaveSameNames(loaded_.omitted, omitted) && preparedSeed_ == FirstSeed();
   if (!isSame) return std::nullopt;
   // The integrators refer to the scene, so they go first.
   setup->integrator = std::move(setup_->integrator);

@@ -11,6 +11,7 @@
 
 #include "core/app/dial/counted_cost.h"
 #include "core/app/dial/dial_settings.h"
+#include "core/app/dial/omitted_effect.h"
 #include "core/app/dial/small_scene.h"
 #include "core/app/effects/light_parts.h"
 #include "core/app/options/options.h"
@@ -27,6 +28,7 @@ struct PilotRequest {
   std::string integrator;
   int samples = 2;  // a pixel
   DialSettings settings;
+  std::vector<OmittedEffect> omitted;
   bool estimatesBias = false;  // the rays of the estimate are counted as samples
   bool isRough = false;        // with a sixteenth of the pixels and a tenth of the photons
 };
@@ -91,10 +93,11 @@ class PilotRenderer {
   // Renders a loan with random numbers of its own for each `number`. Throws LoadingStopped.
   OnePass RenderOnce(const RenderSetup& setup, std::uint64_t number);
 
-  // If the last pilot had this integrator, these settings and the photons of the first pass of the
-  // picture, which has all effects of the pilots, moves its scene and its integrator to `setup`,
-  // and returns the seed of the photons. They refer to this object.
-  std::optional<std::uint64_t> Give(const DialSettings& settings, RenderSetup* setup);
+  // If the last pilot had this integrator, these settings, these effects and the photons of the
+  // first pass of the picture, moves its scene and its integrator to `setup`, and returns the seed
+  // of the photons. They refer to this object.
+  std::optional<std::uint64_t> Give(const DialSettings& settings,
+                                    const std::vector<OmittedEffect>& omitted, RenderSetup* setup);
 
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }

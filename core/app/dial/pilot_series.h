@@ -33,6 +33,8 @@ class PilotSeries {
   bool RenderRough();
   // Sets the factor of the photons of later pilots, after a rough one.
   void UsePhotons(double photons);
+  // Leaves effects out of later pilots.
+  void LeaveOut(const std::vector<OmittedEffect>& effects) { request_.omitted = effects; }
   // Renders the next pilot, with twice the samples of the last one.
   void Render();
   // Renders a pilot with this factor of the photons, which estimates the bias.

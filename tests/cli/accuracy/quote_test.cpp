@@ -54,7 +54,7 @@ TEST_F(QuoteTest, NeedsMoreTimeForLessError) {
   EXPECT_GT(samples[1], 4 * samples[0]);
 }
 
-// Only the first pilot shoots photons, and the last one, which estimates the bias.
+// Only the first pilot shoots photons.
 TEST_F(QuoteTest, ShowsItsPilotsWhichShareTheirPhotons) {
   const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "40%", "--pilot-time",
                                    "1s", "--integrators", "exphotonmap", "--verbose"});
@@ -67,8 +67,7 @@ TEST_F(QuoteTest, ShowsItsPilotsWhichShareTheirPhotons) {
     prices.push_back(std::stod((*i)[1]));
   ASSERT_GE(prices.size(), 3u) << quote.err;
   EXPECT_GT(prices.front(), 0);
-  EXPECT_GT(prices.back(), 0);
-  for (std::size_t i = 1; i + 1 < prices.size(); ++i) EXPECT_EQ(prices[i], 0) << quote.err;
+  for (std::size_t i = 1; i < prices.size(); ++i) EXPECT_EQ(prices[i], 0) << quote.err;
 }
 
 TEST_F(QuoteTest, SaysWhatIsWrong) {
