@@ -42,10 +42,10 @@ class FragmentLight {
 
 void SharingTotals::Transfer(ByteArchive* archive) {
   archive->Values(&radii, &fragments);
-  checked.resize(archive->Count(checked.size(), 2 * sizeof(int) + 3 * sizeof(double)));
+  checked.resize(archive->Count(checked.size(), 2 * sizeof(int) + 6 * sizeof(double)));
   for (CheckedPixel& pixel : checked) {
     archive->Values(&pixel.pixel.x, &pixel.pixel.y);
-    archive->Values(&pixel.product[0], &pixel.product[1], &pixel.product[2]);
+    for (auto& product : pixel.products) archive->Values(&product[0], &product[1], &product[2]);
   }
 }
 

@@ -21,27 +21,51 @@ std::vector<Spectrum> WeightsOf(const GatherFragments::Pixel& gathered, double s
   return weights;
 }
 
-double RelativeProduct(const CheckedPixel& checked, const Film& film) {
+double RelativeProduct(const CheckedPixel& checked, std::size_t direction, const Film& film) {
   const auto mean = film.MeanOf(checked.pixel);
   double sum = 0;
-  for (int c = 0; c < Spectrum::kChannels; ++c)
-    sum += checked.product[std::size_t(c)] / (mean[std::size_t(c)] * mean[std::size_t(c)] + .01);
+  for (std::size_t c = 0; c < Spectrum::kChannels; ++c)
+    sum += checked.products[direction][c] / (mean[c] * mean[c] + .01);
   return sum / Spectrum::kChannels;
+}
+
+// Estimates the bias from the products of one direction.
+std::optional<SharingBias> EstimateAlong(std::size_t direction,
+                                         const std::vector<CheckedPixel>& checked,
+                                         const Film& film) {
+  std::map<std::pair<int, int>, double> blocks;
+  for (const CheckedPixel& pixel : checked)
+    if (film.Crop().Contains(pixel.pixel.x, pixel.pixel.y))
+      blocks[{pixel.pixel.y / kBlock, pixel.pixel.x / kBlock}] +=
+          RelativeProduct(pixel, direction, film);
+  if (blocks.size() < 2) return std::nullopt;
+  const auto count = double(blocks.size());
+  double sum = 0, squares = 0;
+  for (const auto& [block, product] : blocks) sum += product;
+  for (const auto& [block, product] : blocks)
+    squares += (product - sum / count) * (product - sum / count);
+  const auto pixels = double(checked.size());
+  return SharingBias{sum / pixels, std::sqrt(squares * count / (count - 1)) / pixels};
 }
 
 }  // namespace
 
 std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, FitNeighbours* scratch) const {
-  const Point2i next{pixel.x + 1, pixel.y};
   if (pixel.x % kStride != 0 || pixel.y % kStride != 0) return std::nullopt;
-  if (!gathers_.Bounds().Contains(next.x, next.y)) return std::nullopt;
-  const auto a = Difference(pixel, kCheckingGroups[0], scratch);
-  if (!a) return std::nullopt;
-  const auto b = Difference(next, kCheckingGroups[1], scratch);
-  if (!b) return std::nullopt;
+  const auto own = Difference(pixel, kCheckingGroups[0], scratch);
+  if (!own) return std::nullopt;
+  const auto neighbour = [&](int x, int y) {
+    return gathers_.Bounds().Contains(x, y) ? Difference({x, y}, kCheckingGroups[1], scratch)
+                                            : std::nullopt;
+  };
+  const auto right = neighbour(pixel.x + 1, pixel.y), below = neighbour(pixel.x, pixel.y + 1);
+  if (!right && !below) return std::nullopt;
   CheckedPixel checked{pixel, {}};
-  for (int c = 0; c < Spectrum::kChannels; ++c)
-    checked.product[std::size_t(c)] = double((*a)[c]) * double((*b)[c]);
+  // A neighbour that is missing counts as the other one.
+  const std::array<const Spectrum*, 2> others{right ? &*right : &*below, below ? &*below : &*right};
+  for (std::size_t i = 0; i < others.size(); ++i)
+    for (int c = 0; c < Spectrum::kChannels; ++c)
+      checked.products[i][std::size_t(c)] = double((*own)[c]) * double((*others[i])[c]);
   return checked;
 }
 
@@ -73,18 +97,8 @@ std::optional<Spectrum> SharingChecker::Difference(Point2i pixel, int group,
 
 std::optional<SharingBias> EstimateSharingBias(const std::vector<CheckedPixel>& checked,
                                                const Film& film) {
-  std::map<std::pair<int, int>, double> blocks;
-  for (const CheckedPixel& pixel : checked)
-    if (film.Crop().Contains(pixel.pixel.x, pixel.pixel.y))
-      blocks[{pixel.pixel.y / kBlock, pixel.pixel.x / kBlock}] += RelativeProduct(pixel, film);
-  if (blocks.size() < 2) return std::nullopt;
-  const auto count = double(blocks.size());
-  double sum = 0, squares = 0;
-  for (const auto& [block, product] : blocks) sum += product;
-  for (const auto& [block, product] : blocks)
-    squares += (product - sum / count) * (product - sum / count);
-  const auto pixels = double(checked.size());
-  return SharingBias{sum / pixels, std::sqrt(squares * count / (count - 1)) / pixels};
+  const auto rows = EstimateAlong(0, checked, film), columns = EstimateAlong(1, checked, film);
+  return rows && columns->squared > rows->squared ? columns : rows;
 }
 
 }  // namespace exphoton

@@ -20,16 +20,17 @@
 
 namespace exphoton {
 
-// The product of the differences in a pixel and in its neighbour, in radiance squared. It may be
-// negative.
+// The products of the differences in a pixel and in its neighbours, in radiance squared. They may
+// be negative.
 struct CheckedPixel {
   Point2i pixel;
-  std::array<double, 3> product;  // by channel
+  // With the next pixel of the row, and of the column; by channel.
+  std::array<std::array<double, 3>, 2> products;
 };
 
-// Checks a pixel and the next one of its row. Only every second pixel of every second row is
-// checked, because a check takes two fits. Returns nullopt for other pixels and where a checking
-// group has no record. `samples` is the number of camera samples of a pixel.
+// Checks a pixel with the next ones of its row and of its column. Only every second pixel of every
+// second row is checked, because a check takes three fits. Returns nullopt for other pixels and
+// where a checking group has no record. `samples` is the number of camera samples of a pixel.
 class SharingChecker {
  public:
   SharingChecker(const GatherFragments& gathers, const FragmentRows& rows,
@@ -51,7 +52,9 @@ class SharingChecker {
   double samples_;
 };
 
-// Returns nullopt if fewer than two squares hold checked pixels. The film has the picture.
+// Returns the larger one of the estimates from rows and from columns. A bias in a line of pixels
+// shows along the line only. Returns nullopt if fewer than two squares hold checked pixels. The
+// film has the picture.
 std::optional<SharingBias> EstimateSharingBias(const std::vector<CheckedPixel>& checked,
                                                const Film& film);
 

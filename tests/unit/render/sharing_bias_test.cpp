@@ -119,6 +119,13 @@ TEST(SharingBias, IsTheBiasOfThePicturesWhereLightWaves) {
   EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
 }
 
+// The bias of a column of pixels does not show in the row.
+TEST(SharingBias, IsTheBiasOfThePicturesWhereLightWavesAlongRows) {
+  const Comparison runs = CompareRuns([](double x, double) { return 1 + .3 * std::sin(x); }, 1);
+  EXPECT_GT(runs.squaredBias, 8 * runs.standardError) << "the test could not fail";
+  EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
+}
+
 // Four parts have the noise of one sample together.
 TEST(SharingBias, CountsPartsOfSamplesAsParts) {
   const Comparison runs = CompareRuns([](double, double y) { return 1 + .3 * std::sin(y); }, 2, 4);
