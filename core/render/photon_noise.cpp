@@ -2,6 +2,8 @@
 #include "core/render/photon_noise.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/files/byte_archive.h"
 #include "core/imaging/metrics/metrics.h"
@@ -45,14 +47,16 @@ double PhotonNoise::RelativeVariance(const std::vector<double>& levels) const {
     sum += products / (levels[i] + kRelMseOffset);
   }
   const double pairs = samples_ * samples_ - squaredSamples_;
-  return std::max(sum / (pairs * double(levels.size())), 0.);
+  const double mean = sum / (pairs * double(levels.size()));
+  return std::isfinite(mean) ? std::max(mean, 0.) : std::numeric_limits<double>::infinity();
 }
 
 void PhotonNoise::Transfer(ByteArchive* archive) {
   archive->Values(&passes_, &samples_, &squaredSamples_);
   for (auto* values : {&current_, &sums_, &squares_})
     for (float& value : *values) archive->Values(&value);
-  if (passes_ < 0 || !(samples_ >= double(passes_)))
+  const bool hasPairs = passes_ < 2 || samples_ * samples_ > squaredSamples_;
+  if (passes_ < 0 || !(samples_ >= double(passes_)) || !std::isfinite(samples_) || !hasPairs)
     throw ArchiveError("its counts of passes contradict each other");
 }
 

@@ -31,7 +31,7 @@ class PhotonNoise {
   bool IsKnown() const { return passes_ > 1; }
   // Estimates the mean over pixels and channels of var / (r^2 + 0.01), where var is the variance of
   // the picture due to one set of photons. levels: r^2 of each pixel, three channels. The result is
-  // at least 0. Must be known.
+  // at least 0, and infinite if the light is too bright for float. Must be known.
   double RelativeVariance(const std::vector<double>& levels) const;
 
   void Transfer(ByteArchive* archive);  // saves or loads

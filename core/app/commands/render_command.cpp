@@ -129,8 +129,7 @@ Setups FileRenderer::Load(const std::string& path) {
   Setups setups = LoadScenes(source, path, options, log_);
   preparedSeed_.reset();
   if (pilots_ && setups.size() == 1)
-    preparedSeed_ =
-        pilots_->Give(command_.dial->settings, command_.dial->omitted, setups.front().get());
+    preparedSeed_ = pilots_->Give(*command_.dial, setups.front().get());
   if (command_.dial) Omit(command_.dial->omitted, *setups.front());
   begin.EndLoading();
   return setups;

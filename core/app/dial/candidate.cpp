@@ -25,6 +25,10 @@ constexpr double kScatter = .25;  // of the noise of the last pilot
 
 }  // namespace
 
+bool HasPhotonMaps(const Candidate& candidate) {
+  return candidate.integrator.ends_with("photonmap");
+}
+
 Explorer::Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays,
                    const Wish& wish)
     : series_(pilots, integrator, gatherRays, PilotSeries::Unit::CountedCost), wish_(wish) {
@@ -61,16 +65,18 @@ void Explorer::Settle(double most) {
   });
 }
 
-void Explorer::FindOmissions() {
+bool Explorer::FindOmissions(double most) {
   Guarded([&] {
-    if (!isRough_ || !wish_.findOmissions) return;
+    if (!isRough_ || !wish_.findOmissions || !HasPhotonMaps(candidate_) || IsTooDear(most)) return;
     const Candidate before = candidate_;
     const std::vector<OmittedEffect> omitted = wish_.findOmissions(&candidate_);
     candidate_ = before;
     candidate_.omitted = omitted;
+    candidate_.hasSoughtOmissions = true;
     series_.LeaveOut(omitted);
     wish_.error -= BoundOf(omitted);
   });
+  return candidate_.hasSoughtOmissions;
 }
 
 void Explorer::Refine(double most) {
@@ -124,9 +130,12 @@ void Explorer::TakePrice() {
   candidate_.parts = series_.Last().parts;
   candidate_.biasShare = split->biasShare;
   const double maps = model.MapsFor(split->price.photons);
-  candidate_.photonShare = split->price.sets * maps / split->price.seconds;
+  const int sets = split->price.sets - (split->price.photons == model.owned ? 1 : 0);
+  candidate_.photonShare = sets * maps / split->price.seconds;
+  candidate_.priceOfSample = model.sample;
   candidate_.photonSamples = maps / model.sample;
-  candidate_.causticShare = split->price.sets * series_.CausticMaps() / split->price.seconds;
+  const double caustic = series_.CausticMaps() * std::max(split->price.photons, 1.);
+  candidate_.causticShare = sets * caustic / split->price.seconds;
   candidate_.hasScatter = model.relativeError > kScatter;
   if (!series_.HasBias()) return;
   const double rays = std::max(series_.GatherRays() * split->price.samples, 1.);
@@ -155,12 +164,12 @@ std::optional<Explorer::Split> Explorer::SplitWithGain(double gain) const {
   return better.CheapestSplit();
 }
 
-// Where a pilot for it is too dear, the first passes of the picture show the bias and the noise of
-// the photons. The first pass of the picture then lacks the photons of the pilots.
+// Where a pilot for it is too dear, the first passes of the picture show the bias.
 void Explorer::EstimateBias(double most) {
   double photons = series_.Settings().photons;
   for (int i = 0; i < kMostTries; ++i) {
-    const double maps = series_.HasPhotons(photons) ? 0 : series_.Model().MapsFor(photons);
+    const PriceModel& model = series_.Model();
+    const double maps = photons == model.owned ? 0 : model.MapsFor(photons);
     if (series_.Spent() + maps + series_.Next() > Affordable(most)) return;
     series_.RenderBias(photons);
     // Another pilot confirms the number of photons that the model chose.

@@ -24,13 +24,17 @@ struct Candidate {
   double secondsPerCost = 0;         // CPU time of the pilots, for messages only
   double correctedShare = 0;         // of the gather rays; 0: no certificate
   double biasShare = 0;              // of the squared error, what the certificate should resolve
-  double photonShare = 0;            // of the price, what all photons cost
+  double photonShare = 0;            // of the price, what photons still cost
+  double priceOfSample = 0;          // one per pixel
   double photonSamples = 0;          // what one set of photons costs, in samples per pixel
-  double causticShare = 0;           // of the price, what all caustic maps cost
+  double causticShare = 0;           // of the price, what caustic maps still cost
   bool hasScatter = false;           // the noise of the pilots is uncertain
   std::vector<MeasuredLight> parts;  // of the light of the last pilot
   std::vector<OmittedEffect> omitted;
+  bool hasSoughtOmissions = false;  // before its pilot with all photons
 };
+
+bool HasPhotonMaps(const Candidate& candidate);
 
 struct Wish {
   double error = 0;           // root of relMSE
@@ -49,8 +53,9 @@ class Explorer {
   void Begin();
   // Replaces a rough price where it may become the lowest one.
   void Settle(double most);
-  // Leaves out effects before all photons are shot.
-  void FindOmissions();
+  // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
+  // Returns whether they were sought.
+  bool FindOmissions(double most);
   void Refine(double most);
   // The results so far.
   const Candidate& Result() const { return candidate_; }

@@ -29,7 +29,7 @@ struct PilotWork {
   int renders = 0;
   RayCounters rays;
   double direct = 0, caustic = 0, indirect = 0;  // photons that were stored
-  bool givesPhotons = false;  // the first group of passes has photons of the last pilot
+  bool givesPhotons = false;  // the first groups of passes have photons of the last pilot
 
   void Add(const Statistics& statistics);
 };

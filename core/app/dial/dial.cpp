@@ -24,11 +24,12 @@ constexpr std::int64_t kLeastGroup = 2;   // samples of a group
 constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
 constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
 constexpr double kMorePhotons = 4, kMostPhotons = 256;
-constexpr double kNotableRatio = 1.1;  // of times
-constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
-constexpr double kGroupShare = .1;     // of the price, for photons of more groups than two
-constexpr double kCheapGroups = 3;     // number of groups that this pays for
-constexpr double kSharing = 4;         // samples of a group that shares gathers, at least
+constexpr double kNotableRatio = 1.1;      // of times
+constexpr double kNotableOmission = .005;  // root of relMSE
+constexpr double kFirstShare = .25;        // of a time limit, for the first group of passes
+constexpr double kGroupShare = .1;         // of the price, for photons of more groups
+constexpr double kCheapGroups = 3;         // number of groups that this pays for
+constexpr double kSharing = 4;             // samples of a group that shares gathers, at least
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
 // rays would make the bias of sharing uncertain.
 constexpr int kGatherRays = 16;
@@ -40,23 +41,21 @@ std::vector<std::string> NamesOf(const RenderCommand& command, const std::string
   return {sceneIntegrator};
 }
 
-// A candidate that does not find all light has no price. The means of rough pilots say little.
+// A candidate that does not find all light has no price. The means of rough pilots say little, and
+// so do those of pilots that lack much light on purpose.
 void DropDarkOnes(std::vector<Candidate>* candidates) {
   std::vector<PilotMean> means;
   for (const Candidate& candidate : *candidates)
     if (!candidate.isRough && candidate.mean.light.mean > 0) means.push_back(candidate.mean);
   for (Candidate& candidate : *candidates)
-    if (!candidate.isRough && candidate.reason.empty() && !means.empty())
+    if (!candidate.isRough && candidate.reason.empty() && !means.empty() &&
+        BoundOf(candidate.omitted) < kNotableOmission)
       candidate.reason = MissingLight(candidate.mean, means);
 }
 
 // Returns the rays as in DialSettings.
 int GatherRaysFor(const std::string& integrator, int sceneRays) {
   return integrator.ends_with("photonmap") && sceneRays != kGatherRays ? kGatherRays : 0;
-}
-
-bool HasPhotonMaps(const Candidate& candidate) {
-  return candidate.integrator.ends_with("photonmap");
 }
 
 bool IsCheaper(const Explorer& a, const Explorer& b) {
@@ -82,7 +81,8 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
     explorers.emplace_back(pilots, name, rays, wish).Begin();
   }
   std::ranges::stable_sort(explorers, IsCheaper);
-  if (HasPhotonMaps(explorers.front().Result())) explorers.front().FindOmissions();
+  for (Explorer& explorer : explorers)
+    if (explorer.FindOmissions(best())) break;
   for (Explorer& explorer : explorers) explorer.Settle(best());
   std::ranges::stable_sort(explorers, IsCheaper);
   std::vector<Candidate> candidates;
@@ -163,12 +163,12 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
 
 // Returns the number of groups of passes that should reach the accuracy, at least 2. Many groups
 // can stop before the picture is better than wanted, because the noise of pilots is uncertain. But
-// each group may have to shoot photons. Small groups share few gathers, so they are noisy and say
-// little about the bias of sharing.
+// each group has to shoot photons, unless those of the first groups turn out to be good enough.
+// Small groups share few gathers, so they are noisy and say little about the bias of sharing.
 double GroupsOf(const Candidate& chosen) {
   const bool sharesGathers = chosen.correctedShare > 0;
   const double most = sharesGathers ? std::clamp(chosen.price.samples / kSharing, 2., 4.) : 16;
-  const double oneSet = chosen.photonShare / chosen.price.sets;
+  const double oneSet = chosen.photonSamples / (chosen.photonSamples + chosen.price.samples);
   const double cheap = 2 + kGroupShare / std::max(oneSet, 1e-6);
   const double least = chosen.hasScatter && cheap > kCheapGroups ? 4 : 2;
   return std::floor(std::clamp(cheap, std::min(least, most), most));
@@ -214,8 +214,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                   }};
   const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
   Candidate chosen = CheapestOf(candidates, accuracy);
-  // The pilots of photon maps lack the effects already.
-  if (!HasPhotonMaps(chosen)) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
+  if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
   turned->dial = DialChoice{FirstSamples(chosen, command),
                             chosen.biasShare,

@@ -22,8 +22,8 @@ constexpr Feature kCandidates[] = {Feature::Caustics, Feature::Glossy, Feature::
                                    Feature::Specular};
 
 constexpr double kBudget = .1;  // of the accuracy, for the bounds of all omissions
-// Of the price, for the first pairs. Only caustics may save most of it.
-constexpr double kCausticPairShare = .3, kPairShare = .05;
+// For the first pairs: of what caustics cost, and of the price. Only the former is known before.
+constexpr double kCausticPairShare = .4, kPairShare = .05;
 constexpr double kDearer = 1.2;      // a small render may cost this much more than expected
 constexpr double kSavedShare = .5;   // of what an omission saves, for its other pairs
 constexpr double kWorthwhile = .95;  // of the time, at most, with an omission
@@ -53,19 +53,20 @@ class OmissionFinder {
  private:
   bool MayBeOmitted() const {
     return !command_.keepsSettings && command_.load.effects != "all" &&
-           IsAffordable(kCausticPairShare);
+           IsAffordable(ShareForPairs());
   }
+  // The share of the price that the first pairs may take.
+  double ShareForPairs() const { return std::max(ShareForCaustics(), kPairShare); }
+  double ShareForCaustics() const { return kCausticPairShare * CausticShare(); }
+  double CausticShare() const { return std::min(chosen_.causticShare, 1.); }
   bool IsAffordable(double share) const {
     return kDearer * 2 * FirstCost() < share * chosen_.price.seconds;
   }
-  double Affordable() const { return kCausticPairShare * chosen_.price.seconds; }
+  double Affordable() const { return ShareForPairs() * chosen_.price.seconds; }
   // Returns the expected cost of one render with all effects.
   double FirstCost() const {
-    const double price = chosen_.price.seconds;
-    const double maps = chosen_.photonShare * price / chosen_.price.sets;
-    const double sample =
-        chosen_.photonSamples > 0 ? maps / chosen_.photonSamples : price / chosen_.price.samples;
-    return kFewPhotons * maps + sample * pilots_.OnceShare();
+    const double samples = kFewPhotons * chosen_.photonSamples + pilots_.OnceShare();
+    return samples * chosen_.priceOfSample;
   }
 
   std::vector<Feature> Candidates() const {
@@ -77,7 +78,7 @@ class OmissionFinder {
       const bool isNamed = isIn("," + std::string(FeatureName(feature)) + "=") ||
                            (feature == Feature::Specular && isIn(",caustics=on"));
       if (setup_->scene->Features().Needs(feature) && !isNamed && MayPay(feature) &&
-          (feature == Feature::Caustics || IsAffordable(kPairShare)))
+          IsAffordable(feature == Feature::Caustics ? ShareForCaustics() : kPairShare))
         candidates.push_back(feature);
     }
     return candidates;
@@ -97,7 +98,7 @@ class OmissionFinder {
     const std::optional<double> light = LightOf(feature);
     if (!light) return true;
     const bool isCaustics = feature == Feature::Caustics;
-    const double time = isCaustics ? std::min(chosen_.causticShare, 1.) : 1;
+    const double time = isCaustics ? CausticShare() : 1;
     if (IsCovered(*light) && (1 - time) * GrowthFor(*light) < kWorthwhile) return true;
     log_.Verbose(
         Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature), 100 * *light) +

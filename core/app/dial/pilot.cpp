@@ -148,13 +148,13 @@ double PilotRenderer::NoiseOfPicture(const RenderSetup& setup, double pixels) co
 
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }
 
-std::optional<std::uint64_t> PilotRenderer::Give(const DialSettings& settings,
-                                                 const std::vector<OmittedEffect>& omitted,
-                                                 RenderSetup* setup) {
+std::optional<std::uint64_t> PilotRenderer::Give(const DialChoice& choice, RenderSetup* setup) {
+  const DialSettings& settings = choice.settings;
   const bool isSame = setup_ && loaded_.integrator == setup->integratorName &&
                       loaded_.settings.photons == settings.photons &&
                       loaded_.settings.gatherRays == settings.gatherRays && !loaded_.isRough &&
-                      HaveSameNames(loaded_.omitted, omitted) && preparedSeed_ == FirstSeed();
+                      HaveSameNames(loaded_.omitted, choice.omitted) &&
+                      preparedSeed_ == FirstSeed();
   if (!isSame) return std::nullopt;
   // The integrators refer to the scene, so they go first.
   setup->integrator = std::move(setup_->integrator);

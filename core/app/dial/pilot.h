@@ -93,11 +93,10 @@ class PilotRenderer {
   // Renders a loan with random numbers of its own for each `number`. Throws LoadingStopped.
   OnePass RenderOnce(const RenderSetup& setup, std::uint64_t number);
 
-  // If the last pilot had this integrator, these settings, these effects and the photons of the
-  // first pass of the picture, moves its scene and its integrator to `setup`, and returns the seed
-  // of the photons. They refer to this object.
-  std::optional<std::uint64_t> Give(const DialSettings& settings,
-                                    const std::vector<OmittedEffect>& omitted, RenderSetup* setup);
+  // If the last pilot had this integrator, the settings and effects of the choice, and the photons
+  // of the first pass of the picture, moves its scene and its integrator to `setup`, and returns
+  // the seed of the photons. They refer to this object.
+  std::optional<std::uint64_t> Give(const DialChoice& choice, RenderSetup* setup);
 
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }

@@ -56,6 +56,12 @@ void PilotSeries::Render() {
   pilot.error *= last_.noiseOfPicture;
   pilots_.push_back(pilot);
   model_.FitNoise(pilots_);
+  OwnMaps(request_.settings.photons);
+}
+
+// The picture of an accuracy takes the maps of the last pilot. Quotes are for other renders.
+void PilotSeries::OwnMaps(double photons) {
+  if (unit_ == Unit::CountedCost) model_.owned = photons;
 }
 
 // Returns the pilot with the noise of the scene's photons.
@@ -83,6 +89,7 @@ void PilotSeries::RenderBias(double photons) {
   last_ = renderer_->Render(request);
   spent_ += CostOf(last_).maps + CostOf(last_).samples;
   model_.photonNoise = PilotOf(last_, photons).photonNoise;
+  OwnMaps(photons);
   if (last_.certificate) TakeBias(photons);
 }
 

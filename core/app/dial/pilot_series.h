@@ -46,8 +46,6 @@ class PilotSeries {
   std::size_t Count() const { return pilots_.size(); }  // rough ones do not count
   bool HasBias() const { return last_.hasBias; }
   const PilotPicture& Last() const { return last_; }
-  // Returns whether the last pilot had this factor of the photons, so that the next one has them.
-  bool HasPhotons(double photons) const { return last_.settings.photons == photons; }
   const DialSettings& Settings() const { return settings_; }  // with the photons of the scene
   double CausticMaps() const { return causticMaps_; }  // price for one group, with few photons
   double GatherRays() const { return gatherRays_; }    // for one sample per pixel of the picture
@@ -61,6 +59,7 @@ class PilotSeries {
   void TakeCosts(const PilotPicture& picture);
   MapPrices OneSetOf(const PilotPicture& picture) const;
   void TakeBias(double photons);
+  void OwnMaps(double photons);
   static Pilot PilotOf(const PilotPicture& picture, double photons);
 
   PilotRenderer* renderer_;

@@ -244,7 +244,7 @@ void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
   Exclude(
       !command.photonFile.empty(), command.HasStoppingRule() || command.RendersTwoHalves(),
       "--photons excludes --time-limit, --target-error, --accuracy, --two-halves and --certify: "
-      "each of their passes has photons of its own");
+      "their passes may shoot other photons");
 }
 
 // How many passes a time limit allows differs between machines, and a part belongs to no picture

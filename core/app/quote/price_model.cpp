@@ -27,14 +27,16 @@ std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
   for (double k = first; k <= (model.hasPhotons ? kMostPhotons : 1); k *= 2) {
     const double bias = (k < 1 ? std::max(model.bias, model.biasOfFewer) : model.bias) / k;
     const double photonNoise = model.photonNoise / k;
-    const double sets = photonNoise <= PhotonSets::kSmallShare * squared ? 1 : groups;
+    const double sets =
+        photonNoise <= PhotonSets::kSmallShare * (squared - bias * bias) ? 1 : groups;
     const double left = squared - photonNoise / sets - bias * bias;
     if (!(left > 0)) continue;
     Price price;
     price.samples = std::max(groups, std::ceil(groups * model.SamplesFor(left * groups)));
     price.photons = k;
     price.sets = int(sets);
-    price.seconds = model.fixed + sets * model.MapsFor(k) + price.samples * model.sample;
+    const double paid = k == model.owned ? sets - 1 : sets;
+    price.seconds = model.fixed + paid * model.MapsFor(k) + price.samples * model.sample;
     if (!best || price.seconds < best->seconds) best = price;
   }
   return best;

@@ -4,10 +4,10 @@
 // photons,
 //   error^2 = noise(n / g) / g + photonNoise / (m k) + (bias / k)^2,
 //   seconds = fixed + m MapsFor(k) + n sample.
-// m is 1 where the groups may keep their photons (core/render/passes/photon_sets.h), otherwise g.
-// Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots show
-// it, and it falls as m^-slope beyond them. The area of density estimates falls with the number of
-// photons, and bias is proportional to this area.
+// m is 1 where the groups should keep their photons (core/render/passes/photon_sets.h), otherwise
+// g. Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots
+// show it, and it falls as m^-slope beyond them. The area of density estimates falls with the
+// number of photons, and bias is proportional to this area.
 #pragma once
 
 #include <optional>
@@ -46,6 +46,7 @@ struct PriceModel {
   double fixed = 0, maps = 0, sample = 0;  // CPU seconds
   double keptMaps = 0;                     // the part of `maps` that does not fall where k < 1
   bool hasPhotons = false;                 // k may differ from 1
+  double owned = 0;  // the k of maps that exist already, so that one set costs nothing; 0: none
 
   // Fits the noise to the pilots, in ascending order of samples. The last one knows the noise of
   // the photons best.

@@ -34,6 +34,15 @@ void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
   std::fill(rayCount_.begin(), rayCount_.end(), 0);
 }
 
+void Corrections::JoinGroups() {
+  for (std::size_t g = 1; g < groups_.size(); ++g) {
+    Group& from = groups_[g];
+    groups_[0].samplesPerPixel += from.samplesPerPixel;
+    for (std::size_t i = 0; i < from.sums.size(); ++i) groups_[0].sums[i] += from.sums[i];
+    from = {};
+  }
+}
+
 std::vector<const Corrections::Group*> Corrections::Groups() const {
   std::vector<const Group*> groups;
   for (const Group& group : groups_)

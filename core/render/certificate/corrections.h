@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Corrections accumulates the corrections (core/transport/correction_sample.h) of the passes of a
-// picture, by pixel and by group of passes. Groups have photons and samples of their own, so their
-// corrections are independent. The expected value of a pixel is the true radiance minus the
-// picture's.
+// picture, by pixel and by group of passes. Groups have samples of their own, so their corrections
+// are independent for given photons. The expected value of a pixel is the true radiance minus the
+// picture's. If groups share their photons, this is the error of these photons, noise included.
 #pragma once
 
 #include <vector>
@@ -29,6 +29,9 @@ class Corrections {
   void AddLight(Point2i pixel, const Spectrum& correction, Real weight);
   // Moves the current pass to a group.
   void EndPass(int group, std::int64_t samplesPerPixel);
+
+  // Makes one group of all groups so far, because they have the same photons and later ones do not.
+  void JoinGroups();
 
   struct Group {
     std::int64_t samplesPerPixel = 0;

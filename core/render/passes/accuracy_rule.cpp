@@ -37,7 +37,7 @@ CertificateGoal AccuracyRule::NextGoal() const {
 void AccuracyRule::Look(const ErrorEstimate& estimate) {
   ++looks_;
   const Certificate* const certificate = estimate.certificate;
-  const double bias = certificate ? certificate->Bias() : 0;
+  const double bias = bias_ = certificate ? certificate->Bias() : 0;
   const double distance = std::hypot(Quantile(looks_) * estimate.noiseError,
                                      certificate ? certificate->UpperBias() - bias : 0);
   upper_ = estimate.noise + bias + distance;

@@ -6,6 +6,8 @@
 // the 5 % belongs to their bound, which holds at a level of 99 %.
 #pragma once
 
+#include <algorithm>
+
 #include "core/render/certificate/certificate.h"
 
 namespace exphoton {
@@ -37,6 +39,8 @@ class AccuracyRule {
   bool IsReached() const { return looks_ > 0 && upper_ <= wanted_; }
   // Returns whether the bias alone exceeds the accuracy.
   bool IsOutOfReach() const { return lowerBias_ > room_; }
+  // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
+  double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
   // interval fall as 1 / samples. Returns infinity if bias and fixed noise leave no room.
   double Growth() const { return growth_; }
@@ -47,7 +51,7 @@ class AccuracyRule {
   double wanted_, room_, biasShare_;  // relMSE; without and with omissions
   double omitted_;
   int looks_ = 0;
-  double upper_ = 0, lowerBias_ = 0, growth_ = 1;
+  double upper_ = 0, bias_ = 0, lowerBias_ = 0, growth_ = 1;
 };
 
 // Returns z with P(Z > z) = probability for a standard normal Z. probability: in (0, 0.5].

@@ -86,15 +86,15 @@ std::int64_t PassPlan::FirstGoal(const State& state) const {
   return std::min(PowerOfTwoUpTo(kRounding * *state.enough / 2), most);
 }
 
-// The second group is as large as the first one. The noise may then come from photons,
-// which larger groups would not reduce.
+// The second group is as large as the first one. If groups have photons of their own, the noise may
+// then come from photons, which larger groups would not reduce.
 std::int64_t PassPlan::LaterGoal(const State& state) const {
   const std::int64_t most = GoalByTime(state);
   if (!limits_.targetError) return most;
   if (groups_ < 2 || !state.noise) return std::min(PowerOfTwoUpTo(double(firstSamples_)), most);
   const double samples = double(state.samples);
   const double missing = samples * (*state.noise / *limits_.targetError - 1);
-  // A small group shoots as many photons as a large one, and its gathers are shared less well.
+  // The gathers of a small group are shared less well, and it may have to shoot photons.
   const double least = std::max(samples / 8, std::min(samples / 2, kWellShared));
   const double size = std::clamp(missing * kRounding, least, samples / 2);
   return std::min(PowerOfTwoUpTo(size), most);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PassPlan chooses the passes of a render with a stopping rule. Passes that share photon maps form
-// a group, because shooting photons again costs time. All passes continue one sequence of camera
-// samples. Derivation and measurements: docs/decisions/0037-groups-of-passes.md and
+// PassPlan chooses the passes of a render with a stopping rule. Passes form groups, whose
+// differences show the noise. The passes of a group have the same photons, because shooting photons
+// again costs time, and groups may share them too (PhotonSets). All passes continue one sequence of
+// camera samples. Derivation and measurements: docs/decisions/0037-groups-of-passes.md and
 // docs/decisions/0046-gathers-of-several-passes.md.
 #pragma once
 

@@ -44,8 +44,8 @@ std::optional<double> PassSum::Noise() const {
 double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianceError(); }
 
 // Errors fall by the ratio q from the halves of a group to the group, and so do the differences of
-// halves. The noise of photons shows between groups only. It raises the ratio, so the noise is
-// overestimated then.
+// halves. If groups have photons of their own, the noise of photons shows between groups only. It
+// raises the ratio, so the noise is overestimated then.
 void PassSum::CorrectForSequence(double within, Trust trust) {
   constexpr double kLeastRatio = .35;
   correction_ = 1;
@@ -62,7 +62,10 @@ void PassSum::SetPhotonNoise(double relative) {
 }
 
 void PassSum::JoinGroups() {
-  if (groups_ > 1) noise_.Join();
+  if (groups_ > 1) {
+    noise_.Join();
+    correction_ = 1;  // it is of groups without noise of photons between them
+  }
   joined_ = groups_;
   photonNoise_ = 0;
   known_.reset();

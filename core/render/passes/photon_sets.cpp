@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "core/render/passes/photon_sets.h"
 
-#include <limits>
+#include <cmath>
 
 #include "core/files/byte_archive.h"
 
 namespace exphoton {
 
 PhotonSets::PhotonSets(const PixelBounds& crop, bool isMeasured)
-    : firstOwn_(isMeasured ? std::numeric_limits<int>::max() : 0) {
+    : firstOwn_(isMeasured ? kNone : 0) {
   if (isMeasured) noise_.emplace(crop);
 }
 
@@ -26,7 +26,8 @@ void PhotonSets::Decide(const std::vector<double>& levels, double wanted, int ne
 void PhotonSets::Transfer(ByteArchive* archive) {
   char isMeasured = noise_ ? 1 : 0;
   archive->Values(&isMeasured, &firstOwn_, &relative_);
-  const bool isPossible = isMeasured ? noise_.has_value() : firstOwn_ >= 0;
+  const bool isPossible =
+      isMeasured ? noise_ && firstOwn_ == kNone && std::isfinite(relative_) : firstOwn_ >= 0;
   if (!isPossible || !(relative_ >= 0)) throw ArchiveError("its photons contradict its passes");
   if (!isMeasured) noise_.reset();
   if (noise_) noise_->Transfer(archive);

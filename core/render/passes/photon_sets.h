@@ -6,6 +6,7 @@
 // reasons.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "core/render/photon_noise.h"
@@ -29,7 +30,8 @@ class PhotonSets {
   bool IsKnown() const { return noise_ && noise_->IsKnown(); }
   // Estimates the noise, which must be known, and decides whether the groups from `nextGroup` on
   // keep the photons. levels: as in PhotonNoise. wanted: noise part of relMSE that the picture may
-  // have.
+  // have. If they do not, the groups so far still have the noise, until `nextGroup` has photons of
+  // its own.
   void Decide(const std::vector<double>& levels, double wanted, int nextGroup);
 
   // Returns the number of the photons of a group. Groups with the same number have the same.
@@ -43,6 +45,8 @@ class PhotonSets {
   void Transfer(ByteArchive* archive);  // saves or loads
 
  private:
+  static constexpr int kNone = std::numeric_limits<int>::max();
+
   std::optional<PhotonNoise> noise_;  // nullopt: groups have photons of their own
   int firstOwn_;                      // the first group with photons of its own
   double relative_ = 0;

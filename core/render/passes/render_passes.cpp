@@ -157,11 +157,13 @@ class Passes {
         state.noise = (*noise - shared) * *rule_.targetError / room;
       state.enough = forecasts_[0].SamplesFor(room);
     }
-    state.keepsPhotons = photons_.IsKnown();
     if (accuracy_) state.needed = double(sum_.SamplesPerPixel()) * accuracy_->Growth();
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
-    state.preprocess = preprocessSeconds_;
     state.sample = renderSeconds_ / double(std::max<std::int64_t>(sum_.SamplesPerPixel(), 1));
+    state.keepsPhotons = photons_.IsKnown();
+    // The first photons may be a pilot's, which cost no time here.
+    const double dear = accuracy_ ? rule_.accuracy->photonSamples * state.sample : 0;
+    state.preprocess = state.keepsPhotons ? 0 : std::max(preprocessSeconds_, dear);
     return state;
   }
 
@@ -211,16 +213,21 @@ class Passes {
     if (rule_.progressiveAlpha)
       result_.lastDiskArea = DiskAreaOfPass(group, *rule_.progressiveAlpha);
     plan_.Take(step);
-    if (step.isNewGroup && photons_.Divides(group)) sum_.JoinGroups();
+    if (step.isNewGroup && photons_.Divides(group)) {
+      sum_.JoinGroups();
+      if (options_.corrections) options_.corrections->JoinGroups();
+    }
     sum_.Add(passFilm_, step.size, group);
     if (options_.corrections) options_.corrections->EndPass(group, step.size);
     if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
     photons_.EndPass(step.size);
     TakePhotonNoise(group);
-    if (accuracy_) LookAtError();
+    // Groups with the same noisy photons say little about the error.
+    if (accuracy_ && !photons_.Divides(group + 1)) LookAtError();
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
-    if (step.isNewGroup) preprocessSeconds_ = renderer_.PreprocessSeconds();
+    if (step.isNewGroup)
+      preprocessSeconds_ = std::max(preprocessSeconds_, renderer_.PreprocessSeconds());
     renderSeconds_ += renderer_.RenderSeconds();
     groupSamples_ += step.size;
   }
@@ -230,9 +237,7 @@ class Passes {
                                            ? (group > 0 ? sum_.Levels() : forecasts_[0].Levels())
                                            : std::vector<double>();
     if (levels.empty()) return;
-    const double wanted =
-        accuracy_ ? rule_.accuracy->error * rule_.accuracy->error : *rule_.targetError;
-    photons_.Decide(levels, wanted, group + 1);
+    photons_.Decide(levels, accuracy_ ? accuracy_->RoomForNoise() : *rule_.targetError, group + 1);
     sum_.SetPhotonNoise(photons_.FirstNoise());
     job_.log.Verbose(Format("the photons cause a noise of %.3g of relMSE", photons_.FirstNoise()));
   }

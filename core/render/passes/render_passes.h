@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // RenderInPasses renders the picture as the mean of independent passes until a stopping rule holds.
-// Each pass has separate camera samples and separate preprocessing (photon maps). Derivation and
-// measurements: docs/decisions/0007-stopping-rules.md.
+// Each pass has separate camera samples. Groups of passes may have separate preprocessing (photon
+// maps). Derivation and measurements: docs/decisions/0007-stopping-rules.md.
 #pragma once
 
 #include <chrono>

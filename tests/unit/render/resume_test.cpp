@@ -56,6 +56,7 @@ class CountingIntegrator : public SurfaceIntegrator {
   }
   AovSet Aovs() const override { return other_.Aovs(); }
   DepthParameters DepthLimits() const override { return other_.DepthLimits(); }
+  bool FillsSignedLight() const override { return other_.FillsSignedLight(); }
   bool SharesGathers(const Scene& scene) const override { return other_.SharesGathers(scene); }
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     if (checkpoint_) checkpoint_->CountSample();
@@ -76,6 +77,9 @@ struct Case {
 constexpr const char* kShared =
     R"(SurfaceIntegrator "exphotonmap" "integer indirectphotons" 2000 "integer causticphotons" 100
        "integer finalgathersamples" 4 "bool sharedgather" "true")";
+constexpr const char* kManyPhotons =
+    R"(SurfaceIntegrator "exphotonmap" "integer indirectphotons" 20000 "integer causticphotons" 0
+       "integer finalgathersamples" 4)";
 constexpr const char* kPath = R"(SurfaceIntegrator "path")";
 constexpr const char* kMitchell = R"(SurfaceIntegrator "path" PixelFilter "mitchell")";
 
@@ -87,6 +91,7 @@ const Case kCases[] = {
     {Mode::Halves, kMitchell, {Aov::Normal}},
     {Mode::Target, kPath, {Aov::Variance, Aov::Direct}},
     {Mode::Target, kShared, {Aov::Indirect}},
+    {Mode::Target, kManyPhotons, {Aov::Variance}},
 };
 
 class ResumeTest : public testing::TestWithParam<int> {

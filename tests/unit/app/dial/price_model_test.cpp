@@ -169,6 +169,22 @@ TEST(PriceModel, PaysForOneSetOfMapsWhereItsNoiseIsSmall) {
   EXPECT_NEAR(two->seconds, 200, .1);
 }
 
+// Maps that exist are worth more samples.
+TEST(PriceModel, TakesMapsThatExist) {
+  PriceModel model;
+  model.camera = 1, model.maps = 100, model.sample = 1, model.hasPhotons = true;
+  model.leastPhotons = .25;
+  EXPECT_EQ(PriceOf(model, {.05, 2})->photons, .25);
+  model.owned = 1;
+  const auto price = PriceOf(model, {.05, 2});
+  EXPECT_EQ(price->photons, 1);
+  EXPECT_EQ(price->seconds, price->samples);
+  model.photonNoise = .001;  // two sets, of which one exists
+  const auto two = PriceOf(model, {.05, 2});
+  EXPECT_EQ(two->photons, 1);
+  EXPECT_NEAR(two->seconds, 100 + two->samples, 1e-9);
+}
+
 // Uncertain noise of the pilots makes the interval wider.
 TEST(PriceModel, IntervalsContainTheErrorOfThePilots) {
   PriceModel sure, unsure;
