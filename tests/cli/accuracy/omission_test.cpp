@@ -55,6 +55,16 @@ TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
   EXPECT_TRUE(Has(info, "accuracy/omittedBound")) << info;
 }
 
+// Only small renders have the effect.
+TEST_F(OmissionTest, ThePilotWithAllPhotonsLacksTheEffect) {
+  const auto causticPhotons = [&](const std::vector<std::string>& options) {
+    Render(options);
+    return Statistics().at("accuracy").at("pilots").at("causticPhotons").get<double>();
+  };
+  const double without = causticPhotons({"--accuracy", "3%"});
+  EXPECT_LT(without, causticPhotons({"--accuracy", "3%", "--effects", "all"}));
+}
+
 TEST_F(OmissionTest, KeepsWhatTheUserNames) {
   for (const char* effects : {"all", "glossy=on,caustics=on"}) {
     const std::string err = Render({"--accuracy", "3%", "--effects", effects});
