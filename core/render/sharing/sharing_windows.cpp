@@ -25,16 +25,6 @@ double SquaredDifference(const Spectrum& a, const Spectrum& b) {
   return sum;
 }
 
-// The final fit has the samples of all groups, so it has less noise than the fit to one choosing
-// group, and smaller windows are better. Returns the share of the noise that it lacks. With few
-// samples this noise is not known well enough, and the share counts as 0.
-double ExtraNoise(const GatherFragment& fragment) {
-  constexpr Real kEnough = 2;  // records of a choosing group
-  for (const int group : kChoosingGroups)
-    if (fragment.count[std::size_t(group)] < kEnough) return 0;
-  return 1 - 1. / kGatherGroups;
-}
-
 // Statistics of the differences between two windows' errors.
 struct Comparison {
   double sum = 0, squares = 0;
@@ -90,14 +80,9 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
   const Spectrum smooth = (fitted[0].back() + fitted[1].back()) * Real(.5);
   const double scale = SquaredDifference(smooth, Spectrum());
   if (!(scale > 0)) return place;
-  const double extra = ExtraNoise(fragment);
-  for (std::size_t w = 0; w < kRadii.size(); ++w) {
-    const double noise = SquaredDifference(fitted[0][w], fitted[1][w]) / 2;
-    for (std::size_t set = 0; set < 2; ++set) {
-      const double error = SquaredDifference(fitted[set][w], fitted[1 - set][0]);
-      place.errors[set][w] = float((error - extra * noise) / scale);
-    }
-  }
+  for (std::size_t set = 0; set < 2; ++set)
+    for (std::size_t w = 0; w < kRadii.size(); ++w)
+      place.errors[set][w] = float(SquaredDifference(fitted[set][w], fitted[1 - set][0]) / scale);
   place.isJudged = true;
   return place;
 }
