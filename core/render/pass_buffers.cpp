@@ -35,9 +35,9 @@ PassBuffers::PassBuffers(const Layout& layout, Film* film, AovFilm* aovs)
 void PassBuffers::AddSharedLight(ThreadPool* threads, Statistics* statistics) {
   if (layout_.batch) return;
   const PhaseTimer timer(*statistics, "share");
-  bands_->AddLight(
-      threads, {film_, aovs_, Splats(), bands_->Current().window, double(layout_.samplesPerPixel),
-                layout_.corrections, layout_.diskArea});
+  bands_->AddLight(threads, layout_.diskArea,
+                   {film_, aovs_, Splats(), bands_->Current().window,
+                    double(layout_.samplesPerPixel), layout_.corrections});
 }
 
 std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* statistics) {
@@ -51,7 +51,7 @@ std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* 
   statistics->SetCounter("render/sharing radius",
                          batch ? batch->MeanRadius() : bands_->Totals().MeanRadius(),
                          "pixels, mean radius of the windows of shared gathers");
-  return batch ? batch->Bias() : EstimateSharingBias(bands_->Totals().checked, *film_);
+  return batch ? std::nullopt : EstimateSharingBias(bands_->Totals().checked, *film_);
 }
 
 }  // namespace exphoton

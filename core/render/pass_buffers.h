@@ -40,7 +40,8 @@ class PassBuffers {
 
   // Adds the shared light of the current band of rows to the picture, unless there is a batch.
   void AddSharedLight(ThreadPool* threads, Statistics* statistics);
-  // Completes the film. Returns the estimate for shared gathers, if there is one.
+  // Completes the film. Returns the estimate for shared gathers, if there is one. A batch has one
+  // of its own.
   std::optional<SharingBias> Finish(ThreadPool* threads, Statistics* statistics);
 
  private:

@@ -68,10 +68,22 @@ struct PassRenderer::State {
       job.log.Notice("gathers of several passes are shared together up to " + Megabytes(memory) +
                      ", those of larger passes alone");
     }
-    if (isTooLarge || pass.sharing == RenderPass::Sharing::BeginsBatch) batch.reset();
+    if (isTooLarge || pass.sharing == RenderPass::Sharing::BeginsBatch) EndBatch();
     if (!GatherBatch::Fits(film.Full(), pass.sampleCount, memory)) return nullptr;
     if (!batch) MakeBatch(film);
+    batch->ForgetFit();
     return &*batch;
+  }
+
+  // Adds the bias of the batch to the totals. They have it only now, because its estimate takes
+  // time, and is of all passes of the batch.
+  void EndBatch() {
+    if (batch && batch->SamplesPerPixel() > 0) {
+      const PhaseTimer timer(job.statistics, "share");
+      if (const auto bias = batch->Bias(&job.threads))
+        totals.AddSharingBias(*bias, batch->SamplesPerPixel());
+    }
+    batch.reset();
   }
 
   void MakeBatch(const Film& film) {
@@ -223,10 +235,8 @@ struct PassRenderer::State {
     else
       RenderPixels(target, rendered, &passState);
     job.progress.End();
-    if (passBatch && passBatch->Bias())
-      totals.RemoveSharingBias(*passBatch->Bias(), passBatch->SamplesPerPixel());
     if (const auto bias = buffers.Finish(&job.threads, &job.statistics))
-      totals.AddSharingBias(*bias, passBatch ? passBatch->SamplesPerPixel() : pass.sampleCount);
+      totals.AddSharingBias(*bias, pass.sampleCount);
     if (options.view && (shared || buffers.Splats())) options.view->Show(*film, film->Crop());
   }
 
@@ -352,6 +362,7 @@ void PassRenderer::SaveTotals(StateWriter* writer) const { state_->SaveTotals(wr
 
 RenderResult PassRenderer::Finish() {
   const RenderJob& job = state_->job;
+  state_->EndBatch();
   RenderTotals totals = state_->totals;
   for (const RenderWorker& worker : state_->workers) totals.Add(worker.totals);
   RenderResult result;

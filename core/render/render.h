@@ -131,7 +131,8 @@ class PassRenderer {
   // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
 
-  // Returns the estimate for the passes so far; nullopt if no gathers are shared.
+  // Returns the estimate for the passes so far, without a batch that may go on; nullopt if no
+  // gathers are shared.
   std::optional<SharingBias> MeanSharingBias() const;
 
   // Saves what all passes have in common, and the current batch.

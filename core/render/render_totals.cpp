@@ -80,13 +80,6 @@ void RenderTotals::AddSharingBias(const SharingBias& bias, std::int64_t samplesP
   biasSamples_ += samplesPerPixel;
 }
 
-void RenderTotals::RemoveSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel) {
-  const auto weight = double(samplesPerPixel);
-  bias_ -= bias.squared * weight;
-  biasVariance_ -= bias.standardError * bias.standardError * weight * weight;
-  biasSamples_ -= samplesPerPixel;
-}
-
 std::optional<SharingBias> RenderTotals::MeanSharingBias() const {
   if (biasSamples_ <= 0) return std::nullopt;
   const auto total = double(biasSamples_);

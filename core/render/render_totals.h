@@ -21,9 +21,8 @@ struct RenderTotals {
   void Add(const RenderTotals& other);  // all counts, but not the light
   // Adds the picture of a pass.
   void AddLight(const Film& film, std::int64_t samplesPerPixel);
-  // Adds the estimate of a pass or of a batch of passes, or removes it again.
+  // Adds the estimate of a pass or of a complete batch of passes.
   void AddSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
-  void RemoveSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
   // Returns the mean of all passes; nullopt if no pass has an estimate.
   std::optional<SharingBias> MeanSharingBias() const;
   void Transfer(ByteArchive* archive);  // saves or loads everything

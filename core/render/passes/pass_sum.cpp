@@ -30,15 +30,20 @@ const char* StopReasonName(StopReason reason) {
 void PassSum::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
   picture_->Add(pass);
   noise_.Add(group % kPlaces, pass, samplesPerPixel);
-  known_.reset();
+  relativeVariance_.reset();
   ++passes_;
   groups_ = std::max(groups_, group + 1);
   samples_ += samplesPerPixel;
 }
 
 std::optional<double> PassSum::Noise() const {
-  if (HasTwoGroups() && !known_) known_ = correction_ * noise_.RelativeVariance() + photonNoise_;
-  return known_;
+  if (!HasTwoGroups()) return std::nullopt;
+  return correction_ * RelativeVariance() + photonNoise_;
+}
+
+double PassSum::RelativeVariance() const {
+  if (!relativeVariance_) relativeVariance_ = noise_.RelativeVariance();
+  return *relativeVariance_;
 }
 
 double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianceError(); }
@@ -50,16 +55,12 @@ void PassSum::CorrectForSequence(double within, Trust trust) {
   constexpr double kLeastRatio = .35;
   correction_ = 1;
   if (groups_ > 1 && within > 0) {
-    const double ratio = std::clamp(noise_.RelativeVariance() / within, kLeastRatio, .5);
+    const double ratio = std::clamp(RelativeVariance() / within, kLeastRatio, .5);
     correction_ = CancellingErrors(ratio, trust);
   }
-  known_.reset();
 }
 
-void PassSum::SetPhotonNoise(double relative) {
-  photonNoise_ = relative;
-  known_.reset();
-}
+void PassSum::SetPhotonNoise(double relative) { photonNoise_ = relative; }
 
 void PassSum::JoinGroups() {
   if (groups_ > 1) {
@@ -68,7 +69,7 @@ void PassSum::JoinGroups() {
   }
   joined_ = groups_;
   photonNoise_ = 0;
-  known_.reset();
+  relativeVariance_.reset();
 }
 
 std::optional<StopReason> PassSum::Reason() const {
@@ -98,7 +99,7 @@ void PassSum::TransferCounts(ByteArchive* archive) {
       !(correction_ > 0 && correction_ <= 1) || !(photonNoise_ >= 0) || joined_ < 0 ||
       joined_ > groups_)
     throw ArchiveError("its counts of passes contradict each other");
-  known_.reset();
+  relativeVariance_.reset();
 }
 
 }  // namespace exphoton

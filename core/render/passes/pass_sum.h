@@ -51,8 +51,8 @@ class PassSum {
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
 
   // States that the groups continue one sequence of camera samples, whose errors partly cancel.
-  // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
-  // after the passes of these groups.
+  // `within` is GroupForecast::Difference of the first group. It must be given after the passes of
+  // the second group.
   void CorrectForSequence(double within, Trust trust);
 
   // States that all passes have the same photons, which cause this noise part of relMSE. It does
@@ -84,6 +84,7 @@ class PassSum {
 
  private:
   bool HasTwoGroups() const { return groups_ > std::max(joined_, 1); }
+  double RelativeVariance() const;
 
   Film* picture_;
   Limits limits_;
@@ -91,9 +92,10 @@ class PassSum {
   int passes_ = 0, groups_ = 0;
   int joined_ = 0;  // groups that count as one
   std::int64_t samples_ = 0;
-  double correction_ = 1;                // factor on the noise of independent groups
-  double photonNoise_ = 0;               // of photons that all passes share
-  mutable std::optional<double> known_;  // result of Noise for the passes so far
+  double correction_ = 1;   // factor on the noise of independent groups
+  double photonNoise_ = 0;  // of photons that all passes share
+  // RelativeVariance of noise_, for the passes so far. It is computed when it is needed.
+  mutable std::optional<double> relativeVariance_;
 };
 
 }  // namespace exphoton

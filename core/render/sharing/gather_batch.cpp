@@ -30,6 +30,7 @@ bool GatherBatch::Fits(const PixelBounds& full, std::int64_t samplesPerPixel, do
 
 void GatherBatch::AddPass(const GatherFragments& gathers, std::int64_t samplesPerPixel,
                           ThreadPool* threads, Film* film, AovFilm* aovs) {
+  ForgetFit();
   own_.Add(*film);
   samples_ += samplesPerPixel;
   const PixelBounds& bounds = gathers_.Bounds();
@@ -52,12 +53,16 @@ void GatherBatch::FitLight(ThreadPool* threads) {
   std::optional<SplatBuffer> splats;
   if (splatWeights_) splats.emplace(*splatWeights_, &light_, lightAovs_.get());
   SplatBuffer* const buffer = splats ? &*splats : nullptr;
-  totals_ = AddSharedLight(gathers_, threads,
-                           {&light_, lightAovs_.get(), buffer, window_, double(samples_)});
+  shared_.emplace(gathers_, threads);
+  totals_ = shared_->AddLight({&light_, lightAovs_.get(), buffer, window_, double(samples_)});
   if (buffer) buffer->Finish();
+}
+
+std::optional<SharingBias> GatherBatch::Bias(ThreadPool* threads) {
+  if (!shared_) shared_.emplace(gathers_, threads);
   Film picture = own_;
   picture.Add(light_);
-  bias_ = EstimateSharingBias(totals_.checked, picture);
+  return EstimateSharingBias(shared_->Check(window_, double(samples_)), picture);
 }
 
 void GatherBatch::Transfer(ByteArchive* archive) {

@@ -25,6 +25,8 @@ class GatherBatch {
     const SplatWeights* splatWeights;
   };
   explicit GatherBatch(const Layout& layout);
+  GatherBatch(const GatherBatch&) = delete;
+  GatherBatch& operator=(const GatherBatch&) = delete;
 
   // Returns whether the gathers of the full picture with this number of samples a pixel fit into
   // the memory. A crop does not change the answer.
@@ -39,7 +41,10 @@ class GatherBatch {
 
   // These are results for all passes of the batch.
   double MeanRadius() const { return totals_.MeanRadius(); }  // of the windows, in pixels
-  const std::optional<SharingBias>& Bias() const { return bias_; }
+  // Estimates the bias anew with each call, which takes nearly as long as a fit. Needs a pass.
+  std::optional<SharingBias> Bias(ThreadPool* threads);
+  // Frees the memory of the last fit, which Bias can use.
+  void ForgetFit() { shared_.reset(); }
 
   static bool IsIn(const StateFile& file) { return file.Has(kSection); }
   void Save(StateWriter* writer);
@@ -55,12 +60,12 @@ class GatherBatch {
   PixelBounds window_;
   const SplatWeights* splatWeights_;
   GatherFragments gathers_;
+  std::optional<SharedGathers> shared_;  // the last fit; it refers to gathers_
   std::int64_t samples_ = 0;
   Film own_;    // the passes without the light of gathers
   Film light_;  // the light of all gathers
   std::unique_ptr<AovFilm> lightAovs_;
   SharingTotals totals_;
-  std::optional<SharingBias> bias_;
 };
 
 }  // namespace exphoton

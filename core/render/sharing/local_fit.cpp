@@ -73,8 +73,8 @@ FitFeatures FitTarget::FeaturesOf(Point2 samplePosition, const Normal3& sampleNo
 }
 
 void FitNeighbours::Reserve(std::size_t count) {
-  for (auto& column : columns)
-    if (column.size() < size + count) column.resize(2 * (size + count));
+  if (columns[0].size() >= size + count) return;
+  for (auto& column : columns) column.resize(2 * (size + count));
 }
 
 void LocalFit::Collect(const FragmentRows& rows, const Place& place,

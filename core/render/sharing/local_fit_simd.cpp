@@ -89,15 +89,16 @@ void Describe(const FragmentRows& rows, FragmentRows::Range range, const FitTarg
   }
 }
 
-// Calls use(kernel, first lane) for each run with the kernel weights 1 - d^2 / radius^2, at least
-// 0.
+// Calls use(kernel, first lane) with the kernel weights 1 - d^2 / radius^2, at least 0, for each
+// run with a weight above 0.
 template <class Use>
 HWY_INLINE void ForRuns(const FitNeighbours& from, Real radius, const Use& use) {
   const Real8 inverse = Real8::All(1 / (radius * radius)), one = Real8::All(1),
               zero = Real8::All(0);
   for (std::size_t i = 0; i < from.size; i += FitNeighbours::kRun) {
     const Real8 d2 = Real8::LoadUnaligned(from.At(FitNeighbours::Distance2) + i);
-    use(Max(one - d2 * inverse, zero), i);
+    const Real8 kernel = Max(one - d2 * inverse, zero);
+    if (LessEqualMask(kernel, zero) != 0xff) use(kernel, i);
   }
 }
 

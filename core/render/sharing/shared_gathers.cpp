@@ -51,54 +51,74 @@ void SharingTotals::Transfer(ByteArchive* archive) {
 
 int SharingMargin() { return SharingWindows::kReach; }
 
-SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
-                             const SharedLightTarget& target) {
-  const FragmentRows rows(gathers);
-  SharingWindows windows(gathers, rows, threads);
-  windows.Shrink(target.windowArea);
-  const SharingChecker checker(gathers, rows, windows, target.samplesPerPixel);
+SharedGathers::SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea)
+    : gathers_(gathers), threads_(threads), rows_(gathers), windows_(gathers, rows_, threads) {
+  windows_.Shrink(windowArea);
+}
+
+SharingTotals SharedGathers::AddLight(const SharedLightTarget& target) const {
   const PixelBounds& window = target.window;
-  std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));
+  std::vector<FitNeighbours> scratch(std::size_t(threads_->Count()));
   std::vector<SharingTotals> totals(std::size_t(window.Height()));  // by row
-  threads->For(window.Height(), [&](std::int64_t row, int worker) {
-    std::vector<FragmentLight> lights;
-    SplatBuffer::Pixel splat;
-    for (int x = window.x0; x < window.x1; ++x) {
-      const Point2i pixel{x, window.y0 + int(row)};
-      const GatherFragments::Pixel& gathered = gathers.At(pixel);
-      lights.clear();
-      for (const GatherFragment& fragment : gathered.fragments) {
-        const SharingWindows::Window chosen = windows.At(pixel, fragment);
-        lights.emplace_back(rows, pixel, fragment, chosen, &scratch[std::size_t(worker)]);
-        totals[std::size_t(row)].radii += double(chosen.radius * chosen.share);
-        totals[std::size_t(row)].fragments += 1;
-      }
-      if (const auto checked = checker.Check(pixel, &scratch[std::size_t(worker)]))
-        totals[std::size_t(row)].checked.push_back(*checked);
-      if (target.aovs && target.aovs->NeedsSharingBias() &&
-          target.aovs->Crop().Contains(pixel.x, pixel.y))
-        target.aovs->AddSharingBias(pixel, checker.Bias(pixel, &scratch[std::size_t(worker)]),
-                                    target.samplesPerPixel);
-      if (target.splats) splat.Begin(target.splats, pixel);
-      for (const GatherSample& sample : gathered.samples) {
-        const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
-        if (target.corrections)
-          target.corrections->AddLight(pixel, sample.weight * sample.light - L,
-                                       sample.sampleWeight);
-        const Aov aov = sample.depth == 0 ? Aov::Indirect : Aov::Specular;
-        if (target.splats) {
-          splat.AddLight(sample.film - Point2(Real(x), Real(pixel.y)), sample.sampleWeight, L, aov);
-          continue;
-        }
-        target.film->AddLight(pixel, L, sample.sampleWeight);
-        if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.sampleWeight);
-      }
-      if (target.splats) splat.End();
-    }
+  threads_->For(window.Height(), [&](std::int64_t row, int worker) {
+    totals[std::size_t(row)] = AddRow(target, window.y0 + int(row), &scratch[std::size_t(worker)]);
   });
   SharingTotals total;
   for (const SharingTotals& row : totals) total.Add(row);
   return total;
+}
+
+SharingTotals SharedGathers::AddRow(const SharedLightTarget& target, int y,
+                                    FitNeighbours* scratch) const {
+  const SharingChecker checker(gathers_, rows_, windows_, target.samplesPerPixel);
+  SharingTotals totals;
+  std::vector<FragmentLight> lights;
+  SplatBuffer::Pixel splat;
+  for (int x = target.window.x0; x < target.window.x1; ++x) {
+    const Point2i pixel{x, y};
+    const GatherFragments::Pixel& gathered = gathers_.At(pixel);
+    lights.clear();
+    for (const GatherFragment& fragment : gathered.fragments) {
+      const SharingWindows::Window chosen = windows_.At(pixel, fragment);
+      lights.emplace_back(rows_, pixel, fragment, chosen, scratch);
+      totals.radii += double(chosen.radius * chosen.share);
+      totals.fragments += 1;
+    }
+    if (target.aovs && target.aovs->NeedsSharingBias() &&
+        target.aovs->Crop().Contains(pixel.x, pixel.y))
+      target.aovs->AddSharingBias(pixel, checker.Bias(pixel, scratch), target.samplesPerPixel);
+    if (target.splats) splat.Begin(target.splats, pixel);
+    for (const GatherSample& sample : gathered.samples) {
+      const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
+      if (target.corrections)
+        target.corrections->AddLight(pixel, sample.weight * sample.light - L, sample.sampleWeight);
+      const Aov aov = sample.depth == 0 ? Aov::Indirect : Aov::Specular;
+      if (target.splats) {
+        splat.AddLight(sample.film - Point2(Real(x), Real(y)), sample.sampleWeight, L, aov);
+        continue;
+      }
+      target.film->AddLight(pixel, L, sample.sampleWeight);
+      if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.sampleWeight);
+    }
+    if (target.splats) splat.End();
+  }
+  return totals;
+}
+
+std::vector<CheckedPixel> SharedGathers::Check(const PixelBounds& window,
+                                               double samplesPerPixel) const {
+  const SharingChecker checker(gathers_, rows_, windows_, samplesPerPixel);
+  std::vector<FitNeighbours> scratch(std::size_t(threads_->Count()));
+  std::vector<std::vector<CheckedPixel>> rows(std::size_t(window.Height()));
+  threads_->For(window.Height(), [&](std::int64_t row, int worker) {
+    for (int x = window.x0; x < window.x1; ++x)
+      if (const auto checked =
+              checker.Check({x, window.y0 + int(row)}, &scratch[std::size_t(worker)]))
+        rows[std::size_t(row)].push_back(*checked);
+  });
+  std::vector<CheckedPixel> all;
+  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+  return all;
 }
 
 }  // namespace exphoton

@@ -8,8 +8,10 @@
 #include "core/base/parallel.h"
 #include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/film.h"
+#include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/gather_fragments.h"
 #include "core/render/sharing/sharing_bias.h"
+#include "core/render/sharing/sharing_windows.h"
 #include "core/render/splat_buffer.h"
 
 namespace exphoton {
@@ -28,7 +30,6 @@ struct SharedLightTarget {
   PixelBounds window;
   double samplesPerPixel;
   Corrections* corrections = nullptr;  // receives own light minus shared light; null: none
-  double windowArea = 1;               // of the windows, relative to those that were chosen
 };
 // SharingTotals adds up the radii of the windows, in pixels.
 struct SharingTotals {
@@ -42,7 +43,25 @@ struct SharingTotals {
   void Transfer(ByteArchive* archive);  // saves or loads
   double MeanRadius() const { return fragments > 0 ? radii / fragments : 0; }
 };
-SharingTotals AddSharedLight(const GatherFragments& gathers, ThreadPool* threads,
-                             const SharedLightTarget& target);
+
+// The gathers and threads must outlive this object.
+class SharedGathers {
+ public:
+  // `windowArea` is the area of the windows, relative to those that cross-validation chooses.
+  SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea = 1);
+
+  // Returns the radii of the windows. It checks no pixels.
+  SharingTotals AddLight(const SharedLightTarget& target) const;
+  // Returns what EstimateSharingBias needs. It takes nearly as long as AddLight.
+  std::vector<CheckedPixel> Check(const PixelBounds& window, double samplesPerPixel) const;
+
+ private:
+  SharingTotals AddRow(const SharedLightTarget& target, int y, FitNeighbours* scratch) const;
+
+  const GatherFragments& gathers_;
+  ThreadPool* threads_;
+  FragmentRows rows_;
+  SharingWindows windows_;
+};
 
 }  // namespace exphoton

@@ -44,8 +44,12 @@ SharingBands::SharingBands(const PixelBounds& window, const PixelBounds& gathere
     : bands_(PlanBands(window, gathered, samplesPerPixel, memory)),
       gathers_(bands_.front().gathered, samplesPerPixel) {}
 
-void SharingBands::AddLight(ThreadPool* threads, const SharedLightTarget& target) {
-  totals_.Add(AddSharedLight(gathers_, threads, target));
+void SharingBands::AddLight(ThreadPool* threads, double windowArea,
+                            const SharedLightTarget& target) {
+  const SharedGathers shared(gathers_, threads, windowArea);
+  SharingTotals totals = shared.AddLight(target);
+  totals.checked = shared.Check(target.window, target.samplesPerPixel);
+  totals_.Add(totals);
 }
 
 void SharingBands::GoToNext() {

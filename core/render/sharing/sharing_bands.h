@@ -37,8 +37,8 @@ class SharingBands {
   bool IsAtEnd() const { return current_ == bands_.size(); }
   const SharingBand& Current() const { return bands_[current_]; }
 
-  // Adds the light of the current band to the picture.
-  void AddLight(ThreadPool* threads, const SharedLightTarget& target);
+  // Adds the light of the current band to the picture, with windows of this relative area.
+  void AddLight(ThreadPool* threads, double windowArea, const SharedLightTarget& target);
   void GoToNext();
 
   const SharingTotals& Totals() const { return totals_; }

@@ -66,9 +66,9 @@ PictureSoFar PassState::Picture(ThreadPool* threads) const {
   if (parts_.splats) splats.emplace(*parts_.splats, &picture.film, picture.aovs.get());
   SplatBuffer* const buffer = splats ? &*splats : nullptr;
   if (parts_.shared)
-    AddSharedLight(parts_.shared->Gathers(), threads,
-                   {&picture.film, picture.aovs.get(), buffer, parts_.shared->Current().window,
-                    double(parts_.pass.sampleCount), nullptr, parts_.pass.diskArea});
+    SharedGathers(parts_.shared->Gathers(), threads, parts_.pass.diskArea)
+        .AddLight({&picture.film, picture.aovs.get(), buffer, parts_.shared->Current().window,
+                   double(parts_.pass.sampleCount)});
   if (buffer) buffer->Finish();
   return picture;
 }

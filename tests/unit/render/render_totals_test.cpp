@@ -20,15 +20,15 @@ TEST(RenderTotals, AddAllCountsOfAnotherThread) {
   EXPECT_EQ(first.rays.Total(), 2u);
 }
 
-// A batch of passes replaces its estimate after each pass.
-TEST(RenderTotals, ForgetTheRemovedEstimatesOfSharing) {
+TEST(RenderTotals, HaveTheMeanOfTheEstimatesOfSharing) {
   RenderTotals totals;
-  totals.AddSharingBias({.5, .25}, 4);
-  totals.RemoveSharingBias({.5, .25}, 4);
   EXPECT_FALSE(totals.MeanSharingBias());
   totals.AddSharingBias({.25, .125}, 8);
   EXPECT_EQ(totals.MeanSharingBias()->squared, .25);
   EXPECT_EQ(totals.MeanSharingBias()->standardError, .125);
+  totals.AddSharingBias({1, 0}, 4);
+  EXPECT_EQ(totals.MeanSharingBias()->squared, .5);
+  EXPECT_EQ(totals.MeanSharingBias()->standardError, .125 * 8 / 12);
 }
 
 }  // namespace

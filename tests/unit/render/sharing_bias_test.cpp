@@ -51,9 +51,10 @@ Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed, int pa
   }
   ThreadPool threads(1);
   AovFilm aovs(bounds, {Aov::SharingBias});
-  const SharingTotals totals =
-      AddSharedLight(gathers, &threads, {&film, &aovs, nullptr, bounds, kSamples});
-  Shared result{EstimateSharingBias(totals.checked, film).value(), {}, {}};
+  const SharedGathers shared(gathers, &threads);
+  shared.AddLight({&film, &aovs, nullptr, bounds, kSamples});
+  const std::vector<CheckedPixel> checked = shared.Check(bounds, kSamples);
+  Shared result{EstimateSharingBias(checked, film).value(), {}, {}};
   Image image;
   aovs.AppendTo(film, false, &image);
   for (std::size_t i = 1; i < image.pixels.size(); i += 3)
