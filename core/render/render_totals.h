@@ -24,6 +24,7 @@ struct RenderTotals {
   // Adds the estimate of a pass or of a batch of passes, or removes it again.
   void AddSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
   void RemoveSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
+  void DropSharingBias() { bias_ = biasVariance_ = 0, biasSamples_ = 0; }
   // Returns the mean of all passes; nullopt if no pass has an estimate.
   std::optional<SharingBias> MeanSharingBias() const;
   void Transfer(ByteArchive* archive);  // saves or loads everything

@@ -71,6 +71,12 @@ void PassSum::JoinGroups() {
   known_.reset();
 }
 
+void PassSum::TakeNoise(const PassSum& other) {
+  noise_ = other.noise_;
+  correction_ = other.correction_;
+  known_.reset();
+}
+
 std::optional<StopReason> PassSum::Reason() const {
   if (limits_.targetError && HasTwoGroups() && *Noise() <= *limits_.targetError)
     return StopReason::TargetError;

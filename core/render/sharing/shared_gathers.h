@@ -15,6 +15,7 @@
 namespace exphoton {
 
 class Corrections;
+struct SharingChange;
 
 // The light of a pixel depends on the gathers within this number of pixels.
 int SharingMargin();
@@ -29,6 +30,7 @@ struct SharedLightTarget {
   double samplesPerPixel;
   Corrections* corrections = nullptr;  // receives own light minus shared light; null: none
   double windowArea = 1;               // of the windows, relative to those that were chosen
+  SharingChange* change = nullptr;     // receives shared light minus own light; needs no splats
 };
 // SharingTotals adds up the radii of the windows, in pixels.
 struct SharingTotals {
