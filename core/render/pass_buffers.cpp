@@ -37,7 +37,7 @@ void PassBuffers::AddSharedLight(ThreadPool* threads, Statistics* statistics) {
   const PhaseTimer timer(*statistics, "share");
   bands_->AddLight(threads, layout_.diskArea,
                    {film_, aovs_, Splats(), bands_->Current().window,
-                    double(layout_.samplesPerPixel), layout_.corrections});
+                    double(layout_.samplesPerPixel), layout_.corrections, layout_.change});
 }
 
 std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* statistics) {

@@ -25,6 +25,7 @@ class PassBuffers {
     GatherBatch* batch = nullptr;        // receives the gathers; null: the pass shares its own
     Corrections* corrections = nullptr;  // as in RenderOptions
     double diskArea = 1;                 // as in RenderPass
+    SharingChange* change = nullptr;     // as RenderOptions::sharingChange
   };
   // Returns the pixels to render: those whose samples or gathers reach the film's crop window.
   static PixelBounds Rendered(const Layout& layout, const Film& film);

@@ -141,7 +141,7 @@ struct PassRenderer::State {
 
   PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
     return {splatWeights.get(), sharing.isOn,        pass.sampleCount, options.sharingMemory,
-            passBatch,          options.corrections, pass.diskArea};
+            passBatch,          options.corrections, pass.diskArea,    options.sharingChange};
   }
 
   ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {
@@ -291,7 +291,7 @@ struct PassRenderer::State {
   const RenderJob& job;
   const RenderOptions& options;
   const std::unique_ptr<const SplatWeights> splatWeights;  // null: samples are not splatted
-  const SharingPlan sharing;
+  SharingPlan sharing;
   std::optional<StillEmitters> stillEmitters;  // of the last film
   std::optional<EdgePixels> edges;             // of the last window
   std::deque<RenderWorker> workers;
@@ -326,6 +326,11 @@ PassRenderer::~PassRenderer() = default;
 
 std::optional<SharingBias> PassRenderer::MeanSharingBias() const {
   return state_->AllTotals().MeanSharingBias();
+}
+
+void PassRenderer::StopSharing() {
+  state_->sharing = {};
+  state_->totals.DropSharingBias();
 }
 
 double PassRenderer::PreprocessSeconds() const { return state_->preprocessSeconds; }

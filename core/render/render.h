@@ -28,6 +28,7 @@ namespace exphoton {
 
 class Checkpoints;
 class Corrections;
+struct SharingChange;
 class PhotonNoise;
 class ShardWriter;
 class StateFile;
@@ -72,6 +73,9 @@ struct RenderOptions {
   std::optional<std::uint64_t> preparedSeed{};
   // Receives the corrections of each pass, whose end the caller reports. Null: no certificate.
   Corrections* corrections = nullptr;
+  // Receives what shared gathers change in each pass, whose end the caller reports. Passes share
+  // alone, and their samples are not splatted. Null: it is not wanted.
+  SharingChange* sharingChange = nullptr;
   RenderView* view = nullptr;  // sees finished tiles and passes; null: none
 };
 
@@ -128,6 +132,8 @@ class PassRenderer {
   // Runs the preprocessing and adds the samples of the pass to the film. Only the first
   // preprocessing logs messages. Returns false if stopped; some pixels then lack samples.
   bool Run(const RenderPass& pass, const Sampler& sampler, Film* film);
+  // Makes later passes share no gathers, and drops the estimate of the bias.
+  void StopSharing();
   // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
 

@@ -23,6 +23,7 @@ struct RenderTotals {
   void AddLight(const Film& film, std::int64_t samplesPerPixel);
   // Adds the estimate of a pass or of a complete batch of passes.
   void AddSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
+  void DropSharingBias() { bias_ = biasVariance_ = 0, biasSamples_ = 0; }
   // Returns the mean of all passes; nullopt if no pass has an estimate.
   std::optional<SharingBias> MeanSharingBias() const;
   void Transfer(ByteArchive* archive);  // saves or loads everything

@@ -299,11 +299,11 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
+  if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
   RecordPasses(result, run);
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
   run->accuracy = command_.accuracy;
-  if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
   if (pilots_) run->pilots = pilots_->Work();
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
   if (command_.certifies) ReportCertificate(run->certificate, log_);

@@ -85,9 +85,9 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   }
   if (command.isProgressive) rule.progressiveAlpha = command.progressiveAlpha;
   if (command.accuracy)
-    rule.accuracy = StoppingRule::Accuracy{*command.accuracy, command.dial->firstSamples,
-                                           command.dial->biasShare, command.dial->photonSamples,
-                                           BoundOf(command.dial->omitted)};
+    rule.accuracy = StoppingRule::Accuracy{
+        *command.accuracy,           command.dial->firstSamples,     command.dial->biasShare,
+        command.dial->photonSamples, BoundOf(command.dial->omitted), !command.keepsSettings};
   return RenderInPasses(job, options, rule);
 }
 

@@ -203,6 +203,7 @@ void RecordPasses(const PassesResult& result, RunRecord* run) {
   run->noise = result.noise;
   run->noiseError = result.noiseError;
   run->upperError = result.upperError;
+  run->choice += result.changes;
   run->sharingBias = result.render.sharingBias;
   run->lastDiskArea = result.lastDiskArea;
 }

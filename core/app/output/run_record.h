@@ -63,7 +63,7 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
 // Sets the attributes of an EXR picture, and the ids of its Cryptomatte layers.
 void FinishExr(const RunRecord& run, bool isReproducible, Image* image);
 
-// Takes over the amount of rendering and its results.
+// Takes over the amount of rendering and its results. Adds changed settings to the choice.
 void RecordPasses(const PassesResult& result, RunRecord* run);
 
 std::string StatisticsTable(const RunRecord& run);

@@ -65,9 +65,10 @@ std::optional<Certificate> Certify(const Corrections& corrections, std::span<con
   std::vector<BlockBiasEstimator::Group> inputs;
   for (const auto* group : groups) {
     std::vector<float>& values = relative.emplace_back(levels.size());
+    const std::vector<double> sums = corrections.SumsOf(*group);
     const double factor = 1 / double(group->samplesPerPixel);
     for (std::size_t i = 0; i < levels.size(); ++i)
-      values[i] = float(group->sums[i] * factor / std::sqrt(levels[i] + kRelMseOffset));
+      values[i] = float(sums[i] * factor / std::sqrt(levels[i] + kRelMseOffset));
   }
   for (std::size_t g = 0; g < groups.size(); ++g)
     inputs.push_back({relative[g], double(groups[g]->samplesPerPixel) / samples});

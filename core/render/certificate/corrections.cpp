@@ -2,8 +2,19 @@
 #include "core/render/certificate/corrections.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace exphoton {
+
+namespace {
+
+// Adds the values to others and sets them to 0. The others are 0 if there are none yet.
+void Move(std::vector<double>* from, std::vector<double>* to) {
+  to->resize(std::max(to->size(), from->size()));
+  for (std::size_t i = 0; i < from->size(); ++i) (*to)[i] += std::exchange((*from)[i], 0.);
+}
+
+}  // namespace
 
 Corrections::Corrections(const PixelBounds& crop, double share)
     : crop_(crop),
@@ -18,19 +29,29 @@ void Corrections::Add(Point2i pixel, const CorrectionSample& sample, Real weight
 }
 
 void Corrections::AddLight(Point2i pixel, const Spectrum& correction, Real weight) {
-  if (!crop_.Contains(pixel.x, pixel.y)) return;
-  double* const sums = current_.data() + 3 * IndexOf(pixel);
-  for (int c = 0; c < Spectrum::kChannels; ++c) sums[c] += double(correction[c] * weight);
+  AddTo(&current_, pixel, correction, weight);
 }
+
+void Corrections::AddSharing(Point2i pixel, const Spectrum& correction, Real weight) {
+  AddTo(currentSharing_.empty() ? &current_ : &currentSharing_, pixel, correction, weight);
+}
+
+void Corrections::AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum& correction,
+                        Real weight) {
+  if (!crop_.Contains(pixel.x, pixel.y)) return;
+  double* const at = sums->data() + 3 * IndexOf(pixel);
+  for (int c = 0; c < Spectrum::kChannels; ++c) at[c] += double(correction[c] * weight);
+}
+
+void Corrections::KeepSharingApart() { currentSharing_.assign(current_.size(), 0); }
 
 void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
   if (groups_.size() <= std::size_t(group)) groups_.resize(std::size_t(group) + 1);
   Group& to = groups_[std::size_t(group)];
   to.samplesPerPixel += samplesPerPixel;
-  to.sums.resize(current_.size());
-  for (std::size_t i = 0; i < current_.size(); ++i) to.sums[i] += current_[i];
+  Move(&current_, &to.sums);
+  Move(&currentSharing_, &to.sharing);
   for (const std::int64_t count : rayCount_) count_ += count;
-  std::fill(current_.begin(), current_.end(), 0.);
   std::fill(rayCount_.begin(), rayCount_.end(), 0);
 }
 
@@ -38,9 +59,17 @@ void Corrections::JoinGroups() {
   for (std::size_t g = 1; g < groups_.size(); ++g) {
     Group& from = groups_[g];
     groups_[0].samplesPerPixel += from.samplesPerPixel;
-    for (std::size_t i = 0; i < from.sums.size(); ++i) groups_[0].sums[i] += from.sums[i];
+    Move(&from.sums, &groups_[0].sums);
+    Move(&from.sharing, &groups_[0].sharing);
     from = {};
   }
+}
+
+std::vector<double> Corrections::SumsOf(const Group& group) const {
+  std::vector<double> sums = group.sums;
+  if (isShared_)
+    for (std::size_t i = 0; i < group.sharing.size(); ++i) sums[i] += group.sharing[i];
+  return sums;
 }
 
 std::vector<const Corrections::Group*> Corrections::Groups() const {

@@ -27,6 +27,12 @@ class Corrections {
   void Add(Point2i pixel, const CorrectionSample& sample, Real weight);
   // Adds a correction to a sample that was added before with this weight.
   void AddLight(Point2i pixel, const Spectrum& correction, Real weight);
+  // Adds own light minus shared light of such a sample (core/render/sharing/shared_gathers.h).
+  void AddSharing(Point2i pixel, const Spectrum& correction, Real weight);
+  // Keeps these parts apart, so that SumsOf can leave them out. Must be called before all passes.
+  void KeepSharingApart();
+  // States whether the picture shares gathers. Without sharing, SumsOf leaves these parts out.
+  void UseSharing(bool isShared) { isShared_ = isShared; }
   // Moves the current pass to a group.
   void EndPass(int group, std::int64_t samplesPerPixel);
 
@@ -35,10 +41,13 @@ class Corrections {
 
   struct Group {
     std::int64_t samplesPerPixel = 0;
-    std::vector<double> sums;  // three channels per pixel, over all samples of the group
+    std::vector<double> sums;     // three channels per pixel, over all samples of the group
+    std::vector<double> sharing;  // parts that are kept apart, which `sums` lacks; empty: none
   };
   // Returns the groups that have samples.
   std::vector<const Group*> Groups() const;
+  // Returns the sums of a group for the picture.
+  std::vector<double> SumsOf(const Group& group) const;
   std::int64_t Count() const { return count_; }  // corrected rays of all passes
 
  private:
@@ -49,10 +58,14 @@ class Corrections {
 
   PixelBounds crop_;
   double share_;
+  void AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum& correction, Real weight);
+
   std::vector<double> current_;         // three channels per pixel
+  std::vector<double> currentSharing_;  // parts that are kept apart; empty: none
   std::vector<std::int64_t> rayCount_;  // corrected rays of the current pass, by pixel
   std::vector<Group> groups_;
   std::int64_t count_ = 0;
+  bool isShared_ = true;
 };
 
 }  // namespace exphoton

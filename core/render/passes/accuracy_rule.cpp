@@ -32,6 +32,10 @@ CertificateGoal AccuracyRule::NextGoal() const {
   return {.smallest = biasShare_ * room_, .quantile = Quantile(looks_ + 1)};
 }
 
+double AccuracyRule::MostBias(const SharingBias& sharing) const {
+  return std::max(sharing.squared, 0.) + Quantile(looks_) * sharing.standardError;
+}
+
 // Noise and bias are estimated from different random numbers, so the distances of their bounds add
 // as squares.
 void AccuracyRule::Look(const ErrorEstimate& estimate) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "core/render/certificate/certificate.h"
+#include "core/render/sharing/sharing_estimate.h"
 
 namespace exphoton {
 
@@ -33,6 +34,10 @@ class AccuracyRule {
   // Returns the goal of the certificate for the next look.
   CertificateGoal NextGoal() const;
   void Look(const ErrorEstimate& estimate);
+  // Counts a look at another picture, whose result is not used.
+  void CountLook() { ++looks_; }
+  // Returns the upper end of the interval of this bias at the last look, as a part of relMSE.
+  double MostBias(const SharingBias& sharing) const;
 
   // The results of the last look.
   double Upper() const { return upper_; }  // end of the interval of relMSE, with `omitted`

@@ -29,6 +29,10 @@ class PassParts {
 
   const RenderOptions& Options() const { return options_; }  // of one pass
 
+  // Names the receiver of what sharing changes in each pass; null: none.
+  void SetSharingChange(SharingChange* change) { options_.sharingChange = change; }
+
+  AovFilm* Aovs() const { return all_; }  // of all passes so far; null: none
   bool NeedsVariances() const { return all_ && all_->Wanted().Has(Aov::Variance); }
   void TakeAovs(bool isKept);                 // ends the AOVs of a pass, and adds them if kept
   void AddAovs(PictureSoFar* picture) const;  // adds the AOVs of earlier passes

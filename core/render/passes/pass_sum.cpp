@@ -72,6 +72,12 @@ void PassSum::JoinGroups() {
   relativeVariance_.reset();
 }
 
+void PassSum::TakeNoise(const PassSum& other) {
+  noise_ = other.noise_;
+  correction_ = other.correction_;
+  relativeVariance_.reset();
+}
+
 std::optional<StopReason> PassSum::Reason() const {
   if (limits_.targetError && HasTwoGroups() && *Noise() <= *limits_.targetError)
     return StopReason::TargetError;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/imaging/film/pass_noise.h"
@@ -29,6 +30,7 @@ struct PassesResult {
   std::vector<float> variances;          // of each pixel, three channels; empty with one pass
   std::optional<double> lastDiskArea{};  // of the last pass; nullopt: passes are not progressive
   std::optional<double> upperError{};    // relMSE; the upper end of its interval (AccuracyRule)
+  std::string changes{};                 // of settings, such as ", gathers shared -> not shared"
   std::vector<double> levels{};          // PassSum::Levels, for a certificate; empty without one
 };
 
@@ -61,6 +63,8 @@ class PassSum {
   // States that the groups so far have the same photons, and that each later group has its own. The
   // former then count as one group.
   void JoinGroups();
+  // Takes over the noise of another picture of the same passes.
+  void TakeNoise(const PassSum& other);
 
   // Returns TargetError or Samples if this rule holds.
   std::optional<StopReason> Reason() const;

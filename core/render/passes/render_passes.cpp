@@ -13,6 +13,8 @@
 #include "core/render/passes/pass_plan.h"
 #include "core/render/passes/photon_sets.h"
 #include "core/render/passes/progressive.h"
+#include "core/render/passes/unshared_picture.h"
+#include "core/render/splat_weights.h"
 
 namespace exphoton {
 namespace {
@@ -23,6 +25,10 @@ constexpr std::int64_t kProgressSteps = 1000;
 // The first samples of a sequence are well distributed if their number is this number times a power
 // of two. A larger number would spoil small passes.
 constexpr std::int64_t kWellDistributed = 2;
+// Fewer samples share badly and say little about the bias of sharing.
+constexpr std::int64_t kFewestToStopSharing = 8;
+// The picture without sharing takes about 400 bytes a pixel.
+constexpr std::size_t kMostPixelsToStopSharing = std::size_t(1) << 21;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -53,6 +59,7 @@ class Passes {
                                       (rule.accuracy || (rule.targetError && hasBatches_))) {
     if (rule.accuracy)
       accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
+    if (accuracy_ && rule.accuracy->mayStopSharing) FollowSharing();
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
     // high, because the errors of one sequence partly cancel.
     if (job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy))
@@ -81,6 +88,16 @@ class Passes {
   }
 
  private:
+  // Splatted light has no place where sharing changes it.
+  void FollowSharing() {
+    if (!sharesGathers_ || !options_.corrections || SplatWeights::Of(job_.filter) ||
+        job_.film.PixelCount() > kMostPixelsToStopSharing)
+      return;
+    unshared_.emplace(job_.film, parts_.Aovs());
+    parts_.SetSharingChange(unshared_->OfPass());
+    options_.corrections->KeepSharingApart();
+  }
+
   // Saves or loads the passes that are complete, and the step of the next one.
   void Transfer(ByteArchive* archive) {
     plan_.Transfer(archive);
@@ -211,9 +228,11 @@ class Passes {
     plan_.Take(step);
     if (step.isNewGroup && photons_.Divides(group)) {
       sum_.JoinGroups();
+      if (unshared_) unshared_->Sum().JoinGroups();
       if (options_.corrections) options_.corrections->JoinGroups();
     }
     sum_.Add(passFilm_, step.size, group);
+    if (unshared_) unshared_->Add(&passFilm_, step.size, group);
     if (options_.corrections) options_.corrections->EndPass(group, step.size);
     if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
     photons_.EndPass(step.size);
@@ -234,26 +253,65 @@ class Passes {
     if (levels.empty()) return;
     photons_.Decide(levels, accuracy_ ? accuracy_->RoomForNoise() : *rule_.targetError, group + 1);
     sum_.SetPhotonNoise(photons_.FirstNoise());
+    if (unshared_) unshared_->Sum().SetPhotonNoise(photons_.FirstNoise());
     job_.log.Verbose(Format("the photons cause a noise of %.3g of relMSE", photons_.FirstNoise()));
   }
 
-  void LookAtError() {
-    if (!sum_.Noise()) return;
+  // Looks at the picture with this noise. Returns its certificate.
+  std::optional<Certificate> Look(const PassSum& sum, const std::optional<SharingBias>& sharing,
+                                  AccuracyRule* rule) const {
     std::optional<Certificate> certificate;
     if (options_.corrections)
-      certificate =
-          Certify(*options_.corrections, sum_.Levels(), *sum_.Noise(), accuracy_->NextGoal());
-    if (certificate) certificate->sharing = renderer_.MeanSharingBias();
-    accuracy_->Look({*sum_.Noise(), sum_.NoiseError(), photons_.SharedNoise(),
-                     certificate ? &*certificate : nullptr});
-    result_.upperError = accuracy_->Upper();
+      certificate = Certify(*options_.corrections, sum.Levels(), *sum.Noise(), rule->NextGoal());
+    if (certificate) certificate->sharing = sharing;
+    rule->Look({*sum.Noise(), sum.NoiseError(), photons_.SharedNoise(),
+                certificate ? &*certificate : nullptr});
     job_.log.Verbose(
         Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
                "error below "
                "%.3g %%",
-               static_cast<long long>(sum_.SamplesPerPixel()), *sum_.Noise(), sum_.NoiseError(),
+               static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), sum.NoiseError(),
                certificate ? certificate->LowerBias() : 0,
-               certificate ? certificate->UpperBias() : 0, 100 * std::sqrt(accuracy_->Upper())));
+               certificate ? certificate->UpperBias() : 0, 100 * std::sqrt(rule->Upper())));
+    return certificate;
+  }
+
+  void LookAtError() {
+    if (!sum_.Noise()) return;
+    const auto certificate = Look(sum_, renderer_.MeanSharingBias(), &*accuracy_);
+    if (unshared_ && !accuracy_->IsReached() && certificate && certificate->sharing &&
+        MayBeBetterUnshared(*certificate->sharing))
+      LookWithoutSharing();
+    result_.upperError = accuracy_->Upper();
+  }
+
+  // Each look costs confidence, so the noise decides whether one at the other picture can pay.
+  bool MayBeBetterUnshared(const SharingBias& sharing) {
+    return sum_.SamplesPerPixel() >= kFewestToStopSharing &&
+           *unshared_->Sum().Noise() < *sum_.Noise() + accuracy_->MostBias(sharing);
+  }
+
+  // Takes the picture without shared gathers if it should need fewer samples.
+  void LookWithoutSharing() {
+    job_.log.Verbose("the same samples without shared gathers:");
+    options_.corrections->UseSharing(false);
+    AccuracyRule unshared = *accuracy_;
+    Look(unshared_->Sum(), std::nullopt, &unshared);
+    if (unshared.Growth() >= accuracy_->Growth()) {
+      options_.corrections->UseSharing(true);
+      accuracy_->CountLook();
+      return;
+    }
+    accuracy_ = unshared;
+    unshared_->Replace(&job_.film, parts_.Aovs(), &sum_);
+    unshared_.reset();
+    parts_.SetSharingChange(nullptr);
+    renderer_.StopSharing();
+    result_.changes = ", gathers shared -> not shared";
+    job_.log.Notice(
+        Format("gathers shared -> not shared after %lld samples a pixel, because the "
+               "bias of sharing is a large part of the error",
+               static_cast<long long>(sum_.SamplesPerPixel())));
   }
 
   void TakeForecast(std::int64_t samples, int group) {
@@ -312,7 +370,8 @@ class Passes {
   const bool hasBatches_;  // whether the passes of a group share their gathers together
   PhotonSets photons_;
   std::optional<AccuracyRule> accuracy_;
-  PassPlan::Step step_;  // the pass that is being rendered, or the next one
+  std::optional<UnsharedPicture> unshared_;  // nullopt: gathers are shared for good, or not at all
+  PassPlan::Step step_;                      // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   Clock::time_point begin_;

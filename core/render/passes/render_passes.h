@@ -28,6 +28,8 @@ struct StoppingRule {
     double biasShare = .125;   // of the squared error, what certificates should resolve
     double photonSamples = 0;  // as in PassPlan::Limits
     double omitted = 0;        // as in AccuracyRule
+    // Whether the picture may lose shared gathers where their bias is dear.
+    bool mayStopSharing = false;
   };
   std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs

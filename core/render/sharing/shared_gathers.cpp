@@ -10,6 +10,7 @@
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/local_fit.h"
 #include "core/render/sharing/sharing_windows.h"
+#include "core/render/sharing_change.h"
 
 namespace exphoton {
 namespace {
@@ -37,6 +38,30 @@ class FragmentLight {
   Real share_;
   std::optional<LocalFit> fit_;
 };
+
+Aov AovOf(const GatherSample& sample) { return sample.depth == 0 ? Aov::Indirect : Aov::Specular; }
+
+// Reports what sharing changes. L is the shared light of a sample.
+void AddChange(const SharedLightTarget& target, Point2i pixel, const GatherSample& sample,
+               const Spectrum& L) {
+  const Spectrum own = sample.weight * sample.light;
+  if (target.corrections) target.corrections->AddSharing(pixel, own - L, sample.sampleWeight);
+  if (!target.change) return;
+  target.change->film.AddLight(pixel, L - own, sample.sampleWeight);
+  if (target.change->aovs)
+    target.change->aovs->AddLight(pixel, AovOf(sample), L - own, sample.sampleWeight);
+}
+
+// Adds the bias to the AOV that shows it, if it is wanted.
+void AddBias(const SharedLightTarget& target, Point2i pixel, const SharingChecker& checker,
+             FitNeighbours* scratch) {
+  if (!target.aovs || !target.aovs->NeedsSharingBias() ||
+      !target.aovs->Crop().Contains(pixel.x, pixel.y))
+    return;
+  const Spectrum bias = checker.Bias(pixel, scratch);
+  target.aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
+  if (target.change) target.change->aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
+}
 
 }  // namespace
 
@@ -84,15 +109,12 @@ SharingTotals SharedGathers::AddRow(const SharedLightTarget& target, int y,
       totals.radii += double(chosen.radius * chosen.share);
       totals.fragments += 1;
     }
-    if (target.aovs && target.aovs->NeedsSharingBias() &&
-        target.aovs->Crop().Contains(pixel.x, pixel.y))
-      target.aovs->AddSharingBias(pixel, checker.Bias(pixel, scratch), target.samplesPerPixel);
+    AddBias(target, pixel, checker, scratch);
     if (target.splats) splat.Begin(target.splats, pixel);
     for (const GatherSample& sample : gathered.samples) {
       const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
-      if (target.corrections)
-        target.corrections->AddLight(pixel, sample.weight * sample.light - L, sample.sampleWeight);
-      const Aov aov = sample.depth == 0 ? Aov::Indirect : Aov::Specular;
+      AddChange(target, pixel, sample, L);
+      const Aov aov = AovOf(sample);
       if (target.splats) {
         splat.AddLight(sample.film - Point2(Real(x), Real(y)), sample.sampleWeight, L, aov);
         continue;

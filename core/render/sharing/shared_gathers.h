@@ -17,6 +17,7 @@
 namespace exphoton {
 
 class Corrections;
+struct SharingChange;
 
 // The light of a pixel depends on the gathers within this number of pixels.
 int SharingMargin();
@@ -30,6 +31,7 @@ struct SharedLightTarget {
   PixelBounds window;
   double samplesPerPixel;
   Corrections* corrections = nullptr;  // receives own light minus shared light; null: none
+  SharingChange* change = nullptr;     // receives shared light minus own light; needs no splats
 };
 // SharingTotals adds up the radii of the windows, in pixels.
 struct SharingTotals {

@@ -54,6 +54,18 @@ TEST(AccuracyRule, CountsTheBiasAndItsInterval) {
   EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
 }
 
+// A look at another picture takes its part of the 5 %.
+TEST(AccuracyRule, CountsLooksThatAreNotUsed) {
+  AccuracyRule rule(.02, .125);
+  rule.Look({.noise = .0006, .noiseError = .0001});
+  EXPECT_NEAR(rule.MostBias({.0002, .0001}), .0002 + kFirst * .0001, 1e-9);
+  EXPECT_NEAR(rule.MostBias({-.0002, .0001}), kFirst * .0001, 1e-9);
+  EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
+  rule.CountLook();
+  EXPECT_NEAR(rule.NextGoal().quantile, NormalQuantile(.05 / 12), 1e-6);
+  EXPECT_NEAR(rule.Upper(), .0006 + kFirst * .0001, 1e-9);
+}
+
 TEST(AccuracyRule, ExpectsNoLessFixedNoiseFromMoreSamples) {
   AccuracyRule rule(.02, .125);
   rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = .0001});

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// UnsharedPicture is the picture that the passes so far give without shared gathers. It has more
+// noise than the shared one, but not its bias. Each pass has both pictures, because its gathers are
+// shared after they are known.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/render/passes/pass_sum.h"
+#include "core/render/sharing_change.h"
+
+namespace exphoton {
+
+class UnsharedPicture {
+ public:
+  // aovs: those of all passes; null: none.
+  UnsharedPicture(const Film& picture, const AovFilm* aovs);
+  UnsharedPicture(const UnsharedPicture&) = delete;
+  UnsharedPicture& operator=(const UnsharedPicture&) = delete;
+
+  // Receives the change of the next pass.
+  SharingChange* OfPass() { return &pass_; }
+  // Removes shared light from a complete pass, and adds the pass as PassSum::Add does.
+  void Add(Film* pass, std::int64_t samplesPerPixel, int group);
+  // The noise of this picture.
+  PassSum& Sum() { return sum_; }
+  // Turns the sum of the shared passes, its picture and their AOVs into those without sharing.
+  void Replace(Film* picture, AovFilm* aovs, PassSum* sum) const;
+
+ private:
+  SharingChange pass_;
+  Film picture_;                   // of all passes
+  std::unique_ptr<AovFilm> aovs_;  // what sharing changed in all passes; null: none
+  PassSum sum_;
+};
+
+}  // namespace exphoton
