@@ -10,8 +10,15 @@
 namespace exphoton {
 namespace {
 
-constexpr int kStride = 2;  // pixels between checks, along rows and columns
 constexpr int kBlock = 16;  // pixels
+
+// Returns whether this is the checked pixel of its square of 2 x 2 pixels: the first and the last
+// pixel of a square by turns, like the fields of a chessboard, so that no row or column of pixels
+// is left out.
+bool IsChecked(Point2i pixel) {
+  const int corner = ((pixel.x >> 1) + (pixel.y >> 1)) & 1;
+  return (pixel.x & 1) == corner && (pixel.y & 1) == corner;
+}
 
 // The weight of a fragment's light in its pixel. Parts of a divided sample count as parts.
 std::vector<Spectrum> WeightsOf(const GatherFragments::Pixel& gathered, double samples) {
@@ -51,7 +58,7 @@ std::optional<SharingBias> EstimateAlong(std::size_t direction,
 }  // namespace
 
 std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, FitNeighbours* scratch) const {
-  if (pixel.x % kStride != 0 || pixel.y % kStride != 0) return std::nullopt;
+  if (!IsChecked(pixel)) return std::nullopt;
   const auto own = Difference(pixel, kCheckingGroups[0], scratch);
   if (!own) return std::nullopt;
   const auto neighbour = [&](int x, int y) {

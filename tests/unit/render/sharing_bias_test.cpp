@@ -127,6 +127,16 @@ TEST(SharingBias, IsTheBiasOfThePicturesWhereLightWavesAlongRows) {
   EXPECT_NEAR(runs.estimate, runs.squaredBias, .2 * runs.squaredBias + 3 * runs.standardError);
 }
 
+// Dark columns of pixels, 8 pixels apart, show as much wherever they lie.
+TEST(SharingBias, IsTheSameForEvenAndOddColumns) {
+  const auto runsOf = [](int column) {
+    return CompareRuns([&](double x, double) { return int(x) % 8 == column ? .4 : 1.; }, 1);
+  };
+  const Comparison even = runsOf(2), odd = runsOf(3);
+  EXPECT_GT(even.estimate, 8 * even.standardError) << "the test could not fail";
+  EXPECT_NEAR(even.estimate, odd.estimate, 3 * std::hypot(even.standardError, odd.standardError));
+}
+
 // Four parts have the noise of one sample together.
 TEST(SharingBias, CountsPartsOfSamplesAsParts) {
   const Comparison runs = CompareRuns([](double, double y) { return 1 + .3 * std::sin(y); }, 2, 4);
