@@ -140,7 +140,10 @@ PassPlan::Step PassPlan::Next(const State& state) const {
     if (step.isNewGroup) goal = LaterGoal(state);
   }
   step.size = step.isNewGroup ? goal : goal - groupSamples_;
-  if (groups_ == 1 && !step.isNewGroup) step.size = std::min(step.size, groupSamples_);
+  if (groups_ == 1) {
+    const std::int64_t half = step.isNewGroup ? std::max<std::int64_t>(goal / 2, 1) : groupSamples_;
+    step.size = std::min(step.size, half);
+  }
   step.size = std::max<std::int64_t>(std::min(step.size, limits_.maxSamples - state.samples), 1);
   if (limits_.timeLimit && state.samples > 0) {
     const double left =

@@ -78,7 +78,7 @@ class PassPlan {
     std::int64_t size = 1;  // samples per pixel; 0: no sample fits into the time limit
   };
   // Returns the next pass. The first group doubles until it has about half the samples that are
-  // needed. The second one takes as many in one pass. More groups follow if the noise is still
+  // needed. The second one takes as many in two passes. More groups follow if the noise is still
   // too large.
   Step Next(const State& state) const;
   void Take(const Step& step);  // the pass was rendered

@@ -53,8 +53,8 @@ class PassSum {
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
 
   // States that the groups continue one sequence of camera samples, whose errors partly cancel.
-  // `within` is GroupForecast::Difference of the first group. It must be given after the passes of
-  // the second group.
+  // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
+  // after the passes of these groups.
   void CorrectForSequence(double within, Trust trust);
 
   // States that all passes have the same photons, which cause this noise part of relMSE. It does

@@ -3,6 +3,7 @@
 #include "core/render/passes/render_passes.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -49,7 +50,8 @@ class Passes {
         passFilm_(job.film.Full(), job.film.Crop()),
         sum_(&job.film, {rule.targetError, rule.maxSamples}),
         sharesGathers_(job.integrator.SharesGathers(job.scene)),
-        forecast_(job.film.Crop(), sharesGathers_),
+        forecasts_{GroupForecast(job.film.Crop(), sharesGathers_),
+                   GroupForecast(job.film.Crop(), sharesGathers_)},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
                rule.accuracy ? rule.accuracy->firstSamples : 0,
                rule.accuracy ? rule.accuracy->photonSamples : 0}),
@@ -127,9 +129,9 @@ class Passes {
       ByteArchive noise;
       sum_.TransferNoise(&noise);
       writer->Add("noise", noise.Take());
-      ByteArchive forecast;
-      forecast_.Transfer(&forecast);
-      writer->Add("forecast", forecast.Take());
+      ByteArchive forecasts;
+      for (GroupForecast& forecast : forecasts_) forecast.Transfer(&forecasts);
+      writer->Add("forecast", forecasts.Take());
     };
     if (!inner.picture) return outer;
     outer.picture = [this, inner] {
@@ -155,7 +157,9 @@ class Passes {
     LoadSection("film", &job_.film, file);
     parts_.LoadAovs(file);
     file.Read("noise", [this](ByteArchive* archive) { sum_.TransferNoise(archive); });
-    file.Read("forecast", [this](ByteArchive* archive) { forecast_.Transfer(archive); });
+    file.Read("forecast", [this](ByteArchive* archive) {
+      for (GroupForecast& forecast : forecasts_) forecast.Transfer(archive);
+    });
     job_.log.Notice("continuing \"" + file.Path() + "\" after " + std::to_string(sum_.Passes()) +
                     (sum_.Passes() == 1 ? " pass" : " passes"));
   }
@@ -168,7 +172,7 @@ class Passes {
       const double shared = photons_.SharedNoise(), room = *rule_.targetError - shared;
       if (const auto noise = sum_.Noise())
         state.noise = (*noise - shared) * *rule_.targetError / room;
-      state.enough = forecast_.SamplesFor(room);
+      state.enough = forecasts_[0].SamplesFor(room);
     }
     if (accuracy_) state.needed = double(sum_.SamplesPerPixel()) * accuracy_->Growth();
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
@@ -239,7 +243,8 @@ class Passes {
     TakePhotonNoise(group);
     // Groups with the same noisy photons say little about the error.
     if (accuracy_ && !photons_.Divides(group + 1)) LookAtError();
-    if (group == 2) forecast_.Release();
+    if (group == 2)
+      for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup)
       preprocessSeconds_ = std::max(preprocessSeconds_, renderer_.PreprocessSeconds());
     renderSeconds_ += renderer_.RenderSeconds();
@@ -248,7 +253,7 @@ class Passes {
 
   void TakePhotonNoise(int group) {
     const std::vector<double> levels = photons_.IsKnown()
-                                           ? (group > 0 ? sum_.Levels() : forecast_.Levels())
+                                           ? (group > 0 ? sum_.Levels() : forecasts_[0].Levels())
                                            : std::vector<double>();
     if (levels.empty()) return;
     photons_.Decide(levels, accuracy_ ? accuracy_->RoomForNoise() : *rule_.targetError, group + 1);
@@ -315,11 +320,10 @@ class Passes {
   }
 
   void TakeForecast(std::int64_t samples, int group) {
-    if (group == 0)
-      forecast_.Add(passFilm_, samples);
-    else if (sequence_)
-      sum_.CorrectForSequence(forecast_.Difference(),
-                              TrustIn(plan_.FirstSamples(), sharesGathers_));
+    forecasts_[std::size_t(group)].Add(passFilm_, samples);
+    const double a = forecasts_[0].Difference(), b = forecasts_[1].Difference();
+    if (sequence_ && a > 0 && b > 0)
+      sum_.CorrectForSequence((a + b) / 2, TrustIn(plan_.FirstSamples(), sharesGathers_));
   }
 
   // `next` is the step that would follow.
@@ -365,7 +369,7 @@ class Passes {
   Film passFilm_;
   PassSum sum_;
   const bool sharesGathers_;
-  GroupForecast forecast_;  // of the first group
+  std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
   const bool hasBatches_;  // whether the passes of a group share their gathers together
   PhotonSets photons_;

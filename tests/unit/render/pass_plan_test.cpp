@@ -20,7 +20,7 @@ TEST(PassPlan, ANewGroupFitsIntoTheTimeAfterItsPreprocessing) {
                       .sample = .1});
   };
   EXPECT_TRUE(next(7.04).isNewGroup);
-  EXPECT_EQ(next(7.04).size, 8);  // .96 s are left
+  EXPECT_EQ(next(7.04).size, 4);  // .96 s are left; the second group has two halves
   EXPECT_EQ(next(7.54).size, 4);  // .46 s
   EXPECT_EQ(next(7.84).size, 1);  // .16 s
   EXPECT_EQ(next(7.94).size, 0);  // .06 s: no sample
