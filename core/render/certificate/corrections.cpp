@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace exphoton {
-
 namespace {
 
 // Adds the values to others and sets them to 0. The others are 0 if there are none yet.

@@ -56,10 +56,10 @@ class Corrections {
            std::size_t(pixel.x - crop_.x0);
   }
 
-  PixelBounds crop_;
-  double share_;
   void AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum& correction, Real weight);
 
+  PixelBounds crop_;
+  double share_;
   std::vector<double> current_;         // three channels per pixel
   std::vector<double> currentSharing_;  // parts that are kept apart; empty: none
   std::vector<std::int64_t> rayCount_;  // corrected rays of the current pass, by pixel
