@@ -125,7 +125,7 @@ Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& contex
   const CorrectionSources sources{maps_, radianceMap_.get(), settings_, *lights_, correctionGuide_};
   GatherCorrection correction(sources, context);
   if (context.correction) rays.SetObserver(&correction);
-  return gather_.Gather(point, maps_.Map(PhotonKind::Indirect), context, rays);
+  return gather_.Gather(point, context, rays);
 }
 
 SurfaceLight PhotonIntegrator::Shown(const ShadingPoint& point, LiContext& context) const {

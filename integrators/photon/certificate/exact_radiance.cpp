@@ -85,8 +85,7 @@ Spectrum ExactRadiance::Sample(const ShadingPoint& point) {
 }
 
 ExactRadiance::Rays ExactRadiance::RaysAt(const ShadingPoint& point) {
-  const PhotonMap& photons = sources_.maps.Map(PhotonKind::Indirect);
-  const GuidedDirections guide = sources_.guide.Directions(point, photons, context_);
+  const GuidedDirections guide = sources_.guide.Directions(point, context_);
   if (guide.axes.size() == 0) return {{}, kRays, 0};
   const Real share = std::clamp(guide.share, kMinGuided, kMaxGuided);
   const int guided = int(std::lround(share * Real(kRays)));

@@ -89,10 +89,9 @@ const Spectrum* FinalGather::Rays::AllWeights(LiContext& context) const {
   return all;
 }
 
-FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, const PhotonMap& photons,
-                                        LiContext& context) const {
+FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, LiContext& context) const {
   const Bsdf& bsdf = point.bsdf;
-  const GuidedDirections guide = guide_.Directions(point, photons, context);
+  const GuidedDirections guide = guide_.Directions(point, context);
   const GuideDensity density(guide, cone_);
   const Split& split = SplitFor(guide, context.isDivided ? dividedSplits_ : splits_);
   const Vector3& wo = point.Wo();

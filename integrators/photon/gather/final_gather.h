@@ -26,7 +26,7 @@ class FinalGather {
   // samples of other requests do not change.
   void RequestSamples(bool gathers, SampleLayout* layout);
 
-  // Must be called after the map is built. `photons` must outlive the pass.
+  // Guides by these photons from now on, which must outlive the passes.
   void Prepare(const PhotonMap& photons) { guide_.Prepare(photons); }
 
   // Integrates f * incident * |cos| over the non-specular lobes, by rays with 0 < t < infinity. All
@@ -36,8 +36,7 @@ class FinalGather {
   // radiance. If Incident has IsObserved(), and it returns true, incident.Observe(point, reads)
   // gets the rays with their weights and radiances.
   template <class Incident>
-  Spectrum Gather(const ShadingPoint& point, const PhotonMap& photons, LiContext& context,
-                  const Incident& incident) const;
+  Spectrum Gather(const ShadingPoint& point, LiContext& context, const Incident& incident) const;
 
  private:
   // Fixed for the whole gather: f, Pdf and Sample must use the same lobes.
@@ -94,7 +93,7 @@ class FinalGather {
   };
 
   // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
-  Rays DrawRays(const ShadingPoint& point, const PhotonMap& photons, LiContext& context) const;
+  Rays DrawRays(const ShadingPoint& point, LiContext& context) const;
 
   std::vector<Split> splits_;         // by descending photonRays, which is 0 in the last
   std::vector<Split> dividedSplits_;  // the same for samples with LiContext::isDivided
@@ -104,11 +103,11 @@ class FinalGather {
 };
 
 template <class Incident>
-Spectrum FinalGather::Gather(const ShadingPoint& point, const PhotonMap& photons,
-                             LiContext& context, const Incident& incident) const {
+Spectrum FinalGather::Gather(const ShadingPoint& point, LiContext& context,
+                             const Incident& incident) const {
   if (!point.bsdf.Has(kLobes)) return {};
   const Arena::Mark mark = context.arena.GetMark();
-  const Rays rays = DrawRays(point, photons, context);
+  const Rays rays = DrawRays(point, context);
   using Segment = typename Incident::Segment;
   Segment* const segments = context.arena.template AllocateArray<Segment>(rays.count);
   const RaySpawner spawner(point.surface);

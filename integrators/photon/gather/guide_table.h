@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GuideCache and GuideTable keep cells of a GuideGrid. A cache holds the cells that one thread has
-// used lately, which suits gathers: neighbouring pixels mostly gather in the same cells. A table
-// keeps all cells of a pass for all threads, because the vertices of paths scatter over the scene.
+// GuideTable and GuideCache keep cells of a GuideGrid. A table keeps all cells of all threads, as
+// long as the photons stay the same. A cache holds the cells that one thread has used lately, for
+// the case that the table is full.
 #pragma once
 
 #include <atomic>
@@ -42,7 +42,7 @@ class GuideCache {
   Arena scratch_;
 };
 
-// GuideTable makes a cell when a path first asks for it. Cells depend on their keys alone, so it
+// GuideTable makes a cell when a gather or a path first asks for it. Cells depend on their keys alone, so it
 // does not matter which thread makes them, or in which order.
 class GuideTable {
  public:

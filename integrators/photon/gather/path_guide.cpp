@@ -62,15 +62,10 @@ std::optional<PathDirection> GuidedVertex::SampleBranch(const PathVertexVariates
   return direction;
 }
 
-void PathGuide::Prepare(const PhotonMap& map) {
-  photons_.Prepare(map);
-  cells_ = std::make_unique<GuideTable>(photons_.Grid(map));
-}
-
 GuidedVertex PathGuide::At(const ShadingPoint& point, bool maySplit, PathWeight* weight,
                            LiContext& context) const {
-  if (!cells_ || !maySplit || !point.bsdf.Has(LobeSet::NonSpecular)) return GuidedVertex(point);
-  const GuidedDirections guide = photons_.DirectionsIn(cells_.get(), point, context);
+  if (!photons_.IsOn() || !maySplit || !point.bsdf.Has(LobeSet::NonSpecular)) return GuidedVertex(point);
+  const GuidedDirections guide = photons_.DirectionsOnPath(point, context);
   const Spectrum reflectance = point.bsdf.Rho(LobeSet::NonSpecular);
   const Real expected = (weight->beta * reflectance).Y() * guide.irradiance;
   if (!(expected > 0)) return GuidedVertex(point);

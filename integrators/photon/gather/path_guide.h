@@ -8,7 +8,6 @@
 
 #include "core/transport/path/path_tracer.h"
 #include "integrators/photon/gather/cone_mixture.h"
-#include "integrators/photon/gather/guide_table.h"
 #include "integrators/photon/gather/photon_guide.h"
 
 namespace exphoton {
@@ -50,9 +49,9 @@ class PathGuide {
   PathGuide(int count, const Cone& cone) : cone_(cone), photons_(count, cone) {}
 
   // Guides by these photons from now on. The map must outlive the pass.
-  void Prepare(const PhotonMap& map);
+  void Prepare(const PhotonMap& map) { photons_.Prepare(map); }
   // Switches guiding off.
-  void Clear() { cells_.reset(); }
+  void Clear() { photons_.Clear(); }
 
   GuidedVertex At(const ShadingPoint& point, bool maySplit, PathWeight* weight,
                   LiContext& context) const;
@@ -60,7 +59,6 @@ class PathGuide {
  private:
   Cone cone_;
   PhotonGuide photons_;
-  std::unique_ptr<GuideTable> cells_;  // null: no guide
 };
 
 }  // namespace exphoton

@@ -2,7 +2,6 @@
 // PhotonGuide selects the photons of a cell to follow from a point, and reuses them nearby.
 #include "integrators/photon/gather/photon_guide.h"
 
-#include "integrators/photon/gather/guide_table.h"
 #include "integrators/photon/gather/reprojected_cell.h"
 #include "integrators/photon/maps/rest_pose.h"
 
@@ -82,15 +81,26 @@ struct LastGuide {
 }  // namespace
 
 void PhotonGuide::Prepare(const PhotonMap& map) {
+  cells_.reset();
+  if (count_ == 0 || map.IsEmpty()) return;
   constexpr Real kRadii = Real(.75);  // twice as much is noisier, a third is no better
   Arena arena;
-  if (count_ > 0) cellWidth_ = kRadii * map.TypicalRadius(count_, &arena);
-  if (!(cellWidth_ > 0)) cellWidth_ = 1;  // no photons, or all at one point
+  Real width = kRadii * map.TypicalRadius(count_, &arena);
+  if (!(width > 0)) width = 1;  // all photons at one point
+  cells_ = std::make_unique<GuideTable>(GuideGrid(map, count_, cone_, width));
 }
 
-GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const PhotonMap& map,
-                                         LiContext& context) const {
-  if (count_ == 0 || map.IsEmpty()) return {};
+template <class Follow>
+GuidedDirections PhotonGuide::WithCell(const Point3& p, LiContext& context,
+                                       const Follow& follow) const {
+  if (const GuideCell* cell = cells_->At(p, &context.arena)) return follow(*cell);
+  const GuideGrid& grid = cells_->Grid();
+  if (context.threadState) return follow(context.threadState->Get<GuideCache>(grid).At(p));
+  return follow(grid.MakeCell(grid.KeyOf(p), &context.arena));
+}
+
+GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, LiContext& context) const {
+  if (!cells_) return {};
   const Point3& p = point.surface.p;
   const LitSide side(point);
   LastGuide* const last = context.pixelState ? &context.pixelState->Get<LastGuide>() : nullptr;
@@ -98,29 +108,21 @@ GuidedDirections PhotonGuide::Directions(const ShadingPoint& point, const Photon
 
   const SeenFrom from{RestPose(point.surface), p, side};
   Arena& arena = context.pixelState ? context.pixelState->FreshArena() : context.arena;
-  const auto follow = [&](const GuideCell& cell) {
+  return WithCell(from.rest.Point(p), context, [&](const GuideCell& cell) {
     const GuidedDirections directions = kind_ == GatherSampling::Photons
                                             ? WorthFollowing(cell, from, cone_, &arena)
                                             : AllPhotons(cell, from, kind_, &arena);
     if (last) *last = {directions, cell.Radius2(), p, side};
     return directions;
-  };
-  if (!context.threadState)
-    return follow(GuideCell(map, from.rest.Point(p), count_, cone_, &context.arena));
-  return follow(context.threadState->Get<GuideCache>(Grid(map)).At(from.rest.Point(p)));
+  });
 }
 
-GuidedDirections PhotonGuide::DirectionsIn(GuideTable* cells, const ShadingPoint& point,
-                                           LiContext& context) const {
+GuidedDirections PhotonGuide::DirectionsOnPath(const ShadingPoint& point,
+                                               LiContext& context) const {
   const SeenFrom from{RestPose(point.surface), point.surface.p, LitSide(point)};
-  const Point3 p = from.rest.Point(from.p);
-  const auto follow = [&](const GuideCell& cell) {
+  return WithCell(from.rest.Point(from.p), context, [&](const GuideCell& cell) {
     return WorthFollowing(cell, from, cone_, &context.arena);
-  };
-  if (const GuideCell* cell = cells->At(p, &context.arena)) return follow(*cell);
-  const GuideGrid& grid = cells->Grid();
-  if (context.threadState) return follow(context.threadState->Get<GuideCache>(grid).At(p));
-  return follow(grid.MakeCell(grid.KeyOf(p), &context.arena));
+  });
 }
 
 }  // namespace exphoton

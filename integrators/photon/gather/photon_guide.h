@@ -5,19 +5,19 @@
 // for any guide (docs/theory/exphotonmap.md, section 5).
 #pragma once
 
+#include <memory>
+
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/gather/cone.h"
 #include "integrators/photon/gather/cone_directions.h"
 #include "integrators/photon/gather/densities/direction_histogram.h"
 #include "integrators/photon/gather/densities/photon_footprints.h"
-#include "integrators/photon/gather/guide_grid.h"
+#include "integrators/photon/gather/guide_table.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/photon_settings.h"
 
 namespace exphoton {
-
-class GuideTable;
 
 struct GuidedDirections {
   ConeDirections axes;  // in Hilbert order; empty: BSDF sampling does as well
@@ -36,23 +36,29 @@ class PhotonGuide {
   PhotonGuide(int count, const Cone& cone, GatherSampling kind = GatherSampling::Photons)
       : count_(count), cone_(cone), kind_(kind) {}
 
-  // Must be called when the map is built. The map must outlive the pass.
+  // Guides by the photons of this map from now on, which must outlive the passes. Cells are kept
+  // until the next call, so that all threads and all passes with these photons make a cell once.
   void Prepare(const PhotonMap& map);
-  // The result is valid until the next call for this pixel.
-  GuidedDirections Directions(const ShadingPoint& point, const PhotonMap& map,
-                              LiContext& context) const;
-  // The same for a vertex of a path, with cells from a table. The result is valid until the arena
+  // Switches guiding off.
+  void Clear() { cells_.reset(); }
+  bool IsOn() const { return cells_ != nullptr; }
+
+  // Returns no directions if guiding is off. The result is valid until the next call for this
+  // pixel.
+  GuidedDirections Directions(const ShadingPoint& point, LiContext& context) const;
+  // The same for a vertex of a path, where guiding must be on. The result is valid until the arena
   // of the context is rewound.
-  GuidedDirections DirectionsIn(GuideTable* cells, const ShadingPoint& point,
-                                LiContext& context) const;
-  // Returns the grid of the cells. Prepare must have been called.
-  GuideGrid Grid(const PhotonMap& map) const { return {map, count_, cone_, cellWidth_}; }
+  GuidedDirections DirectionsOnPath(const ShadingPoint& point, LiContext& context) const;
 
  private:
+  // Returns what `follow` makes of the cell that contains p.
+  template <class Follow>
+  GuidedDirections WithCell(const Point3& p, LiContext& context, const Follow& follow) const;
+
   int count_ = 0;
   Cone cone_;
   GatherSampling kind_ = GatherSampling::Photons;
-  Real cellWidth_ = 1;
+  std::unique_ptr<GuideTable> cells_;  // null: guiding is off
 };
 
 }  // namespace exphoton

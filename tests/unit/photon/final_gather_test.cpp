@@ -68,7 +68,8 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
   const auto& [angleDegrees, rrThreshold, count, part, throughput] = trial;
   static const LoadedScene scene = LoadSceneText("WorldBegin\nShape \"sphere\"\nWorldEnd\n");
   PhotonBuffer buffer;
-  for (const Vector3& w : guideDirections) buffer.Add({{0, 0, 0}, w, Spectrum(1)});
+  buffer.farthest = Real(1e5);  // the directions are the same from everywhere in a cell
+  for (const Vector3& w : guideDirections) buffer.Add({{0, 0, 0}, w, Spectrum(1), 1});
   buffer.paths = 1;
   ThreadPool threads(1);
   const PhotonMap guide(std::move(buffer), threads);
@@ -79,6 +80,7 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
   settings.rrThreshold = rrThreshold;
   settings.finalGatherSamples = 32;
   FinalGather gather(settings);
+  gather.Prepare(guide);
   SampleLayout layout;
   gather.RequestSamples(true, &layout);
   CameraSamples samples(layout);
@@ -98,7 +100,7 @@ Gathered GatherSky(const Sky& sky, const std::vector<Vector3>& guideDirections,
     LiContext context{*scene.setup->scene, samples, arena, rays, std::uint64_t(i)};
     GatherRecords handedOver;
     if (part != Part::Unshared) context.gathers = &handedOver;
-    double x = double(gather.Gather(point, guide, context, sky).g);
+    double x = double(gather.Gather(point, context, sky).g);
     if (part == Part::HandedOver) x = 0;
     if (part == Part::Own) handedOver.clear();
     for (const GatherRecord& record : handedOver) x += double((record.light * record.weight).g);

@@ -74,7 +74,7 @@ class PhotonGuideTest : public testing::Test {
     LiContext context{*scene_.setup->scene, samples, arena, rays, 0};
     context.pixelState = pixelState;
     context.threadState = threadState_;
-    return guide.Directions(point, photons, context);
+    return guide.Directions(point, context);
   }
   static Directions Listed(const GuidedDirections& guide) {
     Directions directions;
