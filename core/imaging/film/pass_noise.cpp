@@ -75,6 +75,7 @@ void PassNoise::Add(int group, const Film& pass, std::int64_t samplesPerPixel) {
     to.weight += float(from.weight);
   }
   samples_[std::size_t(group)] += samplesPerPixel;
+  levels_.clear();
 }
 
 void PassNoise::Join() {
@@ -87,6 +88,7 @@ void PassNoise::Join() {
   }
   samples_[0] = std::int64_t(SampleCount());
   std::fill(samples_.begin() + 1, samples_.end(), 0);
+  levels_.clear();
 }
 
 void PassNoise::Transfer(ByteArchive* archive) {
@@ -103,6 +105,7 @@ void PassNoise::Transfer(ByteArchive* archive) {
   for (std::size_t g = 0; g < sums_.size(); ++g)
     if (samples_[g] < 0 || (samples_[g] > 0 && sums_[g].empty()))
       throw ArchiveError("a group has no pixels");
+  levels_.clear();
 }
 
 double PassNoise::SampleCount() const {
@@ -155,7 +158,7 @@ double PassNoise::RelativeVarianceError() const {
 
 std::vector<double> PassNoise::RelativeVariances() const {
   const std::vector<float> variances = Variances();
-  const std::vector<double> squares = SquaredLevels(Means(), variances, width_);
+  const std::vector<double>& squares = Levels();
   std::vector<double> relative(pixelCount_);
   for (std::size_t i = 0; i < variances.size(); ++i) {
     relative[i / 3] += double(variances[i]) / (3 * (squares[i] + kRelMseOffset));
@@ -163,8 +166,9 @@ std::vector<double> PassNoise::RelativeVariances() const {
   return relative;
 }
 
-std::vector<double> PassNoise::Levels() const {
-  return SquaredLevels(Means(), Variances(), width_);
+const std::vector<double>& PassNoise::Levels() const {
+  if (levels_.empty()) levels_ = SquaredLevels(Means(), Variances(), width_);
+  return levels_;
 }
 
 std::vector<float> PassNoise::Means() const {

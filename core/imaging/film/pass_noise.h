@@ -33,8 +33,9 @@ class PassNoise {
   // Returns the estimated variance of each pixel of that picture, three channels per pixel.
   std::vector<float> Variances() const;
   // Returns the estimated r^2 (SquaredLevels) of each pixel of that picture, three channels per
-  // pixel. Needs two groups with samples.
-  std::vector<double> Levels() const;
+  // pixel. Needs two groups with samples. The result is valid until samples are added, joined or
+  // loaded.
+  const std::vector<double>& Levels() const;
 
  private:
   struct Sums {
@@ -55,6 +56,7 @@ class PassNoise {
   std::size_t width_, pixelCount_;
   std::vector<std::vector<Sums>> sums_;  // by group, then by pixel
   std::vector<std::int64_t> samples_;
+  mutable std::vector<double> levels_;  // of the samples so far; empty: computed when needed
 };
 
 }  // namespace exphoton

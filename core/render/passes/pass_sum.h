@@ -78,7 +78,7 @@ class PassSum {
   double NoiseError() const;  // its standard error; infinity before the second group
   // Returns r^2 of each pixel, to which noise is relative: PassNoise::Levels. Certificates divide
   // the bias by the same r, so that both are parts of one relMSE. Needs two groups.
-  std::vector<double> Levels() const { return noise_.Levels(); }
+  const std::vector<double>& Levels() const { return noise_.Levels(); }
   // Writes the numbers of passes and samples, the noise and, if wanted, the variances.
   void Describe(bool needsVariances, PassesResult* result) const;
 
