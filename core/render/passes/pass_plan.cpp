@@ -15,6 +15,7 @@ constexpr double kMaxGroupsInTime = 8;
 constexpr double kPreprocessShare = .1;  // of a time limit, where it allows two groups
 constexpr double kRounding = 1.5;        // sizes are rounded up from above 2^k / 1.5
 constexpr double kWellShared = 8;        // samples of a group whose gathers are shared well
+constexpr double kFewestShared = 4;      // with fewer samples, they are shared much worse
 constexpr double kHuge = 0x1p50;
 constexpr double kDearPhotons = .25;  // of the price of the samples of a pass
 
@@ -94,9 +95,10 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
   if (groups_ < 2 || !state.noise) return std::min(PowerOfTwoUpTo(double(firstSamples_)), most);
   const double samples = double(state.samples);
   const double missing = samples * (*state.noise / *limits_.targetError - 1);
-  // The gathers of a small group are shared less well, and it may have to shoot photons.
-  const double least = std::max(samples / 8, std::min(samples / 2, kWellShared));
-  const double size = std::clamp(missing * kRounding, least, samples / 2);
+  // A small group may have to shoot photons, and its gathers are shared less well.
+  const double fewest = limits_.sharesGathers ? std::min(kFewestShared, samples) : 1;
+  const double least = std::max({samples / 8, std::min(samples / 2, kWellShared), fewest});
+  const double size = std::clamp(missing * kRounding, least, std::max(samples / 2, least));
   return std::min(PowerOfTwoUpTo(size), most);
 }
 

@@ -54,7 +54,7 @@ class Passes {
                    GroupForecast(job.film.Crop(), sharesGathers_)},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
                rule.accuracy ? rule.accuracy->firstSamples : 0,
-               rule.accuracy ? rule.accuracy->photonSamples : 0}),
+               rule.accuracy ? rule.accuracy->photonSamples : 0, sharesGathers_}),
         // A certificate needs the light of each sample before and after sharing, pass by pass.
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections),
         photons_(job.film.Crop(), job.integrator.FillsSignedLight() &&
@@ -326,9 +326,17 @@ class Passes {
       sum_.CorrectForSequence((a + b) / 2, TrustIn(plan_.FirstSamples(), sharesGathers_));
   }
 
+  // Returns whether the target is reached by little, and only a part of the second group shows it.
+  bool IsDoubtful(const PassPlan::Step& next) const {
+    constexpr double kClearly = 1.25;
+    const bool isPart = plan_.Groups() == 2 && !next.isNewGroup && next.size > 0;
+    return isPart && kClearly * *sum_.Noise() > *rule_.targetError;
+  }
+
   // `next` is the step that would follow.
   std::optional<StopReason> Reason(const PassPlan::Step& next) {
     reasonMet_ = sum_.Reason();
+    if (reasonMet_ == StopReason::TargetError && IsDoubtful(next)) reasonMet_.reset();
     if (accuracy_ && accuracy_->IsReached())
       reasonMet_ = StopReason::Accuracy;
     else if (accuracy_ && accuracy_->IsOutOfReach())

@@ -29,8 +29,11 @@ TEST(PassPlan, ANewGroupFitsIntoTheTimeAfterItsPreprocessing) {
 // The groups after the second one have at least half of all samples, at most 8, and then at least
 // an eighth of them: they shoot photons again.
 TEST(PassPlan, LaterGroupsAreNotSmall) {
-  const auto next = [](std::int64_t samples) {
-    PassPlan plan({.targetError = 1e-3, .timeLimit = {}, .maxSamples = 100000});
+  const auto next = [](std::int64_t samples, bool sharesGathers = false) {
+    PassPlan plan({.targetError = 1e-3,
+                   .timeLimit = {},
+                   .maxSamples = 100000,
+                   .sharesGathers = sharesGathers});
     for (const bool isNewGroup : {true, false, true, false})
       plan.Take({.isNewGroup = isNewGroup, .size = samples / 4});
     return plan.Next({.samples = samples, .noise = 1.001e-3, .enough = double(samples)});
@@ -41,6 +44,9 @@ TEST(PassPlan, LaterGroupsAreNotSmall) {
   EXPECT_EQ(next(16).size, 8);
   EXPECT_EQ(next(64).size, 8);
   EXPECT_EQ(next(256).size, 32);
+  EXPECT_EQ(next(4, true).size, 4);
+  EXPECT_EQ(next(8, true).size, 4);
+  EXPECT_EQ(next(16, true).size, 8);
 }
 
 // A pass with a given number of samples takes 1.6 s for them and 2 s for its preprocessing.
