@@ -34,17 +34,17 @@ class Scene:
         text = run([self.program, "compare", reference, picture, "--max-relmse", "1e30"])
         return float(re.search(r"^relMSE\s+(\S+)", text, re.MULTILINE).group(1))
 
-    def reference(self, cost):
+    def reference(self, cost, *options):
         """Renders two halves with guidedpath; keeps them and their squared difference. The cost of each
         is a number of seconds, or of samples, such as "256spp", which other work does not reduce.
-        Halves that are in the folder already are not rendered again."""
+        Halves that are in the folder already are not rendered again. Options go to both renders."""
         rule = (["--spp", cost.removesuffix("spp")] if cost.endswith("spp")
                 else ["--time-limit", f"{cost}s"])
         self.halves = [os.path.join(self.folder, f"half{i}.exr") for i in (0, 1)]
         for i in (0, 1):
             if not os.path.exists(self.halves[i]):
                 self.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
-                            "--set", "SurfaceIntegrator.maxdepth=100", *rule)
+                            "--set", "SurfaceIntegrator.maxdepth=100", *rule, *options)
         self.noise = self.rel_mse(*self.halves)
 
     def error(self, picture):

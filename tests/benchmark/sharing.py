@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Measures what shared gathers save: error and CPU seconds with and without them, by scene.
+
+Usage: sharing.py PROGRAM WxH REFERENCE SEEDS SHARED UNSHARED SCENE ... [-- OPTION ...]
+SHARED and UNSHARED are lists of settings: samples a pixel, gather rays, and the number of indirect
+photons if it is not that of the file, such as 8x4,2x8x50000. "file" stands for the file's settings.
+REFERENCE is an EXR file, whose noise then counts as error, or a number of samples such as 256spp, for
+two halves by guidedpath without noise in the result. All settings of a seed are rendered one after the
+other with one thread, and the smallest time of all seeds counts. OPTIONs go to each render.
+
+The last column is the time of the other kind of settings at the same error, divided by the time of the
+row. It is interpolated between the settings that no other of their kind beats in time and error. A
+mark says where the error lies outside of them: "> 3" where they do not get there, and "< 3" where the
+cheapest of them is already better.
+"""
+import math
+import os
+import sys
+import tempfile
+
+from picture_errors import Scene
+
+SURFACE = "SurfaceIntegrator."
+
+
+def options_of(setting, is_shared):
+    options = ["--nthreads", "1", "--set", f"{SURFACE}sharedgather={str(is_shared).lower()}"]
+    if setting == "file":
+        return options
+    samples, rays, *photons = setting.split("x")
+    options += ["--spp", samples, "--set", f"{SURFACE}finalgathersamples={rays}"]
+    if photons:
+        options += ["--set", f"{SURFACE}indirectphotons={photons[0]}"]
+    return options
+
+
+def front(rows):
+    """Returns the (error, seconds) that no other row beats, by falling error."""
+    best, least = [], math.inf
+    for seconds, error in sorted((r["seconds"], r["error"]) for r in rows):
+        if error < least:
+            best.append((error, seconds))
+            least = error
+    return best
+
+
+def time_at(error, rows):
+    """Returns the seconds at this error, and a mark if it is a bound."""
+    points = front(rows)
+    if error >= points[0][0]:
+        return points[0][1], "" if error == points[0][0] else "< "
+    for (e0, t0), (e1, t1) in zip(points, points[1:]):
+        if error >= e1:
+            part = math.log(error / e0) / math.log(e1 / e0)
+            return t0 * (t1 / t0) ** part, ""
+    return points[-1][1], "> "
+
+
+def measure(scene, error, seeds, settings, more):
+    rows = [{"shared": shared, "setting": setting, "error": 0, "seconds": math.inf}
+            for shared, names in settings.items() for setting in names]
+    for seed in range(1, seeds + 1):
+        for row in rows:
+            picture, seconds = scene.render("picture", "--seed", str(seed), *more,
+                                            *options_of(row["setting"], row["shared"]))
+            row["error"] += error(picture) / seeds
+            row["seconds"] = min(row["seconds"], seconds)
+    return rows
+
+
+def print_rows(rows):
+    print("| gathers | samples x rays | relMSE | CPU s | time of the others at this error |\n"
+          "| --- | --- | --- | --- | --- |")
+    for row in rows:
+        seconds, mark = time_at(row["error"], [r for r in rows if r["shared"] != row["shared"]])
+        kind = "shared" if row["shared"] else "not shared"
+        print(f"| {kind} | {row['setting']} | {row['error']:.5f} | {row['seconds']:.2f} | "
+              f"{mark}{seconds / row['seconds']:.2f} |", flush=True)
+
+
+def main():
+    arguments = sys.argv[1:]
+    more = []
+    if "--" in arguments:
+        at = arguments.index("--")
+        arguments, more = arguments[:at], arguments[at + 1:]
+    if len(arguments) < 7:
+        sys.exit(__doc__)
+    program, size, reference, seeds, shared, unshared, *paths = arguments
+    settings = {True: shared.split(","), False: unshared.split(",")}
+    for path in paths:
+        with tempfile.TemporaryDirectory() as folder:
+            scene = Scene(program, path, size, folder)
+            if reference.endswith(".exr"):
+                def error(picture):
+                    return scene.rel_mse(picture, reference)
+            else:
+                scene.reference(reference, *more)
+                error = scene.error
+            print(f"\n{os.path.basename(os.path.dirname(path))}/{os.path.basename(path)}, {size} pixels"
+                  f"{', ' if more else ''}{' '.join(more)}\n", flush=True)
+            print_rows(measure(scene, error, int(seeds), settings, more))
+
+
+main()
