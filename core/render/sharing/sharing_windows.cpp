@@ -33,8 +33,8 @@ struct Comparison {
     sum += weighted;
     squares += weighted * weighted;
   }
-  // Whether the first window is better by more than one standard error.
-  bool IsBetter() const { return sum + std::sqrt(squares) < 0; }
+  // Returns whether the first window is better by more than this number of standard errors.
+  bool IsBetter(double deviations) const { return sum + deviations * std::sqrt(squares) < 0; }
 };
 
 }  // namespace
@@ -81,8 +81,11 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
   const double scale = SquaredDifference(smooth, Spectrum());
   if (!(scale > 0)) return place;
   for (std::size_t set = 0; set < 2; ++set)
-    for (std::size_t w = 0; w < kRadii.size(); ++w)
-      place.errors[set][w] = float(SquaredDifference(fitted[set][w], fitted[1 - set][0]) / scale);
+    for (std::size_t w = 0; w < kRadii.size(); ++w) {
+      const auto& other = fitted[1 - set];
+      place.errors[set][w] = float(SquaredDifference(fitted[set][w], other[0]) / scale);
+      place.errorsOfFits[set][w] = float(SquaredDifference(fitted[set][w], other[1]) / scale);
+    }
   place.isJudged = true;
   return place;
 }
@@ -109,19 +112,21 @@ void SharingWindows::ForNearby(const Place& point, Real radius, const Use& use) 
 
 Real SharingWindows::Choose(const Place& place) const {
   // Start with the smallest window that has a fit. Another window replaces the best one only if its
-  // errors are clearly smaller.
+  // errors are clearly smaller. Fits are compared with a fit, which has much less noise than a
+  // group's own light, so that better windows are recognised. Fireflies are in the light of a group
+  // alone, so a sample keeps its own light only if this is better beyond doubt.
   std::size_t best = 1;
-  const auto isBetter = [&](std::size_t window) {
+  const auto compare = [&](std::size_t window, Errors Place::*kind) {
     Comparison comparison;
     ForNearby(place, kChoiceRadius, [&](const Place& other, Real weight) {
-      for (const auto& errors : other.errors)
+      for (const auto& errors : other.*kind)
         comparison.Add(double(weight), double(errors[window]) - double(errors[best]));
     });
-    return comparison.IsBetter();
+    return comparison;
   };
   for (std::size_t window = 2; window < kRadii.size(); ++window)
-    if (isBetter(window)) best = window;
-  if (best == 1 && isBetter(0)) best = 0;
+    if (compare(window, &Place::errorsOfFits).IsBetter(1)) best = window;
+  if (best == 1 && compare(0, &Place::errors).IsBetter(2)) best = 0;
   return kRadii[best];
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SharingWindows chooses how far gathers are shared, by cross-validation: light that is fitted to
-// the gathers of one choosing group of samples is compared with those of the other one. Their mean
+// the gathers of one choosing group of samples is compared with light of the other one. The mean
 // squared difference is the error of the fit, bias included, plus noise that is the same for all
 // windows. Windows are chosen on a grid of every fourth pixel, which is anchored at pixel 0,0.
 #pragma once
@@ -43,6 +43,7 @@ class SharingWindows {
   // surface.
   Real RadiusAt(Point2i pixel, const GatherFragment& fragment) const;
 
+  using Errors = std::array<std::array<float, kRadii.size()>, 2>;
   struct Place {  // a fragment of a pixel, mostly of a grid pixel
     Place(Point2i aPixel, const GatherFragment& fragment)
         : pixel(aPixel),
@@ -55,9 +56,9 @@ class SharingWindows {
     Point3 p;
     Normal3 ng;
     int depth;
-    // Squared relative differences between the fit of each window and the other group; by group of
-    // the fit.
-    std::array<std::array<float, kRadii.size()>, 2> errors{};
+    // Squared relative differences between the fit of each window and the other group's own light,
+    // and its fit with the smallest window; by group of the fit.
+    Errors errors{}, errorsOfFits{};
     bool isJudged = false;
     Real radius = 0;
   };
