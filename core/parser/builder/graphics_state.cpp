@@ -2,6 +2,8 @@
 // GraphicsState copies shared tables before a change. StateStack saves and restores states.
 #include "core/parser/builder/graphics_state.h"
 
+#include "core/parser/builder/error_collector.h"
+
 namespace exphoton {
 namespace {
 
@@ -38,11 +40,11 @@ void StateStack::Push(Block block, const GraphicsState& state, const SourceLocat
 
 void StateStack::Pop(Block block, const std::string& name, const SourceLocation& where,
                      GraphicsState* state) {
-  if (entries_.empty()) FailAt(where, name + " without " + BlockName(block));
+  if (entries_.empty()) FailDependent(where, name + " without " + BlockName(block));
   Entry& entry = entries_.back();
   if (entry.block != block)
-    FailAt(where, name + " does not match the " + BlockName(entry.block) + " at " +
-                      LocationText(entry.where));
+    FailDependent(where, name + " does not match the " + BlockName(entry.block) + " at " +
+                             LocationText(entry.where));
   if (block == Block::Transform) {
     state->transform = entry.state.transform;
     state->active = entry.state.active;
@@ -60,6 +62,10 @@ std::string LocationText(const SourceLocation& where) {
 
 void FailAt(const SourceLocation& where, const std::string& text, const std::string& hint) {
   throw Error(ExitStatus::Scene, text, where, hint);
+}
+
+void FailDependent(const SourceLocation& where, const std::string& text, const std::string& hint) {
+  throw DependentError(ExitStatus::Scene, text, where, hint);
 }
 
 }  // namespace exphoton

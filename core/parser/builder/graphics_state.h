@@ -81,5 +81,8 @@ std::string LocationText(const SourceLocation& where);
 
 [[noreturn]] void FailAt(const SourceLocation& where, const std::string& text,
                          const std::string& hint = {});
+// The same with a DependentError.
+[[noreturn]] void FailDependent(const SourceLocation& where, const std::string& text,
+                                const std::string& hint = {});
 
 }  // namespace exphoton
