@@ -46,20 +46,21 @@ TEST(SyntaxErrors, LeaveTheRestOfTheFileToBeChecked) {
       "AttributeEnd\n"
       "Shap \"sphere\" Materal \"matte\"\n"
       "WorldEnd\n");
-  EXPECT_EQ(errors,
-            "1:1: unknown directive Camra\n"
-            "2:36: parameter \"xresolution\" of type integer takes numbers, found the string \"4\"\n"
-            "4:1: unknown directive Materal\n"
-            "5:34: parameter \"radius\" has true for a value\n"
-            "7:1: Translate takes 3 numbers, found Scale after 2\n"
-            "7:13: Scale takes 3 numbers, found one more\n"
-            "8:16: unknown parameter type \"flot\"\n"
-            "9:7: Shape takes a name in quotes, found a number\n"
-            "10:8: \"1.2.3\" is not a number\n"
-            "11:1: there is no shape \"none\"\n"
-            "12:16: expected a directive, found a number\n"
-            "14:1: unknown directive Shap\n"
-            "14:15: unknown directive Materal\n");
+  EXPECT_EQ(
+      errors,
+      "1:1: unknown directive Camra\n"
+      "2:36: parameter \"xresolution\" of type integer takes numbers, found the string \"4\"\n"
+      "4:1: unknown directive Materal\n"
+      "5:34: parameter \"radius\" has true for a value\n"
+      "7:1: Translate takes 3 numbers, found Scale after 2\n"
+      "7:13: Scale takes 3 numbers, found one more\n"
+      "8:16: unknown parameter type \"flot\"\n"
+      "9:7: Shape takes a name in quotes, found a number\n"
+      "10:8: \"1.2.3\" is not a number\n"
+      "11:1: there is no shape \"none\"\n"
+      "12:16: expected a directive, found a number\n"
+      "14:1: unknown directive Shap\n"
+      "14:15: unknown directive Materal\n");
 }
 
 TEST(SyntaxErrors, KeepTheirHintsAndTheStatusAndRenderNothing) {
@@ -93,6 +94,10 @@ TEST(SyntaxErrors, OfBlocksAreReportedOnce) {
             "4:13: ObjectBegin takes a name in quotes, found a number\n");
   EXPECT_EQ(ErrorsInWorld("ObjectBegin \"a\"\nObjectBegin \"b\"\nObjectEnd\nObjectEnd"),
             "5:1: ObjectBegin inside the object that begins at scene.pbrt:4\n");
+  // An end closes the blocks in its own block.
+  EXPECT_EQ(ErrorsInWorld("AttributeBegin\nTransformBegin\nObjectBegin \"o\"\nTransformEnd\n"
+                          "ObjectInstance \"o\"\nAttributeEnd"),
+            "7:1: TransformEnd does not match the ObjectBegin at scene.pbrt:6\n");
   EXPECT_EQ(ErrorsInWorld("AttributeBegin\nTransformEnd"),
             "5:1: TransformEnd does not match the AttributeBegin at scene.pbrt:4\n");
 }
@@ -131,9 +136,10 @@ TEST(SyntaxErrors, InListsGoOnAfterThem) {
   EXPECT_EQ(ErrorsInWorld("Shape \"sphere\" \"float radius\" [Shape \"none\"] Shap \"sphere\""),
             "4:32: parameter \"radius\" has Shape for a value\n4:46: unknown directive Shap\n");
   // The next list ends the one without an end.
-  EXPECT_EQ(ErrorsInWorld("Shape \"sphere\" \"float radius\" [1 Shape \"disk\" \"float radius\" [1]\n"
-                          "Shap \"sphere\""),
-            "4:34: parameter \"radius\" has Shape for a value\n5:1: unknown directive Shap\n");
+  EXPECT_EQ(
+      ErrorsInWorld("Shape \"sphere\" \"float radius\" [1 Shape \"disk\" \"float radius\" [1]\n"
+                    "Shap \"sphere\""),
+      "4:34: parameter \"radius\" has Shape for a value\n5:1: unknown directive Shap\n");
   EXPECT_EQ(ErrorsInWorld("Shape \"sphere\" \"float radius\" [1 Shape \"disk\""),
             "4:34: parameter \"radius\" has Shape for a value\n");
 }

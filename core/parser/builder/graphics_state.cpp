@@ -2,6 +2,8 @@
 // GraphicsState copies shared tables before a change. StateStack saves and restores states.
 #include "core/parser/builder/graphics_state.h"
 
+#include <algorithm>
+
 #include "core/parser/builder/error_collector.h"
 
 namespace exphoton {
@@ -52,6 +54,19 @@ void StateStack::Pop(Block block, const std::string& name, const SourceLocation&
     *state = std::move(entry.state);
   }
   entries_.pop_back();
+}
+
+bool StateStack::Has(Block block) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [block](const Entry& entry) { return entry.block == block; });
+}
+
+bool StateStack::PopThrough(Block block, GraphicsState* state) {
+  if (!Has(block)) return false;
+  while (entries_.back().block != block) entries_.pop_back();
+  *state = std::move(entries_.back().state);
+  entries_.pop_back();
+  return true;
 }
 
 const char* StateStack::InnermostName() const { return BlockName(entries_.back().block); }

@@ -38,6 +38,8 @@ class SceneBuilder final : public DirectiveHandler {
   // Defines the name that a directive with an error would have defined, so that its uses cause no
   // further errors; begins its block; ends the world after a faulty WorldEnd.
   void RecoverFrom(const Directive& directive);
+  // Closes blocks without an end, up to one of this kind.
+  void EndOpenBlocks(StateStack::Block block);
   void DefineMissingTexture(const Directive& directive);
   void BeginMissingObject(const Directive& directive);
   // Drops errors about names and blocks that the file may have in text that cannot be read.

@@ -10,8 +10,7 @@ namespace {
 bool IsComplete(const Directive& directive) {
   const DirectiveSpec& spec = *directive.spec;
   return spec.numbers == 0 && !spec.hasParameters && !spec.hasWord &&
-         spec.id != DirectiveId::Include &&
-         directive.strings.size() == std::size_t(spec.strings);
+         spec.id != DirectiveId::Include && directive.strings.size() == std::size_t(spec.strings);
 }
 
 }  // namespace
@@ -21,8 +20,8 @@ bool SceneBuilder::Keep(const Error& error) {
   return true;
 }
 
-// A misspelt directive without parameters is handled as the one that was probably meant. Whatever is
-// wrong then may be due to this guess, so it is not reported.
+// A misspelt directive without parameters is handled as the one that was probably meant. Whatever
+// is wrong then may be due to this guess, so it is not reported.
 void SceneBuilder::Recover(const Directive& directive) {
   if (!directive.spec || directive.spec->id == DirectiveId::Include) return ExpectMissingNames();
   if (!IsComplete(directive)) return RecoverFrom(directive);
@@ -47,6 +46,12 @@ void SceneBuilder::RecoverFrom(const Directive& directive) {
     case DirectiveId::WorldEnd:
       if (world_) Reset();
       return;
+    case DirectiveId::AttributeEnd:
+      return EndOpenBlocks(StateStack::Block::Attribute);
+    case DirectiveId::TransformEnd:
+      return EndOpenBlocks(StateStack::Block::Transform);
+    case DirectiveId::ObjectEnd:
+      return EndOpenBlocks(StateStack::Block::Object);
     case DirectiveId::Texture:
       if (world_) DefineMissingTexture(directive);
       return;
@@ -67,14 +72,19 @@ void SceneBuilder::RecoverFrom(const Directive& directive) {
   }
 }
 
+void SceneBuilder::EndOpenBlocks(StateStack::Block block) {
+  if (!world_ || !stack_.PopThrough(block, &state_)) return;
+  if (!stack_.Has(StateStack::Block::Object)) world_->EndObject();
+}
+
 void SceneBuilder::DefineMissingTexture(const Directive& directive) {
   const std::vector<std::string>& strings = directive.strings;
   if (strings.empty()) return ExpectMissingNames();
-  const bool isAny = strings.size() < 2, isFloat = isAny || strings[1] == "float";
-  const auto isOpen = [&](bool isColor) { return !state_.textures->Has(strings[0], isColor); };
-  if (isFloat && isOpen(false)) state_.OwnTextures().Define(strings[0], Uniform(Real(0)), {});
-  if ((isAny || !isFloat) && isOpen(true))
-    state_.OwnTextures().Define(strings[0], Uniform(Spectrum()), {});
+  const std::string type = strings.size() < 2 ? "" : strings[1];
+  const bool isColor = type == "color" || type == "spectrum", isFloat = type == "float";
+  const auto isOpen = [&](bool ofColor) { return !state_.textures->Has(strings[0], ofColor); };
+  if (!isColor && isOpen(false)) state_.OwnTextures().Define(strings[0], Uniform(Real(0)), {});
+  if (!isFloat && isOpen(true)) state_.OwnTextures().Define(strings[0], Uniform(Spectrum()), {});
 }
 
 // An object within another one is faulty, and its end would end the outer one.
