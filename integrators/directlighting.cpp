@@ -36,6 +36,7 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
   }
 
   void Preprocess(const Scene& scene, PreprocessContext&) override {
+    cutLights_ = MakeCutLightSampler(scene);
     if (!ChoosesForSample()) return;
     const bool byPower = settings_.strategy == Strategy::Weighted;
     lights_ = scene.MakeLightSampler(byPower ? LightSelection::Power : LightSelection::Uniform);
@@ -57,9 +58,11 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
   }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
-    return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-      return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point, context);
-    });
+    return SpecularTree(settings_.maxDepth, context, cutLights_.get())
+        .Radiance(ray, [&](const ShadingPoint& point) {
+          return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point,
+                                                                                       context);
+        });
   }
 
  private:
@@ -85,7 +88,8 @@ class DirectLightingIntegrator final : public SurfaceIntegrator {
 
   Settings settings_;
   DirectLighting direct_;
-  std::unique_ptr<const LightSampler> lights_;  // null unless ChoosesForSample()
+  std::unique_ptr<const LightSampler> lights_;     // null unless ChoosesForSample()
+  std::unique_ptr<const LightSampler> cutLights_;  // for cut light only
   OneLightArrays arrays_;
 };
 

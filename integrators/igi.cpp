@@ -106,14 +106,15 @@ class IgiIntegrator final : public SurfaceIntegrator {
       set = std::min(int(u * Real(settings_.sets)), settings_.sets - 1);
     }
     std::uint64_t shadings = 0;
-    return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-      SurfaceLight light{point.Le(), direct_.AllLights(point, context), {}, {}};
-      if (hasIndirect_) {
-        const std::uint64_t shading = shadings++;
-        light.indirect = settings_.indirectScale * Indirect(point, set, shading, context);
-      }
-      return light.Collect(point, context);
-    });
+    return SpecularTree(settings_.maxDepth, context, lights_.get())
+        .Radiance(ray, [&](const ShadingPoint& point) {
+          SurfaceLight light{point.Le(), direct_.AllLights(point, context), {}, {}};
+          if (hasIndirect_) {
+            const std::uint64_t shading = shadings++;
+            light.indirect = settings_.indirectScale * Indirect(point, set, shading, context);
+          }
+          return light.Collect(point, context);
+        });
   }
 
  private:

@@ -84,7 +84,7 @@ class IrradianceCacheIntegrator final : public SurfaceIntegrator {
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
     std::uint64_t points = 0;
-    return SpecularTree(settings_.maxSpecularDepth, context)
+    return SpecularTree(settings_.maxSpecularDepth, context, incident_.Lights())
         .Radiance(ray, [&](const ShadingPoint& point) {
           SurfaceLight light{point.Le(), direct_.AllLights(point, context), {}, {}};
           const std::uint64_t number = points++;

@@ -24,6 +24,9 @@ class WhittedIntegrator final : public SurfaceIntegrator {
  public:
   explicit WhittedIntegrator(const Settings& settings) : maxDepth_(settings.maxDepth) {}
 
+  void Preprocess(const Scene& scene, PreprocessContext&) override {
+    lights_ = MakeCutLightSampler(scene);
+  }
   void RequestSamples(const Scene& scene, const Sampler&, SampleLayout* layout) override {
     arrays_.assign(scene.Lights().size(), {});
     for (std::size_t i = 0; i < arrays_.size(); ++i) {
@@ -41,9 +44,11 @@ class WhittedIntegrator final : public SurfaceIntegrator {
   }
 
   Spectrum Li(const RayDifferential& ray, LiContext& context) const override {
-    return SpecularTree(maxDepth_, context).Radiance(ray, [&](const ShadingPoint& point) {
-      return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point, context);
-    });
+    return SpecularTree(maxDepth_, context, lights_.get())
+        .Radiance(ray, [&](const ShadingPoint& point) {
+          return SurfaceLight{point.Le(), DirectLight(point, context), {}, {}}.Collect(point,
+                                                                                       context);
+        });
   }
 
  private:
@@ -79,6 +84,7 @@ class WhittedIntegrator final : public SurfaceIntegrator {
   }
 
   int maxDepth_;
+  std::unique_ptr<const LightSampler> lights_;  // for cut light only
   std::vector<LightArrays> arrays_;  // one per light; handles are -1 for black and delta lights
 };
 

@@ -25,8 +25,8 @@ struct RayCounters {
   // with the number of camera rays.
   ExactSum cutThroughput;
   ExactSum cutGatherThroughput;  // the same for gather rays
-  // Sums the luminance that the camera samples lost at a depth limit, as MeasureCutLight estimates
-  // it.
+  // Some camera samples measure the luminance that they lose at a depth limit (cut_light.h).
+  std::uint64_t cutLightSamples = 0;   // number of these samples
   ExactSum cutLight, cutLightSquares;  // the latter: sum of the squares, for the standard error
   // The same for paths that gather indirect light, and the luminance that these paths found.
   ExactSum cutGatherLight, gatherLight;
@@ -41,6 +41,7 @@ struct RayCounters {
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
     cutThroughput += other.cutThroughput;
     cutGatherThroughput += other.cutGatherThroughput;
+    cutLightSamples += other.cutLightSamples;
     cutLight += other.cutLight;
     cutLightSquares += other.cutLightSquares;
     cutGatherLight += other.cutGatherLight;

@@ -39,6 +39,7 @@ class DialectScanner final : public DirectiveHandler {
     if (BelongsToVersion2(directive))
       throw Found{std::string(directive.spec->name), directive.Where()};
   }
+  bool Keep(const Error&) override { return true; }  // loading finds it again
   void Finish(const SourceLocation&) override {}
 
  private:

@@ -178,9 +178,16 @@ struct PassRenderer::State {
     if (splatWeights) splats.emplace(*splatWeights, film, options.aovs);
     std::optional<GatherFragments> gathers;
     DonePixels done(rendered);
-    TileRenderer::Target target{pass,         sampler,           *film,
-                                job.progress, nullptr,           splats ? &*splats : nullptr,
-                                &done,        EmittersIn(*film), EdgesIn(rendered)};
+    TileRenderer::Target target{pass,
+                                sampler,
+                                *film,
+                                job.progress,
+                                nullptr,
+                                splats ? &*splats : nullptr,
+                                &done,
+                                EmittersIn(*film),
+                                EdgesIn(rendered),
+                                totals.SamplesPerPixel()};
     const double rowBytes =
         GatherFragments::BytesPerPixel(pass.sampleCount) * rendered.Width() / writer.Of().count;
     if (options.pixelsBegun) *options.pixelsBegun = true;
@@ -227,7 +234,8 @@ struct PassRenderer::State {
                                       buffers.Splats(),
                                       &passState.Done(),
                                       EmittersIn(*film),
-                                      EdgesIn(rendered)};
+                                      EdgesIn(rendered),
+                                      totals.SamplesPerPixel()};
     if (options.pixelsBegun) *options.pixelsBegun = true;
     job.progress.Begin("Rendering", target.done->CountOpen(rendered.y0, rendered.y1));
     if (shared)

@@ -22,16 +22,35 @@ double MeanLuminance(const Film& film) {
   return sum / double(film.PixelCount());
 }
 
+constexpr double kSilentShare = 1e-3;  // of the light
+
+// Returns the light that depth limits cut as a share of all light, given the light of the picture.
+double ShareOf(double cut, double kept) { return cut > 0 ? cut / (cut + kept) : 0; }
+
+// CutShare is the share of the light that depth limits cut from camera paths.
+struct CutShare {
+  double value = 0, standardError = 0;
+  bool isCertain = false;  // whether it exceeds kSilentShare by more than chance
+};
+
+// Some samples have measured the cut light (core/transport/cut_light.h). Few bright paths are no
+// evidence, so the cut light must be too much even if it is less by its standard error.
+CutShare CutShareOf(const RenderTotals& totals) {
+  const RayCounters& rays = totals.rays;
+  if (rays.cutLightSamples == 0 || !(double(rays.cutLight) > 0)) return {};
+  const double cut = rays.cutLight / double(rays.cutLightSamples), light = totals.MeanLight();
+  const double spread = std::sqrt(double(rays.cutLightSquares));
+  const double error = spread / rays.cutLight;  // relative to the cut light
+  const double share = ShareOf(cut, light);
+  return {share, share * (1 - share) * error, ShareOf(cut * (1 - error), light) > kSilentShare};
+}
+
 // Warns if a depth limit cut more than kSilentShare of the light, which the picture lacks. Cut
-// specular paths are assumed to carry the mean radiance of the paths that were not cut. Other cut
-// light is measured (core/transport/cut_light.h).
+// specular gather rays are assumed to carry the mean radiance of the rays that were not cut.
 void WarnOfCutPaths(const SummaryTarget& job, const RenderTotals& totals) {
-  const RayCounters& camera = totals.rays;
   const RayCounters gather = job.statistics.Rays();  // with the rays of preprocessing
-  constexpr double kSilentShare = 1e-3;
-  // `error` is the standard error of the share. A few bright paths are no evidence.
+  // `error` is the standard error of the share.
   const auto warn = [&](double share, double error, const char* parameter, const char* of) {
-    if (!(share - error > kSilentShare)) return;
     std::ostringstream text;
     text.precision(2);
     text << (job.integratorName.empty() ? "the integrator"
@@ -40,17 +59,13 @@ void WarnOfCutPaths(const SummaryTarget& job, const RenderTotals& totals) {
     if (error > .1 * share) text << " (standard error " << 100 * error << " %)";
     job.log.Warning(text.str(), {}, std::string("raise \"") + parameter + "\"");
   };
-  const auto shareOf = [](double cut, double kept) { return cut > 0 ? cut / (cut + kept) : 0; };
-  const DepthParameters& limits = job.limits;
-  const double samples = double(std::max<std::int64_t>(totals.cameraSamples, 1));
+  const CutShare camera = CutShareOf(totals);
+  if (camera.isCertain) warn(camera.value, camera.standardError, job.limits.camera, "the light");
   const double gathers = std::max(double(gather.counts[std::size_t(RayKind::Gather)]), 1.);
-  const double light = samples * totals.MeanLight();
-  const double share = shareOf(camera.cutLight, light);
-  const double spread = std::sqrt(double(camera.cutLightSquares));
-  const double error = share > 0 ? share * (1 - share) * spread / camera.cutLight : 0;
-  warn(camera.cutThroughput / samples + share, error, limits.camera, "the light");
-  warn(gather.cutGatherThroughput / gathers + shareOf(gather.cutGatherLight, gather.gatherLight), 0,
-       limits.gather, "the light of gather rays");
+  const double gatherShare =
+      gather.cutGatherThroughput / gathers + ShareOf(gather.cutGatherLight, gather.gatherLight);
+  if (gatherShare > kSilentShare)
+    warn(gatherShare, 0, job.limits.gather, "the light of gather rays");
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ struct RenderTotals {
   void DropSharingBias() { bias_ = biasVariance_ = 0, biasSamples_ = 0; }
   // Returns the mean of all passes; nullopt if no pass has an estimate.
   std::optional<SharingBias> MeanSharingBias() const;
-  void Transfer(ByteArchive* archive);  // saves or loads everything
+  void Transfer(ByteArchive* archive);                            // saves or loads everything
+  std::int64_t SamplesPerPixel() const { return lightSamples_; }  // of all pictures so far
   // Returns the mean luminance of the picture.
   double MeanLight() const { return light_ / double(std::max<std::int64_t>(lightSamples_, 1)); }
 

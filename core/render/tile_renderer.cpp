@@ -8,6 +8,7 @@
 
 #include "core/render/certificate/corrections.h"
 #include "core/render/photon_noise.h"
+#include "core/transport/cut_light.h"
 #include "core/transport/shading_point.h"
 
 namespace exphoton {
@@ -89,6 +90,7 @@ TileRenderer::TileRenderer(const RenderJob& job, const RenderOptions& options, c
       target_(target),
       log_(log),
       aovs_(options.aovs),
+      pixels_(double(target.film.Crop().Width()) * double(target.film.Crop().Height())),
       differentialScale_(Real(1 / std::sqrt(double(FootprintSamples(job, options))))),
       // A pass with a time of its own shows this time alone.
       movingEmitters_(job.scene, job.camera,
@@ -185,8 +187,7 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
   const Point2 film = PlaceOf(key.pixel, filter);
   const RayDifferential ray = CameraRay(film, samples);
 
-  LiContext context = MakeContext(key, worker);
-  context.isDivided = isDivided;
+  LiContext context = MakeContext(key, parts, worker);
   ErrorSample errors;
   RequestErrors(&context, &errors);
   AovSample aovs;
@@ -197,7 +198,7 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
   }
   const std::uint64_t specularRays = SpecularRays(*worker);
   Spectrum L = job_.integrator.Li(ray, context);
-  if (key.index % parts == 0) ++worker->totals.cameraSamples;  // its parts count as one
+  if (key.index % parts == 0) Count(context, &worker->totals);  // its parts count as one
   const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
   for (const GatherRecord& gather : worker->gathers)
     if (!gather.IsFinite()) L += gather.light * gather.weight;  // not finite either
@@ -219,11 +220,23 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
   if (aovs_) aovs_->AddSample(key.pixel, aovs, L, weight);
 }
 
-LiContext TileRenderer::MakeContext(const SampleKey& key, RenderWorker* worker) const {
+void TileRenderer::Count(const LiContext& context, RenderTotals* totals) {
+  ++totals->cameraSamples;
+  if (!context.measuresCutLight) return;
+  ++totals->rays.cutLightSamples;
+  totals->rays.cutLight += context.cutLight;
+  totals->rays.cutLightSquares += context.cutLight * context.cutLight;
+}
+
+LiContext TileRenderer::MakeContext(const SampleKey& key, int parts, RenderWorker* worker) const {
   worker->arena.Reset();
   LiContext context{job_.scene, worker->samples, worker->arena, worker->totals.rays,
                     HashKey({key.seed, std::uint64_t(key.pixel.x), std::uint64_t(key.pixel.y),
                              std::uint64_t(key.index)})};
+  const auto earlier = target_.samplesBefore + key.index / parts - target_.pass.firstSample;
+  const std::uint64_t period = CutLightPeriod(pixels_ * double(earlier), pixels_);
+  context.measuresCutLight = key.index % parts == 0 && IsCutLightMeasured(context.key, period);
+  context.isDivided = parts > 1;
   context.pixelState = &worker->pixelState;
   context.threadState = &worker->threadState;
   context.volume = job_.volume;

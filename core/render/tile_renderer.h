@@ -47,6 +47,7 @@ class TileRenderer {
     DonePixels* done;                    // pixels that are left out; receives the finished ones
     const StillEmitters* stillEmitters;  // whose light is averaged over places; null: none
     const EdgePixels* edges;             // pixels with more samples; null: none
+    std::int64_t samplesBefore = 0;      // per pixel, of earlier passes
   };
 
   // All arguments must outlive this object.
@@ -70,7 +71,8 @@ class TileRenderer {
   // Renders a sample of a pixel whose samples are divided into `parts` each.
   void RenderSample(const SampleKey& key, int parts, RenderWorker* worker) const;
   // Begins a sample: clears the worker's data of the last one.
-  LiContext MakeContext(const SampleKey& key, RenderWorker* worker) const;
+  LiContext MakeContext(const SampleKey& key, int parts, RenderWorker* worker) const;
+  static void Count(const LiContext& context, RenderTotals* totals);
   // What a sample says about the errors of the picture.
   struct ErrorSample {
     CorrectionSample correction;
@@ -112,6 +114,7 @@ class TileRenderer {
   Target target_;
   NonFiniteLog* log_;
   AovFilm* aovs_;
+  double pixels_;  // of the picture
   Real differentialScale_;
   std::unique_ptr<const Sampler> edgeSampler_;  // of pixels on edges; null: as in other pixels
   MovingEmitters movingEmitters_;

@@ -25,10 +25,11 @@ class LongPath {
         context_(context),
         random_(context.Stream(kCutStream)),
         beta_(end.beta),
+        lobes_(end.lobes),
         isScattered_(end.isScattered) {}
 
   Spectrum Trace(const ShadingPoint& first) {
-    if (!Scatter(first)) return {};
+    if (!Scatter(first, lobes_)) return {};
     Spectrum sum;
     for (int bounces = 0; bounces < kMaxBounces; ++bounces) {
       const auto hit = context_.Intersect(ray_, isSpecular_ ? RayKind::Specular : RayKind::Bsdf);
@@ -44,7 +45,7 @@ class LongPath {
       const ShadingPoint point =
           MakeShadingPoint(*hit, ray_, first.depth + 1, TransportMode::Radiance, &context_.arena);
       if (TakesDirect()) sum += beta_ * Direct(point);
-      const bool goesOn = Scatter(point);
+      const bool goesOn = Scatter(point, LobeSet::All);
       context_.arena.Rewind(mark);
       if (!goesOn) break;
     }
@@ -57,8 +58,8 @@ class LongPath {
   bool TakesDirect() const { return !isScattered_ || Needs(Feature::Indirect); }
   LobeSet Lobes() const { return Needs(Feature::Specular) ? LobeSet::All : LobeSet::NonSpecular; }
 
-  bool Scatter(const ShadingPoint& point) {
-    const LobeSet lobes = TakesDirect() ? Lobes() : Lobes() & LobeSet::Specular;
+  bool Scatter(const ShadingPoint& point, LobeSet among) {
+    const LobeSet lobes = Lobes() & (TakesDirect() ? among : among & LobeSet::Specular);
     const Point2 u{random_.Uniform(), random_.Uniform()};
     const Real uLobe = random_.Uniform(), uRoulette = random_.Uniform();
     const auto sample = point.bsdf.Sample(point.Wo(), u, uLobe, lobes);
@@ -112,6 +113,7 @@ class LongPath {
   LiContext& context_;
   RandomStream random_;
   Spectrum beta_;
+  LobeSet lobes_;      // of the first bounce
   Real etaScale_ = 1;  // product of 1/eta^2 at refractions
   bool isScattered_, isSpecular_ = false;
   RayDifferential ray_;
@@ -124,8 +126,10 @@ class LongPath {
 
 Spectrum LightBeyond(const PathEnd& end, const LightSampler& lights, LiContext& context) {
   const std::uint64_t mediaSegments = context.mediaSegments;
+  const auto counts = context.rays.counts;
   const Spectrum light = LongPath(end, lights, context).Trace(end.point);
   context.mediaSegments = mediaSegments;
+  context.rays.counts = counts;
   return light.IsFinite() ? light : Spectrum();
 }
 

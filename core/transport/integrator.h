@@ -81,6 +81,10 @@ struct LiContext {
   ThreadState* threadState = nullptr;        // of this thread; null: no state is kept
   const VolumeIntegrator* volume = nullptr;  // light from media; null: none
   std::uint64_t mediaSegments = 0;           // ray segments through media so far
+  // Whether Li measures the light that its depth limit cuts (cut_light.h), and the luminance that
+  // it found so far.
+  bool measuresCutLight = false;
+  double cutLight = 0;
   // Whether this is one of the SurfaceIntegrator::EdgeSamples() samples that divide the work of
   // one.
   bool isDivided = false;

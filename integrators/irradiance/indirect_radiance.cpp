@@ -44,7 +44,8 @@ IndirectRadiance::Incident IndirectRadiance::Along(const Ray& ray, RandomStream*
   Incident incident;
   State path;
   path.ray = ray;
-  const bool isMeasured = IsCutLightMeasured(KeyOf(ray, context));
+  constexpr std::uint64_t kMeasuredPeriod = 32;
+  const bool isMeasured = IsCutLightMeasured(KeyOf(ray, context), kMeasuredPeriod);
   for (;; ++path.bounces) {
     const RayKind kind = path.bounces == 0     ? RayKind::Gather
                          : path.isLastSpecular ? RayKind::Specular

@@ -20,6 +20,8 @@ class IndirectRadiance {
   // Returns whether any required feature needs this light.
   bool IsNeeded() const { return maxDepth_ > 0 && (hasIndirect_ || hasCaustics_); }
 
+  const LightSampler* Lights() const { return lights_.get(); }  // null: it has no scene
+
   struct Incident {
     Spectrum radiance;
     Real distance = kInfinity;  // to the first surface

@@ -87,13 +87,15 @@ void PhotonIntegrator::RequestSamples(const Scene& scene, const Sampler& sampler
 }
 
 Spectrum PhotonIntegrator::Li(const RayDifferential& ray, LiContext& context) const {
-  return SpecularTree(settings_.maxDepth, context).Radiance(ray, [&](const ShadingPoint& point) {
-    if (settings_.show != ShowMap::Nothing) return Shown(point, context).Collect(point, context);
-    FillDensity(point, context);
-    return SurfaceLight{point.Le(), Direct(point, context), Caustic(point, context),
-                        Indirect(point, context)}
-        .Collect(point, context);
-  });
+  return SpecularTree(settings_.maxDepth, context, lights_.get())
+      .Radiance(ray, [&](const ShadingPoint& point) {
+        if (settings_.show != ShowMap::Nothing)
+          return Shown(point, context).Collect(point, context);
+        FillDensity(point, context);
+        return SurfaceLight{point.Le(), Direct(point, context), Caustic(point, context),
+                            Indirect(point, context)}
+            .Collect(point, context);
+      });
 }
 
 Spectrum PhotonIntegrator::Direct(const ShadingPoint& point, LiContext& context) const {

@@ -52,12 +52,6 @@ TEST(SeveralErrors, AreTwentyAtMost) {
   EXPECT_EQ(CountOf(built.error, "too many errors"), 1);
 }
 
-TEST(SeveralErrors, StopAtAnErrorOfTheSyntax) {
-  const BuiltScene built = BuildText(InWorld("Shape \"none\"\nShape 5\nShape \"more\""));
-  EXPECT_EQ(CountOf(built.error, "error:"), 2);
-  EXPECT_LT(built.error.find("none"), built.error.find("takes a name"));
-}
-
 TEST(SeveralErrors, OfAWorldLeaveTheNextWorldToBeChecked) {
   const BuiltScene built =
       BuildText(InWorld("ObjectBegin \"o\"") + InWorld("Shape \"none\"") + InWorld(""));

@@ -6,8 +6,16 @@
 
 namespace exphoton {
 
-void ErrorCollector::Add(const Error& error) {
-  if (!texts_.insert(error.what()).second) return;
+void ErrorCollector::AddOfSyntax(const Error& error) {
+  std::string key = error.what();
+  if (const auto& where = error.Where())
+    key +=
+        " " + where->file + " " + std::to_string(where->line) + " " + std::to_string(where->column);
+  Add(error, key);
+}
+
+void ErrorCollector::Add(const Error& error, const std::string& key) {
+  if (!keys_.insert(key).second) return;
   errors_.push_back(error);
   if (errors_.size() < kMaxErrors) return;
   errors_.push_back(Error(ExitStatus::Scene, "too many errors: the rest of the file is not read"));
@@ -15,7 +23,7 @@ void ErrorCollector::Add(const Error& error) {
 }
 
 std::optional<Error> ErrorCollector::Take(const Error* last) {
-  if (last && !texts_.contains(last->what())) errors_.push_back(*last);
+  if (last && !keys_.contains(last->what())) errors_.push_back(*last);
   if (errors_.empty()) return std::nullopt;
   Error first = std::move(errors_.front());
   first.AddOthers({errors_.begin() + 1, errors_.end()});

@@ -12,6 +12,12 @@
 
 namespace exphoton {
 
+// DependentError is an error about a name or a block that an earlier part of the file lacks.
+class DependentError : public Error {
+ public:
+  using Error::Error;
+};
+
 class ErrorCollector {
  public:
   static constexpr std::size_t kMaxErrors = 20;
@@ -24,22 +30,30 @@ class ErrorCollector {
     try {
       work();
       return true;
+    } catch (const DependentError& error) {
+      if (!dropsDependent_) Add(error, error.what());
+      return false;
     } catch (const Error& error) {
       if (error.Status() != ExitStatus::Scene && error.Status() != ExitStatus::File) throw;
-      Add(error);
+      Add(error, error.what());
       return false;
     }
   }
+  // Keeps an error of the syntax, as Try does. Errors with the same text at other places count too.
+  void AddOfSyntax(const Error& error);
+  // Decides whether Try drops errors of the class DependentError, because text was lost on which
+  // they may depend.
+  void DropDependent(bool drops) { dropsDependent_ = drops; }
   bool IsEmpty() const { return errors_.empty(); }
   // Returns the first error, which carries the others; nullopt if there is none. `last`, if given,
   // is an error that ended the loading.
   std::optional<Error> Take(const Error* last = nullptr);
 
  private:
-  void Add(const Error& error);
-
+  void Add(const Error& error, const std::string& key);
   std::vector<Error> errors_;
-  std::set<std::string> texts_;
+  std::set<std::string> keys_;
+  bool dropsDependent_ = false;
 };
 
 }  // namespace exphoton

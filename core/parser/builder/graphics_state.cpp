@@ -2,6 +2,10 @@
 // GraphicsState copies shared tables before a change. StateStack saves and restores states.
 #include "core/parser/builder/graphics_state.h"
 
+#include <algorithm>
+
+#include "core/parser/builder/error_collector.h"
+
 namespace exphoton {
 namespace {
 
@@ -38,11 +42,11 @@ void StateStack::Push(Block block, const GraphicsState& state, const SourceLocat
 
 void StateStack::Pop(Block block, const std::string& name, const SourceLocation& where,
                      GraphicsState* state) {
-  if (entries_.empty()) FailAt(where, name + " without " + BlockName(block));
+  if (entries_.empty()) FailDependent(where, name + " without " + BlockName(block));
   Entry& entry = entries_.back();
   if (entry.block != block)
-    FailAt(where, name + " does not match the " + BlockName(entry.block) + " at " +
-                      LocationText(entry.where));
+    FailDependent(where, name + " does not match the " + BlockName(entry.block) + " at " +
+                             LocationText(entry.where));
   if (block == Block::Transform) {
     state->transform = entry.state.transform;
     state->active = entry.state.active;
@@ -50,6 +54,19 @@ void StateStack::Pop(Block block, const std::string& name, const SourceLocation&
     *state = std::move(entry.state);
   }
   entries_.pop_back();
+}
+
+bool StateStack::Has(Block block) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [block](const Entry& entry) { return entry.block == block; });
+}
+
+bool StateStack::PopThrough(Block block, GraphicsState* state) {
+  if (!Has(block)) return false;
+  while (entries_.back().block != block) entries_.pop_back();
+  *state = std::move(entries_.back().state);
+  entries_.pop_back();
+  return true;
 }
 
 const char* StateStack::InnermostName() const { return BlockName(entries_.back().block); }
@@ -60,6 +77,10 @@ std::string LocationText(const SourceLocation& where) {
 
 void FailAt(const SourceLocation& where, const std::string& text, const std::string& hint) {
   throw Error(ExitStatus::Scene, text, where, hint);
+}
+
+void FailDependent(const SourceLocation& where, const std::string& text, const std::string& hint) {
+  throw DependentError(ExitStatus::Scene, text, where, hint);
 }
 
 }  // namespace exphoton

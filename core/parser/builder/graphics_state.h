@@ -62,7 +62,12 @@ class StateStack {
   // Closes the innermost block, which must be of this kind. `name` is the directive's name.
   void Pop(Block block, const std::string& name, const SourceLocation& where, GraphicsState* state);
 
+  // Closes the innermost block of this kind and all blocks in it. Returns false, and changes
+  // nothing, if there is none.
+  bool PopThrough(Block block, GraphicsState* state);
+
   bool IsEmpty() const { return entries_.empty(); }
+  bool Has(Block block) const;
   const SourceLocation& Innermost() const { return entries_.back().where; }
   const char* InnermostName() const;
   void Clear() { entries_.clear(); }
@@ -81,5 +86,8 @@ std::string LocationText(const SourceLocation& where);
 
 [[noreturn]] void FailAt(const SourceLocation& where, const std::string& text,
                          const std::string& hint = {});
+// The same with a DependentError.
+[[noreturn]] void FailDependent(const SourceLocation& where, const std::string& text,
+                                const std::string& hint = {});
 
 }  // namespace exphoton

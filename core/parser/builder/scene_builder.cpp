@@ -34,6 +34,7 @@ void SceneBuilder::Reset() {
   state_ = GraphicsState();
   stack_.Clear();
   coordinateSystems_.clear();
+  errors_.DropDependent(false);
   hash_ = worldHash_ = std::uint64_t(dialect_);
   inputFiles_ = {sceneName_};
 }
@@ -41,14 +42,14 @@ void SceneBuilder::Reset() {
 void SceneBuilder::CheckScope(const Directive& directive) const {
   const std::string name(directive.spec->name);
   if (directive.spec->id == DirectiveId::WorldEnd && !world_)
-    FailAt(directive.Where(), "WorldEnd without WorldBegin");
+    FailDependent(directive.Where(), "WorldEnd without WorldBegin");
   if (directive.spec->id == DirectiveId::WorldBegin && world_)
-    FailAt(directive.Where(),
-           "WorldBegin inside the world that begins at " + LocationText(*worldBegin_));
+    FailDependent(directive.Where(),
+                  "WorldBegin inside the world that begins at " + LocationText(*worldBegin_));
   if (directive.spec->scope == DirectiveScope::World && !world_)
-    FailAt(directive.Where(), name + " must be between WorldBegin and WorldEnd");
+    FailDependent(directive.Where(), name + " must be between WorldBegin and WorldEnd");
   if (directive.spec->scope == DirectiveScope::Options && world_)
-    FailAt(directive.Where(), name + " must be before WorldBegin");
+    FailDependent(directive.Where(), name + " must be before WorldBegin");
 }
 
 void SceneBuilder::Handle(Directive directive) {
@@ -58,25 +59,6 @@ void SceneBuilder::Handle(Directive directive) {
   name.strings = directive.strings;
   name.params.where = directive.Where();
   if (!errors_.Try([&] { HandleOrThrow(std::move(directive)); })) RecoverFrom(name);
-}
-
-void SceneBuilder::RecoverFrom(const Directive& directive) {
-  if (!world_) return;
-  if (directive.spec->id == DirectiveId::WorldEnd) return Reset();
-  if (directive.spec->id == DirectiveId::Texture) {
-    const bool isFloat = directive.strings[1] == "float";
-    if (state_.textures->Has(directive.strings[0], !isFloat)) return;
-    TextureTable& table = state_.OwnTextures();
-    if (isFloat)
-      table.Define(directive.strings[0], Uniform(Real(0)), {});
-    else
-      table.Define(directive.strings[0], Uniform(Spectrum()), {});
-  } else if (directive.spec->id == DirectiveId::MakeNamedMaterial) {
-    ParamSet none;
-    none.where = directive.Where();
-    state_.OwnNamedMaterials().try_emplace(directive.strings[0],
-                                           world_->MakeMaterialSpec("matte", none, {}));
-  }
 }
 
 void SceneBuilder::AddToWorldHash(const Directive& directive) {
@@ -216,8 +198,8 @@ void SceneBuilder::UseCoordinateSystem(const Directive& directive) {
   if (found == coordinateSystems_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, transform] : coordinateSystems_) known.push_back(other);
-    FailAt(directive.Where(), "no coordinate system \"" + name + "\" has been named",
-           DidYouMean(name, known));
+    FailDependent(directive.Where(), "no coordinate system \"" + name + "\" has been named",
+                  DidYouMean(name, known));
   }
   state_.transform = found->second;
 }
@@ -255,8 +237,8 @@ void SceneBuilder::UseNamedMaterial(const Directive& directive) {
   if (found == state_.namedMaterials->end()) {
     std::vector<std::string> known;
     for (const auto& [other, spec] : *state_.namedMaterials) known.push_back(other);
-    FailAt(directive.Where(), "no material \"" + name + "\" has been defined",
-           DidYouMean(name, known));
+    FailDependent(directive.Where(), "no material \"" + name + "\" has been defined",
+                  DidYouMean(name, known));
   }
   state_.material = found->second;
 }

@@ -26,6 +26,8 @@ class SceneBuilder final : public DirectiveHandler {
 
   // Errors of a directive are kept, and the next directive is handled (TakeErrors).
   void Handle(Directive directive) override;
+  bool Keep(const Error& error) override;
+  void Recover(const Directive& directive) override;
   void Finish(const SourceLocation& end) override;
   // Returns the errors found so far, followed by `last` if it is given.
   std::optional<Error> TakeErrors(const Error* last = nullptr) { return errors_.Take(last); }
@@ -34,8 +36,14 @@ class SceneBuilder final : public DirectiveHandler {
  private:
   void HandleOrThrow(Directive directive);
   // Defines the name that a directive with an error would have defined, so that its uses cause no
-  // further errors; ends the world after a faulty WorldEnd.
+  // further errors; begins its block; ends the world after a faulty WorldEnd.
   void RecoverFrom(const Directive& directive);
+  // Closes blocks without an end, up to one of this kind.
+  void EndOpenBlocks(StateStack::Block block);
+  void DefineMissingTexture(const Directive& directive);
+  void BeginMissingObject(const Directive& directive);
+  // Drops errors about names and blocks that the file may have in text that cannot be read.
+  void ExpectMissingNames();
   void CheckScope(const Directive& directive) const;
   void AddToWorldHash(const Directive& directive);
   void ChangeTransform(const Directive& directive);

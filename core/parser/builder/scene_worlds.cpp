@@ -29,8 +29,8 @@ void SceneBuilder::BeginWorld(const Directive& directive) {
 
 void SceneBuilder::EndWorld(const Directive& directive) {
   if (world_->IsInObject())
-    FailAt(directive.Where(),
-           "the object that begins at " + LocationText(stack_.Innermost()) + " has no ObjectEnd");
+    FailDependent(directive.Where(), "the object that begins at " +
+                                         LocationText(stack_.Innermost()) + " has no ObjectEnd");
   if (!stack_.IsEmpty())
     log_.Warning(std::string(stack_.InnermostName()) + " without its end", stack_.Innermost());
 
@@ -82,7 +82,7 @@ void SceneBuilder::TakeWorld(const Directive& directive, RenderSetup* setup) {
 void SceneBuilder::Finish(const SourceLocation& end) {
   errors_.Try([&] {
     if (world_)
-      FailAt(end, "WorldEnd is missing: the world begins at " + LocationText(*worldBegin_));
+      FailDependent(end, "WorldEnd is missing: the world begins at " + LocationText(*worldBegin_));
     if (setups_.empty() && errors_.IsEmpty())
       FailAt(end, "the file has no WorldBegin: there is nothing to render");
   });
@@ -97,13 +97,14 @@ void AddFilesRead(const SceneSource& source, RenderSetup* setup) {
   setup->inputFiles.assign(files.begin(), files.end());
 }
 
-// Parses the file to its end, or to an error of its syntax, and throws all errors found.
+// Parses the file to its end, or to an error after which reading cannot go on, and throws all
+// errors found.
 void ParseAll(SceneSource& source, const std::string& path, const LoadOptions& options, Log& log,
               SceneBuilder* builder) {
   try {
     ParseScene(source, path, *builder, log, options.limits);
   } catch (const Error& error) {
-    // The collector throws errors with the others attached; those of the syntax come alone.
+    // The collector throws errors with the others attached; those of the tokenizer come alone.
     if (!error.Others().empty() || error.Status() == ExitStatus::Resource) throw;
     throw *builder->TakeErrors(&error);
   }

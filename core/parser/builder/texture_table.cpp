@@ -29,10 +29,12 @@ void TextureGraph::Include(const TextureGraph& other) {
 }
 
 TexturePtr<Real> TextureTable::Float(const std::string& name) const {
-  return TextureIn(float_, name);
+  TexturePtr<Real> texture = TextureIn(float_, name);
+  return texture || !acceptsAllNames_ ? texture : Uniform(Real(0));
 }
 TexturePtr<Spectrum> TextureTable::Color(const std::string& name) const {
-  return TextureIn(color_, name);
+  TexturePtr<Spectrum> texture = TextureIn(color_, name);
+  return texture || !acceptsAllNames_ ? texture : Uniform(Spectrum());
 }
 
 std::vector<std::string> TextureTable::Names() const {

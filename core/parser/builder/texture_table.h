@@ -36,6 +36,10 @@ class TextureTable final : public TextureLookup {
   void Define(const std::string& name, TexturePtr<Real> texture, const TextureGraph& graph);
   void Define(const std::string& name, TexturePtr<Spectrum> texture, const TextureGraph& graph);
 
+  // Makes Float and Color return black for names that are not defined: the file may define them in
+  // text that cannot be read.
+  void AcceptAllNames() { acceptsAllNames_ = true; }
+
   // Different for any two tables with different textures. Materials made from another generation
   // are remade.
   int generation = 0;
@@ -48,6 +52,7 @@ class TextureTable final : public TextureLookup {
   };
   std::map<std::string, Entry<Real>> float_;
   std::map<std::string, Entry<Spectrum>> color_;
+  bool acceptsAllNames_ = false;
 };
 
 // Looks up textures in a table and sums the graphs of the textures found.

@@ -39,8 +39,8 @@ void WorldBuilder::AddInstance(const Directive& directive, const GraphicsState& 
   if (found == objects_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, definition] : objects_) known.push_back(other);
-    FailAt(directive.Where(), "no object \"" + name + "\" has been defined",
-           DidYouMean(name, known));
+    FailDependent(directive.Where(), "no object \"" + name + "\" has been defined",
+                  DidYouMean(name, known));
   }
   ObjectDefinition& object = found->second;
   if (!object.geometry) object.geometry = MakeObject(std::move(object.set));

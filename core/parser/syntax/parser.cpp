@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Parser loops over the tokens of a scene. Each directive is a name, then numbers or strings, then
-// parameters.
+// parameters. After an error it goes on at the next directive, if the handler keeps the error.
 #include "core/parser/syntax/parser.h"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "core/base/log.h"
 #include "core/params/suggestions.h"
@@ -67,20 +68,34 @@ class Parser {
       : tokens_(std::move(tokens)), handler_(handler), log_(log), grammar_(handler.Grammar()) {}
 
   void Run() {
-    Advance();
-    while (token_.kind != TokenKind::End) ParseDirective();
-    handler_.Finish(tokens_.Here());
+    Try([&] { Advance(); });
+    while (token_.kind != TokenKind::End) Try([&] { ParseDirective(); });
+    if (!isInList_) handler_.Finish(tokens_.Here());
   }
 
  private:
-  void Advance() { token_ = tokens_.Next(); }
+  void Advance() {
+    try {
+      token_ = tokens_.Next();
+    } catch (const SyntaxError&) {
+      token_.kind = TokenKind::Number;
+      throw;
+    }
+  }
   SourceLocation Here() const { return tokens_.Locate(token_.position); }
   [[noreturn]] void Fail(const std::string& text, const std::string& hint = {}) const {
-    throw Error(ExitStatus::Scene, text, Here(), hint);
+    throw SyntaxError(ExitStatus::Scene, text, Here(), hint);
   }
 
+  template <class Work>
+  void Try(const Work& work);
+  void SkipUnknown();
+  void SkipToDirective();
+  void SkipToken();
+  bool IsAtDirective() const;
+
   void ParseDirective();
-  void FailUnknown() const;
+  [[noreturn]] void FailUnknown() const;
   void ParseInclude(const TextPosition& where);
   void ParseNumbers(Directive* directive);
   void ParseStrings(Directive* directive);
@@ -93,8 +108,58 @@ class Parser {
   DirectiveHandler& handler_;
   Log& log_;
   SceneGrammar grammar_;
-  Token token_;  // lookahead: the token to parse next
+  Token token_;            // lookahead: the token to parse next
+  bool isInList_ = false;  // whether it is between brackets
+  // The directive that is being parsed; nullopt: none. One without a specification is unknown.
+  std::optional<Directive> directive_;
 };
+
+// Runs a part of the parser. After an error that the handler keeps, skips the rest of the
+// directive.
+template <class Work>
+void Parser::Try(const Work& work) {
+  try {
+    return work();
+  } catch (const SyntaxError& error) {
+    if (!handler_.Keep(error)) throw;
+  }
+  if (directive_ && !directive_->spec) SkipUnknown();
+  SkipToDirective();
+  if (directive_) handler_.Recover(*directive_);
+}
+
+// Skips an unknown directive, and takes the strings that the nearest known directive has.
+void Parser::SkipUnknown() {
+  const auto nearest = Nearest(token_.text, DirectiveNames(grammar_));
+  SkipToken();
+  if (!nearest) return;
+  const DirectiveSpec& spec = *FindDirective(*nearest, grammar_);
+  directive_->spec = &spec;
+  for (int i = 0; i < spec.strings && token_.kind == TokenKind::String; ++i) {
+    directive_->strings.emplace_back(token_.text);
+    SkipToken();
+  }
+}
+
+// Lists do not nest, so a bracket shows by itself whether a list begins or ends.
+void Parser::SkipToDirective() {
+  for (; token_.kind != TokenKind::End && !IsAtDirective(); SkipToken()) {
+    if (token_.kind == TokenKind::OpenBracket) isInList_ = true;
+    if (token_.kind == TokenKind::CloseBracket) isInList_ = false;
+  }
+}
+
+void Parser::SkipToken() {
+  try {
+    Advance();
+  } catch (const SyntaxError&) {  // of a directive that has an error already
+  }
+}
+
+bool Parser::IsAtDirective() const {
+  return !isInList_ && token_.kind == TokenKind::Word &&
+         (FindDirective(token_.text, grammar_) || Nearest(token_.text, DirectiveNames(grammar_)));
+}
 
 void Parser::FailUnknown() const {
   const std::string name = Printable(token_.text);
@@ -108,12 +173,14 @@ void Parser::FailUnknown() const {
 }
 
 void Parser::ParseDirective() {
+  isInList_ = false;
+  directive_.reset();
   if (token_.kind != TokenKind::Word) Fail("expected a directive, found " + Describe(token_));
-  Directive directive;
+  Directive& directive = directive_.emplace();
+  directive.params.where = Here();
   directive.spec = FindDirective(token_.text, grammar_);
   if (!directive.spec) FailUnknown();
   const TextPosition where = token_.position;
-  directive.params.where = Here();
   Advance();
   if (directive.spec->id == DirectiveId::Include) return ParseInclude(where);
   if (directive.spec->numbers > 0) ParseNumbers(&directive);
@@ -142,6 +209,7 @@ void Parser::ParseNumbers(Directive* directive) {
   const int count = directive->spec->numbers;
   const std::string name(directive->spec->name);
   const bool isBracketed = token_.kind == TokenKind::OpenBracket;
+  isInList_ = isBracketed;
   if (isBracketed) Advance();
   for (int i = 0; i < count; ++i) {
     if (token_.kind != TokenKind::Number)
@@ -154,6 +222,7 @@ void Parser::ParseNumbers(Directive* directive) {
     Fail(name + " takes " + std::to_string(count) + " numbers, found one more");
   if (!isBracketed) return;
   if (token_.kind != TokenKind::CloseBracket) Fail("expected ']', found " + Describe(token_));
+  isInList_ = false;
   Advance();
 }
 
@@ -222,12 +291,14 @@ ParsedParam Parser::ParseDeclaration() {
 void Parser::ParseValues(ParsedParam* param, ValueKind kind) {
   if (token_.kind != TokenKind::OpenBracket) return ParseValue(param, kind);
   const SourceLocation bracket = Here();
+  isInList_ = true;
   Advance();
   while (token_.kind != TokenKind::CloseBracket) {
     if (token_.kind == TokenKind::End)
       throw Error(ExitStatus::Scene, "the list that begins here has no ']'", bracket);
     ParseValue(param, kind);
   }
+  isInList_ = false;
   Advance();
 }
 

@@ -17,7 +17,14 @@ class DirectiveHandler {
  public:
   virtual ~DirectiveHandler() = default;
   virtual void Handle(Directive directive) = 0;
-  // Called after the last directive; `end` is the end of the file.
+  // Returns whether it has kept the error, so that parsing goes on at the next directive. If not,
+  // ParseScene throws the error.
+  virtual bool Keep(const Error&) { return false; }
+  // Called after an error was kept, with the parts of the directive that are known. The
+  // specification of a misspelt directive is the nearest one; null: no directive is near.
+  virtual void Recover(const Directive&) {}
+  // Called after the last directive; `end` is the end of the file. Not called if the file ends in a
+  // list without an end.
   virtual void Finish(const SourceLocation& end) = 0;
   virtual SceneGrammar Grammar() const { return SceneGrammar::Early; }
 };

@@ -88,8 +88,11 @@ void Tokenizer::Include(const std::string& name, const TextPosition& where) {
   try {
     Open(path, source_.Read(path, true), std::move(from));
   } catch (const SourceError& error) {
-    Fail("cannot read the included file \"" + Printable(path, 200) + "\": " + error.what(), where,
-         found == candidates.end() ? Printable(TriedPathsText(candidates), 800) : std::string());
+    throw SyntaxError(
+        ExitStatus::Scene,
+        "cannot read the included file \"" + Printable(path, 200) + "\": " + error.what(),
+        Locate(where),
+        found == candidates.end() ? Printable(TriedPathsText(candidates), 800) : std::string());
   }
 }
 
@@ -189,9 +192,12 @@ Token Tokenizer::ReadNumber() {
   const char* stop = begin;
   while (stop < end && IsWordPart(*stop)) ++stop;
   const std::string shown = Printable({begin, std::size_t(stop - begin)}, 40);
-  if (result.ec == std::errc::invalid_argument || !isWhole)
-    Fail("\"" + shown + "\" is not a number", start);
-  Fail("the number " + shown + " is out of range", start);
+  file_->offset = std::size_t(stop - file_->text.data());
+  const bool isNumber = result.ec != std::errc::invalid_argument && isWhole;
+  throw SyntaxError(
+      ExitStatus::Scene,
+      isNumber ? "the number " + shown + " is out of range" : "\"" + shown + "\" is not a number",
+      Locate(start));
 }
 
 Token Tokenizer::ReadString() {

@@ -16,6 +16,12 @@
 
 namespace exphoton {
 
+// SyntaxError is an error after which reading can go on at a later directive.
+class SyntaxError : public Error {
+ public:
+  using Error::Error;
+};
+
 enum class TokenKind { End, Word, String, Number, OpenBracket, CloseBracket };
 
 // TextPosition is a position in the file being read and cheap to copy. Tokenizer::Locate converts
@@ -42,8 +48,11 @@ class Tokenizer {
             std::int64_t maxIncludes = SceneLimits().includes);
 
   // Returns the next token. At the end of an included file, continues after its Include directive.
+  // Throws SyntaxError for a malformed number, which the next call skips, and Error(Scene) for
+  // other text that is no token.
   Token Next();
-  // Continues with the text of `name`, as written by the Include at `where`. Throws Error(Scene).
+  // Continues with the text of `name`, as written by the Include at `where`. Throws SyntaxError if
+  // it cannot be read, and Error(Scene) if there are too many files or the file includes itself.
   void Include(const std::string& name, const TextPosition& where);
 
   // Converts the position of a token in the file being read.

@@ -44,6 +44,7 @@ class ShardStatistics {
 
   static void TransferRays(ByteArchive* archive, RayCounters* rays) {
     for (std::uint64_t& count : rays->counts) archive->Values(&count);
+    archive->Values(&rays->cutLightSamples);
     for (ExactSum* sum : {&rays->cutThroughput, &rays->cutGatherThroughput, &rays->cutLight,
                           &rays->cutLightSquares, &rays->cutGatherLight, &rays->gatherLight})
       sum->Transfer(archive);

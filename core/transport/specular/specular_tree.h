@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SpecularTree is the recursion of Whitted-style integrators (Whitted 1980). It traces a camera
 // ray, lets the caller shade the hit, and adds the radiance over specular lobes up to a maximum
-// depth. It counts the throughput that the depth limit cuts, so that the renderer can warn. It
-// fills the emission AOV of escaped rays and the specular AOV. Russian roulette ends deep or large
-// trees (Arvo and Kirk 1990), which keeps the mean unchanged.
+// depth. It counts the throughput and measures the light that the depth limit cuts, so that the
+// renderer can warn. It fills the emission AOV of escaped rays and the specular AOV. Russian
+// roulette ends deep or large trees (Arvo and Kirk 1990), which keeps the mean unchanged.
 #pragma once
 
+#include "core/transport/cut_light.h"
 #include "core/transport/specular/specular_bounce.h"
 #include "core/transport/volume_integrator.h"
 
@@ -29,7 +30,9 @@ struct SurfaceLight {
 
 class SpecularTree {
  public:
-  SpecularTree(int maxDepth, LiContext& context) : maxDepth_(maxDepth), context_(context) {}
+  // `lights` serve to measure the cut light; null: it is not measured.
+  SpecularTree(int maxDepth, LiContext& context, const LightSampler* lights = nullptr)
+      : maxDepth_(maxDepth), lights_(lights), context_(context) {}
 
   // Returns the radiance along the ray. shade(point) has the signature Spectrum(const
   // ShadingPoint&). It returns the radiance that leaves a point by emission and non-specular lobes.
@@ -99,8 +102,7 @@ class SpecularTree {
     Spectrum radiance = shade(point);
     if (!context_.scene.Features().Needs(Feature::Specular)) return radiance;
     if (depth == maxDepth_) {
-      if (point.bsdf.Has(LobeSet::Specular))
-        context_.rays.cutThroughput += double((throughput * point.bsdf.Rho(LobeSet::Specular)).Y());
+      if (point.bsdf.Has(LobeSet::Specular)) CountCut(point);
       return radiance;
     }
     const auto incident = [&](const SpecularRay& bounce) {
@@ -117,7 +119,15 @@ class SpecularTree {
     return radiance += bounces;
   }
 
+  // Counts a point whose specular rays the depth limit cuts.
+  void CountCut(const ShadingPoint& point) {
+    const Spectrum& throughput = point.throughput;
+    context_.rays.cutThroughput += double((throughput * point.bsdf.Rho(LobeSet::Specular)).Y());
+    if (lights_) MeasureCutLight({point, throughput, false, LobeSet::Specular}, *lights_, context_);
+  }
+
   int maxDepth_;
+  const LightSampler* lights_;
   LiContext& context_;
   std::uint64_t rays_ = 0;  // specular rays of this tree so far
 };

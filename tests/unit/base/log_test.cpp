@@ -231,13 +231,14 @@ TEST(Statistics, ThePeakOfMemoryIsInBytes) {
 TEST(Statistics, AddUpEveryCounterOfRays) {
   RayCounters rays;
   for (std::size_t kind = 0; kind < kRayKindCount; ++kind) rays.counts[kind] = kind + 1;
-  rays.cutThroughput = .5, rays.cutGatherThroughput = .25;
+  rays.cutThroughput = .5, rays.cutGatherThroughput = .25, rays.cutLightSamples = 2;
   Statistics statistics;
   for (int i = 0; i < 3; ++i) statistics.AddRays(rays);
   for (std::size_t kind = 0; kind < kRayKindCount; ++kind)
     EXPECT_EQ(statistics.Rays().counts[kind], 3 * (kind + 1)) << RayKindName(RayKind(kind));
   EXPECT_EQ(statistics.Rays().cutThroughput, 1.5);
   EXPECT_EQ(statistics.Rays().cutGatherThroughput, .75);
+  EXPECT_EQ(statistics.Rays().cutLightSamples, 6u);
 }
 
 }  // namespace

@@ -126,18 +126,21 @@ TEST_F(RenderCounts, OfAlphaLeaveOutWhatIsNotFinite) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(image.At(i % 3, i / 3, 3), expected[i]) << i;
 }
 
-// The share is of the camera samples, or of the gather rays, and above a thousandth.
+// The share is of all light, or of the gather rays. It must exceed a thousandth even without its
+// standard error, which is 1/sqrt(n) if n of the six samples miss the same light.
 TEST_F(RenderCounts, OfCutPathsBecomeWarnings) {
-  const auto messages = [&](double camera, double gather, int gatherRays) {
+  const auto messages = [&](std::vector<double> cutLight, double gather, int gatherRays) {
     Log log(Log::Level::Normal, Log::Sink::Memory);
-    bool isFirst = true;
+    cutLight.resize(6);
+    std::size_t sample = 0;
     integrator_.li = [&](LiContext& context) {
-      if (std::exchange(isFirst, false)) {
-        context.rays.cutThroughput = camera;
+      EXPECT_TRUE(context.measuresCutLight);
+      context.cutLight = cutLight[sample];
+      if (sample++ == 0) {
         context.rays.cutGatherThroughput = gather;
         context.rays.counts[std::size_t(RayKind::Gather)] = std::uint64_t(gatherRays);
       }
-      return Spectrum();
+      return Spectrum(1);
     };
     Statistics statistics;
     const RenderJob job{scene_, integrator_, *sampler_, *filter_,  *camera_,
@@ -151,13 +154,17 @@ TEST_F(RenderCounts, OfCutPathsBecomeWarnings) {
            " % of " + what + hint;
   };
   using Texts = std::vector<std::string>;
-  EXPECT_EQ(messages(0, 0, 0), Texts{});
-  EXPECT_EQ(messages(.0059, 0, 0), Texts{});
-  EXPECT_EQ(messages(.0061, 0, 0), Texts{saidOf("0.1", "the light")});
-  EXPECT_EQ(messages(1.5, 0, 0), Texts{saidOf("25", "the light")});
-  EXPECT_EQ(messages(0, .009, 10), Texts{});
-  EXPECT_EQ(messages(0, 2, 10), Texts{saidOf("20", "the light of gather rays")});
-  EXPECT_EQ(messages(0, .5, 0), Texts{saidOf("50", "the light of gather rays")});
+  const auto all = [](double light) { return std::vector<double>(6, light); };
+  const std::string light = "the light", gathered = "the light of gather rays";
+  EXPECT_EQ(messages({}, 0, 0), Texts{});
+  EXPECT_EQ(messages(all(.0016), 0, 0), Texts{});
+  EXPECT_EQ(messages(all(.0018), 0, 0), Texts{saidOf("0.18", light + " (standard error 0.073 %)")});
+  EXPECT_EQ(messages(all(30), 0, 0), Texts{saidOf("97", light)});
+  EXPECT_EQ(messages({1000}, 0, 0), Texts{});  // a single bright path
+  EXPECT_EQ(messages({0, 3, 3}, 0, 0), Texts{saidOf("50", light + " (standard error 18 %)")});
+  EXPECT_EQ(messages({}, .009, 10), Texts{});
+  EXPECT_EQ(messages({}, 2, 10), Texts{saidOf("20", gathered)});
+  EXPECT_EQ(messages({}, .5, 0), Texts{saidOf("50", gathered)});
 }
 
 TEST_F(RenderCounts, OfASeedOfAPassNameTheUsersSeedFirst) {
