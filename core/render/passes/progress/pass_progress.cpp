@@ -96,11 +96,10 @@ std::optional<TimeForecast::Estimate> TimeForecast::LeftAfter(PassPlan::State st
                                                               double rays) const {
   // The noise has been estimated before the current pass, which lowers it.
   if (state.noise) *state.noise *= double(before_.samples) / double(state.samples);
-  const bool isQuietEnough =
-      rule_.targetError && state.noise && *state.noise <= *rule_.targetError;
-  const bool isAccurate =
-      rule_.accuracy && double(state.samples) >= std::max(state.needed.value_or(0),
-                                                          2. * double(rule_.accuracy->firstSamples));
+  const bool isQuietEnough = rule_.targetError && state.noise && *state.noise <= *rule_.targetError;
+  const bool isAccurate = rule_.accuracy && double(state.samples) >=
+                                                std::max(state.needed.value_or(0),
+                                                         2. * double(rule_.accuracy->firstSamples));
   if (isQuietEnough || isAccurate) return Estimate{};
   bool isRough = false;
   if (rule_.targetError && !state.enough && scene_.sharesGathers && rays > 0) {
