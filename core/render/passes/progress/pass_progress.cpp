@@ -21,8 +21,8 @@ constexpr double kNoise = .18, kRaySlope = .6, kSampleSlope = 1.2;
 constexpr double kPixels = 200 * 150, kPixelSlope = .2;
 constexpr double kLeastPreparation = .1;  // of the first phase, for an estimate
 
-double Since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+double Seconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double>(time).count();
 }
 
 std::string NoiseText(double noise, const std::optional<double>& target) {
@@ -140,22 +140,25 @@ void PassProgress::BeginPass(const PassPlan& plan, const PassPlan::Step& step,
 }
 
 void PassProgress::Update() {
+  if (shown_->IsQuiet()) return;
   const std::uint64_t rays = quiet_.TakeRays();
   shown_->CountRays(rays);
   rays_ += rays;
   // If another thread updates, this thread continues its work instead of waiting.
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock || Since(lastUpdate_) < kUpdateSeconds) return;
-  lastUpdate_ = Clock::now();
-  const auto estimate = forecast_.Left(CurrentPass());
+  if (!lock) return;
+  const Clock::time_point now = Clock::now();
+  if (Seconds(now - lastUpdate_) < kUpdateSeconds) return;
+  lastUpdate_ = now;
+  const auto estimate = forecast_.Left(CurrentPass(now));
   if (!estimate) return shown_->Advance(0);
   shown_->SetRough(estimate->isRough);
-  const double elapsed = Since(begin_), expected = elapsed + estimate->left;
+  const double elapsed = Seconds(now - begin_), expected = elapsed + estimate->left;
   shown_->SetDone(std::int64_t(double(kSteps) * std::min(elapsed / expected, .99)));
 }
 
-TimeForecast::Pass PassProgress::CurrentPass() {
-  TimeForecast::Pass pass{quiet_.Done(), Since(passBegin_), renderSeconds_};
+TimeForecast::Pass PassProgress::CurrentPass(Clock::time_point now) {
+  TimeForecast::Pass pass{quiet_.Done(), Seconds(now - passBegin_), renderSeconds_};
   if (!pass.part.isRendering) rays_ = 0;  // these were photons'
   const double samples = pass.part.ofPhase * pixels_ * samples_;
   if (pass.part.isRendering && samples > 0) pass.rays = double(rays_) / samples;
@@ -165,7 +168,8 @@ TimeForecast::Pass PassProgress::CurrentPass() {
 void PassProgress::ShowPasses(const PassSum& sum, const AccuracyRule* accuracy) {
   if (shown_->IsQuiet()) return;
   const auto samples = static_cast<long long>(sum.SamplesPerPixel());
-  std::vector<std::string> details{Format("%lld samples a pixel", samples)};
+  std::vector<std::string> details{
+      Format("%lld sample%s a pixel", samples, samples == 1 ? "" : "s")};
   if (rule_.passSamples > 0 && rule_.maxSamples < StoppingRule::kMaxSamples)
     details = {Format("%d of %lld passes", sum.Passes(),
                       static_cast<long long>(rule_.maxSamples / rule_.passSamples))};

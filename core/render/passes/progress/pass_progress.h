@@ -79,7 +79,7 @@ class PassProgress {
  private:
   using Clock = std::chrono::steady_clock;
   void Update();
-  TimeForecast::Pass CurrentPass();
+  TimeForecast::Pass CurrentPass(Clock::time_point now);
 
   ProgressReporter* shown_;
   const StoppingRule& rule_;
