@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ProgressReporter draws the progress bar. The remaining time assumes that the rest of the last
-// phase runs at the average speed of this phase so far.
+// ProgressReporter draws the progress bar. The time left assumes that the rest of the last phase
+// runs at the average speed of this phase so far.
 #include "core/base/progress.h"
 
 #include <algorithm>
@@ -17,7 +17,9 @@ constexpr double kRedrawSeconds = .1;
 constexpr double kFirstLineSeconds = 5, kLineSeconds = 10;
 constexpr double kShortPhaseSeconds = 1;
 constexpr const char* kLastPhase = "Rendering";
-constexpr double kPreparationShare = .2;  // of the bar, for all phases before the last
+constexpr double kPhaseShare = .7;  // of the rest of the preparation, for a phase of it
+constexpr double kLeastPreparation = .1 * kPhaseShare;  // of the preparation, for an estimate
+constexpr int kLeastBar = 10;  // columns of a bar beside which details have room
 
 double SteadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -29,6 +31,19 @@ std::string DurationText(double seconds) {
   if (seconds < 60) return Format("%.1f s", seconds);
   if (whole < 3600) return Format("%lld min %02lld s", whole / 60, whole % 60);
   return Format("%lld h %02lld min", whole / 3600, whole / 60 % 60);
+}
+
+std::string LeftText(std::optional<double> left, bool isRough) {
+  if (!left) return "";
+  return (isRough ? ", about " : ", ") + DurationText(*left) + " left";
+}
+
+// Returns each text after a comma and a blank, without empty texts.
+std::string Joined(const std::vector<std::string>& texts) {
+  std::string joined;
+  for (const std::string& text : texts)
+    if (!text.empty()) joined += ", " + text;
+  return joined;
 }
 
 void Write(const std::string& text) {
@@ -43,9 +58,9 @@ ProgressReporter::ProgressReporter(Mode mode, Seconds clock)
 
 void ProgressReporter::Begin(std::string phase, std::int64_t total) {
   const std::lock_guard lock(mutex_);
-  // A phase before the last takes half of what is left of the first fifth.
+  // The first phase, which shoots photons, usually takes the most time before the last.
   phaseFrom_ = hasBegun_ ? std::min(phaseTo_, kPreparationShare) : 0;
-  phaseTo_ = phase == kLastPhase ? 1 : (phaseFrom_ + kPreparationShare) / 2;
+  phaseTo_ = phase == kLastPhase ? 1 : phaseFrom_ + kPhaseShare * (kPreparationShare - phaseFrom_);
   phase_ = std::move(phase);
   total_ = std::max<std::int64_t>(total, 1);
   done_ = 0;
@@ -69,9 +84,14 @@ void ProgressReporter::SetDone(std::int64_t done) {
   Advance(0);
 }
 
-void ProgressReporter::SetDetail(std::string detail) {
+void ProgressReporter::SetDetails(std::vector<std::string> details) {
   const std::lock_guard lock(mutex_);
-  detail_ = std::move(detail);
+  details_ = std::move(details);
+}
+
+ProgressReporter::Part ProgressReporter::Done() const {
+  const std::lock_guard lock(mutex_);
+  return DoneAt(clock_());
 }
 
 void ProgressReporter::End() {
@@ -81,19 +101,28 @@ void ProgressReporter::End() {
     const double seconds = clock_() - phaseStart_;
     std::string text = "\r\x1b[K";
     if (seconds >= kShortPhaseSeconds)
-      text += phase_ + ": " + DurationText(seconds) + Rate() + '\n';
+      text += phase_ + ": " + DurationText(seconds) + Joined({Rate()}) + '\n';
     Write(text);
   }
   phase_.clear();
-  detail_.clear();
+  details_.clear();
 }
 
 // The caller holds the mutex, here and below.
+ProgressReporter::Part ProgressReporter::DoneAt(double now) const {
+  const double part = double(std::clamp<std::int64_t>(done_, 0, total_)) / double(total_);
+  return {phaseFrom_ + (phaseTo_ - phaseFrom_) * part, part, now - phaseStart_,
+          phase_ == kLastPhase};
+}
+
 ProgressReporter::Moment ProgressReporter::Now() const {
   const double now = clock_();
-  const double part = double(std::clamp<std::int64_t>(done_, 0, total_)) / double(total_);
-  Moment moment{phaseFrom_ + (phaseTo_ - phaseFrom_) * part, now - start_, {}};
-  if (phase_ == kLastPhase && part > 0) moment.left = (now - phaseStart_) * (1 - part) / part;
+  const Part part = DoneAt(now);
+  Moment moment{part.done, now - start_, {}, isRough_ || !part.isRendering};
+  if (part.isRendering && part.ofPhase > 0)
+    moment.left = part.phaseSeconds * (1 - part.ofPhase) / part.ofPhase;
+  else if (!part.isRendering && part.done >= kLeastPreparation * kPreparationShare)
+    moment.left = moment.elapsed * (1 - part.done) / part.done;
   return moment;
 }
 
@@ -101,8 +130,14 @@ std::string ProgressReporter::Rate() const {
   const double seconds = clock_() - phaseStart_, rays = double(rays_);
   if (rays == 0 || seconds <= 0) return "";
   const double rate = rays / seconds;
-  if (rate >= 1e6) return Format(", %.1f M rays/s", rate / 1e6);
-  return Format(", %.0f k rays/s", rate / 1e3);
+  return rate >= 1e6 ? Format("%.1f M rays/s", rate / 1e6) : Format("%.0f k rays/s", rate / 1e3);
+}
+
+std::vector<std::string> ProgressReporter::Extras() const {
+  std::vector<std::string> extras = details_;
+  extras.push_back(Rate());
+  std::erase(extras, "");
+  return extras;
 }
 
 bool ProgressReporter::IsLineDue(const Moment& now) {
@@ -128,26 +163,32 @@ void ProgressReporter::Draw() {
 }
 
 void ProgressReporter::DrawBar(const Moment& now) const {
-  std::string times = DurationText(now.elapsed);
-  if (now.left) times += ", " + DurationText(*now.left) + " left";
-  const int columns = TerminalColumns();
-  std::string extra = Rate() + (detail_.empty() ? "" : ", " + detail_);
-  const int taken = int(phase_.size() + times.size()) + 14;
-  // The extra figures appear only where a bar of ten columns stays beside them.
-  if (taken + int(extra.size()) + 10 > columns) extra.clear();
-  const int width = std::clamp(columns - taken - int(extra.size()), 0, 40);
-  const int filled = int(now.fraction * width);
-  const std::string bar =
-      std::string(std::size_t(filled), '=') + std::string(std::size_t(width - filled), ' ');
-  Write("\r\x1b[K" + phase_ + ": [" + bar + Format("] %3d %% ", int(now.fraction * 100)) + times +
-        extra);
+  // A character in the last column would make some terminals begin another line.
+  const int columns = TerminalColumns() - 1;
+  const std::string percent = Format("%3d %%", int(now.fraction * 100));
+  const std::string times = ' ' + DurationText(now.elapsed) + LeftText(now.left, now.isRough);
+  const int taken = Characters(phase_ + ": [] " + percent + times);
+  std::vector<std::string> extras = Extras();
+  while (!extras.empty() && taken + Characters(Joined(extras)) + kLeastBar > columns)
+    extras.pop_back();
+  const std::string extra = Joined(extras);
+  const int width = std::min(columns - taken - Characters(extra), 40);
+  std::string text;
+  if (width > 0) {
+    const auto filled = std::size_t(now.fraction * width);
+    text = phase_ + ": [" + std::string(filled, '=') +
+           std::string(std::size_t(width) - filled, ' ') + "] " + percent + times + extra;
+  } else {
+    text = phase_ + ": " + percent + times;
+    if (Characters(text) > columns) text = percent + times;
+    if (Characters(text) > columns) text = percent;
+  }
+  Write("\r\x1b[K" + text);
 }
 
 void ProgressReporter::PrintLine(const Moment& now) const {
-  std::string text = phase_ + Format(": %3d %%, ", int(now.fraction * 100));
-  text += DurationText(now.elapsed) + " elapsed";
-  if (now.left) text += ", " + DurationText(*now.left) + " left";
-  Write(text + Rate() + (detail_.empty() ? "" : ", " + detail_) + '\n');
+  Write(phase_ + Format(": %3d %%, ", int(now.fraction * 100)) + DurationText(now.elapsed) +
+        " elapsed" + LeftText(now.left, now.isRough) + Joined(Extras()) + '\n');
 }
 
 }  // namespace exphoton

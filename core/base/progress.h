@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace exphoton {
 
@@ -23,8 +24,9 @@ class ProgressReporter {
   explicit ProgressReporter(Mode mode = Mode::Auto, Seconds clock = {});
 
   // Starts a phase, such as "Shooting photons" or "Rendering". `total` is the count at which it is
-  // complete. "Rendering" is the last phase and has most of the bar; the earlier phases share the
-  // first fifth of it.
+  // complete. "Rendering" is the last phase and has most of the bar. The earlier phases share the
+  // first fifth of it, and until the last phase begins, the time left is estimated as if they took
+  // a fifth of the time.
   void Begin(std::string phase, std::int64_t total);
   void Advance(std::int64_t count = 1);  // callable from any thread
   void SetDone(std::int64_t done);       // sets the absolute count
@@ -36,30 +38,54 @@ class ProgressReporter {
 
   // Adds traced rays, for the display of rays per second. Callable from any thread.
   void CountRays(std::uint64_t count) { rays_.fetch_add(count, std::memory_order_relaxed); }
-  // Sets a text that the display ends with, such as "12 samples, noise 1.8 %".
-  void SetDetail(std::string detail);
+  // Returns the rays since the last call, for a reporter of the longer phase. Callable from any
+  // thread.
+  std::uint64_t TakeRays() { return rays_.exchange(0, std::memory_order_relaxed); }
+  // Sets texts that the display ends with, such as "12 samples a pixel" and "noise 1.8 %". A
+  // terminal that is too narrow for all of them loses the last ones first.
+  void SetDetails(std::vector<std::string> details);
+  // Sets whether the time left is shown as "about" so much.
+  void SetRough(bool isRough) { isRough_.store(isRough, std::memory_order_relaxed); }
+  bool IsQuiet() const { return mode_ == Mode::Quiet; }
+
+  // Part describes how much is done.
+  struct Part {
+    double done = 0;           // of the bar
+    double ofPhase = 0;        // of the current phase
+    double phaseSeconds = 0;   // since the current phase began
+    bool isRendering = false;  // whether the current phase is the last one
+  };
+  // Returns a description of now. Callable from a listener.
+  Part Done() const;
+
+  static constexpr double kPreparationShare = .2;  // of the bar, for all phases before the last
 
  private:
   struct Moment {
     double fraction;             // of the bar
     double elapsed;              // seconds of all phases so far
-    std::optional<double> left;  // estimated seconds to the end; known while rendering
+    std::optional<double> left;  // estimated seconds to the end
+    bool isRough;                // whether the estimate is
   };
+  Part DoneAt(double now) const;
   Moment Now() const;
   bool IsLineDue(const Moment& now);
   void Draw();
   void DrawBar(const Moment& now) const;
   void PrintLine(const Moment& now) const;
   std::string Rate() const;  // rays per second in this phase; "" if none were counted
+  std::vector<std::string> Extras() const;  // the details and the rate, without empty ones
 
   Mode mode_;
   std::function<void()> listener_;
   Seconds clock_;
   bool isTerminal_ = false;
-  std::string phase_, detail_;
+  std::string phase_;
+  std::vector<std::string> details_;
   std::int64_t total_ = 0;
   std::atomic<std::int64_t> done_{0};
   std::atomic<std::uint64_t> rays_{0};
+  std::atomic<bool> isRough_{false};
   bool hasBegun_ = false;
   double start_ = 0, phaseStart_ = 0, lastDraw_ = 0;  // seconds
   double phaseFrom_ = 0, phaseTo_ = 0;                // the part of the bar that this phase has

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
-#include <string_view>
 
 namespace exphoton {
 namespace {
@@ -47,14 +46,9 @@ int OutputColumns() {
   return std::clamp<int>(size.ws_col, 40, 100);
 }
 
-namespace {
-
-// Counts the characters of UTF-8 text.
 int Characters(std::string_view text) {
   return int(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
-
-}  // namespace
 
 std::string WrappedText(const std::string& text, int indent, int columns) {
   const std::string blanks(std::size_t(indent), ' ');

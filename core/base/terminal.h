@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace exphoton {
 
@@ -17,6 +18,8 @@ int TerminalColumns();  // of standard error; 80 if unknown
 // Returns the columns of the terminal on standard output, at most 100, or 80 without a terminal.
 // The environment variable COLUMNS takes precedence.
 int OutputColumns();
+
+int Characters(std::string_view text);  // of UTF-8 text
 
 // Breaks `text` between words into lines of at most `columns` characters that begin with `indent`
 // blanks. A word that is too long gets a line of its own. Each line ends with a newline.

@@ -3,9 +3,11 @@
 // convert and compare.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 
+#include "core/base/terminal.h"
 #include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
@@ -46,6 +48,23 @@ TEST_F(CommandTest, PrintHelpAndVersionToStandardOutput) {
     EXPECT_NE(result.out.find("Usage: exphoton"), std::string::npos) << result.out;
   }
   EXPECT_EQ(Run({"--version"}).out.substr(0, 9), "exphoton ");
+}
+
+TEST_F(CommandTest, HelpFitsItsColumns) {
+  for (const char* columns : {"70", "60"}) {
+    setenv("COLUMNS", columns, 1);
+    const std::string help = Run({"--help"}).out;
+    unsetenv("COLUMNS");
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(Characters(line), std::atoi(columns)) << line;
+    EXPECT_NE(help.find("\n  exphoton denoise PICTURE           filter noise of a"),
+              std::string::npos)
+        << help;
+    EXPECT_NE(help.find(" --integrator path --set \\\n      SurfaceIntegrator.maxdepth=20\n"),
+              std::string::npos)
+        << help;
+  }
 }
 
 TEST_F(CommandTest, ListPluginsAndTheirParameters) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/base/terminal.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {
@@ -111,7 +112,7 @@ TEST_F(FirstHour, ThePageShowsWhatTheProgramPrints) {
     EXPECT_EQ(Normalized(output), Normalized(step.output)) << step.command;
     printed += "$ " + step.command + '\n' + output;
     std::istringstream lines(output);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 130u) << line;
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(Characters(line), 100) << line;
   }
   if (HasFailure()) std::printf("The program prints:\n%s", printed.c_str());
   for (const char* name : {"ball.exr", "ball.png", "study/report.html"})

@@ -1,15 +1,28 @@
 #!/usr/bin/env bash
-# Installs into an empty prefix, runs the program from there, and builds the example plugin against
-# the installation. With --package it unpacks the Debian package instead.
-# Usage: install.sh SOURCE_DIR BUILD_DIR [--package]
+# Installs into an empty prefix, runs the program from there, and builds the example plugins against
+# the installation. With --package it unpacks the Debian package instead, and runs it again in a
+# folder that has only the packages that it depends on. It exits with 77 where that is not possible,
+# and writes the reason into BUILD_DIR/package_test.skipped.
+# Usage: install.sh SOURCE_DIR BUILD_DIR [--package [NAME]]
+# NAME is a package that is taken out of the dependencies: the test must fail then.
 set -euo pipefail
-source_dir=$1 build_dir=$2 mode=${3:-}
+source_dir=$1 build_dir=$2 mode=${3:-} without=${4:-}
+. "$source_dir/tests/install/clean_root.sh"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 fail() { printf 'install.sh: %s\n' "$*" >&2; exit 1; }
+skip() {
+  printf 'install.sh: SKIPPED: %s\n' "$*" >&2
+  printf '%s\n' "$*" >"$build_dir/package_test.skipped"
+  exit 77
+}
 
 if [ "$mode" = --package ]; then
+  rm -f "$build_dir/package_test.skipped"
+  for tool in dpkg-shlibdeps dpkg-deb cpack; do
+    command -v "$tool" >/dev/null || skip "no Debian package can be made without $tool"
+  done
   (cd "$build_dir" && cpack -G DEB -B "$scratch/package" >"$scratch/log" 2>&1) ||
     { cat log >&2; fail "cpack failed"; }
   dpkg-deb --field package/*.deb Depends | grep -q 'libc6' || fail "the package has no dependencies"
@@ -64,20 +77,41 @@ words=$(
   echo "${COMPREPLY[*]}"
 )
 case " $words " in *" --max-mean "*) ;; *) fail "completion gives: $words" ;; esac
-[ "$mode" != --package ] || exit 0
 
-# A plugin of another project.
+if [ "$mode" = --package ]; then
+  can_chroot || skip "the package did not run without the libraries of this machine, because this \
+user may neither chroot nor unshare -r"
+  depends=$(dpkg-deb --field package/*.deb Depends)
+  [ -z "$without" ] || depends=$(tr ',' '\n' <<<"$depends" | grep -v "^ *$without" | paste -sd,)
+  make_clean_root clean package/*.deb "$depends"
+  in_root clean exphoton --version >log || fail "the package does not start with its dependencies"
+  in_root clean exphoton plugins >log 2>&1 || { cat log; fail "a plugin does not load"; }
+  diff <(run plugins) log || fail "the package lists other plugins with its dependencies alone"
+  in_root clean exphoton render /usr/share/exphoton/scenes/furnace/path.pbrt --quick --quiet \
+    -o /tmp/picture.exr || fail "the package does not render"
+  cp clean/tmp/picture.exr clean.exr
+  run compare built.exr clean.exr >log || { cat log; fail "the picture of the package differs"; }
+  # Without a library nothing runs, so the libraries of this machine are out of reach.
+  find clean -name 'libOpenEXR-*' -delete
+  ! in_root clean exphoton --version >log 2>&1 || fail "libraries come from elsewhere"
+  exit 0
+fi
+
+# Plugins of another project.
 mkdir project
-cp "$source_dir/tests/plugin/example/openness.cpp" project/
+cp "$source_dir"/tests/plugin/example/{openness,velvet}.cpp project/
 cat >project/CMakeLists.txt <<'TEXT'
 cmake_minimum_required(VERSION 3.25)
 project(my_plugins LANGUAGES CXX)
 find_package(exphoton REQUIRED)
 exphoton_add_plugin(openness integrator)
+exphoton_add_plugin(velvet material)
 TEXT
 cmake -S project -B project/build -DCMAKE_PREFIX_PATH="$prefix" >log || { cat log; fail "no CMake"; }
-cmake --build project/build >log || { cat log; fail "the plugin does not build"; }
+cmake --build project/build >log || { cat log; fail "the plugins do not build"; }
 run render "$scene" --quick --quiet --integrator openness --plugin-dir project/build/plugins \
   -o openness.exr || fail "the plugin does not render"
 ! run render "$scene" --quick --quiet --integrator openness -o none.exr 2>log || fail "no need"
+run check-plugin velvet --plugin-dir project/build/plugins >log || { cat log; fail "wrong velvet"; }
+grep -q 'material "velvet": all .* checks passed' log || { cat log; fail "velvet is not checked"; }
 ! cmake -S project -B project/wrong -DCMAKE_PREFIX_PATH=/nowhere >log 2>&1 || fail "found elsewhere"

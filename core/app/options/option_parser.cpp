@@ -25,11 +25,33 @@ std::string FitsUnsigned(const std::string& text) {
 
 constexpr int kHelpColumn = 28;
 
+// Wraps a command over lines that a shell joins again.
+std::string WrappedCommand(const std::string& line, std::size_t indent, int columns) {
+  std::istringstream words(WrappedText(line, int(indent) + 4, columns - 2));
+  std::string result;
+  for (std::string part; std::getline(words, part);)
+    result += (result.empty() ? part.substr(4) : " \\\n" + part);
+  return result + '\n';
+}
+
+// Wraps an indented line: a command, or a command and, after two blanks, its description.
+std::string WrappedIndented(const std::string& line, int columns) {
+  const std::size_t indent = line.find_first_not_of(' ');
+  if (Characters(line) <= columns || indent == std::string::npos) return line + '\n';
+  const std::size_t gap = line.find("  ", indent);
+  if (gap == std::string::npos) return WrappedCommand(line, indent, columns);
+  const std::size_t column = line.find_first_not_of(' ', gap);
+  return line.substr(0, column) +
+         WrappedText(line.substr(column), int(column), columns).substr(column);
+}
+
 std::string WrappedLines(const std::string& text, int columns) {
   std::string result;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
-    result += line.empty() || line[0] == ' ' ? line + '\n' : WrappedText(line, 0, columns);
+    result += line.empty()     ? "\n"
+              : line[0] == ' ' ? WrappedIndented(line, columns)
+                               : WrappedText(line, 0, columns);
   return result;
 }
 

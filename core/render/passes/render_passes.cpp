@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 
 #include "core/base/format.h"
@@ -13,6 +12,7 @@
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
 #include "core/render/passes/photon_sets.h"
+#include "core/render/passes/progress/pass_progress.h"
 #include "core/render/passes/progressive.h"
 #include "core/render/passes/unshared_picture.h"
 #include "core/render/splat_weights.h"
@@ -22,7 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t kProgressSteps = 1000;
 // The first samples of a sequence are well distributed if their number is this number times a power
 // of two. A larger number would spoil small passes.
 constexpr std::int64_t kWellDistributed = 2;
@@ -42,14 +41,16 @@ class Passes {
         rule_(rule),
         parts_(job, options, [this](const Checkpoint& inner) { return WrapCheckpoint(inner); }),
         options_(parts_.Options()),
-        quiet_(ProgressReporter::Mode::Quiet),
-        quietJob_{job.scene,  job.integrator, job.sampler, job.filter,
-                  job.camera, job.film,       job.threads, job.log,
-                  quiet_,     job.statistics, job.volume,  job.integratorName},
+        sharesGathers_(job.integrator.SharesGathers(job.scene)),
+        progress_(&job.progress, rule,
+                  {job.film.PixelCount(), sharesGathers_,
+                   rule.accuracy ? rule.accuracy->photonSamples : 0}),
+        quietJob_{job.scene,  job.integrator,    job.sampler, job.filter,           job.camera,
+                  job.film,   job.threads,       job.log,     progress_.OfPasses(), job.statistics,
+                  job.volume, job.integratorName},
         renderer_(quietJob_, options_),
         passFilm_(job.film.Full(), job.film.Crop()),
         sum_(&job.film, {rule.targetError, rule.maxSamples}),
-        sharesGathers_(job.integrator.SharesGathers(job.scene)),
         forecasts_{GroupForecast(job.film.Crop(), sharesGathers_),
                    GroupForecast(job.film.Crop(), sharesGathers_)},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
@@ -66,23 +67,18 @@ class Passes {
     // high, because the errors of one sequence partly cancel.
     if (job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy))
       sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
-    quiet_.SetListener([this] { ShowProgress(); });
   }
 
   PassesResult Run() {
-    begin_ = Clock::now();
-    job_.progress.Begin("Rendering", kProgressSteps);
+    progress_.Begin();
     step_ = plan_.Next({});
     if (options_.resumed) Resume();
-    ExpectTime(State());
     for (std::optional<StopReason> reason; !reason; reason = Reason(step_)) {
       if (!RunPass(step_)) {
         result_.reason = StopReason::Signal;
         return Finish();
       }
-      const PassPlan::State state = State();
-      step_ = plan_.Next(state);
-      ExpectTime(state);
+      step_ = plan_.Next(State());
     }
     result_.reason = *reasonMet_;
     if (result_.reason == StopReason::Signal) SaveBetweenPasses();
@@ -184,10 +180,6 @@ class Passes {
     return state;
   }
 
-  void ExpectTime(const PassPlan::State& state) {
-    if (const auto left = plan_.SecondsLeft(state)) expectedSeconds_ = SecondsSince(begin_) + *left;
-  }
-
   bool RunPass(const PassPlan::Step& step) {
     if (step.isNewGroup) groupSamples_ = 0;
     const std::uint64_t group = std::uint64_t(plan_.Groups() - (step.isNewGroup ? 0 : 1));
@@ -213,6 +205,7 @@ class Passes {
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
     pass.photonNoise = photons_.Measurement();
     passFilm_.Clear();
+    progress_.BeginPass(plan_, step, State(), renderSeconds_);
     const bool isWhole = renderer_.Run(pass, sequence_ ? *sequence_ : *pattern, &passFilm_);
     // In a picture of whole passes all pixels have the same samples. The tiles of a part of a pass
     // may also lack the shared light that their gathers bring later.
@@ -249,6 +242,7 @@ class Passes {
       preprocessSeconds_ = std::max(preprocessSeconds_, renderer_.PreprocessSeconds());
     renderSeconds_ += renderer_.RenderSeconds();
     groupSamples_ += step.size;
+    progress_.ShowPasses(sum_, accuracy_ ? &*accuracy_ : nullptr);
   }
 
   void TakePhotonNoise(int group) {
@@ -349,17 +343,8 @@ class Passes {
     return reasonMet_;
   }
 
-  // Shows the share of the expected time, so that the bar moves within passes.
-  void ShowProgress() {
-    const double expected = expectedSeconds_.load(std::memory_order_relaxed);
-    if (!(expected > 0)) return;
-    const double done = std::min(SecondsSince(begin_) / expected, .99);
-    job_.progress.SetDone(std::int64_t(double(kProgressSteps) * done));
-  }
-
   PassesResult Finish() {
-    if (result_.reason != StopReason::Signal) job_.progress.SetDone(kProgressSteps);
-    job_.progress.End();
+    progress_.End(result_.reason != StopReason::Signal);
     result_.render = renderer_.Finish();
     sum_.Describe(parts_.NeedsVariances(), &result_);
     if (options_.corrections && sum_.Groups() > 1) result_.levels = sum_.Levels();
@@ -371,12 +356,12 @@ class Passes {
   const StoppingRule& rule_;
   PassParts parts_;
   const RenderOptions& options_;  // of one pass
-  ProgressReporter quiet_;        // hides the phases of each pass, which would be many lines
+  const bool sharesGathers_;
+  PassProgress progress_;
   RenderJob quietJob_;
   PassRenderer renderer_;
   Film passFilm_;
   PassSum sum_;
-  const bool sharesGathers_;
   std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
   const bool hasBatches_;  // whether the passes of a group share their gathers together
@@ -386,8 +371,6 @@ class Passes {
   PassPlan::Step step_;                      // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
-  Clock::time_point begin_;
-  std::atomic<double> expectedSeconds_{0};  // since begin_; 0: unknown
   // The camera samples that all passes continue. Null: each pass has a pattern of its own.
   std::unique_ptr<Sampler> sequence_;
   PassesResult result_;

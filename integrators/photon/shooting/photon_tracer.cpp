@@ -182,9 +182,17 @@ void PhotonTracer::Pass::MergeBatch(std::int64_t* batch) {
   Merge(chunks_, targets_, context_.threads, &result_);
   if (batch_.guide) result_.guidedPaths += *batch;
   CloseMaps();
+  CountRays();
   *batch = NextBatch(*batch, result_.paths - trainedPath_, most_);
   context_.progress.SetDone(std::int64_t(1000 * least_));
   if (BeginToGuide()) *batch = kMaxBatchPaths;
+}
+
+void PhotonTracer::Pass::CountRays() {
+  std::uint64_t rays = 0;
+  for (const Worker& worker : workers_) rays += worker.rays.Total();
+  context_.progress.CountRays(rays - shownRays_);
+  shownRays_ = rays;
 }
 
 PhotonPassResult PhotonTracer::Pass::Run(ChunkMemo* memo) {

@@ -45,6 +45,7 @@ class PhotonTracer::Pass {
   void MergeBatch(std::int64_t* batch);
   void Begin();
   void CloseMaps();
+  void CountRays();  // for the display of progress
 
   // Shares
   ChunkState State() const;
@@ -72,6 +73,7 @@ class PhotonTracer::Pass {
   PhotonPassResult result_;
   PhotonBatch batch_;
   std::vector<Worker> workers_;
+  std::uint64_t shownRays_ = 0;
   std::vector<PhotonChunk> chunks_;
   double least_ = 0, most_ = 0;  // fill of the requested maps, and of the open maps
   EmissionGuide guide_;

@@ -156,7 +156,10 @@ std::string LinesOf(double seconds) {
 
 TEST(Progress, WritesLinesByTimeWhereNothingCanBeRedrawn) {
   const std::string text = LinesOf(100);
-  EXPECT_EQ(text.find("Shooting photons:   5 %, 5.0 s elapsed, 100 k rays/s\n"), 0u) << text;
+  EXPECT_EQ(
+      text.find("Shooting photons:   7 %, 5.0 s elapsed, about 1 min 06 s left, 100 k rays/s\n"),
+      0u)
+      << text;
   EXPECT_NE(text.find("\nRendering:  "), std::string::npos) << text;
   EXPECT_NE(text.find(" left, 11 k rays/s\n"), std::string::npos) << text;
   EXPECT_EQ(text.find('\r'), std::string::npos);
