@@ -42,8 +42,8 @@ class GuideCache {
   Arena scratch_;
 };
 
-// GuideTable makes a cell when a gather or a path first asks for it. Cells depend on their keys alone, so it
-// does not matter which thread makes them, or in which order.
+// GuideTable makes a cell when a gather or a path first asks for it. Cells depend on their keys
+// alone, so it does not matter which thread makes them, or in which order.
 class GuideTable {
  public:
   // Keeps at most `maxBytes` of cells, and at most slots / 2 cells.

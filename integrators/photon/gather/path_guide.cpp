@@ -64,7 +64,8 @@ std::optional<PathDirection> GuidedVertex::SampleBranch(const PathVertexVariates
 
 GuidedVertex PathGuide::At(const ShadingPoint& point, bool maySplit, PathWeight* weight,
                            LiContext& context) const {
-  if (!photons_.IsOn() || !maySplit || !point.bsdf.Has(LobeSet::NonSpecular)) return GuidedVertex(point);
+  if (!photons_.IsOn() || !maySplit || !point.bsdf.Has(LobeSet::NonSpecular))
+    return GuidedVertex(point);
   const GuidedDirections guide = photons_.DirectionsOnPath(point, context);
   const Spectrum reflectance = point.bsdf.Rho(LobeSet::NonSpecular);
   const Real expected = (weight->beta * reflectance).Y() * guide.irradiance;

@@ -248,6 +248,21 @@ TEST(SharingWindows, AreLargeWhereLightIsConstantAndNoisy) {
   EXPECT_GE(windows.At({24, 24}, gathers.At({24, 24}).fragments[0]).radius, 6);
 }
 
+// One gather in ten is bright. The noise of a group's own light hides which window is better there.
+TEST(SharingWindows, AreLargeAmongFireflies) {
+  const GatherFragments gathers = PlaneGathers(96, [](const Place&, RandomStream* random) {
+    return Spectrum(random->Uniform() < Real(.1) ? 10 : 0);
+  });
+  ThreadPool threads(1);
+  const SharingWindows windows(gathers, FragmentRows(gathers), &threads);
+  double sum = 0;
+  int count = 0;
+  for (int y = 24; y < 72; y += 4)
+    for (int x = 24; x < 72; x += 4, ++count)
+      sum += double(windows.At({x, y}, gathers.At({x, y}).fragments[0]).radius);
+  EXPECT_GT(sum / count, 7);
+}
+
 TEST(SharingWindows, AreZeroWhereLightChangesQuickly) {
   // Stripes of four pixels, whose edges lie beside each place where windows are judged
   const GatherFragments gathers = PlaneGathers(48, [](const Place& place, RandomStream* random) {
