@@ -65,6 +65,7 @@ TEST(CheckPlugin, PassesEveryMaterialButThoseThatGainEnergy) {
     const ProcessResult result = Check({name});
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(FailuresOf(result), std::vector<std::string>{"energy"}) << result.out;
+    EXPECT_NE(result.out.find("note    energy: where colours add up"), std::string::npos);
   }
 }
 
