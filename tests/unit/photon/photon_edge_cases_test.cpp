@@ -126,15 +126,21 @@ TEST(PhotonEdgeCases, TheDepthLimitWarnsWhereItCutsPower) {
 }
 
 TEST(PhotonEdgeCases, TheCamerasDepthLimitWarnsWhereItCuts) {
-  const auto render = [](int depth) {
+  const auto render = [](int depth, const char* light) {
     return RenderSceneText(
         Sphere("\"exphotonmap\" \"integer indirectphotons\" [100] \"integer "
-               "maxdepth\" [" +
+               "maxphotonpaths\" [4096] \"integer maxdepth\" [" +
                    std::to_string(depth) + "]",
-               kPoint, "\"mirror\" \"color Kr\" [.2 .2 .2]"));
+               light, "\"mirror\" \"color Kr\" [.2 .2 .2]"));
   };
-  EXPECT_TRUE(render(1).Says("the depth limit \"maxdepth\" cut about"));
-  EXPECT_FALSE(render(10).Says("depth limit"));
+  const char* const lamp =
+      "AttributeBegin AreaLightSource \"area\" Translate .3 0 .4 Shape \"sphere\" \"float radius\" "
+      ".2 "
+      "AttributeEnd";
+  EXPECT_TRUE(render(1, lamp).Says("the depth limit \"maxdepth\" cut about"));
+  EXPECT_FALSE(render(10, lamp).Says("depth limit"));
+  // A mirror shows no light of a point, however often it reflects.
+  EXPECT_FALSE(render(1, kPoint).Says("depth limit"));
 }
 
 // The lamp lights the whole sphere evenly. The irradiance is 1 from direct light, and 1 from all
