@@ -95,7 +95,7 @@ Target RoomTo(double error) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TargetErrorTest,
-                         testing::Values(RoomTo(.01), RoomTo(.004), RoomTo(.002)), NameOf);
+                         testing::Values(RoomTo(.0095), RoomTo(.004), RoomTo(.002)), NameOf);
 // ctest calls a test long if its name begins with this word.
 INSTANTIATE_TEST_SUITE_P(LongScenes, TargetErrorTest,
                          testing::Values(Target{"cornell-caustic/path", .05, {}}), NameOf);
