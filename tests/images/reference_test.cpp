@@ -54,7 +54,7 @@ const PictureCase kCases[] = {
     {"glossy-room", "path", 64, kDeep, {.01, .05, 6}},
     {"glossy-room", "photonmap", 4, Photons("30000", "4", "4000"), {.02, .10, 10}},
     {"glossy-room", "exphotonmap", 4, Photons("30000", "8", "4000"), {.02, .10, 10}},
-    {"glossy-floor-room", "exphotonmap", 32, Photons("1000000", "16"), {.01, .03, 5}},
+    {"glossy-floor-room", "exphotonmap", 64, Photons("1000000", "16"), {.01, .03, 5}},
     {"furnace", "path", 16, kDeep, {.01, .02, 2}},
     {"furnace", "photonmap", 1, Photons("50000", "16"), {.02, .03, 2}},
     {"furnace", "exphotonmap", 1, Photons("50000", "16"), {.02, .03, 2}},
