@@ -98,7 +98,8 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
   // A small group may have to shoot photons, and its gathers are shared less well.
   const double fewest = limits_.sharesGathers ? std::min(kFewestShared, samples) : 1;
   const double least = std::max({samples / 8, std::min(samples / 2, kWellShared), fewest});
-  const double size = std::clamp(missing * kRounding, least, samples);
+  const double largest = limits_.sharesGathers ? samples : std::max(samples / 2, least);
+  const double size = std::clamp(missing * kRounding, least, largest);
   return std::min(PowerOfTwoUpTo(size), most);
 }
 
