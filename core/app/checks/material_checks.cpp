@@ -62,8 +62,7 @@ class MaterialChecker {
     if (largest > kMost)
       checks_.notes.push_back(
           "energy: where colours add up to more than 1, as some defaults do, give smaller ones, "
-          "such "
-          "as '\"color Kd\" [.4 .4 .4]'");
+          "such as '\"color Kd\" [.4 .4 .4]'");
   }
 
   double Scattered(const Vector3& wo, int channel, std::uint64_t seed) const {

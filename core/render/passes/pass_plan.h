@@ -59,7 +59,7 @@ class PassPlan {
     // group then takes it, but no group becomes more than twice as large as the first one.
     std::int64_t firstSamples = 0;
     double photonSamples = 0;
-    bool sharesGathers = false;  // whether the passes of a group share their gathers together
+    bool sharesGathers = false;  // between pixels, for which small groups are bad
   };
   // The state of the render. Times are in seconds and used only with a time limit.
   struct State {

@@ -28,8 +28,8 @@ struct CheckedPixel {
   std::array<std::array<double, 3>, 2> products;
 };
 
-// Checks a pixel with the next ones of its row and of its column. Only one pixel of each 2
-// x 2 pixels is checked, because a check takes three fits. Returns nullopt for other pixels and
+// Checks a pixel with the next ones of its row and of its column. Only one pixel of each square of
+// two by two is checked, because a check takes three fits. Returns nullopt for other pixels and
 // where a checking group has no record. `samples` is the number of camera samples of a pixel.
 class SharingChecker {
  public:
