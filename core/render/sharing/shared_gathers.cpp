@@ -25,6 +25,7 @@ class FragmentLight {
     static constexpr FragmentRows::Column kAll[] = {FragmentRows::All};
     LocalFit::Collect(rows, {target_, pixel, window.radius}, kAll, scratch);
     fit_.emplace(*scratch, window.radius, 0);
+    if (SharingWindows::StandsOut(fragment, fit_->AtTarget(), window.noise)) fit_.reset();
   }
 
   Spectrum At(const GatherSample& sample) const {

@@ -59,7 +59,7 @@ SharingWindows::SharingWindows(const GatherFragments& gathers, const FragmentRow
   threads->For(rows_, [&](std::int64_t row, int) {
     for (int column = 0; column < columns_; ++column)
       for (Place& place : cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)])
-        place.radius = Choose(place);
+        Choose(&place);
   });
 }
 
@@ -80,12 +80,14 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
   const Spectrum smooth = (fitted[0].back() + fitted[1].back()) * Real(.5);
   const double scale = SquaredDifference(smooth, Spectrum());
   if (!(scale > 0)) return place;
-  for (std::size_t set = 0; set < 2; ++set)
+  for (std::size_t set = 0; set < 2; ++set) {
+    place.otherRecords[set] = fragment.count[std::size_t(kChoosingGroups[1 - set])];
     for (std::size_t w = 0; w < kRadii.size(); ++w) {
       const auto& other = fitted[1 - set];
       place.errors[set][w] = float(SquaredDifference(fitted[set][w], other[0]) / scale);
       place.errorsOfFits[set][w] = float(SquaredDifference(fitted[set][w], other[1]) / scale);
     }
+  }
   place.isJudged = true;
   return place;
 }
@@ -110,7 +112,7 @@ void SharingWindows::ForNearby(const Place& point, Real radius, const Use& use) 
   }
 }
 
-Real SharingWindows::Choose(const Place& place) const {
+void SharingWindows::Choose(Place* place) const {
   // Start with the smallest window that has a fit. Another window replaces the best one only if its
   // errors are clearly smaller. Fits are compared with a fit, which has much less noise than a
   // group's own light, so that better windows are recognised. Fireflies are in the light of a group
@@ -118,7 +120,7 @@ Real SharingWindows::Choose(const Place& place) const {
   std::size_t best = 1;
   const auto compare = [&](std::size_t window, Errors Place::*kind) {
     Comparison comparison;
-    ForNearby(place, kChoiceRadius, [&](const Place& other, Real weight) {
+    ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
       for (const auto& errors : other.*kind)
         comparison.Add(double(weight), double(errors[window]) - double(errors[best]));
     });
@@ -127,21 +129,46 @@ Real SharingWindows::Choose(const Place& place) const {
   for (std::size_t window = 2; window < kRadii.size(); ++window)
     if (compare(window, &Place::errorsOfFits).IsBetter(1)) best = window;
   if (best == 1 && compare(0, &Place::errors).IsBetter(2)) best = 0;
-  return kRadii[best];
+  place->radius = kRadii[best];
+  Real noise = 0, total = 0;
+  ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
+    for (std::size_t set = 0; set < 2; ++set)
+      noise += weight * Real(other.errors[set][best]) * other.otherRecords[set];
+    total += 2 * weight;
+  });
+  if (total > 0) place->noise = noise / total;
+}
+
+bool SharingWindows::StandsOut(const GatherFragment& fragment, const Spectrum& fit, Real noise) {
+  constexpr double kDeviations = 3;
+  if (!(noise > 0)) return false;
+  const double fitted = SquaredDifference(fit, Spectrum());
+  std::array<Spectrum, 2> differences;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int group = kChoosingGroups[i];
+    if (!fragment.HasGroup(group)) return false;
+    const Spectrum own = fragment.Mean(group);
+    differences[i] = own - fit;
+    // Brighter light has more noise, so the brighter one of both counts.
+    const double variance = double(noise) * std::max(fitted, SquaredDifference(own, Spectrum())) /
+                            double(fragment.count[std::size_t(group)]);
+    if (!(SquaredDifference(differences[i], Spectrum()) > kDeviations * kDeviations * variance))
+      return false;
+  }
+  const Spectrum both = differences[0] * differences[1];
+  return both[0] + both[1] + both[2] > 0;
 }
 
 SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {
-  const Real radius = RadiusAt(pixel, fragment) * scale_;
-  return {std::max(radius, kRadii[1]), std::min(radius / kRadii[1], Real(1))};
-}
-
-Real SharingWindows::RadiusAt(Point2i pixel, const GatherFragment& fragment) const {
-  Real sum = 0, total = 0;
+  Real radii = 0, noise = 0, total = 0;
   ForNearby(Place(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
-    sum += weight * place.radius;
+    radii += weight * place.radius;
+    noise += weight * place.noise;
     total += weight;
   });
-  return total > 0 ? sum / total : kRadii[1];
+  const Real radius = (total > 0 ? radii / total : kRadii[1]) * scale_;
+  return {std::max(radius, kRadii[1]), std::min(radius / kRadii[1], Real(1)),
+          total > 0 ? noise / total : 0};
 }
 
 }  // namespace exphoton

@@ -29,20 +29,23 @@ class SharingWindows {
   SharingWindows(const GatherFragments& gathers, const FragmentRows& rows, ThreadPool* threads);
 
   // The radius of a fit in pixels, and the share of the fit in the light. The rest is the sample's
-  // own light. The share is 1 except where windows are smaller than the smallest fit.
+  // own light. The share is 1 except where windows are smaller than the smallest fit. `noise` is
+  // the variance of the light of one record around the fit, relative to the square of the fit; 0:
+  // not known.
   struct Window {
-    Real radius, share;
+    Real radius, share, noise;
   };
   Window At(Point2i pixel, const GatherFragment& fragment) const;
+
+  // Returns whether a fragment differs from its fit beyond the noise of its light. Both choosing
+  // groups must differ in the same direction, because a single bright record is in one of them.
+  // Windows are chosen for regions, and do not know about a line of single pixels.
+  static bool StandsOut(const GatherFragment& fragment, const Spectrum& fit, Real noise);
 
   // Makes the area of all windows smaller than the chosen one by this factor in (0,1].
   void Shrink(double area) { scale_ = Real(std::sqrt(area)); }
 
  private:
-  // Returns the radius for a fragment of the pixel: the mean of the radii chosen nearby on its
-  // surface.
-  Real RadiusAt(Point2i pixel, const GatherFragment& fragment) const;
-
   using Errors = std::array<std::array<float, kRadii.size()>, 2>;
   struct Place {  // a fragment of a pixel, mostly of a grid pixel
     Place(Point2i aPixel, const GatherFragment& fragment)
@@ -59,14 +62,17 @@ class SharingWindows {
     // Squared relative differences between the fit of each window and the other group's own light,
     // and its fit with the smallest window; by group of the fit.
     Errors errors{}, errorsOfFits{};
+    // The records in the own light that `errors` compare with, by group of the fit.
+    std::array<Real, 2> otherRecords{};
     bool isJudged = false;
-    Real radius = 0;
+    Real radius = 0, noise = 0;  // as in Window
   };
   using Cell = std::vector<Place>;
 
   static Place Judge(const FragmentRows& rows, Point2i pixel, const GatherFragment& fragment,
                      FitNeighbours* scratch);
-  Real Choose(const Place& place) const;
+  // Fills radius and noise, which do not depend on those of other places.
+  void Choose(Place* place) const;
   // Calls use(place, weight) for the judged places within `radius` pixels on the surface of
   // another place.
   template <class Use>
