@@ -101,16 +101,21 @@ std::optional<SharingBias> RenderTotals::MeanSharingBias() const {
   return SharingBias{bias_ / total, std::sqrt(std::max(biasVariance_, 0.)) / total};
 }
 
+void SetSharingBias(const std::optional<SharingBias>& bias, Statistics* statistics,
+                    RenderResult* result) {
+  result->sharingBias = bias;
+  if (bias)
+    statistics->SetCounter("render/sharing bias", bias->squared,
+                           "relMSE, estimated squared bias of shared gathers");
+}
+
 RenderResult Summarize(const SummaryTarget& job, const RenderTotals& totals,
                        const NonFiniteLog& log) {
   RenderResult result;
   result.nonFiniteSamples = totals.nonFinite;
   job.statistics.AddRays(totals.rays);
   result.nonFiniteReports = log.Texts();
-  result.sharingBias = totals.MeanSharingBias();
-  if (result.sharingBias)
-    job.statistics.SetCounter("render/sharing bias", result.sharingBias->squared,
-                              "relMSE, estimated squared bias of shared gathers");
+  SetSharingBias(totals.MeanSharingBias(), &job.statistics, &result);
   job.statistics.SetCounter("render/camera samples", double(totals.cameraSamples),
                             "camera rays started");
   job.statistics.SetCounter("render/non-finite samples", double(result.nonFiniteSamples),

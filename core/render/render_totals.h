@@ -44,6 +44,10 @@ struct SummaryTarget {
   std::string integratorName;
   DepthParameters limits;
 };
+// States the estimate for shared gathers in the result and in the statistics.
+void SetSharingBias(const std::optional<SharingBias>& bias, Statistics* statistics,
+                    RenderResult* result);
+
 // Fills the statistics, logs warnings and returns the non-finite samples.
 RenderResult Summarize(const SummaryTarget& job, const RenderTotals& totals,
                        const NonFiniteLog& log);

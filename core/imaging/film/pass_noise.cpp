@@ -167,6 +167,7 @@ std::vector<double> PassNoise::RelativeVariances() const {
 }
 
 const std::vector<double>& PassNoise::Levels() const {
+  if (levelsFrom_) return levelsFrom_->Levels();
   if (levels_.empty()) levels_ = SquaredLevels(Means(), Variances(), width_);
   return levels_;
 }
@@ -180,6 +181,22 @@ std::vector<float> PassNoise::Means() const {
     const double weight = SafeWeight(double(total.weight), samples);
     for (std::size_t c = 0; c < 3; ++c)
       means[3 * i + c] = float(std::max(0., double(total.rgb[c]) / weight));
+  }
+  return means;
+}
+
+std::vector<double> PassNoise::MeansOf(const std::vector<int>& groups) const {
+  double samples = 0;
+  std::vector<Group> chosen;
+  for (const int group : groups) {
+    chosen.push_back({sums_[std::size_t(group)].data(), 0});
+    samples += double(SamplesOf(group));
+  }
+  std::vector<double> means(3 * pixelCount_);
+  for (std::size_t i = 0; i < pixelCount_; ++i) {
+    const Sums total = TotalOf(chosen, i);
+    for (std::size_t c = 0; c < 3; ++c)
+      means[3 * i + c] = double(total.rgb[c]) / SafeWeight(double(total.weight), samples);
   }
   return means;
 }

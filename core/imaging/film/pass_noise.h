@@ -17,7 +17,11 @@ class PassNoise {
 
   // Adds a pass with samplesPerPixel samples per pixel to a group.
   void Add(int group, const Film& pass, std::int64_t samplesPerPixel);
+  int Places() const { return int(samples_.size()); }  // for groups
   std::int64_t SamplesOf(int group) const { return samples_[std::size_t(group)]; }
+  std::size_t Width() const { return width_; }  // of the picture
+  // Takes r^2 (Levels) from another picture of the same passes, which must outlive this object.
+  void UseLevelsOf(const PassNoise* other) { levelsFrom_ = other; }
   // Moves the samples of all groups to the first one.
   void Join();
   // Saves or loads the samples. Throws ArchiveError if the saved pixels or groups were others.
@@ -36,6 +40,9 @@ class PassNoise {
   // pixel. Needs two groups with samples. The result is valid until samples are added, joined or
   // loaded.
   const std::vector<double>& Levels() const;
+  // Returns the mean of groups that have samples, three channels per pixel. Filters with negative
+  // lobes may make it negative.
+  std::vector<double> MeansOf(const std::vector<int>& groups) const;
 
  private:
   struct Sums {
@@ -56,7 +63,8 @@ class PassNoise {
   std::size_t width_, pixelCount_;
   std::vector<std::vector<Sums>> sums_;  // by group, then by pixel
   std::vector<std::int64_t> samples_;
-  mutable std::vector<double> levels_;  // of the samples so far; empty: computed when needed
+  const PassNoise* levelsFrom_ = nullptr;  // null: this picture
+  mutable std::vector<double> levels_;     // of the samples so far; empty: computed when needed
 };
 
 }  // namespace exphoton

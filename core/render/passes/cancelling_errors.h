@@ -17,6 +17,10 @@ inline Trust TrustIn(std::int64_t groupSamples, bool sharesGathers) {
   return groupSamples < 8 || sharesGathers ? Trust::Half : Trust::Full;
 }
 
+// The ratio of the squared errors of n and n / 2 samples that gathers have. Measured in five
+// scenes: .45 to .51 (docs/decisions/0095-bias-of-sharing-from-both-pictures.md).
+inline constexpr double kUsualErrorRatio = .45;
+
 // Returns the squared error of the mean of two halves of a sequence, divided by a quarter of their
 // squared difference. Let the squared error of n samples be n^-s, and `ratio` be 2^-s. The halves
 // then suggest the error 1 - ratio where it is ratio, so the result is ratio / (1 - ratio).

@@ -63,7 +63,9 @@ class PassSum {
   // States that the groups so far have the same photons, and that each later group has its own. The
   // former then count as one group.
   void JoinGroups();
-  // Takes over the noise of another picture of the same passes.
+  // Takes the levels from another picture of the same passes, which must outlive this object.
+  void UseLevelsOf(const PassSum& other) { noise_.UseLevelsOf(&other.noise_); }
+  // Takes over the noise of another picture of the same passes, and its levels.
   void TakeNoise(const PassSum& other);
 
   // Returns TargetError or Samples if this rule holds.
@@ -79,6 +81,7 @@ class PassSum {
   // Returns r^2 of each pixel, to which noise is relative: PassNoise::Levels. Certificates divide
   // the bias by the same r, so that both are parts of one relMSE. Needs two groups.
   const std::vector<double>& Levels() const { return noise_.Levels(); }
+  const PassNoise& GroupSums() const { return noise_; }
   // Writes the numbers of passes and samples, the noise and, if wanted, the variances.
   void Describe(bool needsVariances, PassesResult* result) const;
 

@@ -7,6 +7,8 @@
 
 #include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
+#include "core/render/passes/unshared/unshared_picture.h"
+#include "core/render/render_totals.h"
 
 namespace exphoton {
 namespace {
@@ -19,7 +21,8 @@ class Halves {
         parts_(job, options, [this](const Checkpoint& inner) { return WrapCheckpoint(inner); }),
         options_(parts_.Options()),
         renderer_(job_, options_),
-        sum_(&job.film, {}) {
+        sum_(&job.film, {}),
+        unshared_(UnsharedPicture::Follow(job, &parts_, &sum_)) {
     const std::int64_t count = std::max<std::int64_t>((job.sampler.SamplesPerPixel() + 1) / 2, 1);
     sampler_ = job.sampler.WithSamplesPerPixel(count);
   }
@@ -30,6 +33,9 @@ class Halves {
     }
     PassesResult result;
     result.render = renderer_.Finish();
+    if (unshared_)
+      SetSharingBias(unshared_->BiasOf(sum_, GroupSamples::Independent), &job_.statistics,
+                     &result.render);
     result.reason = sum_.Passes() < 2 ? StopReason::Signal : StopReason::Samples;
     sum_.Describe(parts_.NeedsVariances(), &result);
     if (options_.corrections && sum_.Groups() > 1) result.levels = sum_.Levels();
@@ -51,6 +57,10 @@ class Halves {
 
   void TakeHalf(const Film& half) {
     sum_.Add(half, sampler_->SamplesPerPixel(), sum_.Passes());
+    if (unshared_) {
+      Film own = half;
+      unshared_->Add(&own, sampler_->SamplesPerPixel(), sum_.Passes() - 1);
+    }
     parts_.Show(job_.film);
     if (options_.corrections)
       options_.corrections->EndPass(sum_.Passes() - 1, sampler_->SamplesPerPixel());
@@ -94,6 +104,7 @@ class Halves {
   const RenderOptions& options_;  // of one pass
   PassRenderer renderer_;
   PassSum sum_;
+  std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed
   std::unique_ptr<Sampler> sampler_;
 };
 

@@ -14,8 +14,8 @@
 #include "core/render/passes/photon_sets.h"
 #include "core/render/passes/progress/pass_progress.h"
 #include "core/render/passes/progressive.h"
-#include "core/render/passes/unshared_picture.h"
-#include "core/render/splat_weights.h"
+#include "core/render/passes/unshared/unshared_picture.h"
+#include "core/render/render_totals.h"
 
 namespace exphoton {
 namespace {
@@ -27,8 +27,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kWellDistributed = 2;
 // Fewer samples share badly and say little about the bias of sharing.
 constexpr std::int64_t kFewestToStopSharing = 8;
-// The picture without sharing takes about 400 bytes a pixel.
-constexpr std::size_t kMostPixelsToStopSharing = std::size_t(1) << 21;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -62,7 +60,7 @@ class Passes {
                                       (rule.accuracy || (rule.targetError && hasBatches_))) {
     if (rule.accuracy)
       accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
-    if (accuracy_ && rule.accuracy->mayStopSharing) FollowSharing();
+    unshared_ = UnsharedPicture::Follow(job, &parts_, &sum_);
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
     // high, because the errors of one sequence partly cancel.
     if (job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy))
@@ -86,16 +84,6 @@ class Passes {
   }
 
  private:
-  // Splatted light has no place where sharing changes it.
-  void FollowSharing() {
-    if (!sharesGathers_ || !options_.corrections || SplatWeights::Of(job_.filter) ||
-        job_.film.PixelCount() > kMostPixelsToStopSharing)
-      return;
-    unshared_.emplace(job_.film, parts_.Aovs());
-    parts_.SetSharingChange(unshared_->OfPass());
-    options_.corrections->KeepSharingApart();
-  }
-
   // Saves or loads the passes that are complete, and the step of the next one.
   void Transfer(ByteArchive* archive) {
     plan_.Transfer(archive);
@@ -277,11 +265,17 @@ class Passes {
 
   void LookAtError() {
     if (!sum_.Noise()) return;
-    const auto certificate = Look(sum_, renderer_.MeanSharingBias(), &*accuracy_);
-    if (unshared_ && !accuracy_->IsReached() && certificate && certificate->sharing &&
-        MayBeBetterUnshared(*certificate->sharing))
+    const auto certificate = Look(sum_, BiasOfSharedGathers(), &*accuracy_);
+    if (unshared_ && rule_.accuracy->mayStopSharing && !accuracy_->IsReached() && certificate &&
+        certificate->sharing && MayBeBetterUnshared(*certificate->sharing))
       LookWithoutSharing();
     result_.upperError = accuracy_->Upper();
+  }
+
+  std::optional<SharingBias> BiasOfSharedGathers() const {
+    if (!unshared_) return renderer_.MeanSharingBias();
+    return unshared_->BiasOf(sum_,
+                             sequence_ ? GroupSamples::OneSequence : GroupSamples::Independent);
   }
 
   // Each look costs confidence, so the noise decides whether one at the other picture can pay.
@@ -346,6 +340,7 @@ class Passes {
   PassesResult Finish() {
     progress_.End(result_.reason != StopReason::Signal);
     result_.render = renderer_.Finish();
+    if (unshared_) SetSharingBias(BiasOfSharedGathers(), &job_.statistics, &result_.render);
     sum_.Describe(parts_.NeedsVariances(), &result_);
     if (options_.corrections && sum_.Groups() > 1) result_.levels = sum_.Levels();
     if (result_.reason == StopReason::Signal) result_.render.isComplete = false;
@@ -367,8 +362,8 @@ class Passes {
   const bool hasBatches_;  // whether the passes of a group share their gathers together
   PhotonSets photons_;
   std::optional<AccuracyRule> accuracy_;
-  std::optional<UnsharedPicture> unshared_;  // nullopt: gathers are shared for good, or not at all
-  PassPlan::Step step_;                      // the pass that is being rendered, or the next one
+  std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
+  PassPlan::Step step_;                        // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   // The camera samples that all passes continue. Null: each pass has a pattern of its own.

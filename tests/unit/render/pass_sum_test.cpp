@@ -54,6 +54,20 @@ TEST(PassSum, AddsTheNoiseOfPhotonsThatAllPassesShare) {
   EXPECT_NEAR(double(result.variances[0]), .0025 + .008 * 1.01, 1e-5);
 }
 
+// A pixel that sharing makes brighter has the noise relative to its true level.
+TEST(PassSum, IsRelativeToTheLevelsOfAnotherPicture) {
+  Film picture(kSumPixel, kSumPixel), dark(kSumPixel, kSumPixel);
+  PassSum sum(&picture, {}), own(&dark, {});
+  sum.UseLevelsOf(own);
+  for (const int group : {0, 1}) {
+    sum.Add(PassOf(group ? .8 : 1.2, 2), 2, group);
+    own.Add(PassOf(.3, 2), 2, group);
+  }
+  EXPECT_NEAR(*sum.Noise(), .04 / (.09 + .01), 1e-6);
+  sum.TakeNoise(own);
+  EXPECT_NEAR(sum.Levels()[0], .09, 1e-6);
+}
+
 // Groups with the same photons are one of the groups that show the noise.
 TEST(PassSum, JoinsGroupsWithTheSamePhotons) {
   Film picture(kSumPixel, kSumPixel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests compare the picture without shared gathers with light that was never shared.
-#include "core/render/passes/unshared_picture.h"
+#include "core/render/passes/unshared/unshared_picture.h"
 
 #include <gtest/gtest.h>
 

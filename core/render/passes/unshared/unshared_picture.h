@@ -6,14 +6,24 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
+#include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_sum.h"
+#include "core/render/passes/unshared/bias_of_sharing.h"
 #include "core/render/sharing_change.h"
 
 namespace exphoton {
 
 class UnsharedPicture {
  public:
+  // Returns the picture without sharing of a render with a certificate, and lets `parts` and `sum`
+  // take notice of it. Returns null where it is not needed or cannot be known: without a
+  // certificate, where no gathers are shared, where light is splatted, and for pictures of more
+  // than two million pixels, because it takes about 400 bytes a pixel.
+  static std::unique_ptr<UnsharedPicture> Follow(const RenderJob& job, PassParts* parts,
+                                                 PassSum* sum);
+
   // aovs: those of all passes; null: none.
   UnsharedPicture(const Film& picture, const AovFilm* aovs);
   UnsharedPicture(const UnsharedPicture&) = delete;
@@ -25,6 +35,8 @@ class UnsharedPicture {
   void Add(Film* pass, std::int64_t samplesPerPixel, int group);
   // The noise of this picture.
   PassSum& Sum() { return sum_; }
+  // Estimates what sharing adds to the error of the picture with this sum.
+  std::optional<SharingBias> BiasOf(const PassSum& shared, GroupSamples samples) const;
   // Turns the sum of the shared passes, its picture and their AOVs into those without sharing.
   void Replace(Film* picture, AovFilm* aovs, PassSum* sum) const;
 
