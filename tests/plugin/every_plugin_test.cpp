@@ -198,6 +198,22 @@ TEST_F(EveryPlugin, HasTheParametersAndPicturesOfItsStrips) {
         << entry.path() << " is on no page";
 }
 
+TEST_F(EveryPlugin, LinksToThePicturesOfTheSameParameterElsewhere) {
+  auto pages = AllReferencePages(registry_);
+  const auto shows = [&](PluginKind kind, const char* plugin, const std::string& text) {
+    return SectionOf(pages, kind, plugin).find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(shows(PluginKind::Material, "clay",
+                    "\n\n[Material `matte`](#material-matte) shows `bumpmap`.\n"));
+  EXPECT_TRUE(shows(PluginKind::Integrator, "whitted",
+                    "[Integrator `directlighting`](#integrator-directlighting) shows `maxdepth`."));
+  EXPECT_TRUE(shows(PluginKind::Camera, "environment",
+                    "[Camera `perspective`](#camera-perspective) shows `hither`, `yon`,"));
+  EXPECT_FALSE(shows(PluginKind::Camera, "environment", "`screenwindow`."));
+  EXPECT_FALSE(shows(PluginKind::Material, "matte", "#material-matte"));
+  EXPECT_FALSE(shows(PluginKind::Volume, "exponential", "shows `a`"));
+}
+
 std::optional<PluginKind> KindOfWord(const std::string& word) {
   if (word == "texture") return PluginKind::ColorTexture;
   for (int i = 0; i < kPluginKindCount; ++i) {

@@ -58,9 +58,8 @@ std::string Listed(const std::string& values) {
 }
 
 std::string PictureOf(const ParameterStrip& strip) {
-  const std::string values = Listed(strip.values);
-  return std::string("\n`") + strip.parameter + "` " + values + ":\n\n![" + strip.plugin + ": " +
-         strip.parameter + ' ' + values + "](images/" + strip.Name() + ".jpg)\n";
+  return std::string("\n`") + strip.parameter + "` " + Listed(strip.values) + ":\n\n![" +
+         strip.plugin + ": " + strip.parameter + "](images/" + strip.Name() + ".jpg)\n";
 }
 
 // Returns whether the strip shows a parameter with the name and the meaning of `decl`.

@@ -35,4 +35,16 @@ STRIPS = {
     "perspective-focaldistance": ("3 4 5.7 8 20", lambda x: camera(
         '"float fov" 34 "float lensradius" .2 "float focaldistance" ' + x)),
     "perspective-shutterclose": ("0 .1 .3 .6 1", lambda x: moving('"float shutterclose" ' + x)),
+    "perspective-hither": (".001 4 4.6 6 8", lambda x: camera('"float fov" 34 "float hither" ' + x)),
+    "perspective-yon": ("4 5.5 7 9 40", lambda x: camera('"float fov" 34 "float yon" ' + x)),
+    "perspective-shutteropen": ("0 .3 .6 .9", lambda x: moving('"float shutteropen" ' + x)),
+    "perspective-frameaspectratio": (".5 .75 1 1.5 2", lambda x: camera(
+        '"float fov" 34 "float frameaspectratio" ' + x)),
+    "perspective-screenwindow": ("-1 1 -1 1; 0 1 0 1; -1 0 -1 0; -2 2 -2 2", lambda x: camera(
+        '"float fov" 34 "float screenwindow" [ %s ]' % x)),
+    "orthographic-screenwindow": (
+        "-1 1 -1 1; -.5 .5 -.5 .5; 0 1 -1 0; -2 2 -2 2", lambda x: camera(
+            '"float screenwindow" [ %s ]' % x).replace(
+                "Camera", 'Sampler "lowdiscrepancy" "integer pixelsamples" 16\nCamera')
+            .replace("perspective", "orthographic")),
 }

@@ -26,4 +26,11 @@ STRIPS = {
     "mitchell-B": ("0 .25 .5 .75 1", lambda x: filtered('"mitchell" "float B" ' + x)),
     "mitchell-C": ("0 .25 .5 .75 1", lambda x: filtered('"mitchell" "float C" ' + x)),
     "sinc-tau": (".5 1 2 3 6", lambda x: filtered('"sinc" "float tau" ' + x)),
+    "box-ywidth": (".25 .5 1 2 4", lambda x: filtered('"box" "float xwidth" .5 "float ywidth" ' + x)),
+    "gaussian-xwidth": (".5 1 2 3 4", lambda x: filtered(
+        '"gaussian" "float alpha" .3 "float xwidth" %s "float ywidth" %s' % (x, x))),
+    "mitchell-xwidth": ("1 1.5 2 3 4", lambda x: filtered(
+        '"mitchell" "float xwidth" %s "float ywidth" %s' % (x, x))),
+    "sinc-xwidth": ("1 2 3 4 6", lambda x: filtered(
+        '"sinc" "float xwidth" %s "float ywidth" %s' % (x, x))),
 }
