@@ -36,7 +36,7 @@ from strips import files, stage  # noqa: E402
 
 PAGES = ("integrators volumeintegrators shapes lights materials textures samplers filters cameras "
          "volumes").split()
-QUALITY = 75  # of a JPEG file
+QUALITY = 70  # of a JPEG file
 
 
 def values_of(text):

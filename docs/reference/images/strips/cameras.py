@@ -42,9 +42,8 @@ STRIPS = {
         '"float fov" 34 "float frameaspectratio" ' + x)),
     "perspective-screenwindow": ("-1 1 -1 1; 0 1 0 1; -1 0 -1 0; -2 2 -2 2", lambda x: camera(
         '"float fov" 34 "float screenwindow" [ %s ]' % x)),
-    "orthographic-screenwindow": (
-        "-1 1 -1 1; -.5 .5 -.5 .5; 0 1 -1 0; -2 2 -2 2", lambda x: camera(
-            '"float screenwindow" [ %s ]' % x).replace(
-                "Camera", 'Sampler "lowdiscrepancy" "integer pixelsamples" 16\nCamera')
-            .replace("perspective", "orthographic")),
+    "orthographic-screenwindow": ("-1 1 -1 1; -.5 .5 -.5 .5; 0 1 -1 0; -2 2 -2 2", lambda x: camera(
+        '"float screenwindow" [ %s ]' % x).replace(
+            "Camera", 'Sampler "lowdiscrepancy" "integer pixelsamples" 16\nCamera').replace(
+                "perspective", "orthographic")),
 }

@@ -36,7 +36,6 @@ WorldEnd
 '''
 # One camera sample a pixel shows the noise of a light.
 NOISY = GRAINY + 'PixelFilter "box"\nSampler "lowdiscrepancy" "integer pixelsamples" 1\n'
-COLORS = ".5; 1; 2; 2 1 .3"
 
 
 def distant(parameters):
@@ -61,20 +60,21 @@ STRIPS = {
         '"float conedeltaangle" 2 "float coneangle" ' + x)),
     "spot-conedeltaangle": ("0 4 8 14 20", lambda x: CONE % (
         '"float coneangle" 20 "float conedeltaangle" ' + x)),
-    "distant-L": (COLORS, lambda x: distant('"point from" [ -1 1.5 -1 ] "color L" ' + color(x))),
-    "distant-scale": (COLORS, lambda x: distant('"point from" [ -1 1.5 -1 ] "color scale" ' + color(x))),
+    "distant-L": (".5; 1; 2; 2 1 .3", lambda x: distant('"point from" [ -1 1.5 -1 ] "color L" ' + color(x))),
+    "distant-scale": (".5; 1; 2; 2 1 .3", lambda x: distant(
+        '"point from" [ -1 1.5 -1 ] "color scale" ' + color(x))),
     "distant-from": ("0 1 0; -1 1 -1; -2 1 0; 1 1 2", lambda x: distant(
         '"color L" [ 2 1.9 1.7 ] "point to" [ 0 0 0 ] "point from" [ %s ]' % x)),
     "goniometric-mapname": ("absent bands.png sectors.png halves.png", lambda x: WALL % mapped(
         'Translate -.3 .4 .4 LightSource "goniometric" "color I" [ 2.5 2.3 2 ]', x)),
-    "infinite-L": (COLORS, lambda x: OPEN % ('LightSource "infinite" "color L" ' + color(x))),
+    "infinite-L": (".5; 1; 2; 2 1 .3", lambda x: OPEN % ('LightSource "infinite" "color L" ' + color(x))),
     "infinite-mapname": ("absent sky.png halves.png", lambda x: "%s" % OPEN % mapped(
         'Rotate -90 1 0 0 LightSource "infinite" "integer nsamples" 8', x)),
     "infinite-nsamples": ("1 4 16 64", lambda x: NOISY + OPEN % mapped(
         'Rotate -90 1 0 0 LightSource "infinite" "integer nsamples" ' + x, "sky.png")),
-    "point-I": (COLORS, lambda x: WALL % (
+    "point-I": (".5; 1; 2; 2 1 .3", lambda x: WALL % (
         'LightSource "point" "point from" [ -.3 .4 .4 ] "color I" ' + color(x))),
-    "point-scale": (COLORS, lambda x: WALL % (
+    "point-scale": (".5; 1; 2; 2 1 .3", lambda x: WALL % (
         'LightSource "point" "point from" [ -.3 .4 .4 ] "color scale" ' + color(x))),
     "point-from": ("-.3 .4 .4; .5 .4 .4; -1 -.5 .4; 0 1.6 -1", lambda x: WALL % (
         'LightSource "point" "color I" [ 2.5 2.3 2 ] "point from" [ %s ]' % x)),

@@ -56,10 +56,6 @@ def veined(parameters):
     return square(texture).replace("[ 3 3 3 ]", "[ 1 1 1 ]")
 
 
-COLORS = "0; .3; .8; .7 .2 .1; .1 .5 .2"
-CORNERS = ".1; .8; .7 .2 .1; .1 .5 .2"
-
-
 STRIPS = {
     "fbm-octaves": ("1 2 3 5 8", lambda x: BUMPY % ('"fbm" "integer octaves" ' + x)),
     "fbm-roughness": (".2 .3 .4 .5 .6", lambda x: BUMPY % ('"fbm" "float roughness" ' + x)),
@@ -86,10 +82,10 @@ STRIPS = {
         '"float udelta" -.5 "float vdelta" -.5' % (IMAGE, x))),
     "imagemap-gamma": (".5 1 1.5 2.2 3", lambda x: square(
         'Texture "t" "color" "imagemap" %s "float gamma" %s' % (IMAGE, x))),
-    "bilerp-v00": (CORNERS, corner("v00")),
-    "bilerp-v01": (CORNERS, corner("v01")),
-    "bilerp-v10": (CORNERS, corner("v10")),
-    "bilerp-v11": (CORNERS, corner("v11")),
+    "bilerp-v00": (".1; .8; .7 .2 .1; .1 .5 .2", corner("v00")),
+    "bilerp-v01": (".1; .8; .7 .2 .1; .1 .5 .2", corner("v01")),
+    "bilerp-v10": (".1; .8; .7 .2 .1; .1 .5 .2", corner("v10")),
+    "bilerp-v11": (".1; .8; .7 .2 .1; .1 .5 .2", corner("v11")),
     "checkerboard-udelta": ("0 .25 .5 1", lambda x: checked(
         '"float uscale" 4 "float vscale" 4 "float udelta" ' + x)),
     "checkerboard-v1": ("1 0 0; 2 0 0; 4 0 0; 4 4 0", planar("v1", 'v2" [ 0 2 0 ]')),
@@ -99,13 +95,16 @@ STRIPS = {
         'TransformEnd\nMaterial "matte" "texture Kd" "t"\nTranslate 0 -.2 0 Rotate -30 0 1 0 '
         'Rotate -60 1 0 0\nShape "cylinder" "float radius" .8 "float zmin" -.8 "float zmax" .8\n'
         'WorldEnd\n' % (x, BLUE))),
-    "checkerboard-tex1": (COLORS, filled(
+    "checkerboard-tex1": ("0; .3; .8; .7 .2 .1; .1 .5 .2", filled(
         "tex1", '"checkerboard" "float uscale" 4 "float vscale" 4', "tex2")),
-    "checkerboard-tex2": (COLORS, filled(
+    "checkerboard-tex2": ("0; .3; .8; .7 .2 .1; .1 .5 .2", filled(
         "tex2", '"checkerboard" "float uscale" 4 "float vscale" 4', "tex1")),
-    "constant-value": (COLORS, lambda x: square('Texture "t" "color" "constant" "color value" ' + color(x))),
-    "dots-inside": (COLORS, filled("inside", '"dots" "float uscale" 3 "float vscale" 3', "outside")),
-    "dots-outside": (COLORS, filled("outside", '"dots" "float uscale" 3 "float vscale" 3', "inside")),
+    "constant-value": ("0; .3; .8; .7 .2 .1; .1 .5 .2",
+        lambda x: square('Texture "t" "color" "constant" "color value" ' + color(x))),
+    "dots-inside": ("0; .3; .8; .7 .2 .1; .1 .5 .2", filled(
+        "inside", '"dots" "float uscale" 3 "float vscale" 3', "outside")),
+    "dots-outside": ("0; .3; .8; .7 .2 .1; .1 .5 .2", filled(
+        "outside", '"dots" "float uscale" 3 "float vscale" 3', "inside")),
     "imagemap-uscale": (".5 1 2 4", lambda x: square(
         'Texture "t" "color" "imagemap" %s "float uscale" %s' % (IMAGE, x))),
     "imagemap-maxanisotropy": ("1 2 8 32", lambda x: COARSE + floor(
@@ -116,11 +115,14 @@ STRIPS = {
         'Texture "t" "color" "imagemap" %s "float scale" %s' % (IMAGE, x))),
     "marble-octaves": ("1 2 3 5 8", lambda x: veined('"integer octaves" ' + x)),
     "marble-roughness": (".1 .3 .5 .7 .9", lambda x: veined('"float roughness" ' + x)),
-    "mix-tex1": (COLORS, lambda x: square(MIX % (color(x), "[ .08 .16 .3 ]", '"texture amount" "f"'))),
-    "mix-tex2": (COLORS, lambda x: square(MIX % ("[ .08 .16 .3 ]", color(x), '"texture amount" "f"'))),
-    "mix-amount": ("0 .25 .5 .75 1", lambda x: square(MIX % (
+    "mix-tex1": ("0; .3; .8; .7 .2 .1; .1 .5 .2",
+        lambda x: square(MIX % (color(x), "[ .08 .16 .3 ]", '"texture amount" "f"'))),
+    "mix-tex2": ("0; .3; .8; .7 .2 .1; .1 .5 .2",
+        lambda x: square(MIX % ("[ .08 .16 .3 ]", color(x), '"texture amount" "f"'))),
+    "mix-amount": ("0 .25 .5 .75 1",
+        lambda x: square(MIX % (
         "[ .75 .65 .4 ]", "[ .08 .16 .3 ]", '"float amount" ' + x))),
-    "scale-tex1": (COLORS, lambda x: square(
+    "scale-tex1": ("0; .3; .8; .7 .2 .1; .1 .5 .2", lambda x: square(
         'Texture "image" "color" "imagemap" %s\n'
         'Texture "t" "color" "scale" "texture tex2" "image" "color tex1" %s' % (IMAGE, color(x)))),
 }
