@@ -10,6 +10,7 @@
 #include "core/parser/builder/missing_renderers.h"
 #include "core/parser/film_parameters.h"
 #include "core/parser/pbrt_parameters.h"  // generated from pbrt_parameters.txt
+#include "core/parser/reference/strip_sections.h"
 #include "core/plugins/catalogue.h"
 
 namespace exphoton {
@@ -121,74 +122,11 @@ std::string RowOf(const PbrtPlugin& plugin, const Fate& fate) {
 
 constexpr const char* kLanguageFile = "pbrt.md";
 
-std::string WithCommas(const std::string& values) {
-  std::string text;
-  for (const char c : values) text += c == ' ' ? ", " : std::string(1, c);
-  return text;
-}
-
-// Appends the strip to the section of its plugin.
-void AddStrip(const ParameterStrip& strip, std::string* page) {
-  const std::string heading = std::string("## ") + strip.kind + " `" + strip.plugin + "`\n",
-                    values = WithCommas(strip.values);
-  const std::size_t end = page->find("\n## ", page->find(heading) + 1);
-  page->insert(std::min(end, page->size()), std::string("\n`") + strip.parameter + "` " + values +
-                                                ":\n\n![" + strip.plugin + ": " + strip.parameter +
-                                                ' ' + values + "](images/" + strip.plugin + '-' +
-                                                strip.parameter + ".jpg)\n");
-}
-
 }  // namespace
 
 const std::vector<PbrtPlugin>& PbrtPlugins() {
   static const std::vector<PbrtPlugin> plugins = ParsePlugins(kPbrtParameters);
   return plugins;
-}
-
-const std::vector<ParameterStrip>& ParameterStrips() {
-  static const std::vector<ParameterStrip> strips{
-      {"materials.md", "Material", "matte", "sigma", "0 15 30 50 80"},
-      {"materials.md", "Material", "matte", "bumpmap", "0 .05 .1 .2 .4"},
-      {"materials.md", "Material", "metal", "roughness", ".002 .01 .05 .15 .5"},
-      {"materials.md", "Material", "shinymetal", "roughness", ".002 .01 .05 .15 .5"},
-      {"materials.md", "Material", "plastic", "roughness", ".002 .01 .05 .15 .5"},
-      {"materials.md", "Material", "plastic", "Ks", "0 .1 .3 .6 1"},
-      {"materials.md", "Material", "substrate", "uroughness", ".005 .02 .05 .2 .8"},
-      {"materials.md", "Material", "translucent", "transmit", "0 .25 .5 .75 1"},
-      {"materials.md", "Material", "uber", "opacity", "1 .75 .5 .25 .05"},
-      {"materials.md", "Material", "glass", "index", "1.02 1.1 1.33 1.5 2.4"},
-      {"materials.md", "Material", "mix", "amount", "0 .25 .5 .75 1"},
-      {"textures.md", "Float texture", "fbm", "octaves", "1 2 3 5 8"},
-      {"textures.md", "Float texture", "fbm", "roughness", ".2 .3 .4 .5 .6"},
-      {"textures.md", "Float texture", "wrinkled", "octaves", "1 2 3 5 8"},
-      {"textures.md", "Float texture", "wrinkled", "roughness", ".2 .3 .4 .5 .6"},
-      {"textures.md", "Color texture", "marble", "variation", "0 .1 .2 .5 1"},
-      {"textures.md", "Color texture", "marble", "scale", ".5 1 2 4 8"},
-      {"textures.md", "Color texture", "checkerboard", "uscale", "1 2 4 8 16"},
-      {"textures.md", "Color texture", "checkerboard", "aamode", "closedform supersample none"},
-      {"textures.md", "Color texture", "dots", "uscale", "2 4 8 16 32"},
-      {"textures.md", "Color texture", "imagemap", "mapping", "uv spherical cylindrical planar"},
-      {"textures.md", "Color texture", "imagemap", "wrap", "repeat black clamp"},
-      {"textures.md", "Color texture", "imagemap", "gamma", ".5 1 1.5 2.2 3"},
-      {"filters.md", "Filter", "box", "xwidth", ".25 .5 1 2 4"},
-      {"filters.md", "Filter", "triangle", "xwidth", ".5 1 2 3 4"},
-      {"filters.md", "Filter", "gaussian", "alpha", "8 4 2 1 .3"},
-      {"filters.md", "Filter", "mitchell", "B", "0 .25 .5 .75 1"},
-      {"filters.md", "Filter", "mitchell", "C", "0 .25 .5 .75 1"},
-      {"filters.md", "Filter", "sinc", "tau", ".5 1 2 3 6"},
-      {"cameras.md", "Camera", "perspective", "fov", "15 30 45 70 100"},
-      {"cameras.md", "Camera", "perspective", "lensradius", "0 .05 .1 .2 .4"},
-      {"cameras.md", "Camera", "perspective", "focaldistance", "3 4 5.7 8 20"},
-      {"cameras.md", "Camera", "perspective", "shutterclose", "0 .1 .3 .6 1"},
-      {"volumes.md", "Volume", "homogeneous", "sigma_s", "0 .02 .05 .1 .2"},
-      {"volumes.md", "Volume", "homogeneous", "sigma_a", "0 .05 .1 .2 .4"},
-      {"volumes.md", "Volume", "homogeneous", "g", "-.7 -.35 0 .35 .7"},
-      {"volumes.md", "Volume", "exponential", "b", "0 .5 1 2 4"},
-      {"lights.md", "Light", "spot", "coneangle", "8 14 20 30 50"},
-      {"lights.md", "Light", "spot", "conedeltaangle", "0 4 8 14 20"},
-      {"shapes.md", "Shape", "loopsubdiv", "nlevels", "0 1 2 3 4"},
-  };
-  return strips;
 }
 
 std::string LanguagePage(PluginRegistry& registry) {
@@ -219,7 +157,7 @@ std::map<std::string, std::string> AllReferencePages(PluginRegistry& registry) {
   materials.insert(materials.find("## "),
                    "![One object in every "
                    "material](../../scenes/material-gallery/images/labelled.jpg)\n\n");
-  for (const ParameterStrip& strip : ParameterStrips()) AddStrip(strip, &pages[strip.page]);
+  AddParameterStrips(registry, &pages);
   pages["README.md"] +=
       "- [The plugins and parameters of pbrt](pbrt.md), and what becomes of them\n\n"
       "![Shapes, materials, textures and lights](../../scenes/language-tour/images/sheet.jpg)\n";

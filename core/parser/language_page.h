@@ -25,15 +25,7 @@ const std::vector<PbrtPlugin>& PbrtPlugins();
 // Returns the page in Markdown.
 std::string LanguagePage(PluginRegistry& registry);
 
-// A strip of small pictures, one for each value of a parameter.
-// docs/reference/images/make_strips.py renders it to docs/reference/images/PLUGIN-PARAMETER.jpg.
-struct ParameterStrip {
-  const char *page, *kind, *plugin, *parameter;
-  const char* values;  // separated by spaces, as in the script
-};
-const std::vector<ParameterStrip>& ParameterStrips();
-
-// Returns ReferencePages with this page, and with the strips below the tables of their plugins.
+// Returns ReferencePages with this page, and with the pictures of AddParameterStrips.
 std::map<std::string, std::string> AllReferencePages(PluginRegistry& registry);
 
 }  // namespace exphoton

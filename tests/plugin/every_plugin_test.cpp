@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -15,6 +17,7 @@
 #include "core/params/param_reader.h"
 #include "core/parser/language_page.h"
 #include "core/parser/overrides.h"
+#include "core/parser/reference/parameter_strips.h"
 #include "core/plugins/catalogue.h"
 #include "core/plugins/registry.h"
 #include "tests/support/process.h"
@@ -161,29 +164,54 @@ TEST_F(EveryPlugin, IsInTheReferenceAsItDeclaresItself) {
   }
 }
 
+// Returns the section of the plugin on the reference pages, and "" if there is none.
+std::string SectionOf(std::map<std::string, std::string>& pages, PluginKind kind,
+                      const std::string& plugin) {
+  const std::string& page = pages[std::string(PluginKindFolder(kind)) + ".md"];
+  std::string heading = std::string(PluginKindName(kind)) + " `" + plugin + "`\n";
+  heading[0] = char(std::toupper(heading[0]));
+  const std::size_t begin = page.find("\n## " + heading);
+  if (begin == std::string::npos) return "";
+  return page.substr(begin + 1, page.find("\n## ", begin + 1) - begin);
+}
+
 TEST_F(EveryPlugin, HasTheParametersAndPicturesOfItsStrips) {
   const fs::path folder = EXPHOTON_SOURCE_DIR "/docs/reference/images";
-  const std::string script = ReadFile(folder / "make_strips.py");
   auto pages = AllReferencePages(registry_);
-  std::set<std::string> names;
+  std::set<fs::path> files;
   for (const ParameterStrip& strip : ParameterStrips()) {
+    SCOPED_TRACE(strip.Name());
+    const fs::path file = folder / (strip.Name() + ".jpg");
+    EXPECT_TRUE(files.insert(file).second) << "is there twice";
     const std::string name = std::string(strip.plugin) + '-' + strip.parameter;
-    SCOPED_TRACE(name);
-    names.insert(name + ".jpg");
+    const std::string script =
+        ReadFile(folder / "strips" / (std::string(PluginKindFolder(strip.kind)) + ".py"));
     EXPECT_NE(script.find('"' + name + "\": (\"" + strip.values + '"'), std::string::npos);
-    EXPECT_TRUE(fs::is_regular_file(folder / (name + ".jpg")));
-    EXPECT_LE(fs::file_size(folder / (name + ".jpg")), 40000u);
-    const std::string& page = pages[strip.page];
-    const std::size_t heading =
-        page.find(std::string("## ") + strip.kind + " `" + strip.plugin + '`');
-    ASSERT_NE(heading, std::string::npos);
-    const std::string section = page.substr(heading, page.find("\n## ", heading) - heading);
+    EXPECT_TRUE(fs::is_regular_file(file));
+    EXPECT_LE(fs::file_size(file), 40000u);
+    const std::string section = SectionOf(pages, strip.kind, strip.plugin);
     EXPECT_NE(section.find(std::string("\n| `") + strip.parameter + "` |"), std::string::npos);
-    EXPECT_NE(section.find("](images/" + name + ".jpg)"), std::string::npos);
+    EXPECT_NE(section.find("](images/" + strip.Name() + ".jpg)"), std::string::npos);
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    EXPECT_TRUE(entry.path().extension() != ".jpg" || names.count(entry.path().filename()))
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    EXPECT_TRUE(entry.path().extension() != ".jpg" || files.count(entry.path()))
         << entry.path() << " is on no page";
+}
+
+TEST_F(EveryPlugin, LinksToThePicturesOfTheSameParameterElsewhere) {
+  auto pages = AllReferencePages(registry_);
+  const auto shows = [&](PluginKind kind, const char* plugin, const std::string& text) {
+    return SectionOf(pages, kind, plugin).find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(shows(PluginKind::Material, "clay",
+                    "\n\n[Material `matte`](#material-matte) shows `bumpmap`.\n"));
+  EXPECT_TRUE(shows(PluginKind::Integrator, "whitted",
+                    "[Integrator `directlighting`](#integrator-directlighting) shows `maxdepth`."));
+  EXPECT_TRUE(shows(PluginKind::Camera, "environment",
+                    "[Camera `perspective`](#camera-perspective) shows `hither`, `yon`,"));
+  EXPECT_FALSE(shows(PluginKind::Camera, "environment", "`screenwindow`."));
+  EXPECT_FALSE(shows(PluginKind::Material, "matte", "#material-matte"));
+  EXPECT_FALSE(shows(PluginKind::Volume, "exponential", "shows `a`"));
 }
 
 std::optional<PluginKind> KindOfWord(const std::string& word) {
