@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-constexpr int kPageColumns = 96;
+constexpr int kLinkColumns = 96;
 
 struct Plugin {
   PluginKind kind;
@@ -109,7 +109,7 @@ std::string SectionEnd(PluginRegistry& registry, const Plugin& plugin, const std
   for (const Link& link : links)
     text += '[' + HeadingOf(link.plugin) + "](#" + AnchorOf(link.plugin) + ") shows " +
             link.parameters + ". ";
-  return text.empty() ? pictures : pictures + '\n' + WrappedText(text, 0, kPageColumns);
+  return text.empty() ? pictures : pictures + '\n' + WrappedText(text, 0, kLinkColumns);
 }
 
 }  // namespace
