@@ -25,6 +25,8 @@ using Clock = std::chrono::steady_clock;
 // The first samples of a sequence are well distributed if their number is this number times a power
 // of two. A larger number would spoil small passes.
 constexpr std::int64_t kWellDistributed = 2;
+// The noise of photons, as a share of what an accuracy leaves room for.
+constexpr double kMuchNoise = .5;
 // Fewer samples share badly and say little about the bias of sharing.
 constexpr std::int64_t kFewestToStopSharing = 8;
 
@@ -222,8 +224,11 @@ class Passes {
     if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
     photons_.EndPass(step.size);
     TakePhotonNoise(group);
-    // Groups with the same noisy photons say little about the error.
-    if (accuracy_ && !photons_.Divides(group + 1)) LookAtError();
+    // Each look costs confidence. Where photons of the next group will remove much of the noise,
+    // the picture is not yet good enough.
+    const bool isFarAway = accuracy_ && photons_.Divides(group + 1) &&
+                           photons_.FirstNoise() > kMuchNoise * accuracy_->RoomForNoise();
+    if (accuracy_ && !isFarAway) LookAtError();
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup)

@@ -30,8 +30,8 @@ double Normal(RandomStream* random) {
 // successive groups have this covariance.
 double NoiseOf(std::uint64_t seed, int group, Point2i pixel, double dependence) {
   const auto own = [&](int g) {
-    RandomStream random(HashKey({seed, std::uint64_t(g + 1), std::uint64_t(pixel.x),
-                                 std::uint64_t(pixel.y)}));
+    RandomStream random(
+        HashKey({seed, std::uint64_t(g + 1), std::uint64_t(pixel.x), std::uint64_t(pixel.y)}));
     return Normal(&random);
   };
   if (group % 2 == 0) return own(group);

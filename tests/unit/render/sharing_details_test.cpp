@@ -59,10 +59,9 @@ TEST(SharedDetails, AreBrightLinesOfOnePixel) {
 
 // One gather in 400 has a hundred times the light of the others.
 TEST(SharedDetails, AreNotFireflies) {
-  const Film film = ShareWall([](int) { return 1; },
-                              [](RandomStream* random) {
-                                return random->Uniform() < Real(1. / 400) ? 80. : .8;
-                              });
+  const Film film =
+      ShareWall([](int) { return 1; },
+                [](RandomStream* random) { return random->Uniform() < Real(1. / 400) ? 80. : .8; });
   double most = 0;
   for (int y = 0; y < kWallSide; ++y)
     for (int x = 0; x < kWallSide; ++x) most = std::max(most, film.MeanOf({x, y})[0]);

@@ -43,12 +43,12 @@ std::vector<double> RelativeDifferences(const PassNoise& shared, const PassNoise
   return values;
 }
 
-// Returns the standard deviation of the sum of a b. Let x and y be the noise of a and b, and let the
-// variance of y be q^2 times the variance of x. Then x - y and q x + y / q are uncorrelated, so
+// Returns the standard deviation of the sum of a b. Let x and y be the noise of a and b, and let
+// the variance of y be q^2 times the variance of x. Then x - y and q x + y / q are uncorrelated, so
 // (a - b) (q a + b / q) / 2 has the mean 0, whatever the bias is. For q = 1 and normal noise its
-// variance equals the one of a b, and otherwise it is larger. The noise of cells is independent. The
-// deviation is Student's: deviations of results in units of it have the variance 1, also where few
-// cells have all noise.
+// variance equals the one of a b, and otherwise it is larger. The noise of cells is independent.
+// The deviation is Student's: deviations of results in units of it have the variance 1, also where
+// few cells have all noise.
 double DeviationOfProducts(const std::vector<double>& a, const std::vector<double>& b, double q,
                            std::size_t width) {
   const std::size_t columns = (width + kCell - 1) / kCell, row = 3 * width;
