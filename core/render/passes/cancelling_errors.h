@@ -17,8 +17,8 @@ inline Trust TrustIn(std::int64_t groupSamples, bool sharesGathers) {
   return groupSamples < 8 || sharesGathers ? Trust::Half : Trust::Full;
 }
 
-// The ratio of the squared errors of n and n / 2 samples that gathers have. Measured in five
-// scenes: .45 to .51 (docs/decisions/0095-bias-of-sharing-from-both-pictures.md).
+// The ratio of the squared errors of n and n / 2 samples that gathers have. Three scenes have .45
+// to .54 (docs/decisions/0095-bias-of-sharing-from-both-pictures.md).
 inline constexpr double kUsualErrorRatio = .45;
 
 // Returns the squared error of the mean of two halves of a sequence, divided by a quarter of their
