@@ -25,10 +25,6 @@ constexpr double kScatter = .25;  // of the noise of the last pilot
 
 }  // namespace
 
-bool HasPhotonMaps(const Candidate& candidate) {
-  return candidate.integrator.ends_with("photonmap");
-}
-
 Explorer::Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays,
                    const Wish& wish)
     : series_(pilots, integrator, gatherRays, PilotSeries::Unit::CountedCost), wish_(wish) {
@@ -67,7 +63,9 @@ void Explorer::Settle(double most) {
 
 bool Explorer::FindOmissions(double most) {
   Guarded([&] {
-    if (!isRough_ || !wish_.findOmissions || !HasPhotonMaps(candidate_) || IsTooDear(most)) return;
+    if (!isRough_ || !wish_.findOmissions || !ReadsPhotonMaps(candidate_.integrator) ||
+        IsTooDear(most))
+      return;
     const Candidate before = candidate_;
     const std::vector<OmittedEffect> omitted = wish_.findOmissions(&candidate_);
     candidate_ = before;

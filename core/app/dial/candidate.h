@@ -34,8 +34,6 @@ struct Candidate {
   bool hasSoughtOmissions = false;  // before its pilot with all photons
 };
 
-bool HasPhotonMaps(const Candidate& candidate);
-
 struct Wish {
   double error = 0;           // root of relMSE
   bool keepsPhotons = false;  // the number of photons must be the scene's

@@ -55,7 +55,7 @@ void DropDarkOnes(std::vector<Candidate>* candidates) {
 
 // Returns the rays as in DialSettings.
 int GatherRaysFor(const std::string& integrator, int sceneRays) {
-  return integrator.ends_with("photonmap") && sceneRays != kGatherRays ? kGatherRays : 0;
+  return ReadsPhotonMaps(integrator) && sceneRays != kGatherRays ? kGatherRays : 0;
 }
 
 bool IsCheaper(const Explorer& a, const Explorer& b) {

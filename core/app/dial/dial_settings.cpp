@@ -18,4 +18,8 @@ std::vector<ParameterOverride> DialSettings::Overrides() const {
   return overrides;
 }
 
+bool ReadsPhotonMaps(const std::string& integrator) {
+  return integrator == "photonmap" || integrator == "exphotonmap";
+}
+
 }  // namespace exphoton::cli

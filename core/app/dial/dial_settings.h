@@ -2,6 +2,7 @@
 // DialSettings are the parameters of a photon integrator that --accuracy may change.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/parser/render_setup.h"
@@ -16,5 +17,8 @@ struct DialSettings {
   // Returns the parameters that differ from the scene.
   std::vector<ParameterOverride> Overrides() const;
 };
+
+// Returns whether an integrator that --accuracy knows reads photon maps and gathers.
+bool ReadsPhotonMaps(const std::string& integrator);
 
 }  // namespace exphoton::cli

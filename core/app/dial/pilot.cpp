@@ -112,7 +112,7 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
                         loaded_.isRough == request.isRough &&
                         HaveSameNames(loaded_.omitted, request.omitted);
   if (isLoaded) return *setup_;
-  const bool hasMaps = request.integrator.ends_with("photonmap");
+  const bool hasMaps = ReadsPhotonMaps(request.integrator);
   LoadOptions options = hasMaps && !request.isRough ? fewer_ : small_;
   options.integrator = request.integrator;
   options.isQuick = request.isRough;

@@ -31,7 +31,7 @@ PilotRenderer::Loan::Loan(PilotRenderer* pilots, const std::string& integrator,
   };
   few("indirectphotons", settings.indirectPhotons * factor);
   few("causticphotons", settings.causticPhotons * std::max(factor, 1.));
-  if (integrator.ends_with("photonmap")) {
+  if (ReadsPhotonMaps(integrator)) {
     const double used = pilots_.sceneUsedPhotons_ > 0 ? pilots_.sceneUsedPhotons_ : kUsedByDefault;
     set("nused", std::max(kFewPhotons * used, kLeastUsed));
     options.parameters.push_back(pilots_.FewPaths());
