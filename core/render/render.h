@@ -137,8 +137,8 @@ class PassRenderer {
   // Fills the job's statistics and logs warnings. Must be called once, at the end.
   RenderResult Finish();
 
-  // Returns the estimate for the passes so far, without a batch that may go on; nullopt if no
-  // gathers are shared.
+  // Returns the estimate from neighbouring pixels for the passes so far, without a batch that may
+  // go on; nullopt if no gathers are shared, or if RenderOptions::sharingChange is given.
   std::optional<SharingBias> MeanSharingBias() const;
 
   // Saves what all passes have in common, and the current batch.

@@ -44,6 +44,7 @@ struct SummaryTarget {
   std::string integratorName;
   DepthParameters limits;
 };
+
 // States the estimate for shared gathers in the result and in the statistics.
 void SetSharingBias(const std::optional<SharingBias>& bias, Statistics* statistics,
                     RenderResult* result);

@@ -211,7 +211,8 @@ TEST_F(EveryPlugin, LinksToThePicturesOfTheSameParameterElsewhere) {
                     "[Camera `perspective`](#camera-perspective) shows `hither`, `yon`,"));
   EXPECT_FALSE(shows(PluginKind::Camera, "environment", "`screenwindow`."));
   EXPECT_FALSE(shows(PluginKind::Material, "matte", "#material-matte"));
-  EXPECT_FALSE(shows(PluginKind::Volume, "exponential", "shows `a`"));
+  EXPECT_FALSE(shows(PluginKind::Volume, "exponential", "#volume-exponential"));
+  EXPECT_TRUE(shows(PluginKind::ColorTexture, "wrinkled", "#float-texture-wrinkled"));
 }
 
 std::optional<PluginKind> KindOfWord(const std::string& word) {

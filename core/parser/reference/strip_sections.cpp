@@ -101,9 +101,15 @@ std::string SectionEnd(PluginRegistry& registry, const Plugin& plugin, const std
       pictures += PictureOf(*strip);
       continue;
     }
-    strip = std::find_if(strips.begin(), strips.end(), [&](const ParameterStrip& other) {
-      return other.Page() == page && Shows(registry, other, decl);
-    });
+    // A plugin of the same name and another kind comes first, such as a texture of colours.
+    const auto showing = [&](bool needsName) {
+      return std::find_if(strips.begin(), strips.end(), [&](const ParameterStrip& other) {
+        return other.Page() == page && (!needsName || other.plugin == plugin.name) &&
+               Shows(registry, other, decl);
+      });
+    };
+    strip = showing(true);
+    if (strip == strips.end()) strip = showing(false);
     if (strip != strips.end()) AddToLinks(*strip, &links);
   }
   for (const Link& link : links)

@@ -17,8 +17,9 @@ inline Trust TrustIn(std::int64_t groupSamples, bool sharesGathers) {
   return groupSamples < 8 || sharesGathers ? Trust::Half : Trust::Full;
 }
 
-// The ratio of the squared errors of n and n / 2 samples that gathers have. Three scenes have .45
-// to .54 (docs/decisions/0095-bias-of-sharing-from-both-pictures.md).
+// The ratio of the squared errors of n and n / 2 samples, for the difference between pictures with
+// and without shared gathers. Three scenes have .45 to .54
+// (docs/decisions/0095-bias-of-sharing-from-both-pictures.md).
 inline constexpr double kUsualErrorRatio = .45;
 
 // Returns the squared error of the mean of two halves of a sequence, divided by a quarter of their

@@ -57,10 +57,7 @@ class Halves {
 
   void TakeHalf(const Film& half) {
     sum_.Add(half, sampler_->SamplesPerPixel(), sum_.Passes());
-    if (unshared_) {
-      Film own = half;
-      unshared_->Add(&own, sampler_->SamplesPerPixel(), sum_.Passes() - 1);
-    }
+    if (unshared_) unshared_->Add(half, sampler_->SamplesPerPixel(), sum_.Passes() - 1);
     parts_.Show(job_.film);
     if (options_.corrections)
       options_.corrections->EndPass(sum_.Passes() - 1, sampler_->SamplesPerPixel());

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 // The first samples of a sequence are well distributed if their number is this number times a power
 // of two. A larger number would spoil small passes.
 constexpr std::int64_t kWellDistributed = 2;
-// The noise of photons, as a share of what an accuracy leaves room for.
+// Above this share of the room for noise, photons are shot again before the next look.
 constexpr double kMuchNoise = .5;
 // Fewer samples share badly and say little about the bias of sharing.
 constexpr std::int64_t kFewestToStopSharing = 8;
@@ -219,7 +219,7 @@ class Passes {
       if (options_.corrections) options_.corrections->JoinGroups();
     }
     sum_.Add(passFilm_, step.size, group);
-    if (unshared_) unshared_->Add(&passFilm_, step.size, group);
+    if (unshared_) unshared_->Add(passFilm_, step.size, group);
     if (options_.corrections) options_.corrections->EndPass(group, step.size);
     if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
     photons_.EndPass(step.size);

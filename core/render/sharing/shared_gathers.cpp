@@ -25,7 +25,8 @@ class FragmentLight {
     static constexpr FragmentRows::Column kAll[] = {FragmentRows::All};
     LocalFit::Collect(rows, {target_, pixel, window.radius}, kAll, scratch);
     fit_.emplace(*scratch, window.radius, 0);
-    if (SharingWindows::StandsOut(fragment, fit_->AtTarget(), window.noise)) fit_.reset();
+    const SharingWindows::Fitted fitted{pixel, fragment, window, fit_->AtTarget()};
+    if (SharingWindows::IsDetail(rows, fitted, scratch)) fit_.reset();
   }
 
   Spectrum At(const GatherSample& sample) const {

@@ -97,7 +97,7 @@ std::optional<Spectrum> SharingChecker::Difference(Point2i pixel, int group,
     if (!(window.share > 0)) continue;
     LocalFit::Collect(rows_, {FitTarget(fragment), pixel, window.radius}, {&set, 1}, scratch);
     const Spectrum fitted = LocalFit(*scratch, window.radius, 0).AtTarget();
-    if (SharingWindows::StandsOut(fragment, fitted, window.noise)) continue;
+    if (SharingWindows::IsDetail(rows_, {pixel, fragment, window, fitted}, scratch)) continue;
     *sum += weights[i] * (fitted - fragment.Mean(group)) * window.share;
   }
   return sum;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// SharingBias is an estimate of the error that shared gathers add to a picture (sharing_bias.h).
+// SharingBias is an estimate of the error that shared gathers add to a picture, from neighbouring
+// pixels (sharing_bias.h) or from the pictures with and without sharing
+// (core/render/passes/unshared/bias_of_sharing.h).
 #pragma once
 
 namespace exphoton {
 
 // The mean over the picture of squared bias / (L^2 + 0.01), the unit of relMSE. The estimate may be
-// negative by chance. It is the larger one of two, which is .56 standard errors too high if they
-// are independent and there is no bias.
+// negative by chance. From neighbours it is the larger one of two, which is .56 standard errors too
+// high if they are independent and there is no bias.
 struct SharingBias {
   double squared = 0;
-  double standardError = 0;  // from the differences between squares of 16 pixels
+  double standardError = 0;
 };
 
 }  // namespace exphoton

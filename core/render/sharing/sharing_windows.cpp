@@ -3,6 +3,7 @@
 // of a neighbourhood.
 #include "core/render/sharing/sharing_windows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/render/sharing/local_fit.h"
@@ -36,6 +37,21 @@ struct Comparison {
   // Returns whether the first window is better by more than this number of standard errors.
   bool IsBetter(double deviations) const { return sum + deviations * std::sqrt(squares) < 0; }
 };
+
+// Returns whether the light of a group differs from a fit by more than its noise, and not against
+// this direction.
+bool StandsOut(const GatherFragment& fragment, int group, const Spectrum& fit,
+               const Spectrum& direction, Real noise) {
+  constexpr double kDeviations = 3;
+  const Spectrum own = fragment.Mean(group), both = (own - fit) * direction;
+  // Brighter light has more noise, so the brighter one of both counts.
+  const double variance =
+      double(noise) *
+      std::max(SquaredDifference(fit, Spectrum()), SquaredDifference(own, Spectrum())) /
+      double(fragment.count[std::size_t(group)]);
+  return noise > 0 && both[0] + both[1] + both[2] > 0 &&
+         SquaredDifference(own, fit) > kDeviations * kDeviations * variance;
+}
 
 }  // namespace
 
@@ -130,33 +146,50 @@ void SharingWindows::Choose(Place* place) const {
     if (compare(window, &Place::errorsOfFits).IsBetter(1)) best = window;
   if (best == 1 && compare(0, &Place::errors).IsBetter(2)) best = 0;
   place->radius = kRadii[best];
-  Real noise = 0, total = 0;
-  ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
-    for (std::size_t set = 0; set < 2; ++set)
-      noise += weight * Real(other.errors[set][best]) * other.otherRecords[set];
-    total += 2 * weight;
-  });
-  if (total > 0) place->noise = noise / total;
+  place->noise = NoiseAround(*place, std::max(best, std::size_t(1)));
 }
 
-bool SharingWindows::StandsOut(const GatherFragment& fragment, const Spectrum& fit, Real noise) {
-  constexpr double kDeviations = 3;
-  if (!(noise > 0)) return false;
-  const double fitted = SquaredDifference(fit, Spectrum());
-  std::array<Spectrum, 2> differences;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const int group = kChoosingGroups[i];
-    if (!fragment.HasGroup(group)) return false;
-    const Spectrum own = fragment.Mean(group);
-    differences[i] = own - fit;
-    // Brighter light has more noise, so the brighter one of both counts.
-    const double variance = double(noise) * std::max(fitted, SquaredDifference(own, Spectrum())) /
-                            double(fragment.count[std::size_t(group)]);
-    if (!(SquaredDifference(differences[i], Spectrum()) > kDeviations * kDeviations * variance))
+// A line of single pixels differs from all fits, and is not noise. Places where the light of both
+// groups is far from the fit are therefore left out. Noise alone makes few such places, and a
+// firefly is in one group.
+Real SharingWindows::NoiseAround(const Place& place, std::size_t window) const {
+  constexpr float kFar = 9;  // times the median
+  std::vector<float> errors;
+  ForNearby(place, kChoiceRadius, [&](const Place& other, Real) {
+    for (const auto& ofGroup : other.errors) errors.push_back(ofGroup[window]);
+  });
+  if (errors.empty()) return 0;
+  const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  const float limit = kFar * *middle;
+  Real noise = 0, total = 0;
+  ForNearby(place, kChoiceRadius, [&](const Place& other, Real weight) {
+    if (std::min(other.errors[0][window], other.errors[1][window]) > limit) return;
+    for (std::size_t set = 0; set < 2; ++set)
+      noise += weight * Real(other.errors[set][window]) * other.otherRecords[set];
+    total += 2 * weight;
+  });
+  return total > 0 ? noise / total : 0;
+}
+
+bool SharingWindows::IsDetail(const FragmentRows& rows, const Fitted& place,
+                              FitNeighbours* scratch) {
+  const GatherFragment& fragment = place.fragment;
+  const Real radius = place.window.radius, noise = place.window.noise;
+  if (!fragment.HasGroup(kChoosingGroups[0]) || !fragment.HasGroup(kChoosingGroups[1]))
+    return false;
+  const Spectrum direction = fragment.Mean(kChoosingGroups[0]) - place.fit;
+  for (int group = 0; group < kGatherGroups; ++group)
+    if (fragment.HasGroup(group) && !StandsOut(fragment, group, place.fit, direction, noise))
       return false;
+  const FragmentRows::Column sets[] = {FragmentRows::OfGroup(kChoosingGroups[0]),
+                                       FragmentRows::OfGroup(kChoosingGroups[1])};
+  LocalFit::Collect(rows, {FitTarget(fragment), place.pixel, radius}, sets, scratch);
+  for (std::size_t set = 0; set < 2; ++set) {
+    const Spectrum other = LocalFit(*scratch, radius, int(set)).AtTarget();
+    if (!StandsOut(fragment, kChoosingGroups[1 - set], other, direction, noise)) return false;
   }
-  const Spectrum both = differences[0] * differences[1];
-  return both[0] + both[1] + both[2] > 0;
+  return true;
 }
 
 SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {

@@ -30,17 +30,24 @@ class SharingWindows {
 
   // The radius of a fit in pixels, and the share of the fit in the light. The rest is the sample's
   // own light. The share is 1 except where windows are smaller than the smallest fit. `noise` is
-  // the variance of the light of one record around the fit, relative to the square of the fit; 0:
-  // not known.
+  // the variance of the light of one record around fits nearby, relative to the square of a smooth
+  // fit; 0: not known.
   struct Window {
     Real radius, share, noise;
   };
   Window At(Point2i pixel, const GatherFragment& fragment) const;
 
-  // Returns whether a fragment differs from its fit beyond the noise of its light. Both choosing
-  // groups must differ in the same direction, because a single bright record is in one of them.
-  // Windows are chosen for regions, and do not know about a line of single pixels.
-  static bool StandsOut(const GatherFragment& fragment, const Spectrum& fit, Real noise);
+  // Returns whether a fragment is a detail that its window does not resolve, such as a line of
+  // single pixels: all groups of its records differ from the fit beyond their noise, in the same
+  // direction, and so do the choosing groups from each other's fits. A single bright record is in
+  // one group, so it makes no detail, neither here nor in neighbours whose fits it raises.
+  struct Fitted {
+    Point2i pixel;
+    const GatherFragment& fragment;
+    const Window& window;
+    Spectrum fit;  // at the fragment
+  };
+  static bool IsDetail(const FragmentRows& rows, const Fitted& place, FitNeighbours* scratch);
 
   // Makes the area of all windows smaller than the chosen one by this factor in (0,1].
   void Shrink(double area) { scale_ = Real(std::sqrt(area)); }
@@ -73,6 +80,8 @@ class SharingWindows {
                      FitNeighbours* scratch);
   // Fills radius and noise, which do not depend on those of other places.
   void Choose(Place* place) const;
+  // Returns the noise of Window near a place, for fits of this window.
+  Real NoiseAround(const Place& place, std::size_t window) const;
   // Calls use(place, weight) for the judged places within `radius` pixels on the surface of
   // another place.
   template <class Use>

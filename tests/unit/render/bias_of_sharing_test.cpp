@@ -138,6 +138,18 @@ TEST(BiasOfSharing, AddsWhatCancelsInOneSequence) {
               .15 * lost);
 }
 
+// Errors that cancel are those of the first and the second half of a sequence.
+TEST(BiasOfSharing, DividesTheGroupsInTheMiddle) {
+  Pictures pictures;
+  for (int group = 0; group < 4; ++group) {
+    const double sign = group < 2 ? 1 : -1;
+    pictures.Add(
+        group, 64, [&](int x, int y) { return sign * Alternating(x, y); }, 1);
+  }
+  const auto bias = BiasOfSharing(pictures.shared, pictures.unshared, GroupSamples::Independent);
+  EXPECT_NEAR(bias->squared / kAlternating, -1, .05);
+}
+
 // Sharing makes a dark line of one pixel as bright as its surroundings. Relative to the brighter
 // picture, the error would be a third of the true one.
 TEST(BiasOfSharing, IsRelativeToThePictureWithoutSharing) {

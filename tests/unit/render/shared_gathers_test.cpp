@@ -120,8 +120,8 @@ TEST(SharedGathers, AreInTheLightAovs) {
   for (std::size_t i = 0; i < image.pixels.size(); i += channels) {
     for (std::size_t c = 0; c < 3; ++c) {
       double sum = 0;
-      for (std::size_t aov = 0; aov < 5; ++aov) sum += image.pixels[i + 4 + 3 * aov + c];
-      EXPECT_NEAR(sum, image.pixels[i + c], 1e-5 * (1 + sum));
+      for (std::size_t aov = 0; aov < 5; ++aov) sum += double(image.pixels[i + 4 + 3 * aov + c]);
+      EXPECT_NEAR(sum, double(image.pixels[i + c]), 1e-5 * (1 + sum));
     }
   }
 }

@@ -72,7 +72,7 @@ TEST(UnsharedPicture, IsTheOneThatNeverSharedItsGathers) {
     BothPictures pass;
     GatherPass(std::uint64_t(group), &pass, unshared.OfPass(), nullptr);
     sum.Add(pass.shared, kOwnSamples, group);
-    unshared.Add(&pass.shared, kOwnSamples, group);
+    unshared.Add(pass.shared, kOwnSamples, group);
     ownSum.Add(pass.own, kOwnSamples, group);
     aovs.Add(pass.aovs);
     ownAovs.Add(pass.ownAovs);

@@ -15,24 +15,28 @@ namespace {
 
 constexpr std::size_t kCell = 8;  // pixels; the noise of cells is nearly independent
 
-// Two sets of groups with about the same number of samples.
+// The first and the later groups, with about the same number of samples.
 struct SampleHalves {
   std::array<std::vector<int>, 2> groups;
   std::array<std::int64_t, 2> samples{};
 
   explicit SampleHalves(const PassNoise& picture) {
-    for (int group = picture.Places() - 1; group >= 0; --group) {
-      if (picture.SamplesOf(group) <= 0) continue;
-      const std::size_t half = samples[0] <= samples[1] ? 0 : 1;
-      groups[half].push_back(group);
-      samples[half] += picture.SamplesOf(group);
+    std::int64_t all = 0;
+    for (int group = 0; group < picture.Places(); ++group) all += picture.SamplesOf(group);
+    for (int group = 0; group < picture.Places(); ++group) {
+      const std::int64_t count = picture.SamplesOf(group);
+      if (count <= 0) continue;
+      // The group belongs to the first half if most of it lies there.
+      const bool isFirst = samples[0] == 0 || (samples[1] == 0 && 2 * samples[0] + count <= all);
+      groups[isFirst ? 0 : 1].push_back(group);
+      samples[isFirst ? 0 : 1] += count;
     }
   }
   bool AreTwo() const { return !groups[1].empty(); }
 };
 
 // The differences between the pictures with and without sharing in one half, three channels per
-// pixel. Each is divided by the level of its pixel.
+// pixel. The mean of their squares has the unit of relMSE.
 std::vector<double> RelativeDifferences(const PassNoise& shared, const PassNoise& unshared,
                                         const std::vector<int>& groups) {
   const std::vector<double>& levels = unshared.Levels();

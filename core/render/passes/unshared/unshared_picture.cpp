@@ -30,9 +30,10 @@ UnsharedPicture::UnsharedPicture(const Film& picture, const AovFilm* aovs)
       aovs_(aovs ? std::make_unique<AovFilm>(aovs->Crop(), aovs->Wanted()) : nullptr),
       sum_(&picture_, {}) {}
 
-void UnsharedPicture::Add(Film* pass, std::int64_t samplesPerPixel, int group) {
-  pass->SubtractLight(pass_.film);
-  sum_.Add(*pass, samplesPerPixel, group);
+void UnsharedPicture::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
+  Film own = pass;
+  own.SubtractLight(pass_.film);
+  sum_.Add(own, samplesPerPixel, group);
   if (aovs_) aovs_->Add(*pass_.aovs);
   pass_.Clear();
 }

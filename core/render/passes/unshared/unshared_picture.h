@@ -31,8 +31,8 @@ class UnsharedPicture {
 
   // Receives the change of the next pass.
   SharingChange* OfPass() { return &pass_; }
-  // Removes shared light from a complete pass, and adds the pass as PassSum::Add does.
-  void Add(Film* pass, std::int64_t samplesPerPixel, int group);
+  // Adds a complete pass without its shared light, as PassSum::Add does.
+  void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
   // The noise of this picture.
   PassSum& Sum() { return sum_; }
   // Estimates what sharing adds to the error of the picture with this sum.
