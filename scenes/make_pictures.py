@@ -23,7 +23,7 @@ PICTURES = {
     "glass-still-life": (64, 1, .4),
     "spiral-staircase": (32, 2, -.1),
     "swimming-hall": (32, 2, -.2),
-    "sculpture-hall": (32, 4, -1),
+    "sculpture-hall": (32, 8, -1),
     "night-corridor": (32, 2, -.3),
     "blinds-and-haze": (32, 2, .5),
     "dusk-motion": (64, 2, .4),
