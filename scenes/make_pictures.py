@@ -20,16 +20,16 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 # of two halves, with photons of their own, and `exphoton denoise` filters them.
 PICTURES = {
     "cloister": (32, 4, -.3),
-    "glass-still-life": (64, 1, .4),
+    "glass-still-life": (16, 1, -.4),
     "spiral-staircase": (32, 2, -.1),
     "swimming-hall": (32, 2, -.2),
     "sculpture-hall": (32, 4, -1),
     "night-corridor": (32, 2, -.3),
     "blinds-and-haze": (32, 2, .5),
-    "dusk-motion": (64, 2, .4),
+    "dusk-motion": (64, 1, .4),
     "material-gallery": (32, 1, 0),
 }
-DENOISED = ["glass-still-life", "material-gallery"]
+DENOISED = ["glass-still-life", "dusk-motion", "material-gallery"]
 # More lights take the grain from the rim of the wheel, which is a small part of the picture's error.
 OPTIONS = {"dusk-motion": ["--set", "SurfaceIntegrator.directlights=16"]}
 # A target that no picture reaches, so that all passes are rendered.
