@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Writes the surfaces of revolution of the still life: a goblet, its wine, a carafe, a ring.
+"""Writes the surfaces of revolution of the still life: a goblet, its wine, a carafe, its water,
+a ring, a lemon.
 Run it in this folder: python3 make_glasses.py. Its output is kept beside it. Decimetres; y points
 up."""
 import math
@@ -70,9 +71,14 @@ def main():
             (.96, .26), (.8, .14), (0, .12)]])
     write("water", "The water in the carafe. It reaches slightly into the glass.",
           [[(0, .115), (.81, .135), (.968, .255), (1.003, .6), (.955, .95)], [(.955, .95), (0, .95)]])
-    write("ring", "A ring of radius .5.",
-          [[(.5 + .075 * math.sin(t * math.pi / 8), .055 - .055 * math.cos(t * math.pi / 8))
-            for t in range(17)]], 72, 1)
+    write("ring", "A ring, a band of radius .5 whose inside is nearly a cylinder.",
+          [[(.46, .02), (.485, 0), (.52, 0), (.545, .02)],
+           [(.545, .02), (.56, .09), (.565, .15), (.56, .21), (.545, .28)],
+           [(.545, .28), (.52, .3), (.485, .3), (.46, .28)],
+           [(.46, .28), (.455, .15), (.46, .02)]], 96)
+    write("lemon", "A lemon of length 1.3 and radius .44. Its axis is y.",
+          [[(0, -.63), (.06, -.62), (.12, -.57), (.24, -.5), (.37, -.32), (.435, -.1), (.43, .12),
+            (.35, .33), (.22, .47), (.13, .53), (.1, .59), (.07, .66), (0, .68)]], 64, 6)
 
 
 main()
