@@ -2,9 +2,10 @@
 // exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. It is photonmap
 // with six improvements switched on: photons of nearly constant weight, precomputed radiance, a
 // final gather that is guided by photons, a smooth kernel, lights chosen by power, and gathers that
-// neighbouring pixels share. Three more defaults differ: roulette of paths begins earlier, photons
-// are aimed at what can be seen, and their emission is guided. docs/theory/exphotonmap.md derives
-// it; integrators/photon/photon_integrator.h is the algorithm.
+// neighbouring pixels share. Four more defaults differ: pixels with edges take more camera samples,
+// roulette of paths begins earlier, photons are aimed at what can be seen, and their emission is
+// guided. docs/theory/exphotonmap.md derives it; integrators/photon/photon_integrator.h is the
+// algorithm.
 #include "core/plugin.h"
 #include "integrators/photon/photon_integrator.h"
 

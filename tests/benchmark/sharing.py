@@ -11,7 +11,8 @@ other with one thread, and the smallest time of all seeds counts. OPTIONs go to 
 The last column is the time of the other kind of settings at the same error, divided by the time of the
 row. It is interpolated between the settings that no other of their kind beats in time and error. A
 mark says where the error lies outside of them: "> 3" where they do not get there, and "< 3" where the
-cheapest of them is already better.
+cheapest of them is already better. Errors below the noise of the reference are not compared, because
+they may be anything, even negative; more samples of the reference resolve them.
 """
 import math
 import os
@@ -68,14 +69,27 @@ def measure(scene, error, seeds, settings, more):
     return rows
 
 
-def print_rows(rows):
+def ratio(row, others):
+    """Returns the last column of a row."""
+    if not others:
+        return "none is resolved"
+    seconds, mark = time_at(row["error"], others)
+    return f"{mark}{seconds / row['seconds']:.2f}"
+
+
+def print_rows(rows, least):
+    """Errors below `least` are not resolved by the reference."""
     print("| gathers | samples x rays | relMSE | CPU s | time of the others at this error |\n"
           "| --- | --- | --- | --- | --- |")
+    resolved = [row for row in rows if row["error"] > least]
     for row in rows:
-        seconds, mark = time_at(row["error"], [r for r in rows if r["shared"] != row["shared"]])
         kind = "shared" if row["shared"] else "not shared"
-        print(f"| {kind} | {row['setting']} | {row['error']:.5f} | {row['seconds']:.2f} | "
-              f"{mark}{seconds / row['seconds']:.2f} |", flush=True)
+        if row in resolved:
+            error = f"{row['error']:.5f}"
+            last = ratio(row, [r for r in resolved if r["shared"] != row["shared"]])
+        else:
+            error, last = f"< {least:.5f}", "not resolved by the reference"
+        print(f"| {kind} | {row['setting']} | {error} | {row['seconds']:.2f} | {last} |", flush=True)
 
 
 def main():
@@ -92,14 +106,16 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             scene = Scene(program, path, size, folder)
             if reference.endswith(".exr"):
+                least = 0
+
                 def error(picture):
                     return scene.rel_mse(picture, reference)
             else:
                 scene.reference(reference, *more)
-                error = scene.error
+                error, least = scene.error, scene.noise / 4  # of the mean of both halves
             print(f"\n{os.path.basename(os.path.dirname(path))}/{os.path.basename(path)}, {size} pixels"
                   f"{', ' if more else ''}{' '.join(more)}\n", flush=True)
-            print_rows(measure(scene, error, int(seeds), settings, more))
+            print_rows(measure(scene, error, int(seeds), settings, more), least)
 
 
 main()

@@ -70,6 +70,12 @@ std::string PercentText(double noise) {
   return Format("\u00b1%.2g %%", 100 * std::sqrt(std::max(noise, 0.)));
 }
 
+std::string TextOf(const Outliers& outliers) {
+  return Format("dimmed %lld %s that one half alone has found, and lost %.2g %% of the light",
+                outliers.pixels, outliers.pixels == 1 ? "outlier" : "outliers",
+                100 * outliers.light);
+}
+
 void Filter(const DenoiseOptions& options) {
   RunFiles files;
   files.AddInput(options.from, "this command");
@@ -87,6 +93,7 @@ void Filter(const DenoiseOptions& options) {
     log.Warning(std::to_string(result.nonFinite) +
                 (result.nonFinite == 1 ? " pixel is not finite and stays as it is"
                                        : " pixels are not finite and stay as they are"));
+  if (result.outliers.pixels > 0) log.Notice(TextOf(result.outliers));
   result.picture.attributes["denoised"] = std::string("non-local means of two halves");
   result.picture.attributes["residualNoise"] = float(result.residualNoise);
   if (IsPngName(options.to))

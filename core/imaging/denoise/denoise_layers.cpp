@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ReadDenoiseLayers estimates the variance of a half from the difference of both. One difference is
-// a poor estimate, so it is averaged over neighbouring pixels.
+// The variance of a half is estimated from the difference of both. One difference is a poor
+// estimate, so it is averaged over neighbouring pixels.
 #include "core/imaging/denoise/denoise_layers.h"
 
 #include <algorithm>
@@ -54,25 +54,6 @@ void VisitWindow(const DenoiseLayers& layers, int x, int y, int radius, const Vi
       if (layers.isValid[layers.At(u, v)]) visit(layers.At(u, v));
 }
 
-void EstimateVariance(DenoiseLayers* layers) {
-  layers->variance.assign(layers->halves[0].size(), 0);
-  for (int y = 0; y < layers->height; ++y)
-    for (int x = 0; x < layers->width; ++x) {
-      double sums[3] = {0, 0, 0};
-      int count = 0;
-      VisitWindow(*layers, x, y, kVarianceRadius, [&](std::size_t pixel) {
-        ++count;
-        for (std::size_t c = 0; c < 3; ++c) {
-          const double difference =
-              double(layers->halves[0][3 * pixel + c]) - double(layers->halves[1][3 * pixel + c]);
-          sums[c] += difference * difference / 2;
-        }
-      });
-      for (std::size_t c = 0; c < 3 && count > 0; ++c)
-        layers->variance[3 * layers->At(x, y) + c] = float(sums[c] / count);
-    }
-}
-
 // A feature that changes smoothly may differ from pixel to pixel by its gradient.
 void FindTolerances(DenoiseLayers* layers) {
   constexpr std::size_t kCount = DenoiseLayers::kFeatures;
@@ -119,6 +100,25 @@ std::vector<std::string> MissingDenoiseLayers(const Image& picture) {
     if (!IsWhole(Find(picture, half, "RGB"))) missing.emplace_back(half);
   if (!IsWhole(Find(picture, "N", "XYZ"))) missing.emplace_back("N");
   return missing;
+}
+
+void EstimateVariance(DenoiseLayers* layers) {
+  layers->variance.assign(layers->halves[0].size(), 0);
+  for (int y = 0; y < layers->height; ++y)
+    for (int x = 0; x < layers->width; ++x) {
+      double sums[3] = {0, 0, 0};
+      int count = 0;
+      VisitWindow(*layers, x, y, kVarianceRadius, [&](std::size_t pixel) {
+        ++count;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double difference =
+              double(layers->halves[0][3 * pixel + c]) - double(layers->halves[1][3 * pixel + c]);
+          sums[c] += difference * difference / 2;
+        }
+      });
+      for (std::size_t c = 0; c < 3 && count > 0; ++c)
+        layers->variance[3 * layers->At(x, y) + c] = float(sums[c] / count);
+    }
 }
 
 DenoiseLayers ReadDenoiseLayers(const Image& picture) {

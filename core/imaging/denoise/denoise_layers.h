@@ -25,5 +25,7 @@ struct DenoiseLayers {
 };
 
 DenoiseLayers ReadDenoiseLayers(const Image& picture);
+// Sets the variance from the halves. ReadDenoiseLayers has done so.
+void EstimateVariance(DenoiseLayers* layers);
 
 }  // namespace exphoton

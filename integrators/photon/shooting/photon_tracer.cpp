@@ -152,7 +152,8 @@ double PhotonTracer::Pass::Filled(std::size_t map) const {
 
 // Closes the maps that are full or have used up their paths.
 void PhotonTracer::Pass::CloseMaps() {
-  least_ = 1;
+  double filledMaps = 0;
+  int wantedMaps = 0;
   most_ = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (targets_.counts[m] == 0) continue;
@@ -164,9 +165,12 @@ void PhotonTracer::Pass::CloseMaps() {
     open = open && stored < targets_.counts[m] &&
            result_.paths < tracer_.settings_.maxPhotonPaths && !isFruitless;
     const double filled = Filled(m);
-    least_ = std::min(least_, filled);
+    filledMaps += open ? filled : 1;
+    ++wantedMaps;
     if (open) most_ = std::max(most_, filled);
   }
+  // The emptiest map would not do: the caustic map often fills after all others.
+  if (wantedMaps > 0) done_ = std::max(done_, filledMaps / wantedMaps);
 }
 
 void PhotonTracer::Pass::Begin() {
@@ -184,7 +188,7 @@ void PhotonTracer::Pass::MergeBatch(std::int64_t* batch) {
   CloseMaps();
   CountRays();
   *batch = NextBatch(*batch, result_.paths - trainedPath_, most_);
-  context_.progress.SetDone(std::int64_t(1000 * least_));
+  context_.progress.SetDone(std::int64_t(1000 * done_));
   if (BeginToGuide()) *batch = kMaxBatchPaths;
 }
 

@@ -75,7 +75,8 @@ class PhotonTracer::Pass {
   std::vector<Worker> workers_;
   std::uint64_t shownRays_ = 0;
   std::vector<PhotonChunk> chunks_;
-  double least_ = 0, most_ = 0;  // fill of the requested maps, and of the open maps
+  double most_ = 0;  // the largest fill of the open maps
+  double done_ = 0;  // mean fill of the requested maps, for the display of progress; never falls
   EmissionGuide guide_;
   std::vector<EmissionSample> samples_;
   std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map

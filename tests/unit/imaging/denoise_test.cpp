@@ -108,19 +108,55 @@ TEST(Denoise, LayersKeepAnEdge) {
   EXPECT_LT(withEdge, without / 2);
 }
 
-TEST(Denoise, KeepsTheMeanAndSpreadsAnOutlier) {
+// Returns the sum of a channel.
+double Light(const Image& image, int channel) {
+  double sum = 0;
+  for (int y = 0; y < image.Height(); ++y)
+    for (int x = 0; x < image.Width(); ++x) sum += double(image.At(x, y, channel));
+  return sum;
+}
+
+void SetHalf(Image* picture, int x, int y, int half, float value) {
+  picture->At(x, y, 1 + 3 * half) = value;
+  picture->At(x, y, 0) = (picture->At(x, y, 4) + picture->At(x, y, 7)) / 2;
+}
+
+TEST(Denoise, DimsAnOutlierAndSaysHowMuchLightItHad) {
   Image picture = NoisyPicture(40, 40, Ramp, .2);
-  picture.At(20, 20, 4) = 60;  // in the first half only
-  picture.At(20, 20, 0) = (60 + picture.At(20, 20, 7)) / 2;
-  const Image filtered = Filtered(picture).picture;
-  EXPECT_LT(filtered.At(20, 20, 0), 15);
-  double before = 0, after = 0;
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      before += double(picture.At(x, y, 1));
-      after += double(filtered.At(x, y, 1));
-    }
-  EXPECT_NEAR(after, before, .005 * before);
+  const double without = Light(picture, 0);
+  SetHalf(&picture, 20, 20, 1, 60);
+  const DenoiseResult result = Filtered(picture);
+  EXPECT_EQ(result.outliers.pixels, 1);
+  const double all = Light(picture, 0) + Light(picture, 1) + Light(picture, 2);
+  EXPECT_NEAR(result.outliers.light, (60 - 4 * .7) / 2 / all, .1 * 60 / 2 / all);
+  EXPECT_NEAR(Light(result.picture, 0), without, .005 * without);
+  // Spread over the window, it would add 60 / 2 / 225 to each pixel.
+  for (int y = 14; y < 27; ++y)
+    for (int x = 14; x < 27; ++x)
+      EXPECT_NEAR(result.picture.At(x, y, 0), Ramp(x, y, 0), .05) << x << ", " << y;
+}
+
+// Both halves have a bright pixel in the window: the light is there, and the filter keeps it.
+TEST(Denoise, KeepsTheMeanOfLightThatBothHalvesHaveFound) {
+  Image picture = NoisyPicture(40, 40, Ramp, .2);
+  SetHalf(&picture, 20, 20, 1, 60);
+  SetHalf(&picture, 24, 17, 2, 40);
+  const DenoiseResult result = Filtered(picture);
+  EXPECT_EQ(result.outliers.pixels, 0);
+  EXPECT_LT(result.picture.At(20, 20, 0), 15);
+  EXPECT_NEAR(Light(result.picture, 0), Light(picture, 0), .005 * Light(picture, 0));
+}
+
+// A lamp has few pixels, so outliers cannot be distinguished from noise.
+TEST(Denoise, KeepsTheLightOfASmallLamp) {
+  const auto isLamp = [](int x, int y) { return x >= 20 && x < 23 && y >= 10 && y < 14; };
+  const auto albedo = [&](int x, int y, int) { return isLamp(x, y) ? 1.f : .5f; };
+  const auto light = [&](int x, int y, int) { return isLamp(x, y) ? 8.f : .5f; };
+  Image picture = NoisyPicture(40, 40, light, .2, albedo);
+  SetHalf(&picture, 21, 11, 1, 60);
+  const DenoiseResult result = Filtered(picture);
+  EXPECT_EQ(result.outliers.pixels, 0);
+  EXPECT_NEAR(Light(result.picture, 0), Light(picture, 0), .005 * Light(picture, 0));
 }
 
 // The noise is exponential: most values are small, a few are large. Weights that come from the same

@@ -9,6 +9,7 @@
 #include "core/math/sampling/random.h"
 #include "core/render/certificate/corrections.h"
 #include "core/render/sharing/shared_gathers.h"
+#include "tests/support/test_scene.h"
 
 namespace exphoton {
 namespace {
@@ -109,6 +110,48 @@ TEST(UnsharedPicture, HasNoCorrectionsOfSharing) {
     corrections.UseSharing(true);
     EXPECT_GT(most(), .1);
   }
+}
+
+// Returns whether a render with these options keeps the picture without sharing.
+bool IsFollowed(const std::string& options, Corrections* corrections) {
+  const LoadedScene scene = LoadSceneText(TestHeader("\"path\"", kOwnSide, kOwnSide, 1) + options +
+                                          FurnaceWorld(1, "\"matte\""));
+  RenderSetup& setup = *scene.setup;
+  Film film(kOwnBounds, kOwnBounds);
+  ThreadPool pool(1);
+  ProgressReporter progress(ProgressReporter::Mode::Quiet);
+  Statistics statistics;
+  const RenderJob job{
+      *setup.scene, *setup.integrator, *setup.sampler, *setup.filter, *setup.camera, film,
+      pool,         *scene.log,        progress,       statistics};
+  RenderOptions ofRender;
+  ofRender.corrections = corrections;
+  PassParts parts(job, ofRender, {});
+  PassSum sum(&film, {});
+  const auto unshared = UnsharedPicture::Follow(job, &parts, &sum);
+  EXPECT_EQ(parts.Options().sharingChange, unshared ? unshared->OfPass() : nullptr);
+  return unshared != nullptr;
+}
+
+TEST(UnsharedPicture, IsFollowedIfSharedGathersHaveACertificate) {
+  const std::string shares = R"(SurfaceIntegrator "exphotonmap" "bool sharedgather" "true" )";
+  const std::string doesNot = R"(SurfaceIntegrator "exphotonmap" "bool sharedgather" "false" )";
+  const std::string splats = R"(PixelFilter "mitchell" )";
+  Corrections corrections(kOwnBounds, 1);
+  EXPECT_FALSE(IsFollowed(shares, nullptr));
+  EXPECT_FALSE(IsFollowed(doesNot, &corrections));
+  EXPECT_FALSE(IsFollowed(shares + splats, &corrections));
+  corrections.AddSharing({1, 1}, Spectrum(1), 1);
+  EXPECT_TRUE(IsFollowed(shares, &corrections));
+  // From now on the corrections of sharing can be left out.
+  corrections.AddSharing({1, 1}, Spectrum(2), 1);
+  corrections.EndPass(0, 1);
+  const auto sum = [&] {
+    return corrections.SumsOf(*corrections.Groups().front())[3 * (kOwnSide + 1)];
+  };
+  const double all = sum();
+  corrections.UseSharing(false);
+  EXPECT_EQ(all - sum(), 2);
 }
 
 }  // namespace
