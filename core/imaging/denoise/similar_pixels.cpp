@@ -24,7 +24,8 @@ SimilarPixels::SimilarPixels(const DenoiseLayers& layers, int y0, int y1)
 bool SimilarPixels::HasPair(int x, int y, int dx, int dy) const {
   const int u = x + dx, v = y + dy;
   return y >= 0 && y < layers_.height && u >= 0 && u < layers_.width && v >= 0 &&
-         v < layers_.height && layers_.isValid[layers_.At(x, y)] && layers_.isValid[layers_.At(u, v)];
+         v < layers_.height && layers_.isValid[layers_.At(x, y)] &&
+         layers_.isValid[layers_.At(u, v)];
 }
 
 void SimilarPixels::FindDistances(int dx, int dy) {

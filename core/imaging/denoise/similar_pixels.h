@@ -31,7 +31,7 @@ class SimilarPixels {
   }
 
  private:
-  static constexpr int kWindow = 7;               // pixels in each direction
+  static constexpr int kWindow = 7;              // pixels in each direction
   static constexpr float kLargestDistance = 12;  // exp(-12) is less than 1e-5
 
   template <class Visit>

@@ -152,8 +152,6 @@ double PhotonTracer::Pass::Filled(std::size_t map) const {
 
 // Closes the maps that are full or have used up their paths.
 void PhotonTracer::Pass::CloseMaps() {
-  double filledMaps = 0;
-  int wantedMaps = 0;
   most_ = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (targets_.counts[m] == 0) continue;
@@ -165,12 +163,22 @@ void PhotonTracer::Pass::CloseMaps() {
     open = open && stored < targets_.counts[m] &&
            result_.paths < tracer_.settings_.maxPhotonPaths && !isFruitless;
     const double filled = Filled(m);
-    filledMaps += open ? filled : 1;
-    ++wantedMaps;
     if (open) most_ = std::max(most_, filled);
   }
-  // The emptiest map would not do: the caustic map often fills after all others.
-  if (wantedMaps > 0) done_ = std::max(done_, filledMaps / wantedMaps);
+}
+
+// The emptiest map decides. Caustic photons are often shot after all others, so that they count as
+// half of the work.
+double PhotonTracer::Pass::Done() const {
+  double caustic = 1, others = 1;
+  for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+    if (!batch_.open[m]) continue;
+    double& least = m == kCaustic ? caustic : others;
+    least = std::min(least, Filled(m));
+  }
+  if (targets_.counts[kCaustic] == 0) return others;
+  const bool isAlone = std::ranges::count(targets_.counts, 0) + 1 == std::ssize(targets_.counts);
+  return isAlone ? caustic : (caustic + others) / 2;
 }
 
 void PhotonTracer::Pass::Begin() {
@@ -188,6 +196,7 @@ void PhotonTracer::Pass::MergeBatch(std::int64_t* batch) {
   CloseMaps();
   CountRays();
   *batch = NextBatch(*batch, result_.paths - trainedPath_, most_);
+  done_ = std::max(done_, Done());
   context_.progress.SetDone(std::int64_t(1000 * done_));
   if (BeginToGuide()) *batch = kMaxBatchPaths;
 }

@@ -45,7 +45,8 @@ class PhotonTracer::Pass {
   void MergeBatch(std::int64_t* batch);
   void Begin();
   void CloseMaps();
-  void CountRays();  // for the display of progress
+  void CountRays();     // for the display of progress
+  double Done() const;  // how much is done, as a part; the same
 
   // Shares
   ChunkState State() const;
@@ -76,7 +77,7 @@ class PhotonTracer::Pass {
   std::uint64_t shownRays_ = 0;
   std::vector<PhotonChunk> chunks_;
   double most_ = 0;  // the largest fill of the open maps
-  double done_ = 0;  // mean fill of the requested maps, for the display of progress; never falls
+  double done_ = 0;  // the largest Done so far: a guide may begin maps anew
   EmissionGuide guide_;
   std::vector<EmissionSample> samples_;
   std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map
