@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/render/passes/pass_parts.h"
+#include "core/render/passes/unshared/unshared_picture.h"
 #include "core/render/photon_noise.h"
 #include "core/render/sharing/sharing_plan.h"
 
@@ -21,6 +22,7 @@ constexpr double kCorrectedShare = 1. / 16;
 // A pilot of a small picture would take as long as a part of the picture.
 constexpr double kPixelShare = .25, kFewestPixels = 750;
 constexpr double kMostShrinking = 16;  // of pixels, for which the noise is known
+constexpr double kSharingSlope = .35;  // of the squared bias of sharing over pixels
 
 // Returns the CPU time of the phases, which depends on a clock.
 CountedCost SecondsOf(const Statistics& statistics) {
@@ -96,6 +98,7 @@ std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPictur
                  picture.pilot.noise, picture.pilot.error);
   if (picture.pilot.photonNoise > 0)
     text += Format(", of the photons %.3g", picture.pilot.photonNoise);
+  if (picture.sharingBias > 0) text += Format(", bias of sharing about %.2g", picture.sharingBias);
   if (picture.certificate)
     text += Format(", bias %.3g to %.3g", picture.certificate->bias.lower,
                    picture.certificate->bias.upper);
@@ -146,6 +149,12 @@ double PilotRenderer::NoiseOfPicture(const RenderSetup& setup, double pixels) co
   return std::pow(std::clamp(pixels / Pixels(), 1 / kMostShrinking, 1.), .2);
 }
 
+// The bias of sharing falls with the number of pixels, too, because neighbours are nearer
+// (docs/decisions/0087-expected-bias-of-sharing.md).
+double PilotRenderer::SharingBiasOfPicture(double pixels) const {
+  return std::pow(std::min(pixels / Pixels(), 1.), kSharingSlope);
+}
+
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }
 
 std::optional<std::uint64_t> PilotRenderer::Give(const DialChoice& choice, RenderSetup* setup) {
@@ -175,6 +184,11 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* fil
   render.corrections = films->corrections.get();
   render.aovs = films->aovs.get();
   render.preparedSeed = preparedSeed_;
+  std::unique_ptr<UnsharedPicture> unshared;
+  if (UnsharedPicture::IsKnown(job)) {
+    unshared = std::make_unique<UnsharedPicture>(job.film, nullptr);
+    render.sharingChange = unshared->OfPass();
+  }
   PassRenderer renderer(job, render);
   PassSum sum(&job.film, {});
   PhotonNoise photonNoise(job.film.Crop());
@@ -188,6 +202,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* fil
     if (!renderer.Run(pass, job.sampler, film)) throw LoadingStopped();
     preparedSeed_ = FirstSeed();
     sum.Add(*film, samples, half);
+    if (unshared) unshared->Add(*film, samples, half);
     photonNoise.EndPass(samples);
     if (films->corrections) films->corrections->EndPass(half, samples);
   }
@@ -195,6 +210,9 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* fil
   result.render = renderer.Finish();
   sum.Describe(false, &result);
   result.levels = sum.Levels();
+  if (unshared)
+    if (const auto bias = unshared->BiasOf(sum, GroupSamples::Independent))
+      picture->sharingBias = std::max(bias->squared, 0.);
   picture->pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
                     photonNoise.RelativeVariance(result.levels)};
   return result;
@@ -221,6 +239,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.seconds = ProcessCpuSeconds() - begin;
   picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
   picture.noiseOfPicture = NoiseOfPicture(setup, picture.pixels);
+  picture.sharingBias *= SharingBiasOfPicture(picture.pixels);
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
   if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);

@@ -43,6 +43,7 @@ struct PilotPicture {
   double seconds = 0;      // CPU time of everything
   double pixels = 0;
   double noiseOfPicture = 1;  // expected with the pixels of the picture; relative to the pilot's
+  double sharingBias = 0;     // squared, of relMSE, expected with the pixels of the picture
   MeanLight light;
   std::vector<MeasuredLight> parts;        // of the light; none: the integrator does not divide it
   double gatherRays = 0;                   // of the whole picture
@@ -119,6 +120,7 @@ class PilotRenderer {
   static bool HasWholeScene(const RenderSetup& setup);
   const RenderSetup& Load(const PilotRequest& request);
   double NoiseOfPicture(const RenderSetup& setup, double pixels) const;
+  double SharingBiasOfPicture(double pixels) const;  // relative to the pilot's
   PassesResult RenderHalves(const RenderJob& job, PictureFilms* films, PilotPicture* picture);
 
   std::uint64_t FirstSeed() const;

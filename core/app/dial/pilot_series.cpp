@@ -56,6 +56,7 @@ void PilotSeries::Render() {
   pilot.error *= last_.noiseOfPicture;
   pilots_.push_back(pilot);
   model_.FitNoise(pilots_);
+  model_.sharing = {last_.pilot.samples / 2, last_.sharingBias};
   OwnMaps(request_.settings.photons);
 }
 

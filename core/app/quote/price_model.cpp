@@ -10,7 +10,10 @@ namespace exphoton::cli {
 namespace {
 
 constexpr double kMostPhotons = 64;
-constexpr double kMargin = 1.35;  // of the seconds: clocks, and small parts of the scene
+constexpr int kSharingRounds = 4;
+constexpr double kLeastNoise = .3;    // the part that sharing leaves for noise
+constexpr double kSharingSlope = .4;  // of the squared bias of sharing over samples
+constexpr double kMargin = 1.35;      // of the seconds: clocks, and small parts of the scene
 
 // Sequences of n samples have errors of order n^-1.5 at edges, and n^-1 or more elsewhere. A few
 // pilots say little about the slope, so it is drawn to those of many renders.
@@ -18,6 +21,18 @@ constexpr double kLeastSlope = 1, kMostSlope = 1.5;
 constexpr double kUsualSlope = 1.1, kUsualSpread = .1;
 constexpr std::size_t kOctaves = 2;    // of the last pilots, which show the slope
 constexpr double kQuantile90 = 1.645;  // of a two-sided interval of 90 %
+
+// Returns the samples of one of some groups whose noise and bias of sharing together are `left`.
+// More samples lower both. Sharing is given up where its bias leaves little for the noise
+// (docs/decisions/0093-stop-sharing-for-an-accuracy.md), so some is always left.
+double SamplesOfGroup(const PriceModel& model, double left, double groups) {
+  double samples = model.SamplesFor(left * groups);
+  for (int i = 0; i < kSharingRounds && model.sharing.noise > 0; ++i) {
+    const double bias = std::min(model.SharingBiasOf(samples), (1 - kLeastNoise) * left);
+    samples = model.SamplesFor((left - bias) * groups);
+  }
+  return samples;
+}
 
 // The cheapest setting.
 std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
@@ -32,7 +47,7 @@ std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
     const double left = squared - photonNoise / sets - bias * bias;
     if (!(left > 0)) continue;
     Price price;
-    price.samples = std::max(groups, std::ceil(groups * model.SamplesFor(left * groups)));
+    price.samples = std::max(groups, std::ceil(groups * SamplesOfGroup(model, left, groups)));
     price.photons = k;
     price.sets = int(sets);
     const double paid = k == model.owned ? sets - 1 : sets;
@@ -95,6 +110,10 @@ double PriceModel::SamplesFor(double noise) const {
     return a.samples * std::pow(b.samples / a.samples, t);
   }
   return points.front().samples * points.front().noise / noise;
+}
+
+double PriceModel::SharingBiasOf(double samples) const {
+  return sharing.noise > 0 ? sharing.noise * std::pow(sharing.samples / samples, kSharingSlope) : 0;
 }
 
 PriceModel PriceModel::WithNoise(double factor, double otherSlope) const {

@@ -2,12 +2,13 @@
 // PriceModel predicts what an accuracy costs with one integrator, from small renders of the scene
 // (pilots). With n samples a pixel in g groups of passes, and m sets of maps with k times the
 // photons,
-//   error^2 = noise(n / g) / g + photonNoise / (m k) + (bias / k)^2,
+//   error^2 = noise(n / g) / g + photonNoise / (m k) + (bias / k)^2 + sharing(n / g),
 //   seconds = fixed + m MapsFor(k) + n sample.
 // m is 1 where the groups should keep their photons (core/render/passes/photon_sets.h), otherwise
 // g. Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots
 // show it, and it falls as m^-slope beyond them. The area of density estimates falls with the
-// number of photons, and bias is proportional to this area.
+// number of photons, and bias is proportional to this area. sharing(m) is the squared bias of
+// shared gathers, which share within a group.
 #pragma once
 
 #include <optional>
@@ -40,6 +41,7 @@ struct PriceModel {
   double slopeError = 0;                   // standard error
   double relativeError = 0;                // of the noise of the last pilot
   double photonNoise = 0;                  // of one set of maps
+  Point sharing;                           // the squared bias of one group; 0: none is shared
   double bias = 0, biasUpper = 0;          // relative; the upper end of the interval
   double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
   double leastPhotons = 1;                 // the smallest k
@@ -57,6 +59,8 @@ struct PriceModel {
   double MapsFor(double k) const;
   // Returns the samples of one group with this noise.
   double SamplesFor(double noise) const;
+  // Returns the squared bias of sharing in a group with this number of samples.
+  double SharingBiasOf(double samples) const;
   // Returns the same model with other noise, which falls with another slope beyond the points.
   PriceModel WithNoise(double factor, double otherSlope) const;
 

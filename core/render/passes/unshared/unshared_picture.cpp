@@ -14,14 +14,17 @@ constexpr std::size_t kMostPixels = std::size_t(1) << 21;
 std::unique_ptr<UnsharedPicture> UnsharedPicture::Follow(const RenderJob& job, PassParts* parts,
                                                          PassSum* sum) {
   Corrections* const corrections = parts->Options().corrections;
-  if (!corrections || !job.integrator.SharesGathers(job.scene) || SplatWeights::Of(job.filter) ||
-      job.film.PixelCount() > kMostPixels)
-    return nullptr;
+  if (!corrections || !IsKnown(job)) return nullptr;
   auto unshared = std::make_unique<UnsharedPicture>(job.film, parts->Aovs());
   parts->SetSharingChange(unshared->OfPass());
   corrections->KeepSharingApart();
   sum->UseLevelsOf(unshared->sum_);
   return unshared;
+}
+
+bool UnsharedPicture::IsKnown(const RenderJob& job) {
+  return job.integrator.SharesGathers(job.scene) && !SplatWeights::Of(job.filter) &&
+         job.film.PixelCount() <= kMostPixels;
 }
 
 UnsharedPicture::UnsharedPicture(const Film& picture, const AovFilm* aovs)

@@ -18,11 +18,14 @@ namespace exphoton {
 class UnsharedPicture {
  public:
   // Returns the picture without sharing of a render with a certificate, and lets `parts` and `sum`
-  // take notice of it. Returns null where it is not needed or cannot be known: without a
-  // certificate, where no gathers are shared, where light is splatted, and for pictures of more
-  // than two million pixels, because it takes about 400 bytes a pixel.
+  // take notice of it. Returns null without a certificate, and where IsKnown does not hold. It
+  // takes about 400 bytes a pixel.
   static std::unique_ptr<UnsharedPicture> Follow(const RenderJob& job, PassParts* parts,
                                                  PassSum* sum);
+
+  // Returns whether the picture without sharing can be known and differs: where gathers are shared
+  // and light is not splatted, in pictures of at most two million pixels.
+  static bool IsKnown(const RenderJob& job);
 
   // aovs: those of all passes; null: none.
   UnsharedPicture(const Film& picture, const AovFilm* aovs);

@@ -127,6 +127,25 @@ TEST(PriceModel, TakesMorePhotonsForLessBias) {
   EXPECT_FALSE(PriceOf(model, {.05}));
 }
 
+// Noise and bias of sharing together are .0025. The bias falls with the samples.
+TEST(PriceModel, TakesMoreSamplesForTheBiasOfSharing) {
+  PriceModel model;
+  model.camera = 1, model.sample = .01;
+  model.sharing = {100, .001};
+  const double samples = PriceOf(model, {.05}).value().samples;
+  EXPECT_NEAR(1 / samples + model.SharingBiasOf(samples), .0025, 1e-5);
+  EXPECT_LT(model.SharingBiasOf(samples), .0006);
+  EXPECT_EQ(model.SharingBiasOf(100), .001);
+}
+
+// Sharing is given up in time, so that some of the squared error remains for noise.
+TEST(PriceModel, DoesNotWaitForALargeBiasOfSharing) {
+  PriceModel model;
+  model.camera = 1, model.sample = .01;
+  model.sharing = {100, 1};
+  EXPECT_NEAR(PriceOf(model, {.05}).value().samples, 400 / .3, 1);
+}
+
 // Two groups may have maps of their own, which have half the noise. Where noise falls faster than
 // 1/n, two groups of n/2 samples have more noise than one of n.
 TEST(PriceModel, KnowsGroupsOfPasses) {
