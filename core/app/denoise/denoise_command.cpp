@@ -71,9 +71,12 @@ std::string PercentText(double noise) {
 }
 
 std::string TextOf(const Outliers& outliers) {
-  return Format("dimmed %lld %s that one half alone has found, and lost %.2g %% of the light",
-                outliers.pixels, outliers.pixels == 1 ? "outlier" : "outliers",
-                100 * outliers.light);
+  const double percent = 100 * outliers.light;
+  const std::string lost = percent < .01  ? "less than 0.01"
+                           : percent < 10 ? Format("%.2g", percent)
+                                          : Format("%.0f", percent);
+  return Format("dimmed %lld %s that one half alone has found, and lost %s %% of the light",
+                outliers.pixels, outliers.pixels == 1 ? "outlier" : "outliers", lost.c_str());
 }
 
 void Filter(const DenoiseOptions& options) {

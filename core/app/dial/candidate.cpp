@@ -101,7 +101,8 @@ std::optional<Explorer::Split> Explorer::CheapestSplit() const {
   const CertificateCost& certificate = series_.OfCertificates();
   for (const double share : kBiasShares) {
     const double left = hasBias ? kNoiseShare * (1 - share) : kNoiseShare;
-    std::optional<Price> price = PriceOf(model, {wish_.error * std::sqrt(left), kGroups});
+    std::optional<Price> price =
+        PriceOf(model, {wish_.error * std::sqrt(left), kGroups, !wish_.keepsPhotons});
     if (!price) continue;
     if (hasBias) {
       const double extra = certificate.correction * certificate.Corrections(share * Wanted());

@@ -21,7 +21,7 @@ namespace {
 constexpr double kCorrectedShare = 1. / 16;
 // A pilot of a small picture would take as long as a part of the picture.
 constexpr double kPixelShare = .25, kFewestPixels = 750;
-constexpr double kMostShrinking = 16;  // of pixels, for which the noise is known
+constexpr double kMostShrinking = 16;  // of pixels, for which noise and bias are known
 constexpr double kSharingSlope = .35;  // of the squared bias of sharing over pixels
 
 // Returns the CPU time of the phases, which depends on a clock.
@@ -98,7 +98,8 @@ std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPictur
                  picture.pilot.noise, picture.pilot.error);
   if (picture.pilot.photonNoise > 0)
     text += Format(", of the photons %.3g", picture.pilot.photonNoise);
-  if (picture.sharingBias > 0) text += Format(", bias of sharing about %.2g", picture.sharingBias);
+  if (picture.sharing.squared > 0)
+    text += Format(", bias of sharing %.2g in the picture", picture.sharing.squared);
   if (picture.certificate)
     text += Format(", bias %.3g to %.3g", picture.certificate->bias.lower,
                    picture.certificate->bias.upper);
@@ -152,7 +153,7 @@ double PilotRenderer::NoiseOfPicture(const RenderSetup& setup, double pixels) co
 // The bias of sharing falls with the number of pixels, too, because neighbours are nearer
 // (docs/decisions/0087-expected-bias-of-sharing.md).
 double PilotRenderer::SharingBiasOfPicture(double pixels) const {
-  return std::pow(std::min(pixels / Pixels(), 1.), kSharingSlope);
+  return std::pow(std::clamp(pixels / Pixels(), 1 / kMostShrinking, 1.), kSharingSlope);
 }
 
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }
@@ -175,8 +176,8 @@ std::optional<std::uint64_t> PilotRenderer::Give(const DialChoice& choice, Rende
 }
 
 // Renders with the photons of the last pilot first, if they are the right ones.
-PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* films,
-                                         PilotPicture* picture) {
+PassesResult PilotRenderer::RenderHalves(const RenderJob& job, bool estimatesSharing,
+                                         PictureFilms* films, PilotPicture* picture) {
   RenderOptions render;
   render.seed = command_.seed;
   render.stop = &StopFlag();
@@ -185,12 +186,14 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* fil
   render.aovs = films->aovs.get();
   render.preparedSeed = preparedSeed_;
   std::unique_ptr<UnsharedPicture> unshared;
-  if (UnsharedPicture::IsKnown(job)) {
+  PassSum sum(&job.film, {});
+  if (estimatesSharing && UnsharedPicture::IsKnown(job)) {
     unshared = std::make_unique<UnsharedPicture>(job.film, nullptr);
     render.sharingChange = unshared->OfPass();
+    sum.UseLevelsOf(unshared->Sum());
+    if (films->corrections) films->corrections->KeepSharingApart();
   }
   PassRenderer renderer(job, render);
-  PassSum sum(&job.film, {});
   PhotonNoise photonNoise(job.film.Crop());
   const std::int64_t samples = job.sampler.SamplesPerPixel();
   for (int half = 0; half < 2; ++half) {
@@ -211,8 +214,7 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, PictureFilms* fil
   sum.Describe(false, &result);
   result.levels = sum.Levels();
   if (unshared)
-    if (const auto bias = unshared->BiasOf(sum, GroupSamples::Independent))
-      picture->sharingBias = std::max(bias->squared, 0.);
+    picture->sharing = unshared->BiasOf(sum, GroupSamples::Independent).value_or(SharingBias{});
   picture->pilot = {double(result.samplesPerPixel), result.noise.value_or(0), result.noiseError,
                     photonNoise.RelativeVariance(result.levels)};
   return result;
@@ -230,8 +232,8 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
     films.corrections = std::make_unique<Corrections>(setup.crop, kCorrectedShare);
   SmallRender small(command_.threadCount);
   const auto sampler = setup.sampler->WithSamplesPerPixel(std::max(request.samples / 2, 1));
-  const PassesResult result =
-      RenderHalves(small.Job(setup, *sampler, &films.film), &films, &picture);
+  const PassesResult result = RenderHalves(small.Job(setup, *sampler, &films.film),
+                                           request.estimatesSharing, &films, &picture);
   const Statistics& statistics = small.Counts();
   work_.Add(statistics);
   picture.cost = CostOf(statistics, setup.integratorName);
@@ -239,7 +241,8 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.seconds = ProcessCpuSeconds() - begin;
   picture.pixels = double(setup.crop.Width()) * double(setup.crop.Height());
   picture.noiseOfPicture = NoiseOfPicture(setup, picture.pixels);
-  picture.sharingBias *= SharingBiasOfPicture(picture.pixels);
+  picture.sharing.squared *= SharingBiasOfPicture(picture.pixels);
+  picture.sharing.standardError *= SharingBiasOfPicture(picture.pixels);
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
   if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);
@@ -255,6 +258,8 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
     picture.settings.causticPhotons = factor * photonsOf("caustic");
   }
   picture.guessedBias = GuessedBias(sceneUsedPhotons_, picture.settings.indirectPhotons);
+  // The bias of sharing is known apart.
+  if (films.corrections) films.corrections->UseSharing(!request.estimatesSharing);
   if (films.corrections) picture.certificate = Certify(*films.corrections, result.levels, 0, {});
   if (picture.certificate) picture.certificate->notCovered = certification->notCovered;
   verbose_.Verbose(TextOf(request, picture));

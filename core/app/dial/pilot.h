@@ -30,7 +30,10 @@ struct PilotRequest {
   DialSettings settings;
   std::vector<OmittedEffect> omitted;
   bool estimatesBias = false;  // the rays of the estimate are counted as samples
-  bool isRough = false;        // with a sixteenth of the pixels and a tenth of the photons
+  // Whether the bias of shared gathers is estimated. The render then does not check them, which
+  // saves a little time.
+  bool estimatesSharing = true;
+  bool isRough = false;  // with a sixteenth of the pixels and a tenth of the photons
 };
 
 constexpr double kFewPhotons = .1;  // of PilotRequest::isRough
@@ -43,7 +46,7 @@ struct PilotPicture {
   double seconds = 0;      // CPU time of everything
   double pixels = 0;
   double noiseOfPicture = 1;  // expected with the pixels of the picture; relative to the pilot's
-  double sharingBias = 0;     // squared, of relMSE, expected with the pixels of the picture
+  SharingBias sharing;        // expected with the pixels of the picture
   MeanLight light;
   std::vector<MeasuredLight> parts;        // of the light; none: the integrator does not divide it
   double gatherRays = 0;                   // of the whole picture
@@ -121,7 +124,8 @@ class PilotRenderer {
   const RenderSetup& Load(const PilotRequest& request);
   double NoiseOfPicture(const RenderSetup& setup, double pixels) const;
   double SharingBiasOfPicture(double pixels) const;  // relative to the pilot's
-  PassesResult RenderHalves(const RenderJob& job, PictureFilms* films, PilotPicture* picture);
+  PassesResult RenderHalves(const RenderJob& job, bool estimatesSharing, PictureFilms* films,
+                            PilotPicture* picture);
 
   std::uint64_t FirstSeed() const;
   ParameterOverride FewPaths() const;  // limits the paths of kFewPhotons

@@ -15,6 +15,7 @@ PilotSeries::PilotSeries(PilotRenderer* pilots, const std::string& integrator, i
     : renderer_(pilots), unit_(unit) {
   request_.integrator = integrator;
   request_.settings.gatherRays = gatherRays;
+  request_.estimatesSharing = unit == Unit::CountedCost;  // seconds are those of plain renders
   model_.fixed = unit == Unit::CpuSeconds ? pilots->LoadSeconds() : 0;
 }
 
@@ -56,8 +57,14 @@ void PilotSeries::Render() {
   pilot.error *= last_.noiseOfPicture;
   pilots_.push_back(pilot);
   model_.FitNoise(pilots_);
-  model_.sharing = {last_.pilot.samples / 2, last_.sharingBias};
+  TakeSharing();
   OwnMaps(request_.settings.photons);
+}
+
+// The gathers of a half are shared alone.
+void PilotSeries::TakeSharing() {
+  model_.sharing = {last_.pilot.samples / 2, last_.sharing.squared};
+  model_.sharingError = last_.sharing.standardError;
 }
 
 // The picture of an accuracy takes the maps of the last pilot. Quotes are for other renders.
@@ -87,7 +94,9 @@ void PilotSeries::RenderBias(double photons) {
   request.samples = std::max(request_.samples / 2, 2);
   request.settings = settings_;
   request.settings.photons = photons;
+  request.estimatesSharing = true;
   last_ = renderer_->Render(request);
+  TakeSharing();
   spent_ += CostOf(last_).maps + CostOf(last_).samples;
   model_.photonNoise = PilotOf(last_, photons).photonNoise;
   OwnMaps(photons);

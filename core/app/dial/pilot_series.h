@@ -59,6 +59,7 @@ class PilotSeries {
   void TakeCosts(const PilotPicture& picture);
   MapPrices OneSetOf(const PilotPicture& picture) const;
   void TakeBias(double photons);
+  void TakeSharing();
   void OwnMaps(double photons);
   static Pilot PilotOf(const PilotPicture& picture, double photons);
 

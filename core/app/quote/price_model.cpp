@@ -10,7 +10,8 @@ namespace exphoton::cli {
 namespace {
 
 constexpr double kMostPhotons = 64;
-constexpr int kSharingRounds = 4;
+constexpr int kHalvings = 40;
+constexpr double kMostSamples = 1e12;
 constexpr double kLeastNoise = .3;    // the part that sharing leaves for noise
 constexpr double kSharingSlope = .4;  // of the squared bias of sharing over samples
 constexpr double kMargin = 1.35;      // of the seconds: clocks, and small parts of the scene
@@ -22,37 +23,57 @@ constexpr double kUsualSlope = 1.1, kUsualSpread = .1;
 constexpr std::size_t kOctaves = 2;    // of the last pilots, which show the slope
 constexpr double kQuantile90 = 1.645;  // of a two-sided interval of 90 %
 
-// Returns the samples of one of some groups whose noise and bias of sharing together are `left`.
-// More samples lower both. Sharing is given up where its bias leaves little for the noise
-// (docs/decisions/0093-stop-sharing-for-an-accuracy.md), so some is always left.
-double SamplesOfGroup(const PriceModel& model, double left, double groups) {
-  double samples = model.SamplesFor(left * groups);
-  for (int i = 0; i < kSharingRounds && model.sharing.noise > 0; ++i) {
-    const double bias = std::min(model.SharingBiasOf(samples), (1 - kLeastNoise) * left);
-    samples = model.SamplesFor((left - bias) * groups);
+// Returns the samples of each group so that noise and bias of sharing together are `left`. Both
+// fall with the samples. A render that may stop sharing never leaves less than kLeastNoise for the
+// noise.
+double SamplesOfGroup(const PriceModel& model, double left, const Order& order) {
+  const auto missing = [&](double samples) {
+    const double noise = left - model.SharingBiasOf(samples);
+    return !(noise > 0) || samples < model.SamplesFor(noise * order.groups);
+  };
+  double low = model.SamplesFor(left * order.groups);
+  if (!(model.sharing.noise > 0)) return low;
+  double high = order.mayStopSharing ? model.SamplesFor(kLeastNoise * left * order.groups) : low;
+  while (!order.mayStopSharing && high < kMostSamples && missing(high)) high *= 2;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = std::sqrt(low * high);
+    (missing(middle) ? low : high) = middle;
   }
-  return samples;
+  return high;
+}
+
+// Returns the setting with k times the photons; nullopt: no number of samples is enough.
+std::optional<Price> PriceWith(double k, const PriceModel& model, const Order& order) {
+  const double squared = order.error * order.error;
+  const double bias = (k < 1 ? std::max(model.bias, model.biasOfFewer) : model.bias) / k;
+  const double photonNoise = model.photonNoise / k;
+  const auto samplesWith = [&](int sets) -> std::optional<double> {
+    const double left = squared - photonNoise / sets - bias * bias;
+    if (!(left > 0)) return std::nullopt;
+    return SamplesOfGroup(model, left, order);
+  };
+  Price price;
+  auto samples = samplesWith(1);
+  const double sharing = samples ? model.SharingBiasOf(*samples) : 0;
+  if (!samples || photonNoise > PhotonSets::kSmallShare * (squared - bias * bias - sharing)) {
+    price.sets = order.groups;
+    samples = samplesWith(price.sets);
+  }
+  if (!samples) return std::nullopt;
+  price.samples = std::max<double>(order.groups, std::ceil(order.groups * *samples));
+  price.photons = k;
+  const int paid = k == model.owned ? price.sets - 1 : price.sets;
+  price.seconds = model.fixed + paid * model.MapsFor(k) + price.samples * model.sample;
+  return price;
 }
 
 // The cheapest setting.
 std::optional<Price> Cheapest(const PriceModel& model, const Order& order) {
   std::optional<Price> best;
-  const double squared = order.error * order.error, groups = order.groups;
   const double first = model.hasPhotons ? model.leastPhotons : 1;
   for (double k = first; k <= (model.hasPhotons ? kMostPhotons : 1); k *= 2) {
-    const double bias = (k < 1 ? std::max(model.bias, model.biasOfFewer) : model.bias) / k;
-    const double photonNoise = model.photonNoise / k;
-    const double sets =
-        photonNoise <= PhotonSets::kSmallShare * (squared - bias * bias) ? 1 : groups;
-    const double left = squared - photonNoise / sets - bias * bias;
-    if (!(left > 0)) continue;
-    Price price;
-    price.samples = std::max(groups, std::ceil(groups * SamplesOfGroup(model, left, groups)));
-    price.photons = k;
-    price.sets = int(sets);
-    const double paid = k == model.owned ? sets - 1 : sets;
-    price.seconds = model.fixed + paid * model.MapsFor(k) + price.samples * model.sample;
-    if (!best || price.seconds < best->seconds) best = price;
+    const auto price = PriceWith(k, model, order);
+    if (price && (!best || price->seconds < best->seconds)) best = price;
   }
   return best;
 }
@@ -113,7 +134,8 @@ double PriceModel::SamplesFor(double noise) const {
 }
 
 double PriceModel::SharingBiasOf(double samples) const {
-  return sharing.noise > 0 ? sharing.noise * std::pow(sharing.samples / samples, kSharingSlope) : 0;
+  if (!(sharing.noise > 0)) return 0;
+  return sharing.noise * std::pow(sharing.samples / samples, kSharingSlope);
 }
 
 PriceModel PriceModel::WithNoise(double factor, double otherSlope) const {
@@ -135,7 +157,9 @@ std::optional<Price> PriceOf(const PriceModel& model, const Order& order) {
   PriceModel cheap = model.WithNoise(1 / (1 + width), std::max(steep, model.slope));
   PriceModel dear = model.WithNoise(1 + width, std::min(model.slope, kLeastSlope));
   cheap.photonNoise = cheap.bias = 0;
+  cheap.sharing = {};
   dear.bias = std::max(model.biasUpper, model.bias);
+  dear.sharing.noise = std::max(dear.sharing.noise, 0.) + kQuantile90 * model.sharingError;
   const auto least = Cheapest(cheap, order);
   const auto most = Cheapest(dear, order);
   price->least = std::min(least ? least->seconds : price->seconds, price->seconds) / kMargin;

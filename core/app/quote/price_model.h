@@ -42,6 +42,7 @@ struct PriceModel {
   double relativeError = 0;                // of the noise of the last pilot
   double photonNoise = 0;                  // of one set of maps
   Point sharing;                           // the squared bias of one group; 0: none is shared
+  double sharingError = 0;                 // its standard error
   double bias = 0, biasUpper = 0;          // relative; the upper end of the interval
   double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
   double leastPhotons = 1;                 // the smallest k
@@ -79,6 +80,9 @@ struct Price {
 struct Order {
   double error = 0;  // > 0
   int groups = 1;
+  // Whether the render stops to share gathers where their bias leaves little for the noise
+  // (docs/decisions/0093-stop-sharing-for-an-accuracy.md).
+  bool mayStopSharing = false;
 };
 // Returns nullopt if no number of photons up to 64 times the scene's is enough.
 std::optional<Price> PriceOf(const PriceModel& model, const Order& order);

@@ -11,7 +11,7 @@ namespace exphoton {
 
 struct DenoiseLayers {
   int width = 0, height = 0;
-  std::array<std::vector<float>, 2> halves;  // three channels per pixel; 0 where not valid
+  std::array<std::vector<float>, 2> halves;  // three channels per pixel; no value is infinite
   std::vector<float> variance;               // of a half: three channels per pixel
   std::vector<float> features;               // kFeatures channels per pixel
   std::vector<float> tolerances;             // squares of the differences that count as none

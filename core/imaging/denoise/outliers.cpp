@@ -45,6 +45,7 @@ Outliers DimOutliers(DenoiseLayers* layers, ThreadPool& threads) {
   double all = 0, removed = 0;
   for (std::size_t half = 0; half < 2; ++half) {
     for (std::size_t p = 0; p < bounds[half].size(); ++p) {
+      if (!layers->isValid[p]) continue;
       const Bound& bound = bounds[half][p];
       bool isOutlier = false;
       for (std::size_t c = 0; c < 3; ++c) {

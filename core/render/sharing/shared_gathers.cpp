@@ -62,7 +62,8 @@ void AddBias(const SharedLightTarget& target, Point2i pixel, const SharingChecke
     return;
   const Spectrum bias = checker.Bias(pixel, scratch);
   target.aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
-  if (target.change) target.change->aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
+  if (target.change && target.change->aovs)
+    target.change->aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
 }
 
 }  // namespace

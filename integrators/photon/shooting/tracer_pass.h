@@ -46,7 +46,7 @@ class PhotonTracer::Pass {
   void Begin();
   void CloseMaps();
   void CountRays();     // for the display of progress
-  double Done() const;  // how much is done, as a part; the same
+  double Done() const;  // the part of the work that is done, also for the display
 
   // Shares
   ChunkState State() const;

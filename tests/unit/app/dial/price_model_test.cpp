@@ -131,19 +131,33 @@ TEST(PriceModel, TakesMorePhotonsForLessBias) {
 TEST(PriceModel, TakesMoreSamplesForTheBiasOfSharing) {
   PriceModel model;
   model.camera = 1, model.sample = .01;
-  model.sharing = {100, .001};
-  const double samples = PriceOf(model, {.05}).value().samples;
-  EXPECT_NEAR(1 / samples + model.SharingBiasOf(samples), .0025, 1e-5);
-  EXPECT_LT(model.SharingBiasOf(samples), .0006);
+  for (const bool mayStop : {false, true}) {
+    model.sharing = {100, .001};
+    const double samples = PriceOf(model, {.05, 1, mayStop}).value().samples;
+    EXPECT_NEAR(1 / samples + model.SharingBiasOf(samples), .0025, 1e-5);
+    EXPECT_LT(model.SharingBiasOf(samples), .0006);
+  }
   EXPECT_EQ(model.SharingBiasOf(100), .001);
 }
 
-// Sharing is given up in time, so that some of the squared error remains for noise.
+// A render that may stop sharing leaves some of the squared error for noise. Others have to wait.
 TEST(PriceModel, DoesNotWaitForALargeBiasOfSharing) {
   PriceModel model;
   model.camera = 1, model.sample = .01;
-  model.sharing = {100, 1};
-  EXPECT_NEAR(PriceOf(model, {.05}).value().samples, 400 / .3, 1);
+  model.sharing = {100, .01};
+  EXPECT_NEAR(PriceOf(model, {.05, 1, true}).value().samples, 400 / .3, 1);
+  const double samples = PriceOf(model, {.05}).value().samples;
+  EXPECT_NEAR(1 / samples + model.SharingBiasOf(samples), .0025, 1e-5);
+}
+
+TEST(PriceModel, IntervalsContainTheErrorOfTheBiasOfSharing) {
+  PriceModel model;
+  model.camera = 1, model.sample = .01;
+  model.sharing = {100, .001};
+  const Price exact = PriceOf(model, {.05}).value();
+  EXPECT_LT(exact.least, .8 * exact.seconds / 1.35);
+  model.sharingError = .0005;
+  EXPECT_GT(PriceOf(model, {.05}).value().most, 1.1 * exact.most);
 }
 
 // Two groups may have maps of their own, which have half the noise. Where noise falls faster than

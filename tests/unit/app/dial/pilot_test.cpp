@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests render pilots of a glowing sphere, seen from its inside.
+#include "core/app/dial/pilot_series.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/log.h"
+#include "tests/support/test_scene.h"
+
+namespace exphoton::cli {
+namespace {
+
+class PilotTest : public testing::Test {
+ protected:
+  std::unique_ptr<PilotRenderer> Renderer(bool isShared) {
+    const std::string integrator =
+        R"("exphotonmap" "integer indirectphotons" 5000 "integer directphotons" 5000
+           "integer finalgathersamples" 4 "bool sharedgather" )";
+    streams_["room.pbrt"] =
+        TestHeader(integrator + (isShared ? R"("true")" : R"("false")"), 40, 40, 4) +
+        FurnaceWorld(1, R"("matte" "color Kd" [ .5 .5 .5 ])");
+    RenderCommand command;
+    command.scenes = {"room.pbrt"};
+    command.threadCount = 1;
+    command.load.pluginFolders = {std::string(EXPHOTON_BINARY_DIR) + "/plugins"};
+    return std::make_unique<PilotRenderer>(
+        command, "room.pbrt", PilotRenderer::Surroundings{"--accuracy", &streams_, &log_});
+  }
+
+  FileSource::Streams streams_;
+  Log log_;
+};
+
+TEST_F(PilotTest, KnowsTheBiasOfSharingWhereGathersAreShared) {
+  PilotRequest request;
+  request.integrator = "exphotonmap";
+  EXPECT_GT(Renderer(true)->Render(request).sharing.standardError, 0);
+  EXPECT_EQ(Renderer(false)->Render(request).sharing.standardError, 0);
+}
+
+TEST_F(PilotTest, SharesWithinEachHalf) {
+  const auto renderer = Renderer(true);
+  PilotSeries series(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CountedCost);
+  series.Render();
+  EXPECT_EQ(series.Model().sharing.samples, 1);
+  EXPECT_GT(series.Model().sharingError, 0);
+  series.Render();
+  EXPECT_EQ(series.Model().sharing.samples, 2);
+}
+
+TEST_F(PilotTest, EstimatesTheBiasForAQuoteInItsLastPilotOnly) {
+  const auto renderer = Renderer(true);
+  PilotSeries series(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CpuSeconds);
+  series.Render();
+  EXPECT_EQ(series.Model().sharingError, 0);
+  series.RenderBias(1);
+  EXPECT_GT(series.Model().sharingError, 0);
+}
+
+}  // namespace
+}  // namespace exphoton::cli
