@@ -20,7 +20,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 # of two halves, with photons of their own, and `exphoton denoise` filters them.
 PICTURES = {
     "cloister": (32, 4, -.3),
-    "glass-still-life": (16, 1, -.4),
+    "glass-still-life": (32, 1, -.4),
     "spiral-staircase": (32, 2, -.1),
     "swimming-hall": (32, 2, -.2),
     "sculpture-hall": (32, 8, -1),
