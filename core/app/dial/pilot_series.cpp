@@ -63,8 +63,8 @@ void PilotSeries::Render() {
 
 // The gathers of a half are shared alone.
 void PilotSeries::TakeSharing() {
-  model_.sharing = {last_.pilot.samples / 2, last_.sharing.squared};
-  model_.sharingError = last_.sharing.standardError;
+  const SharingBias& bias = last_.sharing;
+  model_.sharing = {last_.pilot.samples / 2, bias.squared, bias.standardError};
 }
 
 // The picture of an accuracy takes the maps of the last pilot. Quotes are for other renders.

@@ -32,7 +32,7 @@ double SamplesOfGroup(const PriceModel& model, double left, const Order& order) 
     return !(noise > 0) || samples < model.SamplesFor(noise * order.groups);
   };
   double low = model.SamplesFor(left * order.groups);
-  if (!(model.sharing.noise > 0)) return low;
+  if (!(model.sharing.bias > 0)) return low;
   double high = order.mayStopSharing ? model.SamplesFor(kLeastNoise * left * order.groups) : low;
   while (!order.mayStopSharing && high < kMostSamples && missing(high)) high *= 2;
   for (int i = 0; i < kHalvings; ++i) {
@@ -134,8 +134,8 @@ double PriceModel::SamplesFor(double noise) const {
 }
 
 double PriceModel::SharingBiasOf(double samples) const {
-  if (!(sharing.noise > 0)) return 0;
-  return sharing.noise * std::pow(sharing.samples / samples, kSharingSlope);
+  if (!(sharing.bias > 0)) return 0;
+  return sharing.bias * std::pow(sharing.samples / samples, kSharingSlope);
 }
 
 PriceModel PriceModel::WithNoise(double factor, double otherSlope) const {
@@ -159,7 +159,7 @@ std::optional<Price> PriceOf(const PriceModel& model, const Order& order) {
   cheap.photonNoise = cheap.bias = 0;
   cheap.sharing = {};
   dear.bias = std::max(model.biasUpper, model.bias);
-  dear.sharing.noise = std::max(dear.sharing.noise, 0.) + kQuantile90 * model.sharingError;
+  dear.sharing.bias = std::max(dear.sharing.bias, 0.) + kQuantile90 * model.sharing.error;
   const auto least = Cheapest(cheap, order);
   const auto most = Cheapest(dear, order);
   price->least = std::min(least ? least->seconds : price->seconds, price->seconds) / kMargin;

@@ -36,13 +36,15 @@ struct PriceModel {
   struct Point {                    // the noise of one group
     double samples = 0, noise = 0;  // the former: of the group, a pixel
   };
-  std::vector<Point> points;               // ascending samples; noise falls
-  double camera = 0, slope = 1;            // beyond the points, noise is camera / samples^slope
-  double slopeError = 0;                   // standard error
-  double relativeError = 0;                // of the noise of the last pilot
-  double photonNoise = 0;                  // of one set of maps
-  Point sharing;                           // the squared bias of one group; 0: none is shared
-  double sharingError = 0;                 // its standard error
+  std::vector<Point> points;       // ascending samples; noise falls
+  double camera = 0, slope = 1;    // beyond the points, noise is camera / samples^slope
+  double slopeError = 0;           // standard error
+  double relativeError = 0;        // of the noise of the last pilot
+  double photonNoise = 0;          // of one set of maps
+  struct Sharing {                 // of one group
+    double samples = 0, bias = 0;  // the latter: squared; 0: none is shared
+    double error = 0;              // the standard error of the bias
+  } sharing;
   double bias = 0, biasUpper = 0;          // relative; the upper end of the interval
   double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
   double leastPhotons = 1;                 // the smallest k

@@ -43,7 +43,7 @@ TEST_F(PilotTest, SharesWithinEachHalf) {
   PilotSeries series(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CountedCost);
   series.Render();
   EXPECT_EQ(series.Model().sharing.samples, 1);
-  EXPECT_GT(series.Model().sharingError, 0);
+  EXPECT_GT(series.Model().sharing.error, 0);
   series.Render();
   EXPECT_EQ(series.Model().sharing.samples, 2);
 }
@@ -52,9 +52,9 @@ TEST_F(PilotTest, EstimatesTheBiasForAQuoteInItsLastPilotOnly) {
   const auto renderer = Renderer(true);
   PilotSeries series(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CpuSeconds);
   series.Render();
-  EXPECT_EQ(series.Model().sharingError, 0);
+  EXPECT_EQ(series.Model().sharing.error, 0);
   series.RenderBias(1);
-  EXPECT_GT(series.Model().sharingError, 0);
+  EXPECT_GT(series.Model().sharing.error, 0);
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST(PriceModel, IntervalsContainTheErrorOfTheBiasOfSharing) {
   model.sharing = {100, .001};
   const Price exact = PriceOf(model, {.05}).value();
   EXPECT_LT(exact.least, .8 * exact.seconds / 1.35);
-  model.sharingError = .0005;
+  model.sharing.error = .0005;
   EXPECT_GT(PriceOf(model, {.05}).value().most, 1.1 * exact.most);
 }
 
