@@ -43,7 +43,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "diffuse gathered light is shared between neighbouring pixels on one surface"),
       Param("edgesamples", &S::edgeSamples,
             "camera samples for one where a pixel shows more than one surface; each has this "
-            "fraction of the gather rays; 1: no more than elsewhere")
+            "fraction of the gather rays, but at least 2; 1: no more than elsewhere")
           .Range(1, 64),
       Param("maxdist", &S::maxDist,
             "largest radius of a density estimate; chosen from the photons if absent")

@@ -50,7 +50,7 @@ std::string EdgeRow(const RenderSetup& setup) {
   const int samples = setup.integrator->EdgeSamples();
   if (samples == 1) return "";
   return Row("edges", Format("%d camera samples for one where a pixel shows several surfaces, each "
-                             "with 1/%d of the gather rays",
+                             "with 1/%d of the gather rays, at least 2",
                              samples, samples));
 }
 

@@ -137,10 +137,13 @@ TEST(UnsharedPicture, IsFollowedIfSharedGathersHaveACertificate) {
   const std::string shares = R"(SurfaceIntegrator "exphotonmap" "bool sharedgather" "true" )";
   const std::string doesNot = R"(SurfaceIntegrator "exphotonmap" "bool sharedgather" "false" )";
   const std::string splats = R"(PixelFilter "mitchell" )";
+  // Gathers behind a lens are not shared.
+  const std::string lens = R"(Camera "perspective" "float lensradius" .1 "float focaldistance" 1 )";
   Corrections corrections(kOwnBounds, 1);
   EXPECT_FALSE(IsFollowed(shares, nullptr));
   EXPECT_FALSE(IsFollowed(doesNot, &corrections));
   EXPECT_FALSE(IsFollowed(shares + splats, &corrections));
+  EXPECT_FALSE(IsFollowed(shares + lens, &corrections));
   corrections.AddSharing({1, 1}, Spectrum(1), 1);
   EXPECT_TRUE(IsFollowed(shares, &corrections));
   // From now on the corrections of sharing can be left out.

@@ -2,6 +2,7 @@
 #include "core/render/passes/unshared/unshared_picture.h"
 
 #include "core/render/certificate/corrections.h"
+#include "core/render/sharing/sharing_plan.h"
 #include "core/render/splat_weights.h"
 
 namespace exphoton {
@@ -23,7 +24,7 @@ std::unique_ptr<UnsharedPicture> UnsharedPicture::Follow(const RenderJob& job, P
 }
 
 bool UnsharedPicture::IsKnown(const RenderJob& job) {
-  return job.integrator.SharesGathers(job.scene) && !SplatWeights::Of(job.filter) &&
+  return PlanSharing(job.integrator, job.scene, job.camera).isOn && !SplatWeights::Of(job.filter) &&
          job.film.PixelCount() <= kMostPixels;
 }
 

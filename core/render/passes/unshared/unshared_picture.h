@@ -24,7 +24,7 @@ class UnsharedPicture {
                                                  PassSum* sum);
 
   // Returns whether the picture without sharing can be known and differs: where gathers are shared
-  // and light is not splatted, in pictures of at most two million pixels.
+  // (PlanSharing) and light is not splatted, in pictures of at most two million pixels.
   static bool IsKnown(const RenderJob& job);
 
   // aovs: those of all passes; null: none.
