@@ -212,7 +212,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
     return RenderPart({command_, setup, job, options, identity, names_.Part(), log_}, begin), true;
   const std::string picturePath = names_.Picture(setup.film.filename);
   StateKeeper keeper({names_.State(setup.film.filename), command_.resumes, command_.writeEvery,
-                      begin.wall, run_.files.PartialPicture(picturePath),
+                      begin.wall, run_.files.PartialPicture(picturePath), command_.CanContinue(),
                       [&](const PictureSoFar& soFar) { WriteSoFar(setup, soFar, statistics); }},
                      identity, log_);
   options.resumed = keeper.Resume();

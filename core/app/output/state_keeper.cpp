@@ -114,7 +114,7 @@ void StateKeeper::Take(const Checkpoint& checkpoint, bool isLast) {
   const Clock::time_point start = Clock::now();
   try {
     if (checkpoint.hasWork) {
-      Save(checkpoint);
+      if (settings_.keepsState) Save(checkpoint);
       if (!isLast && checkpoint.picture) settings_.writePicture(checkpoint.picture());
     }
   } catch (const std::bad_alloc&) {
@@ -135,8 +135,8 @@ void StateKeeper::Take(const Checkpoint& checkpoint, bool isLast) {
 }
 
 void StateKeeper::Remove() {
-  if (!hasWritten_ && !resumed_) return;
-  if (IsStateFile(settings_.path)) unlink(settings_.path.c_str());
+  const bool isOurs = hasWritten_ || resumed_;
+  if (isOurs && IsStateFile(settings_.path)) unlink(settings_.path.c_str());
   if (!ownPicture_.empty()) unlink(ownPicture_.c_str());
 }
 

@@ -26,9 +26,9 @@ class StateKeeper : public Checkpoints {
     bool resumes = false;            // whether the render is to continue from it
     std::optional<double> interval;  // seconds
     Clock::time_point start;         // of the render
-    // The file of the picture so far, and a function that writes it, for an interval.
-    std::string picturePath;
-    std::function<void(const PictureSoFar&)> writePicture;
+    std::string picturePath;         // of the picture so far
+    bool keepsState = true;          // whether a later render may continue
+    std::function<void(const PictureSoFar&)> writePicture;  // for an interval
   };
   StateKeeper(const Settings& settings, const StateIdentity& identity, Log& log);
   ~StateKeeper() override;
