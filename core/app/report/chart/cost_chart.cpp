@@ -247,7 +247,7 @@ class Chart {
         front.push_back(line.settings[i]);
     if (front.empty()) return;
     const auto at =
-        placer_.Place(At(front.back()), TextWidth(line.label, kNameSize) + 4, kNameSize + 2);
+        placer_.Place(At(front.back()), TextWidth(line.label, kNameSize) + 8, kNameSize + 2);
     if (!at) return unnamed_.push_back(number);
     texts_ += SvgText({at->x, at->y + .36 * kNameSize}, line.label, "middle",
                       "name text" + ColorClass(number));
@@ -257,7 +257,7 @@ class Chart {
     int number = 0;
     for (const std::size_t i : front_) {
       const std::string text = std::to_string(++number);
-      const auto at = placer_.Place(At(i), TextWidth(text, kNumberSize) + 2, kNumberSize);
+      const auto at = placer_.Place(At(i), TextWidth(text, kNumberSize) + 6, kNumberSize);
       if (at) texts_ += SvgText({at->x, at->y + .36 * kNumberSize}, text, "middle", "number");
     }
   }
