@@ -10,7 +10,10 @@
 // three rounds. Each round has all renders of the scene, so that other work on the machine disturbs
 // plain renders and renders with a target alike.
 //   stopping_cost SCENE,SCENE... WIDTHxHEIGHT SEEDS SAMPLES,SAMPLES... TARGET,TARGET...
+//                 [--most-rays RATIO]
 // A negative target -N renders two halves with N samples together.
+// With --most-rays RATIO, the exit status is 1 if a target needs more rays at equal noise than
+// that. Rays are the same on every machine, so each picture is then rendered once.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -215,7 +218,8 @@ double ChoiceOf(const PlainCosts& plain, double noise) {
   return plain.rays.back();
 }
 
-void PrintTarget(const MeanPicture& mean, const PlainCosts& plain, Row* row) {
+// Returns the ratio of rays at equal noise.
+double PrintTarget(const MeanPicture& mean, const PlainCosts& plain, Row* row) {
   row->errors = mean.Noise(row->renders);
   const auto [least, most] = std::minmax_element(row->errors.begin(), row->errors.end());
   const double cpu = MedianOf(row->renders, [](const Measured& m) { return m.cpuSeconds; });
@@ -230,9 +234,11 @@ void PrintTarget(const MeanPicture& mean, const PlainCosts& plain, Row* row) {
               MedianOf(row->renders, [](const Measured& m) { return double(m.passes); }), cpu,
               cpu / CostOf(plain.errors, plain.seconds, own), rays / equal,
               rays / ChoiceOf(plain, target), (equal + plain.photonRays) / equal);
+  return rays / equal;
 }
 
-void MeasureScene(const std::string& name, char** argv) {
+// Returns the largest ratio of rays at equal noise.
+double MeasureScene(const std::string& name, char** argv, int rounds) {
   Scene scene{name, {}};
   const std::string size = argv[2];
   const std::size_t x = size.find('x');
@@ -242,7 +248,7 @@ void MeasureScene(const std::string& name, char** argv) {
   std::printf("%s, %s, %d seeds\n\n", name.c_str(), size.c_str(), seeds);
   std::vector<Row> plain = RenderRows(scene, seeds, argv[4], true),
                    targets = RenderRows(scene, seeds, argv[5], false);
-  for (int round = 1; round < kRounds; ++round) {
+  for (int round = 1; round < rounds; ++round) {
     TimeAgain(scene, true, &plain);
     TimeAgain(scene, false, &targets);
   }
@@ -255,19 +261,32 @@ void MeasureScene(const std::string& name, char** argv) {
       "rays, equal noise | rays, choice | bound |\n| --- | --- | --- | --- | --- | --- | --- | --- "
       "| "
       "--- | --- |\n");
-  for (Row& row : targets) PrintTarget(mean, costs, &row);
+  double most = 0;
+  for (Row& row : targets) most = std::max(most, PrintTarget(mean, costs, &row));
   std::printf("\n");
   std::fflush(stdout);
+  return most;
 }
 
 int Main(int argc, char** argv) {
-  if (argc != 6 || std::atoi(argv[3]) < 2) {
-    std::fprintf(stderr, "usage: stopping_cost SCENE,... WxH SEEDS SAMPLES,... TARGET,...\n");
+  const bool checks = argc == 8 && std::string(argv[6]) == "--most-rays";
+  if (!(argc == 6 || checks) || std::atoi(argv[3]) < 2) {
+    std::fprintf(stderr,
+                 "usage: stopping_cost SCENE,... WxH SEEDS SAMPLES,... TARGET,... "
+                 "[--most-rays RATIO]\n");
     return 2;
   }
+  const double limit = checks ? std::atof(argv[7]) : 1e300;
+  double most = 0;
   std::istringstream names(argv[1]);
-  for (std::string name; std::getline(names, name, ',');) MeasureScene(name, argv);
-  return 0;
+  for (std::string name; std::getline(names, name, ',');)
+    most = std::max(most, MeasureScene(name, argv, checks ? 1 : kRounds));
+  if (most <= limit) return 0;
+  std::fprintf(stderr,
+               "stopping_cost: a target needs %.2f times the rays of a plain render, and at "
+               "most %g are expected\n",
+               most, limit);
+  return 1;
 }
 
 }  // namespace
