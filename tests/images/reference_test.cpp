@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests compare every scene with path tracing at 64 x 48 pixels, for every integrator that
-// renders all of its light. They allow no non-finite pixel, no fireflies, and no bias beyond the
-// stated one in the mean of the picture or of any of 4 x 3 blocks. The tolerances are for the small
-// settings used here.
+// These tests render seven scenes with path, photonmap and exphotonmap at 64 x 48 pixels, and
+// compare the pictures with path tracing. They allow no non-finite pixel, no fireflies, and no bias
+// beyond the stated one in the mean of the picture or of any of 4 x 3 blocks. The tolerances are
+// for the small settings used here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
