@@ -54,7 +54,7 @@ def onto(p, axis, value):
 
 
 def quad(a, b, c, d):
-    """Two triangles; the normal is that of a, b, c anticlockwise."""
+    """Two triangles; the normal points to where a, b, c run anticlockwise."""
     points = "  ".join(numbers(*p) for p in (a, b, c, d))
     return f'Shape "trianglemesh" "integer indices" [ 0 1 2 0 2 3 ]\n  "point P" [ {points} ]\n'
 
@@ -87,8 +87,8 @@ def sun():
     axis = unit(minus(centre, source))
     reach = max(math.acos(dot(axis, unit(minus(c, source)))) for c in corners)
     angle = math.degrees(reach) + .04
-    text = "# The sun: a spot 26 m away, whose cone just holds the skylight, so that most of its\n"
-    text += "# photons come in. Made by make_sun.py.\n"
+    text = "# The sun is a spot light 26 m away. Its cone just encloses the skylight, so nearly half of its\n"
+    text += "# photons enter the room. Made by make_sun.py.\n"
     text += f'LightSource "spot" "color I" [ {numbers(*INTENSITY)} ]\n'
     text += f'  "point from" [ {numbers(*source)} ] "point to" [ {numbers(*centre)} ]\n'
     text += f'  "float coneangle" [ {angle:.4f} ] "float conedeltaangle" [ .03 ]\n'
@@ -96,7 +96,7 @@ def sun():
 
 
 def distant_sun():
-    """The irradiance is that of the spot at the skylight, so the same power enters. The sun shines on
+    """The irradiance at the skylight equals the spot's, so the same power enters. The sun shines on
     the outer sides of two walls, which are black here: photons on them would leak in at the edges of
     the floor."""
     text = "# The sun as a distant light, and black outer walls on the sides that it shines on. Made by\n"

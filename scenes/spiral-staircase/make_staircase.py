@@ -94,7 +94,7 @@ def flight():
 
 def globes():
     with open("globes.pbrt", "w") as file:
-        file.write("# Globes on the wall, one each half turn. " + MADE + "\n")
+        file.write("# Globes along the wall, one every 13 steps. " + MADE + "\n")
         for i in range(5, 84, 13):
             position = at(OUTER - .16, (i + .5) * TURN, i * RISE + 2.1)
             file.write("AttributeBegin Translate %.4f %.4f %.4f Shape \"sphere\" "
