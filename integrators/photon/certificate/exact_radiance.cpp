@@ -13,9 +13,10 @@ namespace exphoton {
 namespace {
 
 // Bounds of the expected number of reads that the rays of a hit have corrected, where they read as
-// much as the hit. In between, it is the square of the albedo: the variance of nested corrections
-// is then the same at each bounce, and a smaller number would make it grow from bounce to bounce.
-// The upper bound ends chains between surfaces that absorb nothing.
+// much as the hit. In between, it is a^1.5 for the albedo a. The variance of nested corrections
+// then falls by a^.5 from bounce to bounce. With a^2 it would be the same at each bounce, so that a
+// few long chains would have most of it. The upper bound ends chains between surfaces that absorb
+// nothing.
 constexpr Real kMinNested = Real(.1), kMaxNested = Real(.95);
 // Bounds the stack. Reads after more bounces keep their error.
 constexpr int kMostNested = 100;
@@ -65,7 +66,8 @@ Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectru
   const ShadingPoint point = gather_.Shade(segment);
   const Real albedo = point.bsdf.Rho(gather_.MappedLobes()).MaxComponent();
   const std::optional<Parent> parent = parent_;
-  parent_ = {std::clamp(Square(albedo), kMinNested, kMaxNested), importance, 0};
+  const Real expected = std::clamp(albedo * std::sqrt(albedo), kMinNested, kMaxNested);
+  parent_ = {expected, importance, 0};
   ++depth_;
   const Spectrum exact = Sample(point);
   --depth_;
