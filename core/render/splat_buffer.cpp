@@ -111,8 +111,8 @@ void SplatBuffer::Pixel::Add(const SplatSample& sample) {
   AddValues(sample.place, sample.share);
   ++samples_;
   if (!buffer_->film_->Crop().Contains(pixel_.x, pixel_.y)) return;
-  buffer_->film_->AddOwn(pixel_, L, sample.alpha);
-  if (sample.aovs) buffer_->aovs_->AddOwn(pixel_, *sample.aovs);
+  buffer_->film_->AddOwn(pixel_, L, sample.alpha, sample.share);
+  if (sample.aovs) buffer_->aovs_->AddOwn(pixel_, *sample.aovs, sample.share);
 }
 
 void SplatBuffer::Pixel::AddLight(Point2 place, Real share, const Spectrum& L, Aov lightAov) {
@@ -125,8 +125,8 @@ void SplatBuffer::Pixel::AddLight(Point2 place, Real share, const Spectrum& L, A
   if (at) std::copy_n(l, 3, values_.begin() + std::ptrdiff_t(kFilmValues + *at));
   AddValues(place, share);
   if (!buffer_->film_->Crop().Contains(pixel_.x, pixel_.y)) return;
-  buffer_->film_->AddOwnLight(pixel_, L);
-  if (at) aovs->AddOwnLight(pixel_, *at, L);
+  buffer_->film_->AddOwnLight(pixel_, L, share);
+  if (at) aovs->AddOwnLight(pixel_, *at, L, share);
 }
 
 void SplatBuffer::Pixel::AddValues(Point2 place, Real share) {

@@ -159,21 +159,22 @@ std::optional<std::size_t> AovFilm::FirstValueOf(Aov aov) const {
   return std::nullopt;
 }
 
-void AovFilm::AddOwn(Point2i pixel, const AovSample& sample) {
+void AovFilm::AddOwn(Point2i pixel, const AovSample& sample, Real share) {
   const std::size_t at = IndexOf(pixel);
-  weights_[at].absSum += 1;
-  AddSurface(at, sample, 1);
+  const auto s = float(share);
+  weights_[at].absSum += s;
+  AddSurface(at, sample, double(share));
   Value* value = values_.data() + at * valueCount_;
   for (const Aov aov : lights_) {
     double x[3];
     const std::size_t count = WriteValues(aov, sample, x);
-    for (std::size_t c = 0; c < count; ++c, ++value) value->absSum += float(x[c]);
+    for (std::size_t c = 0; c < count; ++c, ++value) value->absSum += s * float(x[c]);
   }
 }
 
-void AovFilm::AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L) {
+void AovFilm::AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L, Real share) {
   Value* value = values_.data() + IndexOf(pixel) * valueCount_ + firstValue;
-  for (int c = 0; c < 3; ++c) value[c].absSum += float(L[c]);
+  for (int c = 0; c < 3; ++c) value[c].absSum += float(share) * float(L[c]);
 }
 
 void AovFilm::AddSums(std::size_t pixel, const double* film, const double* values,

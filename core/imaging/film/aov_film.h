@@ -53,9 +53,9 @@ class AovFilm {
   std::size_t LightCount() const { return valueCount_; }
   void ValuesOf(const AovSample& sample, double* out) const;
   std::optional<std::size_t> FirstValueOf(Aov aov) const;
-  // Adds an unweighted sample to its own pixel, and light to such a sample.
-  void AddOwn(Point2i pixel, const AovSample& sample);
-  void AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L);
+  // Adds a sample to its own pixel, and light to such a sample (Film::AddOwn).
+  void AddOwn(Point2i pixel, const AovSample& sample, Real share);
+  void AddOwnLight(Point2i pixel, std::size_t firstValue, const Spectrum& L, Real share);
   // Adds sums over samples: of w (r, g, b, alpha, 1), of w x for the values x of light AOVs, and,
   // if the variance is wanted, the covariances of w, w L and w L (1, then w L w and w L w L by
   // channel).

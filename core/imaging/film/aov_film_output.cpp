@@ -11,7 +11,8 @@ double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
   const Weights& weights = weights_[pixel];
   const Value& v = values_[pixel * valueCount_ + value];
   if (weights.samples == 0) return 0;
-  if (std::abs(weights.sum) >= .5 * double(weights.samples)) return v.sum / weights.sum;
+  if (std::abs(weights.sum) >= .5 * double(weights.absSum) && weights.sum != 0)
+    return v.sum / weights.sum;
   return weights.absSum > 0 ? double(v.absSum) / double(weights.absSum) : 0;
 }
 
@@ -20,12 +21,14 @@ double AovFilm::MeanOf(std::size_t pixel, std::size_t value) const {
 // covariances that are unbiased already.
 double AovFilm::VarianceOf(std::size_t pixel, std::size_t channel) const {
   const Weights& weights = weights_[pixel];
-  const double n = double(weights.samples), sum = std::max(std::abs(weights.sum), .5 * n);
+  const double n = double(weights.samples);
+  const double sum = std::max(std::abs(weights.sum), .5 * double(weights.absSum));
   if (weights.samples < 2 && !isSplatted_) return 0;
   const Moments& m = moments_[pixel * 3 + channel];
+  if (!(sum > 0)) return 0;
   const double mean = m.wL / sum;
   const double squares = m.wwLL - 2 * mean * m.wwL + mean * mean * weights.sumOfSquares;
-  if (isSplatted_) return sum > 0 ? std::max(squares, 0.) / (sum * sum) : 0;
+  if (isSplatted_) return std::max(squares, 0.) / (sum * sum);
   return std::max(squares, 0.) * n / ((n - 1) * sum * sum);
 }
 

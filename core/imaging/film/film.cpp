@@ -72,19 +72,20 @@ void Film::AddLight(Point2i pixel, const Spectrum& L, Real weight) {
   p.absB += a * float(L.b);
 }
 
-void Film::AddOwn(Point2i pixel, const Spectrum& L, Real alpha) {
-  AddOwnLight(pixel, L);
+void Film::AddOwn(Point2i pixel, const Spectrum& L, Real alpha, Real share) {
+  AddOwnLight(pixel, L, share);
   Pixel& p = pixels_[IndexOf(pixel)];
-  p.absAlpha += float(alpha);
-  p.absWeight += 1;
+  p.absAlpha += float(share) * float(alpha);
+  p.absWeight += float(share);
   ++p.samples;
 }
 
-void Film::AddOwnLight(Point2i pixel, const Spectrum& L) {
+void Film::AddOwnLight(Point2i pixel, const Spectrum& L, Real share) {
   Pixel& p = pixels_[IndexOf(pixel)];
-  p.absR += float(L.r);
-  p.absG += float(L.g);
-  p.absB += float(L.b);
+  const auto s = float(share);
+  p.absR += s * float(L.r);
+  p.absG += s * float(L.g);
+  p.absB += s * float(L.b);
 }
 
 void Film::AddSums(std::size_t index, const Sums& sums, double alpha) {
@@ -147,7 +148,7 @@ std::int64_t Film::SampleCount(Point2i pixel) const { return pixels_[IndexOf(pix
 
 std::array<double, 4> Film::Pixel::Mean() const {
   if (samples == 0) return {};
-  if (std::abs(weight) >= .5 * double(samples))
+  if (std::abs(weight) >= .5 * double(absWeight) && weight != 0)
     return {r / weight, g / weight, b / weight, alpha / weight};
   if (!(absWeight > 0)) return {};
   const double w = absWeight;

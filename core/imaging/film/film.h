@@ -43,11 +43,11 @@ class Film {
   // Adds radiance to a sample that was added before with this weight.
   void AddLight(Point2i pixel, const Spectrum& L, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
-  // For samples that are splatted (core/render/splat_buffer.h): adds an unweighted sample to its
-  // own pixel, and light to such a sample. The pixel shows their mean only if AddSums adds too
-  // small a weight.
-  void AddOwn(Point2i pixel, const Spectrum& L, Real alpha);
-  void AddOwnLight(Point2i pixel, const Spectrum& L);
+  // For samples that are splatted (core/render/splat_buffer.h): adds a sample to its own pixel, and
+  // light to such a sample. `share` is 1 for a whole sample and smaller for a part of one. The pixel
+  // shows their mean only if AddSums adds too small a weight.
+  void AddOwn(Point2i pixel, const Spectrum& L, Real alpha, Real share);
+  void AddOwnLight(Point2i pixel, const Spectrum& L, Real share);
 
   // Removes all samples.
   void Clear();
@@ -86,9 +86,10 @@ class Film {
   }
 
  private:
-  // sum(w) is close to the number of samples, except by chance after the first few samples of a
-  // filter with negative lobes. Such pixels use the mean weighted by |w|, or the plain mean of the
-  // pixel's own samples where samples are splatted. It needs little precision.
+  // Filters with negative values splat their samples. sum(w) is then close to the number of whole
+  // samples, absWeight, except by chance after the first few samples. Such pixels use the mean of
+  // their own samples, which needs little precision. Other filters have positive weights, so that
+  // both sums and both means are the same.
   struct Pixel {
     double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
     std::int64_t samples = 0;

@@ -93,6 +93,54 @@ TEST(EdgeSamples, HaveTheSameMeanWhereSamplesAreSplatted) {
   ExpectSameMean("\"mitchell\"", kSequence);
 }
 
+// Returns the root of the mean squared difference between pixels of the mean pictures of all seeds,
+// without photons.
+double Difference(const std::string& sceneA, const std::string& sceneB) {
+  const auto meanPicture = [](const std::string& scene) {
+    LoadedScene loaded = LoadSceneText(scene);
+    std::vector<double> mean;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+      TestRenderOptions options;
+      options.seed = std::uint64_t(seed);
+      const Image image = RenderLoaded(loaded, options).image;
+      mean.resize(image.pixels.size());
+      for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += double(image.pixels[i]) / kSeeds;
+    }
+    return mean;
+  };
+  const std::vector<double> a = meanPicture(sceneA), b = meanPicture(sceneB);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / double(a.size()));
+}
+
+// The filter must not become narrower where pixels show edges.
+TEST(EdgeSamples, HaveTheSamePictureWhereSamplesAreSplatted) {
+  const std::string many = "\"lowdiscrepancy\" \"integer pixelsamples\" 64";
+  const std::string four = Bars(4, "\"mitchell\"", many, 0);
+  const double same = Difference(four, Bars(1, "\"mitchell\"", many, 0));
+  const double other = Difference(four, Bars(1, "\"box\"", many, 0));
+  EXPECT_LT(same, .1 * other) << same << ' ' << other;
+}
+
+// The estimate of the variance must fit the variance between seeds.
+TEST(EdgeSamples, KnowTheirVariance) {
+  for (const char* filter : {"\"box\"", "\"mitchell\""}) {
+    const std::string scene =
+        Bars(4, filter, "\"random\" \"integer xsamples\" 4 \"integer ysamples\" 2", 0);
+    TestRenderOptions options;
+    options.aovs = {Aov::Variance};
+    const Image image = RenderSceneText(scene, options).image;
+    double sum = 0;
+    for (int y = 0; y < image.Height(); ++y)
+      for (int x = 0; x < image.Width(); ++x)
+        sum += double(image.At(x, y, image.FindChannel("variance.G")));
+    const double estimate = sum / (image.Width() * image.Height());
+    // Of four channels, alpha has no noise.
+    EXPECT_NEAR(estimate / (Measure(scene).noise * 4 / 3), 1, .25) << filter;
+  }
+}
+
 TEST(EdgeSamples, AreLessNoisy) {
   EXPECT_LT(Noise("\"box\"", kSequence), .2);
   EXPECT_LT(Noise("\"gaussian\"", kSequence), .2);

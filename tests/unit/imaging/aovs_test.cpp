@@ -87,6 +87,19 @@ TEST(AovFilm, EstimatesTheVarianceOfAPixel) {
   EXPECT_NEAR(MeanChannel(image, "variance.B"), 0, 1e-12);
 }
 
+// Parts of samples (pixels with edges) have smaller weights.
+TEST(AovFilm, SeesNoVarianceInEqualPartsOfSamples) {
+  Film film(kOnePixel, kOnePixel);
+  AovFilm aovs(kOnePixel, {Aov::Variance});
+  for (int i = 0; i < 16; ++i) {
+    film.AddSample({0, 0}, Spectrum(3), 1, Real(.25));
+    aovs.AddSample({0, 0}, {}, Spectrum(3), Real(.25));
+  }
+  Image image = film.ToImage(true);
+  aovs.AppendTo(film, true, &image);
+  EXPECT_NEAR(MeanChannel(image, "variance.G"), 0, 1e-12);
+}
+
 TEST(AovFilm, SeesNoVarianceInEqualSamplesOfUnequalWeights) {
   Film film(kOnePixel, kOnePixel);
   AovFilm aovs(kOnePixel, {Aov::Variance});
