@@ -70,6 +70,14 @@ Spectrum Scene::TransmittanceOfMedia(const Ray& ray) const {
   return Exp(depth * Real(-1));
 }
 
+Spectrum Scene::TransmittanceBefore(const Light& light, const Ray& ray) const {
+  if (!HasMedia() || !light.IsDistant()) return Spectrum(1);
+  Ray back = ray;
+  back.d = -ray.d;
+  back.tMax = kInfinity;
+  return TransmittanceOfMedia(back);
+}
+
 Spectrum Scene::EscapedRadiance(const Vector3& w) const {
   Spectrum sum;
   if (!RequiredFeatures::IsCompiled(Feature::Environment)) return sum;

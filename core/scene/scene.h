@@ -90,6 +90,10 @@ class Scene {
   Spectrum Transmittance(const Ray& ray) const {
     return HasMedia() ? TransmittanceOfMedia(ray) : Spectrum(1);
   }
+  // Returns the transmittance of all media between infinity and the origin of a ray that a light
+  // emits. It is 1 if the light is not at infinity. Rays of lights at infinity start near the
+  // surfaces, and media may reach farther than these.
+  Spectrum TransmittanceBefore(const Light& light, const Ray& ray) const;
 
  private:
   Spectrum TransmittanceOfMedia(const Ray& ray) const;

@@ -87,8 +87,9 @@ void LightPathTracer::Trace(const Emission& emission, int mostVertices, Workspac
   const auto sample = choice.light->SampleEmission(emission.position, emission.direction,
                                                    emission.part, emission.time);
   if (!sample) return;
-  Spectrum alpha = sample->power / choice.probability;
   Ray ray = sample->ray;
+  Spectrum alpha =
+      sample->power / choice.probability * scene_->TransmittanceBefore(*choice.light, ray);
   double pdf = 0;  // per solid angle, with which the last vertex made the ray
   while (alpha.MaxComponent() > 0 && alpha.IsFinite()) {
     rays->Count(RayKind::Photon);

@@ -34,16 +34,17 @@ class Exponential {
 
   double At(const Point3& p) const { return a_ * std::exp(-b_ * Height(p)); }
 
-  // Let the exponent fall by x over the part. The mean density is then the density at the beginning
-  // times (1 - e^-x) / x.
+  // Let the exponent change by x over the part. The mean density is then the density at the denser
+  // end times (1 - e^-|x|) / |x|. The thinner end could be 0 in double precision.
   double Integral(const Point3& o, const Vector3& d, Interval part) const {
     const double length = double(part.max) - double(part.min);
     const double slope =
         double(d.x) * double(up_.x) + double(d.y) * double(up_.y) + double(d.z) * double(up_.z);
     const double x = b_ * slope * length;
-    const double first = a_ * std::exp(-b_ * (Height(o) + slope * double(part.min)));
-    const double mean = std::abs(x) < 1e-12 ? 1 : -std::expm1(-x) / x;
-    return first > 0 ? first * mean * length : 0;
+    const double denser = double(x < 0 ? part.max : part.min);
+    const double highest = a_ * std::exp(-b_ * (Height(o) + slope * denser));
+    const double mean = std::abs(x) < 1e-12 ? 1 : -std::expm1(-std::abs(x)) / std::abs(x);
+    return highest > 0 ? highest * mean * length : 0;
   }
 
  private:

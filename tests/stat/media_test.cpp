@@ -115,6 +115,46 @@ TEST(Media, AbsorbWhatLightsASurfaceBehindThem) {
                         100000, .01);
 }
 
+// Photons start near the surfaces, so the medium that they would cross before counts too.
+TEST(Media, AbsorbTheLightOfPhotonsThatStartInside) {
+  const std::string small =
+      "AttributeBegin Translate 0 0 5 ReverseOrientation Shape \"disk\" \"float radius\" .7 "
+      "AttributeEnd\n";
+  const std::string scene =
+      Header("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 20000 "
+             "\"integer indirectphotons\" 0 \"bool finalgather\" \"false\"",
+             "\"emission\"") +
+      Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") + kLitDisk + small + "WorldEnd\n";
+  EXPECT_NEAR(MeanRadiance(RenderSceneText(scene).image), .5 / M_PI * std::exp(-1.8), .03 * .0263);
+}
+
+// A small disk sees the light that a larger one reflects, and the camera sees the small one.
+TEST(Media, AbsorbTheLightOfPathsThatStartInside) {
+  const auto measure = [](const std::string& integrator, std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    const std::string scene =
+        "LookAt 0 0 4.8 0 0 4 0 1 0\nCamera \"perspective\" \"float fov\" 20\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+        "PixelFilter \"box\"\nSampler \"random\" \"integer xsamples\" 8 \"integer ysamples\" 8\n"
+        "SurfaceIntegrator " +
+        integrator + "\nVolumeIntegrator \"emission\"\nWorldBegin\n" +
+        Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") + kLitDisk +
+        "AttributeBegin Translate 0 0 5 Shape \"disk\" \"float radius\" .7 AttributeEnd\n"
+        "AttributeBegin Translate 0 0 4.5 Shape \"disk\" \"float radius\" .3 AttributeEnd\n"
+        "WorldEnd\n";
+    return MeanRadiance(RenderSceneText(scene, options).image);
+  };
+  const auto mean = [&](const std::string& integrator) {
+    double sum = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) sum += measure(integrator, seed) / 10;
+    return sum;
+  };
+  const double expected = mean("\"path\" \"integer maxdepth\" 8");
+  EXPECT_NEAR(mean("\"bidirectional\" \"integer maxdepth\" 8"), expected, .05 * expected);
+  EXPECT_NEAR(mean("\"exphotonmap\" \"integer indirectphotons\" 20000"), expected, .05 * expected);
+}
+
 // The medium continues behind the disk. Only the medium in front of the disk may absorb, for
 // every kind of ray.
 TEST(Media, AbsorbOnlyOnTheWayToTheSurface) {

@@ -199,7 +199,8 @@ std::optional<Spectrum> PhotonTracer::Path::Emit(const Source& source, const Emi
   if (!tracer_.targeting_.IsEmpty() && source.light->IsDistant())
     tracer_.targeting_.Redirect(&*emission, u.Position());
   now_.ray = RayDifferential(emission->ray);
-  return emission->power / source.probability;  // docs/theory/exphotonmap.md, eq. 3
+  const Spectrum power = emission->power / source.probability;  // docs/theory/exphotonmap.md, eq. 3
+  return power * tracer_.scene_.TransmittanceBefore(*source.light, now_.ray);
 }
 
 bool PhotonTracer::Path::Begin(const Spectrum& power) {

@@ -45,10 +45,23 @@ class BoxMedium final : public Medium {
   bool Emits() const override { return !settings_.emission.IsBlack(); }
   bool Scatters() const override { return !settings_.scattering.IsBlack(); }
 
+  // Without the margin of IntersectBox, which would add to the optical depth.
   std::optional<Interval> Overlap(const Ray& ray) const override {
-    const auto part =
-        IntersectBox(box_, toMedium_.ApplyPoint(ray.o), toMedium_.ApplyVector(ray.d), ray.tMax);
-    if (!part || !(part->max > part->min) || !std::isfinite(part->max)) return std::nullopt;
+    const Point3 o = toMedium_.ApplyPoint(ray.o);
+    const Vector3 d = toMedium_.ApplyVector(ray.d);
+    double first = 0, last = double(ray.tMax);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double from = double(box_.min[axis]) - double(o[axis]);
+      const double to = double(box_.max[axis]) - double(o[axis]);
+      if (d[axis] == 0) {
+        if (!(from <= 0 && to >= 0)) return std::nullopt;
+        continue;
+      }
+      const double a = from / double(d[axis]), b = to / double(d[axis]);
+      first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+    }
+    const Interval part{Real(first), Real(last)};
+    if (!(part.max > part.min) || !std::isfinite(part.max)) return std::nullopt;
     return part;
   }
 

@@ -345,6 +345,19 @@ TEST(LobeFormulas, OfRefraction) {
   }
 }
 
+// At the peak, wo and -wi are the same direction.
+TEST(PhaseFormula, KeepsItsDigitsAtANarrowPeak) {
+  RandomStream random(13);
+  for (const double size : {.99, .999, .9999}) {
+    for (int k = 0; k < 200; ++k) {
+      const Vector3 w = RandomPair(random).wo;
+      const double peak = (1 + size) / (4 * M_PI * (1 - size) * (1 - size));
+      EXPECT_NEAR(double(HenyeyGreenstein(Real(size), w, -w)) / peak, 1, 1e-3) << size;
+      EXPECT_NEAR(double(HenyeyGreenstein(Real(-size), w, w)) / peak, 1, 1e-3) << size;
+    }
+  }
+}
+
 // Henyey and Greenstein 1941, by the angle between the ways of the light before and after.
 TEST(PhaseFormula, OfHenyeyAndGreenstein) {
   RandomStream random(12);

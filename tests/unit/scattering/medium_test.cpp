@@ -106,5 +106,30 @@ TEST(Exponential, FallsWithTheHeightOverItsLowerCorner) {
   }
 }
 
+// Straight down through 2000 scale heights, the optical depth is a / b.
+TEST(Exponential, HasTheSameDepthInBothDirections) {
+  const LoadedScene loaded = LoadSceneText(
+      "WorldBegin\nVolume \"exponential\" \"color sigma_a\" [1 1 1] \"point p0\" [-50 0 -50] "
+      "\"point p1\" [50 2000 50]\nLightSource \"point\"\nWorldEnd\n");
+  const Medium& medium = *loaded.setup->scene->Media().front();
+  for (const Real top : {Real(700), Real(730), Real(800), Real(1990)}) {
+    Ray down, up;
+    down.o = {0, top, 0}, down.d = {0, -1, 0}, up.d = {0, 1, 0}, up.tMax = top;
+    EXPECT_NEAR(double(medium.OpticalDepth(down, {0, kInfinity}).g), 1, 1e-4) << top;
+    EXPECT_NEAR(double(medium.OpticalDepth(up, {0, top}).g), 1, 1e-4) << top;
+  }
+}
+
+// A box far away has its own thickness, up to the rounding of the distance.
+TEST(Medium, OfABoxFarAwayHasItsThickness) {
+  const LoadedScene loaded = LoadSceneText(
+      "WorldBegin\nVolume \"homogeneous\" \"color sigma_a\" [1 1 1] \"point p0\" [-50 -50 0] "
+      "\"point p1\" [50 50 1]\nLightSource \"point\"\nWorldEnd\n");
+  const Medium& medium = *loaded.setup->scene->Media().front();
+  Ray ray;
+  ray.o = {0, 0, Real(-65536)}, ray.d = {0, 0, 1};
+  EXPECT_NEAR(double(medium.OpticalDepth(ray, {0, kInfinity}).g), 1, 1e-3);
+}
+
 }  // namespace
 }  // namespace exphoton
