@@ -41,7 +41,7 @@ std::optional<Spectrum> BlendedDiffuse::ThroughputBound(const Vector3& wo) const
   return rho_ * (CoatTransmission(std::abs(wo.z)) * CoatTransmission(1));
 }
 
-Spectrum BlendedDiffuse::Rho() const { return Clamp(rho_, 0, 1); }
+Spectrum BlendedDiffuse::Rho() const { return rho_; }
 
 BlendedGloss::BlendedGloss(const Spectrum& gloss, Real exponentX, Real exponentY)
     : Bxdf(LobeSet::GlossyReflection),

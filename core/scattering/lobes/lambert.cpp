@@ -21,6 +21,6 @@ std::optional<BxdfSample> Lambert::Sample(const Vector3& wo, Point2 u) const {
   return BxdfSample{wi, reflectance_, std::abs(wi.z) * kInvPi};
 }
 
-Spectrum Lambert::Rho() const { return Clamp(reflectance_, 0, 1); }
+Spectrum Lambert::Rho() const { return reflectance_; }
 
 }  // namespace exphoton

@@ -49,7 +49,7 @@ std::optional<Spectrum> OrenNayar::ThroughputBound(const Vector3& wo) const {
 // 2/3 - 64/(45 pi).
 Spectrum OrenNayar::Rho() const {
   constexpr Real kMean = Real(0.21395911);
-  return Clamp(reflectance_ * (a_ + b_ * kMean), 0, 1);
+  return reflectance_ * (a_ + b_ * kMean);
 }
 
 }  // namespace exphoton
