@@ -32,7 +32,7 @@ struct Image {
   std::vector<std::string> channels;  // for example "R", "G", "B", "A", "albedo.R"
   std::vector<float> pixels;          // row by row, with the channels of a pixel adjacent
   std::map<std::string, ImageAttribute> attributes;
-  std::set<std::string> exactChannels;  // written with 32 bits to every EXR file
+  std::set<std::string> exactChannels;  // written with 32 bits to every EXR file; see ReadExr
   bool isFromSrgb = false;  // whether the values were decoded from sRGB when the file was read
 
   Image() = default;
@@ -58,10 +58,14 @@ class ImageError : public std::runtime_error {
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t(1) << 28;
 void CheckPixelCount(const std::string& path, std::int64_t width, std::int64_t height);
 
+// EXR files that are read have at most this number of channels. A picture of this program with all
+// AOVs and two halves has 76.
+inline constexpr int kMaxImageChannels = 256;
+
 // Reads EXR, PFM and Radiance HDR files (linear), and PNG (8 or 16 bit), JPEG and TGA files, which
 // are decoded from sRGB to linear. All but EXR have the channels R, G, B, and A if present; grey
 // becomes R, G, B. EXR channels keep their names; Y alone becomes R, G, B. Throws ImageError, also
-// for more than kMaxImagePixels or 64 channels, which are checked before allocation.
+// for more than kMaxImagePixels or kMaxImageChannels, which are checked before allocation.
 Image ReadImage(const std::string& path);
 
 // Throws ImageError if `path` is not a readable regular file.

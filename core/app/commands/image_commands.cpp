@@ -13,6 +13,7 @@
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
+#include "core/app/output/exr_output.h"
 #include "core/app/output/output_files.h"
 #include "core/app/output/png_output.h"
 #include "core/app/output/run_files.h"
@@ -20,7 +21,7 @@
 #include "core/base/error.h"
 #include "core/base/format.h"
 #include "core/base/log.h"
-#include "core/imaging/files/exr.h"
+#include "core/imaging/image.h"
 #include "core/params/suggestions.h"
 
 namespace exphoton::cli {
@@ -96,7 +97,7 @@ std::vector<std::string> LayerNames(const Image& image) {
 }
 
 // Returns a picture with the channels R, G, B of a layer. A layer of one channel becomes grey, and
-// one of two channels has no blue.
+// one of two channels has no blue. The channels of an exact layer stay exact.
 Image LayerOf(const Image& image, const std::string& layer, const std::string& path) {
   std::vector<int> from;
   for (int c = 0; c < image.ChannelCount(); ++c)
@@ -118,6 +119,9 @@ Image LayerOf(const Image& image, const std::string& layer, const std::string& p
   }
   Image result(image.data, image.display, {"R", "G", "B"});
   result.attributes = image.attributes;
+  for (const int c : from)
+    if (image.exactChannels.contains(image.channels[std::size_t(c)]))
+      result.exactChannels = {"R", "G", "B"};
   if (from.size() == 1) from.assign(3, from[0]);
   for (int y = 0; y < image.Height(); ++y)
     for (int x = 0; x < image.Width(); ++x)
@@ -183,7 +187,7 @@ int RunConvert(const std::vector<std::string>& arguments) {
     if (isPng)
       WritePngPicture(to, image, png, log);
     else
-      WriteExr(to, image, !asFloat);
+      WriteExrPicture(to, image, !asFloat, log);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
+#include "core/app/output/exr_output.h"
 #include "core/app/output/png_output.h"
 #include "core/app/output/run_files.h"
 #include "core/app/process/interrupt_watch.h"
@@ -16,7 +17,6 @@
 #include "core/base/format.h"
 #include "core/base/log.h"
 #include "core/imaging/denoise/denoise.h"
-#include "core/imaging/files/exr.h"
 
 namespace exphoton::cli {
 namespace {
@@ -102,7 +102,7 @@ void Filter(const DenoiseOptions& options) {
   if (IsPngName(options.to))
     WritePngPicture(options.to, result.picture, options.png, log);
   else
-    WriteExr(options.to, result.picture, !options.asFloat);
+    WriteExrPicture(options.to, result.picture, !options.asFloat, log);
   log.Notice("wrote \"" + options.to + "\": noise " + PercentText(result.noise) + " before and " +
              PercentText(result.residualNoise) + " after (bias not included)");
 }

@@ -8,6 +8,7 @@
 #include "core/app/options/errors.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
+#include "core/app/output/exr_output.h"
 #include "core/app/output/output_files.h"
 #include "core/app/output/picture.h"
 #include "core/app/output/png_output.h"
@@ -16,7 +17,6 @@
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/shards/part_set.h"
 #include "core/base/terminal.h"
-#include "core/imaging/files/exr.h"
 #include "core/plugins/registry.h"
 #include "core/render/shards/merge_shards.h"
 
@@ -225,10 +225,7 @@ class Merge {
     } else {
       const bool asHalf = !options_.asFloat && (options_.asHalf || record_.asHalf);
       FinishExr(run, isReproducible_, &image);
-      const ExrWriteReport report = WriteExr(options_.outfile, image, asHalf);
-      if (report.clampedToHalf > 0)
-        log_.Warning(std::to_string(report.clampedToHalf) +
-                     " values above 65504 were written as 65504; --float stores them as they are");
+      WriteExrPicture(options_.outfile, image, asHalf, log_);
     }
     const std::size_t count = parts_.Files().size();
     log_.Notice("wrote \"" + options_.outfile + "\" from " + std::to_string(count) +

@@ -15,7 +15,11 @@ struct ExrWriteReport {
 // Writes to a temporary file beside `path` and renames it to `path` at the end. An error leaves an
 // older file untouched and no temporary file behind. Throws Error(File).
 ExrWriteReport WriteExr(const std::string& path, const Image& image, bool asHalf);
-Image ReadExr(const std::string& path);  // throws ImageError
+
+// Throws ImageError. Sets exactChannels to the channels of 32 bits that 16 bits would damage. If
+// the file also has channels of 16 bits, these are all channels of 32 bits. If all channels have 32
+// bits, these are integers, Cryptomatte layers and the channels of exact AOVs.
+Image ReadExr(const std::string& path);
 
 // Returns the attribute "software" of the file's first header. Returns "" if it is missing or if
 // the file is not an EXR file.

@@ -25,11 +25,10 @@
 #include "core/base/memory.h"
 #include "core/imaging/files/exr.h"
 #include "core/imaging/files/exr_sizes.h"
+#include "core/imaging/film/aovs.h"
 
 namespace exphoton {
 namespace {
-
-constexpr int kMaxChannels = 64;
 
 struct Window {
   PixelBounds bounds;
@@ -58,7 +57,8 @@ std::vector<std::string> ChannelNames(const Imf::ChannelList& list) {
       throw ImageError(std::string("channel \"") + channel.name() + "\" is subsampled");
     if (std::find(names.begin(), names.end(), channel.name()) == names.end())
       names.push_back(channel.name());
-    if (names.size() > kMaxChannels) throw ImageError("more than 64 channels");
+    if (names.size() > kMaxImageChannels)
+      throw ImageError("more than " + std::to_string(kMaxImageChannels) + " channels");
   }
   if (names.empty()) throw ImageError("no channels");
   return names;
@@ -113,6 +113,40 @@ std::map<std::string, ImageAttribute> ReadAttributes(const Imf::Header& header) 
   return attributes;
 }
 
+// Returns the names of the Cryptomatte layers. By the specification, "View.CryptoAsset" has
+// channels such as "View.CryptoAsset00.r", and the attribute "cryptomatte/KEY/name" states the
+// name.
+std::vector<std::string> CryptomatteLayers(
+    const std::map<std::string, ImageAttribute>& attributes) {
+  std::vector<std::string> layers;
+  for (const auto& [name, value] : attributes) {
+    const auto* layer = std::get_if<std::string>(&value);
+    if (layer && !layer->empty() && name.starts_with("cryptomatte/") && name.ends_with("/name"))
+      layers.push_back(*layer);
+  }
+  return layers;
+}
+
+// Returns the channels that exr.h describes at ReadExr. A file with channels of both sizes has been
+// written by a program that chose the type of each. In a file of 32 bits, only names distinguish
+// the layers that need them from colours.
+std::set<std::string> ExactChannels(const Imf::ChannelList& list,
+                                    const std::vector<std::string>& cryptomatte) {
+  bool hasHalf = false;
+  for (auto channel = list.begin(); channel != list.end(); ++channel)
+    hasHalf |= channel.channel().type == Imf::HALF;
+  std::set<std::string> exact;
+  for (auto channel = list.begin(); channel != list.end(); ++channel) {
+    const std::string name = channel.name();
+    const auto isOfLayer = [&](const std::string& layer) { return name.starts_with(layer); };
+    const Imf::PixelType type = channel.channel().type;
+    if (type != Imf::HALF && (hasHalf || type == Imf::UINT || IsExactChannel(name) ||
+                              std::any_of(cryptomatte.begin(), cryptomatte.end(), isOfLayer)))
+      exact.insert(name);
+  }
+  return exact;
+}
+
 // Converts a luminance picture to R, G, B.
 Image ExpandLuminance(const Image& image) {
   std::vector<std::string> names = {"R", "G", "B"};
@@ -120,6 +154,8 @@ Image ExpandLuminance(const Image& image) {
   if (alpha >= 0) names.push_back("A");
   Image result(image.data, image.display, names);
   result.attributes = image.attributes;
+  if (image.exactChannels.contains("Y")) result.exactChannels = {"R", "G", "B"};
+  if (image.exactChannels.contains("A")) result.exactChannels.insert("A");
   const int y = image.FindChannel("Y");
   for (int row = 0; row < image.Height(); ++row) {
     for (int column = 0; column < image.Width(); ++column) {
@@ -146,6 +182,8 @@ Image Read(const std::string& path) {
   if (bytes > PhysicalMemory()) throw std::bad_alloc();
   Imf::InputFile file(stream, 0);
   image.attributes = ReadAttributes(file.header());
+  image.exactChannels =
+      ExactChannels(file.header().channels(), CryptomatteLayers(image.attributes));
   image.pixels.resize(std::size_t(image.Width()) * std::size_t(image.Height()) *
                       image.channels.size());
   Imf::FrameBuffer buffer;

@@ -73,6 +73,16 @@ const AovInfo& GetAovInfo(Aov aov) {
   return infos[std::size_t(aov)];
 }
 
+bool IsExactChannel(const std::string& channel) {
+  for (int i = 0; i < kAovCount; ++i) {
+    const AovInfo& info = GetAovInfo(Aov(i));
+    if (info.isExact &&
+        std::find(info.channels.begin(), info.channels.end(), channel) != info.channels.end())
+      return true;
+  }
+  return false;
+}
+
 std::vector<Aov> AovSet::List() const {
   std::vector<Aov> list;
   for (int i = 0; i < kAovCount; ++i)

@@ -50,6 +50,8 @@ struct AovInfo {
   bool isExact = false;  // 16 bits would be too few; EXR files always have 32
 };
 const AovInfo& GetAovInfo(Aov aov);
+// Returns whether this is the name of a channel of an exact AOV, for example "P.X".
+bool IsExactChannel(const std::string& channel);
 
 class AovSet {
  public:

@@ -44,8 +44,8 @@ class Film {
   void AddLight(Point2i pixel, const Spectrum& L, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
   // For samples that are splatted (core/render/splat_buffer.h): adds a sample to its own pixel, and
-  // light to such a sample. `share` is 1 for a whole sample and smaller for a part of one. The pixel
-  // shows their mean only if AddSums adds too small a weight.
+  // light to such a sample. `share` is 1 for a whole sample and smaller for a part of one. The
+  // pixel shows their mean only if AddSums adds too small a weight.
   void AddOwn(Point2i pixel, const Spectrum& L, Real alpha, Real share);
   void AddOwnLight(Point2i pixel, const Spectrum& L, Real share);
 
