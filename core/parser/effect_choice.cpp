@@ -59,14 +59,16 @@ void ApplyOne(const std::string& item, RequiredFeatures* plan, Log& log) {
 
 RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice, Log& log) {
   if (choice == "auto") return plan;
-  if (choice == "all") {
-    RequiredFeatures all;
-    all.notes = std::move(plan.notes);
-    return all;
-  }
   for (std::size_t at = 0; at <= choice.size();) {
     const std::size_t end = std::min(choice.find(',', at), choice.size());
-    ApplyOne(choice.substr(at, end - at), &plan, log);
+    const std::string item = choice.substr(at, end - at);
+    if (item == "all" && at == 0) {
+      RequiredFeatures all;
+      all.notes = std::move(plan.notes);
+      plan = std::move(all);
+    } else {
+      ApplyOne(item, &plan, log);
+    }
     at = end + 1;
   }
   return plan;

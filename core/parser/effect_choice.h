@@ -11,8 +11,8 @@ namespace exphoton {
 class Log;
 
 // `choice` is "auto" (keeps `plan`), "all" (switches every effect on) or a list of changes to
-// `plan` such as "caustics=off,lens=on". Logs a warning for each effect that the scene needs and
-// the list switches off. Throws Error(CommandLine).
+// `plan` such as "caustics=off,lens=on". A list may begin with "all". Logs a warning for each
+// effect that the scene needs and the list switches off. Throws Error(CommandLine).
 RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice, Log& log);
 
 }  // namespace exphoton

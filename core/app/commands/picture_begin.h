@@ -27,7 +27,9 @@ struct Begin {
   double Wall() const { return ElapsedSince(wall); }
   // The pilots of --accuracy come before loading.
   void EndPilots() { pilotWall = Wall(), pilotCpu = ProcessCpuSeconds() - cpu; }
+  // Loading again, for more photons, is no part of it.
   void EndLoading() {
+    if (loadWall > 0) return;
     loadWall = Wall() - pilotWall;
     loadCpu = ProcessCpuSeconds() - cpu - pilotCpu;
   }

@@ -19,6 +19,7 @@
 #include "core/app/dial/pilot.h"
 #include "core/app/effects/measured_effects.h"
 #include "core/app/options/errors.h"
+#include "core/app/output/exr_output.h"
 #include "core/app/output/live_view.h"
 #include "core/app/output/output_files.h"
 #include "core/app/output/output_names.h"
@@ -117,7 +118,7 @@ class FileRenderer {
 };
 
 Setups FileRenderer::Load(const std::string& path) {
-  Begin& begin = begin_.emplace();
+  Begin& begin = begin_ ? *begin_ : begin_.emplace();  // there is one if the picture begins again
   if (command_.accuracy && !command_.dial && command_.mode == RenderMode::Render) {
     pilots_ = TurnDial(&command_, path, &run_.streams, log_);
     begin.EndPilots();
@@ -224,7 +225,8 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
       command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
-  if (result.reason == StopReason::Bias && RaisePhotons(&command_, log_)) return false;
+  if (result.reason == StopReason::Bias && RaisePhotons(&command_, log_))
+    return begin_ = begin, false;
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);
@@ -325,9 +327,7 @@ FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
 
 // Runs after the picture is written: warnings, the preview and a message.
 void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
-  if (picture.report.clampedToHalf > 0)
-    log_.Warning(std::to_string(picture.report.clampedToHalf) +
-                 " values above 65504 were written as 65504; --float stores them as they are");
+  WarnOfClamping(picture.report, log_);
   if (!command_.previewFile.empty() && run.isComplete)
     WritePngPicture(command_.previewFile, picture.image, command_.png, log_);
   char seconds[32];

@@ -22,6 +22,7 @@ void TakeAccuracy(const std::string& percentage, RenderCommand* command) {
   exclude(command->isProgressive, "--progressive");
   exclude(command->load.isQuick, "--quick");
   exclude(command->resumes, "--resume");
+  exclude(!command->stateFile.empty(), "--state");
 }
 
 }  // namespace exphoton::cli

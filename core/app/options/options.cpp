@@ -293,6 +293,7 @@ void CheckCertificate(const RawOptions& raw, const RenderCommand& command) {
     FailUsage("--certify-share takes a number above 0 and at most 16");
   if (!command.certifies) return;
   Exclude(command.resumes, true, "--certify and --resume exclude each other");
+  Exclude(!command.stateFile.empty(), true, "--certify and --state exclude each other");
   Exclude(!raw.shard.empty(), true, "--certify and --shard exclude each other");
 }
 

@@ -61,7 +61,7 @@ StateFile* StateKeeper::Resume() {
     if (IsStateFile(settings_.path))
       log_.Warning("\"" + settings_.path +
                        "\" is the state of a stopped render, which this command does not continue",
-                   {}, "--resume continues it");
+                   {}, settings_.keepsState ? "--resume continues it" : "");
     return nullptr;
   }
   if (!FileExists(settings_.path)) {

@@ -148,6 +148,7 @@ class Passes {
     });
     job_.log.Notice("continuing \"" + file.Path() + "\" after " + std::to_string(sum_.Passes()) +
                     (sum_.Passes() == 1 ? " pass" : " passes"));
+    if (sum_.Passes() > 0) parts_.Show(job_.film);
   }
 
   PassPlan::State State() const {
@@ -174,8 +175,6 @@ class Passes {
     if (step.isNewGroup) groupSamples_ = 0;
     const std::uint64_t group = std::uint64_t(plan_.Groups() - (step.isNewGroup ? 0 : 1));
     RenderPass pass;
-    pass.preprocessSeed =
-        HashKey({options_.seed, kPassSeed, std::uint64_t(photons_.SetOf(int(group)))});
     pass.sampleCount = step.size;
     std::unique_ptr<Sampler> pattern;
     if (sequence_) {
@@ -186,6 +185,8 @@ class Passes {
       pass = PatternPass(options_.seed, group, groupSamples_, step.size);
       pattern = job_.sampler.WithSamplesPerPixel(step.size);
     }
+    pass.preprocessSeed =
+        HashKey({options_.seed, kPassSeed, std::uint64_t(photons_.SetOf(int(group)))});
     if (rule_.progressiveAlpha) {
       pass.diskArea = DiskAreaOfPass(int(group), *rule_.progressiveAlpha);
       pass.time = TimeOfPass(int(group), options_.seed);

@@ -53,6 +53,14 @@ TEST_F(ExplainMeasureTest, WorksWithPhotonMaps) {
   EXPECT_NEAR(Number(result.out, "together (\\S+) %"), 100, .1);
 }
 
+// All effects but one are a list that begins with "all".
+TEST_F(ExplainMeasureTest, WorksWithAllEffects) {
+  WriteFurnace("path");
+  const ProgramResult result = Run({"explain", "furnace.pbrt", "--measure", "--effects", "all"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NEAR(Number(result.out, "indirect +adds (\\S+) "), 25, .5);
+}
+
 TEST_F(ExplainMeasureTest, IsRefusedWhereItHasNoMeaning) {
   WriteFurnace("path");
   const ProgramResult render = Run({"furnace.pbrt", "--measure", "-o", "x.exr"});

@@ -72,6 +72,23 @@ TEST_F(StoppingTest, SaysWhatATargetReached) {
 }
 
 // A picture is multiplied by alpha, so its variance is multiplied by the square of alpha.
+// Passes of a sampler that cannot go on share the photons too, where these cause little noise.
+TEST_F(StoppingTest, ShootsPhotonsOnceWithEverySampler) {
+  const std::string photons = "\"photons/shot\":";
+  const auto shot = [&](const Names& more) {
+    Names words{"--sampler", "stratified", "--stats-json", "s.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result =
+        RunScene(words, "\"exphotonmap\" \"integer indirectphotons\" 20000");
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::string text = Read("s.json");
+    return std::stod(text.substr(text.find(photons) + photons.size()));
+  };
+  const double once = shot({"--spp", "4"});
+  EXPECT_LT(shot({"--target-error", ".002"}), 1.5 * once);  // another seed needs other paths
+  EXPECT_EQ(Read("s.json").find("\"passes\":1,"), std::string::npos);
+}
+
 TEST_F(StoppingTest, StatesTheVarianceOfThePictureThatItWrites) {
   Write("ball.pbrt", SmallScene("Sampler \"random\" \"integer pixelsamples\" 16"));
   const auto render = [&](const std::string& isPremultiplied) {
