@@ -42,7 +42,8 @@ class Medium {
   virtual Real Phase(const Vector3& wo, const Vector3& wi) const = 0;
 };
 
-// Henyey and Greenstein 1941: g > 0 scatters forwards, g = 0 is isotropic; -1 < g < 1. The base is 1
+// Henyey and Greenstein 1941: g > 0 scatters forwards, g = 0 is isotropic; -1 < g < 1. The base is
+// 1
 // + g^2 + 2 g Dot(wo, wi), which loses all digits at the peak if |g| is near 1. As (1 - |g|)^2 plus
 // |g| times a squared length it keeps them.
 inline Real HenyeyGreenstein(Real g, const Vector3& wo, const Vector3& wi) {

@@ -121,9 +121,10 @@ TEST(Media, AbsorbTheLightOfPhotonsThatStartInside) {
       "AttributeBegin Translate 0 0 5 ReverseOrientation Shape \"disk\" \"float radius\" .7 "
       "AttributeEnd\n";
   const std::string scene =
-      Header("\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 20000 "
-             "\"integer indirectphotons\" 0 \"bool finalgather\" \"false\"",
-             "\"emission\"") +
+      Header(
+          "\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 20000 "
+          "\"integer indirectphotons\" 0 \"bool finalgather\" \"false\"",
+          "\"emission\"") +
       Slab("homogeneous", "\"color sigma_a\" [.3 .3 .3]") + kLitDisk + small + "WorldEnd\n";
   EXPECT_NEAR(MeanRadiance(RenderSceneText(scene).image), .5 / M_PI * std::exp(-1.8), .03 * .0263);
 }
