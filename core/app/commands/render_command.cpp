@@ -77,6 +77,7 @@ class FileRenderer {
         watch_.MustFinish() = false;
         setup = std::move(Load(path).front());
       }
+      begin_.reset();
       setup.reset();
     }
   }
@@ -114,7 +115,7 @@ class FileRenderer {
   InterruptWatch watch_;
   std::string filmName_;                  // of the picture that is being rendered
   std::optional<PhotonFileUse> photons_;  // of this picture (--photons)
-  std::optional<Begin> begin_;            // set by Load, taken by the first picture
+  std::optional<Begin> begin_;            // of the current picture, also if it begins again
 };
 
 Setups FileRenderer::Load(const std::string& path) {
@@ -192,7 +193,7 @@ RenderJob FileRenderer::MakeJob(const RenderSetup& setup, PictureFilms* films, T
 
 // Returns false if --accuracy needs other settings.
 bool FileRenderer::RenderOne(const RenderSetup& setup) {
-  const Begin begin = std::exchange(begin_, std::nullopt).value_or(Begin());
+  const Begin begin = begin_ ? *begin_ : begin_.emplace();
   filmName_ = setup.film.filename;
   log_.Notice("effects: " + EffectNames(setup));
   log_.Verbose("effects:\n" + setup.scene->Features().Describe());
@@ -225,8 +226,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
       command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
-  if (result.reason == StopReason::Bias && RaisePhotons(&command_, log_))
-    return begin_ = begin, false;
+  if (result.reason == StopReason::Bias && RaisePhotons(&command_, log_)) return false;
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);
