@@ -12,6 +12,7 @@
 #include "core/app/options/limits.h"
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
+#include "core/app/output/output_names.h"
 #include "core/parser/effect_choice.h"
 #include "core/plugins/registry.h"
 
@@ -214,7 +215,7 @@ void Exclude(bool first, bool second, const char* text) {
 
 // A PNG has neither layers nor 32-bit channels, and an EXR no tone curve.
 void CheckPng(const RawOptions& raw, const RenderCommand& command) {
-  const bool isPng = IsPngName(command.outfile);
+  const bool isPng = IsPngName(OutputNames(command).NameFromUser().value_or(""));
   Exclude(isPng, !raw.aovs.empty(), "a PNG has no layers for --aov: use -o NAME.exr");
   Exclude(isPng, command.asTwoHalves, "a PNG has no layers for --two-halves: use -o NAME.exr");
   Exclude(isPng, raw.asFloat || raw.asHalf, "--half and --float are for EXR: a PNG has 8 bits");

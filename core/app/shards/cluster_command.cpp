@@ -11,6 +11,8 @@
 #include "core/app/options/options.h"
 #include "core/app/options/values.h"
 #include "core/app/output/output_files.h"
+#include "core/app/output/output_names.h"
+#include "core/app/shards/part_set.h"
 #include "core/app/shards/slurm_scripts.h"
 #include "core/base/error.h"
 #include "core/parser/frame_name.h"
@@ -70,7 +72,19 @@ std::string RenderText(const ClusterOptions& options) {
   return "exec " + CommandLineText(words);
 }
 
-constexpr const char* kTaskThreads = " \\\n  --nthreads \"${SLURM_CPUS_ON_NODE:-0}\" --no-progress";
+bool StatesThreads(const std::vector<std::string>& render) {
+  return std::any_of(render.begin(), render.end(), [](const std::string& word) {
+    const std::string name = word.substr(0, word.find('='));
+    return name == "--nthreads" || name == "--ncores";
+  });
+}
+
+// Returns the last options of a task. A number of threads that the user states takes precedence.
+std::string TaskEnd(const ClusterOptions& options) {
+  const bool statesThreads = StatesThreads(options.render);
+  return std::string(" \\\n  ") +
+         (statesThreads ? "" : "--nthreads \"${SLURM_CPUS_ON_NODE:-0}\" ") + "--no-progress";
+}
 
 ArrayJob ShardJob(const ClusterOptions& options) {
   const std::string count = std::to_string(options.shards);
@@ -80,7 +94,7 @@ ArrayJob ShardJob(const ClusterOptions& options) {
   job.folder = folder;
   job.noun = "shards";
   job.task = RenderText(options) + " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/" + count + "\" -o " +
-             parts + kTaskThreads;
+             parts + TaskEnd(options);
   job.missing = "missing=$(" + program + " merge --missing --shards " + count + " " + parts + ")";
   job.finish = program + " merge " + parts + " -o " + ShellWord(AbsolutePath(options.outfile));
   return job;
@@ -94,7 +108,7 @@ ArrayJob FrameJob(const ClusterOptions& options) {
   job.folder = AbsolutePath(options.folder);
   job.noun = "frames";
   job.task = RenderText(options) + " \\\n  --frames \"$SLURM_ARRAY_TASK_ID\" -o " +
-             ShellWord(outfile) + kTaskThreads;
+             ShellWord(outfile) + TaskEnd(options);
   job.missing = "missing=\nframe=" + std::to_string(frames.first) + "\nwhile [ $frame -le " +
                 std::to_string(frames.last) +
                 " ]; do\n"
@@ -124,16 +138,39 @@ void CheckNoFrameExists(const ClusterOptions& options) {
   }
 }
 
+// Parts of an earlier run would count as shards that are done, even if they are of another render.
+void CheckNoPartExists(const ClusterOptions& options) {
+  const std::string folder = options.folder + "/parts";
+  if (!fs::is_directory(folder)) return;
+  const std::vector<std::string> parts = PartFilesAt(folder);
+  if (parts.empty()) return;
+  throw Error(ExitStatus::File,
+              "the part \"" + parts.front() + "\" exists, so its shard would not be rendered", {},
+              "remove all old parts, or name another folder with --folder; to render the missing "
+              "shards after a failure, run merge.sh again");
+}
+
+// Parses the command of a task. `own` are the options that the scripts add.
+RenderCommand ParseTask(const ClusterOptions& options, const std::vector<std::string>& own) {
+  std::vector<std::string> words{options.scene};
+  words.insert(words.end(), own.begin(), own.end());
+  words.insert(words.end(), options.render.begin(), options.render.end());
+  return ParseRenderCommand(words, RenderMode::Render);
+}
+
+// A shard does not get the name of the picture. Therefore the options are also checked with it.
+RenderCommand ParseTasks(const ClusterOptions& options) {
+  if (options.shards == 0)
+    return ParseTask(options, {"--frames", options.frames, "-o", options.outfile});
+  ParseTask(options,
+            {"--shard", "1/" + std::to_string(options.shards), "-o", options.folder + "/parts"});
+  return ParseTask(options, {"-o", options.outfile});
+}
+
 // Throws for options of exphoton render that are wrong, before any job fails for them.
 void CheckRenderOptions(const ClusterOptions& options) {
-  std::vector<std::string> words{options.scene};
-  if (options.shards > 0)
-    words.insert(words.end(), {"--shard", "1/" + std::to_string(options.shards), "-o",
-                               options.folder + "/parts"});
-  else
-    words.insert(words.end(), {"--frames", options.frames, "-o", options.outfile});
-  words.insert(words.end(), options.render.begin(), options.render.end());
-  const RenderCommand command = ParseRenderCommand(words, RenderMode::Render);
+  const RenderCommand command = ParseTasks(options);
+  OutputNames(command).CheckEndings();
   if (command.scenes.size() != 1) FailUsage("a cluster renders one scene");
   const bool isNumbered = command.frames && HasFrameNumber(options.scene);
   const std::string scene =
@@ -154,7 +191,10 @@ int RunCluster(const std::vector<std::string>& arguments) {
     job.sbatch = options.array.sbatch;
     job.rounds = options.array.rounds;
     const SlurmScripts scripts(std::move(job));
-    if (!options.frames.empty()) CheckNoFrameExists(options);
+    if (options.shards > 0)
+      CheckNoPartExists(options);
+    else
+      CheckNoFrameExists(options);
     scripts.Write();
     if (options.shards > 0) MakeFolder(options.folder + "/parts");
     Log log(options.isQuiet ? Log::Level::Quiet : Log::Level::Normal);

@@ -34,6 +34,19 @@ struct MergeOptions {
   int threads = 0, shards = 0;
 };
 
+// A PNG has no 32-bit channels, and an EXR no tone curve.
+void CheckMergedPicture(const MergeOptions& options) {
+  if (options.outfile.empty()) FailUsage("merge needs -o PICTURE", "for example -o picture.exr");
+  const bool isPng = IsPngName(options.outfile);
+  if (!isPng && !IsExrName(options.outfile))
+    FailUsage("the picture \"" + options.outfile + "\" ends neither in .exr nor in .png");
+  if (isPng && (options.asHalf || options.asFloat))
+    FailUsage("--half and --float are for EXR: a PNG has 8 bits");
+  if (!isPng && options.png.IsGiven())
+    FailUsage("--exposure and --tone-curve are for PNG: an EXR stays linear",
+              "-o NAME.png writes one");
+}
+
 MergeOptions ParseMergeOptions(const std::vector<std::string>& arguments) {
   MergeOptions options;
   OptionParser app("Makes a picture from the parts that exphoton render --shard I/N wrote.",
@@ -67,12 +80,8 @@ MergeOptions ParseMergeOptions(const std::vector<std::string>& arguments) {
     FailUsage("--missing and --outfile exclude each other");
   if (options.shards > 0 && !options.listsMissing) FailUsage("--shards needs --missing");
   if (options.asHalf && options.asFloat) FailUsage("--half and --float exclude each other");
-  if (!options.listsMissing) {
-    if (options.outfile.empty()) FailUsage("merge needs -o PICTURE", "for example -o picture.exr");
-    if (!IsPngName(options.outfile) && !IsExrName(options.outfile))
-      FailUsage("the picture \"" + options.outfile + "\" ends neither in .exr nor in .png");
-  }
   CheckPngOptions(options.png);
+  if (!options.listsMissing) CheckMergedPicture(options);
   return options;
 }
 
@@ -138,6 +147,7 @@ class Merge {
   void Run() {
     ThreadPool threads(options_.threads);
     CheckFiles();
+    WarnOfLayers();
     PictureFilms films(parts_.Layout().full, parts_.Layout().crop, parts_.Layout().aovs,
                        record_.passes.kind == PicturePasses::Kind::TwoHalves);
     Statistics statistics;
@@ -175,6 +185,12 @@ class Merge {
       files.AddOutput("2", {options_.statsFile, "the statistics",
                             "--stats-json FILE names another file for them"});
     files.Check(log_);
+  }
+
+  void WarnOfLayers() {
+    if (record_.aovs.empty() || !IsPngName(options_.outfile)) return;
+    log_.Warning("a PNG has no layers, so \"" + options_.outfile + "\" lacks " + record_.aovs, {},
+                 "-o NAME.exr writes them");
   }
 
   PassesResult MergeInto(PictureFilms* films, Statistics* statistics, ThreadPool* threads) {

@@ -13,21 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> PartFilesAt(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status))
-    throw Error(ExitStatus::File, "cannot read \"" + path + "\": no such file or folder");
-  if (!fs::is_directory(status)) return {path};
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("part-") && name.ends_with(".state")) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // Returns N for a file "part-I-of-N.state"; 0 for other names.
 int CountInName(const std::string& path) {
   int index = 0, count = 0;
@@ -133,6 +118,21 @@ std::vector<const StateFile*> PartSet::Files() const {
 }
 
 std::vector<std::string> PartSet::Messages() const { return messages_; }
+
+std::vector<std::string> PartFilesAt(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status))
+    throw Error(ExitStatus::File, "cannot read \"" + path + "\": no such file or folder");
+  if (!fs::is_directory(status)) return {path};
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("part-") && name.ends_with(".state")) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 std::string IndexRanges(const std::vector<int>& indices) {
   std::string text;

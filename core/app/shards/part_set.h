@@ -48,6 +48,10 @@ class PartSet {
   int count_ = 0;
 };
 
+// Returns the files part-*.state of a folder, sorted, or the path itself if it is no folder. Throws
+// Error(File) if there is nothing at the path.
+std::vector<std::string> PartFilesAt(const std::string& path);
+
 // Returns "3,7-9" for 3, 7, 8, 9, the form that the option --array of Slurm takes.
 std::string IndexRanges(const std::vector<int>& indices);
 
