@@ -71,7 +71,6 @@ TEST_F(StoppingTest, SaysWhatATargetReached) {
   EXPECT_GE(std::get<int>(attributes.at("passes")), 2);
 }
 
-// A picture is multiplied by alpha, so its variance is multiplied by the square of alpha.
 // Passes of a sampler that cannot go on share the photons too, where these cause little noise.
 TEST_F(StoppingTest, ShootsPhotonsOnceWithEverySampler) {
   const std::string photons = "\"photons/shot\":";
@@ -89,6 +88,7 @@ TEST_F(StoppingTest, ShootsPhotonsOnceWithEverySampler) {
   EXPECT_EQ(Read("s.json").find("\"passes\":1,"), std::string::npos);
 }
 
+// A picture is multiplied by alpha, so its variance is multiplied by the square of alpha.
 TEST_F(StoppingTest, StatesTheVarianceOfThePictureThatItWrites) {
   Write("ball.pbrt", SmallScene("Sampler \"random\" \"integer pixelsamples\" 16"));
   const auto render = [&](const std::string& isPremultiplied) {
