@@ -132,6 +132,7 @@ void Bsdf::Add(const Bxdf* lobe) {
   if (count_ == kMaxLobes) throw Error(ExitStatus::Internal, "a material made too many lobes");
   lobes_[std::size_t(count_++)] = lobe;
   present_ = present_ | lobe->Lobe();
+  if (lobe->Matches(LobeSet::Diffuse)) isLambertian_ = isLambertian_ && lobe->IsLambertian();
   isCoated_ = isCoated_ || lobe->IsCoated();
 }
 

@@ -67,6 +67,8 @@ class Bsdf {
   std::optional<Spectrum> ThroughputBound(const Vector3& wo, LobeSet mask) const;
   // Returns the sum of the hemispherical-hemispherical reflectances of the masked lobes.
   Spectrum Rho(LobeSet mask) const;
+  // Returns whether all diffuse lobes are Lambertian (Bxdf::IsLambertian).
+  bool IsLambertian() const { return isLambertian_; }
   // Returns whether the diffuse reflection lobe is coated (Bxdf::IsCoated).
   bool IsCoated() const { return isCoated_; }
 
@@ -79,7 +81,7 @@ class Bsdf {
   std::array<const Bxdf*, kMaxLobes> lobes_{};
   int count_ = 0;
   LobeSet present_ = LobeSet::None;
-  bool isCoated_ = false;
+  bool isLambertian_ = true, isCoated_ = false;
 };
 
 }  // namespace exphoton

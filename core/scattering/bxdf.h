@@ -79,6 +79,8 @@ class Bxdf {
   // coefficients. It is a closed form or a good approximation, and never 0 for a lobe that is not
   // black.
   virtual Spectrum Rho() const = 0;
+  // Returns whether f is Rho() / pi for all pairs of directions that the lobe connects.
+  virtual bool IsLambertian() const { return false; }
   // Returns whether a diffuse lobe lies under a coat: f = Rho / pi a(cos wo) a(cos wi) with a =
   // CoatTransmission. Precomputed lighting treats other diffuse lobes as Lambertian.
   virtual bool IsCoated() const { return false; }

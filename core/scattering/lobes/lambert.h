@@ -16,6 +16,7 @@ class Lambert final : public Bxdf {
   std::optional<BxdfSample> Sample(const Vector3& wo, Point2 u) const override;
   std::optional<Spectrum> ThroughputBound(const Vector3&) const override { return reflectance_; }
   Spectrum Rho() const override;
+  bool IsLambertian() const override { return true; }
 
  private:
   Spectrum reflectance_, f_;

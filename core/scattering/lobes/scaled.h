@@ -27,6 +27,7 @@ class ScaledLobe final : public Bxdf {
     return bound;
   }
   Spectrum Rho() const override { return scale_ * lobe_.Rho(); }
+  bool IsLambertian() const override { return lobe_.IsLambertian(); }
   bool IsCoated() const override { return keepsCoat_ && lobe_.IsCoated(); }
 
  private:

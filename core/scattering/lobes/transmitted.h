@@ -30,6 +30,7 @@ class Transmitted final : public Bxdf {
     return reflection_.ThroughputBound(wo);
   }
   Spectrum Rho() const override { return reflection_.Rho(); }
+  bool IsLambertian() const override { return reflection_.IsLambertian(); }
 
  private:
   Reflection reflection_;

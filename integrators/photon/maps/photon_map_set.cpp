@@ -106,9 +106,9 @@ Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !bsdf.Has(lobes & LobeSet::NonSpecularTransmission);
   const RestPose rest(point.surface);
-  // If every lobe is diffuse, sum the power on each side first and reflect it once.
+  // If every lobe is Lambertian, sum the power on each side first and reflect it once.
   constexpr LobeSet kGlossy = LobeSet::GlossyReflection | LobeSet::GlossyTransmission;
-  const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && !bsdf.IsCoated();
+  const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && bsdf.IsLambertian();
   const KernelDisk disk(kernel_, radius2);
   SignedSum front, back, glossy;
   // If the surface is also one-sided and has no separate shading normal, photon directions do not

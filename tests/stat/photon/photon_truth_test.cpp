@@ -164,25 +164,39 @@ TEST_P(Caustic, ThroughAGlassSlabLosesWhatFresnelTakes) {
 
 INSTANTIATE_TEST_SUITE_P(PhotonIntegrators, Caustic, testing::Values("photonmap", "exphotonmap"));
 
+// A horizontal beam meets a 45 degree mirror above the floor, which turns the beam down to the
+// floor. The reflectance of the floor is .01.
+std::string MirrorCausticScene(const std::string& roughness) {
+  return "SurfaceIntegrator \"exphotonmap\" \"integer causticphotons\" [60000] \"integer "
+         "indirectphotons\" [0] \"integer nused\" [200] \"float maxdist\" [.1] \"bool "
+         "finalgather\" "
+         "[\"false\"]\n"
+         "Film \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
+         "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
+         "LookAt 0 .7 -.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [50]\nWorldBegin\n"
+         "LightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 0 0] \"point to\" [1 0 0]\n"
+         "Material \"mirror\" \"color Kr\" [1 1 1]\n"
+         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
+         "[-1 2.5 -1  -1 2.5 1  1 .5 1  1 .5 -1]\n"
+         "Material \"matte\" \"color Kd\" [.01 .01 .01] \"float sigma\" " +
+         roughness +
+         "\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
+         "[-1 0 -1  -1 0 1  1 0 1  1 0 -1]\nWorldEnd\n";
+}
+
 TEST(MirrorCaustic, FromAMirrorAt45DegreesHasTheIrradianceOfTheBeam) {
-  // A horizontal beam meets a 45 degree mirror above the floor, which turns the beam down
-  // to the floor.
-  const std::string scene =
-      "SurfaceIntegrator \"exphotonmap\" \"integer causticphotons\" [60000] \"integer "
-      "indirectphotons\" [0] \"integer nused\" [200] \"float maxdist\" [.1] \"bool finalgather\" "
-      "[\"false\"]\n"
-      "Film \"image\" \"integer xresolution\" [8] \"integer yresolution\" [8]\n"
-      "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" [4]\n"
-      "LookAt 0 .7 -.5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [50]\nWorldBegin\n"
-      "LightSource \"distant\" \"color L\" [1 1 1] \"point from\" [0 0 0] \"point to\" [1 0 0]\n"
-      "Material \"mirror\" \"color Kr\" [1 1 1]\n"
-      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
-      "[-1 2.5 -1  -1 2.5 1  1 .5 1  1 .5 -1]\n"
-      "Material \"matte\" \"color Kd\" [.01 .01 .01]\n"
-      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
-      "[-1 0 -1  -1 0 1  1 0 1  1 0 -1]\nWorldEnd\n";
+  const std::string scene = MirrorCausticScene("0");
   const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
   EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979));
+}
+
+// Oren and Nayar's reflectance for light along the normal is Kd (1 - s^2 / (2 (s^2 + .33))) / pi in
+// all directions. The mean over all pairs of directions is 9 % above it.
+TEST(MirrorCaustic, OnARoughFloorScattersByTheDirectionOfTheBeam) {
+  const std::string scene = MirrorCausticScene("30");
+  const auto estimate = EstimateOverSeeds([&](std::uint64_t seed) { return MeanOf(scene, seed); });
+  const double s2 = std::pow(3.14159265358979 / 6, 2);
+  EXPECT_TRUE(IsWithin(.01, estimate, .01 / 3.14159265358979 * (1 - s2 / (2 * (s2 + .33)))));
 }
 
 // n lights of power 1/n must light the room like one light of power 1.
