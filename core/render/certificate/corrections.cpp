@@ -44,9 +44,16 @@ void Corrections::AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum
 
 void Corrections::KeepSharingApart() { currentSharing_.assign(current_.size(), 0); }
 
+// Groups with a number above the last place share the places that are not joined by turns.
+std::size_t Corrections::PlaceOf(int group) const {
+  return std::size_t(group < kMostGroups ? group
+                                         : joined_ + (group - joined_) % (kMostGroups - joined_));
+}
+
 void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
-  if (groups_.size() <= std::size_t(group)) groups_.resize(std::size_t(group) + 1);
-  Group& to = groups_[std::size_t(group)];
+  const std::size_t place = PlaceOf(group);
+  if (groups_.size() <= place) groups_.resize(place + 1);
+  Group& to = groups_[place];
   to.samplesPerPixel += samplesPerPixel;
   Move(&current_, &to.sums);
   Move(&currentSharing_, &to.sharing);
@@ -62,6 +69,7 @@ void Corrections::JoinGroups() {
     Move(&from.sharing, &groups_[0].sharing);
     from = {};
   }
+  joined_ = 1;
 }
 
 std::vector<double> Corrections::SumsOf(const Group& group) const {

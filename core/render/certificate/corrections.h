@@ -33,8 +33,11 @@ class Corrections {
   void KeepSharingApart();
   // States whether the picture shares gathers. Without sharing, SumsOf leaves these parts out.
   void UseSharing(bool isShared) { isShared_ = isShared; }
-  // Moves the current pass to a group.
+  // Moves the current pass to a group. At most kMostGroups groups are kept, which limits the memory
+  // of many passes. Further passes are added to these groups by turns, so that the groups stay
+  // independent.
   void EndPass(int group, std::int64_t samplesPerPixel);
+  static constexpr int kMostGroups = 32;
 
   // Makes one group of all groups so far, because they have the same photons and later ones do not.
   void JoinGroups();
@@ -51,6 +54,7 @@ class Corrections {
   std::int64_t Count() const { return count_; }  // corrected rays of all passes
 
  private:
+  std::size_t PlaceOf(int group) const;
   std::size_t IndexOf(Point2i pixel) const {
     return std::size_t(pixel.y - crop_.y0) * std::size_t(crop_.Width()) +
            std::size_t(pixel.x - crop_.x0);
@@ -64,6 +68,7 @@ class Corrections {
   std::vector<double> currentSharing_;  // parts that are kept apart; empty: none
   std::vector<std::int64_t> rayCount_;  // corrected rays of the current pass, by pixel
   std::vector<Group> groups_;
+  int joined_ = 0;  // 1 if the first group holds joined ones
   std::int64_t count_ = 0;
   bool isShared_ = true;
 };

@@ -63,5 +63,33 @@ TEST(Certificate, HasTheBiasRelativeToTheLevelsOfThePicture) {
   EXPECT_EQ(certificate->corrections, 2 * kWidth * kHeight);
 }
 
+// The corrections of pass i are 1 + i / 100 at each pixel, and their mean is 1.995.
+TEST(Corrections, KeepFewGroupsOfManyPasses) {
+  constexpr int kSize = 16, kPasses = 200;
+  const std::vector<double> levels(std::size_t(3 * kSize * kSize), 1);
+  for (const int joined : {0, 10}) {
+    Corrections corrections({0, 0, kSize, kSize}, 1);
+    for (int pass = 0; pass < kPasses; ++pass) {
+      if (joined > 0 && pass == joined) corrections.JoinGroups();
+      for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+          corrections.Add({x, y}, {1, Spectrum(Real(1 + pass / 100.)), 1}, 1);
+      corrections.EndPass(pass, 1);
+    }
+    const auto groups = corrections.Groups();
+    EXPECT_LE(groups.size(), std::size_t(Corrections::kMostGroups));
+    EXPECT_GE(groups.size(), std::size_t(Corrections::kMostGroups - 10));
+    std::int64_t samples = 0;
+    double sum = 0;
+    for (const auto* group : groups) samples += group->samplesPerPixel, sum += group->sums[0];
+    EXPECT_EQ(samples, kPasses);
+    EXPECT_NEAR(sum / kPasses, 1.995, 1e-6);
+    EXPECT_LE(groups[0]->samplesPerPixel, joined > 0 ? joined : kPasses / 16) << joined;
+    const auto certificate = Certify(corrections, levels, .01, {});
+    ASSERT_TRUE(certificate);
+    EXPECT_NEAR(certificate->bias.squared, 1.995 * 1.995 / 1.01, .02) << joined;
+  }
+}
+
 }  // namespace
 }  // namespace exphoton
