@@ -36,7 +36,14 @@ double RelativeProduct(const CheckedPixel& checked, std::size_t direction, const
   return sum / Spectrum::kChannels;
 }
 
-// Estimates the bias from the products of one direction.
+double CheckedPixelsIn(const PixelBounds& crop) {
+  int count = 0;
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) count += IsChecked({x, y});
+  return count;
+}
+
+// Estimates the bias from the products of one direction. Pixels without gathers have no bias.
 std::optional<SharingBias> EstimateAlong(std::size_t direction,
                                          const std::vector<CheckedPixel>& checked,
                                          const Film& film) {
@@ -51,7 +58,7 @@ std::optional<SharingBias> EstimateAlong(std::size_t direction,
   for (const auto& [block, product] : blocks) sum += product;
   for (const auto& [block, product] : blocks)
     squares += (product - sum / count) * (product - sum / count);
-  const auto pixels = double(checked.size());
+  const double pixels = CheckedPixelsIn(film.Crop());
   return SharingBias{sum / pixels, std::sqrt(squares * count / (count - 1)) / pixels};
 }
 
