@@ -32,11 +32,12 @@ class Exponential {
   explicit Exponential(const Settings& s)
       : a_(double(s.a)), b_(double(s.b)), bottom_(Min(s.p0, s.p1)), up_(s.up) {}
 
-  double At(const Point3& p) const { return a_ * std::exp(-b_ * Height(p)); }
+  double At(const Point3& p) const { return a_ > 0 ? a_ * std::exp(-b_ * Height(p)) : 0; }
 
   // Let the exponent change by x over the part. The mean density is then the density at the denser
   // end times (1 - e^-|x|) / |x|. The thinner end could be 0 in double precision.
   double Integral(const Point3& o, const Vector3& d, Interval part) const {
+    if (!(a_ > 0)) return 0;
     const double length = double(part.max) - double(part.min);
     const double slope =
         double(d.x) * double(up_.x) + double(d.y) * double(up_.y) + double(d.z) * double(up_.z);

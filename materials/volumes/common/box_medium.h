@@ -3,6 +3,7 @@
 // directive, with constant coefficients times a density that the plugin defines.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/plugin.h"
@@ -68,7 +69,8 @@ class BoxMedium final : public Medium {
   MediumPoint At(const Point3& world) const override {
     const Point3 p = toMedium_.ApplyPoint(world);
     if (!box_.Contains(p)) return {};
-    const auto density = Real(density_.At(p));
+    // A coefficient of 0 times an infinite density would not be 0.
+    const auto density = Real(std::min(density_.At(p), kDensest));
     return {settings_.absorption * density, settings_.scattering * density,
             settings_.emission * density};
   }
@@ -94,6 +96,8 @@ class BoxMedium final : public Medium {
   }
 
  private:
+  static constexpr double kDensest = 1e20;
+
   MediumSettings settings_;
   Bounds3 box_, bounds_;  // in medium space and in world space
   Transform toMedium_;

@@ -120,6 +120,27 @@ TEST(Exponential, HasTheSameDepthInBothDirections) {
   }
 }
 
+// Fog that grows denser with height, as far as a float goes, has no value that is no number.
+TEST(Exponential, IsFiniteWhereItsDensityIsNot) {
+  for (const char* lowest : {"0", "1"}) {
+    const LoadedScene loaded = LoadSceneText(
+        "WorldBegin\nVolume \"exponential\" \"float b\" -1 \"color sigma_s\" [1 0 1] \"point p1\" "
+        "[1 2000 1] \"float a\" " +
+        std::string(lowest) + "\nLightSource \"point\"\nWorldEnd\n");
+    const Medium& medium = *loaded.setup->scene->Media().front();
+    const MediumPoint at = medium.At({.5, 1500, .5});
+    EXPECT_TRUE(at.absorption.IsBlack()) << lowest;
+    EXPECT_TRUE(at.emission.IsBlack()) << lowest;
+    EXPECT_TRUE(at.scattering.IsFinite()) << lowest;
+    EXPECT_EQ(at.scattering.IsBlack(), *lowest == '0') << lowest;
+    Ray down;
+    down.o = {Real(.5), 1999, Real(.5)}, down.d = {0, -1, 0};
+    const Spectrum depth = medium.OpticalDepth(down, {0, kInfinity});
+    EXPECT_EQ(depth.IsBlack(), *lowest == '0') << lowest;
+    EXPECT_EQ(depth.g, 0) << lowest;
+  }
+}
+
 // A box far away has its own thickness, up to the rounding of the distance.
 TEST(Medium, OfABoxFarAwayHasItsThickness) {
   const LoadedScene loaded = LoadSceneText(
