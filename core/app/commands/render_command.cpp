@@ -289,7 +289,7 @@ void FileRenderer::WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFa
   run.isComplete = false;
   run.passes = 0;
   run.stoppedBy = "not stopped yet";
-  Write(run, MakeImage(soFar, setup.film.premultiplyAlpha), statistics);
+  Write(run, MakeImage(command_, soFar, setup.film.premultiplyAlpha), statistics);
 }
 
 // A complete picture needs neither its state nor the picture so far.

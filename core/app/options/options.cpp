@@ -55,7 +55,7 @@ struct RawOptions {
   std::vector<std::string> sets, pluginFolders;
   std::string shard, frames, resolution, aovs, timeLimit, limits, writeEvery, display;
   std::string accuracy;
-  std::optional<double> frameTime;
+  std::optional<double> frameTime, progressiveAlpha, certifiedShare;
   std::int64_t samplesPerPixel = 0;
   bool isQuiet = false, isVerbose = false, asHalf = false, asFloat = false, hidesProgress = false;
   bool checks = false, explains = false;
@@ -109,7 +109,7 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
   app.AddFlag("--progressive", command.isProgressive,
               "with --time-limit, --target-error or --max-passes: each pass shoots its own photons "
               "and has smaller radii, so that the bias falls with the noise");
-  app.Add("--progressive-alpha", command.progressiveAlpha,
+  app.Add("--progressive-alpha", raw.progressiveAlpha,
           "how slowly radii shrink: above 0, and 1 keeps them (default 2/3)")
       .TypeName("X");
   app.AddFlag("--two-halves", command.asTwoHalves,
@@ -117,7 +117,7 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
   app.AddFlag("--certify", command.certifies,
               "estimate the error with its bias and print it (photonmap, exphotonmap); without a "
               "stopping rule, the picture is rendered as two halves");
-  app.Add("--certify-share", command.certifiedShare,
+  app.Add("--certify-share", raw.certifiedShare,
           "share of the gather rays that --certify corrects (default 1/128)")
       .TypeName("X");
   app.Add("--seed", command.seed, "seed of the random numbers").TypeName("N");
@@ -226,9 +226,11 @@ void CheckPng(const RawOptions& raw, const RenderCommand& command) {
 }
 
 void CheckProgressive(const RawOptions& raw, const RenderCommand& command) {
+  Exclude(raw.progressiveAlpha.has_value(), !command.isProgressive,
+          "--progressive-alpha needs --progressive");
+  if (!command.isProgressive) return;
   if (!(command.progressiveAlpha > 0 && command.progressiveAlpha <= 1))
     FailUsage("--progressive-alpha takes a number above 0 and at most 1");
-  if (!command.isProgressive) return;
   if (!command.timeLimit && !command.targetError && command.maxPasses == 0)
     FailUsage("--progressive needs --time-limit, --target-error or --max-passes",
               "--progressive --max-passes 100 renders 100 passes");
@@ -290,9 +292,10 @@ void TakeFrames(const RawOptions& raw, RenderCommand* command) {
 
 // Corrections are not saved in states and parts.
 void CheckCertificate(const RawOptions& raw, const RenderCommand& command) {
+  Exclude(raw.certifiedShare.has_value(), !command.certifies, "--certify-share needs --certify");
+  if (!command.certifies) return;
   if (!(command.certifiedShare > 0 && command.certifiedShare <= 16))
     FailUsage("--certify-share takes a number above 0 and at most 16");
-  if (!command.certifies) return;
   Exclude(command.resumes, true, "--certify and --resume exclude each other");
   Exclude(!command.stateFile.empty(), true, "--certify and --state exclude each other");
   Exclude(!raw.shard.empty(), true, "--certify and --shard exclude each other");
@@ -335,6 +338,8 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
     FailUsage("--target-error takes a number above 0");
+  command->progressiveAlpha = raw.progressiveAlpha.value_or(command->progressiveAlpha);
+  command->certifiedShare = raw.certifiedShare.value_or(command->certifiedShare);
   TakeAccuracy(raw.accuracy, command);
   CheckPasses(raw, *command);
   CheckCertificate(raw, *command);

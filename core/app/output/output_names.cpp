@@ -48,7 +48,8 @@ std::string OutputNames::State(const std::string& name) const {
 std::string OutputNames::LineWithOutput(const std::string& scene, const std::string& name) const {
   const bool isAlone = command_.scenes.size() == 1 && !command_.commandLine.empty();
   const std::string line = isAlone ? command_.commandLine : "exphoton " + CommandLineText({scene});
-  return line + " -o " + CommandLineText({name});
+  const bool isFrame = command_.load.frame.has_value();
+  return line + " -o " + CommandLineText({isFrame ? "frame%04d.exr" : name});
 }
 
 void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& name) const {
@@ -68,6 +69,8 @@ void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& 
     picture.namedBy = scene;
     picture.remedy = "to name the file yourself: " + LineWithOutput(scene, ExrName(name));
   }
+  if (place.picture > 0)
+    picture.remedy = "each picture of a scene file needs a Film with a \"filename\" of its own";
   files.AddOutput("1 " + key, picture);
   if (!command_.previewFile.empty())
     files.AddOutput("2 " + key, {command_.previewFile, "the preview" + of,

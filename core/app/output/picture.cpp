@@ -137,10 +137,10 @@ Image MakeImage(const PictureFilms& films, const PassesResult& result, bool prem
   return image;
 }
 
-Image MakeImage(const PictureSoFar& picture, bool premultiplyAlpha) {
+Image MakeImage(const RenderCommand& command, const PictureSoFar& picture, bool premultiplyAlpha) {
   Image image = picture.film.ToImage(premultiplyAlpha);
   if (picture.aovs) picture.aovs->AppendTo(picture.film, premultiplyAlpha, &image);
-  for (std::size_t i = 0; i < picture.halves.size(); ++i)
+  for (std::size_t i = 0; command.asTwoHalves && i < picture.halves.size(); ++i)
     AppendHalf(kHalfNames[i], picture.halves[i], premultiplyAlpha, &image);
   return image;
 }

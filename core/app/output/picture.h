@@ -51,7 +51,7 @@ PicturePasses PassesOf(const RenderCommand& command);
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha);
 
 // Returns the same for a picture that is not finished.
-Image MakeImage(const PictureSoFar& picture, bool premultiplyAlpha);
+Image MakeImage(const RenderCommand& command, const PictureSoFar& picture, bool premultiplyAlpha);
 
 // Throws Error(CommandLine) for an AOV that the scene's integrator does not provide.
 void CheckAovs(const RenderCommand& command, const RenderSetup& setup);

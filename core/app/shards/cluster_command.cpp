@@ -162,9 +162,13 @@ RenderCommand ParseTask(const ClusterOptions& options, const std::vector<std::st
 RenderCommand ParseTasks(const ClusterOptions& options) {
   if (options.shards == 0)
     return ParseTask(options, {"--frames", options.frames, "-o", options.outfile});
+  RenderCommand picture = ParseTask(options, {"-o", options.outfile});
+  if (picture.png.IsGiven())
+    FailUsage("--exposure and --tone-curve are for a whole picture, but a shard is a part of one",
+              "-o NAME.exr keeps all values, and exphoton convert makes a PNG of it");
   ParseTask(options,
             {"--shard", "1/" + std::to_string(options.shards), "-o", options.folder + "/parts"});
-  return ParseTask(options, {"-o", options.outfile});
+  return picture;
 }
 
 // Throws for options of exphoton render that are wrong, before any job fails for them.

@@ -32,6 +32,11 @@ struct MergeOptions {
   bool listsMissing = false, asHalf = false, asFloat = false, isReproducible = false;
   bool printsStatistics = false, isQuiet = false;
   int threads = 0, shards = 0;
+
+  bool HasPictureOptions() const {
+    return asHalf || asFloat || isReproducible || printsStatistics || !statsFile.empty() ||
+           png.IsGiven();
+  }
 };
 
 // A PNG has no 32-bit channels, and an EXR no tone curve.
@@ -78,6 +83,8 @@ MergeOptions ParseMergeOptions(const std::vector<std::string>& arguments) {
   app.Parse(arguments);
   if (options.listsMissing && !options.outfile.empty())
     FailUsage("--missing and --outfile exclude each other");
+  if (options.listsMissing && options.HasPictureOptions())
+    FailUsage("--missing makes no picture, so it excludes all options of a picture");
   if (options.shards > 0 && !options.listsMissing) FailUsage("--shards needs --missing");
   if (options.asHalf && options.asFloat) FailUsage("--half and --float exclude each other");
   CheckPngOptions(options.png);

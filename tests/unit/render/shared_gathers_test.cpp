@@ -44,7 +44,7 @@ std::string Room(bool isShared, const std::string& more = "", int samples = 2) {
 double Difference(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    if (i % a.channels.size() >= 4) sum += std::abs(a.pixels[i] - b.pixels[i]);
+    if (i % a.channels.size() >= 4) sum += double(std::abs(a.pixels[i] - b.pixels[i]));
   return sum / double(a.pixels.size());
 }
 
