@@ -58,10 +58,10 @@ class ProjectedImage final : public IntensityMap {
  public:
   // tanHalf is the tangent of half the angle of the shorter axis.
   ProjectedImage(MapTexels map, double tanHalf)
-      : texels_(std::move(map.texels)), width_(map.width), height_(map.height) {
-    const bool isUniform = std::all_of(texels_.begin(), texels_.end(),
-                                       [&](const Spectrum& s) { return s == texels_.front(); });
-    maxSteps_ = isUniform ? 1 : kMaxSteps;
+      : isUniform_(map.IsUniform()),
+        texels_(std::move(map.texels)),
+        width_(map.width),
+        height_(map.height) {
     const double aspect = double(width_) / height_;
     a_ = tanHalf * std::max(aspect, 1.);
     b_ = tanHalf * std::max(1 / aspect, 1.);
@@ -150,10 +150,14 @@ class ProjectedImage final : public IntensityMap {
   double Y(double t) const { return (2 * t - 1) * b_; }
 
   // Returns the number of steps of the midpoint rule in a cell, along an axis where the plane has
-  // the extent `width` and the image has `cells` cells.
+  // the extent `width` and the image has `cells` cells. One step at the centre of a texel would
+  // miss its neighbours, although the interpolant reaches them. Two steps see them, and have no
+  // error for a bilinear interpolant.
   int StepsOf(double width, int cells) const {
-    constexpr double kStep = .005;
-    return int(std::clamp(std::ceil(width / cells / kStep), 1., std::max(1., maxSteps_ / cells)));
+    if (isUniform_) return 1;
+    constexpr double kStep = .005, kLeast = 2;
+    const double most = std::max(kLeast, kMaxSteps / cells);
+    return int(std::clamp(std::ceil(width / cells / kStep), kLeast, most));
   }
 
   // Returns the integral of the interpolant over the solid angle of a cell. The sum is scaled by
@@ -207,11 +211,11 @@ class ProjectedImage final : public IntensityMap {
   // Coarser images have several cells for a texel, so that the weights of photons vary little.
   static constexpr int kLeastCells = 64;
 
+  bool isUniform_;
   std::vector<Spectrum> texels_;
   int width_, height_;
   int columns_, rows_;  // of the cells by which directions are sampled
-  double maxSteps_;
-  double a_, b_;  // half the extents of the image on the plane z = 1
+  double a_, b_;        // half the extents of the image on the plane z = 1
   std::array<double, 3> integral_{};
   Spectrum largest_;
   PiecewiseConstant2D distribution_;

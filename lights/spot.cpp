@@ -15,8 +15,10 @@ struct Settings {
   Spectrum intensity{1};
   Spectrum scale{1};
   Point3 from{0, 0, 0}, to{0, 0, 1};
-  Real coneAngle = 30, coneDeltaAngle = 5;  // degrees
+  Real coneAngle = 30;  // degrees
+  std::optional<Real> coneDeltaAngle;
 
+  Real RimAngle() const { return coneDeltaAngle.value_or(std::min(Real(5), coneAngle)); }
   void Validate() const {
     if (from == to) throw ParamError{"to", "must differ from \"from\": there is no direction", ""};
     if (coneDeltaAngle > coneAngle)
@@ -36,7 +38,8 @@ const ParamTable<Settings>& Parameters() {
           .Above(0)
           .AtMost(180)
           .Unit("degrees"),
-      Param("conedeltaangle", &Settings::coneDeltaAngle, "width of the rim where the light fades")
+      Param("conedeltaangle", &Settings::coneDeltaAngle,
+            "width of the rim where the light fades; 5, but at most coneangle, if absent")
           .Range(0, 180)
           .Unit("degrees")};
   return table;
@@ -135,7 +138,7 @@ std::unique_ptr<Light> Create(const Settings& settings, const LightContext& cont
   return std::make_unique<SpotLight>(
       toWorld.ApplyPoint(settings.from), axis, settings.intensity * settings.scale,
       double(settings.coneAngle) * kRadiansPerDegree,
-      (double(settings.coneAngle) - double(settings.coneDeltaAngle)) * kRadiansPerDegree);
+      (double(settings.coneAngle) - double(settings.RimAngle())) * kRadiansPerDegree);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // matter. A transformation that is not a similarity stretches solid angles.
 #pragma once
 
+#include "core/geometry/vec3d.h"
 #include "core/math/transform.h"
 
 namespace exphoton {
@@ -12,10 +13,8 @@ class LightDirections {
   explicit LightDirections(const Transform& lightToWorld)
       : toWorld_(lightToWorld),
         toLight_(lightToWorld.Inverted()),
-        keepsSolidAngles_(lightToWorld.SimilarityScale().has_value()) {
-    const Vector3 x = toWorld_.ApplyVector({1, 0, 0}), y = toWorld_.ApplyVector({0, 1, 0});
-    determinant_ = AbsDot(Cross(x, y), toWorld_.ApplyVector({0, 0, 1}));
-  }
+        keepsSolidAngles_(lightToWorld.SimilarityScale().has_value()),
+        determinant_(lightToWorld.VolumeScale()) {}
 
   Vector3 ToLight(const Vector3& w) const {
     return NormalizeOr(toLight_.ApplyVector(w), {0, 0, 1});
@@ -26,16 +25,17 @@ class LightDirections {
   // Returns whether DensityFactor is 1 everywhere, up to rounding.
   bool KeepsSolidAngles() const { return keepsSolidAngles_; }
   // Returns the factor from a density per solid angle at `local` in light space to the density in
-  // world space. The transformation M stretches solid angles by |det M| / |M w|^3.
+  // world space. The transformation M stretches solid angles by |det M| / |M w|^3. Double precision
+  // holds this cube for every scale.
   Real DensityFactor(const Vector3& local) const {
-    const Real stretch = Length(toWorld_.ApplyVector(local));
-    return stretch * stretch * stretch / determinant_;
+    const double stretch = Length(Vec3d(toWorld_.ApplyVector(local)));
+    return Real(stretch * stretch * stretch / determinant_);
   }
 
  private:
   Transform toWorld_, toLight_;
   bool keepsSolidAngles_;
-  Real determinant_;
+  double determinant_;
 };
 
 }  // namespace exphoton

@@ -103,6 +103,23 @@ TEST_F(EnvironmentMap, PowerIsItsIntegralTimesTheDisk) {
   EXPECT_NEAR(double(light->Power().g), M_PI * integral, 0.05 * M_PI * integral);
 }
 
+TEST_F(EnvironmentMap, IsSampledTheSameUnderEveryScale) {
+  const std::string text = Write(4, 2, {1, 2, 3, 4, 5, 6, 7, 8});
+  const auto plain = plugins_.MakeLight(text);
+  plain->Prepare({{0, 0, 0}, 1});
+  const auto expected = Direct(*plain, {0, 0, 0});
+  ASSERT_TRUE(expected);
+  for (const double scale : {1e14, 1e-16}) {
+    const auto light = plugins_.MakeLight(text, *Transform::Scale(scale, scale, scale));
+    light->Prepare({{0, 0, 0}, 1});
+    const auto sample = Direct(*light, {0, 0, 0});
+    ASSERT_TRUE(sample) << scale;
+    EXPECT_LT(LengthSquared(sample->wi - expected->wi), Real(1e-12)) << scale;
+    EXPECT_NEAR(double(sample->pdf / expected->pdf), 1, 1e-5) << scale;
+    EXPECT_TRUE(light->SampleEmission({}, {Real(.3), Real(.6)}, 0, 0)) << scale;
+  }
+}
+
 TEST_F(EnvironmentMap, WithOneValueThatIsNoRadianceWarns) {
   Image image(2, 1, {"R", "G", "B"});
   image.At(0, 0, 1) = -1;

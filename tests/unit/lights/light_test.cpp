@@ -180,6 +180,16 @@ TEST(SpotLight, RefusesConesThatAreNone) {
   EXPECT_EQ(StatusOf(R"("spot" "point from" [1 1 1] "point to" [1 1 1])"), ExitStatus::Scene);
 }
 
+TEST(SpotLight, HasARimOfFiveDegreesOrOfItsWholeConeIfTheFileStatesNone) {
+  TestPlugins plugins;
+  const auto power = [&](const char* angles) {
+    return plugins.MakeLight(std::string("\"spot\" \"float coneangle\" ") + angles)->Power();
+  };
+  EXPECT_EQ(power("3"), power("3 \"float conedeltaangle\" 3"));
+  EXPECT_EQ(power("20"), power("20 \"float conedeltaangle\" 5"));
+  EXPECT_EQ(StatusOf(R"("spot" "float coneangle" 3 "float conedeltaangle" 5)"), ExitStatus::Scene);
+}
+
 TEST(SpotLight, StaysCircularUnderAStretchAndSaysSo) {
   TestPlugins plugins;
   const auto light =

@@ -217,6 +217,35 @@ TEST_F(MappedPointLights, EveryPhotonOfAUniformProjectionHasItsPower) {
   }
 }
 
+// The interpolated image lights the black columns up to their centres. Images have 1, 3 and 1 cells
+// for a texel.
+TEST_F(MappedPointLights, PhotonsOfAStripedProjectionCoverItsLightAndHaveItsPower) {
+  struct Case {
+    int width, height;
+    double fov;
+  };
+  for (const Case& c : {Case{256, 256, 45}, Case{21, 21, 10}, Case{1100, 4, 2}}) {
+    SCOPED_TRACE(c.width);
+    std::vector<float> stripes;
+    for (int i = 0; i < c.width * c.height; ++i) stripes.push_back(float(i % c.width % 2));
+    const auto light = Make("\"projection\" \"float fov\" " + std::to_string(c.fov) +
+                            Map(c.width, c.height, stripes));
+    RandomStream random(11);
+    double sum = 0;
+    constexpr int kSamples = 40000;
+    for (int i = 0; i < kSamples; ++i) {
+      const auto sample = light->SampleEmission({}, {random.Uniform(), random.Uniform()}, 0, 0);
+      if (sample) sum += double(sample->power.g);
+    }
+    EXPECT_NEAR(sum / kSamples / double(light->Power().g), 1, .015);
+    const double a = std::tan(c.fov * M_PI / 360) * c.width / c.height;
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3 w = Normalize(Vector3(Real(((i + .5) / 1000 - 1) * a), Real(1e-3), 1));
+      EXPECT_TRUE(At(*light, w) == 0 || light->PdfEmission({}, w).direction > 0) << i;
+    }
+  }
+}
+
 TEST_F(MappedPointLights, ScaleAndIntensityMultiply) {
   for (const char* name : {"goniometric", "projection"}) {
     const std::string text = "\"" + std::string(name) + "\"" + Map(2, 2, {1, 2, 3, 4});
