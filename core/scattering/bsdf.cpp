@@ -2,8 +2,8 @@
 // Bsdf combines lobes under a mask. The geometric normal alone separates reflection from
 // transmission. A direction on different sides of the shading normal and the geometric normal is
 // handled before any lobe sees it (Veach 1997, section 5.3): diffuse lobes scatter its light by the
-// absolute cosine, which neither gains nor loses energy, and other lobes scatter none
-// (docs/decisions/0029-light-between-normals.md).
+// absolute cosine, which neither gains nor loses energy, and glossy lobes scatter none. Mirrors
+// reflect it about the geometric normal (docs/decisions/0029-light-between-normals.md).
 #include "core/scattering/bsdf.h"
 
 #include <span>
@@ -195,8 +195,12 @@ std::optional<BsdfSample> Bsdf::Sample(const Vector3& wo, Point2 u, Real uLobe, 
     auto sample = SampleSpecular(lobes.Specular(), out.w, position / Real(lobes.specularCount));
     if (!sample) return std::nullopt;
     // Undo the flip of wo's cosine for transmission, so that an invisible boundary bends no ray.
-    const bool isUndone = out.isMirrored && sample->IsTransmission();
-    sample->wi = frame_.ToWorld(isUndone ? MirrorZ(sample->wi) : sample->wi);
+    // The shading normal would reflect to the back, so the geometric normal takes its place.
+    if (out.isMirrored && !sample->IsTransmission()) {
+      sample->wi = ng_ * (2 * out.side) - wo;
+    } else {
+      sample->wi = frame_.ToWorld(out.isMirrored ? MirrorZ(sample->wi) : sample->wi);
+    }
     if (!Intersects(sample->lobe, ScatteringSides(out.side, Dot(sample->wi, ng_))))
       return std::nullopt;
     const Real share = Real(lobes.specularCount) / Real(count);

@@ -53,7 +53,8 @@ class Bsdf {
   // Returns f and Pdf together, at little more than the cost of one.
   BsdfValue Evaluate(const Vector3& wo, const Vector3& wi, LobeSet mask) const;
   // Picks one masked lobe uniformly by uLobe. If it is specular, a second choice picks a specular
-  // lobe in proportion to its coefficient. Returns nullopt if there is no sample (absorbed).
+  // lobe in proportion to its coefficient. Returns nullopt if there is no sample (absorbed). If wo
+  // lies between the two normals, specular lobes reflect about the geometric normal.
   // In Importance mode, wo points to the origin of a photon, and smooth lobes scatter by f(wi, wo).
   // This differs from f(wo, wi) if the two normals disagree: only diffuse lobes scatter light from
   // behind the shading normal, but all scatter to every direction in front of the geometric normal.
@@ -69,7 +70,7 @@ class Bsdf {
   Spectrum Rho(LobeSet mask) const;
   // Returns whether all diffuse lobes are Lambertian (Bxdf::IsLambertian).
   bool IsLambertian() const { return isLambertian_; }
-  // Returns whether the diffuse reflection lobe is coated (Bxdf::IsCoated).
+  // Returns whether the diffuse lobes are coated (Bxdf::IsCoated): if one is, all are.
   bool IsCoated() const { return isCoated_; }
 
  private:

@@ -37,10 +37,16 @@ void AddSpecularDifferentials(const ShadingPoint& point, const BsdfSample& sampl
 
   const auto& shading = surface.shading;
   const Vector3& wo = surface.wo;
-  const Real side = Dot(wo, shading.n) < 0 ? Real(-1) : Real(1);
-  const Bounce bounce{wo, sample.wi, side * shading.n, sample.IsTransmission() ? sample.eta : 0};
-  const Normal3 dndx = side * (shading.dndu * surface.dudx + shading.dndv * surface.dvdx);
-  const Normal3 dndy = side * (shading.dndu * surface.dudy + shading.dndv * surface.dvdy);
+  // Bsdf::Sample reflects about the geometric normal if wo lies between the two normals.
+  const bool isBetween = (Dot(wo, surface.ng) < 0) != (Dot(wo, shading.n) < 0);
+  const bool usesNg = isBetween && !sample.IsTransmission();
+  const Normal3& n = usesNg ? surface.ng : shading.n;
+  const Normal3& dndu = usesNg ? surface.dndu : shading.dndu;
+  const Normal3& dndv = usesNg ? surface.dndv : shading.dndv;
+  const Real side = Dot(wo, n) < 0 ? Real(-1) : Real(1);
+  const Bounce bounce{wo, sample.wi, side * n, sample.IsTransmission() ? sample.eta : 0};
+  const Normal3 dndx = side * (dndu * surface.dudx + dndv * surface.dvdx);
+  const Normal3 dndy = side * (dndu * surface.dudy + dndv * surface.dvdy);
   const Vector3 dwodx = -NormalizeOr(point.ray.xDirection, -wo) - wo;
   const Vector3 dwody = -NormalizeOr(point.ray.yDirection, -wo) - wo;
 

@@ -31,9 +31,11 @@ void CheckSmoothSample(const Bsdf& bsdf, const Vector3& wo, const BsdfSample& sa
                    double(sample.throughput.Y()), double(expected.Y()));
 }
 
+// A mirror that is seen from between its normals reflects about the geometric one.
 void CheckSpecularSample(const Bsdf& bsdf, const Vector3& wo, const BsdfSample& sample,
                          Findings* findings) {
-  const Normal3& n = bsdf.Ns();
+  const bool usesNs = sample.IsTransmission() || AreOnOneSide(bsdf, wo);
+  const Normal3& n = usesNs ? bsdf.Ns() : bsdf.Ng();
   const Vector3 in = sample.wi - n * Dot(n, sample.wi), out = wo - n * Dot(n, wo);
   const Real ratio = sample.IsTransmission() ? sample.eta : 1;
   const double off = double(Length(in + out * ratio));

@@ -228,6 +228,21 @@ TEST(Bsdf, ReflectsNoGlossFromBetweenItsNormals) {
   EXPECT_EQ(photons, 0);
 }
 
+// About the shading normal, a mirror would reflect this view to the back.
+TEST(Bsdf, AMirrorSeenFromBetweenItsNormalsReflectsAboutTheGeometricNormal) {
+  const Bsdf bsdf = Make({&kMirror}, TiltedSurface(1));
+  for (const Vector3& wo : {kBetween, -kBetween}) {
+    for (const TransportMode mode : {TransportMode::Radiance, TransportMode::Importance}) {
+      const auto sample = bsdf.Sample(wo, {}, 0, LobeSet::All, mode);
+      ASSERT_TRUE(sample);
+      EXPECT_LT(LengthSquared(sample->wi - Vector3(-wo.x, -wo.y, wo.z)), Real(1e-12));
+      EXPECT_NEAR(LengthSquared(sample->wi), 1, 1e-6);
+      EXPECT_NEAR(sample->throughput.r, .3, 1e-6);
+      EXPECT_EQ(sample->pdf, 1);
+    }
+  }
+}
+
 // The reflectance of a diffuse lobe is the same under every shading normal and from every side, so
 // bumps neither gain nor lose energy. With TransportMode::Importance the same is true of photons.
 TEST(Bsdf, OfADiffuseLobeReflectsAllOfItsShareUnderAnyNormal) {

@@ -75,6 +75,12 @@ TEST_P(SpecularFootprint, OnASphereIsThatOfTheTracedNeighbour) {
                  {Real(.3), Real(.8), Real(.1)});  // from the inside
 }
 
+// The pane is seen from in front of its geometric normal and from behind its shading normal.
+TEST_P(SpecularFootprint, SeenFromBetweenItsNormalsIsThatOfTheTracedNeighbour) {
+  const std::string normals = "\"normal N\" [.866 0 .5  .866 0 .5  .866 0 .5]\n";
+  ExpectPredicts(kPane + normals, {-1, -1, 2}, {Real(.766), 0, Real(-.643)});
+}
+
 TEST_P(SpecularFootprint, IsFiniteOrNoneAtGrazingRays) {
   for (const Real slope : {Real(1e-3), Real(1e-5), Real(1e-7), Real(1e-20)}) {
     for (const Real side : {Real(1), Real(-1)}) {
