@@ -2,7 +2,6 @@
 // The shape "loopsubdiv" is the limit surface of Loop subdivision of a triangle mesh, as a finer
 // mesh with limit positions and limit normals. (pbrt-v1 computes normals from the ring of limit
 // positions, which is exact only in the limit. At low levels its highlights lie elsewhere.)
-#include "core/base/memory.h"
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
 #include "shapes/mesh/loop_subdivision.h"
@@ -30,22 +29,10 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-constexpr double kMaxTriangles = 1 << 27;
-
 // Peak memory of LoopSubdivide per triangle of the finest mesh: its sides during sorting, its
 // edges, the sums around its vertices, two meshes. Measured for the whole program: 155 bytes at 9
 // levels, 126 at 10.
 constexpr double kBytesPerTriangle = 160;
-
-// Fails before the work begins, because a system that runs out of memory may end other programs.
-void CheckMemory(double triangles, int levels, const SourceLocation& where) {
-  const double bytes = triangles * kBytesPerTriangle;
-  if (bytes <= UsableMemory()) return;
-  throw Error(ExitStatus::Resource,
-              "subdivision with nlevels " + std::to_string(levels) + " needs about " +
-                  Megabytes(bytes) + ", and " + MemoryLimit(),
-              where, "each level less needs a quarter of the memory");
-}
 
 std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
   if (settings.scheme != "loop")
@@ -62,11 +49,10 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
                      "subdivision needs a surface"};
   }
   const double count = double(control.faces.size()) * std::pow(4.0, settings.levels);
-  if (count > kMaxTriangles) {
-    throw ParamError{"nlevels", "would make " + std::to_string(std::int64_t(count)) + " triangles",
-                     "at most " + std::to_string(std::int64_t(kMaxTriangles))};
-  }
-  CheckMemory(count, settings.levels, context.where);
+  CheckTriangleCount(count, "nlevels");
+  CheckMemory(count * kBytesPerTriangle,
+              "subdivision with nlevels " + std::to_string(settings.levels),
+              "each level less needs a quarter of the memory", context.where);
   LimitMesh limit = LoopSubdivide(std::move(control), settings.levels);
   auto mesh = std::make_unique<TriangleMesh>();
   mesh->indices = std::move(limit.mesh.faces);

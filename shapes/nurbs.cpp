@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The shape "nurbs" is a non-uniform rational B-spline surface. It becomes a mesh with at least 30
-// steps along u and v, 8 between two knots, and exact normals. The texture coordinates are the
-// surface's parameters u and v.
+// steps along u and v, 8 between two knots, and exact normals. A knot of full multiplicity is a
+// crease with a normal on each side. The texture coordinates are the surface's parameters u and v.
 #include "core/params/param_text.h"
 #include "core/plugin.h"
 #include "shapes/mesh/finish_mesh.h"
@@ -93,8 +93,8 @@ NurbsSurface SurfaceOf(const Settings& settings) {
 }
 
 // Returns the parameters of the mesh's vertices along one direction.
-std::vector<double> Parameters(const NurbsBasis& basis, const std::string& axis,
-                               std::optional<Real> first, std::optional<Real> last) {
+std::vector<NurbsParameter> Parameters(const NurbsBasis& basis, const std::string& axis,
+                                       std::optional<Real> first, std::optional<Real> last) {
   const double from = first ? double(*first) : basis.First();
   const double to = last ? double(*last) : basis.Last();
   const auto check = [&](double value, const char* end) {
@@ -109,28 +109,51 @@ std::vector<double> Parameters(const NurbsBasis& basis, const std::string& axis,
   return basis.Subdivide(from, to, kLeastSteps, kStepsPerSpan);
 }
 
-std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
-  const NurbsSurface surface = SurfaceOf(settings);
-  const auto u = Parameters(surface.u, "u", settings.u0, settings.u1);
-  const auto v = Parameters(surface.v, "v", settings.v0, settings.v1);
+// Each vertex has at most two triangles.
+constexpr double kBytesPerVertex = sizeof(Point3) + sizeof(Normal3) + sizeof(Point2) +
+                                   2 * sizeof(decltype(TriangleMesh::indices)::value_type);
+
+std::unique_ptr<TriangleMesh> MeshOf(const NurbsSurface& surface,
+                                     const std::vector<NurbsParameter>& u,
+                                     const std::vector<NurbsParameter>& v) {
+  const std::size_t vertices = u.size() * v.size();
   auto mesh = std::make_unique<TriangleMesh>();
-  for (const double t : v) {
-    for (const double s : u) {
+  mesh->p.reserve(vertices);
+  mesh->n.reserve(vertices);
+  mesh->uv.reserve(vertices);
+  mesh->indices.reserve(2 * vertices);
+  for (const NurbsParameter& t : v) {
+    for (const NurbsParameter& s : u) {
       const NurbsPoint point = surface.At(s, t);
       mesh->p.push_back(point.p.ToReal());
       mesh->n.push_back(point.normal.ToReal());
-      mesh->uv.push_back({Real(s), Real(t)});
+      mesh->uv.push_back({Real(s.value), Real(t.value)});
     }
   }
   const auto columns = std::uint32_t(u.size()), rows = std::uint32_t(v.size());
   for (std::uint32_t y = 0; y + 1 < rows; ++y) {
+    if (v[y].isFromLeft) continue;  // the next row is at the same place
     for (std::uint32_t x = 0; x + 1 < columns; ++x) {
+      if (u[x].isFromLeft) continue;
       const std::uint32_t corner = y * columns + x, above = corner + columns;
       mesh->indices.push_back({corner, corner + 1, above + 1});
       mesh->indices.push_back({corner, above + 1, above});
     }
   }
-  return FinishMesh(std::move(mesh), context, settings.positions.empty() ? "Pw" : "P");
+  return mesh;
+}
+
+std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeContext& context) {
+  const NurbsSurface surface = SurfaceOf(settings);
+  const auto u = Parameters(surface.u, "u", settings.u0, settings.u1);
+  const auto v = Parameters(surface.v, "v", settings.v0, settings.v1);
+  const double vertices = double(u.size()) * double(v.size());
+  CheckTriangleCount(2 * vertices, "nu");
+  CheckMemory(vertices * kBytesPerVertex,
+              "a surface of " + std::to_string(settings.uCount) + " x " +
+                  std::to_string(settings.vCount) + " control points",
+              "fewer control points need less", context.where);
+  return FinishMesh(MeshOf(surface, u, v), context, settings.positions.empty() ? "Pw" : "P");
 }
 
 }  // namespace

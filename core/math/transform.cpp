@@ -85,11 +85,16 @@ std::optional<Matrix4> Inverse(const Matrix4& a) {
     for (std::size_t j = 0; j < 4; ++j) result.m[i][j] = w[i][j + 4];
   if (!AllFinite(result)) return std::nullopt;
   // Dependent rows leave rounding noise as pivots. The product with the inverse is then far from
-  // the identity. This check also rejects condition numbers beyond the resolution of double.
+  // the identity. This check also rejects condition numbers beyond the resolution of double. The
+  // last column holds lengths, whose errors are relative to the translation.
   const Matrix4 product = a * result;
+  double translation = 1;
+  for (std::size_t i = 0; i < 3; ++i) translation = std::max(translation, std::abs(a.m[i][3]));
   for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      if (!(std::abs(product.m[i][j] - (i == j ? 1.0 : 0.0)) < 1e-4)) return std::nullopt;
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double tolerance = i < 3 && j == 3 ? 1e-4 * translation : 1e-4;
+      if (!(std::abs(product.m[i][j] - (i == j ? 1.0 : 0.0)) < tolerance)) return std::nullopt;
+    }
   return result;
 }
 

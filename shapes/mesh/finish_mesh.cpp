@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// FinishMesh moves meshes to world space and checks them.
+// FinishMesh moves meshes to world space and checks them. The other functions check parameters and
+// sizes.
 #include "shapes/mesh/finish_mesh.h"
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "core/geometry/vec3d.h"
 #include "core/params/param_table.h"
 #include "core/scattering/texture.h"
@@ -72,6 +74,20 @@ std::vector<std::array<std::uint32_t, 3>> CheckedTriangles(const std::vector<int
     triangles[i / 3][i % 3] = std::uint32_t(indices[i]);
   }
   return triangles;
+}
+
+void CheckTriangleCount(double count, const std::string& param) {
+  constexpr double kMost = 1 << 27;
+  if (count <= kMost) return;
+  throw ParamError{param, "would make " + std::to_string(std::int64_t(count)) + " triangles",
+                   "at most " + std::to_string(std::int64_t(kMost))};
+}
+
+void CheckMemory(double bytes, const std::string& subject, const std::string& hint,
+                 const SourceLocation& where) {
+  if (bytes <= UsableMemory()) return;
+  throw Error(ExitStatus::Resource,
+              subject + " needs about " + Megabytes(bytes) + ", and " + MemoryLimit(), where, hint);
 }
 
 std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // FinishMesh is the last step of every shape that makes a mesh: it moves the mesh to world space,
 // checks it, and gives one warning about dropped or replaced data. Callers read the data and check
-// indices.
+// indices. CheckTriangleCount and CheckMemory refuse a mesh before the work on it begins.
 #pragma once
 
 #include <memory>
@@ -26,5 +26,13 @@ void SetAlpha(const std::shared_ptr<const Texture<Real>>& alpha, TriangleMesh* m
 std::vector<std::array<std::uint32_t, 3>> CheckedTriangles(const std::vector<int>& indices,
                                                            std::size_t vertexCount,
                                                            const std::string& param);
+
+// Throws ParamError{param} if a mesh would have too many triangles.
+void CheckTriangleCount(double count, const std::string& param);
+
+// Throws an Error if the memory of this process is less than `bytes`. A system that runs out of
+// memory may end other programs. `subject` begins the message.
+void CheckMemory(double bytes, const std::string& subject, const std::string& hint,
+                 const SourceLocation& where);
 
 }  // namespace exphoton

@@ -149,20 +149,24 @@ class Rings {
     const Spoke* begin = spokes_.data() + first_[vertex];
     const Spoke* end = spokes_.data() + first_[vertex + 1];
     if (begin == end) return {};
+    std::vector<Spoke> sorted(begin, end);
+    std::stable_sort(sorted.begin(), sorted.end(), IsBefore);
+    Ring reached;
+    for (const Spoke* s = begin; s != end; ++s) reached.push_back(s->to);
+    std::sort(reached.begin(), reached.end());
     // A ring at a boundary begins at a neighbour that no spoke leads to.
     std::uint32_t start = begin->from;
     for (const Spoke* s = begin; s != end; ++s)
-      if (std::none_of(begin, end, [&](const Spoke& o) { return o.to == s->from; }))
-        start = s->from;
-    std::vector<std::uint32_t> ring{start};
-    for (std::uint32_t at = start; ring.size() <= std::size_t(end - begin);) {
-      const Spoke* s = std::find_if(begin, end, [&](const Spoke& o) { return o.from == at; });
-      if (s == end) break;
+      if (!std::binary_search(reached.begin(), reached.end(), s->from)) start = s->from;
+    Ring ring{start};
+    for (std::uint32_t at = start; ring.size() <= sorted.size();) {
+      const auto s = std::lower_bound(sorted.begin(), sorted.end(), Spoke{at, 0}, IsBefore);
+      if (s == sorted.end() || s->from != at) break;
       at = s->to;
-      if (at == start) return ring.size() == std::size_t(end - begin) ? ring : Ring();
+      if (at == start) return ring.size() == sorted.size() ? ring : Ring();
       ring.push_back(at);
     }
-    return ring.size() == std::size_t(end - begin) + 1 ? ring : Ring();
+    return ring.size() == sorted.size() + 1 ? ring : Ring();
   }
 
  private:
@@ -170,6 +174,8 @@ class Rings {
   struct Spoke {  // the side of a face opposite to the vertex
     std::uint32_t from, to;
   };
+  static bool IsBefore(const Spoke& a, const Spoke& b) { return a.from < b.from; }
+
   std::vector<std::size_t> first_;
   std::vector<Spoke> spokes_;
 };

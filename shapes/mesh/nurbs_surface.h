@@ -9,6 +9,15 @@
 
 namespace exphoton {
 
+// A value of one parameter. At a crease, the spans on its two sides have different tangents.
+struct NurbsParameter {
+  double value;
+  bool isFromLeft;  // takes the span that ends at the value; otherwise the one that begins there
+
+  NurbsParameter(double v, bool fromLeft = false) : value(v), isFromLeft(fromLeft) {}  // implicit
+  friend bool operator==(const NurbsParameter&, const NurbsParameter&) = default;
+};
+
 // One direction of the parameter domain. The basis functions have degree order - 1; there are
 // knots.size() - order of them.
 struct NurbsBasis {
@@ -18,12 +27,18 @@ struct NurbsBasis {
   int Count() const { return int(knots.size()) - order; }
   double First() const { return knots[std::size_t(order - 1)]; }  // start of the valid domain
   double Last() const { return knots[std::size_t(Count())]; }     // end of the valid domain
+  // Returns whether the slope may jump at t: t is a knot of multiplicity order - 1 or more.
+  bool IsCrease(double t) const;
   // Returns at least `least` + 1 parameters from `from` to `to`, ascending, with at least
-  // `perSpan` steps between knots. Every knot in between is one of them.
-  std::vector<double> Subdivide(double from, double to, int least, int perSpan) const;
+  // `perSpan` steps between knots. Every knot in between is one of them. A crease in between
+  // appears twice, first from the left; one at the end appears from the left only.
+  std::vector<NurbsParameter> Subdivide(double from, double to, int least, int perSpan) const;
+  // Returns the index of the knot at which the span of t begins.
+  int SpanOf(const NurbsParameter& t) const;
   // Writes the `order` basis functions that may differ from 0 at t, and their derivatives. Returns
   // the index of the first of them. At a knot of full multiplicity the values are exactly 0 and 1.
-  int Evaluate(double t, std::vector<double>* values, std::vector<double>* slopes) const;
+  int Evaluate(const NurbsParameter& t, std::vector<double>* values,
+               std::vector<double>* slopes) const;
 };
 
 // A control point in homogeneous coordinates: p is the position times the weight w.
@@ -34,14 +49,16 @@ struct NurbsControl {
 
 struct NurbsPoint {
   Vec3d p;
-  Vec3d normal;  // unit, along dp/du x dp/dv; 0 where the surface is singular
+  // Unit, along dp/du x dp/dv. Where this product vanishes, such as at a pole, it is the normal
+  // slightly inside the span, or 0 where the product vanishes there, too.
+  Vec3d normal;
 };
 
 struct NurbsSurface {
   NurbsBasis u, v;
   std::vector<NurbsControl> controls;  // u fastest: u.Count() x v.Count()
 
-  NurbsPoint At(double s, double t) const;
+  NurbsPoint At(const NurbsParameter& s, const NurbsParameter& t) const;
 };
 
 }  // namespace exphoton

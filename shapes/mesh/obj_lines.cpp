@@ -121,7 +121,7 @@ class ObjChecker {
     if (words_.size() < 4)
       Fail("has a face of " + std::to_string(words_.size() - 1) + " corners; expected 3 or more");
     for (std::size_t i = 1; i < words_.size(); ++i) CheckCorner(words_[i]);
-    if (isChosen_) Keep(words_.size() - 1);
+    if (group_.empty() || isInGroup_ || isInObject_) Keep(words_.size() - 1);
   }
 
   // A corner is 7, 7/3, 7//5 or 7/3/5.
@@ -156,11 +156,13 @@ class ObjChecker {
     largestLine_[list] = line_;
   }
 
+  // A face belongs to the groups of the last g and to the object of the last o.
   void ChooseGroup() {
-    isChosen_ = group_.empty();
+    bool& isIn = words_[0] == "g" ? isInGroup_ : isInObject_;
+    isIn = false;
     for (std::size_t i = 1; i < words_.size(); ++i) {
       const std::string name(words_[i]);
-      isChosen_ |= name == group_;
+      isIn |= name == group_;
       hasGroup_ |= name == group_;
       constexpr std::size_t kMostNames = 1000;  // for a message
       if (groups_.size() < kMostNames &&
@@ -182,7 +184,7 @@ class ObjChecker {
   std::int64_t line_ = 0;
   std::vector<std::string_view> words_;
   std::array<std::int64_t, 3> counts_{}, largest_{}, largestLine_{};
-  bool isChosen_ = group_.empty(), hasGroup_ = false;
+  bool isInGroup_ = false, isInObject_ = false, hasGroup_ = false;
   std::vector<std::string> groups_;
 };
 

@@ -22,7 +22,8 @@ struct ObjMesh {
   bool namesMaterials = false;
 };
 
-// Takes the faces of one group or object, or all if `group` is empty. OBJ counts texture
+// Takes the faces of one group or object, or all if `group` is empty. Groups and objects are
+// independent: an object may begin within a group, and a group within an object. OBJ counts texture
 // coordinates from the lower edge of a picture; here v is 0 at the top. Throws ObjError with a
 // sentence as its message.
 ObjMesh ParseObj(std::string_view bytes, const std::string& group);

@@ -189,7 +189,7 @@ TEST(InstanceSurface, OfAMeshTurnsDerivativesWithItsNormals) {
 
 TEST(InstanceSurface, OfAMeshKeepsTheHandOfTangentsWhereItTurnsNormals) {
   const TriangleMesh mesh = MeshWithTurnedNormals();
-  for (const Real mirror : {1, -1}) {
+  for (const Real mirror : {Real(1), Real(-1)}) {
     const SurfaceInteraction surface = SurfaceToWorld(
         *Transform::Scale(mirror, 1, 10), TriangleSurface(mesh, 0, Real(.25), Real(.25)));
     const auto& shading = surface.shading;

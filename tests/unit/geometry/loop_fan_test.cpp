@@ -3,6 +3,7 @@
 // there.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "shapes/mesh/loop_subdivision.h"
@@ -44,6 +45,26 @@ TEST(LoopSubdivision, NormalsOfAFanDoNotDependOnTheLevel) {
       EXPECT_LT(Length(fine.mesh.positions[0] - coarse.mesh.positions[0]), 1e-12) << faces;
     }
   }
+}
+
+// The n neighbours of a vertex are ordered in n log n steps. A search among all of them for each
+// one takes 5 10^9 steps here.
+TEST(LoopSubdivision, OfAWheelOfManySpokesIsFast) {
+  constexpr std::uint32_t kSpokes = 100000;
+  SubdivisionMesh wheel;
+  wheel.positions.push_back({0, 0, 1});
+  for (std::uint32_t i = 0; i < kSpokes; ++i) {
+    const double angle = 2 * M_PI * i / kSpokes;
+    wheel.positions.push_back({std::cos(angle), std::sin(angle), 0});
+    // The order of the faces is not the order of the neighbours.
+    const std::uint32_t first = std::uint32_t(std::uint64_t(i) * 7919 % kSpokes);
+    wheel.faces.push_back({0, 1 + first, 1 + (first + 1) % kSpokes});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const LimitMesh limit = LoopSubdivide(wheel, 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  EXPECT_NEAR(limit.normals[0].z, 1, 1e-12);
+  EXPECT_EQ(limit.mesh.faces.size(), kSpokes);
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 // These tests check NURBS surfaces and height fields: basis functions by their identities, rational
 // circles, Bezier patches by Bernstein polynomials, and the meshes that the shapes make.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "shapes/mesh/nurbs_surface.h"
 #include "tests/support/test_plugin.h"
@@ -56,10 +58,24 @@ TEST(NurbsBasis, IsExactAtItsEnds) {
 }
 
 TEST(NurbsBasis, SubdividesBetweenItsKnots) {
-  const NurbsBasis basis{2, {0, 0, 1, 1, 4, 4}};
-  const std::vector<double> all = basis.Subdivide(0, 4, 5, 2);
-  EXPECT_EQ(all, (std::vector<double>{0, 1. / 3, 2. / 3, 1, 2, 3, 4}));
-  EXPECT_EQ(basis.Subdivide(.5, 3, 1, 2), (std::vector<double>{.5, .75, 1, 2, 3}));
+  using Parameters = std::vector<NurbsParameter>;
+  const NurbsBasis basis{3, {0, 0, 0, 1, 4, 4, 4}};
+  EXPECT_EQ(basis.Subdivide(0, 4, 5, 2), (Parameters{0., 1. / 3, 2. / 3, 1., 2., 3., {4, true}}));
+  EXPECT_EQ(basis.Subdivide(.5, 3, 1, 2), (Parameters{.5, .75, 1., 2., 3.}));
+}
+
+TEST(NurbsBasis, HasACreaseWhereItsSlopesMayJump) {
+  using Parameters = std::vector<NurbsParameter>;
+  const NurbsBasis basis{3, {0, 0, 0, 1, 1, 4, 4, 4}};
+  EXPECT_EQ(basis.Subdivide(0, 4, 1, 2), (Parameters{0., .5, {1, true}, 1., 2.5, {4, true}}));
+  EXPECT_EQ(basis.Subdivide(0, 1, 1, 2), (Parameters{0., .5, {1, true}}));
+  EXPECT_EQ(basis.Subdivide(1, 3, 1, 2), (Parameters{1., 2., 3.}));
+  std::vector<double> values, slopes;
+  EXPECT_EQ(basis.Evaluate({1, true}, &values, &slopes), 0);
+  EXPECT_EQ(values, (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(slopes, (std::vector<double>{0, -2, 2}));
+  EXPECT_EQ(basis.Evaluate(1, &values, &slopes), 2);
+  EXPECT_EQ(values, (std::vector<double>{1, 0, 0}));
 }
 
 TEST(NurbsSurface, OfOneSpanIsABezierPatch) {
@@ -104,7 +120,121 @@ TEST(Nurbs, MakesAnExactTube) {
   EXPECT_EQ(mesh->uv.front(), Point2(0, 0));
   EXPECT_EQ(mesh->uv.back(), Point2(4, 1));
   EXPECT_EQ(mesh->uv[1], Point2(Real(.125), 0));
-  for (std::size_t row = 0; row < 31; ++row) EXPECT_EQ(mesh->p[row * 33], mesh->p[row * 33 + 32]);
+  // Three knots within the circle are double, and so are their vertices.
+  for (std::size_t row = 0; row < 31; ++row) EXPECT_EQ(mesh->p[row * 36], mesh->p[row * 36 + 35]);
+}
+
+// Returns a quarter of the upper half of a sphere of radius 1. Its first row is the pole, or its
+// last one.
+std::string Dome(const Vec3d& center, bool endsAtPole) {
+  const double half = std::sqrt(.5), w[] = {1, half, 1}, up[] = {1, 1, 0}, out[] = {0, 1, 1};
+  std::ostringstream text;
+  text.precision(9);
+  text << R"("nurbs" "integer nu" 3 "integer nv" 3 "integer uorder" 3 "integer vorder" 3
+             "float uknots" [0 0 0 1 1 1] "float vknots" [0 0 0 1 1 1] "float Pw" [)";
+  for (int row = 0; row < 3; ++row) {
+    const int j = endsAtPole ? 2 - row : row;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3d p = (center + Vec3d(out[j] * up[i], out[j] * out[i], up[j])) * (w[i] * w[j]);
+      text << p.x << ' ' << p.y << ' ' << p.z << ' ' << w[i] * w[j] << "  ";
+    }
+  }
+  return text.str() + "]";
+}
+
+// The positions of a pole's control points are rounded, so their differences are not exactly 0.
+TEST(Nurbs, HasTheNormalOfThePoleAtEachOfItsVertices) {
+  for (const Vec3d& pole :
+       {Vec3d(0, 0, 1), Vec3d(1, 2, 3), Vec3d(.1, .2, .3), Vec3d(-7, .3, 11), Vec3d(50, 70, 90)}) {
+    for (const bool endsAtPole : {false, true}) {
+      TestPlugins plugins;
+      const Vec3d center = pole - Vec3d(0, 0, 1);
+      const auto mesh = MakeNurbs(plugins, Dome(center, endsAtPole));
+      for (const std::string& message : plugins.GetLog().Messages())
+        EXPECT_EQ(message.find("normals"), std::string::npos) << message;
+      ASSERT_EQ(mesh->n.size(), 31u * 31u);
+      for (std::size_t i = 0; i < mesh->n.size(); ++i) {
+        const Vec3d outside = Vec3d(mesh->p[i]) - center;
+        EXPECT_GT(Dot(Vec3d(mesh->n[i]), outside * (endsAtPole ? 1. : -1.)), .9999)
+            << pole.x << ' ' << endsAtPole << ' ' << i;
+      }
+    }
+  }
+}
+
+// A disk of one patch: at its four corners, both derivatives point along the rim.
+TEST(Nurbs, HasTheNormalOfADiskAtItsCorners) {
+  const double half = std::sqrt(.5), w[] = {1, half, 1, half, 1, half, 1, half, 1};
+  const double x[] = {-half, 0, half, -1, 0, 1, -half, 0, half};
+  const double y[] = {-half, -1, -half, 0, 0, 0, half, 1, half};
+  std::ostringstream text;
+  text.precision(9);
+  text << R"("nurbs" "integer nu" 3 "integer nv" 3 "integer uorder" 3 "integer vorder" 3
+             "float uknots" [0 0 0 1 1 1] "float vknots" [0 0 0 1 1 1] "float Pw" [)";
+  for (int i = 0; i < 9; ++i)
+    text << x[i] + w[i] * .1 << ' ' << y[i] + w[i] * .2 << ' ' << w[i] * .3 << ' ' << w[i] << "  ";
+  TestPlugins plugins;
+  const auto mesh = MakeNurbs(plugins, text.str() + "]");
+  for (std::size_t i = 0; i < mesh->n.size(); ++i) {
+    EXPECT_GT(mesh->n[i].z, Real(.9999)) << i;
+    EXPECT_LT(Length(Vec3d(mesh->p[i]) - Vec3d(.1, .2, .3)), 1 + 1e-5) << i;
+  }
+}
+
+// A roof of order 2: each side is flat up to its ridge.
+TEST(Nurbs, HasTheNormalsOfBothSidesAtACrease) {
+  const std::string knots = "[0 0 1 2 2]", ends = "[0 0 1 1]";
+  const std::string alongU = R"("integer nu" 3 "integer nv" 2 "float uknots" )" + knots +
+                             R"( "float vknots" )" + ends +
+                             R"( "point P" [-1 0 0  0 0 1  1 0 0  -1 1 0  0 1 1  1 1 0] )";
+  const std::string alongV = R"("integer nu" 2 "integer nv" 3 "float uknots" )" + ends +
+                             R"( "float vknots" )" + knots +
+                             R"( "point P" [-1 0 0  -1 1 0  0 0 1  0 1 1  1 0 0  1 1 0] )";
+  const std::string left = R"("float u1" 1 )";
+  for (const std::string& text : {alongU, alongV, alongU + left}) {
+    TestPlugins plugins;
+    const auto mesh =
+        MakeNurbs(plugins, R"("nurbs" "integer uorder" 2 "integer vorder" 2 )" + text);
+    double area = 0;
+    for (const auto& v : mesh->indices) {
+      const Vec3d across =
+          Cross(Vec3d(mesh->p[v[1]] - mesh->p[v[0]]), Vec3d(mesh->p[v[2]] - mesh->p[v[0]]));
+      area += Length(across) / 2;
+      for (const std::uint32_t i : v)
+        EXPECT_GT(Dot(Vec3d(mesh->n[i]), NormalizeOrZero(across)), .9999) << text << i;
+    }
+    EXPECT_NEAR(area, std::sqrt(2.) * (text == alongU + left ? 1 : 2), 1e-5);
+    EXPECT_TRUE(plugins.GetLog().Messages().empty());
+  }
+}
+
+TEST(Nurbs, ThatNeedsMoreMemoryThanThereIsIsRefusedBeforeItBegins) {
+  const int count = 80000;
+  std::string text = R"("nurbs" "integer nv" 2 "integer uorder" 2 "integer vorder" 2
+                        "float vknots" [0 0 1 1] "integer nu" )" +
+                     std::to_string(count);
+  text += " \"float uknots\" [0";
+  for (int i = 0; i < count; ++i) text += ' ' + std::to_string(i);
+  text += ' ' + std::to_string(count - 1) + "] \"point P\" [";
+  for (int i = 0; i < 2 * count; ++i) text += "0 0 0 ";
+  rlimit before{};
+  getrlimit(RLIMIT_DATA, &before);
+  const rlimit limit{rlim_t(1) << 30, before.rlim_max};
+  TestPlugins plugins;
+  std::string problem;
+  setrlimit(RLIMIT_DATA, &limit);
+  try {
+    MakeNurbs(plugins, text + "]");
+  } catch (const Error& error) {
+    problem = error.what();
+    EXPECT_EQ(error.Status(), ExitStatus::Resource);
+  } catch (const std::bad_alloc&) {
+    problem = "it began";
+  }
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_NE(problem.find("a surface of 80000 x 2 control points needs about "), std::string::npos)
+      << problem;
+  EXPECT_NE(problem.find("and this process may use 1024 MB"), std::string::npos) << problem;
 }
 
 TEST(Nurbs, MakesPartOfTheSurface) {

@@ -76,8 +76,8 @@ TEST(Obj, TakesTheFacesOfAGroupOrAnObject) {
   const std::string text =
       std::string(kSquare) + "f 1 2 3\ng low wall\nusemtl red\nf 1 2 4\nf 2 3 4\no box\nf 1 3 4\n";
   EXPECT_EQ(ParseObj(text, "").mesh->TriangleCount(), 4u);
-  EXPECT_EQ(ParseObj(text, "wall").mesh->TriangleCount(), 2u);
-  EXPECT_EQ(ParseObj(text, "low").mesh->TriangleCount(), 2u);
+  EXPECT_EQ(ParseObj(text, "wall").mesh->TriangleCount(), 3u);  // the group goes on in the box
+  EXPECT_EQ(ParseObj(text, "low").mesh->TriangleCount(), 3u);
   const ObjMesh box = ParseObj(text, "box");
   EXPECT_EQ(box.mesh->TriangleCount(), 1u);
   EXPECT_EQ(box.mesh->p.size(), 3u);
@@ -85,6 +85,18 @@ TEST(Obj, TakesTheFacesOfAGroupOrAnObject) {
   EXPECT_EQ(ErrorOf(text, "walls"),
             "it has no group or object \"walls\"; it has \"low\", \"wall\", \"box\"; did you mean "
             "\"wall\"?");
+}
+
+TEST(Obj, HasGroupsWithinItsObjects) {
+  const std::string text = std::string(kSquare) +
+                           "o Chair\ng Seat\nf 1 2 3\ng Back\nf 1 3 4\nf 2 3 4\n"
+                           "o Table\ng Plate\nf 1 2 4\n";
+  const auto count = [&](const char* group) { return ParseObj(text, group).mesh->TriangleCount(); };
+  EXPECT_EQ(count("Chair"), 3u);
+  EXPECT_EQ(count("Seat"), 1u);
+  EXPECT_EQ(count("Back"), 2u);
+  EXPECT_EQ(count("Table"), 1u);
+  EXPECT_EQ(count("Plate"), 1u);
 }
 
 TEST(Obj, ThatIsDamagedIsAnErrorThatNamesTheLine) {

@@ -177,6 +177,27 @@ TEST(Transform, InvertsAnyRegularMatrix) {
   EXPECT_FALSE(Inverse(noNumber));
 }
 
+// The error of an inverse translation grows with the translation.
+TEST(Transform, InvertsTranslationsOfAnyLength) {
+  for (const double scale : {1e-12, 1e-6, 1., 1e6, 1e12, 1e15}) {
+    const auto length = Real(scale);
+    const Point3 eye = Point3(3, 2, 1) * length, beside = Point3(3, 2, 2) * length;
+    const auto toCamera = Transform::LookAt(eye, {}, {0, 0, 1});
+    ASSERT_TRUE(toCamera) << scale;
+    EXPECT_LT(double(Length(toCamera->ApplyPoint(eye))), 1e-5 * scale);
+    EXPECT_NEAR(double(Length(toCamera->ApplyPoint(beside))), scale, 1e-5 * scale);
+    EXPECT_NEAR(double(toCamera->ApplyPoint({}).z), std::sqrt(14.) * scale, 1e-5 * scale);
+
+    Matrix4 matrix = toCamera->InverseMatrix();
+    for (std::size_t j = 0; j < 3; ++j) matrix.m[0][j] *= 3;
+    const auto transform = Transform::FromMatrix(matrix);
+    ASSERT_TRUE(transform) << scale;
+    EXPECT_LT(double(Length(transform->Inverted().ApplyPoint(eye))), 1e-5 * scale);
+    for (std::size_t j = 0; j < 3; ++j) matrix.m[2][j] = matrix.m[0][j] - matrix.m[1][j];
+    EXPECT_FALSE(Transform::FromMatrix(matrix)) << scale;
+  }
+}
+
 TEST(Transform, KnowsSimilarities) {
   const auto turn = *Transform::Rotate(40, {1, 2, 3});
   EXPECT_NEAR(double(*(turn * *Transform::Scale(3, -3, 3)).SimilarityScale()), 3, 1e-5);
