@@ -87,14 +87,15 @@ const PluginDescriptor* PluginRegistry::Substitute(PluginKind kind, const std::s
   // pbrt-v1 renders a shape with an unknown material as matte.
   if (isStrict_ || (!alias && kind != PluginKind::Material)) return nullptr;
   const std::string by = alias ? alias->name : "matte";
-  const std::string hint = alias ? "" : DidYouMean(name, Available(kind));
-  const PluginDescriptor& plugin = Load(kind, by, where);
-  const bool isNew = noticed_.insert(Key(kind, name)).second;
-  if (log_ && isNew)
+  const PluginDescriptor* const plugin = TryLoad(kind, by);
+  if (!plugin) return nullptr;
+  loaded_.emplace(Key(kind, by), plugin);
+  substitutes_.emplace(Key(kind, name), plugin);
+  if (log_)
     log_->Warning("there is no " + Named(kind, name) + ": \"" + by + "\" is used instead" +
                       (alias ? std::string("; ") + alias->loss : std::string()),
-                  where, hint);
-  return &plugin;
+                  where, alias ? "" : DidYouMean(name, KnownNames(kind)));
+  return plugin;
 }
 
 std::string PluginRegistry::PlacesText() const {
@@ -125,6 +126,8 @@ const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string&
   if (const std::optional<std::string> fault = FaultOfPluginName(name)) {
     throw Error(ExitStatus::Scene, "the name of " + subject + ' ' + *fault, where);
   }
+  const auto substitute = substitutes_.find(Key(kind, name));
+  if (substitute != substitutes_.end()) return *substitute->second;
   try {
     const PluginDescriptor* plugin = TryLoad(kind, name);
     if (!plugin) {
@@ -187,11 +190,17 @@ std::vector<std::string> PluginRegistry::Loaded() const {
   return keys;
 }
 
+const std::vector<std::string>& PluginRegistry::KnownNames(PluginKind kind) {
+  const auto [entry, isNew] = knownNames_.try_emplace(kind);
+  if (isNew) entry->second = Available(kind);
+  return entry->second;
+}
+
 const std::vector<std::string>& PluginRegistry::ParameterNames(PluginKind kind) {
   const auto [entry, isNew] = parameterNames_.try_emplace(kind);
   std::vector<std::string>& names = entry->second;
   if (!isNew) return names;
-  for (const std::string& name : Available(kind)) {
+  for (const std::string& name : KnownNames(kind)) {
     for (const ParamDecl& decl :
          FactoryOf(*TryLoad(kind, name), kind)->parameters->Declarations()) {
       names.push_back(decl.name);

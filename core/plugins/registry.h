@@ -5,7 +5,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -58,11 +57,14 @@ class PluginRegistry {
   const PluginDescriptor* TryLoad(PluginKind kind, const std::string& name) const;
   // Throws PluginFileError if a library of another program has the name of a missing plugin.
   void CheckForeignFiles(PluginKind kind, const std::string& name) const;
-  // Returns the plugin that is used in place of a missing one, or null.
+  // Returns the plugin that is used in place of a missing one. Returns null if there is none, or if
+  // it is missing too.
   const PluginDescriptor* Substitute(PluginKind kind, const std::string& name,
                                      const SourceLocation& where);
   [[noreturn]] void ThrowMissing(PluginKind kind, const std::string& name,
                                  const SourceLocation& where) const;
+  // Returns Available(kind). The first call for a kind loads its plugins.
+  const std::vector<std::string>& KnownNames(PluginKind kind);
   // Returns the parameter names of all plugins of a kind. The first call for a kind loads them.
   const std::vector<std::string>& ParameterNames(PluginKind kind);
   void* CreateErased(PluginKind kind, const std::string& name, const ParamSet& params,
@@ -71,9 +73,10 @@ class PluginRegistry {
   PluginFolders folders_;
   Log* log_;
   bool isStrict_;
-  std::map<PluginKind, std::vector<std::string>> parameterNames_;  // of the kinds used so far
-  std::set<std::string> noticed_;                                  // replaced plugins
-  std::map<std::string, const PluginDescriptor*> loaded_;          // by "<kind folder>/<name>"
+  // Of the kinds used so far.
+  std::map<PluginKind, std::vector<std::string>> knownNames_, parameterNames_;
+  // By "<kind folder>/<name>". substitutes_ has the names of the missing plugins.
+  std::map<std::string, const PluginDescriptor*> loaded_, substitutes_;
 };
 
 }  // namespace exphoton
