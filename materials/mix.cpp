@@ -64,8 +64,10 @@ class Mix final : public Material {
   }
 
  private:
+  // A coat lowers the diffuse light on both sides of a surface (RadiancePhotonMap). Every diffuse
+  // lobe must therefore lie under it.
   static bool MayBeCoated(const Bsdf& bsdf) {
-    return bsdf.IsCoated() || !bsdf.Has(LobeSet::DiffuseReflection);
+    return bsdf.IsCoated() || !bsdf.Has(LobeSet::Diffuse);
   }
 
   TexturePtr<Spectrum> amount_;

@@ -34,14 +34,25 @@ std::string GatherText(const PhotonSettings& settings, const Scene& scene,
   return rays + "up to half of them round photons' directions";
 }
 
-std::string EmissionText(const PhotonSettings& settings, const PhotonTargets& targets) {
+// Paths that begin in media are not guided. The indirect map, which they fill, therefore needs
+// paths without a guide. A scene with media always has a volume integrator.
+bool HasEmittingMedium(const Scene& scene) {
+  return scene.HasMedia() && std::any_of(scene.Media().begin(), scene.Media().end(),
+                                         [](const auto& medium) { return medium->Emits(); });
+}
+
+std::string EmissionText(const PhotonSettings& settings, const Scene& scene,
+                         const PhotonTargets& targets) {
   if (!settings.guideEmission) return "not guided (guideemission false)";
   if (settings.photonRoulette == PhotonRoulette::Constant)
     return "not guided (photonroulette \"constant\")";
   std::string maps;
   if (targets[PhotonKind::Caustic] > 0) maps = "caustic";
-  if (targets[PhotonKind::Indirect] > 0) maps += maps.empty() ? "indirect" : " and indirect";
-  if (maps.empty()) return "not guided (no caustic or indirect photons)";
+  const bool hasIndirect = targets[PhotonKind::Indirect] > 0;
+  if (hasIndirect && !HasEmittingMedium(scene)) maps += maps.empty() ? "indirect" : " and indirect";
+  if (maps.empty())
+    return hasIndirect ? "not guided (a medium emits photons)"
+                       : "not guided (no caustic or indirect photons)";
   return "guided for " + maps + " photons, if few paths leave any";
 }
 
@@ -105,7 +116,7 @@ std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Sce
   std::vector<std::string> lines{"photons       " + (photons.empty() ? "none" : photons),
                                  "gather        " + GatherText(settings, scene, targets),
                                  "memory        about " + mebibytes + " MiB for the photon maps",
-                                 "emission      " + EmissionText(settings, targets)};
+                                 "emission      " + EmissionText(settings, scene, targets)};
   const int dark = CausticLights(scene).OutOfReachCount();
   if (scene.Features().Needs(Feature::Caustics) && dark > 0)
     lines.push_back("proofs        no caustics of " + std::to_string(dark) + " of " +

@@ -172,6 +172,8 @@ std::optional<CertificationLimits> PhotonIntegrator::Certification(const Scene& 
     add(settings_.CausticPhotons() == 0
             ? "caustics (causticphotons is 0)"
             : "the kernel's blur of caustics where they change within the search radius");
+  if (settings_.directWithPhotons)
+    add("the blur of the direct map where light changes within the search radius");
   if (!settings_.finalGather && needs(Feature::Indirect))
     add("the blur of the indirect map where light changes within the search radius");
   if (scene.HasMedia()) add("the steps of ray marching through media");

@@ -16,29 +16,45 @@
 namespace exphoton {
 namespace {
 
+// Returns the smaller target of the direct and the indirect map, or the target of the caustic map
+// if it is the only one. In scenes without caustics, feature culling clears the caustic target, but
+// must not change where photons start.
+double LeastStableTarget(const PhotonTargets& targets) {
+  PhotonTargets others = targets;
+  others[PhotonKind::Caustic] = 0;
+  return double(others.Least() > 0 ? others.Least() : targets.Least());
+}
+
 // Empty where photons of distant lights start towards the whole scene.
 DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scene& scene,
-                                      const PhotonTargets& targets, PreprocessContext& context) {
+                                      const PhotonTargets& targets, const MediaPhotons& media,
+                                      PreprocessContext& context) {
   // A smaller gain in density does not make up for the less uniform photon weights.
   constexpr double kWorthwhileGain = 4;
-  // On average at least this many photons of the smallest map start towards each bounding sphere.
-  // They are enough for many density estimates, so that the emission density hardly varies within
-  // one estimate.
+  // On average at least this many photons of the direct and of the indirect map start towards each
+  // bounding sphere. They are enough for many density estimates, so that the emission density
+  // hardly varies within one estimate.
   constexpr double kMinPhotons = 2000;
   const auto& lights = scene.Lights();
   const bool hasFarLight = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
     return light->IsDistant() && !light->IsProvablyBlack();
   });
   if (!hasFarLight || targets.Least() == 0 || !context.camera) return {};
-  // Photons towards visible points are denser and weaker; rejection would undo both.
-  if (settings.photonRoulette == PhotonRoulette::Constant) {
+  const auto refuse = [&](const char* reason) -> DistantLightTargeting {
     if (settings.photonTargeting == PhotonTargeting::On)
-      context.log.Notice("photonaim has no effect with photonroulette \"constant\"");
+      context.log.Notice(std::string("photonaim has no effect") + reason);
     return {};
-  }
+  };
+  // Photons towards visible points are denser and weaker; rejection would undo both.
+  if (settings.photonRoulette == PhotonRoulette::Constant)
+    return refuse(" with photonroulette \"constant\"");
+  // Photons that start towards visible points would miss media beside them, which scatter light
+  // towards the camera.
+  if (media.Scatter()) return refuse(" in a scene whose media scatter light");
   DistantLightTargeting targeting(
       VisiblePoints(scene, *context.camera, context.resolution, context.seed),
-      BoundingSphere(scene.WorldBounds()), kMinPhotons / double(targets.Least()));
+      BoundingSphere(scene.WorldBounds()), kMinPhotons / LeastStableTarget(targets));
+  if (targeting.IsEmpty()) return refuse(": the camera sees too few points of the scene");
   const bool isWorthwhile = targeting.Gain() >= kWorthwhileGain;
   if (settings.photonTargeting == PhotonTargeting::Off) {
     if (isWorthwhile) NoticeMissingTargeting(targeting, context.log);
@@ -122,11 +138,7 @@ PhotonPassResult ShootPhotons(const Scene& scene, const PhotonSettings& settings
   {
     const PhaseTimer timer(context.statistics, "shoot");
     MediaPhotons media(scene, context.volume);
-    // Photons that start towards visible points would miss media beside them, which scatter light
-    // towards the camera.
-    DistantLightTargeting targeting = media.Scatter()
-                                          ? DistantLightTargeting()
-                                          : ChooseTargeting(settings, scene, targets, context);
+    DistantLightTargeting targeting = ChooseTargeting(settings, scene, targets, media, context);
     PhotonTracer tracer(scene, settings, context.seed, std::move(targeting), std::move(media));
     if (context.time) tracer.FixTime(*context.time);
     if (!use) {

@@ -14,7 +14,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
           .Range(0, 1e9)
           .DividedByQuick(10),
       Param("directphotons", &S::directPhotons,
-            "photons wanted in the direct map; as indirectphotons if absent")
+            "photons wanted in the direct map; if absent, as indirectphotons, or 100000 if those "
+            "are 0")
           .Range(0, 1e9)
           .DividedByQuick(10),
       Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")

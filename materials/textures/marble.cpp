@@ -28,8 +28,9 @@ const Spectrum kColors[] = {{Real(.58), Real(.58), Real(.6)}, {Real(.58), Real(.
 constexpr int kCurves = int(std::size(kColors)) - 3;
 constexpr Real kBrightness = Real(1.5);  // the colours are scaled, for contrast
 
-// Returns the colour at t in [0, 1].
+// Returns the colour at t in [0, 1]. NaN, the sine of an infinite phase, counts as 0.
 Spectrum ColorAt(double t) {
+  if (!(t >= 0)) t = 0;
   const int first = std::min(int(t * kCurves), kCurves - 1);
   const auto x = Real(t * kCurves - first), y = 1 - x;
   const Spectrum* c = kColors + first;

@@ -37,12 +37,12 @@ struct Condition {
   std::string camera = "";  // camera parameters
 };
 
-std::string TextOf(const Condition& c, const std::string& integrator) {
+std::string TextOf(const Condition& c, const std::string& integrator, int indirectPhotons = 500) {
   std::string text = "SurfaceIntegrator " + integrator;
   if (integrator.find("photonmap") != std::string::npos)
-    text +=
-        " \"integer causticphotons\" 500 \"integer indirectphotons\" 500 "
-        "\"integer maxphotonpaths\" 5000 \"integer finalgathersamples\" 8";
+    text += " \"integer causticphotons\" 500 \"integer indirectphotons\" " +
+            std::to_string(indirectPhotons) +
+            " \"integer maxphotonpaths\" 5000 \"integer finalgathersamples\" 8";
   return text +
          "\nFilm \"image\" \"integer xresolution\" 8 \"integer yresolution\" 6\n"
          "PixelFilter \"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" 4\n" +
@@ -203,6 +203,25 @@ INSTANTIATE_TEST_SUITE_P(
         Condition{"LensOfASmallRadius", kLamp + kMatteBox, Feature::Lens, true, "",
                   " \"float lensradius\" 1e-6 \"float focaldistance\" 1"}),
     [](const auto& info) { return info.param.name; });
+
+// Without specular surfaces, feature culling clears the target of the caustic map, which is the
+// smallest one here. Photons of the sun start at the same places nevertheless.
+TEST(PlanOfEffects, KeepsTheStartsOfPhotonsThatAreAimed) {
+  const Condition sun{"Sun",
+                      "LightSource \"distant\" \"point from\" [1 1 -4] \"point to\" [0 0 0]\n"
+                      "Material \"matte\" Translate 0 0 1 Shape \"disk\" \"float radius\" 50\n"
+                      "Translate 0 0 -.5 Shape \"sphere\" \"float radius\" .3\n",
+                      Feature::Caustics, false};
+  TestRenderOptions all;
+  all.load.effects = "all";
+  for (const char* integrator : {"\"exphotonmap\"", "\"photonmap\""}) {
+    const std::string text =
+        TextOf(sun, std::string(integrator) + " \"string photonaim\" \"on\"", 20000);
+    const TestRender render = RenderSceneText(text);
+    EXPECT_TRUE(render.Says("start towards visible points")) << integrator;
+    EXPECT_EQ(render.image.pixels, RenderSceneText(text, all).image.pixels) << integrator;
+  }
+}
 
 // A sky whose mean underflows to 0 is not provably black.
 TEST(PlanOfEffects, KeepsASkyWithOneFaintTexel) {

@@ -154,26 +154,37 @@ TEST(MixMaterial, OfAmountZeroHasTheLobesOfTheSecondPart) {
   EXPECT_TRUE(scene.setup->scene->Features().Needs(Feature::Specular));
 }
 
-// Photon maps lower what they store on a coated base by its coat. The plain part has none.
-TEST(MixMaterial, OfACoatedAndAPlainPartIsNotCoated) {
-  const std::string coated = "MakeNamedMaterial \"c\" \"string type\" \"substrate\"\n";
+// Returns whether the surface of an equal blend of a substrate and the other material is coated.
+bool IsCoatedMix(const std::string& other) {
   const LoadedScene scene = LoadSceneText(
-      "WorldBegin LightSource \"point\"\n" + coated +
-      "MakeNamedMaterial \"b\" \"string type\" \"matte\"\nMaterial \"mix\" \"string "
-      "namedmaterial1\" \"c\" \"string namedmaterial2\" \"b\"\nShape \"sphere\"\nWorldEnd\n");
+      "WorldBegin LightSource \"point\"\n"
+      "MakeNamedMaterial \"c\" \"string type\" \"substrate\"\n"
+      "MakeNamedMaterial \"b\" \"string type\" " +
+      other +
+      "\nMaterial \"mix\" \"string namedmaterial1\" \"c\" \"string namedmaterial2\" \"b\"\n"
+      "Shape \"sphere\"\nWorldEnd\n");
   SurfaceInteraction si;
   si.ng = si.shading.n = {0, 0, 1};
   si.dpdu = si.shading.dpdu = {1, 0, 0};
   si.dpdv = {0, 1, 0};
   Arena arena;
-  const auto& materials = scene.setup->scene->Materials();
-  bool found = false;
-  for (const auto& material : materials) {
+  bool isFound = false, isCoated = false;
+  for (const auto& material : scene.setup->scene->Materials()) {
     const Bsdf bsdf = material->Evaluate(&si, TransportMode::Radiance, &arena);
-    found = found || bsdf.Lobes().size() > 1;
-    EXPECT_FALSE(bsdf.IsCoated());
+    isFound = isFound || bsdf.Lobes().size() > 1;
+    isCoated = isCoated || bsdf.IsCoated();
   }
-  EXPECT_TRUE(found);
+  EXPECT_TRUE(isFound) << other;
+  return isCoated;
+}
+
+// Photon maps lower what they store on a coated base by its coat. The plain part has none.
+TEST(MixMaterial, OfACoatedAndAPlainPartIsNotCoated) { EXPECT_FALSE(IsCoatedMix("\"matte\"")); }
+
+// The radiance photons of a coated surface lower the light that comes through it, too.
+TEST(MixMaterial, OfACoatedPartAndOneThatTransmitsDiffuselyIsNotCoated) {
+  EXPECT_FALSE(IsCoatedMix("\"translucent\" \"color reflect\" [0 0 0] \"color transmit\" [1 1 1]"));
+  EXPECT_TRUE(IsCoatedMix("\"mirror\""));
 }
 
 }  // namespace

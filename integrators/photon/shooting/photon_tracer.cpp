@@ -139,7 +139,7 @@ bool PhotonTracer::Pass::NeedsSamples() const {
   if (batch_.isDiscarded) return true;
   const bool mayTrain = (mayGuideIndirect_ && batch_.open[std::size_t(PhotonKind::Indirect)]) ||
                         (mayGuideCaustics_ && batch_.open[kCaustic]);
-  return mayTrain && samples_.size() < kMaxTrainingSamples / 4;
+  return mayTrain && samples_.size() < mostSamples_;
 }
 
 ChunkState PhotonTracer::Pass::State() const { return {batch_.open, trainedPath_}; }
@@ -231,11 +231,16 @@ bool PhotonTracer::Pass::MayGuide(PhotonKind kind) const {
 }
 
 void PhotonTracer::Pass::KeepSamples() {
-  const std::size_t most = batch_.isDiscarded ? kMaxTrainingSamples : kMaxTrainingSamples / 4;
   for (const PhotonChunk& chunk : chunks_) {
-    if (samples_.size() >= most) return;
+    if (samples_.size() >= mostSamples_) return;
     samples_.insert(samples_.end(), chunk.samples.begin(), chunk.samples.end());
   }
+}
+
+std::int64_t PhotonTracer::Pass::KeptPaths(PhotonKind kind, std::size_t first) const {
+  return std::ranges::count_if(
+      std::span(samples_).first(std::min(first, samples_.size())),
+      [kind](const EmissionSample& s) { return s.kept[std::size_t(kind)] > 0; });
 }
 
 EmissionGuide PhotonTracer::Pass::Learn(PhotonKind kind) const {
@@ -271,14 +276,15 @@ bool PhotonTracer::Pass::IsWanted(PhotonKind kind) {
   bool& mayGuide = isIndirect ? mayGuideIndirect_ : mayGuideCaustics_;
   if (!mayGuide || !(isIndirect ? batch_.open[std::size_t(kind)] : IsOnlyCausticOpen()))
     return false;
-  const auto kept = std::ranges::count_if(
-      samples_, [kind](const EmissionSample& s) { return s.kept[std::size_t(kind)] > 0; });
-  if (kept < kMinKeptPaths) {
+  const std::int64_t kept = KeptPaths(kind, kMaxSamples);
+  const bool areTooFew = kept < kMinKeptPaths;
+  if (areTooFew && samples_.size() < kMaxSamples) {  // wait for more samples
     attemptAt_ = 2 * result_.paths;
+    mostSamples_ = kMaxSamples;
     return false;
   }
   mayGuide = false;  // decided once
-  if (MaxTrainingPaths() < kMinTrainingPaths) return false;
+  if (areTooFew || MaxTrainingPaths() < kMinTrainingPaths) return false;
   const double filled = Filled(std::size_t(kind));
   if (!(double(result_.paths) * (1 - filled) > double(kMinUnguidedPaths) * filled)) return false;
   return !isIndirect || double(kept) < kMaxUnguidedYield * double(samples_.size());
@@ -291,6 +297,7 @@ bool PhotonTracer::Pass::BeginToGuide() {
   const auto kind = IsOnlyCausticOpen() ? PhotonKind::Caustic : PhotonKind::Indirect;
   const bool begins = IsWanted(kind);
   if (begins) Train(kind);
+  if (result_.paths >= attemptAt_) mostSamples_ = kUsualSamples;  // no attempt waits for samples
   batch_.isRecorded = mayGuideIndirect_ || mayGuideCaustics_;
   if (!batch_.isRecorded) samples_ = {};
   return begins;
@@ -329,7 +336,11 @@ void PhotonTracer::Pass::LimitCaustics(std::int64_t wanted, std::int64_t trained
 void PhotonTracer::Pass::Train(PhotonKind kind) {
   const std::int64_t wanted = targets_[kind];
   Discard(kind);
-  samples_.resize(std::min(samples_.size(), kMaxTrainingSamples / 4));  // room for new samples
+  // If enough of the first samples kept photons, the rest makes room for new samples.
+  std::size_t used = kUsualSamples;
+  while (used < kMaxSamples && KeptPaths(kind, used) < kMinKeptPaths) used *= 2;
+  samples_.resize(std::min(samples_.size(), used));
+  mostSamples_ = std::max(samples_.size(), kUsualSamples) + 3 * kUsualSamples;
   guide_ = Learn(kind);
   batch_.guide = &guide_;
   batch_.isDiscarded = batch_.isRecorded = true;
@@ -347,7 +358,7 @@ void PhotonTracer::Pass::Train(PhotonKind kind) {
     guide_ = Learn(kind);
     const double needed = double(targets_[kind]) * double(paths) / double(stored + 1);
     if (kMaxTrainingShare * needed < double(2 * paths) || 2 * paths > MaxTrainingPaths() ||
-        samples_.size() >= kMaxTrainingSamples)
+        samples_.size() >= mostSamples_)
       break;
   }
   batch_.isDiscarded = false;

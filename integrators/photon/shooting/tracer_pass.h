@@ -35,9 +35,12 @@ class PhotonTracer::Pass {
   void RunShare(int index, int count, ChunkMemo* memo);
 
  private:
-  // Smallest and largest numbers of paths that train a guide.
+  // Smallest number of paths that train a guide.
   static constexpr std::int64_t kMinTrainingPaths = std::int64_t(1) << 14;
-  static constexpr std::size_t kMaxTrainingSamples = std::size_t(1) << 19;
+  // Largest numbers of samples from before a training: usually, and if too few of them kept
+  // photons. A training adds up to 3 kUsualSamples. Samples have 44 bytes and take at most 40 MB.
+  static constexpr std::size_t kUsualSamples = std::size_t(1) << 17;
+  static constexpr std::size_t kMaxSamples = std::size_t(1) << 19;
   static constexpr std::size_t kCaustic = std::size_t(PhotonKind::Caustic);
 
   void Trace(std::int64_t paths);
@@ -64,6 +67,8 @@ class PhotonTracer::Pass {
   std::int64_t MaxTrainingPaths() const;
   void Train(PhotonKind kind);
   void KeepSamples();
+  // Returns the number of samples that kept photons, among the first ones.
+  std::int64_t KeptPaths(PhotonKind kind, std::size_t first) const;
   EmissionGuide Learn(PhotonKind kind) const;
   void Discard(PhotonKind kind);
   void LimitCaustics(std::int64_t wanted, std::int64_t trainedPaths);
@@ -80,6 +85,7 @@ class PhotonTracer::Pass {
   double done_ = 0;  // the largest Done so far: a guide may begin maps anew
   EmissionGuide guide_;
   std::vector<EmissionSample> samples_;
+  std::size_t mostSamples_ = kUsualSamples;  // with this number of samples, no more are kept
   std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map
   std::int64_t trainedPath_ = 0;  // number of paths before the last change of the guide
   bool mayGuideIndirect_ = false, mayGuideCaustics_ = false;

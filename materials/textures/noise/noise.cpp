@@ -52,11 +52,11 @@ double SmoothStep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-// Returns the cell of x modulo 256, and x within it.
+// Returns the cell of x modulo 256, and x within it. If x is not finite, these are 0 and NaN.
 unsigned Cell(double x, double* within) {
-  const double cell = std::floor(x);
+  const double cell = std::floor(x), rest = cell - 256 * std::floor(cell / 256);
   *within = x - cell;
-  return unsigned(cell - 256 * std::floor(cell / 256));
+  return rest >= 0 ? unsigned(rest) : 0;
 }
 
 template <class F>

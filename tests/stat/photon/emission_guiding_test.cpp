@@ -256,6 +256,19 @@ double PowerPerPhoton(PhotonPassResult* result, PhotonKind kind) {
   return PowersOf(result, kind, 1).back() / count;
 }
 
+// The ball has a radius of .062 here. 1 path in 18,700 meets it, which is about 7 of the first 2^17
+// paths. Without a guide, 200 photons would take 3.7 million paths.
+TEST(CausticPhotons, AreGuidedIfEnoughPathsKeepSomeAtLast) {
+  std::string room = kRoomWithASmallBall;
+  room.replace(room.find(" .3"), 3, " .062");
+  const LoadedScene loaded = LoadSceneText(room);
+  PhotonPassResult result = Shoot(*loaded.setup->scene, PhotonKind::Caustic, 200, true, 1);
+  EXPECT_GT(result.guidedPaths, 0);
+  EXPECT_LT(result.paths, 1000000);
+  const double sine = .062 / std::sqrt(18.), power = 2 * M_PI * (1 - std::sqrt(1 - sine * sine));
+  EXPECT_NEAR(PowersOf(&result, PhotonKind::Caustic, 1).back(), power, .2 * power);
+}
+
 // Caustic photons need not be weaker than 1/16 of an indirect photon. The limit comes from the last
 // round of training, which is the size of the noise.
 TEST(CausticPhotons, AreFewerWhereTheyCarryLittleLight) {

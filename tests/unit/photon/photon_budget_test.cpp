@@ -46,6 +46,8 @@ TEST(PhotonTargets, AreThoseOfTheSettings) {
   EXPECT_EQ(TargetsOf(settings, scene), "30 direct, 20000 caustic, 30 indirect");
   settings.indirectPhotons = 0;
   settings.causticPhotons = 0;
+  EXPECT_EQ(TargetsOf(settings, scene), "100000 direct") << "gather rays read direct light";
+  settings.directPhotons = 0;
   EXPECT_EQ(TargetsOf(settings, scene), "");
   EXPECT_EQ(ChooseTargets(settings, *scene.setup->scene).Least(), 0);
 }
@@ -123,6 +125,21 @@ TEST(PhotonBudget, IsExplainedInFourLines) {
   settings.finalGather = false;
   EXPECT_EQ(lines()[1], "gather        off");
   EXPECT_EQ(lines()[0], "photons       none");
+}
+
+// Media emit some of the indirect photons, and a guide covers lights alone.
+TEST(PhotonBudget, ExplainsThatPhotonsOfMediaAreNotGuided) {
+  PhotonSettings settings = Numbers();
+  settings.guideEmission = true;
+  const auto emission = [&](const std::string& world) {
+    return ExplainBudget(settings, *Load(kBudgetLamp + kMatte + world).setup->scene)[3];
+  };
+  const std::string glow = "Volume \"homogeneous\" \"color Le\" [1 1 1]\n";
+  EXPECT_EQ(emission(glow), "emission      not guided (a medium emits photons)");
+  EXPECT_EQ(emission(glow + kGlass),
+            "emission      guided for caustic photons, if few paths leave any");
+  EXPECT_EQ(emission("Volume \"homogeneous\" \"color sigma_s\" [1 1 1]\n"),
+            "emission      guided for indirect photons, if few paths leave any");
 }
 
 // A photon takes about 32 bytes, so a million of them take about 31 MiB; twice that in double.

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
@@ -61,6 +65,20 @@ TEST(PhotonIntegrator, GuidesGatherRaysAlsoWhereSamplesAreRequestedAfterPreproce
     sum += double(before[i].Y());
   }
   EXPECT_GT(sum, 0);
+}
+
+TEST(PhotonIntegrator, CertifiesNoBlurOfADirectMapThatTheCameraSees) {
+  const LoadedScene loaded = LoadSceneText(kBox);
+  PhotonSettings settings;
+  const std::string blur =
+      "the blur of the direct map where light changes within the search radius";
+  const auto count = [&] {
+    const auto limits = PhotonIntegrator(settings).Certification(*loaded.setup->scene);
+    return std::ranges::count(limits->notCovered, blur);
+  };
+  EXPECT_EQ(count(), 0);
+  settings.directWithPhotons = true;
+  EXPECT_EQ(count(), 1);
 }
 
 }  // namespace

@@ -84,6 +84,35 @@ TEST(VisiblePoints, TakePhotonsFromTheSunAsTheyBecomeDenser) {
   EXPECT_NEAR(share, .95 * sun / (sun + lamp) + .025, .02);
 }
 
+// With photonaim "on", a notice gives the reason why photons are not aimed.
+TEST(VisiblePoints, AreNotAimedAtBesideFogOrIfThereAreTooFew) {
+  const auto render = [](const std::string& header, const std::string& world) {
+    return RenderSceneText(
+        TestHeader("\"photonmap\" \"string photonaim\" \"on\" \"integer indirectphotons\" 200 "
+                   "\"integer maxphotonpaths\" 1000",
+                   4, 4, 1) +
+        header +
+        "WorldBegin\nLightSource \"distant\" \"point from\" [0 0 -9] \"point to\" [0 0 0]\n" +
+        "Material \"matte\"\n" + world + "WorldEnd\n");
+  };
+  const std::string aimed = "start towards visible points", unaimed = "photonaim has no effect";
+  const std::string fog = "Volume \"homogeneous\" \"color sigma_s\" [.1 .1 .1]\n";
+  const std::string single = "VolumeIntegrator \"single\"\n";
+  const TestRender clear = render("", kWall), dim = render("", kWall + fog);
+  for (const TestRender* other : {&clear, &dim}) {
+    EXPECT_TRUE(other->Says(aimed));
+    EXPECT_FALSE(other->Says(unaimed));
+  }
+  const TestRender foggy = render(single, kWall + fog);
+  EXPECT_TRUE(foggy.Says(unaimed + " in a scene whose media scatter light"));
+  const TestRender behind = render("", "Translate 0 0 -2 Shape \"disk\" \"float radius\" 5\n");
+  EXPECT_TRUE(behind.Says(unaimed + ": the camera sees too few points of the scene"));
+  for (const TestRender* other : {&foggy, &behind}) {
+    EXPECT_FALSE(other->Says(aimed));
+    EXPECT_TRUE(std::isnan(other->Counter("photons/targeting gain")));
+  }
+}
+
 // A motion that moves, turns and stretches: everything is taken back to its start.
 TEST(RestPose, TakesPointsNormalsAndDirectionsToTheStart) {
   const Transform start = Transform::Translate({1, 0, 2});

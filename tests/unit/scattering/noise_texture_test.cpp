@@ -153,6 +153,16 @@ TEST_F(NoiseTextures, MarbleRunsThroughItsColoursAlongY) {
   EXPECT_NEAR(disturbed->Evaluate(Surface(p)).MaxComponent(), at(moved).MaxComponent(), 1e-4);
 }
 
+TEST_F(NoiseTextures, MarbleHasItsFirstColourAtInfinity) {
+  for (const char* text : {R"("marble")", R"("marble" "integer octaves" 0)"}) {
+    const auto marble = plugins_.MakeColorTexture(text);
+    for (const Real y : {kInfinity, -kInfinity})
+      EXPECT_EQ(marble->Evaluate(Surface({0, y, 0})),
+                Spectrum(Real(.58), Real(.58), Real(.6)) * Real(1.5))
+          << text;
+  }
+}
+
 TEST_F(NoiseTextures, DotsAreRoundAndInAboutHalfTheCells) {
   const auto dots = plugins_.MakeFloatTexture(R"("dots" "float inside" 3 "float outside" 2)");
   int cells = 0;
