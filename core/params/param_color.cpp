@@ -164,6 +164,11 @@ Spectrum ParamReader::ReadColor() const {
   return color;
 }
 
+const TextureLookup* ParamReader::Textures() const {
+  const bool isOverride = context_.overrides && context_.overrides->Find(param_.name) == &param_;
+  return isOverride ? context_.overrideTextures : context_.textures;
+}
+
 template <class T>
 std::any ParamReader::ReadTexture() const {
   constexpr bool isColor = std::is_same_v<T, Spectrum>;
@@ -179,8 +184,8 @@ std::any ParamReader::ReadTexture() const {
   }
   NeedCount(1);
   const std::string& name = param_.strings[0];
-  if (!context_.textures) Fail("cannot be a texture here", param_.where);
-  const TextureLookup& textures = *context_.textures;
+  if (!Textures()) Fail("cannot be a texture here", param_.where);
+  const TextureLookup& textures = *Textures();
   TexturePtr<T> texture;
   if constexpr (isColor) {
     texture = textures.Color(name);

@@ -35,6 +35,9 @@ class ParamReader {
   std::vector<Real> ReadFloats() const;
   std::vector<int> ReadIntegers() const;
 
+  // Returns the textures that the parameter can name; null if it can name none.
+  const TextureLookup* Textures() const;
+
   // Colours before the range check.
   Spectrum ColorFromFile() const;
   Spectrum ColorFromPairs() const;

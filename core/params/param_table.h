@@ -78,6 +78,7 @@ struct BindContext {
   // A second set whose parameters override the first (a shape's parameters override those of its
   // material). Unknown names in this set are not reported.
   const ParamSet* overrides = nullptr;
+  const TextureLookup* overrideTextures = nullptr;  // as `textures`, for the second set
 };
 
 // A parameter during its declaration, without the types of the settings struct and the member.

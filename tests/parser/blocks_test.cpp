@@ -76,6 +76,55 @@ TEST(NamedMaterial, HasTheTexturesOfThePlaceWhereItWasMade) {
   EXPECT_EQ(coated->material->PossibleLobes(), LobeSet::DiffuseReflection);
 }
 
+TEST(NamedMaterial, OfAMixHasTheTexturesOfThePlaceWhereItWasMade) {
+  const BuiltScene built = BuildText(
+      InWorld("Texture \"paint\" \"color\" \"constant\" \"color value\" [.5 .5 .5]\n"
+              "MakeNamedMaterial \"coat\" \"string type\" \"matte\" \"texture Kd\" \"paint\"\n"
+              "MakeNamedMaterial \"mirror\" \"string type\" \"mirror\"\n"
+              "Texture \"paint\" \"color\" \"constant\" \"color value\" [0 0 0]\n"
+              "MakeNamedMaterial \"blend\" \"string type\" \"mix\" \"texture amount\" \"paint\" "
+              "\"string namedmaterial1\" \"mirror\" \"string namedmaterial2\" \"coat\"\n"
+              "Texture \"paint\" \"color\" \"constant\" \"color value\" [1 1 1]\n"
+              "NamedMaterial \"blend\" Shape \"disk\""));
+  const auto coated = SeenAt(built, 0);
+  ASSERT_TRUE(coated);
+  EXPECT_EQ(coated->material->PossibleLobes(), LobeSet::DiffuseReflection);
+}
+
+// A shape can give parameters to its material. They name textures that are known at the shape.
+TEST(NamedMaterial, TakesTexturesOfAShape) {
+  const BuiltScene built = BuildText(
+      InWorld("Texture \"paint\" \"color\" \"constant\" \"color value\" [0 0 0]\n"
+              "MakeNamedMaterial \"coat\" \"string type\" \"matte\" \"texture Kd\" \"paint\"\n"
+              "Texture \"paint\" \"color\" \"constant\" \"color value\" [.5 .5 .5]\n"
+              "Texture \"later\" \"color\" \"constant\" \"color value\" [.5 .5 .5]\n"
+              "NamedMaterial \"coat\" Shape \"disk\" \"texture Kd\" \"later\"\n"
+              "Translate 10 0 0 Shape \"disk\" \"texture Kd\" \"paint\"\n"
+              "Translate 10 0 0 Shape \"disk\"\n"));
+  const auto later = SeenAt(built, 0), again = SeenAt(built, 10), plain = SeenAt(built, 20);
+  ASSERT_TRUE(later && again && plain);
+  EXPECT_EQ(later->material->PossibleLobes(), LobeSet::DiffuseReflection);
+  EXPECT_EQ(again->material->PossibleLobes(), LobeSet::DiffuseReflection);
+  EXPECT_FALSE(Any(plain->material->PossibleLobes()));
+}
+
+TEST(NamedMaterial, NamesTheNearestTextureForOneThatIsUnknown) {
+  const std::string textures =
+      "Texture \"a\" \"color\" \"constant\"\nTexture \"bricks\" \"color\" \"constant\"\n";
+  const auto errorOf = [&](const std::string& parameters) {
+    return BuildText(InWorld(textures + "MakeNamedMaterial \"m\" \"string type\" \"matte\" " +
+                             parameters + "\nTexture \"brick\" \"color\" \"constant\"\n" +
+                             "NamedMaterial \"m\" Shape \"disk\""))
+        .error;
+  };
+  const std::string unknown = errorOf("\"texture Kd\" \"brick\"");
+  EXPECT_NE(unknown.find("names a texture that is not defined: \"brick\""), std::string::npos)
+      << unknown;
+  EXPECT_NE(unknown.find("did you mean \"bricks\"?"), std::string::npos) << unknown;
+  const std::string wrongKind = errorOf("\"texture sigma\" \"a\"");
+  EXPECT_NE(wrongKind.find("\"a\" is a color texture"), std::string::npos) << wrongKind;
+}
+
 TEST(AttributeEnd, BringsBackWhichTimesDirectivesChange) {
   const BuiltScene built =
       BuildText(InWorld("AttributeBegin ActiveTransform EndTime AttributeEnd Translate 3 0 0 "

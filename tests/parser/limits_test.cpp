@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests load short scene files that would cause endless work: chains and graphs of textures,
 // and files that include other files repeatedly. The loader must refuse such files at once, and
-// --limits must allow more.
+// --limits must allow more. Another file would take much memory if materials kept all textures.
 #include <gtest/gtest.h>
 
 #include <chrono>
 
+#include "core/base/statistics.h"
 #include "tests/parser/parse_support.h"
 
 namespace exphoton {
@@ -70,6 +71,19 @@ TEST(TextureGraphs, CountATextureOnlyForTheKindThatIsUsed) {
     text += "Texture " + name + " \"float\" \"scale\" \"texture tex1\" " + below + '\n';
   }
   EXPECT_EQ(BuildText(InWorld(text)).error, "");
+}
+
+TEST(NamedMaterials, KeepOnlyTheTexturesThatTheyName) {
+  std::string text;
+  for (int i = 0; i < 1500; ++i) {
+    const std::string name = "\"t" + std::to_string(i) + '"';
+    text += "Texture " + name + " \"color\" \"constant\"\nMakeNamedMaterial " + name +
+            " \"string type\" \"matte\" \"texture Kd\" " + name + '\n';
+  }
+  ResetPeakMemory();
+  const double before = PeakMemoryBytes();
+  EXPECT_EQ(BuildText(InWorld(text)).error, "");
+  EXPECT_LT(PeakMemoryBytes() - before, 5e7);
 }
 
 TEST(Includes, ThatDoubleAtEachLevelEnd) {

@@ -69,5 +69,27 @@ TEST(SceneBuilder, TakesTheSceneOfAKnownSetup) {
   EXPECT_NE(third.error.find("has changed"), std::string::npos) << third.error;
 }
 
+// Blocks restore the transformation, which decides what CoordSysTransform adds to the hash.
+TEST(SceneBuilder, FollowsTheBlocksOfAKnownWorld) {
+  std::string blocks;  // their product would be 0
+  for (const char* block : {"Attribute", "Transform", "Object"}) {
+    const std::string begin = std::string(block) + "Begin";
+    const std::string name = begin == "ObjectBegin" ? " \"o\"" : "";
+    for (int i = 0; i < 400; ++i) blocks += begin + name + " Scale .1 .1 .1 " + block + "End\n";
+  }
+  const std::string text =
+      "SurfaceIntegrator \"path\"\n" + kWorldsBegin +
+      "AttributeBegin Translate 1 2 3 AttributeEnd CoordinateSystem \"here\"\n" + blocks +
+      "CoordSysTransform \"here\" Shape \"sphere\"\nLightSource \"point\"\nWorldEnd\n";
+  BuiltScene first = BuildText(text);
+  ASSERT_EQ(first.error, "");
+  first.setups.at(0)->integrator.reset();
+  LoadOptions again;
+  again.known = first.setups[0].get();
+  const BuiltScene second = BuildText(text, again);
+  EXPECT_EQ(second.error, "");
+  EXPECT_EQ(second.setups.size(), 1u);
+}
+
 }  // namespace
 }  // namespace exphoton

@@ -19,14 +19,16 @@ namespace exphoton {
 struct MaterialSpec;
 using MaterialMap = std::map<std::string, std::shared_ptr<MaterialSpec>>;
 
-// MaterialSpec stores a Material directive. The first shape that uses it instantiates the Material,
-// with the textures known at that shape. Later shapes share the object.
+// MaterialSpec stores the directive Material or MakeNamedMaterial. The first shape that uses it
+// instantiates the Material. Later shapes share the object.
 struct MaterialSpec {
   std::string name;
   std::string label;  // the name that MakeNamedMaterial gives; else empty
   ParamSet params;
-  MaterialMap parts;                             // the named materials that the parameters refer to
-  std::shared_ptr<const TextureTable> textures;  // null: use the textures known at the shape
+  MaterialMap parts;  // the named materials that the parameters refer to
+  // Of MakeNamedMaterial: the textures that the parameters name, as defined there. Null: the
+  // parameters name textures that are known at the shape.
+  std::shared_ptr<const TextureTable> textures;
 
   std::shared_ptr<const Material> made;
   int madeGeneration = -1;

@@ -17,6 +17,24 @@
 #include "core/scene/required_features.h"
 
 namespace exphoton {
+namespace {
+
+// Returns whether a directive begins or ends a block.
+bool IsBlockDirective(DirectiveId id) {
+  switch (id) {
+    case DirectiveId::AttributeBegin:
+    case DirectiveId::AttributeEnd:
+    case DirectiveId::TransformBegin:
+    case DirectiveId::TransformEnd:
+    case DirectiveId::ObjectBegin:
+    case DirectiveId::ObjectEnd:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
 
 SceneBuilder::SceneBuilder(std::string sceneName, const LoadOptions& options, Dialect dialect,
                            Log& log)
@@ -104,7 +122,8 @@ void SceneBuilder::HandleOrThrow(Directive directive) {
     default:
       break;
   }
-  if (world_ && options_.known) return;
+  // A known world is not made again, but the hash depends on transformations, and so on blocks.
+  if (world_ && options_.known && !IsBlockDirective(id)) return;
   if (world_) return HandleWorld(std::move(directive));
   render_->Handle(std::move(directive), state_.transform);
 }
@@ -209,6 +228,21 @@ void SceneBuilder::SetMaterial(Directive directive) {
                                              std::move(directive.params), *state_.namedMaterials);
 }
 
+namespace {
+
+// Returns the textures that the parameters name. If each material kept a table of all textures, the
+// memory would grow with the product of their numbers.
+std::shared_ptr<const TextureTable> NamedTextures(const ParamSet& params,
+                                                  const TextureTable& defined) {
+  std::vector<std::string> names;
+  for (const ParsedParam& param : params.All())
+    if (param.type == "texture")
+      names.insert(names.end(), param.strings.begin(), param.strings.end());
+  return std::make_shared<const TextureTable>(defined.Only(names));
+}
+
+}  // namespace
+
 // In the syntax of version 2, the parameter "type" names the plugin.
 void SceneBuilder::MakeNamedMaterial(Directive directive) {
   const std::string& name = directive.strings[0];
@@ -222,7 +256,7 @@ void SceneBuilder::MakeNamedMaterial(Directive directive) {
     if (param.name != "type") params.Add(param);
   std::shared_ptr<MaterialSpec> spec =
       world_->MakeMaterialSpec(type->strings[0], params, *state_.namedMaterials);
-  spec->textures = state_.textures;
+  spec->textures = NamedTextures(spec->params, *state_.textures);
   spec->label = name;
   MaterialMap& materials = state_.OwnNamedMaterials();
   if (materials.contains(name))

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/params/suggestions.h"
+
 namespace exphoton {
 namespace {
 
@@ -19,6 +21,12 @@ template <class Map>
 TextureGraph GraphIn(const Map& map, const std::string& name) {
   const auto found = map.find(name);
   return found == map.end() ? TextureGraph() : found->second.graph;
+}
+
+template <class Map>
+void CopyEntry(const Map& from, const std::string& name, Map* to) {
+  const auto found = from.find(name);
+  if (found != from.end()) to->insert(*found);
 }
 
 }  // namespace
@@ -60,6 +68,19 @@ void TextureTable::Define(const std::string& name, TexturePtr<Real> texture,
 void TextureTable::Define(const std::string& name, TexturePtr<Spectrum> texture,
                           const TextureGraph& graph) {
   color_[name] = {std::move(texture), graph};
+}
+
+TextureTable TextureTable::Only(const std::vector<std::string>& names) const {
+  TextureTable some;
+  some.generation = generation;
+  some.acceptsAllNames_ = acceptsAllNames_;
+  for (const std::string& name : names) {
+    const bool isKnown = Has(name, false) || Has(name, true);
+    const std::string kept = isKnown ? name : Nearest(name, Names()).value_or(name);
+    CopyEntry(float_, kept, &some.float_);
+    CopyEntry(color_, kept, &some.color_);
+  }
+  return some;
 }
 
 TextureGraph TextureUse::Above() const {

@@ -36,6 +36,10 @@ class TextureTable final : public TextureLookup {
   void Define(const std::string& name, TexturePtr<Real> texture, const TextureGraph& graph);
   void Define(const std::string& name, TexturePtr<Spectrum> texture, const TextureGraph& graph);
 
+  // Returns a table of the textures with these names. In the place of a name that is not defined it
+  // has the texture with the nearest name, so that messages can suggest it.
+  TextureTable Only(const std::vector<std::string>& names) const;
+
   // Makes Float and Color return black for names that are not defined: the file may define them in
   // text that cannot be read.
   void AcceptAllNames() { acceptsAllNames_ = true; }

@@ -240,7 +240,7 @@ std::shared_ptr<const Material> WorldBuilder::MakeMaterial(MaterialSpec& spec,
       spec.madeGeneration == textures.generation || !RefersToTextures(spec.params);
   if (!overrides && spec.made && isUpToDate) return spec.made;
   BindContext bind = Bind(PluginKind::Material, spec.name, &textures);
-  if (overrides) bind.overrides = &shape;
+  if (overrides) bind.overrides = &shape, bind.overrideTextures = state.textures.get();
   if (materialDepth_ >= kMaxMaterialDepth)
     FailAt(spec.params.where, "material \"" + spec.name + "\" is the end of a chain of more than " +
                                   std::to_string(kMaxMaterialDepth) +
@@ -272,7 +272,9 @@ const AreaLight* WorldBuilder::AreaLightFor(const AreaLightSpec* spec,
   // If the surface has a problem, the light's factory reports it, so the area is not checked here.
   const Real area = surface->EmitterProblem() ? Real(1) : surface->Area();
   if (!(area > 0) || !std::isfinite(area)) {
-    log_.Warning("an area light of area 0 does not emit", shape.Where());
+    log_.Warning(area == 0 ? "an area light of area 0 does not emit"
+                           : "an area light whose area is not a finite number does not emit",
+                 shape.Where());
     return nullptr;
   }
   std::unique_ptr<AreaLight> light = registry_.Create<PluginKind::AreaLight>(
