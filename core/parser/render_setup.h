@@ -51,6 +51,9 @@ struct LoadOptions {
   std::vector<ParameterOverride> parameters;
   std::optional<std::vector<Real>> cropWindow;  // x0 x1 y0 y1
   std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window
+  // The resolution in which pixelBounds counts. Absent: the one of the picture. Otherwise the
+  // bounds become the pixels of the picture that they touch, which are at least one.
+  std::optional<Point2i> boundsResolution;
   std::optional<std::int64_t> samplesPerPixel;
   std::optional<int> frame;      // its number goes into the picture's name, in the place of %d
   Real timeOffset = 0;           // the shutter opens and closes later by this

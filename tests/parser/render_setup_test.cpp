@@ -228,6 +228,23 @@ TEST(RenderSetup, CropsByPixelsOnEverySide) {
             "scene.pbrt:1:38: error: the crop window has no pixel's upper left corner");
 }
 
+// Products of float fractions and the width would move 5 to 6 and 27 to 28.
+TEST(RenderSetup, ScalesPixelBoundsOfAnotherResolution) {
+  const std::string text =
+      "Film \"image\" \"integer xresolution\" 300 \"integer yresolution\" 200\nWorldBegin WorldEnd";
+  LoadOptions options;
+  options.boundsResolution = Point2i{300, 200};
+  for (const int x : {0, 5, 10, 20, 27, 299}) {
+    options.pixelBounds = PixelBounds{x, 199, x + 1, 200};
+    options.isQuick = false;
+    EXPECT_EQ(Only(BuildText(text, options)).crop, *options.pixelBounds);
+    options.isQuick = true;  // a quarter of the resolution
+    EXPECT_EQ(Only(BuildText(text, options)).crop, (PixelBounds{x / 4, 49, x / 4 + 1, 50}));
+  }
+  options.pixelBounds = PixelBounds{3, 0, 9, 200};
+  EXPECT_EQ(Only(BuildText(text, options)).crop, (PixelBounds{0, 0, 3, 50}));
+}
+
 TEST(RenderSetup, RefusesOtherFilmsAndRenderers) {
   const auto errorOf = [](const std::string& text) {
     const BuiltScene built = BuildText(text + "\nWorldBegin WorldEnd");
@@ -268,6 +285,8 @@ TEST(WorldMessages, AreSaidInTheseWords) {
   if (sizeof(Real) == 4) {  // double holds this area
     saysAt(4, "AreaLightSource \"area\" Scale 1e-30 1e-30 1e-30\nShape \"sphere\"",
            "warning: an area light of area 0 does not emit");
+    saysAt(4, "AreaLightSource \"area\" Scale 1e30 1e30 1e30\nShape \"sphere\"",
+           "warning: an area light whose area is not a finite number does not emit");
   }
   saysAt(3, "Texture \"t\" \"vector\" \"constant\"",
          "error: texture \"t\" has type \"vector\"; types of textures are \"float\" and \"color\"");

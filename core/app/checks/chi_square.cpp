@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // TestPlane and TestDirections count samples per cell, integrate the density over the cells, pool
-// rare cells and evaluate the tail of the distribution (Abramowitz and Stegun, 6.5.29 and 6.5.31).
+// rare cells and evaluate the tail of the distribution.
 #include "core/app/checks/chi_square.h"
 
 #include <algorithm>
@@ -122,29 +122,6 @@ ChiSquareResult TestRectangle(
 }
 
 }  // namespace
-
-double ChiSquareTail(double x, int degrees) {
-  if (degrees <= 0) return x > 0 ? 0 : 1;
-  if (!(x > 0)) return 1;
-  const double a = degrees / 2.0, z = x / 2;
-  const double front = std::exp(a * std::log(z) - z - std::lgamma(a));
-  if (z < a + 1) {
-    double term = 1 / a, sum = term;
-    for (int k = 1; k < 100000 && term > 1e-15 * sum; ++k) sum += term *= z / (a + k);
-    return std::clamp(1 - front * sum, 0.0, 1.0);
-  }
-  // The continued fraction is evaluated by the modified method of Lentz.
-  double b = z + 1 - a, c = 1e300, d = 1 / b, h = d;
-  for (int k = 1; k < 100000; ++k) {
-    const double an = -k * (k - a);
-    b += 2;
-    d = 1 / (an * d + b);
-    c = b + an / c;
-    h *= c * d;
-    if (std::abs(c * d - 1) < 1e-14) break;
-  }
-  return std::clamp(front * h, 0.0, 1.0);
-}
 
 double SignificanceOf(double falseAlarms, int testCount) {
   return -std::expm1(std::log1p(-falseAlarms) / testCount);

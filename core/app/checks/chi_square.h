@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/math/chi_square.h"
 #include "core/math/sampling/random.h"
 #include "core/math/vec.h"
 
@@ -23,8 +24,6 @@ struct ChiSquareResult {
   int samples = 0;
 };
 
-// Returns the probability that a chi-square variate with `degrees` degrees of freedom exceeds x.
-double ChiSquareTail(double x, int degrees);
 // Returns the least p-value that passes one of `testCount` tests, for a false-alarm rate over all
 // of them (Sidak).
 double SignificanceOf(double falseAlarms, int testCount);

@@ -10,19 +10,28 @@
 namespace exphoton::cli {
 namespace {
 
-// P(T > kQuantile) = 1 % for Student's t with OmissionSample::kPairs - 1 degrees of freedom.
-constexpr double kQuantile = 3.747;
+constexpr double kWrong = .01;  // the chance that any of the bounds is too low
+
+// Returns x with P(T > x) = probability for Student's t with four degrees of freedom. probability:
+// in (0, 0.5). Source: Shaw 2006, "Sampling Student's T distribution - use of the inverse
+// cumulative distribution function".
+double StudentQuantile(double probability) {
+  static_assert(OmissionSample::kPairs - 1 == 4);
+  const double root = std::sqrt(4 * probability * (1 - probability));
+  return 2 * std::sqrt(std::cos(std::acos(root) / 3) / root - 1);
+}
 
 struct Spread {
+  double quantile;                 // of Student's t, for the bound of the mean
   double mean = 0, deviation = 0;  // the latter: standard deviation of one value
 
   double Distance(std::size_t count) const {
-    return kQuantile * deviation / std::sqrt(double(count));
+    return quantile * deviation / std::sqrt(double(count));
   }
 };
 
-Spread SpreadOf(std::span<const double> values) {
-  Spread spread;
+Spread SpreadOf(std::span<const double> values, double quantile) {
+  Spread spread{quantile};
   for (const double value : values) spread.mean += value / double(values.size());
   double squares = 0;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
@@ -57,7 +66,7 @@ OmissionSample::Values OmissionSample::MeanLight() const {
   return mean;
 }
 
-std::optional<OmissionBound> OmissionSample::Bound() const {
+std::optional<OmissionBound> OmissionSample::Bound(int bounds) const {
   if (pairs_.size() < std::size_t(kPairs)) return std::nullopt;
   const Values light = MeanLight();
   std::vector<double> squares;
@@ -67,19 +76,20 @@ std::optional<OmissionBound> OmissionSample::Bound() const {
       sum += pair.change[i] * pair.change[i] * RelMseWeight(light[i]);
     squares.push_back(sum / double(light.size()));
   }
-  const Spread spread = SpreadOf(squares);
+  const double quantile = StudentQuantile(kWrong / bounds);
+  const Spread spread = SpreadOf(squares, quantile);
   if (!(spread.mean > 0)) return std::nullopt;
   OmissionBound bound;
   bound.change = std::sqrt(spread.mean + spread.Distance(squares.size()));
   for (int y = 0; y < height_; y += kBlock)
     for (int x = 0; x < width_; x += kBlock)
-      bound.block = std::max(bound.block, BlockBound(x, y, light));
+      bound.block = std::max(bound.block, BlockBound(x, y, light, quantile));
   return bound;
 }
 
 // The largest of these bounds holds for the block with the largest true change, because the bound
 // of this block does.
-double OmissionSample::BlockBound(int x0, int y0, const Values& light) const {
+double OmissionSample::BlockBound(int x0, int y0, const Values& light, double quantile) const {
   const int x1 = std::min(x0 + kBlock, width_), y1 = std::min(y0 + kBlock, height_);
   const double count = 3. * (x1 - x0) * (y1 - y0);
   const auto mean = [&](const Values& values) {
@@ -91,7 +101,7 @@ double OmissionSample::BlockBound(int x0, int y0, const Values& light) const {
   };
   std::vector<double> changes;
   for (const Pair& pair : pairs_) changes.push_back(mean(pair.change));
-  const Spread spread = SpreadOf(changes);
+  const Spread spread = SpreadOf(changes, quantile);
   return (std::abs(spread.mean) + spread.Distance(changes.size())) *
          std::sqrt(RelMseWeight(mean(light)));
 }

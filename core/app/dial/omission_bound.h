@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // OmissionSample collects small renders with and without an effect, and bounds what a picture lacks
-// without it. The bound is the larger one of two upper ends, each at a level of 99 %:
+// without it. The bounds of all effects that may be left out hold together at a level of 99 %. A
+// bound is the larger one of two upper ends:
 // - the root of relMSE between the two pictures, and
 // - the change of the worst block of kBlock x kBlock pixels, relative to the block's light.
 // Each pair of renders has photons and camera samples of its own. The mean square of a pixel's
@@ -37,14 +38,14 @@ class OmissionSample {
   // Returns the change of the mean of the picture, relative to its light. 0: there is no light.
   double MeanShare() const;
   // Returns nullopt if there are fewer than kPairs pairs, or if nothing changes in any of them: the
-  // light of the effect may then be rare.
-  std::optional<OmissionBound> Bound() const;
+  // light of the effect may then be rare. bounds: the number of effects that may get a bound.
+  std::optional<OmissionBound> Bound(int bounds) const;
 
  private:
   struct Pair {
     Values light, change;  // the latter: with - without
   };
-  double BlockBound(int x0, int y0, const Values& light) const;
+  double BlockBound(int x0, int y0, const Values& light, double quantile) const;
   Values MeanLight() const;
 
   int width_, height_;

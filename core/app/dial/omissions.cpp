@@ -42,11 +42,11 @@ class OmissionFinder {
     if (!MayBeOmitted()) return {};
     const PilotRenderer::Loan loan(&pilots_, chosen_.integrator, chosen_.settings);
     setup_ = &loan.Setup();
-    const std::vector<Feature> candidates = Candidates();
-    if (candidates.empty()) return {};
+    candidates_ = Candidates();
+    if (candidates_.empty()) return {};
     with_.push_back(RenderPair(0));
     spent_ = SumOf(with_.front().cost);
-    for (const Feature feature : candidates) Try(feature);
+    for (const Feature feature : candidates_) Try(feature);
     return omitted_;
   }
 
@@ -175,7 +175,7 @@ class OmissionFinder {
     for (std::size_t i = 1; i < std::size_t(OmissionSample::kPairs); ++i)
       AddPair(feature, i, &sample, &without);
     const Saving saving = SavingOf(without, OmissionSample::kPairs);
-    const std::optional<OmissionBound> bound = sample.Bound();
+    const std::optional<OmissionBound> bound = sample.Bound(int(candidates_.size()));
     const double time = TimeOf(saving);
     if (!bound || !IsCovered(bound->Upper()) ||
         !((1 - time) * GrowthFor(bound->Upper()) < kWorthwhile))
@@ -207,6 +207,7 @@ class OmissionFinder {
   Candidate& chosen_;
   Log& log_;
   const RenderSetup* setup_ = nullptr;
+  std::vector<Feature> candidates_;
   std::vector<PilotRenderer::OnePass> with_, lastWithout_;
   double spent_ = 0;
   std::vector<OmittedEffect> omitted_;

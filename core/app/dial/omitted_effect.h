@@ -14,7 +14,7 @@ namespace exphoton::cli {
 
 struct OmittedEffect {
   std::string name;
-  double bound = 0;  // upper end (99 %) of what the picture lacks, as a root of relMSE
+  double bound = 0;  // upper end of what the picture lacks, as a root of relMSE (omission_bound.h)
   double time = 0;   // share of the counted cost of the picture that it would take
 };
 

@@ -10,19 +10,16 @@
 namespace exphoton::cli {
 namespace {
 
-// A window in pixels becomes one in fractions, because pilots have other pixels.
+// A crop window in fractions may contain no pixel of a small picture, so all windows become pixels.
 void ScalePicture(const FilmSettings& film, const PixelBounds& crop, double scale,
                   LoadOptions* options) {
   const auto scaled = [scale](int pixels) {
-    return std::to_string(std::max(4, int(pixels * scale)));
+    return std::to_string(std::max(std::min(4, pixels), int(pixels * scale)));
   };
   options->parameters.push_back({"Film", "xresolution", scaled(film.xResolution)});
   options->parameters.push_back({"Film", "yresolution", scaled(film.yResolution)});
-  if (!options->pixelBounds) return;
-  options->pixelBounds.reset();
-  options->cropWindow = {
-      Real(crop.x0) / Real(film.xResolution), Real(crop.x1) / Real(film.xResolution),
-      Real(crop.y0) / Real(film.yResolution), Real(crop.y1) / Real(film.yResolution)};
+  options->pixelBounds = crop;
+  options->boundsResolution = Point2i{film.xResolution, film.yResolution};
 }
 
 }  // namespace

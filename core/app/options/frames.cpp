@@ -70,6 +70,9 @@ RenderCommand FrameCommand(const RenderCommand& command, int frame) {
   RenderCommand one = command;
   const bool hasOwnScenes = HasFrameNumber(command.scenes[0]);
   one.frames.reset();
+  // With --resume alone, the frames before this one would be rendered again.
+  if (frame > command.frames->first)
+    one.resumeOptions = "--frames " + Frames{frame, command.frames->last, {}}.Text() + " --resume";
   if (!OutputNames(command).NameFromUser() && !command.shard) one.load.frame = frame;
   one.load.timeOffset = Real((frame - 1) * command.frames->apart.value_or(hasOwnScenes ? 0. : 1.));
   for (std::string* name : {&one.scenes[0], &one.outfile, &one.previewFile, &one.statsFile,

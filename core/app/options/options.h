@@ -62,6 +62,7 @@ struct RenderCommand {
   std::optional<ViewerAddress> display;
   std::string photonFile;  // --photons; "": photons are shot
   Limits limits;
+  std::string resumeOptions = "--resume";  // the options that continue this command after a stop
 
   bool HasStoppingRule() const { return timeLimit || targetError || isProgressive || accuracy; }
   // A certificate compares independent passes, so without a rule it renders two halves.

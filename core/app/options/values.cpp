@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/format.h"
 #include "core/params/suggestions.h"
 #include "core/parser/film_parameters.h"
 
@@ -109,8 +110,10 @@ double ParsePercentage(const std::string& option, const std::string& text) {
   double value = 0;
   const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string_view unit(next, std::size_t(text.data() + text.size() - next));
-  if (error != std::errc{} || unit != "%" || !(value > 0 && value <= 100))
-    FailUsage(option + " takes percentages above 0, not \"" + text + '"', "for example 2%");
+  if (error != std::errc{} || unit != "%" || !(value >= kLeastPercentage && value <= 100))
+    FailUsage(option + Format(" takes percentages from %g to 100, not ", kLeastPercentage) + '"' +
+                  text + '"',
+              "for example 2%");
   return value / 100;
 }
 

@@ -27,7 +27,9 @@ ParameterOverride ParseOverride(const std::string& text);
 
 // "90", "90s", "1.5m", "1h": positive duration, in seconds.
 double ParseDuration(const std::string& option, const std::string& text);
-// "2%": a percentage above 0 and at most 100, as a fraction.
+// Smaller errors would need more samples than can be counted.
+inline constexpr double kLeastPercentage = .001;
+// "2%": a percentage from kLeastPercentage to 100, as a fraction.
 double ParsePercentage(const std::string& option, const std::string& text);
 // "3/16": the third of 16 shards.
 Shard ParseShard(const std::string& text);

@@ -12,9 +12,10 @@ namespace {
 constexpr double kMostPhotons = 64;
 constexpr int kHalvings = 40;
 constexpr double kMostSamples = 1e12;
-constexpr double kLeastNoise = .3;    // the part that sharing leaves for noise
-constexpr double kSharingSlope = .4;  // of the squared bias of sharing over samples
-constexpr double kMargin = 1.35;      // of the seconds: clocks, and small parts of the scene
+constexpr double kCountable = 0x1p53;  // integers up to this one are exact
+constexpr double kLeastNoise = .3;     // the part that sharing leaves for noise
+constexpr double kSharingSlope = .4;   // of the squared bias of sharing over samples
+constexpr double kMargin = 1.35;       // of the seconds: clocks, and small parts of the scene
 
 // Sequences of n samples have errors of order n^-1.5 at edges, and n^-1 or more elsewhere. A few
 // pilots say little about the slope, so it is drawn to those of many renders.
@@ -60,7 +61,7 @@ std::optional<Price> PriceWith(double k, const PriceModel& model, const Order& o
     samples = samplesWith(price.sets);
   }
   if (!samples) return std::nullopt;
-  price.samples = std::max<double>(order.groups, std::ceil(order.groups * *samples));
+  price.samples = std::clamp(std::ceil(order.groups * *samples), double(order.groups), kCountable);
   price.photons = k;
   const int paid = k == model.owned ? price.sets - 1 : price.sets;
   price.seconds = model.fixed + paid * model.MapsFor(k) + price.samples * model.sample;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/files/byte_archive.h"
 #include "core/imaging/film/local_square.h"
@@ -29,6 +30,8 @@ class VarianceCells {
     }
   }
 
+  std::size_t Count() const { return sums_.size(); }
+  double Sum() const { return std::accumulate(sums_.begin(), sums_.end(), 0.); }
   double Squares() const {
     double squares = 0;
     for (const double sum : sums_) squares += sum * sum;
@@ -154,6 +157,35 @@ double PassNoise::RelativeVarianceError() const {
   const VarianceCells cells(RelativeVariances(), width_);
   const double common = 2 * cells.Squares() / (1 / squaredShares + 1);
   return std::sqrt(std::min(common, cells.Differences())) / double(pixelCount_);
+}
+
+// If all pixels of a cell have the same normal error, the variance of the cell's estimate is 2 /
+// degrees, relative to the square of its expected value. K groups of equal size have K - 1 degrees.
+double PassNoise::DegreesOfCell(const std::vector<Group>& groups) {
+  double shares = 0, sum = 0, squares = 0;
+  for (const Group& group : groups) {
+    const double term = group.share * group.share / (1 - group.share);
+    shares += group.share * group.share;
+    sum += term, squares += term * term;
+  }
+  return 1 / (shares + sum * sum - squares);
+}
+
+// The degrees of a sum of independent estimates are 2 m^2 / v for the expected value m and the
+// variance v of the sum (Satterthwaite 1946, "An Approximate Distribution of Estimates of Variance
+// Components"). The square of the sum has the expected value m^2 + v. The estimates of v are those
+// of RelativeVarianceError. Differences of few cells are too uncertain: they may be nearly 0 by
+// chance.
+double PassNoise::RelativeVarianceFreedom() const {
+  constexpr std::size_t kManyCells = 32;
+  constexpr double kMost = 1e9;
+  const double ofCell = DegreesOfCell(Groups());
+  const VarianceCells cells(RelativeVariances(), width_);
+  double variance = 2 * cells.Squares() / (ofCell + 2);
+  if (cells.Count() >= kManyCells) variance = std::min(variance, cells.Differences());
+  const double sum = cells.Sum(), least = 2 * sum * sum / kMost;
+  if (!(variance > least)) return sum > 0 ? kMost : ofCell;
+  return std::max(2 * sum * sum / variance - 2, ofCell);
 }
 
 std::vector<double> PassNoise::RelativeVariances() const {

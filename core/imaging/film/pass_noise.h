@@ -32,6 +32,9 @@ class PassNoise {
   // replaces r^2, because a single pixel is as noisy as the error it would divide. Returns infinity
   // if fewer than two groups have samples.
   double RelativeVariance() const;
+  // Returns the degrees of freedom of that estimate, which spreads about as a chi-square variate
+  // with this number; at least 1. Needs two groups.
+  double RelativeVarianceFreedom() const;
   // Returns the standard error of that estimate; infinity with fewer than two groups.
   double RelativeVarianceError() const;
   // Returns the estimated variance of each pixel of that picture, three channels per pixel.
@@ -53,6 +56,7 @@ class PassNoise {
     double share;  // of all samples
   };
   std::vector<Group> Groups() const;
+  static double DegreesOfCell(const std::vector<Group>& groups);
   Sums TotalOf(const std::vector<Group>& groups, std::size_t pixel) const;
 
   double SampleCount() const;        // per pixel, over all groups

@@ -37,6 +37,18 @@ std::vector<std::string> KnownRenderers() {
   return names;
 }
 
+// Returns the pixels of a picture with `to` pixels that bounds in one with `from` pixels touch.
+PixelBounds ScaledBounds(const PixelBounds& bounds, Point2i from, Point2i to) {
+  const auto below = [](int edge, int pixels, int scaled) {
+    return int(std::int64_t(edge) * scaled / pixels);
+  };
+  const auto above = [](int edge, int pixels, int scaled) {
+    return int((std::int64_t(edge) * scaled + pixels - 1) / pixels);
+  };
+  return {below(bounds.x0, from.x, to.x), below(bounds.y0, from.y, to.y),
+          above(bounds.x1, from.x, to.x), above(bounds.y1, from.y, to.y)};
+}
+
 // Puts the frame's number into the name of the picture.
 void NumberFrame(int frame, const ParamSet& film, std::string* filename) {
   if (!HasFrameNumber(*filename)) {
@@ -195,6 +207,8 @@ void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
   }
   setup->crop = options_.pixelBounds.value_or(setup->film.Crop());
   const PixelBounds full = setup->film.Full();
+  if (options_.pixelBounds && options_.boundsResolution)
+    setup->crop = ScaledBounds(setup->crop, *options_.boundsResolution, {full.x1, full.y1});
   if (options_.pixelBounds) {
     setup->crop = {std::max(setup->crop.x0, full.x0), std::max(setup->crop.y0, full.y0),
                    std::min(setup->crop.x1, full.x1), std::min(setup->crop.y1, full.y1)};

@@ -5,11 +5,27 @@
 #include <limits>
 #include <numbers>
 
+#include "core/math/chi_square.h"
+
 namespace exphoton {
 namespace {
 
 constexpr double kWrong = .05;          // the chance of any wrong look
-constexpr double kWrongOmission = .01;  // the chance that the bound of omissions is too low
+constexpr double kWrongOmission = .01;  // the chance that any bound of an omission is too low
+
+// Returns how far the upper end of the interval of the noise lies above its estimate. The noise
+// exceeds this end with the given chance, which is P(Z > z) for a standard normal Z. With many
+// degrees of freedom, the result uses the approximation of Wilson and Hilferty 1931, "The
+// Distribution of Chi-Square".
+double NoiseDistance(const ErrorEstimate& estimate, double chance, double z) {
+  constexpr double kMany = 1000;
+  const double degrees = estimate.freedom;
+  if (!std::isfinite(degrees)) return z * estimate.noiseError;
+  const double c = 2 / (9 * degrees);
+  const double lowest = degrees < kMany ? ChiSquareQuantile(chance, degrees)
+                                        : degrees * std::pow(1 - c - z * std::sqrt(c), 3);
+  return estimate.betweenGroups * (degrees / lowest - 1);
+}
 
 }  // namespace
 
@@ -23,9 +39,9 @@ double NormalQuantile(double probability) {
   return (low + high) / 2;
 }
 
-double AccuracyRule::Quantile(int look) const {
+double AccuracyRule::WrongChance(int look) const {
   const double wrong = omitted_ > 0 ? kWrong - kWrongOmission : kWrong;
-  return NormalQuantile(wrong / (look * (look + 1.)));
+  return wrong / (look * (look + 1.));
 }
 
 CertificateGoal AccuracyRule::NextGoal() const {
@@ -42,13 +58,14 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   ++looks_;
   const Certificate* const certificate = estimate.certificate;
   const double bias = bias_ = certificate ? certificate->Bias() : 0;
-  const double distance = std::hypot(Quantile(looks_) * estimate.noiseError,
-                                     certificate ? certificate->UpperBias() - bias : 0);
+  const double z = Quantile(looks_), ofBias = certificate ? certificate->UpperBias() - bias : 0;
+  const double distance = std::hypot(NoiseDistance(estimate, WrongChance(looks_), z), ofBias);
+  const double normal = std::hypot(z * estimate.noiseError, ofBias);
   upper_ = estimate.noise + bias + distance;
   if (omitted_ > 0) upper_ = std::pow(std::sqrt(upper_) + omitted_, 2);
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
   const double left = room_ - bias - estimate.fixedNoise;
-  growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + distance) / left
+  growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + normal) / left
                      : std::numeric_limits<double>::infinity();
 }
 

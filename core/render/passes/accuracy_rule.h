@@ -3,10 +3,11 @@
 // interval of its error lies below the accuracy. It looks at the picture after each group of
 // passes. Look j may be wrong with the probability 5 % / (j (j + 1)), so that the chance of any
 // wrong look is at most 5 %, whenever the render stops. If the picture lacks effects, a fifth of
-// the 5 % belongs to their bound, which holds at a level of 99 %.
+// the 5 % belongs to their bounds, which hold together at a level of 99 %.
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "core/render/certificate/certificate.h"
 #include "core/render/sharing/sharing_estimate.h"
@@ -18,7 +19,13 @@ struct ErrorEstimate {
   double noise = 0, noiseError = 0;          // the latter: standard error
   double fixedNoise = 0;                     // the part that more samples do not reduce
   const Certificate* certificate = nullptr;  // null: the integrator has no bias
+  // The part of the noise that groups show. It spreads as a chi-square variate with this number of
+  // degrees of freedom. Infinity: the noise spreads as a normal number with the standard error.
+  double betweenGroups = 0, freedom = std::numeric_limits<double>::infinity();
 };
+
+// Returns z with P(Z > z) = probability for a standard normal Z. probability: in (0, 0.5].
+double NormalQuantile(double probability);
 
 class AccuracyRule {
  public:
@@ -47,19 +54,19 @@ class AccuracyRule {
   // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
   double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
-  // interval fall as 1 / samples. Returns infinity if bias and fixed noise leave no room.
+  // interval fall as 1 / samples. The interval is the one of normal noise, because groups, rather
+  // than samples, give the noise degrees of freedom. Returns infinity if bias and fixed noise leave
+  // no room.
   double Growth() const { return growth_; }
 
  private:
-  double Quantile(int look) const;
+  double WrongChance(int look) const;
+  double Quantile(int look) const { return NormalQuantile(WrongChance(look)); }
 
   double wanted_, room_, biasShare_;  // relMSE; without and with omissions
   double omitted_;
   int looks_ = 0;
   double upper_ = 0, bias_ = 0, lowerBias_ = 0, growth_ = 1;
 };
-
-// Returns z with P(Z > z) = probability for a standard normal Z. probability: in (0, 0.5].
-double NormalQuantile(double probability);
 
 }  // namespace exphoton

@@ -6,6 +6,7 @@
 
 #include "core/files/byte_archive.h"
 #include "core/imaging/metrics/metrics.h"
+#include "core/render/certificate/group_places.h"
 
 namespace exphoton {
 
@@ -29,7 +30,7 @@ const char* StopReasonName(StopReason reason) {
 
 void PassSum::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
   picture_->Add(pass);
-  noise_.Add(group % kPlaces, pass, samplesPerPixel);
+  noise_.Add(PlaceOfGroup(group, kPlaces, joined_ > 0), pass, samplesPerPixel);
   relativeVariance_.reset();
   ++passes_;
   groups_ = std::max(groups_, group + 1);

@@ -78,6 +78,10 @@ class PassSum {
   // the next group. Reason is based on it.
   std::optional<double> Noise() const;
   double NoiseError() const;  // its standard error; infinity before the second group
+  // The part of Noise that shows between groups, and its degrees of freedom
+  // (PassNoise::RelativeVarianceFreedom). Both need two groups.
+  double NoiseBetweenGroups() const { return correction_ * RelativeVariance(); }
+  double NoiseFreedom() const { return noise_.RelativeVarianceFreedom(); }
   // Returns r^2 of each pixel, to which noise is relative: PassNoise::Levels. Certificates divide
   // the bias by the same r, so that both are parts of one relMSE. Needs two groups.
   const std::vector<double>& Levels() const { return noise_.Levels(); }

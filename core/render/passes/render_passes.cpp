@@ -257,13 +257,15 @@ class Passes {
     if (options_.corrections)
       certificate = Certify(*options_.corrections, sum.Levels(), *sum.Noise(), rule->NextGoal());
     if (certificate) certificate->sharing = sharing;
-    rule->Look({*sum.Noise(), sum.NoiseError(), photons_.SharedNoise(),
-                certificate ? &*certificate : nullptr});
+    const double noiseError = sum.NoiseError();
+    rule->Look({*sum.Noise(), noiseError, photons_.SharedNoise(),
+                certificate ? &*certificate : nullptr, sum.NoiseBetweenGroups(),
+                sum.NoiseFreedom()});
     job_.log.Verbose(
         Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
                "error below "
                "%.3g %%",
-               static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), sum.NoiseError(),
+               static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), noiseError,
                certificate ? certificate->LowerBias() : 0,
                certificate ? certificate->UpperBias() : 0, 100 * std::sqrt(rule->Upper())));
     return certificate;

@@ -267,6 +267,7 @@ TEST_F(AccuracyTest, SaysWhatIsWrong) {
   refused("2", {}, "percentages");
   refused("0%", {}, "percentages");
   refused("101%", {}, "percentages");
+  refused("1e-9%", {}, "percentages from 0.001 to 100");
   refused("2%", {"--spp", "4"}, "--spp");
   refused("2%", {"--target-error", ".01"}, "--target-error");
   refused("2%", {"--two-halves"}, "--two-halves");

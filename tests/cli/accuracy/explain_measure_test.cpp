@@ -53,6 +53,18 @@ TEST_F(ExplainMeasureTest, WorksWithPhotonMaps) {
   EXPECT_NEAR(Number(result.out, "together (\\S+) %"), 100, .1);
 }
 
+TEST_F(ExplainMeasureTest, OfABlackSceneFindsNoLight) {
+  Write("black.pbrt",
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
+        "Camera \"perspective\"\nSurfaceIntegrator \"path\"\nWorldBegin\n"
+        "AreaLightSource \"area\" \"color L\" [0 0 0]\n"
+        "Shape \"sphere\" \"float radius\" 6\nWorldEnd\n");
+  const ProgramResult result = Run({"explain", "black.pbrt", "--measure", "--effects", "all"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("adds 0 "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+}
+
 // All effects but one are a list that begins with "all".
 TEST_F(ExplainMeasureTest, WorksWithAllEffects) {
   WriteFurnace("path");

@@ -80,6 +80,7 @@ TEST_F(QuoteTest, SaysWhatIsWrong) {
   };
   EXPECT_NE(refused({"--accuracies", "0.05"}, 1).find("percentages"), std::string::npos);
   EXPECT_NE(refused({"--accuracies", "-3%"}, 1).find("percentages"), std::string::npos);
+  EXPECT_NE(refused({"--accuracies", "5,1e-9%"}, 1).find("from 0.001"), std::string::npos);
   refused({"--integrators", "pth"}, 2);
   refused({"--pilot-time", "soon"}, 1);
   EXPECT_EQ(Run({"quote", "none.pbrt"}).status, 3);

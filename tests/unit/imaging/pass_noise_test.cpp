@@ -172,6 +172,36 @@ TEST(PassNoise, KnowsTheErrorOfItsEstimate) {
   }
 }
 
+// Groups with these samples per pixel in one cell of pixels.
+double FreedomOfOneCell(const std::vector<int>& samples) {
+  constexpr PixelBounds kCell{0, 0, 8, 8};
+  PassNoise noise(kCell, int(samples.size()));
+  for (int group = 0; group < int(samples.size()); ++group) {
+    Film film(kCell, kCell);
+    for (int y = 0; y < kCell.y1; ++y)
+      for (int x = 0; x < kCell.x1; ++x)
+        for (int i = 0; i < samples[std::size_t(group)]; ++i)
+          film.AddSample({x, y}, Spectrum(Real(kMean + .01 * group * group)), 1, 1);
+    noise.Add(group, film, samples[std::size_t(group)]);
+  }
+  return noise.RelativeVarianceFreedom();
+}
+
+TEST(PassNoise, OfOneCellHasTheFreedomOfItsGroups) {
+  EXPECT_NEAR(FreedomOfOneCell({1, 1}), 1, 1e-6);
+  EXPECT_NEAR(FreedomOfOneCell({1, 1, 1, 1}), 3, 1e-6);
+  EXPECT_NEAR(FreedomOfOneCell({1, 3}), 1, 1e-6);  // two groups have one difference
+  EXPECT_NEAR(FreedomOfOneCell({1, 1, 2}), 1.8, 1e-6);
+}
+
+TEST(PassNoise, OfManyCellsHasTheFreedomOfItsError) {
+  PassNoise noise(kBounds, 4);
+  for (int i = 0; i < 4; ++i) noise.Add(i, MakePass(std::uint64_t(i), 1, .1, 0), 1);
+  const double ratio = noise.RelativeVariance() / noise.RelativeVarianceError();
+  EXPECT_NEAR(noise.RelativeVarianceFreedom() / (2 * ratio * ratio - 2), 1, 1e-6);
+  EXPECT_GT(noise.RelativeVarianceFreedom(), 48 * 3);  // of the cells
+}
+
 TEST(PassNoise, IsUncertainIfOnePixelDecides) {
   PassNoise noise(kBounds, 2);
   for (int i = 0; i < 2; ++i) {

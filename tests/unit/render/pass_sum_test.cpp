@@ -84,6 +84,20 @@ TEST(PassSum, JoinsGroupsWithTheSamePhotons) {
   EXPECT_EQ(sum.Groups(), 3);
 }
 
+// The noise between the joined groups and the next one is known, also if its number is above the
+// last place.
+TEST(PassSum, KeepsTheGroupAfterManyJoinedOnesApart) {
+  Film picture(kSumPixel, kSumPixel);
+  PassSum sum(&picture, {{}, 100});
+  for (int group = 0; group < PassSum::kPlaces; ++group) sum.Add(PassOf(1.1, 1), 1, group);
+  sum.JoinGroups();
+  sum.Add(PassOf(.9, 8), 8, PassSum::kPlaces);
+  EXPECT_NEAR(*sum.Noise(), .01 / 1.01, 1e-6);
+  for (int group = PassSum::kPlaces + 1; group < 3 * PassSum::kPlaces; ++group)
+    sum.Add(PassOf(.9, 1), 1, group);
+  EXPECT_EQ(sum.GroupSums().SamplesOf(0), PassSum::kPlaces);
+}
+
 // The error of n samples is n^-s, and q = 2^-s. The error of the mean of two groups is q times
 // the error of one group, and their difference suggests 1 - q.
 TEST(PassSum, KnowsThatSuccessiveHalvesCancel) {

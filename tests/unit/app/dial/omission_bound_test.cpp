@@ -35,7 +35,7 @@ void AddPairs(double share, int width, double noise, std::uint64_t seed, Omissio
 TEST(OmissionBound, IsExactWithoutNoise) {
   OmissionSample sample(kColumns, kRows);
   AddPairs(.01, kColumns / 4, 0, 1, &sample);  // a quarter of the pixels
-  const auto bound = sample.Bound();
+  const auto bound = sample.Bound(1);
   ASSERT_TRUE(bound);
   EXPECT_NEAR(bound->change, .01 / 2 / std::sqrt(1.01), 1e-9);
   EXPECT_NEAR(bound->block, .01 * 5 / 8 / std::sqrt(1.01), 1e-9);  // five of eight columns
@@ -49,7 +49,7 @@ TEST(OmissionBound, HoldsUnderNoise) {
   for (int trial = 0; trial < kTrials; ++trial) {
     OmissionSample sample(kColumns, kRows);
     AddPairs(.01, 1, 1.5, std::uint64_t(trial), &sample);
-    const auto bound = sample.Bound();
+    const auto bound = sample.Bound(1);
     ASSERT_TRUE(bound);
     misses += bound->change < .01 / std::sqrt(double(kColumns) * 1.01);
     sum += bound->change;
@@ -67,7 +67,7 @@ TEST(OmissionBound, HoldsWherePairsDiffer) {
     OmissionSample sample(kColumns, kRows);
     for (int pair = 0; pair < OmissionSample::kPairs; ++pair)
       sample.Add(Constant(1), Constant(1 - .02 * double(random.Uniform())));
-    const OmissionBound bound = *sample.Bound();
+    const OmissionBound bound = *sample.Bound(1);
     misses += bound.block < .01 / std::sqrt(1.01);
     lowChanges += bound.change < .01 / std::sqrt(1.01);
   }
@@ -78,10 +78,10 @@ TEST(OmissionBound, HoldsWherePairsDiffer) {
 TEST(OmissionBound, IsUnknownWithFewPairsOrWithoutAChange) {
   OmissionSample sample(kColumns, kRows);
   for (int pair = 0; pair < OmissionSample::kPairs; ++pair) {
-    EXPECT_FALSE(sample.Bound()) << pair;
+    EXPECT_FALSE(sample.Bound(1)) << pair;
     sample.Add(Constant(1), Constant(1));
   }
-  EXPECT_FALSE(sample.Bound());
+  EXPECT_FALSE(sample.Bound(1));
 }
 
 TEST(OmissionBound, AddsUpOverEffects) {
@@ -91,6 +91,7 @@ TEST(OmissionBound, AddsUpOverEffects) {
             "caustics off: at most 0.04 % of the light, would take 22 % of the time");
 }
 
+// All bounds hold together at this level.
 TEST(OmissionBound, HasALevelOf99Percent) {
   OmissionSample sample(8, 8);
   const double root = std::sqrt(1.01);
@@ -98,8 +99,10 @@ TEST(OmissionBound, HasALevelOf99Percent) {
     const double change = .01 + (pair == 0 ? .004 : -.001);  // mean .01, deviation .005 / sqrt(5)
     sample.Add(Values(192, 1.), Values(192, 1 - change));
   }
-  const double t = (sample.Bound()->block * root - .01) / .001;
-  EXPECT_NEAR(StudentTail(t, OmissionSample::kPairs - 1) / 2, .01, .001) << t;
+  for (const int bounds : {1, 2, 4}) {
+    const double t = (sample.Bound(bounds)->block * root - .01) / .001;
+    EXPECT_NEAR(StudentTail(t, OmissionSample::kPairs - 1) / 2 * bounds, .01, 1e-6) << t;
+  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 class PilotTest : public testing::Test {
  protected:
-  std::unique_ptr<PilotRenderer> Renderer(bool isShared) {
+  std::unique_ptr<PilotRenderer> Renderer(bool isShared, const LoadOptions& load = {}) {
     const std::string integrator =
         R"("exphotonmap" "integer indirectphotons" 5000 "integer directphotons" 5000
            "integer finalgathersamples" 4 "bool sharedgather" )";
@@ -22,6 +22,7 @@ class PilotTest : public testing::Test {
     RenderCommand command;
     command.scenes = {"room.pbrt"};
     command.threadCount = 1;
+    command.load = load;
     command.load.pluginFolders = {std::string(EXPHOTON_BINARY_DIR) + "/plugins"};
     return std::make_unique<PilotRenderer>(
         command, "room.pbrt", PilotRenderer::Surroundings{"--accuracy", &streams_, &log_});
@@ -36,6 +37,20 @@ TEST_F(PilotTest, KnowsTheBiasOfSharingWhereGathersAreShared) {
   request.integrator = "exphotonmap";
   EXPECT_GT(Renderer(true)->Render(request).sharing.standardError, 0);
   EXPECT_EQ(Renderer(false)->Render(request).sharing.standardError, 0);
+}
+
+// A rough pilot has a quarter of the resolution. The window contains no corner of its pixels.
+TEST_F(PilotTest, OfASmallWindowHasAPixel) {
+  LoadOptions pixel, window;
+  pixel.pixelBounds = PixelBounds{39, 5, 40, 6};
+  window.cropWindow = {Real(.475), Real(.5), Real(.475), Real(.5)};
+  PilotRequest request;
+  request.integrator = "exphotonmap";
+  for (const LoadOptions& load : {pixel, window})
+    for (const bool isRough : {false, true}) {
+      request.isRough = isRough;
+      EXPECT_EQ(Renderer(false, load)->Render(request).pixels, 1) << isRough;
+    }
 }
 
 TEST_F(PilotTest, SharesWithinEachHalf) {

@@ -112,6 +112,13 @@ TEST(PriceModel, OfCameraNoiseAloneIsExact) {
   EXPECT_GT(price->most, 9);
 }
 
+// Numbers of samples become integers.
+TEST(PriceModel, KeepsTheNumberOfSamplesCountable) {
+  PriceModel model;
+  model.camera = 1e30, model.sample = 1e-9;
+  EXPECT_EQ(PriceOf(model, {1e-5})->samples, 0x1p53);
+}
+
 // A bias of 8 % cannot be made up for by samples; four times the photons leave 2 %.
 TEST(PriceModel, TakesMorePhotonsForLessBias) {
   PriceModel model;
