@@ -41,19 +41,40 @@ bool IsProduct(const Filter& filter) {
   return true;
 }
 
+struct FilterIntegrals {
+  double value = 0, size = 0, square = 0;  // of f, |f| and f^2
+};
+
 // The midpoint rule over the whole support of the even filter.
-double Integral(const Filter& filter) {
-  double sum = 0;
-  for (int y = -kGrid; y < kGrid; ++y)
-    for (int x = -kGrid; x < kGrid; ++x)
-      sum += double(filter.Evaluate(GridPoint(filter, x + .5, y + .5)));
-  return sum * double(filter.XWidth()) * double(filter.YWidth()) / (kGrid * kGrid);
+FilterIntegrals IntegralsOf(const Filter& filter) {
+  FilterIntegrals sum;
+  for (int y = -kGrid; y < kGrid; ++y) {
+    for (int x = -kGrid; x < kGrid; ++x) {
+      const double f = double(filter.Evaluate(GridPoint(filter, x + .5, y + .5)));
+      sum.value += f;
+      sum.size += std::abs(f);
+      sum.square += f * f;
+    }
+  }
+  for (double* each : {&sum.value, &sum.size, &sum.square})
+    *each = *each * double(filter.XWidth()) * double(filter.YWidth()) / (kGrid * kGrid);
+  return sum;
+}
+
+// Returns whether splatting has more variance than importance sampling, because few samples lie
+// within the support. For n samples of variance s^2 in a pixel and an integral of f of 1, the
+// variance is s^2 / n times the integral of f^2 with splatting, and s^2 / n times the square of the
+// integral of |f| with importance sampling. A film cannot show a filter that is importance sampled
+// and whose integral of |f| is 2 or more (Film::Pixel::Mean).
+bool IsNarrow(const Filter& filter) {
+  const FilterIntegrals f = IntegralsOf(filter);
+  return f.size < 2 * f.value && f.square > f.size * f.size;
 }
 
 }  // namespace
 
 std::unique_ptr<const SplatWeights> SplatWeights::Of(const Filter& filter) {
-  if (ReachOf(filter) > kMaxReach || !HasNegativeValues(filter)) return nullptr;
+  if (ReachOf(filter) > kMaxReach || !HasNegativeValues(filter) || IsNarrow(filter)) return nullptr;
   return std::make_unique<const SplatWeights>(filter);
 }
 
@@ -61,7 +82,7 @@ SplatWeights::SplatWeights(const Filter& filter)
     : filter_(filter),
       reach_(ReachOf(filter)),
       isSeparable_(IsProduct(filter)),
-      scale_(1 / Integral(filter)) {}
+      scale_(1 / IntegralsOf(filter).value) {}
 
 void SplatWeights::Fill(Point2 place, std::vector<double>* weights) const {
   const int width = Width();

@@ -15,7 +15,7 @@ namespace exphoton {
 class SplatWeights {
  public:
   // Returns null if samples are to be drawn by Filter::Sample: the filter has no negative values,
-  // or it is so wide that splatting would be slow.
+  // it is so wide that splatting would be slow, or so narrow that splatting would be noisier.
   static std::unique_ptr<const SplatWeights> Of(const Filter& filter);
   // The filter must outlive this object. Its integral must be positive.
   explicit SplatWeights(const Filter& filter);

@@ -75,6 +75,10 @@ std::uint64_t SpecularRays(const RenderWorker& worker) {
   return worker.totals.rays.counts[std::size_t(RayKind::Specular)];
 }
 
+std::uint64_t GatherRays(const RenderWorker& worker) {
+  return worker.totals.rays.counts[std::size_t(RayKind::Gather)];
+}
+
 // Replaces a part of *L. Rounding may have made the part larger than the whole.
 void Replace(const Spectrum& part, const Spectrum& by, Spectrum* L) {
   for (int c = 0; c < Spectrum::kChannels; ++c)
@@ -196,8 +200,9 @@ void TileRenderer::RenderSample(const SampleKey& key, int parts, RenderWorker* w
     context.aovs = &aovs;
     if (aovs_->NeedsSurface()) DescribeSurface(job_, ray, &worker->arena, &aovs);
   }
-  const std::uint64_t specularRays = SpecularRays(*worker);
+  const std::uint64_t specularRays = SpecularRays(*worker), gatherRays = GatherRays(*worker);
   Spectrum L = job_.integrator.Li(ray, context);
+  errors.correction.gatherRays = std::int64_t(GatherRays(*worker) - gatherRays);
   if (key.index % parts == 0) Count(context, &worker->totals);  // its parts count as one
   const Real alpha = std::isfinite(context.alpha) ? context.alpha : Real(1);
   for (const GatherRecord& gather : worker->gathers)

@@ -13,9 +13,10 @@
 namespace exphoton {
 
 struct CorrectionSample {
-  double share = 0;        // share of the gather rays to correct, > 0
-  Spectrum sum;            // radiance that reaches the camera; may be negative
-  std::int64_t count = 0;  // number of corrected rays
+  double share = 0;             // share of the gather rays to correct, > 0
+  Spectrum sum;                 // radiance that reaches the camera; may be negative
+  std::int64_t count = 0;       // number of corrected rays
+  std::int64_t gatherRays = 0;  // of the sample, corrected or not; the renderer counts them
 };
 
 }  // namespace exphoton

@@ -95,7 +95,8 @@ class Numbers {
 
 BudgetRow PartRow(const ErrorPart& part, const MeasuredBudget& measured, const Numbers& numbers) {
   BudgetRow row = numbers.Row(ErrorCauseName(part.cause), part.share);
-  const double percent = std::round(100 * part.share.value / measured.budget.sum.value);
+  const double sum = measured.budget.sum.value;
+  const double percent = sum > 0 ? std::round(100 * part.share.value / sum) : 0;
   row.share = Fixed(percent, 0) + " %";
   const Halving halving = HalvingOf(part, measured.costs);
   const bool isKnown = std::abs(part.share.value) > numbers.HalfWidth(part.share);

@@ -40,7 +40,9 @@ void TakeCosts(const Statistics& statistics, const SettingRequest& request,
 
 SettingRenders RenderSetting(const RenderSetup& setup, const SettingRequest& request, int threads) {
   SettingRenders renders;
-  if (request.correctedShare > 0) renders.groups.emplace(setup.crop, request.correctedShare);
+  // The pictures have photons of their own, so each is a group.
+  if (request.correctedShare > 0)
+    renders.groups.emplace(setup.crop, request.correctedShare, int(request.pictures.size()));
   Film film(setup.film.Full(), setup.crop);
   SmallRender small(threads);
   const std::int64_t samples =

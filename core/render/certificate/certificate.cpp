@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/format.h"
 #include "core/imaging/metrics/metrics.h"
@@ -20,6 +21,15 @@ double Part(const std::optional<SharingBias>& sharing) {
 // Returns how far a bound lies from the estimate, for two independent estimates that are added.
 double Distance(double distance, const std::optional<SharingBias>& sharing, double quantile) {
   return std::hypot(distance, sharing ? quantile * sharing->standardError : 0);
+}
+
+// Returns the upper end of the squared bias where no gather ray was corrected. The gathers that
+// need corrections, because their rays meet surfaces, are then an unknown share q of all gathers.
+// None of them was chosen, which has the probability exp(-expected q). Their light may be as wrong
+// as the picture is bright.
+double UnseenBias(double expected, double quantile) {
+  if (!(expected > 0)) return 0;
+  return -std::log(std::erfc(quantile / std::numbers::sqrt2) / 2) / expected;
 }
 
 // Larger errors have no digits.
@@ -78,6 +88,9 @@ std::optional<Certificate> Certify(const Corrections& corrections, std::span<con
   certificate.noise = noise;
   certificate.bias = estimator.EstimateFor(goal.smallest);
   certificate.corrections = corrections.Count();
+  const double unseen =
+      certificate.corrections > 0 ? 0 : UnseenBias(corrections.ExpectedCount(), goal.quantile);
+  certificate.bias.upper += unseen, certificate.bias.smallest += unseen;
   certificate.quantile = goal.quantile;
   return certificate;
 }

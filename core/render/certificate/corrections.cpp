@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/render/certificate/group_places.h"
+
 namespace exphoton {
 namespace {
 
@@ -15,14 +17,18 @@ void Move(std::vector<double>* from, std::vector<double>* to) {
 
 }  // namespace
 
-Corrections::Corrections(const PixelBounds& crop, double share)
+Corrections::Corrections(const PixelBounds& crop, double share, int mostGroups)
     : crop_(crop),
       share_(share),
+      mostGroups_(mostGroups),
       current_(3 * std::size_t(crop.Width()) * std::size_t(crop.Height())),
-      rayCount_(current_.size() / 3) {}
+      rayCount_(current_.size() / 3),
+      gatherRays_(rayCount_.size()) {}
 
 void Corrections::Add(Point2i pixel, const CorrectionSample& sample, Real weight) {
-  if (!crop_.Contains(pixel.x, pixel.y) || !sample.sum.IsFinite()) return;
+  if (!crop_.Contains(pixel.x, pixel.y)) return;
+  gatherRays_[IndexOf(pixel)] += sample.gatherRays;
+  if (!sample.sum.IsFinite()) return;
   rayCount_[IndexOf(pixel)] += sample.count;
   AddLight(pixel, sample.sum, weight);
 }
@@ -44,14 +50,8 @@ void Corrections::AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum
 
 void Corrections::KeepSharingApart() { currentSharing_.assign(current_.size(), 0); }
 
-// Groups with a number above the last place share the places that are not joined by turns.
-std::size_t Corrections::PlaceOf(int group) const {
-  return std::size_t(group < kMostGroups ? group
-                                         : joined_ + (group - joined_) % (kMostGroups - joined_));
-}
-
 void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
-  const std::size_t place = PlaceOf(group);
+  const auto place = std::size_t(PlaceOfGroup(group, mostGroups_, isFirstJoined_));
   if (groups_.size() <= place) groups_.resize(place + 1);
   Group& to = groups_[place];
   to.samplesPerPixel += samplesPerPixel;
@@ -59,6 +59,8 @@ void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
   Move(&currentSharing_, &to.sharing);
   for (const std::int64_t count : rayCount_) count_ += count;
   std::fill(rayCount_.begin(), rayCount_.end(), 0);
+  for (const std::int64_t rays : gatherRays_) expected_ += share_ * double(rays);
+  std::fill(gatherRays_.begin(), gatherRays_.end(), 0);
 }
 
 void Corrections::JoinGroups() {
@@ -69,7 +71,7 @@ void Corrections::JoinGroups() {
     Move(&from.sharing, &groups_[0].sharing);
     from = {};
   }
-  joined_ = 1;
+  isFirstJoined_ = true;
 }
 
 std::vector<double> Corrections::SumsOf(const Group& group) const {

@@ -16,8 +16,8 @@ namespace exphoton {
 
 class Corrections {
  public:
-  // share: of the gather rays that are corrected.
-  Corrections(const PixelBounds& crop, double share);
+  // share: of the gather rays that are corrected. mostGroups: see EndPass, at least 2.
+  Corrections(const PixelBounds& crop, double share, int mostGroups = kMostGroups);
 
   double Share() const { return share_; }
   const PixelBounds& Crop() const { return crop_; }
@@ -33,7 +33,7 @@ class Corrections {
   void KeepSharingApart();
   // States whether the picture shares gathers. Without sharing, SumsOf leaves these parts out.
   void UseSharing(bool isShared) { isShared_ = isShared; }
-  // Moves the current pass to a group. At most kMostGroups groups are kept, which limits the memory
+  // Moves the current pass to a group. At most mostGroups groups are kept, which limits the memory
   // of many passes. Further passes are added to these groups by turns, so that the groups stay
   // independent.
   void EndPass(int group, std::int64_t samplesPerPixel);
@@ -52,9 +52,10 @@ class Corrections {
   // Returns the sums of a group for the picture.
   std::vector<double> SumsOf(const Group& group) const;
   std::int64_t Count() const { return count_; }  // corrected rays of all passes
+  // Returns the number of rays that would be corrected if each gather had rays that meet a surface.
+  double ExpectedCount() const { return expected_; }
 
  private:
-  std::size_t PlaceOf(int group) const;
   std::size_t IndexOf(Point2i pixel) const {
     return std::size_t(pixel.y - crop_.y0) * std::size_t(crop_.Width()) +
            std::size_t(pixel.x - crop_.x0);
@@ -64,12 +65,15 @@ class Corrections {
 
   PixelBounds crop_;
   double share_;
+  int mostGroups_;
   std::vector<double> current_;         // three channels per pixel
   std::vector<double> currentSharing_;  // parts that are kept apart; empty: none
-  std::vector<std::int64_t> rayCount_;  // corrected rays of the current pass, by pixel
+  // Of the current pass, by pixel: the corrected rays, and all gather rays.
+  std::vector<std::int64_t> rayCount_, gatherRays_;
   std::vector<Group> groups_;
-  int joined_ = 0;  // 1 if the first group holds joined ones
+  bool isFirstJoined_ = false;  // whether the first group holds joined ones
   std::int64_t count_ = 0;
+  double expected_ = 0;
   bool isShared_ = true;
 };
 

@@ -66,6 +66,15 @@ TEST(BudgetText, HasNoNegativeZeroAndNoLongLine) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(ColumnsOf(line), 100u) << line;
 }
 
+TEST(BudgetText, OfABlackSceneHasNoShares) {
+  MeasuredBudget budget = KnownBudget();
+  for (ErrorPart& part : budget.budget.parts) part.share = {0, 0};
+  budget.budget.noise = budget.budget.bias = budget.budget.sum = {0, 0};
+  EXPECT_EQ(BudgetRows(budget, 8)[0].share, "0 %");
+  const std::string text = BudgetText("black.pbrt", budget, {});
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+}
+
 TEST(BudgetText, StatesErrorAndLowerBound) {
   EXPECT_EQ(BudgetHeadline(KnownBudget()),
             "error 5 % = noise 4 %, bias 3 %; 6 s of CPU time, 4 times the lower bound of 1.5 s");

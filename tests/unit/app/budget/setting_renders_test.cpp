@@ -34,5 +34,16 @@ TEST(SettingRenders, RaysAtEdgesOfLampsAreNoSamples) {
   EXPECT_NEAR(renders.GatherRaysPerSample(), kRays, .02 * kRays);
 }
 
+// More pictures than Corrections keeps groups by default.
+TEST(SettingRenders, HaveTheCorrectionOfEachPicture) {
+  const LoadedScene scene = LoadSceneText(LampInARoom());
+  SettingRequest request;
+  request.correctedShare = 1. / 64;
+  request.samples = 1;
+  for (std::uint64_t seed = 0; seed < Corrections::kMostGroups + 3; ++seed)
+    request.pictures.push_back({0, seed});
+  EXPECT_EQ(RenderSetting(*scene.setup, request, 1).corrections.size(), request.pictures.size());
+}
+
 }  // namespace
 }  // namespace exphoton::cli

@@ -63,6 +63,29 @@ TEST(Certificate, HasTheBiasRelativeToTheLevelsOfThePicture) {
   EXPECT_EQ(certificate->corrections, 2 * kWidth * kHeight);
 }
 
+// By chance none of few gather rays is corrected. Then nothing is known about their bias.
+TEST(Certificate, WithoutCorrectionsDependsOnTheGatherRays) {
+  constexpr int kSize = 8;
+  const std::vector<double> levels(std::size_t(3 * kSize * kSize), 1);
+  const auto certificate = [&](int gatherRays) {
+    Corrections corrections({0, 0, kSize, kSize}, 1. / 64);
+    for (int group = 0; group < 2; ++group) {
+      for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+          corrections.Add({x, y}, {1. / 64, Spectrum(), 0, gatherRays}, 1);
+      corrections.EndPass(group, 1);
+    }
+    return *Certify(corrections, levels, .01, {});
+  };
+  EXPECT_EQ(certificate(0).UpperBias(), 0);  // there is nothing to correct
+  EXPECT_TRUE(certificate(1).SaysNothing());
+  EXPECT_NE(ErrorText(certificate(1)).find("error unknown"), std::string::npos);
+  // 200 gathers that meet surfaces would be corrected 200 times on average, and 3.7 of them not at
+  // all with the probability 2.5 %.
+  EXPECT_NEAR(certificate(100).UpperBias(), 3.689 / 200, 1e-4);
+  EXPECT_EQ(certificate(100).LowerBias(), 0);
+}
+
 // The corrections of pass i are 1 + i / 100 at each pixel, and their mean is 1.995.
 TEST(Corrections, KeepFewGroupsOfManyPasses) {
   constexpr int kSize = 16, kPasses = 200;
