@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -42,6 +43,21 @@ float& Image::At(int x, int y, int channel) {
 }
 float Image::At(int x, int y, int channel) const {
   return const_cast<Image*>(this)->At(x, y, channel);
+}
+
+void PremultiplyAlpha(Image* image) {
+  if (!std::exchange(image->hasStraightAlpha, false)) return;
+  const int alpha = image->FindChannel("A");
+  for (const char* name : {"R", "G", "B"}) {
+    const int color = image->FindChannel(name);
+    if (color < 0 || alpha < 0) continue;
+    for (int y = 0; y < image->Height(); ++y)
+      for (int x = 0; x < image->Width(); ++x) image->At(x, y, color) *= image->At(x, y, alpha);
+  }
+}
+
+double StraightFactor(const Image& image, double alpha) {
+  return !image.hasStraightAlpha && alpha > 0 && alpha < 1 ? 1 / alpha : 1;
 }
 
 void CheckPixelCount(const std::string& path, std::int64_t width, std::int64_t height) {

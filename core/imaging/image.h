@@ -34,6 +34,9 @@ struct Image {
   std::map<std::string, ImageAttribute> attributes;
   std::set<std::string> exactChannels;  // written with 32 bits to every EXR file; see ReadExr
   bool isFromSrgb = false;  // whether the values were decoded from sRGB when the file was read
+  // Whether R, G and B are not multiplied by A. PNG and TGA files have such colours, EXR files do
+  // not.
+  bool hasStraightAlpha = false;
 
   Image() = default;
   Image(PixelBounds dataWindow, PixelBounds displayWindow, std::vector<std::string> channelNames);
@@ -67,6 +70,13 @@ inline constexpr int kMaxImageChannels = 256;
 // becomes R, G, B. EXR channels keep their names; Y alone becomes R, G, B. Throws ImageError, also
 // for more than kMaxImagePixels or kMaxImageChannels, which are checked before allocation.
 Image ReadImage(const std::string& path);
+
+// Multiplies R, G and B by A if the image has straight alpha.
+void PremultiplyAlpha(Image* image);
+// Returns the factor that turns R, G and B of a pixel with this alpha into straight colours. A
+// pixel with alpha 0 keeps its colours. They are light without a surface, such as glow, which a
+// straight picture cannot add to a background. Viewers that ignore alpha still show it.
+double StraightFactor(const Image& image, double alpha);
 
 // Throws ImageError if `path` is not a readable regular file.
 void CheckImageFile(const std::string& path);

@@ -50,6 +50,15 @@ TEST_F(CompareTest, TheVerdictNamesTheLimitThatIsBroken) {
   EXPECT_EQ(verdict({}).substr(0, 19), "FAIL: not identical");
 }
 
+// The colours of an EXR are multiplied by alpha, and those of a PNG are not.
+TEST_F(CompareTest, AnExrEqualsItsPngWhereAlphaIsPartial) {
+  Image image(2, 1, {"R", "G", "B", "A"});
+  image.pixels = {.25f, .1f, .2f, .5f, .5f, .2f, .4f, 1};
+  WriteExr(Path("a.exr"), image, false);
+  ASSERT_EQ(Run({"convert", "a.exr", "a.png"}).status, 0);
+  EXPECT_EQ(Run({"compare", "a.exr", "a.png", "--max-mean", ".02"}).status, 0);
+}
+
 TEST_F(CompareTest, EveryPictureMustPass) {
   WriteColor("a.exr", .5f, .5f, .5f);
   WriteColor("b.exr", .5f, .4f, .5f);

@@ -221,6 +221,13 @@ CompareOptions ParseCompareOptions(const std::vector<std::string>& arguments) {
   return options;
 }
 
+// Reads a picture with colours times alpha, so that a PNG can be compared with an EXR.
+Image ReadPremultiplied(const std::string& path) {
+  Image image = ReadImage(path);
+  PremultiplyAlpha(&image);
+  return image;
+}
+
 }  // namespace
 
 int RunCompare(const std::vector<std::string>& arguments) {
@@ -232,12 +239,13 @@ int RunCompare(const std::vector<std::string>& arguments) {
     LimitMemory(limits);
     const InterruptWatch watch(limits.seconds);
     CheckFiles(options);
-    std::vector<Image> references{ReadImage(options.reference)};
-    for (const std::string& name : options.moreReferences) references.push_back(ReadImage(name));
+    std::vector<Image> references{ReadPremultiplied(options.reference)};
+    for (const std::string& name : options.moreReferences)
+      references.push_back(ReadPremultiplied(name));
     std::vector<Comparison> all;
     std::string verdicts;
     for (const std::string& name : options.pictures) {
-      const Image picture = ReadImage(name);
+      const Image picture = ReadPremultiplied(name);
       all.push_back(Compare(options, references, name, picture));
       const Verdict verdict = Judge(all.back(), options.bounds);
       isSame &= verdict.isPass;

@@ -17,7 +17,11 @@ void WarnOfClamping(const ExrWriteReport& report, Log& log) {
 }
 
 void WriteExrPicture(const std::string& path, const Image& image, bool asHalf, Log& log) {
-  WarnOfClamping(WriteExr(path, image, asHalf), log);
+  if (!image.isFromSrgb || !image.hasStraightAlpha)
+    return WarnOfClamping(WriteExr(path, image, asHalf), log);
+  Image premultiplied = image;
+  PremultiplyAlpha(&premultiplied);
+  WarnOfClamping(WriteExr(path, premultiplied, asHalf), log);
 }
 
 }  // namespace exphoton::cli

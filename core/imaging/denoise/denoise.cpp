@@ -77,8 +77,22 @@ Image KeptLayers(const Image& picture) {
   return result;
 }
 
-// Adds the mean change of the halves to each pixel. `halves` are those of the picture, and `layers`
-// those that were filtered.
+// Returns the share of the first half in a pixel of the picture, from three channels. Splatted
+// samples give the halves of a pixel different weights. Halves that hardly differ say little about
+// the share, which is then near 1/2.
+double ShareOfFirst(const std::array<double, 3>& picture, const float* first, const float* second) {
+  constexpr double kRounding = 1e-6;  // of the squares: a picture of 16 bits has 3 digits
+  double products = 0, squares = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double a = double(first[c]), b = double(second[c]), mean = (a + b) / 2;
+    products += (picture[c] - mean) * (a - b);
+    squares += (a - b) * (a - b) + kRounding * mean * mean;
+  }
+  return squares > 0 ? std::clamp(.5 + products / squares, 0., 1.) : .5;
+}
+
+// Adds the changes of the halves to each pixel, weighted by their shares in it. `halves` are those
+// of the picture, and `layers` those that were filtered.
 void Apply(const std::array<std::vector<float>, 2>& halves, const DenoiseLayers& layers,
            const std::vector<float>& changes, DenoiseResult* result) {
   NoiseSum before, after;
@@ -90,6 +104,9 @@ void Apply(const std::array<std::vector<float>, 2>& halves, const DenoiseLayers&
       continue;
     }
     const int x = int(p % std::size_t(layers.width)), y = int(p / std::size_t(layers.width));
+    const auto at = [&](std::size_t c) -> float& { return result->picture.At(x, y, channels[c]); };
+    const double share = ShareOfFirst({double(at(0)), double(at(1)), double(at(2))},
+                                      halves[0].data() + 3 * p, halves[1].data() + 3 * p);
     for (std::size_t c = 0; c < 3; ++c) {
       double was[2], is[2];
       for (std::size_t half = 0; half < 2; ++half) {
@@ -98,7 +115,8 @@ void Apply(const std::array<std::vector<float>, 2>& halves, const DenoiseLayers&
       }
       before.Add(was[0], was[1]);
       after.Add(is[0], is[1]);
-      result->picture.At(x, y, channels[c]) += float((is[0] - was[0] + is[1] - was[1]) / 2);
+      const double change = share * (is[0] - was[0]) + (1 - share) * (is[1] - was[1]);
+      if (change != 0) at(c) = float(std::max(double(at(c)) + change, 0.));
     }
   }
   result->noise = before.Mean();

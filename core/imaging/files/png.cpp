@@ -71,6 +71,7 @@ Image ReadPngFile(const std::string& path) {
   const int channels = int(names.size());
   Image result(int(png.image.width), int(png.image.height), names);
   result.isFromSrgb = true;
+  result.hasStraightAlpha = hasAlpha;
   const bool is16 = png.image.format & PNG_FORMAT_FLAG_LINEAR;
   return is16 ? Read16(path, &png.image, channels, std::move(result))
               : Read8(path, &png.image, channels, std::move(result));
@@ -82,8 +83,10 @@ std::vector<std::uint8_t> ToneMap(const Image& image, const std::array<int, 4>& 
   bytes.reserve(std::size_t(image.Width()) * std::size_t(image.Height()) * channels);
   for (int y = 0; y < image.Height(); ++y) {
     for (int x = 0; x < image.Width(); ++x) {
+      const double alpha = channels == 4 ? double(image.At(x, y, from[3])) : 1;
+      const double factor = StraightFactor(image, alpha);
       for (std::size_t c = 0; c < channels; ++c) {
-        const double v = image.At(x, y, from[c]);
+        const double v = c == 3 ? alpha : factor * double(image.At(x, y, from[c]));
         bytes.push_back(ToByte(c == 3 ? (v > 0 ? v : 0) : EncodeSrgb(tone.Apply(v))));
       }
     }

@@ -9,8 +9,9 @@
 
 namespace exphoton {
 
-// Writes the channels R, G, B (and A if present). R, G, B are tone-mapped and sRGB-encoded. The
-// write is atomic, as in WriteExr. Throws Error(File).
+// Writes the channels R, G, B (and A if present). R, G, B are divided by A, if they were multiplied
+// by it, and then tone-mapped and sRGB-encoded. The write is atomic, as in WriteExr. Throws
+// Error(File).
 void WritePng(const std::string& path, const Image& image, const ToneMapping& tone = {});
 // Returns the bytes that WritePng writes.
 std::string EncodePng(const Image& image, const ToneMapping& tone = {});

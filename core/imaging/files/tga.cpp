@@ -144,6 +144,7 @@ Image ParseTga(const std::string& path, std::string_view bytes) {
   if (header.HasAlpha()) names.push_back("A");
   Image image(header.width, header.height, names);
   image.isFromSrgb = true;
+  image.hasStraightAlpha = header.HasAlpha();
   const std::array<float, 256> linear = SrgbTable();
   const bool isFromRight = header.flags & 16, isFromTop = header.flags & 32;
   for (int row = 0; row < header.height; ++row) {

@@ -64,7 +64,7 @@ ToneLoss MeasureToneLoss(const Image& image, const ToneMapping& tone) {
   long long clipped = 0, black = 0;
   ForEachPixel(image, [&](const std::array<double, 3>& c, double alpha) {
     if (alpha == 0) return;
-    const double greatest = std::max({c[0], c[1], c[2]});
+    const double greatest = StraightFactor(image, alpha) * std::max({c[0], c[1], c[2]});
     clipped += int(greatest * scale > limit);
     black += int(!(tone.Apply(greatest) >= leastVisible));
   });

@@ -253,6 +253,11 @@ void AovFilm::SubtractLight(const AovFilm& other) {
     values_[i].sum -= other.values_[i].sum;
     values_[i].absSum -= other.values_[i].absSum;
   }
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    moments_[i].wwLL -= other.moments_[i].wwLL;
+    moments_[i].wwL -= other.moments_[i].wwL;
+    moments_[i].wL -= other.moments_[i].wL;
+  }
   for (std::size_t i = 0; i < biases_.size(); ++i) biases_[i].Add(other.biases_[i], -1);
 }
 

@@ -40,7 +40,8 @@ class AovFilm {
   void ClearPixel(Point2i pixel);
   // Adds the samples of another film with the same pixels and AOVs.
   void Add(const AovFilm& other);
-  // Removes the light AOVs and the bias of another film, which has no samples of its own.
+  // Removes the light of another film, which has no samples of its own, from the light AOVs, the
+  // variance and the bias.
   void SubtractLight(const AovFilm& other);
   // Saves or loads all sums. Throws ArchiveError if the saved film had other AOVs or pixels.
   void Transfer(ByteArchive* archive);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check that no option or layer is lost silently where a picture is a PNG, however the
 // picture is named and whichever command writes it.
+#include "core/imaging/files/exr.h"
 #include "tests/cli/program.h"
 
 namespace exphoton {
@@ -49,6 +50,36 @@ TEST_F(PngRules, AnExrThatSetNamesHasNoToneCurve) {
   // The option -o takes precedence over --set.
   const ProgramResult png = RunWith(set, {"-o", "b.png", "--exposure", "1"});
   EXPECT_EQ(png.status, 0) << png.err;
+}
+
+// The colours of an EXR are multiplied by alpha, and those of a PNG are not.
+TEST_F(PngRules, ConversionKeepsHalfCoveredPixels) {
+  Image image(1, 1, {"R", "G", "B", "A"});
+  image.pixels = {.25f, .1f, 0, .5f};
+  WriteExr(Path("a.exr"), image, false);
+  ExpectText(Run({"convert", "a.exr", "a.png"}), 0, "");
+  EXPECT_NEAR(ReadImage(Path("a.png")).At(0, 0, 0), .5, .004);
+  ExpectText(Run({"convert", "a.png", "b.exr", "--float"}), 0, "");
+  const Image back = ReadImage(Path("b.exr"));
+  EXPECT_NEAR(back.At(0, 0, 0), .25, .003);
+  EXPECT_NEAR(back.At(0, 0, 1), .1, .003);
+  EXPECT_NEAR(back.At(0, 0, 3), .5, .002);
+}
+
+// A scene may ask for colours that are not multiplied by alpha. A PNG stores them as they are.
+TEST_F(PngRules, FilmWithoutPremultiplicationGivesTheSamePng) {
+  const Arguments scene{"scene.pbrt", "--spp", "1", "--seed", "2"};
+  std::vector<float> pixels[2];
+  for (const int i : {0, 1}) {
+    const std::string film = i == 0 ? "true" : "false";
+    ExpectText(RunWith(scene, {"--set", "Film.premultiplyalpha=" + film, "-o", "a.png"}), 0, "");
+    pixels[i] = ReadImage(Path("a.png")).pixels;
+  }
+  for (std::size_t i = 0; i < pixels[0].size(); i += 4) {
+    if (!(pixels[0][i + 3] > 0)) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(pixels[0][i + c], pixels[1][i + c], .01);  // one step of 8 bits
+  }
 }
 
 TEST_F(PngRules, AMergeRefusesOptionsWithoutEffect) {

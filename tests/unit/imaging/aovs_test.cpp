@@ -131,6 +131,28 @@ TEST(AovFilm, ScalesTheVarianceByTheSquareOfAlpha) {
   EXPECT_NEAR(variance(true), 6. / 8 / 4, 1e-5);
 }
 
+// Batches of splatted samples replace the light that earlier passes shared.
+TEST(AovFilm, ForgetsRemovedLightInTheVariance) {
+  const double own[] = {4, 4, 4, 2, 2}, shared[] = {1, 1, 1, 0, 0};  // r, g, b, alpha, weight
+  const double squares[] = {1, .5, .5, .5, 2, 2, 2}, none[7] = {};
+  Film film(kOnePixel, kOnePixel);
+  for (const Real value : {Real(1), Real(3)}) film.AddSample({0, 0}, Spectrum(value), 1, 1);
+  AovFilm aovs(kOnePixel, {Aov::Variance}), light(kOnePixel, {Aov::Variance});
+  const auto variance = [&] {
+    Image image = film.ToImage(false);
+    aovs.AppendTo(film, false, &image);
+    return MeanChannel(image, "variance.R");
+  };
+  aovs.AddSums(0, own, nullptr, squares);
+  const double before = variance();
+  EXPECT_NEAR(before, 4. / 4, 1e-6);  // 2 - 2 * 2 * .5 + 2 * 2 * 1, over the squared weight
+  light.AddSums(0, shared, nullptr, none);
+  aovs.Add(light);
+  EXPECT_GT(variance(), before + .1);
+  aovs.SubtractLight(light);
+  EXPECT_NEAR(variance(), before, 1e-6);
+}
+
 // The world has every kind of light path: a lamp, a sky, glass, a mirror, glossy and
 // matte surfaces.
 std::string World(bool isOpen = true) {

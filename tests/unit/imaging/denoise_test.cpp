@@ -136,6 +136,19 @@ TEST(Denoise, DimsAnOutlierAndSaysHowMuchLightItHad) {
       EXPECT_NEAR(result.picture.At(x, y, 0), Ramp(x, y, 0), .05) << x << ", " << y;
 }
 
+// Splatted samples give the halves different weights, here 3 to 7 or 7 to 3. The mean of the halves
+// is then not the picture: a residue of 200 would stay, or the pixel would be negative.
+TEST(Denoise, DimsAnOutlierOfAHalfWithAnotherWeight) {
+  for (const float share : {.3f, .7f}) {
+    Image picture = NoisyPicture(40, 40, Ramp, .2);
+    SetHalf(&picture, 20, 20, 1, 1000);
+    picture.At(20, 20, 0) = share * 1000 + (1 - share) * picture.At(20, 20, 7);
+    const DenoiseResult result = Filtered(picture);
+    EXPECT_EQ(result.outliers.pixels, 1);
+    EXPECT_NEAR(result.picture.At(20, 20, 0), Ramp(20, 20, 0), .06) << share;
+  }
+}
+
 // Both halves have a bright pixel in the window: the light is there, and the filter keeps it.
 TEST(Denoise, KeepsTheMeanOfLightThatBothHalvesHaveFound) {
   Image picture = NoisyPicture(40, 40, Ramp, .2);

@@ -52,6 +52,8 @@ TEST(Tga, HasGreyAlphaAndFifteenBits) {
   ASSERT_EQ(alpha.ChannelCount(), 4);
   EXPECT_FLOAT_EQ(alpha.At(0, 0, 3), .2f);
   EXPECT_EQ(alpha.At(0, 0, 0), Linear(3));
+  EXPECT_TRUE(alpha.hasStraightAlpha);
+  EXPECT_FALSE(grey.hasStraightAlpha);
   const Image five = ParseTga("a.tga", TgaHeader(2, 1, 1, 16) + Bytes({31, 124}));
   EXPECT_EQ(five.At(0, 0, 0), 1);
   EXPECT_EQ(five.At(0, 0, 1), 0);

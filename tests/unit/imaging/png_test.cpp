@@ -52,6 +52,33 @@ TEST(Png, ExposureIsInStopsAndOddValuesAreClamped) {
   EXPECT_EQ(read.At(2, 0, 3), 1);
 }
 
+// Compositing programs multiply the colours of a PNG by alpha. Without a division, edges would be
+// dark.
+TEST(Png, HasColoursThatAreNotMultipliedByAlpha) {
+  Image image(3, 1, {"R", "G", "B", "A"});
+  // A half-covered pixel, one without coverage, and an opaque one.
+  image.pixels = {.25f, .1f, .6f, .5f, .25f, .1f, 0, 0, .25f, .1f, 0, 1};
+  const std::string path = TemporaryPath("straight.png");
+  WritePng(path, image);
+  Image read = ReadPng(path);
+  EXPECT_TRUE(read.hasStraightAlpha);
+  EXPECT_NEAR(read.At(0, 0, 0), .5, .004);
+  EXPECT_NEAR(read.At(0, 0, 1), .2, .003);
+  EXPECT_EQ(read.At(0, 0, 2), 1);
+  for (const int x : {1, 2}) {
+    EXPECT_NEAR(read.At(x, 0, 0), .25, .003);
+    EXPECT_NEAR(read.At(x, 0, 1), .1, .003);
+  }
+  WritePng(path, read);
+  EXPECT_EQ(ReadPng(path).pixels, read.pixels);
+  PremultiplyAlpha(&read);
+  EXPECT_FALSE(read.hasStraightAlpha);
+  EXPECT_NEAR(read.At(0, 0, 0), .25, .004);
+  EXPECT_NEAR(read.At(0, 0, 3), .5, .002);
+  EXPECT_EQ(read.At(1, 0, 0), 0);
+  EXPECT_NEAR(MeasureToneLoss(image, {}).clipped, 1. / 3, 1e-9);  // .6 / .5 is above 1
+}
+
 TEST(Png, GreyBecomesRgb) {
   const std::string path = TemporaryPath("grey.png");
   png_image png{};

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/render/splat_weights.h"
 #include "tests/support/test_plugin.h"
 #include "tests/support/test_scene.h"
 
@@ -94,6 +95,17 @@ class RenderTest : public testing::Test {
     Outcome outcome;
     Render(o, &outcome);
     return outcome.image.pixels;
+  }
+
+  Image RenderWith(SurfaceIntegrator& integrator, const Sampler& sampler, const PixelBounds& crop) {
+    ThreadPool threads(1);
+    ProgressReporter progress(ProgressReporter::Mode::Quiet);
+    Statistics statistics;
+    Film film({0, 0, 37, 29}, crop);
+    exphoton::Render(RenderJob{scene_, integrator, sampler, *filter_, *camera_, film, threads, log_,
+                               progress, statistics},
+                     RenderOptions());
+    return film.ToImage(true);
   }
 
   TestPlugins plugins_;
@@ -216,21 +228,53 @@ class FootprintIntegrator final : public SurfaceIntegrator {
 
 // Orthographic, the shorter side 2: a pixel is 2/29 wide, and N samples share it as a grid would.
 TEST_F(RenderTest, FootprintsShrinkByTheRootOfTheSamples) {
-  const auto camera = plugins_.MakeCamera(R"("orthographic")", {}, 37, 29);
+  camera_ = plugins_.MakeCamera(R"("orthographic")", {}, 37, 29);
   FootprintIntegrator integrator;
-  ThreadPool threads(1);
-  ProgressReporter progress(ProgressReporter::Mode::Quiet);
-  Statistics statistics;
   for (const int root : {1, 2, 4}) {
     const auto sampler = sampler_->WithSamplesPerPixel(root * root);
-    Film film({0, 0, 37, 29}, {0, 0, 4, 4});
-    exphoton::Render(RenderJob{scene_, integrator, *sampler, *filter_, *camera, film, threads, log_,
-                               progress, statistics},
-                     RenderOptions());
-    const Image image = film.ToImage(true);
+    const Image image = RenderWith(integrator, *sampler, {0, 0, 4, 4});
     EXPECT_NEAR(MeanChannel(image, "R") * root * 29 / 2, 1, 1e-5) << root;
     EXPECT_NEAR(MeanChannel(image, "G") * root * 29 / 2, 1, 1e-5) << root;
   }
+}
+
+// Returns 1 within about a quarter of a pixel of a pixel's centre along both axes, and 0 elsewhere.
+class CentreIntegrator final : public SurfaceIntegrator {
+ public:
+  Spectrum Li(const RayDifferential& ray, LiContext&) const override {
+    const auto isNear = [](Real place) {
+      return std::abs(place - std::floor(place) - Real(.5)) < Real(.251);
+    };
+    const Real pixels = Real(29) / 2;  // in a unit of length
+    const bool isInside =
+        isNear(ray.o.x * pixels + Real(18.5)) && isNear(ray.o.y * pixels + Real(14.5));
+    return Spectrum(isInside ? Real(1) : Real(0));
+  }
+};
+
+TEST_F(RenderTest, ANarrowFilterWithNegativeLobesShowsWhatIsWithinItsSupport) {
+  camera_ = plugins_.MakeCamera(R"("orthographic")", {}, 37, 29);
+  CentreIntegrator integrator;
+  for (const std::string name : {"mitchell", "sinc"}) {
+    filter_ = plugins_.MakeFilter("\"" + name + R"(" "float xwidth" .25 "float ywidth" .25)");
+    const Image image = RenderWith(integrator, *sampler_, {0, 0, 37, 29});
+    for (int i = 0; i < 37 * 29; ++i)
+      EXPECT_NEAR(image.At(i % 37, i / 37, 0), 1, 1e-5) << name << ' ' << i;
+  }
+}
+
+TEST_F(RenderTest, FiltersWithNegativeLobesAreSplattedUnlessTheyAreNarrow) {
+  const auto isSplatted = [&](const std::string& text) {
+    return SplatWeights::Of(*plugins_.MakeFilter(text)) != nullptr;
+  };
+  EXPECT_TRUE(isSplatted("\"mitchell\""));
+  EXPECT_TRUE(isSplatted(R"("mitchell" "float xwidth" 1.5 "float ywidth" 1.5)"));
+  EXPECT_FALSE(isSplatted(R"("mitchell" "float xwidth" 1 "float ywidth" 1)"));
+  EXPECT_TRUE(isSplatted("\"sinc\""));
+  EXPECT_TRUE(isSplatted(R"("sinc" "float xwidth" 1.5 "float ywidth" 1.5)"));
+  EXPECT_FALSE(isSplatted(R"("sinc" "float xwidth" 1 "float ywidth" 1)"));
+  // The weights of importance samples would cancel.
+  EXPECT_TRUE(isSplatted(R"("sinc" "float xwidth" 1 "float ywidth" 1 "float tau" 8)"));
 }
 
 // The checkerboard is filtered, so its colours depend on the footprint of a pixel.
