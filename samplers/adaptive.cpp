@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The sampler "adaptive" of version 2 takes few samples where a pixel looks even. Here it takes the
-// larger number in every pixel, because the choice from the samples themselves would make edges
+// most samples in every pixel, because the choice from the samples themselves would make edges
 // darker or brighter than they are (docs/decisions/0028-version-2-parameters.md).
-#include <algorithm>
+#include <bit>
 
 #include "samplers/common/low_discrepancy_sampler.h"
 
@@ -26,8 +26,7 @@ const ParamTable<Settings>& Parameters() {
 }
 
 std::unique_ptr<Sampler> Create(const Settings& settings, const SamplerContext& context) {
-  const int rounded =
-      int(std::bit_ceil(unsigned(std::max(settings.minSamples, settings.maxSamples))));
+  const int rounded = int(std::bit_ceil(unsigned(settings.maxSamples)));
   context.log.Warning("sampler \"adaptive\" takes the largest number of samples, " +
                           std::to_string(rounded) + ", in every pixel",
                       context.where);

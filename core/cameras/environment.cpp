@@ -25,7 +25,20 @@ class EnvironmentCamera final : public CameraBase {
   }
 };
 
-const ParamTable<CameraSettings>& Parameters() { return CameraParameters(); }
+const ParamTable<CameraSettings>& Parameters() {
+  using S = CameraSettings;
+  static const ParamTable<S> table{
+      DepthAndShutterParameters(),
+      Param("lensradius", &S::lensRadius, "there is no lens").Range(0, 1e15).Ignored(),
+      Param("focaldistance", &S::focalDistance, "there is no lens").AtLeast(1e-15).Ignored(),
+      Param("frameaspectratio", &S::frameAspectRatio, "the film shows every direction")
+          .Range(1e-6, 1e6)
+          .Ignored(),
+      Param("screenwindow", &S::screenWindow, "the film shows every direction")
+          .Range(-1e15, 1e15)
+          .Ignored()};
+  return table;
+}
 
 std::unique_ptr<Camera> Create(const CameraSettings& settings, const CameraContext& context) {
   return std::make_unique<EnvironmentCamera>(settings, context);

@@ -141,6 +141,8 @@ TEST(Messages, OfTheDialectAndTheFile) {
 TEST(Messages, OfParametersWithoutEffectAreVerbose) {
   const std::string scene =
       "Accelerator \"bvh\" \"integer maxnodeprims\" 8 \"string splitmethod\" \"middle\"\n"
+      "Camera \"environment\" \"float lensradius\" 1 \"float focaldistance\" 2\n"
+      "\"float frameaspectratio\" 3 \"float screenwindow\" [0 1 0 1]\n"
       "WorldBegin Shape \"sphere\" WorldEnd";
   EXPECT_EQ(TextOf(scene).find("maxnodeprims"), std::string::npos);
   Log log(Log::Level::Verbose, Log::Sink::Memory);
@@ -158,6 +160,11 @@ TEST(Messages, OfParametersWithoutEffectAreVerbose) {
       << text;
   EXPECT_NE(text.find("parameter \"splitmethod\" of accelerator \"bvh\" has no effect: "),
             std::string::npos);
+  for (const char* name : {"lensradius", "focaldistance", "frameaspectratio", "screenwindow"})
+    EXPECT_NE(text.find(std::string("parameter \"") + name +
+                        "\" of camera \"environment\" has no effect: "),
+              std::string::npos)
+        << name;
 }
 
 // Returns the error of a parameter that a program sets without a scene file.

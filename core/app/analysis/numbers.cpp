@@ -105,6 +105,7 @@ std::string SignedSecondsText(const Measured& seconds) {
 }
 
 std::string ShareText(double share) {
+  if (!(share > 0)) return ShortNumber(share);
   constexpr double kSmall = 1 / 4.5;
   if (share > kSmall) return Format("%.0f %%", 100 * share);
   const double whole = 1 / share;

@@ -26,7 +26,8 @@ std::string MeasuredText(const Measured& measured);
 std::string ChangeText(const Measured& factor);
 std::string SignedSecondsText(const Measured& seconds);  // "+1.5 ± 0.1 s"
 
-// Returns a share below 1 as people say it: "1/43", or "42 %" if it is larger than 1/4.
+// Returns a share below 1 as people say it: "1/43", or "42 %" if it is larger than 1/4. Returns "–"
+// if it is unknown.
 std::string ShareText(double share);
 
 }  // namespace exphoton::study

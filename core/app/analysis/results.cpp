@@ -229,6 +229,11 @@ Results Parse(const std::string& text) {
   return results;
 }
 
+// Names of files may have bytes that are not UTF-8, which are replaced.
+std::string Written(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string CsvNumber(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.10g", value);
@@ -306,7 +311,7 @@ std::string ToJson(const Results& results) {
         {{"image", map.image}, {"channel", map.channel}, {"title", map.title}, {"unit", map.unit}});
   json["runs"] = Json::array();
   for (const RunRow& row : results.runs) json["runs"].push_back(FromRow(row, results));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return Written(json);
 }
 
 Results FromJson(const std::string& text) {
@@ -347,7 +352,7 @@ std::string ToCsv(const Results& results) {
   return text;
 }
 
-std::string RowToJson(const RunRow& row) { return FromRun(row).dump(1) + "\n"; }
+std::string RowToJson(const RunRow& row) { return Written(FromRun(row)); }
 
 RunRow RowFromJson(const std::string& text) {
   try {

@@ -297,7 +297,7 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
   if (run.isComplete)
     keeper->Remove();
   else if (keeper->HasWritten())
-    log_.Notice("the same command with --resume continues from \"" + keeper->Path() + "\"");
+    log_.Notice(ResumeText(command_, run.scene.name, keeper->Path()));
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {

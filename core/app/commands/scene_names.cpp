@@ -62,4 +62,13 @@ void CheckSceneCount(const RenderCommand& command, std::size_t index, std::size_
                                                "\" holds " + std::to_string(scenes) + " scenes");
 }
 
+std::string ResumeText(const RenderCommand& command, const std::string& scene,
+                       const std::string& state) {
+  const std::string& first = command.scenes.front();
+  const bool isFirst = scene == (first == "-" ? "<stdin>" : first);
+  return "the same command with " + command.resumeOptions +
+         (isFirst ? "" : ", without the scenes before \"" + scene + "\",") + " continues from \"" +
+         state + '"';
+}
+
 }  // namespace exphoton::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// CheckScenesExist checks the names of scenes before anything is rendered.
+// CheckScenesExist checks the names of scenes before anything is rendered. ResumeText says how to
+// continue with a scene.
 #pragma once
 
 #include "core/app/options/options.h"
@@ -13,5 +14,10 @@ void CheckScenesExist(const RenderCommand& command);
 // Throws Error(CommandLine) if the file with this index holds several scenes and an option allows
 // one.
 void CheckSceneCount(const RenderCommand& command, std::size_t index, std::size_t scenes);
+
+// Returns a message that says how to continue a command that was stopped in this scene: with the
+// frames and scenes that remain, because the command would render the others again.
+std::string ResumeText(const RenderCommand& command, const std::string& scene,
+                       const std::string& state);
 
 }  // namespace exphoton::cli

@@ -122,7 +122,7 @@ class Measurement {
     const double mean = (Mean(whole.values[0]) + Mean(whole.values[1])) / 2;
     std::array<double, 2> light;
     for (std::size_t half = 0; half < 2; ++half)
-      light[half] = (Mean(whole.values[half]) - Mean(without.values[half])) / mean;
+      light[half] = mean > 0 ? (Mean(whole.values[half]) - Mean(without.values[half])) / mean : 0;
     effect.light = (light[0] + light[1]) / 2;
     effect.lightError = std::abs(light[0] - light[1]) / 2;
     effect.change = Change(whole, without);

@@ -18,6 +18,8 @@ std::string QuotedText(const std::string& text) {
     if (c == '"' || c == '\\') quoted += '\\';
     if (c == '\n') {
       quoted += "\\n";
+    } else if (c == '\r') {
+      quoted += "\\r";
     } else {
       quoted += c;
     }

@@ -85,9 +85,13 @@ class LightImporter {
   std::string Spot() {
     DirectiveText text("LightSource", {"spot"});
     const double cone = params_.TakeNumber("coneangle", 30);
-    const double delta = params_.TakeNumber("conedeltaangle", 5);
+    // A rim wider than the cone goes beyond its axis in versions 3 and 4.
+    const double delta = cone - std::abs(cone - params_.TakeNumber("conedeltaangle", 5));
     const double outer = CosDegrees(cone), inner = CosDegrees(cone - delta);
-    Color("I", FactorFor("power", 2 * kLightPi * ((1 - inner) + (inner - outer) / 2)), &text);
+    Color("I", FactorFor("power", 2 * kLightPi * ((1 - inner) + (inner - outer) / 5)), &text);
+    // The rim of version 3 is the quartic of version 1, whose mean is 1/5.
+    if (context_.version == 4 && delta > 0)
+      params_.Replaced("falls off by a quartic in the rim of its cone, and not by a smooth step");
     Copy("from", &text);
     Copy("to", &text);
     text.Number("float coneangle", cone).Number("float conedeltaangle", delta);

@@ -98,17 +98,14 @@ class OptionImporter {
   }
 
   std::string Filter() {
-    const bool isOf3 = context_.version == 3;
-    const std::string name = type_ == "sinc" ? "sinc" : type_;
-    const double radius = type_ == "sinc"                 ? 4
-                          : type_ == "box"                ? .5
-                          : !isOf3 && type_ == "gaussian" ? 1.5
-                                                          : 2;
+    if (type_ == "sinc") return Sinc();
     if (!IsFilter()) {
       params_.Replaced("is replaced by \"box\"");
       return DirectiveText("PixelFilter", {"box"}).Text();
     }
-    DirectiveText text("PixelFilter", {name});
+    const bool isOf3 = context_.version == 3;
+    const double radius = type_ == "box" ? .5 : !isOf3 && type_ == "gaussian" ? 1.5 : 2;
+    DirectiveText text("PixelFilter", {type_});
     text.Number("float xwidth", Width('x', radius)).Number("float ywidth", Width('y', radius));
     if (type_ == "gaussian") {
       const double sigma = params_.TakeNumber("sigma", .5);
@@ -116,11 +113,23 @@ class OptionImporter {
     }
     Copy("B", &text);
     Copy("C", &text);
-    if (type_ == "sinc") text.Number("float tau", params_.TakeNumber("tau", 3));
+    return text.Text();
+  }
+  // In versions 3 and 4 the filter is sinc(x) sinc(x / tau), cut at the radius. Here it is
+  // sinc(x tau / width) sinc(x / width), cut at the width.
+  std::string Sinc() {
+    const double tau = params_.TakeNumber("tau", 3);
+    const double xRadius = Width('x', 4), yRadius = Width('y', 4);
+    if (xRadius != tau || yRadius != tau)
+      params_.Replaced("ends at its \"tau\" of " + ExactText(tau) +
+                       " pixels, and not at its radius of " + ExactText(xRadius) + " and " +
+                       ExactText(yRadius));
+    DirectiveText text("PixelFilter", {type_});
+    text.Number("float xwidth", tau).Number("float ywidth", tau).Number("float tau", tau);
     return text.Text();
   }
   bool IsFilter() const {
-    for (const char* name : {"box", "triangle", "gaussian", "mitchell", "sinc"})
+    for (const char* name : {"box", "triangle", "gaussian", "mitchell"})
       if (type_ == name) return true;
     return false;
   }

@@ -15,7 +15,8 @@ namespace exphoton::cli {
 // Warns if values beyond +-65504 were written as +-65504.
 void WarnOfClamping(const ExrWriteReport& report, Log& log);
 
-// Calls WriteExr and WarnOfClamping.
+// Calls WriteExr and WarnOfClamping. Colours that were read from a PNG or TGA file are first
+// multiplied by alpha.
 void WriteExrPicture(const std::string& path, const Image& image, bool asHalf, Log& log);
 
 }  // namespace exphoton::cli

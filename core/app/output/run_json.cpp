@@ -1,13 +1,33 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // StatisticsJson writes a RunRecord as one line of JSON (RFC 8259).
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string_view>
 
 #include "core/app/output/run_record.h"
 
 namespace exphoton::cli {
 namespace {
+
+// Returns the length of the UTF-8 sequence at the beginning of the text (RFC 3629); 0 if the text
+// does not begin with one.
+std::size_t Utf8Length(std::string_view text) {
+  const auto byte = [text](std::size_t i) {
+    return i < text.size() ? unsigned(static_cast<unsigned char>(text[i])) : 0u;
+  };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return 1;
+  if (lead < 0xc2 || lead > 0xf4) return 0;
+  const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  // Longer forms of small numbers, surrogates and numbers above 0x10ffff are no UTF-8.
+  const bool isWrong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xed && byte(1) > 0x9f) ||
+                       (lead == 0xf0 && byte(1) < 0x90) || (lead == 0xf4 && byte(1) > 0x8f);
+  return isWrong ? 0 : length;
+}
 
 // Writes JSON members in sequence and inserts the commas.
 class JsonWriter {
@@ -52,19 +72,27 @@ class JsonWriter {
     if (!isFirst_) text_ += ',';
     isFirst_ = false;
   }
+  // Names of files may have any bytes, but JSON is UTF-8.
   void AppendQuoted(const std::string& value) {
     text_ += '"';
-    for (const char c : value) {
-      const auto byte = static_cast<unsigned char>(c);
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\u%04x", unsigned(byte));
+    for (std::size_t at = 0; at < value.size();) {
+      const std::size_t length = Utf8Length(std::string_view(value).substr(at));
+      const char c = value[at];
       if (c == '"' || c == '\\') text_ += '\\';
-      if (byte < 32)
-        text_ += escape;
+      if (length == 0)
+        AppendEscape(0xfffd);
+      else if (length == 1 && c < 32)
+        AppendEscape(unsigned(c));
       else
-        text_ += c;
+        text_.append(value, at, length);
+      at += std::max<std::size_t>(length, 1);
     }
     text_ += '"';
+  }
+  void AppendEscape(unsigned code) {
+    char escape[12];
+    std::snprintf(escape, sizeof escape, "\\u%04x", code);
+    text_ += escape;
   }
 
   std::string text_;

@@ -22,6 +22,19 @@ bool FileExists(const std::string& path) {
   return lstat(path.c_str(), &status) == 0;
 }
 
+// Returns the name under which an older state is kept: "out.exr.state.old", "out.exr.state.old-2"
+// for the second one, and so on.
+std::string OlderName(const std::string& path, int number) {
+  return path + ".old" + (number > 1 ? "-" + std::to_string(number) : "");
+}
+
+// Returns the options that continue from the state, and from the oldest one that was kept.
+std::string ResumeHint(const std::string& path) {
+  const std::string older = OlderName(path, 1);
+  return "--resume continues it" +
+         (IsStateFile(older) ? ", --resume --state \"" + older + "\" an older one" : "");
+}
+
 }  // namespace
 
 StateKeeper::StateKeeper(const Settings& settings, const StateIdentity& identity, Log& log)
@@ -61,7 +74,7 @@ StateFile* StateKeeper::Resume() {
     if (IsStateFile(settings_.path))
       log_.Warning("\"" + settings_.path +
                        "\" is the state of a stopped render, which this command does not continue",
-                   {}, settings_.keepsState ? "--resume continues it" : "");
+                   {}, settings_.keepsState ? ResumeHint(settings_.path) : "");
     return nullptr;
   }
   if (!FileExists(settings_.path)) {
@@ -99,12 +112,12 @@ void StateKeeper::Save(const Checkpoint& checkpoint) {
   hasWritten_ = true;
 }
 
-// The state of a render that is not continued may be hours of work.
+// The state of a render that is not continued may be hours of work, and so may the ones before it.
 void StateKeeper::KeepOlderState() {
   if (!FileExists(settings_.path)) return;
-  const std::string name = settings_.path + ".old";
-  if (FileExists(name) && !IsStateFile(name))
-    throw Error(ExitStatus::File, "\"" + name + "\" exists and is not a state");
+  int number = 1;
+  while (FileExists(OlderName(settings_.path, number))) ++number;
+  const std::string name = OlderName(settings_.path, number);
   if (std::rename(settings_.path.c_str(), name.c_str()) != 0)
     throw Error(ExitStatus::File, "cannot rename \"" + settings_.path + "\"");
   log_.Notice("the older state is kept as \"" + name + "\"");

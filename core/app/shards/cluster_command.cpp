@@ -72,16 +72,16 @@ std::string RenderText(const ClusterOptions& options) {
   return "exec " + CommandLineText(words);
 }
 
-bool StatesThreads(const std::vector<std::string>& render) {
-  return std::any_of(render.begin(), render.end(), [](const std::string& word) {
-    const std::string name = word.substr(0, word.find('='));
-    return name == "--nthreads" || name == "--ncores";
+bool HasOption(const std::vector<std::string>& words, const std::string& option) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return word.substr(0, word.find('=')) == option;
   });
 }
 
 // Returns the last options of a task. A number of threads that the user states takes precedence.
 std::string TaskEnd(const ClusterOptions& options) {
-  const bool statesThreads = StatesThreads(options.render);
+  const bool statesThreads =
+      HasOption(options.render, "--nthreads") || HasOption(options.render, "--ncores");
   return std::string(" \\\n  ") +
          (statesThreads ? "" : "--nthreads \"${SLURM_CPUS_ON_NODE:-0}\" ") + "--no-progress";
 }
@@ -162,10 +162,15 @@ RenderCommand ParseTask(const ClusterOptions& options, const std::vector<std::st
 RenderCommand ParseTasks(const ClusterOptions& options) {
   if (options.shards == 0)
     return ParseTask(options, {"--frames", options.frames, "-o", options.outfile});
+  if (HasOption(options.render, "--shard"))
+    FailUsage("--shard is not for the options after --: each task has a shard of its own");
   RenderCommand picture = ParseTask(options, {"-o", options.outfile});
   if (picture.png.IsGiven())
     FailUsage("--exposure and --tone-curve are for a whole picture, but a shard is a part of one",
               "-o NAME.exr keeps all values, and exphoton convert makes a PNG of it");
+  if (!picture.statsFile.empty() && picture.statsFile != "-")
+    FailUsage("--stats-json names one file, but every shard would write it",
+              "exphoton merge PARTS -o PICTURE --stats-json FILE writes the sum of all parts");
   ParseTask(options,
             {"--shard", "1/" + std::to_string(options.shards), "-o", options.folder + "/parts"});
   return picture;

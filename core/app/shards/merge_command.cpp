@@ -235,6 +235,7 @@ class Merge {
     run->passes = result.passes;
     run->stoppedBy = StopReasonName(result.reason);
     run->noise = result.noise;
+    run->noiseError = result.noiseError;
     run->sharingBias = result.render.sharingBias;
     if (record_.passes.targetError > 0) run->targetError = record_.passes.targetError;
     run->aovs = record_.aovs;

@@ -43,11 +43,12 @@ std::string PlaceIn(const std::string& path, int line) {
 }
 
 // Refuses options that only the user may give, because study files can come from untrusted sources.
+// The jobs of --tasks read the study file, too, so it cannot say which part of the study to run.
 void CheckAllowedInStudyFile(const std::string& name, const std::string& value,
                              const std::string& place) {
-  const bool isAllowed = name != "plugin-dir" && name != "allow-scene-plugins" &&
-                         name != "limits" && name != "submit" && name != "sbatch";
-  if (isAllowed) return;
+  constexpr std::string_view kRefused[] = {
+      "plugin-dir", "allow-scene-plugins", "limits", "submit", "sbatch", "tasks", "task", "from"};
+  if (std::ranges::find(kRefused, name) == std::end(kRefused)) return;
   throw Error(ExitStatus::File, place + "\"" + name + "\" can only be given on the command line",
               SourceLocation(),
               "to choose it yourself: exphoton study ... --" + name +
@@ -95,6 +96,27 @@ std::vector<std::string> ReadStudyFile(const OptionParser& app, const std::strin
     arguments.push_back(value.empty() ? "--" + name : "--" + name + "=" + value);
   }
   return arguments;
+}
+
+std::string OptionName(const std::string& argument) {
+  return argument.substr(0, argument.find('='));
+}
+
+// Returns the options in study files that this option of the command line replaces: itself if it
+// can be repeated, and options that it excludes. The last one of other options counts anyway, and
+// --set counts for each parameter by itself.
+std::vector<std::string> ReplacedBy(const std::string& option) {
+  if (option == "--reference" || option == "--make-reference")
+    return {"--reference", "--make-reference"};
+  if (option == "--setting" || option == "--vary" || option == "--crop") return {option};
+  return {};
+}
+
+// Drops the arguments of study files that those of the command line replace.
+void DropReplaced(const std::vector<std::string>& commandLine, std::vector<std::string>* ofFiles) {
+  for (const std::string& argument : commandLine)
+    for (const std::string& name : ReplacedBy(OptionName(argument)))
+      std::erase_if(*ofFiles, [&](const std::string& line) { return OptionName(line) == name; });
 }
 
 void AddWhat(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
@@ -318,7 +340,7 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
   AddReference(app, options, raw);
   AddRender(app, options, raw);
   AddArray(app, options, raw);
-  // Options of study files come first, so that the command line overrides them.
+  // Options of study files come first, because the last one counts.
   std::vector<std::string> arguments, rest;
   for (const std::string& argument : given) {
     const bool isFile = IsStudyFile(argument) && argument[0] != '-';
@@ -328,6 +350,7 @@ StudyOptions ParseStudyOptions(const std::vector<std::string>& given) {
     arguments.insert(arguments.end(), read.begin(), read.end());
     if (!isFile) rest.push_back(argument);
   }
+  DropReplaced(rest, &arguments);
   arguments.insert(arguments.end(), rest.begin(), rest.end());
   app.Parse(arguments);
   try {

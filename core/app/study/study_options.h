@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // StudyOptions holds the options of `exphoton study`, from the command line or a study file. A
 // study file (NAME.study) has one option per line, without dashes: "seeds 4". Its paths are
-// relative to its own folder. The command line takes precedence.
+// relative to its own folder. An option of the command line replaces the file's.
 #pragma once
 
 #include <optional>

@@ -33,13 +33,22 @@ struct CameraSettings {
   }
 };
 
-inline const ParamTable<CameraSettings>& CameraParameters() {
+// The parameters that have an effect in every camera.
+inline const ParamTable<CameraSettings>& DepthAndShutterParameters() {
   using S = CameraSettings;
   static const ParamTable<S> table{
       Param("hither", &S::hither, "nearer surfaces are not seen").AtLeast(0).Unit("camera units"),
       Param("yon", &S::yon, "farther surfaces are not seen").Above(0).Unit("camera units"),
       Param("shutteropen", &S::shutterOpen, "start of the exposure"),
-      Param("shutterclose", &S::shutterClose, "end of the exposure"),
+      Param("shutterclose", &S::shutterClose, "end of the exposure")};
+  return table;
+}
+
+// The parameters of cameras that have a lens and a screen.
+inline const ParamTable<CameraSettings>& CameraParameters() {
+  using S = CameraSettings;
+  static const ParamTable<S> table{
+      DepthAndShutterParameters(),
       Param("lensradius", &S::lensRadius, "radius of the thin lens; 0: a pinhole")
           .Range(0, 1e15)
           .Unit("camera units"),

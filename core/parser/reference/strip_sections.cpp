@@ -20,13 +20,6 @@ struct Plugin {
   bool Has(const ParameterStrip& strip) const { return strip.kind == kind && strip.plugin == name; }
 };
 
-// A camera for all directions has these parameters too, but neither a lens nor a screen.
-bool HasNoEffect(const Plugin& plugin, const std::string& parameter) {
-  return plugin.kind == PluginKind::Camera && plugin.name == "environment" &&
-         (parameter == "lensradius" || parameter == "focaldistance" ||
-          parameter == "frameaspectratio" || parameter == "screenwindow");
-}
-
 // Returns the parameters in the order of their table on the page: basic ones first.
 std::vector<ParamDecl> ParametersOf(PluginRegistry& registry, const Plugin& plugin) {
   std::vector<ParamDecl> result =
@@ -93,7 +86,7 @@ std::string SectionEnd(PluginRegistry& registry, const Plugin& plugin, const std
   std::string pictures, text;
   std::vector<Link> links;
   for (const ParamDecl& decl : ParametersOf(registry, plugin)) {
-    if (decl.isIgnored || HasNoEffect(plugin, decl.name)) continue;
+    if (decl.isIgnored) continue;
     auto strip = std::find_if(strips.begin(), strips.end(), [&](const ParameterStrip& other) {
       return plugin.Has(other) && other.parameter == decl.name;
     });

@@ -86,6 +86,8 @@ TEST_F(ClusterScripts, APictureThatNoMergeCanWriteIsRefusedBeforeAnyTask) {
   ExpectRefused(1, {"--shards", "2", "-o", "a.png", "--", "--aov", "albedo"},
                 "a PNG has no layers for --aov");
   ExpectRefused(1, {"--shards", "2", "-o", "a.png", "--", "--float"}, "a PNG has 8 bits");
+  ExpectRefused(1, {"--shards", "2", "-o", "a.exr", "--", "--stats-json", "s.json"},
+                "--stats-json names one file, but every shard would write it");
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
   EXPECT_EQ(Cluster({"--shards", "2", "-o", "a.PNG"}).status, 0);
   EXPECT_EQ(Cluster({"--shards", "2", "-o", "a.exr", "--", "--aov", "albedo", "--float"}).status,

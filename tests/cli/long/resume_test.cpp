@@ -70,6 +70,29 @@ TEST_F(ResumedProgram, ContinuesToTheSameBytes) {
   EXPECT_EQ(Read("out.exr"), picture);
 }
 
+// The same command with --resume would render the complete pictures again.
+TEST_F(ResumedProgram, NamesTheFramesAndScenesThatRemain) {
+  Write("scene1.pbrt", SmallScene());
+  Write("scene2.pbrt", Scene());
+  const auto stopIn = [this](const Names& words, const std::string& picture) {
+    const pid_t process = Start(words);
+    EXPECT_TRUE(WaitForMessage("wrote \"" + picture + "\""));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    kill(process, SIGINT);
+    return Wait(process).err;
+  };
+  const Names frames{"scene%d.pbrt", "--frames", "1-3", "-o", "f%d.exr", "--nthreads", "1"};
+  ExpectIn("the same command with --frames 2-3 --resume continues from \"f2.exr.state\"",
+           stopIn(frames, "f1.exr"));
+  Write("first.pbrt",
+        SmallScene("Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 6 "
+                   "\"string filename\" \"first.exr\""));
+  ExpectIn(
+      "the same command with --resume, without the scenes before \"scene.pbrt\", continues "
+      "from \"out.exr.state\"",
+      stopIn({"first.pbrt", "scene.pbrt", "--nthreads", "1"}, "first.exr"));
+}
+
 TEST_F(ResumedProgram, WithoutAStateItBegins) {
   const ProgramResult result = Run(Command({"--resume", "--spp", "1"}));
   EXPECT_EQ(result.status, 0);
@@ -162,6 +185,20 @@ TEST_F(ResumedProgram, KeepsTheStateOfARenderThatIsNotContinued) {
   EXPECT_TRUE(Exists("out.exr.state"));
   EXPECT_EQ(Run(Command({"--resume", "--state", "out.exr.state.old"})).status, 0);
   EXPECT_EQ(Files(), (Names{"out.exr", "out.exr.state", "scene.pbrt"}));
+}
+
+TEST_F(ResumedProgram, KeepsTheStatesOfAllRendersThatAreNotContinued) {
+  const auto stop = [this] { return Stop(Command({}), SIGINT, .2); };
+  stop();
+  const std::string first = Read("out.exr.state");
+  EXPECT_EQ(stop().err.find("--state"), std::string::npos);
+  const std::string second = Read("out.exr.state");
+  const ProgramResult third = stop();
+  ExpectIn("--resume continues it, --resume --state \"out.exr.state.old\" an older one", third.err);
+  ExpectIn("the older state is kept as \"out.exr.state.old-2\"", third.err);
+  EXPECT_EQ(Read("out.exr.state.old"), first);
+  EXPECT_EQ(Read("out.exr.state.old-2"), second);
+  EXPECT_TRUE(Exists("out.exr.state"));
 }
 
 TEST_F(ResumedProgram, WritesThePictureSoFar) {

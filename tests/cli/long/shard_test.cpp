@@ -110,6 +110,12 @@ TEST_F(Shards, EveryKindOfPictureHasTheBytesOfOneMachine) {
       return json.substr(begin, end - begin);
     };
     EXPECT_EQ(counts("merged.json"), counts("one.json"));
+    const auto noiseError = [this](const std::string& name) {
+      const std::string json = Read(name), key = "\"noiseError\":";
+      const std::size_t at = json.find(key);
+      return at == json.npos ? 0 : std::stof(json.substr(at + key.size()));
+    };
+    EXPECT_FLOAT_EQ(noiseError("merged.json"), noiseError("one.json"));
     for (int index = 1; index <= 3; ++index) remove(Path(PartName(index, 3)).c_str());
   }
 }

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 
+#include "core/app/analysis/results.h"
 #include "tests/support/test_scene.h"
 
 namespace exphoton::cli {
@@ -157,6 +158,19 @@ TEST_F(RunRecordTest, IsALineOfJson) {
                        "\"timeLimit\":9,"),
             std::string::npos)
       << other;
+}
+
+// Names of files may have any bytes.
+TEST_F(RunRecordTest, WritesJsonOfUtf8Only) {
+  run.scene.name =
+      "\xe9t\xc3\xa9 \xe2\x82\xac\xf0\x9f\x98\x80 \xed\xa0\x80 \xc0\x80 \xf4\x90\x80\x80 \xe2\x82";
+  const std::string bad = "\\ufffd", json = StatisticsJson(run);
+  EXPECT_TRUE(json.starts_with("{\"scene\":\"" + bad + "t\xc3\xa9 \xe2\x82\xac\xf0\x9f\x98\x80 " +
+                               bad + bad + bad + " " + bad + bad + " " + bad + bad + bad + bad +
+                               " " + bad + bad + "\","))
+      << json;
+  study::RunRow row;
+  EXPECT_NO_THROW(study::AddRunStatistics(json, &row));
 }
 
 TEST_F(RunRecordTest, SaysWhichRuleStoppedIt) {

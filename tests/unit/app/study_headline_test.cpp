@@ -133,6 +133,16 @@ TEST(StudyHeadline, NamesAtMostThreeOthers) {
             "d's.");
 }
 
+// One seed without a reference measures no error.
+TEST(StudyHeadline, ComparesNoErrorsThatAreUnknown) {
+  const std::vector<CostPoint> unknown{CostAt(1, kUnknown), CostAt(10, kUnknown)};
+  Analysis analysis = TwoLines(unknown, unknown);
+  analysis.hasReference = false;
+  Write(&analysis);
+  EXPECT_EQ(analysis.headline, "On room, too few errors are known to compare them.");
+  EXPECT_EQ(analysis.details, "");
+}
+
 TEST(StudyHeadline, RefusesRatiosThatTheReferencesNoiseDoesNotAllow) {
   Analysis analysis = SevenTimes();
   analysis.reference.variance = {.004, .0001};  // 10 % of .04: .05 is comparable, .03 is not

@@ -86,6 +86,9 @@ TEST(StudyNumbers, SharesAreFractionsOrPerCent) {
   EXPECT_EQ(ShareText(1 / 123.), "1/120");
   EXPECT_EQ(ShareText(.25), "25 %");
   EXPECT_EQ(ShareText(.7), "70 %");
+  EXPECT_EQ(ShareText(kUnknown), "–");
+  EXPECT_EQ(ShareText(0), "0");
+  EXPECT_EQ(ShareText(-.5), "−0.5");
 }
 
 }  // namespace

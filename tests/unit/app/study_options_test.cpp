@@ -137,14 +137,42 @@ TEST_F(StudyOptionsTest, ComeFromAStudyFileWithPathsOfItsFolder) {
   EXPECT_EQ(ParseStudyOptions({file, "--seeds", "3"}).seeds, 3);
 }
 
+TEST_F(StudyOptionsTest, OfTheCommandLineReplaceLinesOfAStudyFile) {
+  const std::string file = folder_.File("x.study"), a = folder_.File("a.exr"),
+                    b = folder_.File("b.exr");
+  WriteFile(file, "scene s.pbrt\nout " + folder_.File("results") +
+                      "\nreference a.exr\nreference a.exr\nintegrators path\nsetting igi\n"
+                      "setting whitted\nvary spp=1\nvary path:spp=2\ncrop 0,1,0,1\nset Film.a=1\n");
+  const StudyOptions all = ParseStudyOptions({file});
+  EXPECT_EQ(all.references, (Arguments{a, a}));
+  EXPECT_EQ(all.plan.bases.size(), 3u);
+  EXPECT_EQ(all.plan.varied.size(), 2u);
+  EXPECT_EQ(ParseStudyOptions({"--reference", b, file}).references, Arguments{b});
+  EXPECT_EQ(ParseStudyOptions({file, "--reference=" + b, "--reference", a}).references,
+            (Arguments{b, a}));
+  EXPECT_EQ(SettingsOf(ParseStudyOptions({file, "--setting", "igi maxdepth=3"})),
+            (Arguments{"path/path/as the scene says", "igi/igi/maxdepth=3"}));
+  const StudyOptions varied = ParseStudyOptions({file, "--vary=maxdepth=3"});
+  ASSERT_EQ(varied.plan.varied.size(), 1u);
+  EXPECT_EQ(varied.plan.varied[0].parameter, "maxdepth");
+  EXPECT_EQ(ParseStudyOptions({file, "--crop", "0,.5,0,1"}).crops, Arguments{"0,.5,0,1"});
+  EXPECT_EQ(ParseStudyOptions({file, "--set", "Film.b=2"}).sets,
+            (Arguments{"Film.a=1", "Film.b=2"}));
+  // They exclude each other.
+  const StudyOptions made = ParseStudyOptions({file, "--make-reference", "path"});
+  EXPECT_EQ(made.makeReference, "path");
+  EXPECT_EQ(made.references, Arguments());
+}
+
 TEST_F(StudyOptionsTest, RefuseInAStudyFileWhatOnlyTheUserMayChoose) {
   const std::string file = folder_.File("x.study");
   const auto error = [&](const std::string& line) {
     WriteFile(file, "seeds 2\n" + line + "\n");
     return ErrorOf({file});
   };
-  for (const char* name : {"plugin-dir", "allow-scene-plugins", "limits"})
+  for (const char* name : {"plugin-dir", "allow-scene-plugins", "limits", "tasks", "task", "from"})
     EXPECT_EQ(error(name), file + ":2: \"" + name + "\" can only be given on the command line");
+  EXPECT_NE(error("tasks 4").find("\"tasks\" can only be given"), std::string::npos);
   EXPECT_EQ(error("--seeds 3"), file + ":2: options in a study file have no dashes");
   EXPECT_EQ(error("sed 3"), file + ":2: there is no option \"sed\"");
   EXPECT_NE(error("out /elsewhere").find("lies neither in the working folder"), std::string::npos);

@@ -135,6 +135,12 @@ TEST(StudyResults, AreTheSameAfterWritingAndReading) {
   EXPECT_EQ(RowFromJson(RowToJson(results.runs[0])).cpuSeconds, 1.25);
 }
 
+TEST(StudyResults, MayNameFilesOfAnyBytes) {
+  RunRow row;
+  row.command = "exphoton \xe9t\xc3\xa9.pbrt";
+  EXPECT_EQ(RowFromJson(RowToJson(row)).command, "exphoton \xef\xbf\xbdt\xc3\xa9.pbrt");
+}
+
 TEST(StudyResults, HaveOneCsvRowARunAndQuoteWhatNeedsIt) {
   const std::string csv = ToCsv(Sample());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);

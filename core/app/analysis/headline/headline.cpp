@@ -141,9 +141,9 @@ std::string WithoutTarget(const Results& results, const Analysis& analysis) {
   std::vector<std::pair<double, std::string>> least;
   for (const Contender& contender : analysis.contenders) {
     const TimeToError all = FindTimeToError(analysis.Points(contender.settings), 0);
-    const double error = all.best.error.value;
-    if (ReferenceShortfall(analysis.reference, error) <= 1)
-      least.emplace_back(error, contender.name);
+    const Measured& error = all.best.error;
+    if (error.IsKnown() && ReferenceShortfall(analysis.reference, error.value) <= 1)
+      least.emplace_back(error.value, contender.name);
   }
   if (least.size() < 2) return start + "too few errors are known to compare them.";
   std::sort(least.begin(), least.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/app/import/directive_text.h"
 #include "core/app/import/materials/material_parts.h"
 #include "tests/unit/app/import/import_support.h"
 
@@ -105,8 +106,61 @@ TEST(Import, ConvertsLightsWithTheirUnits) {
   EXPECT_NEAR(ofPower("LightSource \"spot\" \"float coneangle\" 90 \"float conedeltaangle\" 0 "
                       "\"float power\" 10"),
               10 / (2 * pi), 1e-12);
+  // A rim that falls off by a quartic emits a fifth of the same solid angle at full intensity.
+  EXPECT_NEAR(ofPower("LightSource \"spot\" \"float coneangle\" 90 \"float conedeltaangle\" 90 "
+                      "\"float power\" 10"),
+              10 / (2 * pi / 5), 1e-12);
   EXPECT_EQ(World4("AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 2").Line("Area"),
             "AreaLightSource \"area\" \"color L\" [2 4 6]");
+}
+
+TEST(Import, QuotesTextSoThatItIsReadBack) {
+  const std::string name = "a\r\n\r\t\"\\\b\fz\xc3";
+  const std::vector<Directive> read = ParseText("CoordinateSystem " + QuotedText(name));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].strings[0], name);
+}
+
+// Version 3 has the quartic of version 1.
+TEST(Import, ReportsTheSmoothRimOfASpotOfVersion4) {
+  const Imported four = World4("LightSource \"spot\"");
+  EXPECT_FALSE(four.isExact);
+  EXPECT_NE(four.messages.find("LightSource \"spot\" falls off by a quartic"), std::string::npos)
+      << four.messages;
+  EXPECT_TRUE(World4("LightSource \"spot\" \"float conedeltaangle\" 0").isExact);
+  EXPECT_TRUE(World3("LightSource \"spot\"").isExact);
+}
+
+// The full light ends at 3 - 5 degrees, which has the cosine of 2 degrees.
+TEST(Import, KeepsTheRimOfASpotWithinItsCone) {
+  const Imported narrow = World3("LightSource \"spot\" \"float coneangle\" 3");
+  EXPECT_NE(narrow.Line("LightSource").find("\"float coneangle\" [3] \"float conedeltaangle\" [1]"),
+            std::string::npos)
+      << narrow.Line("LightSource");
+}
+
+TEST(Import, EndsTheSincFilterAtTau) {
+  const auto convert = [](const std::string& film, const std::string& parameters) {
+    return ImportText("Film \"" + film + "\"\nIntegrator \"path\"\nPixelFilter \"sinc\" " +
+                      parameters + "\nSampler \"halton\"\nWorldBegin\n" +
+                      (film == "rgb" ? "" : "WorldEnd\n"));
+  };
+  const std::string two =
+      "PixelFilter \"sinc\" \"float xwidth\" [2] \"float ywidth\" [2] \"float tau\" [2]";
+  for (const Imported& exact :
+       {convert("rgb", "\"float xradius\" 2 \"float yradius\" 2 \"float tau\" 2"),
+        convert("image", "\"float xwidth\" 2 \"float ywidth\" 2 \"float tau\" 2")}) {
+    EXPECT_EQ(exact.Line("PixelFilter"), two);
+    EXPECT_TRUE(exact.isExact) << exact.messages;
+  }
+  // The default radius is 4.
+  const Imported longer = convert("rgb", "\"float tau\" 2 \"float yradius\" 2");
+  EXPECT_EQ(longer.Line("PixelFilter"), two);
+  EXPECT_FALSE(longer.isExact);
+  EXPECT_NE(longer.messages.find("PixelFilter \"sinc\" ends at its \"tau\" of 2 pixels, and not at "
+                                 "its radius of 4 and 2"),
+            std::string::npos)
+      << longer.messages;
 }
 
 TEST(Import, BlackbodyOfVersion4HasLuminance1) {
