@@ -221,7 +221,8 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                             chosen.photonSamples,
                             chosen.settings,
                             chosen.omitted,
-                            ChoiceText(pilots, chosen)};
+                            ChoiceText(pilots, chosen),
+                            chosen.price.samples};
   Apply(chosen.settings, turned);
   turned->load.samplesPerPixel = 2 * kMostGrowth * turned->dial->firstSamples;
   turned->certifies = chosen.correctedShare > 0;

@@ -31,7 +31,8 @@ struct DialChoice {
   double photonSamples = 0;       // the same
   DialSettings settings;
   std::vector<OmittedEffect> omitted;
-  std::string text;  // what changed
+  std::string text;            // what changed
+  double expectedSamples = 0;  // as in StoppingRule::Accuracy
 };
 
 struct RenderCommand {

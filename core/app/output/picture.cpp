@@ -85,9 +85,13 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   }
   if (command.isProgressive) rule.progressiveAlpha = command.progressiveAlpha;
   if (command.accuracy)
-    rule.accuracy = StoppingRule::Accuracy{
-        *command.accuracy,           command.dial->firstSamples,     command.dial->biasShare,
-        command.dial->photonSamples, BoundOf(command.dial->omitted), !command.keepsSettings};
+    rule.accuracy = StoppingRule::Accuracy{*command.accuracy,
+                                           command.dial->firstSamples,
+                                           command.dial->biasShare,
+                                           command.dial->photonSamples,
+                                           BoundOf(command.dial->omitted),
+                                           !command.keepsSettings,
+                                           command.dial->expectedSamples};
   return RenderInPasses(job, options, rule);
 }
 

@@ -30,6 +30,7 @@ struct StoppingRule {
     double omitted = 0;        // as in AccuracyRule
     // Whether the picture may lose shared gathers where their bias is dear.
     bool mayStopSharing = false;
+    double expectedSamples = 0;  // that the error takes; 0: not known
   };
   std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs

@@ -46,6 +46,14 @@ TEST(TimeForecast, FollowsTheSamplesOfAnAccuracy) {
   EXPECT_FALSE(left->isRough);
 }
 
+TEST(TimeForecast, TakesTheSamplesThatPilotsExpectBeforeTheFirstLook) {
+  StoppingRule rule;
+  rule.accuracy = {.error = .05, .firstSamples = 8, .expectedSamples = 24};
+  const auto left = InFirstPass(rule, {kPixels, true, 1}, kTenthRendered);
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->left, 9 + 2 + 20, 1e-9);
+}
+
 TEST(TimeForecast, KnowsThePriceOfPhotonsForAnAccuracy) {
   StoppingRule rule;
   rule.accuracy = {.error = .05, .firstSamples = 8, .photonSamples = 2};

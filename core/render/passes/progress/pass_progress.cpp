@@ -94,6 +94,9 @@ std::optional<TimeForecast::Estimate> TimeForecast::LeftWhilePreparing(const Pas
 // Returns the time that passes after the current one will take. `rays`: as in Pass.
 std::optional<TimeForecast::Estimate> TimeForecast::LeftAfter(PassPlan::State state,
                                                               double rays) const {
+  // The first look at the error is after two groups. Before it, only the pilots know.
+  if (rule_.accuracy && before_.samples < 2 * rule_.accuracy->firstSamples)
+    state.needed = std::max(state.needed.value_or(0), rule_.accuracy->expectedSamples);
   // The noise has been estimated before the current pass, which lowers it.
   if (state.noise) *state.noise *= double(before_.samples) / double(state.samples);
   const bool isQuietEnough = rule_.targetError && state.noise && *state.noise <= *rule_.targetError;
