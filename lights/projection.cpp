@@ -151,13 +151,13 @@ class ProjectedImage final : public IntensityMap {
 
   // Returns the number of steps of the midpoint rule in a cell, along an axis where the plane has
   // the extent `width` and the image has `cells` cells. One step at the centre of a texel would
-  // miss its neighbours, although the interpolant reaches them. Two steps see them, and have no
-  // error for a bilinear interpolant.
+  // miss its neighbours, although the interpolant reaches them. An even number of steps sees them,
+  // and has no error for a bilinear interpolant.
   int StepsOf(double width, int cells) const {
     if (isUniform_) return 1;
     constexpr double kStep = .005, kLeast = 2;
     const double most = std::max(kLeast, kMaxSteps / cells);
-    return int(std::clamp(std::ceil(width / cells / kStep), kLeast, most));
+    return 2 * int(std::clamp(std::ceil(width / cells / kStep), kLeast, most) / 2);
   }
 
   // Returns the integral of the interpolant over the solid angle of a cell. The sum is scaled by

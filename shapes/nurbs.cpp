@@ -148,7 +148,7 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
   const auto u = Parameters(surface.u, "u", settings.u0, settings.u1);
   const auto v = Parameters(surface.v, "v", settings.v0, settings.v1);
   const double vertices = double(u.size()) * double(v.size());
-  CheckTriangleCount(2 * vertices, "nu");
+  CheckTriangleCount(2 * vertices, u.size() < v.size() ? "nv" : "nu");
   CheckMemory(vertices * kBytesPerVertex,
               "a surface of " + std::to_string(settings.uCount) + " x " +
                   std::to_string(settings.vCount) + " control points",

@@ -73,9 +73,9 @@ class PluginRegistry {
   PluginFolders folders_;
   Log* log_;
   bool isStrict_;
-  // Of the kinds used so far.
+  // They have an entry for each kind that was used so far.
   std::map<PluginKind, std::vector<std::string>> knownNames_, parameterNames_;
-  // By "<kind folder>/<name>". substitutes_ has the names of the missing plugins.
+  // Their keys are "<kind folder>/<name>". substitutes_ has the names of the missing plugins.
   std::map<std::string, const PluginDescriptor*> loaded_, substitutes_;
 };
 

@@ -2,8 +2,9 @@
 // Filter is a pixel reconstruction filter. A filter without negative values is importance sampled
 // (Ernst, Stamminger and Greiner 2006, "Filter Importance Sampling"): the position of a camera
 // sample is drawn from the filter around its pixel's centre, and the sample contributes to this
-// pixel only. So is a filter narrower than about a pixel. Samples of other filters are uniform in
-// their pixel and contribute to all pixels in the filter's support (core/render/splat_weights.h).
+// pixel only. Filters with negative values are importance sampled, too, if they are narrower than
+// about a pixel or too wide. Samples of other filters are uniform in their pixel and contribute to
+// all pixels in the filter's support (core/render/splat_weights.h).
 #pragma once
 
 #include "core/math/vec.h"

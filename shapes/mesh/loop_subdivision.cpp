@@ -152,6 +152,7 @@ class Rings {
     std::vector<Spoke> sorted(begin, end);
     std::stable_sort(sorted.begin(), sorted.end(), IsBefore);
     Ring reached;
+    reached.reserve(sorted.size());
     for (const Spoke* s = begin; s != end; ++s) reached.push_back(s->to);
     std::sort(reached.begin(), reached.end());
     // A ring at a boundary begins at a neighbour that no spoke leads to.

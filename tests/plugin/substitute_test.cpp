@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests check what the loader does with materials that it cannot find.
+// These tests check how the loader handles materials that it cannot find.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -229,7 +229,7 @@ Results Parse(const std::string& text) {
   return results;
 }
 
-// Names of files may have bytes that are not UTF-8, which are replaced.
+// Returns the JSON as text. Bytes that are not UTF-8, as names of files may have, are replaced.
 std::string Written(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

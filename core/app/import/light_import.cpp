@@ -86,7 +86,8 @@ class LightImporter {
     DirectiveText text("LightSource", {"spot"});
     const double cone = params_.TakeNumber("coneangle", 30);
     // A rim wider than the cone goes beyond its axis in versions 3 and 4.
-    const double delta = cone - std::abs(cone - params_.TakeNumber("conedeltaangle", 5));
+    const double rim = params_.TakeNumber("conedeltaangle", 5);
+    const double delta = std::max(cone - std::abs(cone - rim), 0.);
     const double outer = CosDegrees(cone), inner = CosDegrees(cone - delta);
     Color("I", FactorFor("power", 2 * kLightPi * ((1 - inner) + (inner - outer) / 5)), &text);
     // The rim of version 3 is the quartic of version 1, whose mean is 1/5.

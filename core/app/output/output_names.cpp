@@ -70,7 +70,9 @@ void OutputNames::AddTo(RunFiles& files, const Place& place, const std::string& 
     picture.remedy = "to name the file yourself: " + LineWithOutput(scene, ExrName(name));
   }
   if (place.picture > 0)
-    picture.remedy = "each picture of a scene file needs a Film with a \"filename\" of its own";
+    picture.remedy =
+        NameFromUser() ? "without this name, each picture has the name of its Film"
+                       : "each picture of a scene file needs a Film with a \"filename\" of its own";
   files.AddOutput("1 " + key, picture);
   if (!command_.previewFile.empty())
     files.AddOutput("2 " + key, {command_.previewFile, "the preview" + of,

@@ -32,7 +32,7 @@ std::string OlderName(const std::string& path, int number) {
 std::string ResumeHint(const std::string& path) {
   const std::string older = OlderName(path, 1);
   return "--resume continues it" +
-         (IsStateFile(older) ? ", --resume --state \"" + older + "\" an older one" : "");
+         (IsStateFile(older) ? "; --resume --state \"" + older + "\" continues an older one" : "");
 }
 
 }  // namespace

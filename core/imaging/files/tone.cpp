@@ -45,8 +45,9 @@ double ToneMapping::Apply(double value) const {
 float AutoExposure(const Image& image) {
   double sum = 0;
   long long count = 0;
-  ForEachPixel(image, [&](const std::array<double, 3>& c, double) {
-    const double luminance = .2126 * c[0] + .7152 * c[1] + .0722 * c[2];
+  ForEachPixel(image, [&](const std::array<double, 3>& c, double alpha) {
+    const double luminance =
+        StraightFactor(image, alpha) * (.2126 * c[0] + .7152 * c[1] + .0722 * c[2]);
     if (!(luminance > 0) || !std::isfinite(luminance)) return;
     sum += std::log2(luminance);
     ++count;

@@ -86,10 +86,10 @@ class Film {
   }
 
  private:
-  // Filters with negative values splat their samples. sum(w) is then close to the number of whole
-  // samples, absWeight, except by chance after the first few samples. Such pixels use the mean of
-  // their own samples, which needs little precision. Filters without negative values have positive
-  // weights, so that both sums and both means are the same.
+  // Most filters with negative values splat their samples. sum(w) is then close to the number of
+  // whole samples, absWeight, except by chance after the first few samples. Such pixels use the
+  // mean of their own samples, which needs little precision. Filters without negative values have
+  // positive weights, so that both sums and both means are the same.
   struct Pixel {
     double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
     std::int64_t samples = 0;

@@ -26,8 +26,8 @@ struct MaterialSpec {
   std::string label;  // the name that MakeNamedMaterial gives; else empty
   ParamSet params;
   MaterialMap parts;  // the named materials that the parameters refer to
-  // Of MakeNamedMaterial: the textures that the parameters name, as defined there. Null: the
-  // parameters name textures that are known at the shape.
+  // A material of MakeNamedMaterial keeps the textures that its parameters name, as defined there.
+  // Null: the parameters name textures that are known at the shape.
   std::shared_ptr<const TextureTable> textures;
 
   std::shared_ptr<const Material> made;

@@ -48,17 +48,20 @@ std::optional<SharingBias> EstimateAlong(std::size_t direction,
                                          const std::vector<CheckedPixel>& checked,
                                          const Film& film) {
   std::map<std::pair<int, int>, double> blocks;
-  for (const CheckedPixel& pixel : checked)
-    if (film.Crop().Contains(pixel.pixel.x, pixel.pixel.y))
-      blocks[{pixel.pixel.y / kBlock, pixel.pixel.x / kBlock}] +=
-          RelativeProduct(pixel, direction, film);
+  double pixels = CheckedPixelsIn(film.Crop());
+  for (const CheckedPixel& pixel : checked) {
+    if (!film.Crop().Contains(pixel.pixel.x, pixel.pixel.y)) continue;
+    if (const double product = RelativeProduct(pixel, direction, film); !std::isnan(product))
+      blocks[{pixel.pixel.y / kBlock, pixel.pixel.x / kBlock}] += product;
+    else
+      --pixels;  // its bias is not known
+  }
   if (blocks.size() < 2) return std::nullopt;
   const auto count = double(blocks.size());
   double sum = 0, squares = 0;
   for (const auto& [block, product] : blocks) sum += product;
   for (const auto& [block, product] : blocks)
     squares += (product - sum / count) * (product - sum / count);
-  const double pixels = CheckedPixelsIn(film.Crop());
   return SharingBias{sum / pixels, std::sqrt(squares * count / (count - 1)) / pixels};
 }
 
@@ -73,8 +76,11 @@ std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, FitNeighbours* 
                                             : std::nullopt;
   };
   const auto right = neighbour(pixel.x + 1, pixel.y), below = neighbour(pixel.x, pixel.y + 1);
-  if (!right && !below) return std::nullopt;
   CheckedPixel checked{pixel, {}};
+  if (!right && !below) {
+    for (auto& products : checked.products) products.fill(std::nan(""));
+    return checked;
+  }
   // A neighbour that is missing counts as the other one.
   const std::array<const Spectrum*, 2> others{right ? &*right : &*below, below ? &*below : &*right};
   for (std::size_t i = 0; i < others.size(); ++i)

@@ -21,7 +21,7 @@
 namespace exphoton {
 
 // The products of the differences in a pixel and in its neighbours, in radiance squared. They may
-// be negative.
+// be negative. They are NaN if no neighbour has a difference.
 struct CheckedPixel {
   Point2i pixel;
   // With the next pixel of the row, and of the column; by channel.

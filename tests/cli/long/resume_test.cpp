@@ -194,7 +194,8 @@ TEST_F(ResumedProgram, KeepsTheStatesOfAllRendersThatAreNotContinued) {
   EXPECT_EQ(stop().err.find("--state"), std::string::npos);
   const std::string second = Read("out.exr.state");
   const ProgramResult third = stop();
-  ExpectIn("--resume continues it, --resume --state \"out.exr.state.old\" an older one", third.err);
+  ExpectIn("--resume continues it; --resume --state \"out.exr.state.old\" continues an older one",
+           third.err);
   ExpectIn("the older state is kept as \"out.exr.state.old-2\"", third.err);
   EXPECT_EQ(Read("out.exr.state.old"), first);
   EXPECT_EQ(Read("out.exr.state.old-2"), second);

@@ -145,19 +145,20 @@ TEST(SharingBias, CountsPartsOfSamplesAsParts) {
 }
 
 // A quarter of the pixels of the crop have gathers, with a relative squared bias of 1 each. The
-// pixels beyond the crop, which a filter needs, do not count.
+// pixels beyond the crop, which a filter needs, do not count, and neither does a quarter whose bias
+// is not known.
 TEST(SharingBias, IsTheMeanOfAllPixelsOfTheCrop) {
   const Film film({0, 0, 96, 96}, {16, 16, 80, 80});
   std::vector<CheckedPixel> checked;
-  for (int y = 0; y < 48; y += 2) {
+  for (int y = 0; y < 80; y += 2) {
     for (int x = 0; x < 48; x += 2) {
       const int corner = (x / 2 + y / 2) & 1;
       CheckedPixel pixel{{x + corner, y + corner}, {}};
-      for (auto& products : pixel.products) products.fill(.01);
+      for (auto& products : pixel.products) products.fill(y < 48 ? .01 : std::nan(""));
       checked.push_back(pixel);
     }
   }
-  EXPECT_NEAR(EstimateSharingBias(checked, film).value().squared, .25, 1e-9);
+  EXPECT_NEAR(EstimateSharingBias(checked, film).value().squared, 1. / 3, 1e-9);
 }
 
 // The light depends on the row only, so a row's mean over pixels and runs has little noise.

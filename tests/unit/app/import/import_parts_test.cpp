@@ -137,6 +137,8 @@ TEST(Import, KeepsTheRimOfASpotWithinItsCone) {
   EXPECT_NE(narrow.Line("LightSource").find("\"float coneangle\" [3] \"float conedeltaangle\" [1]"),
             std::string::npos)
       << narrow.Line("LightSource");
+  const Imported narrower = World3("LightSource \"spot\" \"float coneangle\" 2");
+  EXPECT_NE(narrower.Line("LightSource").find("\"float conedeltaangle\" [0]"), std::string::npos);
 }
 
 TEST(Import, EndsTheSincFilterAtTau) {
