@@ -34,8 +34,8 @@ struct Image {
   std::map<std::string, ImageAttribute> attributes;
   std::set<std::string> exactChannels;  // written with 32 bits to every EXR file; see ReadExr
   bool isFromSrgb = false;  // whether the values were decoded from sRGB when the file was read
-  // Whether PNG files get R, G and B as they are. Otherwise they are divided by A. Images that were
-  // read from PNG and TGA files have straight colours, and those from EXR files do not.
+  // Whether R, G and B are not multiplied by A. PNG and TGA files have such colours. EXR files and
+  // rendered pictures do not.
   bool hasStraightAlpha = false;
 
   Image() = default;

@@ -68,7 +68,6 @@ Image KeptLayers(const Image& picture) {
   }
   Image result(picture.data, picture.display, names);
   result.attributes = picture.attributes;
-  result.hasStraightAlpha = picture.hasStraightAlpha;
   for (const std::string& name : names)
     if (picture.exactChannels.contains(name)) result.exactChannels.insert(name);
   for (int y = 0; y < picture.Height(); ++y)

@@ -157,7 +157,6 @@ std::array<double, 4> Film::Pixel::Mean() const {
 
 Image Film::ToImage(bool premultiplyAlpha) const {
   Image image(crop_, full_, {"R", "G", "B", "A"});
-  image.hasStraightAlpha = !premultiplyAlpha;
   float* out = image.pixels.data();
   for (const Pixel& pixel : pixels_) {
     const std::array<double, 4> mean = pixel.Mean();
