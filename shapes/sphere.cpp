@@ -179,7 +179,7 @@ class Sphere final : public QuadricShape {
       view.where = View::Outside;
       const double ratio = worldRadius_ / view.distance;
       const double sin2 = ratio * ratio;
-      view.oneMinusCos = sin2 / (1 + std::sqrt(1 - sin2));
+      view.oneMinusCos = sin2 / (1 + std::sqrt(std::max(1 - sin2, 0.0)));
     } else if (relative < -1e-3) {
       view.where = View::Inside;
     }

@@ -13,8 +13,9 @@ bool EmissionCone::MayHit(const Bounds3& box) const {
   const double radius = std::sqrt(double(LengthSquared(diagonal))) / 2;
   const double distance = std::sqrt(double(LengthSquared(towards)));
   if (!std::isfinite(radius) || !(distance > radius)) return true;
-  const double cosine = std::clamp(double(Dot(towards, axis)) / distance, -1., 1.);
-  return !(std::acos(cosine) > angle + std::asin(radius / distance) + kMargin);
+  const double toCenter = std::acos(std::clamp(double(Dot(towards, axis)) / distance, -1., 1.));
+  const double halfAngle = std::asin(std::clamp(radius / distance, 0., 1.));
+  return !(toCenter > angle + halfAngle + kMargin);
 }
 
 }  // namespace exphoton

@@ -36,7 +36,7 @@ class Hemisphere {
         At(j, k) = incident.Along(spawner.Spawn(isOutside ? w : -w), random, context);
         // The stratum's middle, because the tangent of single rays has no bound.
         const Real middle = (Real(j) + Real(.5)) / Real(m_);
-        AddRotation(At(j, k).radiance, std::sqrt(middle / (1 - middle)), phi);
+        AddRotation(At(j, k).radiance, SafeSqrt(middle / (1 - middle)), phi);
       }
     }
   }

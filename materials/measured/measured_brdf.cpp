@@ -70,7 +70,7 @@ Spectrum MeasuredBrdf::MeanAlbedo() const {
   Spectrum sum;
   for (int i = 0; i < kCosines; ++i) {
     const Real cosine = std::sqrt((Real(i) + Real(.5)) / kCosines);
-    const Vector3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
+    const Vector3 wo(SafeSqrt(1 - cosine * cosine), 0, cosine);
     for (int j = 0; j < kColumns * kRows; ++j) {
       const Vector3 wi = Sample(wo, {(Real(j % kColumns) + Real(.5)) / kColumns,
                                      (Real(j / kColumns) + Real(.5)) / kRows});
@@ -105,8 +105,8 @@ Vector3 MeasuredBrdf::Sample(const Vector3& wo, Point2 u) const {
   const DiscreteDistribution::Choice choice = rings_.Sample(2 * u.x - 1);
   const auto ring = std::size_t(choice.index);
   const double sin2 = sin2_[ring] + double(choice.remapped) * (sin2_[ring + 1] - sin2_[ring]);
-  const Vector3 h =
-      SphericalDirection(Real(std::sqrt(sin2)), Real(std::sqrt(1 - sin2)), 2 * kPi * u.y);
+  const double cosine = std::sqrt(std::max(1 - sin2, 0.));
+  const Vector3 h = SphericalDirection(Real(std::sqrt(sin2)), Real(cosine), 2 * kPi * u.y);
   return h * (2 * Dot(wo, h)) - wo;
 }
 

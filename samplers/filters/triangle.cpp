@@ -20,7 +20,7 @@ const ParamTable<Settings>& Parameters() {
 
 // Inverts the cumulative distribution of a triangle on [-1, 1].
 Real InvertTriangle(Real u) {
-  return u < Real(.5) ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
+  return u < Real(.5) ? std::sqrt(2 * u) - 1 : 1 - SafeSqrt(2 * (1 - u));
 }
 
 class TriangleFilter final : public Filter {

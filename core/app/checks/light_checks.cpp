@@ -117,7 +117,7 @@ class LightChecker {
     DirectionGrid grid;
     if (area_) {
       const double sine = double(world_.radius / Length(world_.center - ref.p));
-      grid = {world_.center - ref.p, 1 - std::sqrt(1 - sine * sine)};
+      grid = {world_.center - ref.p, 1 - std::sqrt(std::max(1 - sine * sine, 0.))};
     }
     const auto sample = [&](RandomStream& random) -> std::optional<Vector3> {
       const Point2 u{random.Uniform(), random.Uniform()};

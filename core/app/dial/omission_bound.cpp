@@ -17,8 +17,9 @@ constexpr double kWrong = .01;  // the chance that any of the bounds is too low
 // cumulative distribution function".
 double StudentQuantile(double probability) {
   static_assert(OmissionSample::kPairs - 1 == 4);
-  const double root = std::sqrt(4 * probability * (1 - probability));
-  return 2 * std::sqrt(std::cos(std::acos(root) / 3) / root - 1);
+  const double root = std::sqrt(std::max(4 * probability * (1 - probability), 0.));
+  const double third = std::acos(std::clamp(root, 0., 1.)) / 3;
+  return 2 * std::sqrt(std::max(std::cos(third) / root - 1, 0.));
 }
 
 struct Spread {

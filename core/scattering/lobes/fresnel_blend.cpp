@@ -98,7 +98,7 @@ std::optional<BxdfSample> BlendedGloss::Sample(const Vector3& wo, Point2 u) cons
 // half vector is farthest from wo where wi is on the opposite horizon: cos^2 = (1 - sin wo) / 2.
 std::optional<Spectrum> BlendedGloss::ThroughputBound(const Vector3& wo) const {
   const Real sine = std::min(std::sqrt(wo.x * wo.x + wo.y * wo.y), Real(1));
-  const Real fresnel = Power5(1 - std::sqrt((1 - sine) / 2));
+  const Real fresnel = Power5(1 - SafeSqrt((1 - sine) / 2));
   Spectrum schlick;
   for (int c = 0; c < Spectrum::kChannels; ++c)
     schlick[c] = std::max(gloss_[c], gloss_[c] + (1 - gloss_[c]) * fresnel);

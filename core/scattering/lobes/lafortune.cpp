@@ -57,7 +57,7 @@ LafortuneFit::LafortuneFit(std::initializer_list<LafortuneLobe> lobes) : lobes_(
   const Lafortune lobe(lobes_, Spectrum());
   for (int i = 0; i < kCosines; ++i) {
     const Real cosine = std::sqrt((Real(i) + Real(.5)) / kCosines);
-    const Vector3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
+    const Vector3 wo(SafeSqrt(1 - cosine * cosine), 0, cosine);
     for (int j = 0; j < kSide * kSide; ++j) {
       const Point2 u((Real(j % kSide) + Real(.5)) / kSide, (Real(j / kSide) + Real(.5)) / kSide);
       if (const auto sample = lobe.Sample(wo, u)) rho_ += sample->throughput;

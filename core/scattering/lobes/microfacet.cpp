@@ -44,7 +44,7 @@ std::optional<BxdfSample> Microfacet::Sample(const Vector3& wo, Point2 u) const 
 // / 2. F has no maximum between there and normal incidence.
 std::optional<Spectrum> Microfacet::ThroughputBound(const Vector3& wo) const {
   const Real sine = std::min(std::sqrt(wo.x * wo.x + wo.y * wo.y), Real(1));
-  const Spectrum normal = fresnel_(1), grazing = fresnel_(std::sqrt((1 - sine) / 2));
+  const Spectrum normal = fresnel_(1), grazing = fresnel_(SafeSqrt((1 - sine) / 2));
   Spectrum bound;
   for (int c = 0; c < Spectrum::kChannels; ++c)
     bound[c] = 2 * reflectance_[c] * std::max(normal[c], grazing[c]);

@@ -106,7 +106,7 @@ void DistantLightTargeting::Redirect(LightLeSample* emission, Point2 u) const {
   } else {
     // The CDF over the squared relative radius s is 2 s - s^2.
     const TargetSphere& sphere = spheres_[std::size_t(choice.index - 1)];
-    const Real d = sphere.radius * SafeSqrt(1 - std::sqrt(1 - choice.remapped));
+    const Real d = sphere.radius * SafeSqrt(1 - SafeSqrt(1 - choice.remapped));
     const Real phi = 2 * kPi * u.y;
     onPlane = frame.x * (Dot(sphere.center, frame.x) + d * std::cos(phi)) +
               frame.y * (Dot(sphere.center, frame.y) + d * std::sin(phi));

@@ -4,19 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/unit/rules/source_files.h"
 #include "tests/unit/rules/source_functions.h"
 
 namespace exphoton {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int kFileLines = 400, kFunctionLines = 50, kArguments = 5;
 
@@ -32,27 +29,6 @@ const std::set<std::string> kManyArguments{
     // The C library fixes the arguments.
     "tests/hardcases/preload/failing_allocations.cpp __libc_start_main",
 };
-
-std::string ReadText(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// Calls visit(path relative to the top, text) for all sources.
-template <class Visit>
-int VisitSources(const Visit& visit) {
-  const fs::path top = EXPHOTON_SOURCE_DIR;
-  int count = 0;
-  for (const char* folder : {"core", "integrators", "accelerators", "shapes", "lights", "materials",
-                             "samplers", "tests"})
-    for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
-      const fs::path extension = entry.path().extension();
-      if (extension != ".h" && extension != ".cpp" && extension != ".inl") continue;
-      ++count;
-      visit(fs::relative(entry.path(), top).string(), ReadText(entry.path()));
-    }
-  return count;
-}
 
 TEST(Layering, NoSourceFileIsTooLong) {
   const int sources = VisitSources([](const std::string& path, const std::string& text) {
@@ -79,7 +55,7 @@ TEST(Layering, NoFunctionIsTooLongOrHasTooManyArguments) {
 }
 
 TEST(Layering, TheLengthsAreThoseThatContributingStates) {
-  std::string page = ReadText(fs::path(EXPHOTON_SOURCE_DIR) / "docs/development/CONTRIBUTING.md");
+  std::string page = ReadSource(EXPHOTON_SOURCE_DIR "/docs/development/CONTRIBUTING.md");
   std::replace(page.begin(), page.end(), '\n', ' ');
   const std::string sentence = "Files have at most " + std::to_string(kFileLines) +
                                " lines, functions fewer than " + std::to_string(kFunctionLines) +

@@ -226,4 +226,6 @@ std::vector<SourceFunction> FindFunctions(const std::string& source) {
   return Scanner(source).Scan();
 }
 
+std::string BlankLiterals(const std::string& source) { return Blanker(source).Blank(); }
+
 }  // namespace exphoton

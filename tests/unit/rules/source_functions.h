@@ -20,4 +20,7 @@ struct SourceFunction {
 // Throws std::runtime_error if braces do not match.
 std::vector<SourceFunction> FindFunctions(const std::string& source);
 
+// Returns the source with blanks in place of comments, literals and preprocessor lines.
+std::string BlankLiterals(const std::string& source);
+
 }  // namespace exphoton

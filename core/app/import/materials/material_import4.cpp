@@ -142,7 +142,7 @@ class Material4Importer : private MaterialImporter {
       for (std::size_t c = 0; c < 3; ++c) {
         const double r = std::clamp(color[c], 0., .9999);
         eta[c] = 1;
-        k[c] = 2 * std::sqrt(r) / std::sqrt(1 - r);
+        k[c] = 2 * std::sqrt(r) / std::sqrt(std::max(1 - r, 0.));
       }
     }
     DirectiveText rough = head_.Text("metal");
