@@ -34,7 +34,7 @@ struct Run {
 };
 
 // Script is a bash script that runs in an empty folder; $EXPHOTON is the program. Exit status 0
-// passes.
+// passes. Status 77 leaves the case out, because something that it needs is missing.
 struct Script {
   std::string name, text;
   double timeLimit = 60;

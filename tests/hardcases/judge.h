@@ -14,7 +14,8 @@ namespace exphoton::hardcases {
 
 struct Verdict {
   std::vector<std::string> seen;      // short texts for the table
-  std::vector<std::string> failures;  // none: passed
+  std::vector<std::string> failures;  // none: passed, or left out
+  bool isLeftOut = false;             // a script lacks something that it needs
   std::vector<double> falseAlarms;    // of its means (PictureResult::falseAlarm)
   double seconds = 0, megabytes = 0;  // the sum; the maximum over processes
 };

@@ -99,8 +99,10 @@ void Fill(const Verdict& verdict, const NamedTests::Result& tests, bool areRun, 
   } else if (asksNothing) {
     line->state = State::Failed;
     line->failures.push_back("nothing is asked");
+  } else if (!line->failures.empty()) {
+    line->state = State::Failed;
   } else {
-    line->state = line->failures.empty() ? State::Passed : State::Failed;
+    line->state = verdict.isLeftOut ? State::LeftOut : State::Passed;
   }
 }
 

@@ -37,7 +37,8 @@ for file in bin/exphoton lib/libexphoton.so lib/exphoton/plugins/integrators/exp
   lib/exphoton/plugins/filters/gaussian.so include/exphoton/core/plugin.h \
   lib/cmake/exphoton/exphotonConfig.cmake share/exphoton/scenes/furnace/path.pbrt \
   share/doc/exphoton/guide/getting-started.md share/doc/exphoton/copyright \
-  share/man/man1/exphoton.1 share/bash-completion/completions/exphoton; do
+  share/man/man1/exphoton.1 share/bash-completion/completions/exphoton \
+  share/zsh/vendor-completions/_exphoton; do
   [ -e "$prefix/$file" ] || [ -e "$prefix/$file.gz" ] || fail "$file is missing"
 done
 
@@ -64,19 +65,35 @@ mv "$prefix/lib/exphoton/plugins/integrators/path.so" .
 grep -q 'path' log || fail "the message does not name the plugin"
 mv path.so "$prefix/lib/exphoton/plugins/integrators/"
 
-# Completion and manual know every command.
-for command in render explain plugins check-plugin info convert import denoise compare study report; do
-  grep -q "^\.B $command$" <(zcat -f "$prefix"/share/man/man1/exphoton.1*) ||
-    fail "the manual lacks $command"
+# The manual and the completions of both shells know the commands that --help lists, and no other.
+commands=$(run --help | sed -n '/^Commands/,/^$/s/^  exphoton \[\{0,1\}\([a-z-]*\).*/\1/p' | sort)
+for command in render merge cluster photons quote budget report; do
+  grep -qx -- "$command" <<<"$commands" || fail "--help does not list $command"
 done
-words=$(
+manual=$(zcat -f "$prefix"/share/man/man1/exphoton.1* |
+  sed -n '/^\.SH COMMANDS/,/^\.PP/p' | grep -A 1 '^\.TP' | sed -n 's/^\.B //p' | sort) ||
+  fail "the manual has no commands"
+same() {  # same WHAT EXPECTED FOUND
+  [ "$2" = "$3" ] || fail "the commands of $1 differ: $(diff <(echo "$2") <(echo "$3"))"
+}
+same 'the manual' "$commands" "$manual"
+complete_in_bash() {
   PATH=$prefix/bin:$PATH
   . "$prefix/share/bash-completion/completions/exphoton"
-  COMP_WORDS=(exphoton compare --max) COMP_CWORD=2
+  COMP_WORDS=(exphoton "$@") COMP_CWORD=$#
   _exphoton
-  echo "${COMPREPLY[*]}"
-)
-case " $words " in *" --max-mean "*) ;; *) fail "completion gives: $words" ;; esac
+  printf '%s\n' "${COMPREPLY[@]}"
+}
+completed=$(printf '%s\n' help "$commands" | sort)
+same bash "$completed" "$(complete_in_bash "" | sort)"
+same zsh "$completed" "$(sed -n 's/^ *commands=(\(.*\))$/\1/p' \
+  "$prefix/share/zsh/vendor-completions/_exphoton" | tr ' ' '\n' | sort)"
+for command in $commands; do
+  words=$(complete_in_bash "$command" --he)
+  [ "$words" = --help ] || fail "bash completes --he of $command as: $words"
+done
+words=$(complete_in_bash compare --max)
+grep -qx -- --max-mean <<<"$words" || fail "completion gives: $words"
 
 if [ "$mode" = --package ]; then
   can_chroot || skip "the package did not run without the libraries of this machine, because this \

@@ -2,6 +2,12 @@
 // TestPlugins parses one directive from memory and creates the plugin by the registry.
 #include "tests/support/test_plugin.h"
 
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <new>
+
+#include "core/base/error.h"
 #include "core/parser/syntax/parser.h"
 
 namespace exphoton {
@@ -15,6 +21,22 @@ class OneDirective final : public DirectiveHandler {
 
  private:
   Directive directive_;
+};
+
+// DataLimit limits the data of this process until it is destroyed.
+class DataLimit {
+ public:
+  explicit DataLimit(int megabytes) {
+    getrlimit(RLIMIT_DATA, &before_);
+    const rlimit limit{rlim_t(megabytes) << 20, before_.rlim_max};
+    setrlimit(RLIMIT_DATA, &limit);
+  }
+  ~DataLimit() { setrlimit(RLIMIT_DATA, &before_); }
+  DataLimit(const DataLimit&) = delete;
+  DataLimit& operator=(const DataLimit&) = delete;
+
+ private:
+  rlimit before_{};
 };
 
 }  // namespace
@@ -115,6 +137,22 @@ std::shared_ptr<const EmitterSurface> TestPlugins::MakeEmitter(const std::string
   if (auto* shape = std::get_if<std::unique_ptr<Shape>>(&geometry)) return std::move(*shape);
   meshes_.push_back(std::move(std::get<std::unique_ptr<TriangleMesh>>(geometry)));
   return MakeMeshEmitter(*meshes_.back());
+}
+
+std::string RefusalForMemory(const std::string& text, int megabytes) {
+  TestPlugins plugins;
+  try {
+    const DataLimit limit(megabytes);
+    plugins.MakeShape(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Status(), ExitStatus::Resource);
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    ADD_FAILURE() << "the shape was begun, and ran out of memory";
+    return "";
+  }
+  ADD_FAILURE() << "the shape was made";
+  return "";
 }
 
 }  // namespace exphoton

@@ -60,4 +60,8 @@ class TestPlugins {
   std::vector<std::unique_ptr<TriangleMesh>> meshes_;
 };
 
+// Makes a shape while the data of this process are limited to `megabytes`, and expects an error of
+// status Resource. Returns its message. Running out of memory instead fails the test.
+std::string RefusalForMemory(const std::string& text, int megabytes);
+
 }  // namespace exphoton

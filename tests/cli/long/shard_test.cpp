@@ -218,6 +218,7 @@ TEST_F(Shards, DuplicatesMustBeEqual) {
   Write("parts/part-copy.state", Read(PartName(1, 2)));
   EXPECT_EQ(Run(Command({"--shard", "2/2", "-o", "again/"})).status, 0);
   EXPECT_EQ(Run({"merge", "parts/", "again/", "-o", "merged.exr"}).status, 0);
+  EXPECT_EQ(Read("merged.exr"), OneMachine());
   remove(Path("merged.exr").c_str());
   Rewrite(Path(PartName(1, 2)), Path("parts/part-copy.state"), "pass 0 tile 0",
           [](std::string* bytes) { bytes->at(9) ^= 1; });

@@ -2,7 +2,6 @@
 // These tests check shapes that make meshes: the checks of trianglemesh, every form of PLY file,
 // faulty PLY files, and Loop subdivision against limits known in closed form.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <zlib.h>
 
 #include <bit>
@@ -374,22 +373,10 @@ TEST(LoopSubdivision, RefusesWhatIsNoSurface) {
 }
 
 TEST(LoopSubdivision, ThatNeedsMoreMemoryThanThereIsIsRefusedBeforeItBegins) {
-  rlimit before{};
-  getrlimit(RLIMIT_DATA, &before);
-  const rlimit limit{rlim_t(2) << 30, before.rlim_max};
-  TestPlugins plugins;
-  std::string problem;
-  setrlimit(RLIMIT_DATA, &limit);
-  try {
-    MakeMesh(plugins, R"("loopsubdiv" "integer nlevels" 12 "integer indices" [0 1 2]
-                         "point P" [0 0 0 1 0 0 0 1 0])");
-  } catch (const Error& error) {
-    problem = error.what();
-    EXPECT_EQ(error.Status(), ExitStatus::Resource);
-  } catch (const std::bad_alloc&) {
-    problem = "it began";
-  }
-  setrlimit(RLIMIT_DATA, &before);
+  const std::string problem = RefusalForMemory(
+      R"("loopsubdiv" "integer nlevels" 12 "integer indices" [0 1 2]
+         "point P" [0 0 0 1 0 0 0 1 0])",
+      2048);
   EXPECT_NE(problem.find("subdivision with nlevels 12 needs about "), std::string::npos) << problem;
   EXPECT_NE(problem.find("and this process may use 2048 MB"), std::string::npos) << problem;
 }

@@ -2,7 +2,6 @@
 // These tests check NURBS surfaces and height fields: basis functions by their identities, rational
 // circles, Bezier patches by Bernstein polynomials, and the meshes that the shapes make.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <numeric>
@@ -217,21 +216,7 @@ TEST(Nurbs, ThatNeedsMoreMemoryThanThereIsIsRefusedBeforeItBegins) {
   for (int i = 0; i < count; ++i) text += ' ' + std::to_string(i);
   text += ' ' + std::to_string(count - 1) + "] \"point P\" [";
   for (int i = 0; i < 2 * count; ++i) text += "0 0 0 ";
-  rlimit before{};
-  getrlimit(RLIMIT_DATA, &before);
-  const rlimit limit{rlim_t(1) << 30, before.rlim_max};
-  TestPlugins plugins;
-  std::string problem;
-  setrlimit(RLIMIT_DATA, &limit);
-  try {
-    MakeNurbs(plugins, text + "]");
-  } catch (const Error& error) {
-    problem = error.what();
-    EXPECT_EQ(error.Status(), ExitStatus::Resource);
-  } catch (const std::bad_alloc&) {
-    problem = "it began";
-  }
-  setrlimit(RLIMIT_DATA, &before);
+  const std::string problem = RefusalForMemory(text + "]", 1024);
   EXPECT_NE(problem.find("a surface of 80000 x 2 control points needs about "), std::string::npos)
       << problem;
   EXPECT_NE(problem.find("and this process may use 1024 MB"), std::string::npos) << problem;
