@@ -94,6 +94,11 @@ void ParamTableBase::AddBase(const ParamTableBase& base, const void* defaults,
     slot.offset += offset;
     AddSlot(base.declarations_[i], std::move(slot), defaults);
   }
+  AddRemoved(base.removed_);
+}
+
+void ParamTableBase::AddRemoved(const std::vector<RemovedParam>& removed) {
+  removed_.insert(removed_.end(), removed.begin(), removed.end());
 }
 
 void ParamTableBase::AddSlot(ParamDecl decl, Slot slot, const void* defaults) {
@@ -118,8 +123,20 @@ void ParamTableBase::Assign(std::size_t i, const ParsedParam& param, const BindC
   slot.member->assign(static_cast<char*>(settings) + slot.offset, value);
 }
 
+void ParamTableBase::RefuseRemoved(const ParamSet& params, const BindContext& context) const {
+  for (const RemovedParam& removed : removed_) {
+    const ParsedParam* param = params.Find(removed.name);
+    if (!param) continue;
+    throw Error(ExitStatus::Scene,
+                "parameter \"" + removed.name + "\" of " + context.what +
+                    " no longer exists: " + removed.replacement,
+                param->where, removed.hint);
+  }
+}
+
 void ParamTableBase::BindValues(const ParamSet& params, const BindContext& context,
                                 void* settings) const {
+  RefuseRemoved(params, context);
   std::vector<std::string> known;
   for (const ParamDecl& decl : declarations_) known.push_back(decl.name);
   int unknown = 0;

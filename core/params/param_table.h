@@ -62,6 +62,13 @@ struct ParamDecl {
   // The default where the command line names the integrator, as a number; absent if it is the same.
   std::optional<double> namedDefault;
 };
+// A parameter that an earlier version of the plugin had. A scene that gives it is an error,
+// whatever the value, because its picture could differ from the one that its author saw.
+struct RemovedParam {
+  std::string name;
+  std::string replacement;  // the plugin's present behaviour, as a clause
+  std::string hint;         // how to change the scene
+};
 // Returns "between 0 and 90", "above 0 and at most 1" ...; "" without limits.
 std::string RangeText(const ParamDecl& decl);
 
@@ -107,6 +114,7 @@ class ParamTableBase {
   void Add(const ParamDraft& draft, const void* defaults, std::ptrdiff_t offset);
   // Declares the parameters of a base struct that has this offset in the settings.
   void AddBase(const ParamTableBase& base, const void* defaults, std::ptrdiff_t offset);
+  void AddRemoved(const std::vector<RemovedParam>& removed);
   // Checks types, counts, ranges and names. Stores each declared parameter that the file sets in
   // `settings`. Throws Error(Scene) with file, line, column and hint.
   void BindValues(const ParamSet& params, const BindContext& context, void* settings) const;
@@ -118,6 +126,8 @@ class ParamTableBase {
     std::vector<long long> choiceValues;
   };
   std::string MissingFileHint(const ParsedParam& param) const;
+  // Throws Error(Scene) if the file gives a parameter that was removed.
+  void RefuseRemoved(const ParamSet& params, const BindContext& context) const;
   void AddSlot(ParamDecl decl, Slot slot, const void* defaults);
   // Reads the parameter of declaration i and stores it.
   void Assign(std::size_t i, const ParsedParam& param, const BindContext& context,
@@ -125,6 +135,7 @@ class ParamTableBase {
 
   std::vector<ParamDecl> declarations_;
   std::vector<Slot> slots_;  // in the order of declarations_
+  std::vector<RemovedParam> removed_;
 };
 
 // A parameter of settings struct S that is stored in a member of type T. T may be std::optional<U>,
@@ -225,6 +236,12 @@ class ParamTable final : public ParamTableBase {
   ParamTable(const Param<S, T>&... params) {
     [[maybe_unused]] const S defaults{};
     (AddOne(params, defaults, params.MemberIn(defaults)), ...);
+  }
+  // A table of a plugin that had more parameters in earlier versions.
+  template <class... T>
+  ParamTable(const std::vector<RemovedParam>& removed, const Param<S, T>&... params)
+      : ParamTable(params...) {
+    AddRemoved(removed);
   }
   // A table that begins with the entries of a base struct's table. The declarations are shared; the
   // defaults come from S.

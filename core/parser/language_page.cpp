@@ -12,6 +12,7 @@
 #include "core/parser/pbrt_parameters.h"  // generated from pbrt_parameters.txt
 #include "core/parser/reference/strip_sections.h"
 #include "core/plugins/catalogue.h"
+#include "core/plugins/substitute_params.h"
 
 namespace exphoton {
 namespace {
@@ -63,10 +64,11 @@ std::vector<PbrtPlugin> ParsePlugins(const char* text) {
   return plugins;
 }
 
-// What becomes of a plugin here. `declared` is null if no parameter has an effect.
+// What becomes of a plugin here. Each list of parameters that have an effect may be null.
 struct Fate {
   std::string text;
-  const std::vector<ParamDecl>* declared;
+  const std::vector<ParamDecl>* declared;             // by the plugin
+  const std::vector<ParamDecl>* converted = nullptr;  // to parameters of its substitute
 };
 
 Fate FateOfRenderer(const PbrtPlugin& plugin) {
@@ -94,15 +96,18 @@ Fate FateOfPlugin(const PbrtPlugin& plugin, const LanguageSection& section,
   const auto* const declared = &registry.Find(kind, name, {}).parameters->Declarations();
   if (isAvailable) return {"available", declared};
   if (!alias->loss) return {"available, as `" + name + '`', declared};
-  return {"replaced by `" + name + "`: " + alias->loss, declared};
+  return {"replaced by `" + name + "`: " + alias->loss, declared,
+          ConvertedParameters(kind, plugin.name)};
 }
 
 bool HasEffect(const PbrtPlugin& plugin, const std::string& parameter, const Fate& fate) {
   if (plugin.name == "metropolis" && parameter == "maxdepth") return true;
-  return fate.declared &&
-         std::any_of(fate.declared->begin(), fate.declared->end(), [&](const ParamDecl& decl) {
-           return decl.name == parameter && !decl.isIgnored;
-         });
+  const auto has = [&](const std::vector<ParamDecl>* list) {
+    return list && std::any_of(list->begin(), list->end(), [&](const ParamDecl& decl) {
+             return decl.name == parameter && !decl.isIgnored;
+           });
+  };
+  return has(fate.declared) || has(fate.converted);
 }
 
 std::string VersionsText(const std::string& versions) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 
 #include "core/base/log.h"
 #include "core/params/suggestions.h"
 #include "core/plugins/library.h"
 #include "core/plugins/search.h"
+#include "core/plugins/substitute_params.h"
 
 namespace exphoton {
 namespace {
@@ -117,7 +119,9 @@ void PluginRegistry::ThrowMissing(PluginKind kind, const std::string& name,
   text +=
       available.empty() ? "; no plugin of this kind was found" : "; available: " + Join(available);
   text += PlacesText();
-  throw Error(ExitStatus::Scene, text, where, DidYouMean(name, available));
+  const std::string advice = AdviceForMissingPlugin(kind, name);
+  throw Error(ExitStatus::Scene, text, where,
+              advice.empty() ? DidYouMean(name, available) : advice);
 }
 
 const PluginDescriptor& PluginRegistry::Load(PluginKind kind, const std::string& name,
@@ -216,7 +220,11 @@ void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, con
   if (!bind.siblingNames) bind.siblingNames = [this, kind] { return ParameterNames(kind); };
   const std::string failed = bind.what + " cannot be made: ";
   try {
-    if (void* product = factory.create(factory, params, bind, context)) return product;
+    std::optional<ParamSet> converted;
+    if (!substitutes_.empty() && substitutes_.contains(Key(kind, name)))
+      converted = ParamsOfSubstitute(kind, name, params, bind);
+    if (void* product = factory.create(factory, converted ? *converted : params, bind, context))
+      return product;
   } catch (const Error& error) {
     if (error.Where() || error.Status() != ExitStatus::Scene) throw;
     throw Error(error.Status(), error.what(), params.where, error.Hint());

@@ -18,24 +18,36 @@ namespace fs = std::filesystem;
 constexpr const char* kSuffix = ".so";
 
 constexpr const char* kSamePicture = "the picture is the same";
+constexpr const char* kOneBounceMore = "the same maxdepth follows one bounce more";
 constexpr const char* kOtherPoints = "its points differ, the picture does not";
+constexpr const char* kOneScattering = "media scatter light once at most";
+constexpr const char* kDiffuseSurface =
+    "no light travels below the surface, and the surface has no gloss";
 
 constexpr PluginAlias kAliases[] = {
     {PluginKind::Integrator, "dipolesubsurface", "path", "no light travels below surfaces"},
     {PluginKind::Integrator, "glossyprt", "path", "light is simulated, not precomputed"},
     {PluginKind::Integrator, "diffuseprt", "path", "light is simulated, not precomputed"},
     {PluginKind::Integrator, "useprobes", "path", "light is simulated, not read from probes"},
-    {PluginKind::Integrator, "volpath", "path", "media scatter light once at most"},
+    {PluginKind::Integrator, "volpath", "path", kOneScattering},
+    {PluginKind::Integrator, "simplepath", "path", kOneBounceMore},
+    {PluginKind::Integrator, "simplevolpath", "path", kOneScattering},
+    {PluginKind::Integrator, "randomwalk", "path", "it also shows mirrors, glass and point lights"},
+    {PluginKind::Integrator, "lightpath", "bidirectional", "it also shows mirrors and glass"},
     {PluginKind::Integrator, "mlt", "path", "hidden light is noisier"},
     {PluginKind::Integrator, "sppm", "exphotonmap", "a fixed number of photons is used"},
-    {PluginKind::Integrator, "bdpt", "bidirectional", kSamePicture},
+    {PluginKind::Integrator, "bdpt", "bidirectional", kOneBounceMore},
     {PluginKind::Integrator, "ao", "ambientocclusion", nullptr},
     {PluginKind::Accelerator, "grid", "bvh", kSamePicture},
     {PluginKind::Accelerator, "none", "bvh", kSamePicture},
     {PluginKind::AreaLight, "diffuse", "area", nullptr},
     {PluginKind::Light, "infinitesample", "infinite", nullptr},
-    {PluginKind::Material, "subsurface", "matte", "no light travels below the surface"},
-    {PluginKind::Material, "kdsubsurface", "matte", "no light travels below the surface"},
+    {PluginKind::Camera, "realistic", "perspective",
+     "there is no lens, and \"fov\" sets the field of view"},
+    {PluginKind::Camera, "spherical", "environment",
+     "it shows latitude and longitude instead of equal areas"},
+    {PluginKind::Material, "subsurface", "matte", kDiffuseSurface},
+    {PluginKind::Material, "kdsubsurface", "matte", kDiffuseSurface},
     {PluginKind::Material, "disney", "plastic", "only diffuse and glossy reflection remain"},
     {PluginKind::Material, "fourier", "matte", "the measured reflection is lost"},
     {PluginKind::Material, "hair", "matte", "hair does not shine"},
@@ -43,8 +55,25 @@ constexpr PluginAlias kAliases[] = {
     {PluginKind::Sampler, "zerotwosequence", "lowdiscrepancy", nullptr},
     {PluginKind::Sampler, "sobol", "lowdiscrepancy", kOtherPoints},
     {PluginKind::Sampler, "maxmindist", "lowdiscrepancy", kOtherPoints},
+    {PluginKind::Sampler, "paddedsobol", "lowdiscrepancy", kOtherPoints},
+    {PluginKind::Sampler, "zsobol", "lowdiscrepancy", kOtherPoints},
+    {PluginKind::Sampler, "pmj02bn", "lowdiscrepancy", kOtherPoints},
+    {PluginKind::Sampler, "independent", "random", nullptr},
     {PluginKind::FloatTexture, "ptex", "constant", "the image is lost"},
     {PluginKind::ColorTexture, "ptex", "constant", "the image is lost"},
+};
+
+struct MissingPlugin {
+  PluginKind kind;
+  const char* name;
+  const char* advice;
+};
+constexpr MissingPlugin kMissingPlugins[] = {
+    {PluginKind::Shape, "curve",
+     "a mesh of the same form can take its place: trianglemesh, plymesh or obj"},
+    {PluginKind::Shape, "bilinearmesh",
+     "two triangles of a trianglemesh can take the place of each patch; exphoton import makes them "
+     "from scenes of version 4"},
 };
 
 // Returns the existing plugin folders beside the program and beside the core's library. It checks
@@ -77,6 +106,13 @@ const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name) {
     if (alias.kind == kind && name == alias.alias) return &alias;
   }
   return nullptr;
+}
+
+std::string AdviceForMissingPlugin(PluginKind kind, const std::string& name) {
+  for (const MissingPlugin& missing : kMissingPlugins) {
+    if (missing.kind == kind && name == missing.name) return missing.advice;
+  }
+  return {};
 }
 
 std::optional<std::string> FaultOfPluginName(const std::string& name) {

@@ -22,6 +22,9 @@ struct PluginAlias {
 const PluginAlias* FindPluginAlias(PluginKind kind, const std::string& name);
 // Returns all aliases, sorted by kind.
 std::span<const PluginAlias> AllPluginAliases();
+// Returns a hint for the name of a plugin of some version of pbrt that has no substitute; "" for
+// other names.
+std::string AdviceForMissingPlugin(PluginKind kind, const std::string& name);
 
 // Returns the error in a plugin name, as the rest of a sentence; nullopt if the name is valid.
 std::optional<std::string> FaultOfPluginName(const std::string& name);

@@ -3,10 +3,22 @@
 #include "integrators/photon/photon_settings.h"
 
 namespace exphoton {
+namespace {
+
+std::vector<RemovedParam> RemovedPhotonParameters() {
+  return {{"radiancemode", "radiance photons always store exitant radiance",
+           "delete it; \"bool radiancephotons\" \"false\" evaluates the surface at each hit of a "
+           "gather ray instead"},
+          {"shortgather", "gather rays shorter than \"shortrays\" always read density estimates",
+           "delete it; \"float shortrays\" 0 lets all gather rays read radiance photons"}};
+}
+
+}  // namespace
 
 const ParamTable<PhotonSettings>& PhotonParameters() {
   using S = PhotonSettings;
   static const ParamTable<S> table{
+      RemovedPhotonParameters(),
       Param("causticphotons", &S::causticPhotons,
             "photons wanted in the caustic map; if absent, 20000, or fewer where emission is "
             "guided and caustics carry little light")

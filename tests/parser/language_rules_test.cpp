@@ -71,6 +71,33 @@ TEST(Substitutes, AreUsedWithAWarningThatSaysWhatIsLost) {
   EXPECT_NE(strict.error.find("there is no sampler \"sobol\"; available:"), std::string::npos);
 }
 
+TEST(Substitutes, StandInForPluginsOfVersions3And4) {
+  const BuiltScene built =
+      BuildText("SurfaceIntegrator \"lightpath\"\nCamera \"realistic\"\nSampler \"independent\"\n" +
+                InWorld("Shape \"sphere\""));
+  ASSERT_EQ(built.error, "");
+  for (const char* part :
+       {"there is no integrator \"lightpath\": \"bidirectional\" is used instead",
+        "there is no camera \"realistic\": \"perspective\" is used instead; there is no lens, and "
+        "\"fov\" sets the field of view"})
+    EXPECT_EQ(CountOf(built.Messages(), part), 1) << part << "\n" << built.Messages();
+  // "independent" and "random" are two names of one sampler. The third warning: there is no light.
+  EXPECT_EQ(built.log->WarningCount(), 3) << built.Messages();
+  const std::pair<const char*, const char*> directives[] = {{"Camera", "spherical"},
+                                                            {"Sampler", "paddedsobol"},
+                                                            {"Sampler", "zsobol"},
+                                                            {"Sampler", "pmj02bn"},
+                                                            {"SurfaceIntegrator", "simplepath"},
+                                                            {"SurfaceIntegrator", "simplevolpath"},
+                                                            {"SurfaceIntegrator", "randomwalk"}};
+  for (const auto& [directive, name] : directives) {
+    const std::string text =
+        directive + (" \"" + std::string(name)) + "\"\n" + InWorld("Shape \"sphere\"");
+    EXPECT_EQ(BuildText(text).error, "") << name;
+    EXPECT_NE(BuildStrictly(text).error.find(name), std::string::npos) << name;
+  }
+}
+
 TEST(Substitutes, AreAvailableThemselves) {
   const std::string folder = std::string(EXPHOTON_BINARY_DIR) + "/plugins";
   Log log(Log::Level::Normal, Log::Sink::Memory);
@@ -160,6 +187,52 @@ Real DiffuseOf(const BuiltScene& built) {
   if (!hit) return -1;
   Arena arena;
   return hit->material->Evaluate(&*hit, TransportMode::Radiance, &arena).Rho(LobeSet::All).r;
+}
+
+// The reflectances of media follow from the dipole model; see subsurface_reflectance_test.cpp.
+TEST(Substitutes, ForSubsurfaceReflectWhatTheMediumReflects) {
+  const struct {
+    const char* parameters;
+    double red;
+  } cases[] = {
+      {"", .9077},
+      {"\"string name\" \"Skin1\"", .4360},
+      {"\"string name\" \"Skin1\" \"color sigma_prime_s\" [.096 .5 .5]", .1655},
+      {"\"color sigma_a\" [1 1 1] \"color sigma_prime_s\" [3 3 3] \"float index\" 1", .2073},
+      {"\"color sigma_a\" [1 1 1] \"color sigma_s\" [6 6 6] \"float g\" .5 \"float eta\" 1 "
+       "\"float scale\" 9",
+       .2073},
+      {"\"color reflectance\" [.3 .3 .3] \"color sigma_a\" [1 1 1]", .3},
+  };
+  for (const auto& [parameters, red] : cases) {
+    const BuiltScene built = BuildText(
+        InWorld("Material \"subsurface\" " + std::string(parameters) + "\nShape \"sphere\""));
+    ASSERT_EQ(built.error, "") << parameters;
+    EXPECT_NEAR(DiffuseOf(built), red, 1e-4) << parameters;
+    EXPECT_EQ(built.log->WarningCount(), 2) << built.Messages();  // one: there is no light
+  }
+  const BuiltScene given = BuildText(
+      InWorld("Material \"subsurface\" \"color Kd\" [.3 .3 .3] \"string name\" \"Skin1\"\n"
+              "Shape \"sphere\""));
+  EXPECT_NEAR(DiffuseOf(given), .3, 1e-6);
+  EXPECT_EQ(
+      CountOf(given.Messages(), "parameter \"name\" of material \"subsurface\" has no effect"), 1)
+      << given.Messages();
+  const BuiltScene unknown =
+      BuildText(InWorld("Material \"subsurface\" \"string name\" \"Skin3\" \"color Kr\" [1 1 1]\n"
+                        "Shape \"sphere\""));
+  EXPECT_NEAR(DiffuseOf(unknown), .9077, 1e-4);
+  for (const char* part :
+       {"the medium \"Skin3\" of material \"subsurface\" is not known: \"Wholemilk\" is used",
+        "did you mean \"Skin1\"?", "parameter \"Kr\" does not apply to material \"subsurface\""})
+    EXPECT_EQ(CountOf(unknown.Messages(), part), 1) << part << "\n" << unknown.Messages();
+  EXPECT_NE(BuildText(InWorld("Material \"subsurface\" \"color sigma_a\" [-1 1 1] "
+                              "Shape \"sphere\""))
+                .error.find("parameter \"sigma_a\" of material \"subsurface\" must be at least 0"),
+            std::string::npos);
+  EXPECT_NEAR(DiffuseOf(BuildText(InWorld("Material \"kdsubsurface\" \"color Kd\" [.3 .3 .3] "
+                                          "Shape \"sphere\""))),
+              .3, 1e-6);
 }
 
 TEST(Version2, IsRecognisedByItsDirectives) {

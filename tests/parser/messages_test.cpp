@@ -90,6 +90,35 @@ TEST(Messages, OfPluginsAndParameters) {
   });
 }
 
+TEST(Messages, OfParametersThatNoLongerExist) {
+  for (const std::string integrator : {"exphotonmap", "photonmap"}) {
+    const std::string begin = "SurfaceIntegrator \"" + integrator + "\" ";
+    ExpectTexts({
+        {begin + "\"string radiancemode\" \"irradiance\"\n" + InWorld(""),
+         {"error: parameter \"radiancemode\" of integrator ",
+          " no longer exists: radiance photons always store exitant radiance\n",
+          "    hint: delete it; \"bool radiancephotons\" \"false\" "}},
+        {begin + "\"string shortgather\" \"gather\"\n" + InWorld(""),
+         {"error: parameter \"shortgather\" of integrator ", "    hint: delete it; "}},
+    });
+    const BuiltScene built =
+        BuildText(begin + "\"string radiancemode\" \"exitant\"\n" + InWorld(""));
+    EXPECT_EQ(built.status, int(ExitStatus::Scene));
+    EXPECT_TRUE(built.setups.empty());
+  }
+}
+
+TEST(Messages, OfShapesThatHaveNoSubstitute) {
+  ExpectTexts({
+      {InWorld("Shape \"curve\""),
+       {"error: there is no shape \"curve\"; available: cone, ",
+        "    hint: a mesh of the same form can take its place: trianglemesh, plymesh or obj\n"}},
+      {InWorld("Shape \"bilinearmesh\""),
+       {"error: there is no shape \"bilinearmesh\"; available: cone, ",
+        "    hint: two triangles of a trianglemesh can take the place of each patch; "}},
+  });
+}
+
 TEST(Messages, OfMotion) {
   ExpectTexts({
       {"ActiveTransform EndTime Scale -1 1 1 ActiveTransform All Camera \"perspective\"\n" +

@@ -347,6 +347,26 @@ TEST_F(Params, ARequiredOneMustBeThere) {
   }
 }
 
+TEST_F(Params, ARemovedOneIsAnErrorThatNamesItsReplacement) {
+  struct Base {
+    int count = 1;
+  };
+  struct Derived : Base {};
+  const std::vector<RemovedParam> removed{{"shape", "the shape is always round", "delete it"}};
+  const ParamTable<Base> base{removed, Param("count", &Base::count, "a number")};
+  const ParamTable<Derived> table{base};
+  EXPECT_EQ(table.Bind(Parse("\"integer count\" 3"), Context()).count, 3);
+  try {
+    table.Bind(Parse("\"string shape\" \"square\""), Context());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(FormatDiagnostic("error", error.what(), error.Where(), error.Hint()),
+              "dir/a.pbrt:1:11: error: parameter \"shape\" of shape \"x\" no longer exists: the "
+              "shape is always round\n    Shape \"x\" \"string shape\" \"square\"\n"
+              "              ^\n    hint: delete it\n");
+  }
+}
+
 TEST_F(Params, DefaultsAreShownAsSceneFilesWriteThem) {
   const std::vector<ParamDecl>& decls = Table().Declarations();
   const auto text = [&](const std::string& name) {

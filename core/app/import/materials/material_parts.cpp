@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scattering/subsurface_reflectance.h"
+
 namespace exphoton::cli {
 namespace {
 
@@ -15,6 +17,35 @@ const ParsedParam* TakeRoughness(const std::string& prefix, char axis, LaterPara
   const ParsedParam* own = params.Take(prefix + axis + "roughness");
   const ParsedParam* both = params.Take(prefix + "roughness");
   return own ? own : both;
+}
+
+// Replaces the coefficient by the parameter, if it is given.
+void ReadCoefficient(const char* name, LaterParams& params, const ImportContext& context,
+                     Rgb* coefficient) {
+  const ParsedParam* param = params.Take(name);
+  if (param && param->type == "texture")
+    params.Replaced(*param, "is a texture: a constant takes its place");
+  else if (param)
+    *coefficient = ReadRgb(*param, *coefficient, ColorUse::Material, context);
+}
+
+// Returns the color that the medium of a "subsurface" reflects. The scale has no influence.
+Rgb ReadMedium(LaterParams& params, const ImportContext& context) {
+  params.Ignore({"scale"});
+  const std::string name = params.TakeString("name", "");
+  const auto measured = MeasuredCoefficients(name);
+  const bool isComplete = params.Has("sigma_a") && params.Has("sigma_s");
+  if (!name.empty() && !measured && !isComplete)
+    params.Replaced(*params.Take("name"),
+                    "is no known medium: \"" + std::string(kDefaultMedium) + "\" takes its place");
+  SubsurfaceCoefficients medium = measured ? *measured : *MeasuredCoefficients(kDefaultMedium);
+  ReadCoefficient("sigma_a", params, context, &medium.absorption);
+  ReadCoefficient("sigma_s", params, context, &medium.reducedScattering);
+  // The table has reduced coefficients. Others are reduced by the mean cosine.
+  const double g = params.TakeNumber("g", 0);
+  for (double& value : medium.reducedScattering) value *= measured ? 1 : 1 - g;
+  const ParsedParam* eta = params.Take("eta");
+  return DipoleReflectance(medium, eta ? ReadIndex(*eta, 1.33, params, context) : 1.33);
 }
 
 }  // namespace
@@ -78,7 +109,8 @@ std::string ReplaceByMatte(const std::string& type, const MaterialHead& head, La
   const char* color = "Kd";
   for (const char* name : {"color", "reflectance"})
     if (params.Has(name)) color = name;
-  AddColor({color, "Kd", {.5, .5, .5}}, params, context, &text);
+  const bool isMedium = type == "subsurface" && !params.Has(color);
+  AddColor({color, "Kd", isMedium ? ReadMedium(params, context) : kHalf}, params, context, &text);
   AddBump(params, &text);
   params.Replaced("is replaced by \"matte\": there is no material \"" + type + "\" here");
   return text.Text();

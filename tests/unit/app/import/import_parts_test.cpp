@@ -81,6 +81,22 @@ TEST(Import, CoatedBaseLosesTheLightThatTheCoatReflects) {
   EXPECT_EQ(ColorIn(Material4("Material \"coateddiffuse\" \"float roughness\" .1"), "Kr")[0], 0);
 }
 
+TEST(Import, SubsurfaceReflectsWhatItsMediumReflects) {
+  const auto red = [](const std::string& material) { return ColorIn(material, "Kd")[0]; };
+  const std::string head = "Material \"subsurface\" ";
+  EXPECT_NEAR(red(Material3(head)), .9039, 1e-4);
+  EXPECT_NEAR(red(Material4(head + "\"string name\" \"Skin1\" \"float g\" .5")), .4276, 1e-4);
+  EXPECT_NEAR(red(Material4(head + "\"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [6 6 6] "
+                                   "\"float g\" .5 \"float eta\" 1.5 \"float scale\" 7")),
+              .1594, 1e-4);
+  EXPECT_NEAR(red(Material4(head + "\"rgb reflectance\" [.3 .3 .3]")), .3, 1e-12);
+  const Imported unknown = World4(head + "\"string name\" \"Tea\"");
+  EXPECT_NEAR(red(LastMaterial(unknown)), .9039, 1e-4);
+  EXPECT_NE(unknown.text.find("parameter \"name\" is no known medium: \"Wholemilk\""),
+            std::string::npos)
+      << unknown.text;
+}
+
 TEST(Import, GlossGrowsWithRoughnessAndHasTheWidthOfTheLobe) {
   EXPECT_DOUBLE_EQ(GlossOf(.5, false, 3), .25 / 1.5);  // e = 2 / alpha^2 - 2 = 6
   EXPECT_DOUBLE_EQ(GlossOf(.25, true, 4), .25 / 1.5);  // alpha is the root
