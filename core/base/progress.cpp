@@ -56,6 +56,12 @@ void Write(const std::string& text) {
 ProgressReporter::ProgressReporter(Mode mode, Seconds clock)
     : mode_(mode), clock_(clock ? std::move(clock) : SteadySeconds), isTerminal_(IsRedrawable()) {}
 
+void ProgressReporter::BeginPicture(int index, int count) {
+  const std::lock_guard lock(mutex_);
+  picture_ = index, pictureCount_ = count;
+  hasBegun_ = false;
+}
+
 void ProgressReporter::Begin(std::string phase, std::int64_t total) {
   const std::lock_guard lock(mutex_);
   // The first phase, which shoots photons, usually takes the most time before the last.
@@ -66,7 +72,8 @@ void ProgressReporter::Begin(std::string phase, std::int64_t total) {
   done_ = 0;
   rays_ = 0;
   phaseStart_ = clock_();
-  if (!hasBegun_) start_ = phaseStart_;
+  if (!hasBegun_) pictureStart_ = phaseStart_;
+  if (!start_) start_ = phaseStart_;
   hasBegun_ = true;
 }
 
@@ -118,11 +125,15 @@ ProgressReporter::Part ProgressReporter::DoneAt(double now) const {
 ProgressReporter::Moment ProgressReporter::Now() const {
   const double now = clock_();
   const Part part = DoneAt(now);
-  Moment moment{part.done, now - start_, {}, isRough_ || !part.isRendering};
+  const double inPicture = now - pictureStart_;
+  Moment moment{
+      (picture_ + part.done) / pictureCount_, now - *start_, {}, isRough_ || !part.isRendering};
   if (part.isRendering && part.ofPhase > 0)
     moment.left = part.phaseSeconds * (1 - part.ofPhase) / part.ofPhase;
   else if (!part.isRendering && part.done >= kLeastPreparation * kPreparationShare)
-    moment.left = moment.elapsed * (1 - part.done) / part.done;
+    moment.left = inPicture * (1 - part.done) / part.done;
+  const int laterPictures = pictureCount_ - picture_ - 1;
+  if (moment.left) *moment.left += laterPictures * (inPicture + *moment.left);
   return moment;
 }
 

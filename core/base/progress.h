@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// ProgressReporter shows the progress of one picture on standard error: one bar over all phases
-// that is redrawn in place on a terminal. Elsewhere, and with TERM=dumb, it prints lines by time:
-// the first after 5 s, then one for each further tenth, at most one in 10 s.
+// ProgressReporter shows the progress of a render on standard error: one bar over all phases of all
+// its pictures, which is redrawn in place on a terminal. Elsewhere, and with TERM=dumb, it prints
+// lines by time: the first after 5 s, then one for each further tenth, at most one in 10 s.
 #pragma once
 
 #include <atomic>
@@ -23,10 +23,14 @@ class ProgressReporter {
   // Tests pass a clock of their own.
   explicit ProgressReporter(Mode mode = Mode::Auto, Seconds clock = {});
 
+  // Begins picture `index` of `count`, from 0: the next phases belong to it. All pictures share one
+  // bar and are expected to take the same time. Must be called between phases. A render that does
+  // not call it has one picture.
+  void BeginPicture(int index, int count);
   // Starts a phase, such as "Shooting photons" or "Rendering". `total` is the count at which it is
-  // complete. "Rendering" is the last phase and has most of the bar. The earlier phases share the
-  // first fifth of it, and until the last phase begins, the time left is estimated as if they took
-  // a fifth of the time.
+  // complete. "Rendering" is the last phase of a picture and has most of its bar. The earlier
+  // phases share the first fifth of it, and until the last phase begins, the time left is estimated
+  // as if they took a fifth of the time.
   void Begin(std::string phase, std::int64_t total);
   void Advance(std::int64_t count = 1);  // callable from any thread
   void SetDone(std::int64_t done);       // sets the absolute count
@@ -50,7 +54,7 @@ class ProgressReporter {
 
   // Part describes how much is done.
   struct Part {
-    double done = 0;           // of the bar
+    double done = 0;           // of the current picture
     double ofPhase = 0;        // of the current phase
     double phaseSeconds = 0;   // since the current phase began
     bool isRendering = false;  // whether the current phase is the last one
@@ -58,7 +62,7 @@ class ProgressReporter {
   // Returns a description of now. Callable from a listener.
   Part Done() const;
 
-  static constexpr double kPreparationShare = .2;  // of the bar, for all phases before the last
+  static constexpr double kPreparationShare = .2;  // of a picture, for all phases before the last
 
  private:
   struct Moment {
@@ -86,9 +90,11 @@ class ProgressReporter {
   std::atomic<std::int64_t> done_{0};
   std::atomic<std::uint64_t> rays_{0};
   std::atomic<bool> isRough_{false};
-  bool hasBegun_ = false;
-  double start_ = 0, phaseStart_ = 0, lastDraw_ = 0;  // seconds
-  double phaseFrom_ = 0, phaseTo_ = 0;                // the part of the bar that this phase has
+  bool hasBegun_ = false;  // whether the current picture has a phase
+  int picture_ = 0, pictureCount_ = 1;
+  std::optional<double> start_;  // seconds, as the next members; absent before the first phase
+  double pictureStart_ = 0, phaseStart_ = 0, lastDraw_ = 0;
+  double phaseFrom_ = 0, phaseTo_ = 0;  // the part of the picture's bar that this phase has
   int lastTenth_ = 0;
   mutable std::mutex mutex_;
 };

@@ -47,6 +47,7 @@ class Halves {
   bool RunHalf() {
     Film* const half = films_[std::size_t(sum_.Passes())];
     const std::uint64_t seed = HashKey({options_.seed, kPassSeed, std::uint64_t(sum_.Passes())});
+    job_.progress.BeginPicture(sum_.Passes(), 2);
     const bool isWhole =
         renderer_.Run({seed, seed, 0, sampler_->SamplesPerPixel()}, *sampler_, half);
     parts_.TakeAovs(true);

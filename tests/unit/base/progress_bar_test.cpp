@@ -117,6 +117,28 @@ TEST(ProgressBar, PreparationIsExpectedToTakeAFifth) {
   EXPECT_NE(terminal.Bar().find(", about 1 min 38 s left"), std::string::npos);
 }
 
+TEST(ProgressBar, IsSharedByPicturesOfTheSameTime) {
+  BarTerminal terminal(100);
+  if (!terminal.IsOpen()) GTEST_SKIP() << "the system has no pseudo-terminals";
+  double now = 1000;
+  ProgressReporter progress(ProgressReporter::Mode::Auto, [&now] { return now; });
+  progress.BeginPicture(0, 2);
+  progress.Begin("Shooting photons", 100);
+  now += 10;
+  progress.End();
+  progress.Begin("Rendering", 100);
+  now += 10;
+  progress.SetDone(25);  // 30 s are left of the first picture, which takes 50 s
+  EXPECT_NE(terminal.Bar().find(" 17 % 20.0 s, 1 min 20 s left"), std::string::npos);
+  now += 30;
+  progress.End();
+  progress.BeginPicture(1, 2);
+  progress.Begin("Rendering", 100);
+  now += 25;
+  progress.SetDone(50);
+  EXPECT_NE(terminal.Bar().find(" 75 % 1 min 15 s, 25.0 s left"), std::string::npos);
+}
+
 TEST(ProgressBar, CountsTheRaysOfAnotherReporter) {
   ProgressReporter passes(ProgressReporter::Mode::Quiet);
   passes.Begin("Rendering", 10);
