@@ -19,6 +19,7 @@ struct Settings : PhotonSettings {
     photonRoulette = PhotonRoulette::Luminance;
     lightSelection = LightSelection::Power;
     photonTargeting = PhotonTargeting::Auto;
+    guideEmission = true;
     gatherPhotons = 128;
     gatherAngle = 6;
   }
@@ -43,7 +44,9 @@ const ParamTable<Settings>& Parameters() {
           .AtMost(90)
           .Unit("degrees"),
       Param("maxphotonpaths", &S::maxPhotonPaths, "paths after which no more photons are shot")
-          .Range(1, 1e15)};
+          .Range(1, 1e15),
+      Param("guideemission", &S::guideEmission,
+            "photons start where earlier ones reached an indirect surface, if few do")};
   static const ParamTable<Settings> table{base};
   return table;
 }

@@ -182,6 +182,18 @@ TEST(GuidedSun, ReportsTheSamePowerWithAndWithoutGuide) {
   EXPECT_NEAR(power("true"), power("false"), 1e-3 * power("false"));
 }
 
+// guidedpath guides the emission of its photons unless the scene says otherwise.
+TEST(GuidedSun, TakesFewerPathsForGuidedPath) {
+  const auto shot = [](const std::string& parameter) {
+    const std::string integrator =
+        "SurfaceIntegrator \"guidedpath\" \"integer indirectphotons\" 20000 " + parameter + "\n";
+    return RenderSceneText("Film \"image\" \"integer xresolution\" 1 \"integer yresolution\" 1\n" +
+                           integrator + kBox)
+        .Counter("photons/shot");
+  };
+  EXPECT_LT(3 * shot(""), shot("\"bool guideemission\" [\"false\"]"));
+}
+
 // Photons from before the guide and from its training are dropped. The table of lights counts none
 // of them.
 TEST(GuidedSun, CountsThePhotonsInTheMapsForItsLight) {
