@@ -361,7 +361,7 @@ TEST_F(StudyTest, ThatComeWithTheScenesAreValid) {
   const ProgramResult ablation = Run({"study", folder + "ablation.study", "--plan"});
   EXPECT_TRUE(ablation.out.starts_with("photonmap: exphoton render ")) << ablation.err;
   EXPECT_NE(
-      ablation.out.find("\n60 renders of 128 x 96 pixels (15 settings, 4 seeds each), about "),
+      ablation.out.find("\n68 renders of 128 x 96 pixels (17 settings, 4 seeds each), about "),
       std::string::npos)
       << ablation.out;
   EXPECT_EQ(Files(), (std::vector<std::string>{"box.pbrt"}));

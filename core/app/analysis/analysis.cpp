@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "core/app/analysis/certificate_checks.h"
 #include "core/app/analysis/headline/headline.h"
 #include "core/imaging/files/exr.h"
 #include "core/imaging/metrics/flip.h"
@@ -80,6 +81,19 @@ void TakeMetrics(const Results& results, SettingResult* result) {
   result->photonPaths = mean([](const RunRow& r) { return r.PhotonPaths(); });
 }
 
+// Returns the squared bias of blocks for each width that a certificate of the runs has.
+std::map<int, Measured> BlockBiases(const Results& results, const std::vector<std::size_t>& runs,
+                                    const std::vector<Image>& pictures,
+                                    const Reference& reference) {
+  std::map<int, Measured> biases;
+  for (const std::size_t run : runs) {
+    const int width = BlockWidth(results.runs[run]);
+    if (width > 0 && !biases.contains(width))
+      biases[width] = SeparateBlocks(pictures, reference, width);
+  }
+  return biases;
+}
+
 SettingResult MeasureSetting(const std::string& folder, const Results& results, std::size_t setting,
                              const Analysis& analysis) {
   SettingResult result;
@@ -98,6 +112,8 @@ SettingResult MeasureSetting(const std::string& folder, const Results& results, 
       Separate(pictures, analysis.hasReference ? analysis.reference : MeanPicture(pictures));
   result.cost.error = analysis.hasReference ? result.separation.error : result.separation.variance;
   if (!analysis.hasReference) result.separation.bias2 = {};
+  if (analysis.hasReference)
+    result.blockBias = BlockBiases(results, result.runs, pictures, analysis.reference);
   for (const Image& picture : pictures)
     result.nonFinite += CompareImages(picture, picture).nonFinitePixels;
   TakeMetrics(results, &result);

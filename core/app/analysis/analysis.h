@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct SettingResult {
   double mse = 0, trimmed = 0, meanError = 0, relativeMean = 0, p99 = 0, flip = 0;
   long long nonFinite = 0;  // pixels, summed over the runs
   double samplesPerPixel = 0, peakMemory = 0, photonsStored = 0, photonPaths = 0;
+  // The squared bias of blocks, by the widths of blocks that the certificates of the runs have.
+  // Empty without a reference.
+  std::map<int, Measured> blockBias;
   NamedValues phases;  // mean seconds by the study's clock; "other": the rest
   double Efficiency() const { return 1 / (cost.error.value * cpu.value); }
 };
@@ -61,6 +65,8 @@ struct Analysis {
   bool targetIsTooFine = false;
   std::string headline;  // one sentence
   std::string details;   // the error of the headline, with the times and their ratios
+  // The ratios of times to their lower bounds, in one sentence; empty if no bound was measured.
+  std::string lowerBounds;
 
   std::vector<CostPoint> Points(const std::vector<std::size_t>& indices) const;
   // Returns the Pareto front of these settings, without pictures that are not useful, in order of

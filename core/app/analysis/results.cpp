@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This file converts Results to JSON (RFC 8259, with nlohmann's library) and CSV (RFC 4180).
+// This file converts Results to JSON (RFC 8259, with nlohmann's library).
 #include "core/app/analysis/results.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 
 namespace exphoton::study {
@@ -53,19 +51,6 @@ Setting ToSetting(const Json& json) {
   return setting;
 }
 
-NamedValues MetricValues(const RunRow& row) {
-  const ImageDifference& m = row.metrics;
-  return {{"relMSE", m.relMse},
-          {"trimmedRelMSE", m.trimmedRelMse},
-          {"MSE", m.mse},
-          {"meanError", m.meanError},
-          {"meanReference", m.meanReference},
-          {"relativeMeanError", m.relativeMeanError},
-          {"p99", m.p99},
-          {"FLIP", row.flip},
-          {"nonFinitePixels", double(m.nonFinitePixels)}};
-}
-
 // Writes the values that do not depend on the study.
 Json FromRun(const RunRow& row) {
   Json json = {{"key", row.key},
@@ -82,6 +67,7 @@ Json FromRun(const RunRow& row) {
                {"counters", FromValues(row.counters)},
                {"image", row.image},
                {"command", row.command}};
+  if (!row.certificate.empty()) json["certificate"] = FromValues(row.certificate);
   if (row.IsOfTask())
     json.update({{"node", row.node}, {"processor", row.processor}, {"alone", row.isAlone}});
   return json;
@@ -114,6 +100,7 @@ RunRow ToRow(const Json& json) {
   row.phaseWall = ToValues(json.value("phaseWallSeconds", Json::object()));
   row.rays = ToValues(json.value("rays", Json::object()));
   row.counters = ToValues(json.value("counters", Json::object()));
+  row.certificate = ToValues(json.value("certificate", Json::object()));
   row.image = Text(json, "image");
   row.command = Text(json, "command");
   row.node = Text(json, "node");
@@ -218,13 +205,22 @@ Results Parse(const std::string& text) {
     results.predictions.push_back(ToPrediction(prediction));
   for (const Json& budget : json.value("budgets", Json::array()))
     results.budgets.push_back(ToBudget(budget));
+  const auto check = [&](std::size_t setting) {
+    if (setting >= results.settings.size())
+      throw std::runtime_error("results.json: a run names a setting that is not there");
+  };
+  for (const Json& bound : json.value("lowerBounds", Json::array())) {
+    const auto setting = bound.at("setting").get<std::size_t>();
+    check(setting);
+    results.lowerBounds.push_back({setting, Number(bound, "cpuSeconds"),
+                                   Number(bound, "wallSeconds"), Text(bound, "command")});
+  }
   for (const Json& map : json.at("maps"))
     results.maps.push_back(
         {Text(map, "image"), Text(map, "channel"), Text(map, "title"), Text(map, "unit")});
   for (const Json& row : json.at("runs")) {
     results.runs.push_back(ToRow(row));
-    if (results.runs.back().setting >= results.settings.size())
-      throw std::runtime_error("results.json: a run names a setting that is not there");
+    check(results.runs.back().setting);
   }
   return results;
 }
@@ -234,40 +230,32 @@ std::string Written(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string CsvNumber(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
-// Returns all names in the member over all rows, sorted.
-std::set<std::string> Names(const Results& results, NamedValues RunRow::*member) {
-  std::set<std::string> names;
-  for (const RunRow& row : results.runs)
-    for (const auto& value : row.*member) names.insert(value.first);
-  return names;
-}
-
-double Find(const NamedValues& values, const std::string& name) {
-  for (const auto& value : values)
-    if (value.first == name) return value.second;
-  return 0;
-}
-
 }  // namespace
-
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string PathOf(const std::string& folder, const std::string& name) {
   return std::filesystem::path(name).is_absolute() ? name : folder + "/" + name;
 }
 
-double RunRow::Counter(const std::string& name) const { return Find(counters, name); }
+double ValueOf(const NamedValues& values, const std::string& name, double missing) {
+  for (const auto& value : values)
+    if (value.first == name) return value.second;
+  return missing;
+}
+
+double RunRow::Counter(const std::string& name) const { return ValueOf(counters, name); }
+
+NamedValues MetricValues(const RunRow& row) {
+  const ImageDifference& m = row.metrics;
+  return {{"relMSE", m.relMse},
+          {"trimmedRelMSE", m.trimmedRelMse},
+          {"MSE", m.mse},
+          {"meanError", m.meanError},
+          {"meanReference", m.meanReference},
+          {"relativeMeanError", m.relativeMeanError},
+          {"p99", m.p99},
+          {"FLIP", row.flip},
+          {"nonFinitePixels", double(m.nonFinitePixels)}};
+}
 
 double RunRow::PhotonsStored() const {
   double sum = 0;
@@ -303,6 +291,11 @@ std::string ToJson(const Results& results) {
   for (const Prediction& prediction : results.predictions)
     json["predictions"].push_back(FromPrediction(prediction));
   for (const BudgetRecord& budget : results.budgets) json["budgets"].push_back(FromBudget(budget));
+  for (const LowerBound& bound : results.lowerBounds)
+    json["lowerBounds"].push_back({{"setting", bound.setting},
+                                   {"cpuSeconds", bound.cpuSeconds},
+                                   {"wallSeconds", bound.wallSeconds},
+                                   {"command", bound.command}});
   json["settings"] = Json::array();
   for (const Setting& setting : results.settings) json["settings"].push_back(FromSetting(setting));
   json["maps"] = Json::array();
@@ -320,36 +313,6 @@ Results FromJson(const std::string& text) {
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("results.json cannot be read: ") + error.what());
   }
-}
-
-std::string ToCsv(const Results& results) {
-  std::string text =
-      "scene,integrator,label,parameters,seed,threads,samplesPerPixel,complete,wallSeconds,"
-      "cpuSeconds,peakMemoryBytes";
-  const std::set<std::string> phases = Names(results, &RunRow::phases),
-                              rays = Names(results, &RunRow::rays),
-                              counters = Names(results, &RunRow::counters);
-  for (const std::string& name : phases) text += "," + CsvField("seconds: " + name);
-  for (const std::string& name : rays) text += "," + CsvField("rays: " + name);
-  for (const std::string& name : counters) text += "," + CsvField(name);
-  for (const auto& metric : MetricValues(RunRow())) text += "," + metric.first;
-  text += ",image\r\n";
-  for (const RunRow& row : results.runs) {
-    const Setting& setting = results.settings.at(row.setting);
-    text += CsvField(results.title) + "," + CsvField(setting.integrator) + "," +
-            CsvField(setting.label) + "," + CsvField(setting.Text()) + "," +
-            std::to_string(row.seed) + "," + std::to_string(row.threads) + "," +
-            CsvNumber(row.samplesPerPixel) + "," + (row.isComplete ? "yes" : "no") + "," +
-            CsvNumber(row.wallSeconds) + "," + CsvNumber(row.cpuSeconds) + "," +
-            CsvNumber(row.peakMemory);
-    for (const std::string& name : phases) text += "," + CsvNumber(Find(row.phases, name));
-    for (const std::string& name : rays) text += "," + CsvNumber(Find(row.rays, name));
-    for (const std::string& name : counters) text += "," + CsvNumber(Find(row.counters, name));
-    for (const auto& metric : MetricValues(row))
-      text += "," + (row.hasMetrics ? CsvNumber(metric.second) : std::string());
-    text += "," + CsvField(row.image) + "\r\n";
-  }
-  return text;
 }
 
 std::string RowToJson(const RunRow& row) { return Written(FromRun(row)); }
@@ -376,6 +339,7 @@ void AddRunStatistics(const std::string& text, RunRow* row) {
     }
     row->rays = ToValues(json.value("rays", Json::object()));
     row->counters = ToValues(json.value("counters", Json::object()));
+    row->certificate = ToValues(json.value("certificate", Json::object()));
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("the statistics of a run cannot be read: ") +
                              error.what());

@@ -17,6 +17,7 @@
 namespace exphoton::study {
 
 using NamedValues = std::vector<std::pair<std::string, double>>;
+double ValueOf(const NamedValues& values, const std::string& name, double missing = 0);
 
 // RunRow is one render: the statistics that it reported and the measurements of its process.
 struct RunRow {
@@ -35,6 +36,9 @@ struct RunRow {
   NamedValues phases;     // CPU seconds
   NamedValues phaseWall;  // wall seconds
   NamedValues rays, counters;
+  // The numbers of --certify: roots of parts of relMSE, block widths in pixels, and
+  // blockBiasSquared. An infinite number is missing. Empty: the render has no certificate.
+  NamedValues certificate;
   std::string image, command;  // image: relative to the study's folder
   bool hasMetrics = false;     // true if there is a reference
   ImageDifference metrics;
@@ -45,6 +49,9 @@ struct RunRow {
   double PhotonPaths() const;
   bool IsOfTask() const { return !node.empty(); }
 };
+
+// Returns the measurements against the reference, with their names in result files.
+NamedValues MetricValues(const RunRow& row);
 
 // ReferenceRecord describes two independent halves of a reference. All names are empty if there is
 // no reference.
@@ -58,6 +65,18 @@ struct ReferenceRecord {
 // MapRecord is a picture of a quantity other than radiance, such as cost or photon density.
 struct MapRecord {
   std::string image, channel, title, unit;
+};
+
+// LowerBound is the smallest time of a picture that gathers light from the photon maps of a
+// setting: the time of the maps, one camera sample and one gather ray a pixel.
+struct LowerBound {
+  std::size_t setting = 0;                 // index of Results::settings
+  double cpuSeconds = 0, wallSeconds = 0;  // of the whole process; the smallest over the seeds
+  std::string command;                     // with the first seed
+
+  double Seconds(const std::string& clock) const {
+    return clock == "wall" ? wallSeconds : cpuSeconds;
+  }
 };
 
 struct Results {
@@ -74,6 +93,7 @@ struct Results {
   ReferenceRecord reference;
   std::vector<Prediction> predictions;  // of each integrator, if the user asked for them
   std::vector<BudgetRecord> budgets;    // of each photon integrator, if the user asked for them
+  std::vector<LowerBound> lowerBounds;  // of each photon integrator with gather rays
   std::vector<RunRow> runs;
   std::vector<MapRecord> maps;
 };

@@ -51,6 +51,16 @@ struct Separation {
 };
 Separation Separate(const std::vector<Image>& pictures, const Reference& reference);
 
+// Returns the squared bias of square blocks of pixels, as a part of relMSE. It is the mean of B^2
+// over blocks and colours, weighted by area, with B the mean over a block of the relative errors
+// (x - r) / sqrt(r^2 + 0.01). Bias of both signs inside a block cancels, so the expected value is
+// at most the one of bias2. Products of different pictures leave out their noise, and the noise of
+// the reference is taken off. `blockWidth` is in pixels, and the blocks begin in the upper left
+// corner. The value is unknown for fewer than two pictures, and its standard error, which is the
+// jackknife's plus the reference's share, for fewer than three.
+Measured SeparateBlocks(const std::vector<Image>& pictures, const Reference& reference,
+                        int blockWidth);
+
 // Errors are not compared if the reference's variance exceeds this fraction of the error.
 inline constexpr double kMaxReferenceShare = .1;
 // Returns the factor by which the reference's render time must grow to measure this error. At most

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/app/analysis/headline/lower_bound.h"
 #include "core/app/analysis/numbers.h"
 #include "core/app/report/chart/cost_chart.h"
 #include "core/app/report/gallery.h"
@@ -48,6 +49,15 @@ Html ReferenceNote(const Results& results) {
               {{"reference", FileInFolder(r.scene)}, {"scene", FileInFolder(results.scene)}});
 }
 
+Html CertificateFact(const Results& results) {
+  const auto count = std::ranges::count_if(
+      results.runs, [](const RunRow& row) { return !row.certificate.empty(); });
+  if (count == 0) return {};
+  return Fact("with certificates", "are " + std::to_string(count) +
+                                       " of the renders: they estimated their own errors, and "
+                                       "their times include this work");
+}
+
 Html Facts(const Results& results, const Analysis& analysis) {
   long long nonFinite = 0;
   for (const SettingResult& setting : analysis.settings) nonFinite += setting.nonFinite;
@@ -55,6 +65,11 @@ Html Facts(const Results& results, const Analysis& analysis) {
   facts += Fact(std::to_string(results.runs.size()) + " renders",
                 std::to_string(results.settings.size()) + " settings with " +
                     std::to_string(results.seeds) + " independent seeds each");
+  facts += CertificateFact(results);
+  for (const LowerBound& bound : results.lowerBounds)
+    facts += Fact(
+        SecondsText(bound.Seconds(results.clock)),
+        "lower bound of " + results.settings[bound.setting].integrator + ": " + kLowerBoundMeaning);
   facts += nonFinite == 0 ? Fact("0 pixels", "are NaN or infinite, in all pictures together")
                           : Fact(Fill("alarm", {{"text", std::to_string(nonFinite) + " pixels"}}),
                                  "are NaN or infinite and were left out of all errors");
@@ -111,8 +126,9 @@ Html Opening(const std::string& folder, const Results& results, const Analysis& 
     }
     if (analysis.hasReference) (isBeside ? beside : posters) += gallery.ReferencePoster();
   }
+  const std::string& bounds = analysis.lowerBounds;
   return Fill("opening", {{"headline", analysis.headline},
-                          {"details", analysis.details},
+                          {"details", analysis.details + (bounds.empty() ? "" : " " + bounds)},
                           {"chart", Charts(results, analysis, !isBeside)},
                           {"beside", beside},
                           {"kind", isBeside ? "beside" : "alone"},

@@ -16,6 +16,7 @@ Html PictureSection(const std::string& folder, const Results& results, const Ana
 Html PriceSection(const Results& results, const Analysis& analysis);
 Html PredictionSection(const Results& results, const Analysis& analysis);
 Html BudgetSection(const Results& results);
+Html CertificateSection(const Results& results, const Analysis& analysis);
 Html DoublingSection(const Results& results, const Analysis& analysis);
 Html BarSection(const Results& results, const Analysis& analysis);
 Html MapSection(const std::string& folder, const Results& results);

@@ -44,6 +44,12 @@ std::string SettingCommands(const Results& results) {
   return text;
 }
 
+Html LowerBoundCommands(const Results& results) {
+  std::string text;
+  for (const LowerBound& bound : results.lowerBounds) text += "\n" + bound.command;
+  return text.empty() ? Html() : Fill("bound-commands", {{"commands", text}});
+}
+
 }  // namespace
 
 Html MeasuredCell(const Measured& m) {
@@ -157,7 +163,8 @@ Html MachineSection(const Results& results, const Analysis&) {
                {"command", results.command},
                {"referenceCommand",
                 reference.empty() ? Html() : Fill("reference-command", {{"command", reference}})},
-               {"settingCommands", SettingCommands(results)}});
+               {"settingCommands", SettingCommands(results)},
+               {"boundCommands", LowerBoundCommands(results)}});
 }
 
 }  // namespace exphoton::study

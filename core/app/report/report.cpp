@@ -12,9 +12,9 @@ std::string MakeReport(const std::string& folder, const Results& results,
   const Html sections = PictureSection(folder, results, analysis) +
                         FrontSection(results, analysis) + PriceSection(results, analysis) +
                         PredictionSection(results, analysis) + BudgetSection(results) +
-                        DoublingSection(results, analysis) + BarSection(results, analysis) +
-                        MapSection(folder, results) + SettingSection(results, analysis) +
-                        MachineSection(results, analysis);
+                        CertificateSection(results, analysis) + DoublingSection(results, analysis) +
+                        BarSection(results, analysis) + MapSection(folder, results) +
+                        SettingSection(results, analysis) + MachineSection(results, analysis);
   return Fill("page", {{"title", results.title},
                        {"style", PageStyle()},
                        {"opening", Opening(folder, results, analysis)},

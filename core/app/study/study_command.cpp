@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <tuple>
 
+#include "core/app/analysis/headline/lower_bound.h"
 #include "core/app/analysis/summary.h"
 #include "core/app/budget/study_budgets.h"
 #include "core/app/options/errors.h"
@@ -82,9 +83,9 @@ const study::Setting* SettingForMaps(const study::Results& results,
 
 // Renders AOVs of time and photon density.
 std::vector<study::MapRecord> MakeMaps(const StudyOptions& options, const study::Results& results,
-                                       StudyRunner& runner) {
+                                       const study::Analysis& analysis, StudyRunner& runner) {
   if (!options.makesMaps) return {};
-  const study::Setting* chosen = SettingForMaps(results, study::Analyse(options.folder, results));
+  const study::Setting* chosen = SettingForMaps(results, analysis);
   if (!chosen) return {};
   study::Setting setting = *chosen;
   std::erase_if(setting.parameters, [](const auto& p) { return p.first == "time"; });
@@ -105,6 +106,23 @@ std::vector<study::MapRecord> MakeMaps(const StudyOptions& options, const study:
            "Distance from gather hits to the radiance photon used" + of, "units of length"}};
 }
 
+// Makes the renders whose settings depend on the times and errors of the others.
+void RenderMore(const StudyOptions& options, StudyRunner& runner, study::Results* results) {
+  const study::Analysis analysis = study::Analyse(options.folder, *results);
+  results->lowerBounds = MeasureLowerBounds(options, *results, analysis, runner);
+  results->maps = MakeMaps(options, *results, analysis, runner);
+}
+
+// Returns the headline and its details for a terminal. The page explains the lower bound in a
+// section.
+std::string SummaryText(const study::Analysis& analysis) {
+  std::string details = analysis.details;
+  if (!analysis.lowerBounds.empty())
+    details += (details.empty() ? "" : " ") + analysis.lowerBounds + " The lower bound is " +
+               study::kLowerBoundMeaning + ".";
+  return analysis.headline + "\n" + (details.empty() ? "" : details + "\n");
+}
+
 // Measures the pictures and writes all result files.
 void WriteResults(StudyFolder& folder, study::Results* results) {
   const std::string& path = folder.Path();
@@ -114,8 +132,7 @@ void WriteResults(StudyFolder& folder, study::Results* results) {
   WriteTextFile(folder.Claim("results.csv"), study::ToCsv(*results));
   WriteTextFile(folder.Claim("summary.csv"), study::SummaryCsv(*results, analysis));
   WriteTextFile(folder.Claim("report.html"), study::MakeReport(path, *results, analysis));
-  PrintOut(analysis.headline + "\n" + (analysis.details.empty() ? "" : analysis.details + "\n") +
-           path + "/report.html\n");
+  PrintOut(SummaryText(analysis) + path + "/report.html\n");
 }
 
 // Checks the reference before hours of rendering: it needs the size of the renders, and R, G and B.
@@ -163,6 +180,8 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   const ProgramFacts program = ExamineProgram(options);
   study::Results results = Describe(options, scene, program);
   results.settings = PlanSettings(options);
+  options.sceneSets = scene.sets;
+  RequireCertificates(options, results.settings);
   if (!options.photonFile.empty())
     options.photonIntegrators = FindPhotonIntegrators(options, results.settings);
   if (options.onlyPlans) {
@@ -183,7 +202,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   if (options.predicts) results.predictions = Predict(options, results.settings);
   if (options.makesBudgets) results.budgets = MeasureBudgets(options, results.settings);
   results.runs = runner.RunAll(results.settings);
-  results.maps = MakeMaps(options, results, runner);
+  RenderMore(options, runner, &results);
   WriteResults(folder, &results);
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 
+#include "core/app/analysis/headline/lower_bound.h"
 #include "core/app/analysis/results.h"
 #include "core/app/options/values.h"
 #include "core/app/process/child_process.h"
@@ -72,9 +73,11 @@ std::optional<Cost> Probe(const StudyOptions& options, const study::Setting& set
   if (child.status != 0) return {};
   study::RunRow row;
   study::AddRunStatistics(ReadTextFile(folder.File("probe.json")), &row);
+  // A probe with a certificate has one sample in each of two halves.
+  const double samples = setting.Find("spp") ? std::max(row.samplesPerPixel, 1.) : 1;
   Cost cost{child.wallSeconds, 0};
   for (const auto& [name, wall] : row.phaseWall)
-    if (name == "render") cost = {child.wallSeconds - wall, wall * kPart};
+    if (name == "render") cost = {child.wallSeconds - wall, wall * kPart / samples};
   return cost;
 }
 
@@ -134,6 +137,14 @@ class Probes {
   std::vector<Cost> all_;
 };
 
+// Returns ", 24 with certificates" if there are any.
+std::string CertificatesText(const StudyOptions& options,
+                             const std::vector<study::Setting>& settings) {
+  const auto count = std::ranges::count_if(
+      settings, [&](const study::Setting& s) { return HasCertificate(options, s); });
+  return count > 0 ? Format(", %zu with certificates", std::size_t(count * options.seeds)) : "";
+}
+
 std::string About(double seconds) {
   if (seconds < 100) return Format("%.0f s", std::ceil(seconds));
   if (seconds < 6000) return Format("%.0f min", seconds / 60);
@@ -147,19 +158,31 @@ std::string ForecastText(const StudyOptions& options, const SceneFacts& scene,
   Probes probes(options);
   probes.Run(settings);
   const std::size_t renders = settings.size() * std::size_t(options.seeds);
-  std::string text = Format("%zu renders of %d x %d pixels (%zu settings, %d seeds each)", renders,
-                            scene.width, scene.height, settings.size(), options.seeds);
+  std::string text = Format("%zu renders of %d x %d pixels (%zu settings, %d seeds each%s)",
+                            renders, scene.width, scene.height, settings.size(), options.seeds,
+                            CertificatesText(options, settings).c_str());
   const bool allHaveLimits = std::all_of(settings.begin(), settings.end(),
                                          [](const auto& setting) { return setting.Find("time"); });
   if (probes.IsEmpty() && !allHaveLimits) return text + "\n";
   double all = 0;
   for (const study::Setting& setting : settings) all += options.seeds * probes.SecondsOf(setting);
   text += ", about " + About(all) + "\n";
+  const std::vector<study::Setting> bounds = study::ExpectedLowerBounds(settings);
+  if (!bounds.empty()) {
+    const int seeds = std::min(options.seeds, kMostBoundSeeds);
+    double more = 0;
+    for (const study::Setting& bound : bounds) more += seeds * probes.SecondsOf(bound);
+    all += more;
+    text += Format("at most %zu more renders for lower bounds of the time",
+                   bounds.size() * std::size_t(seeds)) +
+            (probes.IsEmpty() ? "" : ", about " + About(more)) + "\n";
+  }
   if (!options.makeReference.empty()) {
     all += options.referenceSeconds;
-    text += "a reference in two halves, about " + About(options.referenceSeconds) + "\n" +
-            "about " + About(all) + " in all\n";
+    text += "a reference in two halves, about " + About(options.referenceSeconds) + "\n";
   }
+  if (!bounds.empty() || !options.makeReference.empty())
+    text += "about " + About(all) + " in all\n";
   return text;
 }
 

@@ -189,6 +189,9 @@ void AddRender(OptionParser& app, StudyOptions& options, RawStudyOptions& raw) {
               "quote each integrator first, and show the quotes beside the measurements");
   app.AddFlag("--error-budget", options.makesBudgets,
               "split the error of photonmap and exphotonmap by cause, as exphoton budget does");
+  app.AddFlag("--certify", options.certifies,
+              "render photonmap and exphotonmap with certificates of their errors, and show these "
+              "beside the measured errors");
   app.AddFlag("--quiet", options.isQuiet, "no progress");
   app.AddFlag(
       "--plan", options.onlyPlans,
@@ -293,6 +296,14 @@ void CheckBudgets(const StudyOptions& options) {
     FailUsage("--error-budget excludes --tasks, --task and --from");
 }
 
+// A certificate compares two sets of photons, and costs time that quotes do not include.
+void CheckCertify(const StudyOptions& options) {
+  if (!options.certifies) return;
+  if (!options.photonFile.empty()) FailUsage("--certify excludes --photons");
+  if (options.predicts)
+    FailUsage("--certify excludes --predict: quotes are for renders without certificates");
+}
+
 void Check(const StudyOptions& options) {
   if (options.scene.empty()) FailUsage("exphoton study needs a scene or a study file");
   if (options.folder.empty() && !options.onlyPlans && options.missingOf == 0)
@@ -301,6 +312,7 @@ void Check(const StudyOptions& options) {
   CheckPhotonFile(options);
   CheckPredict(options);
   CheckBudgets(options);
+  CheckCertify(options);
   if (options.references.size() > 2) FailUsage("--reference: one picture, or two halves of it");
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");

@@ -40,6 +40,9 @@ struct StudyOptions {
   bool onlyPlans = false;     // print the planned renders and stop
   bool predicts = false;      // quote each integrator before the renders
   bool makesBudgets = false;  // make the error budgets of photon integrators
+  bool certifies = false;     // render photon integrators with certificates
+  // The parameters of the scene's integrator that decide about certificates, as --set takes them.
+  std::vector<std::string> sceneSets;
   std::string commandLine;
 
   // Studies as arrays of jobs

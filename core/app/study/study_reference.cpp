@@ -4,6 +4,7 @@
 // progress. It is written last, so an interrupted reference continues after its last complete
 // round.
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "core/app/output/output_files.h"
 #include "core/app/study/study_runner.h"
 #include "core/base/error.h"
+#include "core/base/log.h"
 #include "core/imaging/files/exr.h"
 
 namespace exphoton::cli {
@@ -154,6 +156,37 @@ class ReferenceMaker {
   State state_;
 };
 
+std::string StringAttribute(const Image& image, const char* attribute) {
+  const auto found = image.attributes.find(attribute);
+  const auto* value =
+      found == image.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
+  return value ? *value : std::string();
+}
+
+// Returns whether a picture has several passes. They derive seeds of their own.
+bool HasPasses(const Image& image) {
+  const auto found = image.attributes.find("passes");
+  const int* const passes =
+      found == image.attributes.end() ? nullptr : std::get_if<int>(&found->second);
+  return passes && *passes > 1;
+}
+
+// Renders with equal seeds have noise in common, which would be missing from the errors. References
+// that a study makes have seeds of their own.
+void WarnOfCommonSeed(const StudyOptions& options, const std::string& path, const Image& image) {
+  if (HasPasses(image)) return;
+  const std::string text = StringAttribute(image, "seed");
+  const char* const end = text.data() + text.size();
+  std::uint64_t seed = 0;
+  const auto [next, error] = std::from_chars(text.data(), end, seed);
+  if (error != std::errc() || next != end) return;
+  if (seed < 1 || seed > std::uint64_t(options.seeds)) return;
+  Log log(options.isQuiet ? Log::Level::Quiet : Log::Level::Normal);
+  log.Warning("the reference \"" + path + "\" was rendered with seed " + text +
+                  ", as renders of this study are: errors may be too small",
+              {}, "--seed 1001 gives a reference noise of its own");
+}
+
 }  // namespace
 
 study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner& runner) {
@@ -164,14 +197,10 @@ study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner
   if (options.references.size() > 1)
     record.b = fs::absolute(options.references[1]).lexically_normal().string();
   const Image image = ReadImage(record.a);
-  const auto text = [&](const char* name) {
-    const auto found = image.attributes.find(name);
-    const auto* value =
-        found == image.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
-    return value ? *value : std::string();
-  };
-  record.scene = text("scene");
-  record.integrator = text("integrator");
+  WarnOfCommonSeed(options, record.a, image);
+  if (!record.b.empty()) WarnOfCommonSeed(options, record.b, ReadImage(record.b));
+  record.scene = StringAttribute(image, "scene");
+  record.integrator = StringAttribute(image, "integrator");
   return record;
 }
 

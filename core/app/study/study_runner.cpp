@@ -98,7 +98,11 @@ study::RunRow StudyRunner::RunOne(const study::Setting& setting, std::uint64_t s
                                   const std::vector<std::string>& extra) {
   std::vector<std::string> arguments = RunArguments(options_, setting, seed);
   arguments.insert(arguments.end(), extra.begin(), extra.end());
-  const std::string name = RunFileName(setting, seed) + (extra.empty() ? "" : "_maps");
+  return RunAs(RunFileName(setting, seed) + (extra.empty() ? "" : "_maps"), arguments, seed);
+}
+
+study::RunRow StudyRunner::RunAs(const std::string& name, const std::vector<std::string>& arguments,
+                                 std::uint64_t seed) {
   study::RunRow row;
   wasFound_ = finished_.Find(folder_.Path(), name, arguments, &row);
   if (wasFound_) return row;

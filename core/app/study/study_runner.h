@@ -3,7 +3,7 @@
 // A finished run is not repeated.
 #pragma once
 
-#include "core/app/analysis/results.h"
+#include "core/app/analysis/analysis.h"
 #include "core/app/study/finished_runs.h"
 #include "core/app/study/study_folder.h"
 #include "core/app/study/study_options.h"
@@ -37,6 +37,9 @@ class StudyRunner {
   // Returns a run, rendered or found in the folder. The row's setting is 0.
   study::RunRow RunOne(const study::Setting& setting, std::uint64_t seed,
                        const std::vector<std::string>& extra = {});
+  // The same for other files than images/. `name` has no ending, `arguments` are those of a render.
+  study::RunRow RunAs(const std::string& name, const std::vector<std::string>& arguments,
+                      std::uint64_t seed);
 
   // Renders even if the folder has the run. Throws StudyInterrupted, or Error with the messages of
   // the child process.
@@ -52,6 +55,16 @@ class StudyRunner {
 // Returns the reference that the options request, rendered or given, or an empty record if there is
 // none.
 study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner& runner);
+
+// Lower bounds are the smallest times of at most this number of seeds.
+inline constexpr int kMostBoundSeeds = 3;
+
+// Returns the lower bounds of the photon integrators, rendered or found in the folder. Returns none
+// if tasks made the runs on other processors. Throws Error and StudyInterrupted.
+std::vector<study::LowerBound> MeasureLowerBounds(const StudyOptions& options,
+                                                  const study::Results& results,
+                                                  const study::Analysis& analysis,
+                                                  StudyRunner& runner);
 
 void Say(const StudyOptions& options, const std::string& text);  // to standard error, unless quiet
 

@@ -73,6 +73,30 @@ std::string ProcessorName() {
 // The word of a setting for the number of progressive passes.
 constexpr const char* kPasses = "passes";
 
+constexpr std::string_view kWithCertificates[] = {"exphotonmap", "photonmap"};
+
+// Returns the start of a --set of a parameter of the surface integrator.
+std::string SetOf(const std::string& parameter) { return "SurfaceIntegrator." + parameter + "="; }
+
+// Returns the scene's parameters without which --certify has nothing to estimate.
+std::vector<std::string> SetsOfScene(const ParamSet& integrator) {
+  std::vector<std::string> sets;
+  for (const char* name : {"finalgather", "show"}) {
+    const ParsedParam* const given = integrator.Find(name);
+    if (given && !given->strings.empty()) sets.push_back(SetOf(name) + given->strings[0]);
+  }
+  return sets;
+}
+
+// Returns the last value of a parameter in these words, or `otherwise`.
+std::string LastSet(const std::vector<std::string>& words, const std::string& parameter,
+                    const std::string& otherwise) {
+  std::string value = otherwise;
+  for (const std::string& word : words)
+    if (word.starts_with(SetOf(parameter))) value = word.substr(SetOf(parameter).size());
+  return value;
+}
+
 bool KeepsPhotons(PluginRegistry& registry, const std::string& integrator, Log& log) {
   BindContext bind;
   bind.log = &log;
@@ -147,7 +171,8 @@ SceneFacts ExamineScene(const std::string& path, const StudyOptions& options) {
   Hash hash;
   hash.Add(HashText(setup.sceneHash));
   for (const std::string& file : setup.inputFiles) hash.Add(ReadTextFile(file));
-  return {setup.crop.Width(), setup.crop.Height(), hash.Text(), setup.inputFiles};
+  return {setup.crop.Width(), setup.crop.Height(), hash.Text(), setup.inputFiles,
+          SetsOfScene(setup.integratorParameters)};
 }
 
 ProgramFacts ExamineProgram(const StudyOptions& options) {
@@ -241,12 +266,30 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
   return arguments;
 }
 
+bool HasCertificate(const StudyOptions& options, const study::Setting& setting) {
+  if (!options.certifies || setting.Find(kPasses) ||
+      std::ranges::find(kWithCertificates, setting.integrator) == std::end(kWithCertificates))
+    return false;
+  std::vector<std::string> words = options.sceneSets;
+  const std::vector<std::string> own = RenderArguments(options, options.scene, setting, 1);
+  words.insert(words.end(), own.begin(), own.end());
+  return LastSet(words, "finalgather", "true") == "true" && LastSet(words, "show", "").empty();
+}
+
+void RequireCertificates(const StudyOptions& options, const std::vector<study::Setting>& settings) {
+  const auto hasOne = [&](const study::Setting& s) { return HasCertificate(options, s); };
+  if (options.certifies && std::ranges::none_of(settings, hasOne))
+    FailUsage("--certify: no setting of the study has a certificate",
+              "exphotonmap and photonmap with final gather have");
+}
+
 std::vector<std::string> RunArguments(const StudyOptions& options, const study::Setting& setting,
                                       std::uint64_t seed) {
   std::vector<std::string> arguments = RenderArguments(options, options.scene, setting, seed);
   // Progressive passes shoot their photons.
   if (options.photonIntegrators.contains(setting.integrator) && !setting.Find(kPasses))
     arguments.insert(arguments.end(), {"--photons", FrameName(options.photonFile, int(seed))});
+  if (HasCertificate(options, setting)) arguments.push_back("--certify");
   return arguments;
 }
 

@@ -14,6 +14,7 @@ struct SceneFacts {
   int width = 0, height = 0;            // of the rendered part
   std::string hash;                     // of the directives and all input files
   std::vector<std::string> inputFiles;  // files that the scene reads
+  std::vector<std::string> sets;        // StudyOptions::sceneSets
 };
 // Loads the scene. Throws Error.
 SceneFacts ExamineScene(const std::string& path, const StudyOptions& options);
@@ -36,12 +37,18 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options);
 std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
                                             const std::vector<study::Setting>& settings);
 
+// Returns whether the renders of a setting have certificates. With --certify, these are the renders
+// of photon integrators with final gather, except progressive passes.
+bool HasCertificate(const StudyOptions& options, const study::Setting& setting);
+// Throws Error if the study asks for certificates and no setting has one.
+void RequireCertificates(const StudyOptions& options, const std::vector<study::Setting>& settings);
+
 // Returns the arguments of `exphoton render` for a scene, setting and seed, without output options.
 // The word "passes" of a setting is the number of progressive passes.
 std::vector<std::string> RenderArguments(const StudyOptions& options, const std::string& scene,
                                          const study::Setting& setting, std::uint64_t seed);
 // Returns the arguments for one run of the study. They name the file of its photons, if there is
-// one.
+// one, and ask for a certificate, if the run has one.
 std::vector<std::string> RunArguments(const StudyOptions& options, const study::Setting& setting,
                                       std::uint64_t seed);
 // Returns "exphoton render ..." quoted for a shell.

@@ -54,6 +54,7 @@ TEST_F(StudyOptionsTest, HaveTheDefaultsOfTheManual) {
   EXPECT_EQ(options.targets, (std::vector<double>{.1, .03, .01, .003}));
   EXPECT_TRUE(options.makesMaps);
   EXPECT_FALSE(options.isQuiet || options.onlyPlans || options.allowsScenePlugins);
+  EXPECT_FALSE(options.certifies);
   EXPECT_EQ(SettingsOf(options),
             (Arguments{"exphotonmap/exphotonmap/as the scene says",
                        "photonmap/photonmap/as the scene says", "path/path/as the scene says"}));
@@ -80,6 +81,7 @@ TEST_F(StudyOptionsTest, ArriveInTheirFields) {
   EXPECT_FALSE(Parse({"--no-maps"}).makesMaps);
   EXPECT_TRUE(Parse({"--quiet"}).isQuiet);
   EXPECT_TRUE(Parse({"--plan"}).onlyPlans);
+  EXPECT_TRUE(Parse({"--certify"}).certifies);
   EXPECT_EQ(Parse({"--budgets", "1,2m"}).plan.budgets, (std::vector<double>{60, 120}));
   EXPECT_EQ(Parse({"--vary", "spp=1,2"}).plan.varied.at(0).parameter, "spp");
   EXPECT_EQ(SettingsOf(Parse({"--integrators", "path,whitted", "--setting", "x: igi maxdepth=3"})),
@@ -235,6 +237,45 @@ TEST_F(StudyOptionsTest, MakeAPlanWhoseParametersTheIntegratorsHave) {
   }
   options = Parse({"--setting", "path spp=2 time=1 Film.x=3"});
   EXPECT_EQ(PlanSettings(options).size(), 1u);
+}
+
+TEST_F(StudyOptionsTest, GiveCertificatesToRendersWithFinalGather) {
+  const study::Setting photons{"x", "photonmap", {{"spp", "4"}}};
+  StudyOptions options = Parse({});
+  EXPECT_FALSE(HasCertificate(options, photons));
+  const Arguments plain = RunArguments(options, photons, 3);
+  const std::string file = folder_.File("x.study");
+  WriteFile(file, "scene s.pbrt\nout " + folder_.File("results") + "\ncertify\n");
+  options = ParseStudyOptions({file});
+  Arguments certified = plain;
+  certified[1] = folder_.File("s.pbrt");
+  certified.push_back("--certify");
+  EXPECT_EQ(RunArguments(options, photons, 3), certified);
+  const auto with = [&](const study::Parameter& parameter) {
+    study::Setting setting = photons;
+    setting.parameters.push_back(parameter);
+    return HasCertificate(options, setting);
+  };
+  EXPECT_TRUE(HasCertificate(options, {"x", "exphotonmap", {}}));
+  EXPECT_FALSE(HasCertificate(options, {"x", "path", {}}));
+  EXPECT_FALSE(with({"passes", "9"}));
+  EXPECT_FALSE(with({"show", "causticphotons"}));
+  EXPECT_FALSE(with({"finalgather", "false"}));
+  EXPECT_FALSE(with({"SurfaceIntegrator.finalgather", "false"}));
+  // A parameter of a setting replaces one of --set, which replaces one of the scene.
+  options.sceneSets = {"SurfaceIntegrator.finalgather=false"};
+  EXPECT_FALSE(HasCertificate(options, photons));
+  EXPECT_THROW(RequireCertificates(options, {photons}), Error);
+  EXPECT_TRUE(with({"finalgather", "true"}));
+  options.sets = {"SurfaceIntegrator.finalgather=true"};
+  EXPECT_TRUE(HasCertificate(options, photons));
+  EXPECT_NO_THROW(RequireCertificates(options, {{"x", "path", {}}, photons}));
+  EXPECT_FALSE(with({"finalgather", "false"}));
+  EXPECT_EQ(ErrorOf({"--certify", "--photons", "a.expm", "--seeds", "1"}),
+            "--certify excludes --photons");
+  EXPECT_NE(ErrorOf({"--certify", "--predict", "--make-reference", "path"})
+                .find("--certify excludes --predict"),
+            std::string::npos);
 }
 
 TEST_F(StudyOptionsTest, QuotesNeedAReferenceAndWholePictures) {

@@ -133,6 +133,51 @@ TEST(StudySeparation, AReferenceThatIsTooNoisyIsToldByItsShareOfTheError) {
   EXPECT_EQ(ReferenceShortfall(unknown, 1e-9), 0);
 }
 
+TEST(StudySeparation, FindsTheBiasOfBlocksWithoutTheNoise) {
+  const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
+  const std::vector<Image> pictures = Pictures(4, .1, .2);
+  for (const int width : {1, 16, 1000}) {
+    const Measured bias2 = SeparateBlocks(pictures, reference, width);
+    EXPECT_LT(std::abs(bias2.value - .01 * kWeight), 4 * bias2.error + 1e-4) << width;
+    EXPECT_LT(bias2.error, .001) << width;
+  }
+  EXPECT_NEAR(SeparateBlocks(pictures, reference, 1).value,
+              Separate(pictures, reference).bias2.value, 1e-9);
+}
+
+// The blocks at the right and lower edges are smaller than the others.
+TEST(StudySeparation, BiasOfBothSignsCancelsInBlocks) {
+  std::vector<Image> pictures;
+  for (int k = 0; k < 3; ++k) {
+    pictures.push_back(Noisy(0, 0, 0));
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x)
+        for (int c = 0; c < 3; ++c) pictures.back().At(x, y, c) += x / 16 % 2 ? -.1f : .1f;
+  }
+  const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
+  EXPECT_NEAR(SeparateBlocks(pictures, reference, 16).value, .01 * kWeight, 1e-6);
+  EXPECT_NEAR(SeparateBlocks(pictures, reference, 32).value, 0, 1e-6);
+  // Three blocks in a row have a third of the bias, and the last one is 16 pixels wide.
+  const double shares = (3 * 48. / 9 + 16) / 160;
+  EXPECT_NEAR(SeparateBlocks(pictures, reference, 48).value, .01 * kWeight * shares, 1e-6);
+}
+
+TEST(StudySeparation, TakesTheReferencesNoiseOffTheBiasOfBlocks) {
+  const Reference reference = MakeReference(Noisy(0, .05, 101), Noisy(0, .05, 102));
+  const Measured bias2 = SeparateBlocks(Pictures(3, 0, 0), reference, 4);
+  const double noise = reference.variance.value / 16;  // of the mean of a block
+  EXPECT_LT(std::abs(bias2.value), 4 * bias2.error);
+  EXPECT_LT(4 * bias2.error, .5 * noise);
+}
+
+TEST(StudySeparation, OfFewSeedsDoesNotKnowTheBiasOfBlocks) {
+  const Reference reference = MakeReference(Noisy(0, 0, 1), Noisy(0, 0, 2));
+  EXPECT_FALSE(SeparateBlocks(Pictures(1, .1, .2), reference, 8).IsKnown());
+  const Measured two = SeparateBlocks(Pictures(2, .1, .2), reference, 8);
+  EXPECT_NEAR(two.value, .01 * kWeight, .001);
+  EXPECT_FALSE(std::isfinite(two.error));
+}
+
 TEST(StudySeparation, RefusesPicturesOfOtherSizes) {
   const Reference reference = MakeReference(Noisy(0, 0, 1));
   EXPECT_THROW(Separate({Image(2, 2, {"R", "G", "B"})}, reference), ImageError);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/app/analysis/headline/lower_bound.h"
 #include "core/app/analysis/headline/machines.h"
 #include "core/app/analysis/headline/target.h"
 #include "core/app/analysis/numbers.h"
@@ -233,6 +234,7 @@ void WriteHeadline(const Results& results, Analysis* analysis) {
   if (!results.photonFile.empty())
     add("Photons were read from " + results.photonFile +
         ", and the times do not include shooting them.");
+  analysis->lowerBounds = LowerBoundText(results, *analysis);
 }
 
 }  // namespace exphoton::study

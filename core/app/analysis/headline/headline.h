@@ -8,7 +8,7 @@
 namespace exphoton::study {
 
 // Chooses the contenders, the error that most of them reach, and the times to it. Fills
-// contenders, target, toTarget, headline and details of the analysis.
+// contenders, target, toTarget, headline, details and lowerBounds of the analysis.
 void WriteHeadline(const Results& results, Analysis* analysis);
 
 // Returns 1 / (error x seconds) relative to another setting, or unknown if the reference is too

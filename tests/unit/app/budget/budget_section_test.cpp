@@ -100,5 +100,28 @@ TEST(BudgetSection, StaysTheSameInJson) {
   EXPECT_EQ(study::BudgetSection(study::FromJson(study::ToJson(results))).Markup(), page);
 }
 
+// A page has one lower bound of each integrator.
+TEST(BudgetSection, LeavesTheLowerBoundToTheStudy) {
+  study::Results results;
+  results.settings = {{"path", "path", {}}, {"exphotonmap", "exphotonmap", {}}};
+  const MeasuredBudget budget = KnownBudget();
+  for (const char* integrator : {"exphotonmap", "photonmap"})
+    results.budgets.push_back(
+        {integrator, BudgetHeadline(budget), BudgetRows(budget, 8), BudgetNotes(budget, {})});
+  const auto countIn = [&](const std::string& part) {
+    const std::string page = study::BudgetSection(results).Markup();
+    int count = 0;
+    for (std::size_t at = 0; (at = page.find(part, at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_EQ(countIn("4 times the lower bound of 1.5 s"), 2);
+  EXPECT_EQ(countIn("<li>the lower bound is"), 2);
+  results.lowerBounds = {{1, .5, 1, ""}};
+  EXPECT_EQ(countIn("4 times the lower bound of 1.5 s"), 1);
+  EXPECT_EQ(countIn("<li>the lower bound is"), 1);
+  EXPECT_EQ(countIn("6 s of CPU time</p>"), 1);
+  EXPECT_EQ(countIn("<li>the line below the headline has the lower bound"), 1);
+}
+
 }  // namespace
 }  // namespace exphoton::cli
