@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Writes skylight.pbrt (ceiling and roof with the hole), sun.pbrt (the sun, a far spot),
-distant_sun.pbrt (the same as a distant light) and patch.pbrt (area lights that stand for the patch
-that the sun lights on the left wall).
+"""Writes skylight.pbrt (ceiling and roof with the hole), outer_walls.pbrt (black walls), sun.pbrt
+(the sun, a distant light), spot_sun.pbrt (a far spot with the same irradiance) and patch.pbrt (an
+area light in place of the sunlit patch on the left wall).
 Run it in this folder: python3 make_sun.py. Metres throughout; the numbers below are the design."""
 import math
 
@@ -11,10 +11,10 @@ HOLE_X, HOLE_Z = (-.90, .55), (2.25, 3.75)               # the skylight, in the 
 TOWARDS = (-.75, -.62, -.17)                              # where sunlight goes
 DISTANCE = 26.                                            # of the spot from the skylight
 INTENSITY = (54000., 50000., 44000.)                      # of the spot: W / sr
+SUN = tuple(i / DISTANCE ** 2 for i in INTENSITY)         # "L" of the sun: W / m2 across the beam
 WALL = (.84, .82, .77)                                    # reflectance of the lit wall
 THICKNESS = .3                                            # of the black outer walls, with the air
 MARGIN = .08                                              # of the ceiling's hole round the beam
-CELLS_Y, CELLS_Z = 6, 6                                 # area lights for the patch
 
 
 def scaled(v, s):
@@ -84,25 +84,16 @@ def skylight():
 
 
 def sun():
-    axis = unit(minus(centre, source))
-    reach = max(math.acos(dot(axis, unit(minus(c, source)))) for c in corners)
-    angle = math.degrees(reach) + .04
-    text = "# The sun is a spot light 26 m away. Its cone just encloses the skylight, so nearly half of its\n"
-    text += "# photons enter the room. Made by make_sun.py.\n"
-    text += f'LightSource "spot" "color I" [ {numbers(*INTENSITY)} ]\n'
+    text = "# The sun. Made by make_sun.py.\n"
+    text += f'LightSource "distant" "color L" [ {numbers(*SUN)} ]\n'
     text += f'  "point from" [ {numbers(*source)} ] "point to" [ {numbers(*centre)} ]\n'
-    text += f'  "float coneangle" [ {angle:.4f} ] "float conedeltaangle" [ .03 ]\n'
-    return text
+    return text + 'Include "outer_walls.pbrt"\n'
 
 
-def distant_sun():
-    """The irradiance at the skylight equals the spot's, so the same power enters. The sun shines on
-    the outer sides of two walls, which are black here: photons on them would leak in at the edges of
-    the floor."""
-    text = "# The sun as a distant light, and black outer walls on the sides that it shines on. Made by\n"
-    text += "# make_sun.py.\n"
-    text += f'LightSource "distant" "color L" [ {numbers(*scaled(INTENSITY, DISTANCE ** -2))} ]\n'
-    text += f'  "point from" [ {numbers(*source)} ] "point to" [ {numbers(*centre)} ]\n'
+def outer_walls():
+    """The sun shines on the outer sides of two walls. Photons there would leak in at the edges of the
+    floor, so black walls stand before them."""
+    text = "# Black walls before the right wall and the front wall. Made by make_sun.py.\n"
     text += 'AttributeBegin\nMaterial "matte" "color Kd" [ 0 0 0 ]\n'
     x0, x1, z0, z1 = -HALF_WIDTH, HALF_WIDTH, -THICKNESS, DEPTH
     w, e, low = x1 + THICKNESS, z1 + THICKNESS, -THICKNESS
@@ -113,50 +104,46 @@ def distant_sun():
     return text + "AttributeEnd\n"
 
 
-def patch():
-    """The skylight's image on the wall x = -HALF_WIDTH, cell by cell: the cells are images of equal
-    rectangles of the skylight, so they tile the patch exactly. Each has the radiance
-    L = Kd / pi * E, E = I cos / d^2, averaged over the cell by Simpson's rule."""
-    def on_wall(u, v):
-        x = HOLE_X[0] + (HOLE_X[1] - HOLE_X[0]) * u
-        z = HOLE_Z[0] + (HOLE_Z[1] - HOLE_Z[0]) * v
-        return onto((x, ROOF, z), 0, -HALF_WIDTH)
-
-    def per_intensity(p):
-        d = minus(p, source)
-        d2 = dot(d, d)
-        return abs(d[0]) / math.sqrt(d2) / d2  # cos / d^2 at the wall
-
-    lift = .0005  # in front of the wall, so that the patch is what rays meet
-    text = "# The sunlit patch as area lights: radiance Kd / pi * E in every cell. They lie half a\n"
-    text += "# millimetre before the wall and reflect as it does. Made by make_sun.py.\n"
-    text += f'AttributeBegin\nMaterial "matte" "color Kd" [ {numbers(*WALL)} ]\n'
-    power = 0
-    for i in range(CELLS_Y):
-        for j in range(CELLS_Z):
-            u0, u1, v0, v1 = i / CELLS_Y, (i + 1) / CELLS_Y, j / CELLS_Z, (j + 1) / CELLS_Z
-            e = 0
-            for a, wa in ((u0, 1), ((u0 + u1) / 2, 4), (u1, 1)):
-                for b, wb in ((v0, 1), ((v0 + v1) / 2, 4), (v1, 1)):
-                    e += wa * wb / 36 * per_intensity(on_wall(a, b))
-            radiance = [r / math.pi * e * s for r, s in zip(WALL, INTENSITY)]
-            p = [plus(on_wall(a, b), (lift, 0, 0)) for a, b in ((u0, v0), (u0, v1), (u1, v1), (u1, v0))]
-            ab, ac, ad = minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0])
-            normal_x = ab[1] * ac[2] - ab[2] * ac[1]
-            if normal_x < 0:
-                p = [p[0], p[3], p[2], p[1]]
-            area = (abs(ab[1] * ac[2] - ab[2] * ac[1]) + abs(ac[1] * ad[2] - ac[2] * ad[1])) / 2
-            power += area * math.pi * radiance[1]
-            text += f'AreaLightSource "area" "color L" [ {numbers(*radiance)} ]\n' + quad(*p)
-    text += "AttributeEnd\n"
-    ends = [on_wall(u, v) for u in (0, 1) for v in (0, 1)]
-    print("patch: y %.3f to %.3f, z %.3f to %.3f; green power %.2f W" % (
-        min(p[1] for p in ends), max(p[1] for p in ends), min(p[2] for p in ends),
-        max(p[2] for p in ends), power))
+def spot_sun():
+    """The irradiance at the centre of the skylight equals the sun's."""
+    axis = unit(minus(centre, source))
+    reach = max(math.acos(dot(axis, unit(minus(c, source)))) for c in corners)
+    angle = math.degrees(reach) + .04
+    text = "# The sun as a spot light 26 m away. Its cone just encloses the skylight, so nearly half of its\n"
+    text += "# photons enter the room. Made by make_sun.py.\n"
+    text += f'LightSource "spot" "color I" [ {numbers(*INTENSITY)} ]\n'
+    text += f'  "point from" [ {numbers(*source)} ] "point to" [ {numbers(*centre)} ]\n'
+    text += f'  "float coneangle" [ {angle:.4f} ] "float conedeltaangle" [ .03 ]\n'
     return text
 
 
-for name, text in (("skylight", skylight()), ("sun", sun()), ("distant_sun", distant_sun()),
-                   ("patch", patch())):
+def patch():
+    """The skylight's image along the sunlight on the wall x = -HALF_WIDTH. Sunlight is parallel, so
+    the image is a parallelogram with one irradiance E = L cos, and reflects Kd / pi * E."""
+    def on_wall(x, z):
+        s = (-HALF_WIDTH - x) / direction[0]
+        return plus((x, ROOF, z), scaled(direction, s))
+
+    lift = (.0005, 0, 0)  # in front of the wall, so that the patch is what rays meet
+    (x0, x1), (z0, z1) = HOLE_X, HOLE_Z
+    p = [on_wall(*c) for c in ((x0, z0), (x0, z1), (x1, z1), (x1, z0))]
+    radiance = [r / math.pi * l * -direction[0] for r, l in zip(WALL, SUN)]
+    ab, ac, ad = minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0])
+    area = (abs(ab[1] * ac[2] - ab[2] * ac[1]) + abs(ac[1] * ad[2] - ac[2] * ad[1])) / 2
+    if ab[1] * ac[2] < ab[2] * ac[1]:  # the normal must point into the room
+        p.reverse()
+    text = "# The sunlit patch as an area light of radiance Kd / pi * E. It lies half a millimetre before\n"
+    text += "# the wall and reflects as it does. Made by make_sun.py.\n"
+    text += f'AttributeBegin\nMaterial "matte" "color Kd" [ {numbers(*WALL)} ]\n'
+    text += f'AreaLightSource "area" "color L" [ {numbers(*radiance)} ]\n'
+    text += quad(*[plus(corner, lift) for corner in p]) + "AttributeEnd\n"
+    print("patch: y %.3f to %.3f, z %.3f to %.3f; green power %.2f W" % (
+        min(c[1] for c in p), max(c[1] for c in p), min(c[2] for c in p), max(c[2] for c in p),
+        area * math.pi * radiance[1]))
+    return text
+
+
+for name, text in (("skylight", skylight()), ("outer_walls", outer_walls()), ("sun", sun()),
+                   ("spot_sun", spot_sun()), ("patch", patch())):
     with open(name + ".pbrt", "w") as out:
         out.write(text)

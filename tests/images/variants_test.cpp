@@ -68,8 +68,8 @@ TEST(SceneVariants, EmittersReplaceTheSunAlone) {
   ExpectOtherSun("path.pbrt", "emitters.pbrt", "patch.pbrt");
 }
 
-TEST(SceneVariants, ADistantLightReplacesTheSunAlone) {
-  ExpectOtherSun("exphotonmap.pbrt", "distant.pbrt", "distant_sun.pbrt");
+TEST(SceneVariants, ASpotReplacesTheSunAlone) {
+  ExpectOtherSun("exphotonmap.pbrt", "spot.pbrt", "spot_sun.pbrt");
 }
 
 }  // namespace

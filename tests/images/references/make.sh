@@ -62,7 +62,7 @@ TEXT
   cat <<'TEXT'
 
 Everything else is what the scene says: its sampler, filter, materials. `skylight-room` is taken from its variant `emitters.pbrt`,
-in which area lights stand for the sunlit patch on the wall; path tracing does not converge on the sun itself.
+in which an area light replaces the sunlit patch on the wall; path tracing does not converge on the sun itself.
 
 | name | scene | samples a pixel, each half | seconds (CPU) | mean | noise of the mean of both: MSE | relMSE | b - a in the mean |
 | --- | --- | --- | --- | --- | --- | --- | --- |
