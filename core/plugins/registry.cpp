@@ -221,7 +221,7 @@ void* PluginRegistry::CreateErased(PluginKind kind, const std::string& name, con
   const std::string failed = bind.what + " cannot be made: ";
   try {
     std::optional<ParamSet> converted;
-    if (!substitutes_.empty() && substitutes_.contains(Key(kind, name)))
+    if (substitutes_.contains(Key(kind, name)))
       converted = ParamsOfSubstitute(kind, name, params, bind);
     if (void* product = factory.create(factory, converted ? *converted : params, bind, context))
       return product;

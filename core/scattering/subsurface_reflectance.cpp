@@ -28,12 +28,6 @@ constexpr MeasuredMedium kMeasuredMedia[] = {
     {"Wholemilk", {{.0011, .0024, .014}, {2.55, 3.21, 3.77}}},
 };
 
-// Returns the diffuse reflectance of a smooth boundary from inside: the fit of Egan and Hilgeman
-// (1973), rounded as the paper gives it.
-double InternalReflectance(double eta) {
-  return -1.440 / (eta * eta) + .710 / eta + .668 + .0636 * eta;
-}
-
 }  // namespace
 
 std::optional<SubsurfaceCoefficients> MeasuredCoefficients(const std::string& medium) {
@@ -46,6 +40,10 @@ std::vector<std::string> MeasuredMedia() {
   std::vector<std::string> names;
   for (const MeasuredMedium& measured : kMeasuredMedia) names.emplace_back(measured.name);
   return names;
+}
+
+double InternalReflectance(double eta) {
+  return -1.4399 / (eta * eta) + .7099 / eta + .6681 + .0636 * eta;
 }
 
 std::array<double, 3> DipoleReflectance(const SubsurfaceCoefficients& medium, double eta) {

@@ -24,6 +24,11 @@ std::vector<std::string> MeasuredMedia();
 // The medium of a material that states neither a medium nor coefficients.
 inline constexpr const char* kDefaultMedium = "Wholemilk";
 
+// Returns the share of diffuse light in a medium that its smooth boundary reflects back. `eta` is
+// the index of refraction relative to the outside, at least 1. Source: the fit of Egan and Hilgeman
+// 1973.
+double InternalReflectance(double eta);
+
 // Returns the share of the light in the medium that leaves its plane surface again, for red, green
 // and blue, by the dipole model. `eta` is the index of refraction relative to the outside. It is
 // clamped to [1, 3], where the fit of the internal reflection holds.

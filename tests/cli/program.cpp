@@ -57,4 +57,14 @@ std::string SmallScene(const std::string& options, const std::string& world) {
          "\nTranslate 0 0 4 Shape \"sphere\"\nWorldEnd\n";
 }
 
+std::string SmallRoom() {
+  return "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16\n"
+         "Camera \"perspective\"\nPixelFilter \"box\"\n"
+         "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 500\n"
+         "WorldBegin\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\nAttributeBegin AreaLightSource "
+         "\"area\" \"color L\" [5 5 5]\n"
+         "Translate 0 3 4 Shape \"sphere\" AttributeEnd\nTranslate 0 0 4 Shape \"sphere\"\n"
+         "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n";
+}
+
 }  // namespace exphoton

@@ -45,4 +45,7 @@ class ProgramTest : public testing::Test {
 // WorldBegin and `world` after it.
 std::string SmallScene(const std::string& options = "", const std::string& world = "");
 
+// Returns a closed round room with a lamp and a ball, for exphotonmap, of 24 x 16 pixels.
+std::string SmallRoom();
+
 }  // namespace exphoton

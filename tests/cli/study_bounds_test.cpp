@@ -14,16 +14,7 @@ using Words = std::vector<std::string>;
 
 class StudyBoundsTest : public ProgramTest {
  protected:
-  StudyBoundsTest() {
-    Write("room.pbrt",
-          "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16\n"
-          "Camera \"perspective\"\nPixelFilter \"box\"\n"
-          "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 500\n"
-          "WorldBegin\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\nAttributeBegin AreaLightSource "
-          "\"area\" \"color L\" [5 5 5]\n"
-          "Translate 0 3 4 Shape \"sphere\" AttributeEnd\nTranslate 0 0 4 Shape \"sphere\"\n"
-          "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n");
-  }
+  StudyBoundsTest() { Write("room.pbrt", SmallRoom()); }
   ProgramResult Study(const std::string& integrators, const Words& more = {}) const {
     Words words{"study",   "room.pbrt", "--integrators", integrators, "--vary",    "spp=2,4",
                 "--seeds", "2",         "--nthreads",    "1",         "--no-maps", "--out",

@@ -13,16 +13,7 @@ using Names = std::vector<std::string>;
 
 class QuoteTest : public ProgramTest {
  protected:
-  QuoteTest() {
-    Write("room.pbrt",
-          "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16\n"
-          "Camera \"perspective\"\nPixelFilter \"box\"\n"
-          "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 500\n"
-          "WorldBegin\nMaterial \"matte\" \"color Kd\" [.3 .3 .3]\nAttributeBegin AreaLightSource "
-          "\"area\" \"color L\" [5 5 5]\n"
-          "Translate 0 3 4 Shape \"sphere\" AttributeEnd\nTranslate 0 0 4 Shape \"sphere\"\n"
-          "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n");
-  }
+  QuoteTest() { Write("room.pbrt", SmallRoom()); }
 };
 
 TEST_F(QuoteTest, PrintsCommandsThatRenderThePicture) {

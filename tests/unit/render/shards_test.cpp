@@ -110,7 +110,7 @@ class ShardedBands : public testing::TestWithParam<const char*> {
     std::deque<StateFile> files;
     ShardMerge merge;
     for (int index = 1; index <= count; ++index) {
-      // Shards beyond the number of tiles are empty, and one of them stands for all.
+      // A shard beyond the number of tiles is empty, so one empty shard replaces the others.
       constexpr int kMostRendered = 30;
       if (index > kMostRendered) {
         merge.parts.push_back(merge.parts.back());

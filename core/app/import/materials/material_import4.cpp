@@ -6,17 +6,17 @@
 #include <cmath>
 
 #include "core/app/import/materials/material_parts.h"
+#include "core/scattering/subsurface_reflectance.h"
 
 namespace exphoton::cli {
 namespace {
 
 // Reflectance of diffuse light at a smooth boundary of this index, from inside and from outside.
-// The inside is Egan and Hilgeman's fit (1973), and the outside follows by energy balance.
+// The outside follows by energy balance.
 struct DiffuseFresnel {
   double inside, outside;
   explicit DiffuseFresnel(double eta)
-      : inside(-1.4399 / (eta * eta) + .7099 / eta + .6681 + .0636 * eta),
-        outside(1 - (1 - inside) * eta * eta) {}
+      : inside(InternalReflectance(eta)), outside(1 - (1 - inside) * eta * eta) {}
 };
 
 // Returns the share of light that leaves a diffuse base under a coat, with all reflections between
