@@ -226,7 +226,8 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
       command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
-  if (result.reason == StopReason::Bias && RaisePhotons(&command_, log_)) return false;
+  if (result.reason == StopReason::Bias && RaisePhotons(result.looks, &command_, log_))
+    return false;
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);

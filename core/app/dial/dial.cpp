@@ -170,7 +170,8 @@ double GroupsOf(const Candidate& chosen) {
   const double most = sharesGathers ? std::clamp(chosen.price.samples / kSharing, 2., 4.) : 16;
   const double oneSet = chosen.photonSamples / (chosen.photonSamples + chosen.price.samples);
   const double cheap = 2 + kGroupShare / std::max(oneSet, 1e-6);
-  const double least = chosen.hasScatter && cheap > kCheapGroups ? 4 : 2;
+  const bool isCheap = chosen.price.sets == 1 || cheap > kCheapGroups;
+  const double least = chosen.hasScatter && isCheap ? 4 : 2;
   return std::floor(std::clamp(cheap, std::min(least, most), most));
 }
 
@@ -189,6 +190,20 @@ std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command)
 void Apply(const DialSettings& settings, RenderCommand* command) {
   for (ParameterOverride& parameter : settings.Overrides())
     command->load.parameters.push_back(std::move(parameter));
+}
+
+// Replaces settings, which are the last parameters of the command. Settings of the scene have no
+// parameters, so the earlier ones must go.
+void Replace(const DialSettings& earlier, const DialSettings& settings, RenderCommand* command) {
+  auto& parameters = command->load.parameters;
+  parameters.erase(parameters.end() - std::ptrdiff_t(earlier.Overrides().size()), parameters.end());
+  Apply(settings, command);
+}
+
+// Returns whether the scene has photons, and would not have too many of them.
+bool MayRaisePhotons(const DialSettings& settings) {
+  const bool hasPhotons = settings.indirectPhotons + settings.causticPhotons > 0;
+  return hasPhotons && settings.photons * kMorePhotons <= kMostPhotons;
 }
 
 }  // namespace
@@ -222,7 +237,8 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                             chosen.settings,
                             chosen.omitted,
                             ChoiceText(pilots, chosen),
-                            chosen.price.samples};
+                            chosen.price.samples,
+                            !command.keepsSettings && MayRaisePhotons(chosen.settings)};
   Apply(chosen.settings, turned);
   turned->load.samplesPerPixel = 2 * kMostGrowth * turned->dial->firstSamples;
   turned->certifies = chosen.correctedShare > 0;
@@ -234,16 +250,19 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   return renderer;
 }
 
-bool RaisePhotons(RenderCommand* command, Log& log) {
+bool RaisePhotons(int looks, RenderCommand* command, Log& log) {
   DialChoice& dial = *command->dial;
+  if (!dial.mayRaisePhotons) return false;
   DialSettings& settings = dial.settings;
-  const bool hasPhotons = settings.indirectPhotons + settings.causticPhotons > 0;
-  if (command->keepsSettings || !hasPhotons || settings.photons * kMorePhotons > kMostPhotons)
-    return false;
+  const DialSettings earlier = settings;
+  dial.earlierLooks = looks;
+  dial.photonSamples *= kMorePhotons;
   settings.photons *= kMorePhotons;
-  Apply(settings, command);
+  dial.mayRaisePhotons = MayRaisePhotons(settings);
+  Replace(earlier, settings, command);
   const std::string text = Format("%.3g times the photons of the scene", settings.photons);
-  log.Notice("the bias exceeds the accuracy, so the picture is rendered again with " + text);
+  log.Notice("the bias is too large for the accuracy, so the picture is rendered again with " +
+             text);
   dial.text += ", " + text;
   return true;
 }

@@ -18,9 +18,9 @@ class PilotRenderer;
 std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* command, const std::string& scene,
                                         FileSource::Streams* streams, Log& log);
 
-// Multiplies the photons after a render whose bias exceeds the accuracy. Returns false if it must
-// not, or if there would be too many.
-bool RaisePhotons(RenderCommand* command, Log& log);
+// Multiplies the photons after a render whose bias exceeds the accuracy, if the dial may do so.
+// looks: at that render and earlier ones. Returns whether they became more.
+bool RaisePhotons(int looks, RenderCommand* command, Log& log);
 
 // Throws Error(CommandLine) for an integrator without an estimate of its error.
 void CheckDialIntegrator(const std::string& integrator);

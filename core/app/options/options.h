@@ -31,8 +31,10 @@ struct DialChoice {
   double photonSamples = 0;       // the same
   DialSettings settings;
   std::vector<OmittedEffect> omitted;
-  std::string text;            // what changed
-  double expectedSamples = 0;  // as in StoppingRule::Accuracy
+  std::string text;              // what changed
+  double expectedSamples = 0;    // as in StoppingRule::Accuracy
+  bool mayRaisePhotons = false;  // the same
+  int earlierLooks = 0;          // the same
 };
 
 struct RenderCommand {

@@ -91,7 +91,9 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                                            command.dial->photonSamples,
                                            BoundOf(command.dial->omitted),
                                            !command.keepsSettings,
-                                           command.dial->expectedSamples};
+                                           command.dial->expectedSamples,
+                                           command.dial->mayRaisePhotons,
+                                           command.dial->earlierLooks};
   return RenderInPasses(job, options, rule);
 }
 

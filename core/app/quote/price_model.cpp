@@ -14,7 +14,6 @@ constexpr int kHalvings = 40;
 constexpr double kMostSamples = 1e12;
 constexpr double kCountable = 0x1p53;  // integers up to this one are exact
 constexpr double kLeastNoise = .3;     // the part that sharing leaves for noise
-constexpr double kSharingSlope = .4;   // of the squared bias of sharing over samples
 constexpr double kMargin = 1.35;       // of the seconds: clocks, and small parts of the scene
 
 // Sequences of n samples have errors of order n^-1.5 at edges, and n^-1 or more elsewhere. A few

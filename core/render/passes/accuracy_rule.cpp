@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/math/chi_square.h"
+#include "core/render/passes/photon_sets.h"
 
 namespace exphoton {
 namespace {
@@ -25,6 +26,28 @@ double NoiseDistance(const ErrorEstimate& estimate, double chance, double z) {
   const double lowest = degrees < kMany ? ChiSquareQuantile(chance, degrees)
                                         : degrees * std::pow(1 - c - z * std::sqrt(c), 3);
   return estimate.betweenGroups * (degrees / lowest - 1);
+}
+
+// Parts of the error (relMSE) at a look. `falling` is inversely proportional to the samples.
+struct ErrorParts {
+  double falling = 0, sharing = 0, fixed = 0;
+};
+
+// Returns the factor by which the number of samples must grow until the parts fit into the room.
+// Bisection of its logarithm.
+double GrowthUntil(const ErrorParts& parts, double room) {
+  constexpr double kMost = 0x1p40;
+  const auto fits = [&](double growth) {
+    const double sharing = parts.sharing * std::pow(growth, -kSharingSlope);
+    return parts.falling / growth + sharing + parts.fixed <= room;
+  };
+  if (!fits(kMost)) return std::numeric_limits<double>::infinity();
+  double low = -40, high = 40;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (fits(std::exp2(middle)) ? high : low) = middle;
+  }
+  return std::exp2(high);
 }
 
 }  // namespace
@@ -64,9 +87,17 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   upper_ = estimate.noise + bias + distance;
   if (omitted_ > 0) upper_ = std::pow(std::sqrt(upper_) + omitted_, 2);
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
+  mapBias_ = certificate ? certificate->bias.squared : 0;
+  lowerMapBias_ = certificate ? certificate->bias.lower : 0;
   const double left = room_ - bias - estimate.fixedNoise;
   growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + normal) / left
                      : std::numeric_limits<double>::infinity();
+  const bool isKept = PhotonSets::AreKept(estimate.fixedNoise, RoomForNoise());
+  const double fixed = isKept ? estimate.fixedNoise : 0;
+  const bool isShared = certificate && certificate->sharing;
+  const double sharing = isShared ? std::max(certificate->sharing->squared, 0.) : 0;
+  likelyGrowth_ =
+      GrowthUntil({estimate.noise - fixed + normal, sharing, fixed + bias - sharing}, room_);
 }
 
 }  // namespace exphoton

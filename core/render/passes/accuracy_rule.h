@@ -41,16 +41,19 @@ class AccuracyRule {
   // Returns the goal of the certificate for the next look.
   CertificateGoal NextGoal() const;
   void Look(const ErrorEstimate& estimate);
-  // Counts a look at another picture, whose result is not used.
-  void CountLook() { ++looks_; }
+  // Counts looks whose results are not used: at another picture, or at an earlier render.
+  void CountLooks(int looks) { looks_ += looks; }
+  int Looks() const { return looks_; }
   // Returns the upper end of the interval of this bias at the last look, as a part of relMSE.
   double MostBias(const SharingBias& sharing) const;
 
   // The results of the last look.
   double Upper() const { return upper_; }  // end of the interval of relMSE, with `omitted`
-  bool IsReached() const { return looks_ > 0 && upper_ <= wanted_; }
+  bool IsReached() const { return upper_ <= wanted_; }
   // Returns whether the bias alone exceeds the accuracy.
   bool IsOutOfReach() const { return lowerBias_ > room_; }
+  // Returns whether the bias of the photon maps alone is likely to exceed it.
+  bool NeedsMorePhotons() const { return mapBias_ > room_ && lowerMapBias_ > kLikelyShare * room_; }
   // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
   double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
@@ -58,15 +61,23 @@ class AccuracyRule {
   // than samples, give the noise degrees of freedom. Returns infinity if bias and fixed noise leave
   // no room.
   double Growth() const { return growth_; }
+  // The same if the bias of shared gathers falls too (kSharingSlope), and if photons that are shot
+  // again lower the fixed noise. This mean exponent is good for planning the next look. It does not
+  // show whether to share, because the exponents of scenes differ.
+  double LikelyGrowth() const { return likelyGrowth_; }
 
  private:
   double WrongChance(int look) const;
   double Quantile(int look) const { return NormalQuantile(WrongChance(look)); }
 
+  static constexpr double kLikelyShare = .5;
+
   double wanted_, room_, biasShare_;  // relMSE; without and with omissions
   double omitted_;
   int looks_ = 0;
-  double upper_ = 0, bias_ = 0, lowerBias_ = 0, growth_ = 1;
+  double upper_ = std::numeric_limits<double>::infinity();  // before the first look
+  double bias_ = 0, lowerBias_ = 0, mapBias_ = 0, lowerMapBias_ = 0;
+  double growth_ = 1, likelyGrowth_ = 1;
 };
 
 }  // namespace exphoton

@@ -30,6 +30,7 @@ struct PassesResult {
   std::vector<float> variances;          // of each pixel, three channels; empty with one pass
   std::optional<double> lastDiskArea{};  // of the last pass; nullopt: passes are not progressive
   std::optional<double> upperError{};    // relMSE; the upper end of its interval (AccuracyRule)
+  int looks = 0;                         // at the error, with those of earlier renders
   std::string changes{};                 // of settings, such as ", gathers shared -> not shared"
   std::vector<double> levels{};          // PassSum::Levels, for a certificate; empty without one
 };

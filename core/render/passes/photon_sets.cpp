@@ -16,9 +16,12 @@ void PhotonSets::EndPass(std::int64_t samplesPerPixel) {
   if (noise_) noise_->EndPass(samplesPerPixel);
 }
 
-void PhotonSets::Decide(const std::vector<double>& levels, double wanted, int nextGroup) {
+void PhotonSets::Measure(const std::vector<double>& levels) {
   relative_ = noise_->RelativeVariance(levels);
-  if (relative_ <= kSmallShare * wanted) return;
+}
+
+void PhotonSets::Decide(double wanted, int nextGroup) {
+  if (AreKept(relative_, wanted)) return;
   firstOwn_ = nextGroup;
   noise_.reset();
 }

@@ -18,6 +18,7 @@ class PhotonSets {
   // Photons are kept if they cause at most this share of the wanted noise. The samples must make up
   // for it, and a second set would halve it.
   static constexpr double kSmallShare = .25;
+  static bool AreKept(double noise, double wanted) { return noise <= kSmallShare * wanted; }
 
   // Without measurement, each group has photons of its own.
   PhotonSets(const PixelBounds& crop, bool isMeasured);
@@ -28,11 +29,12 @@ class PhotonSets {
   void EndPass(std::int64_t samplesPerPixel);
   // Whether the noise is known. Never true for groups with photons of their own.
   bool IsKnown() const { return noise_ && noise_->IsKnown(); }
-  // Estimates the noise, which must be known, and decides whether the groups from `nextGroup` on
-  // keep the photons. levels: as in PhotonNoise. wanted: noise part of relMSE that the picture may
-  // have. If they do not, the groups so far still have the noise, until `nextGroup` has photons of
-  // its own.
-  void Decide(const std::vector<double>& levels, double wanted, int nextGroup);
+  // Estimates the noise, which must be known. levels: as in PhotonNoise.
+  void Measure(const std::vector<double>& levels);
+  // Decides whether the groups from `nextGroup` on keep the photons. Must be called while the noise
+  // is known, after it was measured. wanted: noise part of relMSE that the picture may have. If
+  // they do not, the groups so far still have the noise, until `nextGroup` has photons of its own.
+  void Decide(double wanted, int nextGroup);
 
   // Returns the number of the photons of a group. Groups with the same number have the same.
   int SetOf(int group) const { return group < firstOwn_ ? 0 : group; }

@@ -60,8 +60,10 @@ class Passes {
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections),
         photons_(job.film.Crop(), job.integrator.FillsSignedLight() &&
                                       (rule.accuracy || (rule.targetError && hasBatches_))) {
-    if (rule.accuracy)
+    if (rule.accuracy) {
       accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
+      accuracy_->CountLooks(rule.accuracy->earlierLooks);
+    }
     unshared_ = UnsharedPicture::Follow(job, &parts_, &sum_);
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
     // high, because the errors of one sequence partly cancel.
@@ -161,7 +163,7 @@ class Passes {
         state.noise = (*noise - shared) * *rule_.targetError / room;
       state.enough = forecasts_[0].SamplesFor(room);
     }
-    if (accuracy_) state.needed = double(sum_.SamplesPerPixel()) * accuracy_->Growth();
+    if (accuracy_) state.needed = neededSamples_;
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
     state.sample = renderSeconds_ / double(std::max<std::int64_t>(sum_.SamplesPerPixel(), 1));
     state.keepsPhotons = photons_.IsKnown();
@@ -229,7 +231,7 @@ class Passes {
     // the picture is not yet good enough.
     const bool isFarAway = accuracy_ && photons_.Divides(group + 1) &&
                            photons_.FirstNoise() > kMuchNoise * accuracy_->RoomForNoise();
-    if (accuracy_ && !isFarAway) LookAtError();
+    if (accuracy_ && !isFarAway) LookAtError(group);
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup)
@@ -244,7 +246,8 @@ class Passes {
                                            ? (group > 0 ? sum_.Levels() : forecasts_[0].Levels())
                                            : std::vector<double>();
     if (levels.empty()) return;
-    photons_.Decide(levels, accuracy_ ? accuracy_->RoomForNoise() : *rule_.targetError, group + 1);
+    photons_.Measure(levels);
+    photons_.Decide(accuracy_ ? accuracy_->RoomForNoise() : *rule_.targetError, group + 1);
     sum_.SetPhotonNoise(photons_.FirstNoise());
     if (unshared_) unshared_->Sum().SetPhotonNoise(photons_.FirstNoise());
     job_.log.Verbose(Format("the photons cause a noise of %.3g of relMSE", photons_.FirstNoise()));
@@ -271,13 +274,17 @@ class Passes {
     return certificate;
   }
 
-  void LookAtError() {
+  void LookAtError(int group) {
     if (!sum_.Noise()) return;
     const auto certificate = Look(sum_, BiasOfSharedGathers(), &*accuracy_);
     if (unshared_ && rule_.accuracy->mayStopSharing && !accuracy_->IsReached() && certificate &&
         certificate->sharing && MayBeBetterUnshared(*certificate->sharing))
       LookWithoutSharing();
     result_.upperError = accuracy_->Upper();
+    result_.looks = accuracy_->Looks();
+    neededSamples_ = double(sum_.SamplesPerPixel()) * accuracy_->LikelyGrowth();
+    // The bias that this look found leaves less room for the noise of the photons.
+    if (photons_.IsKnown()) photons_.Decide(accuracy_->RoomForNoise(), group + 1);
   }
 
   std::optional<SharingBias> BiasOfSharedGathers() const {
@@ -300,7 +307,7 @@ class Passes {
     Look(unshared_->Sum(), std::nullopt, &unshared);
     if (unshared.Growth() >= accuracy_->Growth()) {
       options_.corrections->UseSharing(true);
-      accuracy_->CountLook();
+      accuracy_->CountLooks(1);
       return;
     }
     accuracy_ = unshared;
@@ -329,13 +336,19 @@ class Passes {
     return isPart && kClearly * *sum_.Noise() > *rule_.targetError;
   }
 
+  // Further samples would only make sure that more photons are needed, so they come at once.
+  bool IsBiasTooLarge() const {
+    return accuracy_->IsOutOfReach() ||
+           (rule_.accuracy->mayRaisePhotons && accuracy_->NeedsMorePhotons());
+  }
+
   // `next` is the step that would follow.
   std::optional<StopReason> Reason(const PassPlan::Step& next) {
     reasonMet_ = sum_.Reason();
     if (reasonMet_ == StopReason::TargetError && IsDoubtful(next)) reasonMet_.reset();
     if (accuracy_ && accuracy_->IsReached())
       reasonMet_ = StopReason::Accuracy;
-    else if (accuracy_ && accuracy_->IsOutOfReach())
+    else if (accuracy_ && IsBiasTooLarge())
       reasonMet_ = StopReason::Bias;
     if (reasonMet_) return reasonMet_;
     if (rule_.timeLimit && next.size < 1)
@@ -370,6 +383,7 @@ class Passes {
   const bool hasBatches_;  // whether the passes of a group share their gathers together
   PhotonSets photons_;
   std::optional<AccuracyRule> accuracy_;
+  double neededSamples_ = 0;                   // per pixel, by the last look; 0 before it
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
   PassPlan::Step step_;                        // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;

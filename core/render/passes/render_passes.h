@@ -31,6 +31,9 @@ struct StoppingRule {
     // Whether the picture may lose shared gathers where their bias is dear.
     bool mayStopSharing = false;
     double expectedSamples = 0;  // that the error takes; 0: not known
+    // Whether the picture is rendered again with more photons if it stops because of its bias.
+    bool mayRaisePhotons = false;
+    int earlierLooks = 0;  // at renders that this one replaces; all share the 5 %
   };
   std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs

@@ -67,7 +67,8 @@ TEST(AccuracyRule, CountsLooksThatAreNotUsed) {
   EXPECT_NEAR(rule.MostBias({.0002, .0001}), .0002 + kFirst * .0001, 1e-9);
   EXPECT_NEAR(rule.MostBias({-.0002, .0001}), kFirst * .0001, 1e-9);
   EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
-  rule.CountLook();
+  rule.CountLooks(1);
+  EXPECT_EQ(rule.Looks(), 2);
   EXPECT_NEAR(rule.NextGoal().quantile, NormalQuantile(.05 / 12), 1e-6);
   EXPECT_NEAR(rule.Upper(), .0006 + kFirst * .0001, 1e-9);
 }
@@ -79,6 +80,30 @@ TEST(AccuracyRule, ExpectsNoLessFixedNoiseFromMoreSamples) {
   EXPECT_NEAR(rule.Growth(), .0005 / .0003, 1e-6);
   rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = .0004});
   EXPECT_TRUE(std::isinf(rule.Growth()));
+}
+
+// Shared gathers with more samples have less bias, and new photons have less noise.
+TEST(AccuracyRule, ExpectsLessBiasOfSharingFromMoreSamples) {
+  constexpr double kWanted = .0025;
+  AccuracyRule rule(.05, .125);
+  Certificate certificate = Bias(.0002, .0002, .0002);
+  certificate.sharing = SharingBias{.0016, 0};
+  rule.Look({.noise = .0016, .noiseError = 0, .certificate = &certificate});
+  EXPECT_NEAR(rule.Growth(), .0016 / .0007, 1e-6);
+  const double growth = rule.LikelyGrowth();
+  EXPECT_NEAR(.0016 / growth + .0016 * std::pow(growth, -.4) + .0002, kWanted, 1e-9);
+  certificate.sharing->squared = .004;
+  rule.Look({.noise = .0016, .noiseError = 0, .certificate = &certificate});
+  EXPECT_TRUE(std::isinf(rule.Growth()));
+  EXPECT_NEAR(rule.LikelyGrowth(), 5.568, .001);
+}
+
+TEST(AccuracyRule, ExpectsLessNoiseFromNewPhotons) {
+  for (const double fixed : {.00006, .00012}) {
+    AccuracyRule rule(.02, .125);
+    rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = fixed});
+    EXPECT_NEAR(rule.LikelyGrowth(), fixed < .0001 ? .00054 / .00034 : .0006 / .0004, 1e-6);
+  }
 }
 
 // The light that is missing may have the sign of the bias, so roots of relMSE add up.
@@ -104,8 +129,20 @@ TEST(AccuracyRule, NoNumberOfSamplesMakesUpForBias) {
   EXPECT_FALSE(rule.IsReached());
   EXPECT_FALSE(rule.IsOutOfReach());
   EXPECT_TRUE(std::isinf(rule.Growth()));
+  EXPECT_TRUE(rule.NeedsMorePhotons());
   rule.Look({.noise = 0, .noiseError = 0, .certificate = &certain});
   EXPECT_TRUE(rule.IsOutOfReach());
+  const Certificate unknown = Bias(.0005, .0001, .002);
+  rule.Look({.noise = 0, .noiseError = 0, .certificate = &unknown});
+  EXPECT_FALSE(rule.NeedsMorePhotons());
+}
+
+// A picture that is rendered again has looks of its own, but not a chance of 5 % of its own.
+TEST(AccuracyRule, CountsLooksAtEarlierRenders) {
+  AccuracyRule rule(.02, .125);
+  rule.CountLooks(1);
+  EXPECT_FALSE(rule.IsReached());
+  EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
 }
 
 // Two groups show the noise of one pixel with one degree of freedom. As a normal number, its upper

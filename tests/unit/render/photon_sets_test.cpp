@@ -78,7 +78,8 @@ PhotonSets SetsWithNoise(double wanted, int nextGroup) {
     sets.EndPass(1);
   }
   EXPECT_TRUE(sets.IsKnown());
-  sets.Decide(kLevels, wanted, nextGroup);
+  sets.Measure(kLevels);
+  sets.Decide(wanted, nextGroup);
   return sets;
 }
 
@@ -126,7 +127,8 @@ TEST(PhotonSets, ComeBackFromAFile) {
     for (PhotonSets* sets : {&saved, &loaded}) {
       AddPass(sets->Measurement(), .1, .3, 1);
       sets->EndPass(1);
-      sets->Decide(kLevels, 1, 1);
+      sets->Measure(kLevels);
+      sets->Decide(1, 1);
     }
     EXPECT_EQ(loaded.SharedNoise(), saved.SharedNoise());
     EXPECT_GT(saved.SharedNoise(), .012);
