@@ -5,6 +5,10 @@ import resource
 import subprocess
 import sys
 
+from read_exr import read_exr
+
+OFFSET = .01  # of relMSE
+
 
 def run(arguments, errors=False):
     """Returns what a program prints to standard output, or to standard error."""
@@ -17,6 +21,15 @@ def run(arguments, errors=False):
 def cpu_seconds():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
+
+
+def folder_of(cache, path, size, reference, temporary):
+    """Returns the folder of a scene's pictures, where a later run finds its reference."""
+    if not cache:
+        return temporary
+    folder = os.path.join(cache, f"{path.split('/')[-2]}-{size}-{reference}")
+    os.makedirs(folder, exist_ok=True)
+    return folder
 
 
 class Scene:
@@ -45,10 +58,24 @@ class Scene:
             if not os.path.exists(self.halves[i]):
                 self.render(f"half{i}", "--integrator", "guidedpath", "--seed", str(1000 + i),
                             "--set", "SurfaceIntegrator.maxdepth=100", *rule, *options)
-        self.noise = self.rel_mse(*self.halves)
+        first, second = self.references = [read_exr(half) for half in self.halves]
+        # One half alone may miss a lamp that is smaller than a pixel, and would then give it the
+        # level of a dark pixel. So levels are those of the mean.
+        self.levels = {channel: [((a + b) / 2) ** 2 + OFFSET
+                                 for a, b in zip(first[channel], second[channel])]
+                       for channel in "RGB"}
+        self.noise = self.mean(lambda channel, i: (first[channel][i] - second[channel][i]) ** 2)
+
+    def mean(self, squared):
+        """Returns the mean of a function of channel and pixel, relative to the squared radiance."""
+        values = [squared(channel, i) / level for channel, levels in self.levels.items()
+                  for i, level in enumerate(levels)]
+        return sum(values) / len(values)
 
     def error(self, picture):
         """The relMSE of a picture, without the noise of the reference: (x - a)(x - b) has the
         expected value (x - truth)^2 if a and b are independent."""
-        return (self.rel_mse(picture, self.halves[0]) + self.rel_mse(picture, self.halves[1]) -
-                self.noise) / 2
+        first, second = self.references
+        x = read_exr(picture)
+        return self.mean(lambda channel, i: ((x[channel][i] - first[channel][i]) *
+                                             (x[channel][i] - second[channel][i])))

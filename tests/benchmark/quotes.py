@@ -2,38 +2,49 @@
 """Measures how well `exphoton quote` predicts: renders what it quotes and compares.
 
 Usage: quotes.py PROGRAM WxH REFERENCE_SECONDS MOST_SECONDS SCENE ...
+                 [--accuracies PERCENT,...] [--cache FOLDER]
 Quotes of more than MOST_SECONDS are not rendered. The error of a picture is measured against a
 reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be samples, such as 256spp. The
 error is a root mean square over three seeds, because the error of one picture can be far from the
 mean where bright samples are rare. "to reach" is the CPU time to reach the accuracy: that of the
 command, with the time of its samples times the squared ratio of errors, but at least one sample.
+Accuracies where the noise of the reference exceeds a fifth of the squared error are left out. The
+folder of --cache keeps references for later runs.
 """
+import argparse
 import json
 import os
-import sys
 import tempfile
 
-from picture_errors import Scene, run
+from picture_errors import Scene, folder_of, run
 from quote_offers import offers
 
 SEEDS = "77", "78", "79"
 
 
 def main():
-    if len(sys.argv) < 6:
-        sys.exit(__doc__)
-    program, size, reference, most_seconds = sys.argv[1:5]
+    parser = argparse.ArgumentParser(usage=__doc__)
+    for name in ("program", "size", "reference"):
+        parser.add_argument(name)
+    parser.add_argument("most_seconds", type=float)
+    parser.add_argument("scenes", nargs="+")
+    parser.add_argument("--accuracies", default="10,5,2")
+    parser.add_argument("--cache")
+    given = parser.parse_args()
     count = near = inside = 0
     print("| scene | error | integrator | quoted s | command s | error reached | to reach s |")
     print("| --- | --- | --- | --- | --- | --- | --- |", flush=True)
-    for path in sys.argv[5:]:
+    for path in given.scenes:
         with tempfile.TemporaryDirectory() as folder:
-            scene = Scene(program, path, size, folder)
-            scene.reference(reference)
-            text = run([program, "quote", path, "--resolution", size, "--accuracies", "10,5,2%",
-                        "--quiet"])
+            scene = Scene(given.program, path, given.size,
+                          folder_of(given.cache, path, given.size, given.reference, folder))
+            scene.reference(given.reference)
+            scene.folder = folder
+            text = run([given.program, "quote", path, "--resolution", given.size, "--accuracies",
+                        given.accuracies + "%", "--quiet"])
             for accuracy, name, predicted, least, most, options in offers(text):
-                if predicted > float(most_seconds):
+                is_unknown = scene.noise / 4 > .2 * accuracy ** 2
+                if predicted > given.most_seconds or is_unknown:
                     continue
                 at = options.index("--resolution")
                 del options[at:at + 2]

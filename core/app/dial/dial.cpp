@@ -17,8 +17,9 @@ namespace exphoton::cli {
 namespace {
 
 constexpr const char* kKnown[] = {"path", "guidedpath", "exphotonmap", "photonmap"};
-// In this order: pilots of the first ones cost least. photonmap was never the cheapest one.
-constexpr const char* kAutomatic[] = {"path", "guidedpath", "exphotonmap"};
+// In this order: guidedpath was the cheapest one least often. photonmap never was.
+constexpr const char* kGuided = "guidedpath";
+constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuided};
 
 constexpr std::int64_t kLeastGroup = 2;   // samples of a group
 constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
@@ -66,6 +67,18 @@ bool IsCheaper(const Explorer& a, const Explorer& b) {
   return price(a.Result()) < price(b.Result());
 }
 
+// Returns whether a first pilot of guidedpath would cost more than its result may be worth. Its
+// photons cost about as much as those of another rough pilot, and the picture would need ten times
+// as many of them.
+bool IsGuideTooDear(const std::vector<Explorer>& others) {
+  double pilot = 0, price = std::numeric_limits<double>::infinity();
+  for (const Explorer& other : others) {
+    if (other.IsRough()) pilot = std::max(pilot, other.Spent());
+    price = std::min(price, other.LikelyPrice());
+  }
+  return pilot > Explorer::kPilotShare * price;
+}
+
 // First prices of all candidates come before any of them is explored further, so that a dear one
 // gets small pilots only. The cheapest one comes first in each round.
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
@@ -78,7 +91,12 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
   };
   for (const std::string& name : names) {
     const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, pilots->SceneGatherRays());
-    explorers.emplace_back(pilots, name, rays, wish).Begin();
+    const bool isTooDear = name == kGuided && IsGuideTooDear(explorers);
+    explorers.emplace_back(pilots, name, rays, wish);
+    if (isTooDear)
+      explorers.back().Drop("a pilot of it would cost more than a tenth of the price");
+    else
+      explorers.back().Begin();
   }
   std::ranges::stable_sort(explorers, IsCheaper);
   for (Explorer& explorer : explorers)

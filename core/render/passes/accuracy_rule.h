@@ -52,8 +52,11 @@ class AccuracyRule {
   bool IsReached() const { return upper_ <= wanted_; }
   // Returns whether the bias alone exceeds the accuracy.
   bool IsOutOfReach() const { return lowerBias_ > room_; }
-  // Returns whether the bias of the photon maps alone is likely to exceed it.
-  bool NeedsMorePhotons() const { return mapBias_ > room_ && lowerMapBias_ > kLikelyShare * room_; }
+  // Returns whether the bias of the photon maps takes too much of the room, so that more photons
+  // should make it smaller.
+  bool NeedsMorePhotons() const {
+    return mapBias_ > kMostMapBias * room_ && lowerMapBias_ > kSureMapBias * room_;
+  }
   // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
   double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
@@ -70,7 +73,9 @@ class AccuracyRule {
   double WrongChance(int look) const;
   double Quantile(int look) const { return NormalQuantile(WrongChance(look)); }
 
-  static constexpr double kLikelyShare = .5;
+  // Shares of the room, for the bias and for the lower end of its interval. Certificates do not know
+  // the bias inside blocks. It is often as large as the bias of blocks, which must be small then.
+  static constexpr double kMostMapBias = .25, kSureMapBias = .125;
 
   double wanted_, room_, biasShare_;  // relMSE; without and with omissions
   double omitted_;

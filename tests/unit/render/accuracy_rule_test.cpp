@@ -132,9 +132,11 @@ TEST(AccuracyRule, NoNumberOfSamplesMakesUpForBias) {
   EXPECT_TRUE(rule.NeedsMorePhotons());
   rule.Look({.noise = 0, .noiseError = 0, .certificate = &certain});
   EXPECT_TRUE(rule.IsOutOfReach());
-  const Certificate unknown = Bias(.0005, .0001, .002);
-  rule.Look({.noise = 0, .noiseError = 0, .certificate = &unknown});
-  EXPECT_FALSE(rule.NeedsMorePhotons());
+  const Certificate unknown = Bias(.0005, .00004, .002), small = Bias(.00009, .00008, .0001);
+  for (const Certificate& certificate : {unknown, small}) {
+    rule.Look({.noise = 0, .noiseError = 0, .certificate = &certificate});
+    EXPECT_FALSE(rule.NeedsMorePhotons());
+  }
 }
 
 // A picture that is rendered again has looks of its own, but not a chance of 5 % of its own.
