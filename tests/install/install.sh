@@ -94,6 +94,8 @@ for command in $commands; do
 done
 words=$(complete_in_bash compare --max)
 grep -qx -- --max-mean <<<"$words" || fail "completion gives: $words"
+twice=$(complete_in_bash render -- | sort | uniq -d)
+[ -z "$twice" ] || fail "bash completes options twice: $twice"
 
 if [ "$mode" = --package ]; then
   can_chroot || skip "the package did not run without the libraries of this machine, because this \

@@ -7,7 +7,7 @@ _exphoton() {
     -*)
       case " $commands " in *" $command "*) ;; *) command=render ;; esac
       local options
-      options=$("$program" "$command" --help 2>/dev/null | sed -n 's/^  \(-.*\)/\1/p' |
+      options=$("$program" "$command" --help 2>/dev/null | sed -n 's/^  \(-[^ ,]*\(, [^ ,]*\)*\).*/\1/p' |
         grep -oE -- '(^|[ ,])--?[a-zA-Z][a-z-]*' | tr -d ' ,')
       mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
       return

@@ -6,7 +6,7 @@ _exphoton() {
   local command=${words[2]}
   (( ${commands[(Ie)$command]} )) || command=render
   if [[ ${words[CURRENT]} == -* ]]; then
-    options=(${(f)"$(${words[1]} $command --help 2>/dev/null | sed -n 's/^  \(-.*\)/\1/p' |
+    options=(${(f)"$(${words[1]} $command --help 2>/dev/null | sed -n 's/^  \(-[^ ,]*\(, [^ ,]*\)*\).*/\1/p' |
       grep -oE -- '(^|[ ,])--?[a-zA-Z][a-z-]*' | tr -d ' ,')"})
     compadd -a options
     return
