@@ -123,20 +123,21 @@ void ParamTableBase::Assign(std::size_t i, const ParsedParam& param, const BindC
   slot.member->assign(static_cast<char*>(settings) + slot.offset, value);
 }
 
-void ParamTableBase::RefuseRemoved(const ParamSet& params, const BindContext& context) const {
+void ParamTableBase::RefuseRemoved(const std::string& name, const std::string& what,
+                                   const SourceLocation& where) const {
   for (const RemovedParam& removed : removed_) {
-    const ParsedParam* param = params.Find(removed.name);
-    if (!param) continue;
-    throw Error(ExitStatus::Scene,
-                "parameter \"" + removed.name + "\" of " + context.what +
-                    " no longer exists: " + removed.replacement,
-                param->where, removed.hint);
+    if (removed.name != name) continue;
+    throw Error(
+        ExitStatus::Scene,
+        "parameter \"" + name + "\" of " + what + " no longer exists: " + removed.replacement,
+        where, removed.hint);
   }
 }
 
 void ParamTableBase::BindValues(const ParamSet& params, const BindContext& context,
                                 void* settings) const {
-  RefuseRemoved(params, context);
+  for (const ParsedParam& param : params.All())
+    RefuseRemoved(param.name, context.what, param.where);
   std::vector<std::string> known;
   for (const ParamDecl& decl : declarations_) known.push_back(decl.name);
   int unknown = 0;

@@ -107,6 +107,10 @@ class ParamTableBase {
   // Throws the ParamError as an Error with the location of the parameter.
   [[noreturn]] void Locate(const ParamError& error, const ParamSet& params,
                            const BindContext& context) const;
+  // Throws Error(Scene) with this location if an earlier version of the plugin had this parameter.
+  // `what` names the plugin in the message.
+  void RefuseRemoved(const std::string& name, const std::string& what,
+                     const SourceLocation& where) const;
 
  protected:
   // Declares a parameter whose member has this offset in the settings. `defaults` is a
@@ -126,8 +130,6 @@ class ParamTableBase {
     std::vector<long long> choiceValues;
   };
   std::string MissingFileHint(const ParsedParam& param) const;
-  // Throws Error(Scene) if the file gives a parameter that was removed.
-  void RefuseRemoved(const ParamSet& params, const BindContext& context) const;
   void AddSlot(ParamDecl decl, Slot slot, const void* defaults);
   // Reads the parameter of declaration i and stores it.
   void Assign(std::size_t i, const ParsedParam& param, const BindContext& context,

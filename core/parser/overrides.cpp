@@ -124,14 +124,14 @@ void CheckOverrides(const std::vector<ParameterOverride>& overrides) {
 }
 
 void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::string& directive,
-                    const std::string& what, const std::vector<ParamDecl>& declared,
-                    ParamSet* params) {
+                    const std::string& what, const ParamTableBase& table, ParamSet* params) {
   for (const ParameterOverride& override : overrides) {
     if (override.directive != directive) continue;
-    const ParamDecl* declaration = FindDeclaration(declared, override.parameter);
+    const ParamDecl* declaration = FindDeclaration(table.Declarations(), override.parameter);
     if (!declaration) {
+      table.RefuseRemoved(override.parameter, what, LocationOf(override));
       std::vector<std::string> known;
-      for (const ParamDecl& decl : declared) known.push_back(decl.name);
+      for (const ParamDecl& decl : table.Declarations()) known.push_back(decl.name);
       throw Error(ExitStatus::CommandLine,
                   "--set: unknown parameter \"" + override.parameter + "\" of " + what,
                   LocationOf(override), DidYouMean(override.parameter, known));

@@ -12,10 +12,10 @@ namespace exphoton {
 void CheckOverrides(const std::vector<ParameterOverride>& overrides);
 
 // Adds the --set parameters for this directive to `params`. Throws Error(CommandLine) for a
-// parameter that the plugin does not declare. `what` names the plugin in messages.
+// parameter that the plugin does not declare, and Error(Scene) on the command line for one that an
+// earlier version of the plugin had. `what` names the plugin in messages.
 void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::string& directive,
-                    const std::string& what, const std::vector<ParamDecl>& declared,
-                    ParamSet* params);
+                    const std::string& what, const ParamTableBase& table, ParamSet* params);
 
 // Returns whether two plugins mean the same by a parameter: they declare it with the same name,
 // type, unit and meaning. "maxdepth" of "path" counts all bounces, and for "whitted" specular

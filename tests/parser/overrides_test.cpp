@@ -46,6 +46,18 @@ TEST(Overrides, AreErrorsOfTheCommandLine) {
   EXPECT_NE(errorOf({"Film", "xresolution", "0"}), "");  // out of range
 }
 
+TEST(Overrides, OfParametersThatNoLongerExistNameTheReplacement) {
+  LoadOptions options;
+  options.parameters = {{"SurfaceIntegrator", "shortgather", "gather"}};
+  const BuiltScene built = BuildText("SurfaceIntegrator \"exphotonmap\"\n" + kScene, options);
+  EXPECT_EQ(built.status, int(ExitStatus::CommandLine)) << built.error;
+  EXPECT_EQ(built.error.find("<command line>:1:37: error: parameter \"shortgather\" of integrator "
+                             "\"exphotonmap\" no longer exists: gather rays shorter than "),
+            0u)
+      << built.error;
+  EXPECT_NE(built.error.find("    hint: delete it; "), std::string::npos) << built.error;
+}
+
 TEST(Overrides, SwapTheIntegratorAndOnlyNoticeItsOldParameters) {
   LoadOptions options;
   options.integrator = "path";

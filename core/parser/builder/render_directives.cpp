@@ -173,11 +173,11 @@ BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log
 
 ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choice, PluginKind kind,
                                       PluginRegistry& registry) const {
-  const auto& declared =
-      registry.Find(kind, choice.name, choice.params.where).parameters->Declarations();
+  const ParamTableBase& table = *registry.Find(kind, choice.name, choice.params.where).parameters;
+  const std::vector<ParamDecl>& declared = table.Declarations();
   ParamSet params = choice.isReplaced ? KnownParameters(choice, declared) : choice.params;
   ApplyOverrides(options_.parameters, directive,
-                 std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", declared, &params);
+                 std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", table, &params);
   if (kind != PluginKind::Integrator) return params;
   if (options_.integrator) AddNamedDefaults(declared, &params);
   if (options_.isQuick) ScaleForQuick(declared, &params);
@@ -192,8 +192,7 @@ AcceleratorSpec RenderDirectives::Accelerator(PluginRegistry& registry) const {
 
 void RenderDirectives::CreateFilm(Log& log, RenderSetup* setup) const {
   ParamSet params = film_.params;
-  ApplyOverrides(options_.parameters, "Film", "film \"image\"", FilmParameterTable().Declarations(),
-                 &params);
+  ApplyOverrides(options_.parameters, "Film", "film \"image\"", FilmParameterTable(), &params);
   BindContext bind;
   bind.log = &log;
   bind.isStrict = options_.isStrict;
