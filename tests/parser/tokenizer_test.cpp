@@ -148,6 +148,10 @@ TEST(Tokenizer, RefusesBytesThatAreNoText) {
       "scene.pbrt:1:7: error: a NUL byte: this is not a text file\n    Scale  \n          ^\n");
   EXPECT_NE(TokenErrorOf("\"a\0b\""s), "");
   EXPECT_NE(TokenErrorOf("\x80").find("unexpected byte 0x80"), std::string::npos);
+  for (const std::string& text : {"\xff\xfeL\0"s, "\xfe\xff\0L"s})
+    EXPECT_EQ(TokenErrorOf(text).find("scene.pbrt:1:1: error: the file is in UTF-16\n"), 0u)
+        << text;
+  EXPECT_NE(TokenErrorOf("1 \xff\xfe").find("unexpected byte 0xff"), std::string::npos);
   EXPECT_NE(TokenErrorOf("'").find("unexpected '''"), std::string::npos);
 }
 

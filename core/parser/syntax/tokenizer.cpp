@@ -159,6 +159,9 @@ Token Tokenizer::Next() {
   if (IsDigit(c) || c == '.' || c == '+' || c == '-') return ReadNumber();
   if (IsLetter(c)) return ReadWord();
   if (c == '\0') Fail("a NUL byte: this is not a text file", Position());
+  const std::string_view text = file_->text;
+  if (file_->offset == 0 && (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")))
+    Fail("the file is in UTF-16", Position(), "save it in UTF-8");
   Fail("unexpected " + ShowCharacter(c), Position());
 }
 
