@@ -40,6 +40,16 @@ TEST_F(Newcomer, WithoutArgumentsATerminalGetsTheUsage) {
   EXPECT_TRUE(Has(RunOnTerminal("--quick").out, "no scene is named"));
 }
 
+TEST_F(Newcomer, WithoutArgumentsANullInputGetsTheUsage) {
+  ProcessCommand command;
+  command.words = {"sh", "-c", EXPHOTON_BINARY_DIR "/bin/exphoton < /dev/null"};
+  command.folder = Path("");
+  const ProgramResult result = RunProcess(command);
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_TRUE(Has(result.err, "no scene and no command is given")) << result.err;
+  EXPECT_EQ(Run({}).status, 2) << "an empty pipe is an empty scene";
+}
+
 TEST_F(Newcomer, AMistypedCommandRendersNothing) {
   const ProgramResult result = Run({"explan", "scene.pbrt"});
   EXPECT_EQ(result.status, 3);
@@ -194,6 +204,26 @@ TEST_F(Newcomer, ATypingMistakeGetsASuggestion) {
     const ProgramResult result = Run(arguments);
     EXPECT_NE(result.status, 0) << hint;
     EXPECT_TRUE(Has(result.err, "did you mean \"" + hint + "\"?")) << hint << "\n" << result.err;
+  }
+  EXPECT_EQ(Files(), Names{"scene.pbrt"});
+}
+
+TEST_F(Newcomer, AWrongValueNamesItsOption) {
+  for (const auto& [arguments, message] : std::vector<std::pair<Names, std::string>>{
+           {{"info", "scene.pbrt", "--photons-at", "4"}, "--photons-at takes x,y, not \"4\""},
+           {{"study", "scene.pbrt", "--plan", "--crop", "0,1"}, "--crop takes x0,x1,y0,y1"},
+           {{"compare", "a.exr", "b.exr", "--max-mean", "1%"}, "--max-mean: 1% is not a number"},
+           {{"compare", "a.exr", "b.exr", "--max-mean", "-1"},
+            "--max-mean: -1 is not a number of at least 0"},
+           {{"compare", "a.exr", "b.exr", "--scale", "0"}, "--scale: 0 is not a number above 0"},
+           {{"quote", "scene.pbrt", "--integrators", ","}, "--integrators names no integrator"},
+           {{"study", "scene.pbrt", "--plan", "--make-reference", "pth"},
+            "there is no integrator \"pth\""},
+           {{"study", "scene.pbrt", "--plan", "--make-reference", "path maxdept=9"},
+            "integrator \"path\" has no parameter \"maxdept\""}}) {
+    const ProgramResult result = Run(arguments);
+    EXPECT_NE(result.status, 0) << message;
+    EXPECT_TRUE(Has(result.err, message)) << message << "\n" << result.err;
   }
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
 }

@@ -193,7 +193,7 @@ void CheckFiles(const Options& options, const RenderSetup& setup, Log& log) {
 
 void PrintPhotonsAt(const std::vector<std::string>& arguments) {
   const Options options = ParsePhotonsOptions(arguments);
-  const PixelBounds pixel = ParsePixel(options.pixel);
+  const PixelBounds pixel = ParsePixel(options.pixel, "--photons-at");
   Log log(Log::Level::Quiet);
   FileSource source;
   const Limits limits = ParseLimits(options.limits);

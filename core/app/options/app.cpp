@@ -3,6 +3,7 @@
 // render.
 #include "core/app/options/app.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -42,6 +43,13 @@ int RunScenes(const std::vector<std::string>& program, const std::vector<std::st
   return status ? status : result;
 }
 
+// Returns whether standard input may hold a scene: it is a pipe, a socket or a file, and neither a
+// terminal nor /dev/null.
+bool HasPipedInput() {
+  struct stat status {};
+  return fstat(STDIN_FILENO, &status) == 0 && !S_ISCHR(status.st_mode);
+}
+
 }  // namespace
 
 int RunProgram(const std::vector<std::string>& arguments) {
@@ -51,7 +59,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
       arguments.begin() + std::min<std::ptrdiff_t>(2, std::ptrdiff_t(arguments.size())),
       arguments.end());
   // Without arguments, a terminal would seem to hang: the program would wait for a typed scene.
-  if (arguments.size() == 1 && isatty(STDIN_FILENO)) {
+  if (arguments.size() == 1 && !HasPipedInput()) {
     Guarded([] { FailUsage("no scene and no command is given", "exphoton --help explains both"); });
     std::fputs(ShortUsage(), stderr);
     return int(ExitStatus::CommandLine);

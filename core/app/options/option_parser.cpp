@@ -23,6 +23,24 @@ std::string FitsUnsigned(const std::string& text) {
   return fits ? "" : text + " is not a whole number from 0 to 18446744073709551615";
 }
 
+bool IsNumber(const std::string& text, double* value) {
+  return CLI::detail::lexical_cast(text, *value);
+}
+// These return a message for a text that is no number, or one out of range. CLI11 would not name
+// the kind of value, and would print the largest double with all digits.
+std::string FitsNumber(const std::string& text) {
+  double value = 0;
+  return IsNumber(text, &value) ? "" : text + " is not a number";
+}
+std::string FitsAtLeastZero(const std::string& text) {
+  double value = 0;
+  return IsNumber(text, &value) && value >= 0 ? "" : text + " is not a number of at least 0";
+}
+std::string FitsPositive(const std::string& text) {
+  double value = 0;
+  return IsNumber(text, &value) && value > 0 ? "" : text + " is not a number above 0";
+}
+
 constexpr int kHelpColumn = 28;
 
 // Wraps a command over lines that a shell joins again.
@@ -101,11 +119,11 @@ OptionHandle& OptionHandle::Between(double least, double greatest) {
   return *this;
 }
 OptionHandle& OptionHandle::AtLeastZero() {
-  option_->check(CLI::Validator(CLI::NonNegativeNumber).description(""));
+  option_->check(FitsAtLeastZero);
   return *this;
 }
 OptionHandle& OptionHandle::Positive() {
-  option_->check(CLI::Validator(CLI::PositiveNumber).description(""));
+  option_->check(FitsPositive);
   return *this;
 }
 
@@ -152,14 +170,17 @@ OptionHandle OptionParser::Add(const std::string& names, std::uint64_t& target,
       implementation_->app.add_option(names, target, help)->check(FitsUnsigned));
 }
 OptionHandle OptionParser::Add(const std::string& names, float& target, const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(
+      implementation_->app.add_option(names, target, help)->check(FitsNumber));
 }
 OptionHandle OptionParser::Add(const std::string& names, double& target, const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(
+      implementation_->app.add_option(names, target, help)->check(FitsNumber));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::optional<double>& target,
                                const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(
+      implementation_->app.add_option(names, target, help)->check(FitsNumber));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::optional<std::string>& target,
                                const std::string& help) {
@@ -254,7 +275,11 @@ void OptionParser::Parse(const std::vector<std::string>& arguments) {
     const std::string hint = implementation_->HintFor(app.remaining());
     FailUsage(error.what(), hint.empty() ? "--help lists the options" : hint);
   } catch (const CLI::ParseError& error) {
-    FailUsage(error.what(), "--help lists the options");
+    // CLI11 writes "--spp: At Most 1 required but received 2".
+    const std::string text = error.what();
+    const std::size_t repeated = text.find(": At Most 1 required");
+    FailUsage(repeated == text.npos ? text : text.substr(0, repeated) + " is given more than once",
+              "--help lists the options");
   }
 }
 

@@ -49,10 +49,10 @@ void FailUsage(const std::string& text, const std::string& hint) {
   throw Error(ExitStatus::CommandLine, text, SourceLocation(), hint);
 }
 
-std::vector<Real> ParseCropWindow(const std::string& text) {
-  std::vector<Real> window = ParseList<Real>("--cropwindow", text, 4, "x0,x1,y0,y1");
+std::vector<Real> ParseCropWindow(const std::string& text, const std::string& option) {
+  std::vector<Real> window = ParseList<Real>(option, text, 4, "x0,x1,y0,y1");
   if (const std::string problem = CheckCropWindow(window); !problem.empty())
-    FailUsage("--cropwindow " + text + " " + problem);
+    FailUsage(option + " " + text + " " + problem);
   return window;
 }
 
@@ -63,10 +63,10 @@ PixelBounds ParsePixelBounds(const std::string& text) {
   return bounds;
 }
 
-PixelBounds ParsePixel(const std::string& text) {
-  const std::vector<int> v = ParseList<int>("--pixel", text, 2, "x,y");
+PixelBounds ParsePixel(const std::string& text, const std::string& option) {
+  const std::vector<int> v = ParseList<int>(option, text, 2, "x,y");
   if (v[0] < 0 || v[1] < 0 || v[0] >= 1 << 30 || v[1] >= 1 << 30)
-    FailUsage("--pixel " + text + " lies outside every picture");
+    FailUsage(option + " " + text + " lies outside every picture");
   return {v[0], v[1], v[0] + 1, v[1] + 1};
 }
 

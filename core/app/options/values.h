@@ -15,11 +15,12 @@
 namespace exphoton::cli {
 
 // "0.25,0.75,0,1" for x0 x1 y0 y1, as fractions of the picture.
-std::vector<Real> ParseCropWindow(const std::string& text);
+std::vector<Real> ParseCropWindow(const std::string& text,
+                                  const std::string& option = "--cropwindow");
 // "10,20,0,5": columns 10 to 19 of rows 0 to 4.
 PixelBounds ParsePixelBounds(const std::string& text);
 // "x,y": bounds of one pixel.
-PixelBounds ParsePixel(const std::string& text);
+PixelBounds ParsePixel(const std::string& text, const std::string& option = "--pixel");
 // "1920x1080": adds the overrides of the film's resolution.
 void AddResolution(const std::string& text, std::vector<ParameterOverride>* overrides);
 // "SurfaceIntegrator.maxdist=1.5".

@@ -66,6 +66,7 @@ QuoteOptions ParseQuoteOptions(const std::vector<std::string>& arguments) {
   options.accuracies = ParseAccuracies(accuracies);
   options.seconds = ParseDuration("--pilot-time", pilotTime);
   options.integrators = study::SplitList(integrators);
+  if (options.integrators.empty()) FailUsage("--integrators names no integrator");
   return options;
 }
 

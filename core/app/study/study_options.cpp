@@ -317,7 +317,7 @@ void Check(const StudyOptions& options) {
   if (!options.references.empty() && !options.makeReference.empty())
     FailUsage("--reference and --make-reference exclude each other");
   for (const std::string& set : options.sets) ParseOverride(set);
-  for (const std::string& crop : options.crops) ParseCropWindow(crop);
+  for (const std::string& crop : options.crops) ParseCropWindow(crop, "--crop");
   if (!options.cropWindow.empty()) ParseCropWindow(options.cropWindow);
 }
 

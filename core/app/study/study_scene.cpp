@@ -217,6 +217,7 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
   try {
     std::vector<study::Setting> settings;
     for (const study::Setting& base : options.plan.bases) check(base);
+    if (!options.makeReference.empty()) check(study::ParseSetting(options.makeReference));
     settings = study::ExpandPlan(options.plan, oracle);
     for (const study::Setting& setting : settings) check(setting);
     return settings;

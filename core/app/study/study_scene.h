@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SceneFacts and ProgramFacts hold the sizes and hashes that a study needs before rendering.
-// PlanSettings checks the settings against the parameters of each integrator.
+// PlanSettings checks the settings, and the one of the reference, against the parameters of each
+// integrator.
 #pragma once
 
 #include <set>

@@ -154,6 +154,9 @@ TEST(RenderOption, RefusesValuesOutOfRange) {
   for (const char* error : {"0", "-1", "1e9", "nan"})
     EXPECT_EQ(ErrorOfOptions({"--target-error", error}), "--target-error takes a number above 0")
         << error;
+  for (const char* option : {"--target-error", "--frame-time", "--certify-share"})
+    EXPECT_EQ(ErrorOfOptions({option, "5%"}), std::string(option) + ": 5% is not a number");
+  EXPECT_EQ(ErrorOfOptions({"--spp", "1", "--spp", "2"}), "--spp is given more than once");
   EXPECT_EQ(Parse({"--nthreads", "0"}).threadCount, 0);
   EXPECT_EQ(Parse({"--spp", "1"}).load.samplesPerPixel, 1);
 }
@@ -204,6 +207,7 @@ TEST(Regions, AreReadWithTheirOrder) {
     EXPECT_EQ(ErrorOf([&] { ParsePixel(text); }),
               "--pixel " + std::string(text) + " lies outside every picture");
   EXPECT_EQ(ErrorOf([&] { ParsePixel("1"); }), "--pixel takes x,y, not \"1\"");
+  EXPECT_EQ(ErrorOf([&] { ParsePixel("1", "--at"); }), "--at takes x,y, not \"1\"");
   EXPECT_EQ(ErrorOf([&] { ParseCropWindow("0,1,0"); }),
             "--cropwindow takes x0,x1,y0,y1, not \"0,1,0\"");
   EXPECT_TRUE(ErrorOf([&] { ParseCropWindow("0,2,0,1"); }).starts_with("--cropwindow 0,2,0,1 "));
