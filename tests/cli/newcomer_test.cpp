@@ -62,7 +62,10 @@ TEST_F(Newcomer, AnUnreadableSceneStopsAllOthers) {
   const ProgramResult result = Run({"scene.pbrt", "scen.pbrt"});
   EXPECT_EQ(result.status, 3);
   EXPECT_TRUE(Has(result.err, "did you mean \"scene.pbrt\"?")) << result.err;
-  EXPECT_EQ(Run({"scene.pbrt", "."}).status, 3);
+  const ProgramResult folder = Run({"scene.pbrt", "."});
+  EXPECT_EQ(folder.status, 3);
+  EXPECT_TRUE(Has(folder.err, "\".\": is a directory\n    hint: name a scene file in it"))
+      << folder.err;
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
 }
 

@@ -37,17 +37,19 @@ void CheckScenesExist(const RenderCommand& command) {
     if (scene == "-") continue;
     std::error_code error;
     const auto status = std::filesystem::status(scene, error);
-    std::string why;
-    if (!std::filesystem::exists(status))
+    std::string why, hint;
+    if (!std::filesystem::exists(status)) {
       why =
           error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file";
-    else if (std::filesystem::is_directory(status))
+      hint = HintForMissing(scene);
+    } else if (std::filesystem::is_directory(status)) {
       why = "is a directory";
-    else if (access(scene.c_str(), R_OK) != 0)
+      hint = "name a scene file in it";
+    } else if (access(scene.c_str(), R_OK) != 0) {
       why = std::strerror(errno);
+    }
     if (why.empty()) continue;
-    throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": " + why, {},
-                HintForMissing(scene));
+    throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": " + why, {}, hint);
   }
 }
 
