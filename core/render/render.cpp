@@ -224,7 +224,8 @@ struct PassRenderer::State {
     PassBuffers buffers(LayoutOf(pass, passBatch), film, options.aovs);
     const PixelBounds rendered = PassBuffers::Rendered(LayoutOf(pass, passBatch), *film);
     SharingBands* const shared = buffers.Bands();
-    PassState passState({pass, film, options.aovs, buffers.Splats(), shared}, rendered);
+    PassState passState({pass, film, options.aovs, buffers.Splats(), shared, options.corrections},
+                        rendered);
     Resume(&passState);
     const TileRenderer::Target target{pass,
                                       sampler,

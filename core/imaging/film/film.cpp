@@ -136,8 +136,11 @@ void Film::Transfer(ByteArchive* archive) {
   for (Pixel& p : pixels_) TransferSums(archive, &p);
 }
 
+// An empty pixel takes one byte. The difference between two pictures has light without samples.
 void Film::TransferSums(ByteArchive* archive, Pixel* p) {
-  char isUsed = p->samples != 0 || p->weight != 0;  // one byte for pixels without samples
+  const bool hasLight = p->r != 0 || p->g != 0 || p->b != 0;
+  const bool hasOwnLight = p->absR != 0 || p->absG != 0 || p->absB != 0;
+  char isUsed = p->samples != 0 || p->weight != 0 || hasLight || hasOwnLight;
   archive->Values(&isUsed);
   if (!isUsed) return;
   archive->Values(&p->r, &p->g, &p->b, &p->alpha, &p->weight, &p->samples);

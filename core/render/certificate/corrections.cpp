@@ -2,8 +2,11 @@
 #include "core/render/certificate/corrections.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
+#include "core/files/state_file.h"
 #include "core/render/certificate/group_places.h"
 
 namespace exphoton {
@@ -13,6 +16,22 @@ namespace {
 void Move(std::vector<double>* from, std::vector<double>* to) {
   to->resize(std::max(to->size(), from->size()));
   for (std::size_t i = 0; i < from->size(); ++i) (*to)[i] += std::exchange((*from)[i], 0.);
+}
+
+constexpr const char* kCountSection = "corrections";
+constexpr const char* kCurrentSection = "corrections of the pass";
+
+std::string GroupSection(std::size_t group) {
+  return "corrections of group " + std::to_string(group);
+}
+
+// Saves or loads the numbers, which may be none if isOptional. Their number is known.
+template <class Number>
+void TransferNumbers(ByteArchive* archive, std::size_t count, bool isOptional,
+                     std::vector<Number>* numbers) {
+  archive->List(numbers);
+  if (numbers->size() != count && !(isOptional && numbers->empty()))
+    throw ArchiveError("its corrections have other pixels");
 }
 
 }  // namespace
@@ -48,6 +67,14 @@ void Corrections::AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum
   for (int c = 0; c < Spectrum::kChannels; ++c) at[c] += double(correction[c] * weight);
 }
 
+void Corrections::ClearPixel(Point2i pixel) {
+  if (!crop_.Contains(pixel.x, pixel.y)) return;
+  const std::size_t at = IndexOf(pixel);
+  for (std::vector<double>* sums : {&current_, &currentSharing_})
+    if (!sums->empty()) std::fill_n(sums->begin() + std::ptrdiff_t(3 * at), 3, 0.);
+  rayCount_[at] = gatherRays_[at] = 0;
+}
+
 void Corrections::KeepSharingApart() { currentSharing_.assign(current_.size(), 0); }
 
 void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
@@ -79,6 +106,56 @@ std::vector<double> Corrections::SumsOf(const Group& group) const {
   if (isShared_)
     for (std::size_t i = 0; i < group.sharing.size(); ++i) sums[i] += group.sharing[i];
   return sums;
+}
+
+void Corrections::TransferCounts(ByteArchive* archive) {
+  archive->Same(share_);
+  std::uint64_t groups = groups_.size();
+  char isFirstJoined = isFirstJoined_ ? 1 : 0;
+  archive->Values(&groups, &isFirstJoined, &count_, &expected_);
+  if (groups > std::uint64_t(mostGroups_) || count_ < 0 || !(expected_ >= 0) ||
+      !std::isfinite(expected_))
+    throw ArchiveError("its counts of corrections contradict each other");
+  groups_.resize(std::size_t(groups));
+  isFirstJoined_ = isFirstJoined != 0;
+}
+
+void Corrections::TransferPass(ByteArchive* archive) {
+  const std::size_t pixels = rayCount_.size();
+  TransferNumbers(archive, 3 * pixels, false, &current_);
+  TransferNumbers(archive, currentSharing_.size(), false, &currentSharing_);
+  TransferNumbers(archive, pixels, false, &rayCount_);
+  TransferNumbers(archive, pixels, false, &gatherRays_);
+}
+
+void Corrections::TransferGroup(ByteArchive* archive, Group* group) {
+  archive->Values(&group->samplesPerPixel);
+  TransferNumbers(archive, current_.size(), true, &group->sums);
+  TransferNumbers(archive, currentSharing_.size(), true, &group->sharing);
+  if (group->samplesPerPixel < 0 || (group->samplesPerPixel > 0 && group->sums.empty()))
+    throw ArchiveError("a group has no corrections");
+  if (group->sharing.size() > group->sums.size())
+    throw ArchiveError("a group has corrections of sharing alone");
+}
+
+// Each group has a section of its own, so that only one is in memory twice.
+void Corrections::Save(StateWriter* writer) {
+  const auto save = [writer](const std::string& name, const auto& transfer) {
+    ByteArchive archive;
+    transfer(&archive);
+    writer->Add(name, archive.Take());
+  };
+  save(kCountSection, [this](ByteArchive* archive) { TransferCounts(archive); });
+  save(kCurrentSection, [this](ByteArchive* archive) { TransferPass(archive); });
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    save(GroupSection(g), [&](ByteArchive* archive) { TransferGroup(archive, &groups_[g]); });
+}
+
+void Corrections::Load(const StateFile& file) {
+  file.Read(kCountSection, [this](ByteArchive* archive) { TransferCounts(archive); });
+  file.Read(kCurrentSection, [this](ByteArchive* archive) { TransferPass(archive); });
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    file.Read(GroupSection(g), [&](ByteArchive* archive) { TransferGroup(archive, &groups_[g]); });
 }
 
 std::vector<const Corrections::Group*> Corrections::Groups() const {

@@ -14,6 +14,10 @@
 
 namespace exphoton {
 
+class ByteArchive;
+class StateFile;
+class StateWriter;
+
 class Corrections {
  public:
   // share: of the gather rays that are corrected. mostGroups: see EndPass, at least 2.
@@ -29,6 +33,7 @@ class Corrections {
   void AddLight(Point2i pixel, const Spectrum& correction, Real weight);
   // Adds own light minus shared light of such a sample (core/render/sharing/shared_gathers.h).
   void AddSharing(Point2i pixel, const Spectrum& correction, Real weight);
+  void ClearPixel(Point2i pixel);  // removes what the current pass added
   // Keeps these parts apart, so that SumsOf can leave them out. Must be called before all passes.
   void KeepSharingApart();
   // States whether the picture shares gathers. Without sharing, SumsOf leaves these parts out.
@@ -55,6 +60,11 @@ class Corrections {
   // Returns the number of rays that would be corrected if each gather had rays that meet a surface.
   double ExpectedCount() const { return expected_; }
 
+  // Save and load the groups and the current pass, but not UseSharing. Load throws Error(File) if
+  // the state has corrections of another picture.
+  void Save(StateWriter* writer);
+  void Load(const StateFile& file);
+
  private:
   std::size_t IndexOf(Point2i pixel) const {
     return std::size_t(pixel.y - crop_.y0) * std::size_t(crop_.Width()) +
@@ -62,6 +72,9 @@ class Corrections {
   }
 
   void AddTo(std::vector<double>* sums, Point2i pixel, const Spectrum& correction, Real weight);
+  void TransferCounts(ByteArchive* archive);
+  void TransferPass(ByteArchive* archive);
+  void TransferGroup(ByteArchive* archive, Group* group);
 
   PixelBounds crop_;
   double share_;

@@ -14,6 +14,8 @@
 
 namespace exphoton {
 
+class ByteArchive;
+
 // What a look knows, as parts of relMSE.
 struct ErrorEstimate {
   double noise = 0, noiseError = 0;          // the latter: standard error
@@ -68,6 +70,11 @@ class AccuracyRule {
   // again lower the fixed noise. This mean exponent is good for planning the next look. It does not
   // show whether to share, because the exponents of scenes differ.
   double LikelyGrowth() const { return likelyGrowth_; }
+
+  // Returns whether there is a result. Looks at an earlier render have none.
+  bool HasLooked() const { return upper_ < std::numeric_limits<double>::infinity(); }
+  // Saves or loads the number of looks and the results of the last one.
+  void Transfer(ByteArchive* archive);
 
  private:
   double WrongChance(int look) const;

@@ -79,6 +79,14 @@ void PassSum::TakeNoise(const PassSum& other) {
   relativeVariance_.reset();
 }
 
+bool PassSum::HasSamePasses(const PassSum& other) const {
+  bool isSame = passes_ == other.passes_ && groups_ == other.groups_ && joined_ == other.joined_ &&
+                samples_ == other.samples_;
+  for (int place = 0; place < kPlaces; ++place)
+    isSame = isSame && noise_.SamplesOf(place) == other.noise_.SamplesOf(place);
+  return isSame;
+}
+
 std::optional<StopReason> PassSum::Reason() const {
   if (limits_.targetError && HasTwoGroups() && *Noise() <= *limits_.targetError)
     return StopReason::TargetError;
@@ -102,7 +110,7 @@ void PassSum::Describe(bool needsVariances, PassesResult* result) const {
 
 void PassSum::TransferCounts(ByteArchive* archive) {
   archive->Values(&passes_, &groups_, &joined_, &samples_, &correction_, &photonNoise_);
-  if (groups_ < 0 || groups_ > passes_ || samples_ < 0 || samples_ > limits_.maxSamples ||
+  if (groups_ < 0 || groups_ > passes_ || samples_ < passes_ || samples_ > limits_.maxSamples ||
       !(correction_ > 0 && correction_ <= 1) || !(photonNoise_ >= 0) || joined_ < 0 ||
       joined_ > groups_)
     throw ArchiveError("its counts of passes contradict each other");

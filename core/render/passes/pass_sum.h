@@ -66,6 +66,7 @@ class PassSum {
   void JoinGroups();
   // Takes the levels from another picture of the same passes, which must outlive this object.
   void UseLevelsOf(const PassSum& other) { noise_.UseLevelsOf(&other.noise_); }
+  void UseOwnLevels() { noise_.UseLevelsOf(nullptr); }
   // Takes over the noise of another picture of the same passes, and its levels.
   void TakeNoise(const PassSum& other);
 
@@ -87,6 +88,8 @@ class PassSum {
   // the bias by the same r, so that both are parts of one relMSE. Needs two groups.
   const std::vector<double>& Levels() const { return noise_.Levels(); }
   const PassNoise& GroupSums() const { return noise_; }
+  // Returns whether another sum has passes of the same sizes in the same groups.
+  bool HasSamePasses(const PassSum& other) const;
   // Writes the numbers of passes and samples, the noise and, if wanted, the variances.
   void Describe(bool needsVariances, PassesResult* result) const;
 

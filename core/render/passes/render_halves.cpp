@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/render/certificate/corrections.h"
+#include "core/render/passes/error_watch.h"
 #include "core/render/passes/pass_parts.h"
-#include "core/render/passes/unshared/unshared_picture.h"
-#include "core/render/render_totals.h"
 
 namespace exphoton {
 namespace {
@@ -22,7 +20,7 @@ class Halves {
         options_(parts_.Options()),
         renderer_(job_, options_),
         sum_(&job.film, {}),
-        unshared_(UnsharedPicture::Follow(job, &parts_, &sum_)) {
+        error_({job, &parts_, &sum_, &renderer_}, std::nullopt, GroupSamples::Independent) {
     const std::int64_t count = std::max<std::int64_t>((job.sampler.SamplesPerPixel() + 1) / 2, 1);
     sampler_ = job.sampler.WithSamplesPerPixel(count);
   }
@@ -33,12 +31,9 @@ class Halves {
     }
     PassesResult result;
     result.render = renderer_.Finish();
-    if (unshared_)
-      SetSharingBias(unshared_->BiasOf(sum_, GroupSamples::Independent), &job_.statistics,
-                     &result.render);
+    error_.Describe(&result);
     result.reason = sum_.Passes() < 2 ? StopReason::Signal : StopReason::Samples;
     sum_.Describe(parts_.NeedsVariances(), &result);
-    if (options_.corrections && sum_.Groups() > 1) result.levels = sum_.Levels();
     return result;
   }
 
@@ -51,17 +46,18 @@ class Halves {
     const bool isWhole =
         renderer_.Run({seed, seed, 0, sampler_->SamplesPerPixel()}, *sampler_, half);
     parts_.TakeAovs(true);
-    if (isWhole) return TakeHalf(*half), true;
+    if (isWhole) {
+      TakeHalf(*half);
+      error_.Add(*half, sampler_->SamplesPerPixel(), sum_.Passes() - 1);
+      return true;
+    }
     job_.film.Add(*half);
     return false;
   }
 
   void TakeHalf(const Film& half) {
     sum_.Add(half, sampler_->SamplesPerPixel(), sum_.Passes());
-    if (unshared_) unshared_->Add(half, sampler_->SamplesPerPixel(), sum_.Passes() - 1);
     parts_.Show(job_.film);
-    if (options_.corrections)
-      options_.corrections->EndPass(sum_.Passes() - 1, sampler_->SamplesPerPixel());
   }
 
   Checkpoint WrapCheckpoint(const Checkpoint& inner) {
@@ -69,6 +65,7 @@ class Halves {
     outer.hasWork = inner.hasWork || sum_.Passes() > 0;
     outer.save = [this, inner](StateWriter* writer) {
       inner.save(writer);
+      error_.Save(writer);
       if (sum_.Passes() == 0) return;
       SaveSection("first half", *films_[0], writer);
       parts_.SaveAovs(writer);
@@ -89,11 +86,13 @@ class Halves {
 
   void Resume() {
     const StateFile& file = *options_.resumed;
-    if (!file.Has("first half")) return;
-    LoadSection("first half", films_[0], file);
-    parts_.LoadAovs(file);
-    TakeHalf(*films_[0]);
-    job_.log.Notice("continuing \"" + file.Path() + "\" after the first half");
+    if (file.Has("first half")) {
+      LoadSection("first half", films_[0], file);
+      parts_.LoadAovs(file);
+      TakeHalf(*films_[0]);
+      job_.log.Notice("continuing \"" + file.Path() + "\" after the first half");
+    }
+    error_.Load(file);
   }
 
   const RenderJob& job_;
@@ -102,7 +101,7 @@ class Halves {
   const RenderOptions& options_;  // of one pass
   PassRenderer renderer_;
   PassSum sum_;
-  std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed
+  ErrorWatch error_;
   std::unique_ptr<Sampler> sampler_;
 };
 

@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/base/format.h"
-#include "core/render/certificate/corrections.h"
-#include "core/render/passes/accuracy_rule.h"
+#include "core/render/passes/error_watch.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
 #include "core/render/passes/photon_sets.h"
 #include "core/render/passes/progress/pass_progress.h"
 #include "core/render/passes/progressive.h"
-#include "core/render/passes/unshared/unshared_picture.h"
-#include "core/render/render_totals.h"
 
 namespace exphoton {
 namespace {
@@ -27,8 +23,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kWellDistributed = 2;
 // Above this share of the room for noise, photons are shot again before the next look.
 constexpr double kMuchNoise = .5;
-// Fewer samples share badly and say little about the bias of sharing.
-constexpr std::int64_t kFewestToStopSharing = 8;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -59,16 +53,13 @@ class Passes {
         // A certificate needs the light of each sample before and after sharing, pass by pass.
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections),
         photons_(job.film.Crop(), job.integrator.FillsSignedLight() &&
-                                      (rule.accuracy || (rule.targetError && hasBatches_))) {
-    if (rule.accuracy) {
-      accuracy_.emplace(rule.accuracy->error, rule.accuracy->biasShare, rule.accuracy->omitted);
-      accuracy_->CountLooks(rule.accuracy->earlierLooks);
-    }
-    unshared_ = UnsharedPicture::Follow(job, &parts_, &sum_);
+                                      (rule.accuracy || (rule.targetError && hasBatches_))),
+        continuesSequence_(job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy)),
+        error_({job, &parts_, &sum_, &renderer_}, rule.accuracy,
+               continuesSequence_ ? GroupSamples::OneSequence : GroupSamples::Independent) {
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
     // high, because the errors of one sequence partly cancel.
-    if (job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy))
-      sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
+    if (continuesSequence_) sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
   }
 
   PassesResult Run() {
@@ -100,8 +91,14 @@ class Passes {
     const bool isPossible = step_.size >= 1 && step_.size <= rule_.maxSamples &&
                             plan_.Groups() == sum_.Groups() &&
                             (step_.isNewGroup || plan_.Groups() > 0) && groupSamples_ >= 0 &&
-                            groupSamples_ <= rule_.maxSamples;
+                            groupSamples_ <= rule_.maxSamples &&
+                            (plan_.Groups() == 0 || sum_.SamplesPerPixel() >= FirstSamples());
     if (!isPossible) throw ArchiveError("its counts of passes contradict each other");
+  }
+
+  // Returns a number of samples that the first group has at least.
+  std::int64_t FirstSamples() const {
+    return rule_.accuracy ? std::min(rule_.accuracy->firstSamples, rule_.maxSamples) : 1;
   }
 
   Checkpoint WrapCheckpoint(const Checkpoint& inner) {
@@ -120,6 +117,7 @@ class Passes {
       ByteArchive forecasts;
       for (GroupForecast& forecast : forecasts_) forecast.Transfer(&forecasts);
       writer->Add("forecast", forecasts.Take());
+      error_.Save(writer);
     };
     if (!inner.picture) return outer;
     outer.picture = [this, inner] {
@@ -148,6 +146,7 @@ class Passes {
     file.Read("forecast", [this](ByteArchive* archive) {
       for (GroupForecast& forecast : forecasts_) forecast.Transfer(archive);
     });
+    error_.Load(file);
     job_.log.Notice("continuing \"" + file.Path() + "\" after " + std::to_string(sum_.Passes()) +
                     (sum_.Passes() == 1 ? " pass" : " passes"));
     if (sum_.Passes() > 0) parts_.Show(job_.film);
@@ -163,12 +162,12 @@ class Passes {
         state.noise = (*noise - shared) * *rule_.targetError / room;
       state.enough = forecasts_[0].SamplesFor(room);
     }
-    if (accuracy_) state.needed = neededSamples_;
+    if (error_.Rule()) state.needed = error_.NeededSamples();
     state.elapsed = rule_.timeLimit ? SecondsSince(rule_.start) : 0;
     state.sample = renderSeconds_ / double(std::max<std::int64_t>(sum_.SamplesPerPixel(), 1));
     state.keepsPhotons = photons_.IsKnown();
     // The first photons may be a pilot's, which cost no time here.
-    const double dear = accuracy_ ? rule_.accuracy->photonSamples * state.sample : 0;
+    const double dear = rule_.accuracy ? rule_.accuracy->photonSamples * state.sample : 0;
     state.preprocess = state.keepsPhotons ? 0 : std::max(preprocessSeconds_, dear);
     return state;
   }
@@ -218,27 +217,26 @@ class Passes {
     plan_.Take(step);
     if (step.isNewGroup && photons_.Divides(group)) {
       sum_.JoinGroups();
-      if (unshared_) unshared_->Sum().JoinGroups();
-      if (options_.corrections) options_.corrections->JoinGroups();
+      error_.JoinGroups();
     }
     sum_.Add(passFilm_, step.size, group);
-    if (unshared_) unshared_->Add(passFilm_, step.size, group);
-    if (options_.corrections) options_.corrections->EndPass(group, step.size);
-    if (group < 2 && rule_.passSamples == 0 && !accuracy_) TakeForecast(step.size, group);
+    error_.Add(passFilm_, step.size, group);
+    if (group < 2 && rule_.passSamples == 0 && !rule_.accuracy) TakeForecast(step.size, group);
     photons_.EndPass(step.size);
     TakePhotonNoise(group);
     // Each look costs confidence. Where photons of the next group will remove much of the noise,
     // the picture is not yet good enough.
-    const bool isFarAway = accuracy_ && photons_.Divides(group + 1) &&
-                           photons_.FirstNoise() > kMuchNoise * accuracy_->RoomForNoise();
-    if (accuracy_ && !isFarAway) LookAtError(group);
+    const AccuracyRule* const accuracy = error_.Rule();
+    const bool isFarAway = accuracy && photons_.Divides(group + 1) &&
+                           photons_.FirstNoise() > kMuchNoise * accuracy->RoomForNoise();
+    if (accuracy && !isFarAway) LookAtError(group);
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup)
       preprocessSeconds_ = std::max(preprocessSeconds_, renderer_.PreprocessSeconds());
     renderSeconds_ += renderer_.RenderSeconds();
     groupSamples_ += step.size;
-    progress_.ShowPasses(sum_, accuracy_ ? &*accuracy_ : nullptr);
+    progress_.ShowPasses(sum_, accuracy);
   }
 
   void TakePhotonNoise(int group) {
@@ -247,79 +245,16 @@ class Passes {
                                            : std::vector<double>();
     if (levels.empty()) return;
     photons_.Measure(levels);
-    photons_.Decide(accuracy_ ? accuracy_->RoomForNoise() : *rule_.targetError, group + 1);
+    photons_.Decide(error_.Rule() ? error_.Rule()->RoomForNoise() : *rule_.targetError, group + 1);
     sum_.SetPhotonNoise(photons_.FirstNoise());
-    if (unshared_) unshared_->Sum().SetPhotonNoise(photons_.FirstNoise());
+    error_.SetPhotonNoise(photons_.FirstNoise());
     job_.log.Verbose(Format("the photons cause a noise of %.3g of relMSE", photons_.FirstNoise()));
   }
 
-  // Looks at the picture with this noise. Returns its certificate.
-  std::optional<Certificate> Look(const PassSum& sum, const std::optional<SharingBias>& sharing,
-                                  AccuracyRule* rule) const {
-    std::optional<Certificate> certificate;
-    if (options_.corrections)
-      certificate = Certify(*options_.corrections, sum.Levels(), *sum.Noise(), rule->NextGoal());
-    if (certificate) certificate->sharing = sharing;
-    const double noiseError = sum.NoiseError();
-    rule->Look({*sum.Noise(), noiseError, photons_.SharedNoise(),
-                certificate ? &*certificate : nullptr, sum.NoiseBetweenGroups(),
-                sum.NoiseFreedom()});
-    job_.log.Verbose(
-        Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
-               "error below "
-               "%.3g %%",
-               static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), noiseError,
-               certificate ? certificate->LowerBias() : 0,
-               certificate ? certificate->UpperBias() : 0, 100 * std::sqrt(rule->Upper())));
-    return certificate;
-  }
-
+  // The bias that a look finds leaves less room for the noise of the photons.
   void LookAtError(int group) {
-    if (!sum_.Noise()) return;
-    const auto certificate = Look(sum_, BiasOfSharedGathers(), &*accuracy_);
-    if (unshared_ && rule_.accuracy->mayStopSharing && !accuracy_->IsReached() && certificate &&
-        certificate->sharing && MayBeBetterUnshared(*certificate->sharing))
-      LookWithoutSharing();
-    result_.upperError = accuracy_->Upper();
-    result_.looks = accuracy_->Looks();
-    neededSamples_ = double(sum_.SamplesPerPixel()) * accuracy_->LikelyGrowth();
-    // The bias that this look found leaves less room for the noise of the photons.
-    if (photons_.IsKnown()) photons_.Decide(accuracy_->RoomForNoise(), group + 1);
-  }
-
-  std::optional<SharingBias> BiasOfSharedGathers() const {
-    if (!unshared_) return renderer_.MeanSharingBias();
-    return unshared_->BiasOf(sum_,
-                             sequence_ ? GroupSamples::OneSequence : GroupSamples::Independent);
-  }
-
-  // Each look costs confidence, so the noise decides whether one at the other picture can pay.
-  bool MayBeBetterUnshared(const SharingBias& sharing) {
-    return sum_.SamplesPerPixel() >= kFewestToStopSharing &&
-           *unshared_->Sum().Noise() < *sum_.Noise() + accuracy_->MostBias(sharing);
-  }
-
-  // Takes the picture without shared gathers if it should need fewer samples.
-  void LookWithoutSharing() {
-    job_.log.Verbose("the same samples without shared gathers:");
-    options_.corrections->UseSharing(false);
-    AccuracyRule unshared = *accuracy_;
-    Look(unshared_->Sum(), std::nullopt, &unshared);
-    if (unshared.Growth() >= accuracy_->Growth()) {
-      options_.corrections->UseSharing(true);
-      accuracy_->CountLooks(1);
-      return;
-    }
-    accuracy_ = unshared;
-    unshared_->Replace(&job_.film, parts_.Aovs(), &sum_);
-    unshared_.reset();
-    parts_.SetSharingChange(nullptr);
-    renderer_.StopSharing();
-    result_.changes = ", gathers shared -> not shared";
-    job_.log.Notice(
-        Format("gathers shared -> not shared after %lld samples a pixel, because the "
-               "bias of sharing is a large part of the error",
-               static_cast<long long>(sum_.SamplesPerPixel())));
+    error_.Look(photons_.SharedNoise());
+    if (photons_.IsKnown()) photons_.Decide(error_.Rule()->RoomForNoise(), group + 1);
   }
 
   void TakeForecast(std::int64_t samples, int group) {
@@ -336,19 +271,14 @@ class Passes {
     return isPart && kClearly * *sum_.Noise() > *rule_.targetError;
   }
 
-  // Further samples would only make sure that more photons are needed, so they come at once.
-  bool IsBiasTooLarge() const {
-    return accuracy_->IsOutOfReach() ||
-           (rule_.accuracy->mayRaisePhotons && accuracy_->NeedsMorePhotons());
-  }
-
   // `next` is the step that would follow.
   std::optional<StopReason> Reason(const PassPlan::Step& next) {
     reasonMet_ = sum_.Reason();
     if (reasonMet_ == StopReason::TargetError && IsDoubtful(next)) reasonMet_.reset();
-    if (accuracy_ && accuracy_->IsReached())
+    const AccuracyRule* const accuracy = error_.Rule();
+    if (accuracy && accuracy->IsReached())
       reasonMet_ = StopReason::Accuracy;
-    else if (accuracy_ && IsBiasTooLarge())
+    else if (accuracy && error_.IsBiasTooLarge())
       reasonMet_ = StopReason::Bias;
     if (reasonMet_) return reasonMet_;
     if (rule_.timeLimit && next.size < 1)
@@ -361,9 +291,8 @@ class Passes {
   PassesResult Finish() {
     progress_.End(result_.reason != StopReason::Signal);
     result_.render = renderer_.Finish();
-    if (unshared_) SetSharingBias(BiasOfSharedGathers(), &job_.statistics, &result_.render);
+    error_.Describe(&result_);
     sum_.Describe(parts_.NeedsVariances(), &result_);
-    if (options_.corrections && sum_.Groups() > 1) result_.levels = sum_.Levels();
     if (result_.reason == StopReason::Signal) result_.render.isComplete = false;
     return std::move(result_);
   }
@@ -382,10 +311,9 @@ class Passes {
   PassPlan plan_;
   const bool hasBatches_;  // whether the passes of a group share their gathers together
   PhotonSets photons_;
-  std::optional<AccuracyRule> accuracy_;
-  double neededSamples_ = 0;                   // per pixel, by the last look; 0 before it
-  std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
-  PassPlan::Step step_;                        // the pass that is being rendered, or the next one
+  const bool continuesSequence_;  // whether all passes continue one sequence of samples
+  ErrorWatch error_;
+  PassPlan::Step step_;  // the pass that is being rendered, or the next one
   std::int64_t groupSamples_ = 0;
   double preprocessSeconds_ = 0, renderSeconds_ = 0;  // of one group, and of all passes
   // The camera samples that all passes continue. Null: each pass has a pattern of its own.

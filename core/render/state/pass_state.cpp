@@ -2,6 +2,7 @@
 // PassState: each part of the pass is a section of the file.
 #include "core/render/state/pass_state.h"
 
+#include "core/render/certificate/corrections.h"
 #include "core/render/photon_noise.h"
 
 namespace exphoton {
@@ -55,6 +56,7 @@ void PassState::ClearOpenPixels() {
       parts_.film->ClearPixel({x, y});
       if (parts_.aovs) parts_.aovs->ClearPixel({x, y});
       if (parts_.pass.photonNoise) parts_.pass.photonNoise->ClearPixel({x, y});
+      if (parts_.corrections) parts_.corrections->ClearPixel({x, y});
     }
   }
 }

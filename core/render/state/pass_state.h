@@ -20,6 +20,8 @@ class PassState {
     AovFilm* aovs;         // null: no AOVs
     SplatBuffer* splats;   // null: samples are not splatted
     SharingBands* shared;  // null: gathers are not shared
+    // Null: no certificate. They are saved and loaded by the caller, which must load them first.
+    Corrections* corrections = nullptr;
   };
   // `window` holds the pixels to render. The parts must outlive this object.
   PassState(const Parts& parts, const PixelBounds& window) : parts_(parts), done_(window) {}

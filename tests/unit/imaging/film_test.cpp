@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/files/byte_archive.h"
 
 namespace exphoton {
 namespace {
@@ -25,6 +26,27 @@ TEST(Film, HoldsTheMeanOfEachPixel) {
   EXPECT_EQ(image.At(0, 0, 0), 0);
   EXPECT_EQ(image.At(0, 0, 3), 0);
   EXPECT_EQ(film.ToImage(true).At(2, 1, 0), 1);
+}
+
+// The difference between two pictures has light, but no samples of its own.
+TEST(Film, SavesLightWithoutSamples) {
+  const PixelBounds bounds{0, 0, 2, 2};
+  Film saved(bounds, bounds), loaded(bounds, bounds), picture(bounds, bounds);
+  saved.AddLight({1, 0}, Spectrum(0, 2, 0), 1);
+  saved.AddOwnLight({0, 1}, Spectrum(0, 0, -3), 1);
+  ByteArchive archive;
+  saved.Transfer(&archive);
+  const std::string bytes = archive.Take();
+  ByteArchive reader(bytes);
+  loaded.Transfer(&reader);
+  reader.CheckEnd();
+  ByteArchive again;
+  loaded.Transfer(&again);
+  EXPECT_EQ(again.Take(), bytes);
+  EXPECT_EQ(loaded.SumsOf(1).g, 2);
+  ByteArchive empty;
+  picture.Transfer(&empty);
+  EXPECT_GT(bytes.size(), empty.Take().size());
 }
 
 TEST(Film, OfACropHasItsWindow) {

@@ -43,7 +43,14 @@ class UnsharedPicture {
   // Turns the sum of the shared passes, its picture and their AOVs into those without sharing.
   void Replace(Film* picture, AovFilm* aovs, PassSum* sum) const;
 
+  // Save and load everything, with the part of the next pass. `shared` is the sum of the shared
+  // passes. Load throws Error(File).
+  void Save(StateWriter* writer);
+  void Load(const StateFile& file, const PassSum& shared);
+
  private:
+  void TransferSum(ByteArchive* archive);
+
   SharingChange pass_;
   Film picture_;                   // of all passes
   std::unique_ptr<AovFilm> aovs_;  // what sharing changed in all passes; null: none

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/render/passes/error_watch.h"
+
+#include <cmath>
+
+#include "core/base/format.h"
+#include "core/render/certificate/corrections.h"
+#include "core/render/render_totals.h"
+
+namespace exphoton {
+namespace {
+
+constexpr const char* kRuleSection = "accuracy";
+// Fewer samples share badly and say little about the bias of sharing.
+constexpr std::int64_t kFewestToStopSharing = 8;
+
+}  // namespace
+
+ErrorWatch::ErrorWatch(const Picture& picture,
+                       const std::optional<StoppingRule::Accuracy>& accuracy, GroupSamples samples)
+    : picture_(picture),
+      samples_(samples),
+      unshared_(UnsharedPicture::Follow(picture.job, picture.parts, picture.sum)) {
+  if (!accuracy) return;
+  rule_.emplace(accuracy->error, accuracy->biasShare, accuracy->omitted);
+  rule_->CountLooks(accuracy->earlierLooks);
+  mayStopSharing_ = accuracy->mayStopSharing;
+  mayRaisePhotons_ = accuracy->mayRaisePhotons;
+}
+
+void ErrorWatch::JoinGroups() {
+  if (unshared_) unshared_->Sum().JoinGroups();
+  if (OfMaps()) OfMaps()->JoinGroups();
+}
+
+void ErrorWatch::SetPhotonNoise(double relative) {
+  if (unshared_) unshared_->Sum().SetPhotonNoise(relative);
+}
+
+void ErrorWatch::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
+  if (unshared_) unshared_->Add(pass, samplesPerPixel, group);
+  if (OfMaps()) OfMaps()->EndPass(group, samplesPerPixel);
+}
+
+// Looks at the picture with this noise. Returns its certificate.
+std::optional<Certificate> ErrorWatch::LookAt(const PassSum& sum, double fixedNoise,
+                                              const std::optional<SharingBias>& sharing,
+                                              AccuracyRule* rule) const {
+  std::optional<Certificate> certificate;
+  if (OfMaps()) certificate = Certify(*OfMaps(), sum.Levels(), *sum.Noise(), rule->NextGoal());
+  if (certificate) certificate->sharing = sharing;
+  const double noiseError = sum.NoiseError();
+  rule->Look({*sum.Noise(), noiseError, fixedNoise, certificate ? &*certificate : nullptr,
+              sum.NoiseBetweenGroups(), sum.NoiseFreedom()});
+  picture_.job.log.Verbose(
+      Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
+             "error below %.3g %%",
+             static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), noiseError,
+             certificate ? certificate->LowerBias() : 0, certificate ? certificate->UpperBias() : 0,
+             100 * std::sqrt(rule->Upper())));
+  return certificate;
+}
+
+void ErrorWatch::Look(double fixedNoise) {
+  if (!picture_.sum->Noise()) return;
+  const auto certificate = LookAt(*picture_.sum, fixedNoise, BiasOfSharedGathers(), &*rule_);
+  if (unshared_ && mayStopSharing_ && !rule_->IsReached() && certificate && certificate->sharing &&
+      MayBeBetterUnshared(*certificate->sharing))
+    LookWithoutSharing(fixedNoise);
+  neededSamples_ = double(picture_.sum->SamplesPerPixel()) * rule_->LikelyGrowth();
+}
+
+std::optional<SharingBias> ErrorWatch::BiasOfSharedGathers() const {
+  if (!unshared_) return picture_.renderer->MeanSharingBias();
+  return unshared_->BiasOf(*picture_.sum, samples_);
+}
+
+// Each look costs confidence, so the noise decides whether one at the other picture can pay.
+bool ErrorWatch::MayBeBetterUnshared(const SharingBias& sharing) const {
+  const PassSum& sum = *picture_.sum;
+  return sum.SamplesPerPixel() >= kFewestToStopSharing &&
+         *unshared_->Sum().Noise() < *sum.Noise() + rule_->MostBias(sharing);
+}
+
+// Takes the picture without shared gathers if it should need fewer samples.
+void ErrorWatch::LookWithoutSharing(double fixedNoise) {
+  const RenderJob& job = picture_.job;
+  job.log.Verbose("the same samples without shared gathers:");
+  OfMaps()->UseSharing(false);
+  AccuracyRule unshared = *rule_;
+  LookAt(unshared_->Sum(), fixedNoise, std::nullopt, &unshared);
+  if (unshared.Growth() >= rule_->Growth()) {
+    OfMaps()->UseSharing(true);
+    rule_->CountLooks(1);
+    return;
+  }
+  rule_ = unshared;
+  unshared_->Replace(&job.film, picture_.parts->Aovs(), picture_.sum);
+  StopSharing();
+  job.log.Notice(
+      Format("gathers shared -> not shared after %lld samples a pixel, because the "
+             "bias of sharing is a large part of the error",
+             static_cast<long long>(picture_.sum->SamplesPerPixel())));
+}
+
+void ErrorWatch::StopSharing() {
+  hasStoppedSharing_ = true;
+  OfMaps()->UseSharing(false);
+  picture_.sum->UseOwnLevels();
+  unshared_.reset();
+  picture_.parts->SetSharingChange(nullptr);
+  picture_.renderer->StopSharing();
+}
+
+void ErrorWatch::Describe(PassesResult* result) const {
+  if (unshared_) SetSharingBias(BiasOfSharedGathers(), &picture_.job.statistics, &result->render);
+  if (rule_) result->looks = rule_->Looks();
+  if (rule_ && rule_->HasLooked()) result->upperError = rule_->Upper();
+  if (hasStoppedSharing_) result->changes = ", gathers shared -> not shared";
+  if (OfMaps() && picture_.sum->Groups() > 1) result->levels = picture_.sum->Levels();
+}
+
+void ErrorWatch::TransferRule(ByteArchive* archive) {
+  rule_->Transfer(archive);
+  char hasStopped = hasStoppedSharing_ ? 1 : 0;
+  archive->Values(&hasStopped, &neededSamples_);
+  if (!(neededSamples_ >= 0)) throw ArchiveError("it needs an impossible number of samples");
+  if (!hasStopped || hasStoppedSharing_) return;
+  if (!unshared_) throw ArchiveError("its gathers were never shared");
+  StopSharing();
+}
+
+void ErrorWatch::Save(StateWriter* writer) {
+  if (rule_) {
+    ByteArchive archive;
+    TransferRule(&archive);
+    writer->Add(kRuleSection, archive.Take());
+  }
+  if (unshared_) unshared_->Save(writer);
+  if (OfMaps()) OfMaps()->Save(writer);
+}
+
+void ErrorWatch::Load(const StateFile& file) {
+  if (rule_) file.Read(kRuleSection, [this](ByteArchive* archive) { TransferRule(archive); });
+  if (unshared_) unshared_->Load(file, *picture_.sum);
+  if (OfMaps()) OfMaps()->Load(file);
+}
+
+}  // namespace exphoton

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ErrorWatch estimates the error of a picture while its passes are added up: the noise, the bias of
+// photon maps (Corrections), and the bias of shared gathers (UnsharedPicture). With an accuracy it
+// decides whether the picture has reached it, and whether later passes share gathers.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/render/passes/accuracy_rule.h"
+#include "core/render/passes/pass_parts.h"
+#include "core/render/passes/pass_sum.h"
+#include "core/render/passes/render_passes.h"
+#include "core/render/passes/unshared/unshared_picture.h"
+
+namespace exphoton {
+
+class ErrorWatch {
+ public:
+  // The picture, whose passes the caller renders and adds up. All members must outlive the watch.
+  struct Picture {
+    const RenderJob& job;
+    PassParts* parts;
+    PassSum* sum;
+    PassRenderer* renderer;
+  };
+  // accuracy: nullopt if none is wanted. samples: how groups of passes depend on each other.
+  ErrorWatch(const Picture& picture, const std::optional<StoppingRule::Accuracy>& accuracy,
+             GroupSamples samples);
+
+  const AccuracyRule* Rule() const { return rule_ ? &*rule_ : nullptr; }  // null: no accuracy
+  // Returns the samples per pixel that the accuracy is likely to need, by the last look; 0 before.
+  double NeededSamples() const { return neededSamples_; }
+  // Returns whether the picture stops because of its bias. More samples would not help, or would
+  // only make sure that more photons are needed.
+  bool IsBiasTooLarge() const {
+    return rule_->IsOutOfReach() || (mayRaisePhotons_ && rule_->NeedsMorePhotons());
+  }
+
+  // Must be called after the functions of PassSum with the same names.
+  void JoinGroups();
+  void SetPhotonNoise(double relative);
+  void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
+  // Looks at the error of an accuracy. fixedNoise: the part that more samples do not reduce. May
+  // turn the picture into the one without shared gathers.
+  void Look(double fixedNoise);
+
+  // Adds what is known about the error to the result of the renderer.
+  void Describe(PassesResult* result) const;
+
+  // Save and load everything but the picture and its sum. The sum must be loaded first. Load throws
+  // Error(File).
+  void Save(StateWriter* writer);
+  void Load(const StateFile& file);
+
+ private:
+  Corrections* OfMaps() const { return picture_.parts->Options().corrections; }  // null: none
+  std::optional<Certificate> LookAt(const PassSum& sum, double fixedNoise,
+                                    const std::optional<SharingBias>& sharing,
+                                    AccuracyRule* rule) const;
+  std::optional<SharingBias> BiasOfSharedGathers() const;
+  bool MayBeBetterUnshared(const SharingBias& sharing) const;
+  void LookWithoutSharing(double fixedNoise);
+  void StopSharing();
+  void TransferRule(ByteArchive* archive);
+
+  Picture picture_;
+  GroupSamples samples_;
+  std::optional<AccuracyRule> rule_;
+  bool mayStopSharing_ = false, mayRaisePhotons_ = false, hasStoppedSharing_ = false;
+  double neededSamples_ = 0;
+  std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
+};
+
+}  // namespace exphoton
