@@ -13,11 +13,11 @@
 #include <filesystem>
 #include <new>
 
-#include "core/app/commands/picture_begin.h"
 #include "core/app/commands/scene_names.h"
 #include "core/app/dial/dial.h"
-#include "core/app/dial/pilot.h"
 #include "core/app/effects/measured_effects.h"
+#include "core/app/loading/picture_begin.h"
+#include "core/app/loading/scene_loader.h"
 #include "core/app/options/errors.h"
 #include "core/app/output/exr_output.h"
 #include "core/app/output/live_view.h"
@@ -41,7 +41,7 @@ namespace exphoton::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Setups = std::vector<std::unique_ptr<RenderSetup>>;
+using Setups = SceneLoader::Setups;
 
 // Thrown after an interrupted picture has been written.
 struct Interrupted {};
@@ -57,7 +57,12 @@ struct Run {
 class FileRenderer {
  public:
   FileRenderer(const RenderCommand& command, Run& run, Log& log)
-      : command_(command), names_(command_), run_(run), log_(log), watch_(command.limits.seconds) {}
+      : command_(command),
+        names_(command_),
+        run_(run),
+        log_(log),
+        watch_(command.limits.seconds),
+        loader_(&command_, names_, &run.streams, log) {}
 
   // `index` is the position of the file on the command line.
   void Render(std::size_t index) {
@@ -78,6 +83,7 @@ class FileRenderer {
         setup = std::move(Load(path).front());
       }
       begin_.reset();
+      attempt_.reset();
       setup.reset();
     }
   }
@@ -90,12 +96,16 @@ class FileRenderer {
     ExrWriteReport report;
   };
 
-  Setups Load(const std::string& path);
+  Setups Load(const std::string& path) {
+    // There is a beginning if the picture begins again.
+    return loader_.Load(path, begin_ ? &*begin_ : &begin_.emplace());
+  }
   void CheckOutputs(const Setups& setups, std::size_t index);
   RenderOptions MakeOptions(const PictureFilms& films, const RenderSetup& setup);
   RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
                     ProgressReporter& progress, Statistics& statistics);
   bool RenderOne(const RenderSetup& setup);
+  bool BeginsAgain(const PassesResult& result, const StateKeeper& keeper);
   void RenderPart(const PartJob& part, const Begin& begin);
   RunRecord NewRecord(const RenderSetup& setup, const Statistics& statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
@@ -106,36 +116,17 @@ class FileRenderer {
   void Announce(const RunRecord& run, const Picture& picture);
   void Report(const RunRecord& run);
 
-  RenderCommand command_;                      // with the settings that --accuracy chose
-  std::shared_ptr<PilotRenderer> pilots_;      // of --accuracy
-  std::optional<std::uint64_t> preparedSeed_;  // of photons that the pilots shot
+  RenderCommand command_;  // with the settings that --accuracy chose
   const OutputNames names_;
   Run& run_;
   Log& log_;
   InterruptWatch watch_;
-  std::string filmName_;                  // of the picture that is being rendered
-  std::optional<PhotonFileUse> photons_;  // of this picture (--photons)
-  std::optional<Begin> begin_;            // of the current picture, also if it begins again
+  SceneLoader loader_;
+  std::string filmName_;                         // of the picture that is being rendered
+  std::optional<PhotonFileUse> photons_;         // of this picture (--photons)
+  std::optional<Begin> begin_;                   // of the current picture, also if it begins again
+  std::optional<StateKeeper::Attempt> attempt_;  // at this picture, before it began again
 };
-
-Setups FileRenderer::Load(const std::string& path) {
-  Begin& begin = begin_ ? *begin_ : begin_.emplace();  // there is one if the picture begins again
-  if (command_.accuracy && !command_.dial && command_.mode == RenderMode::Render) {
-    pilots_ = TurnDial(&command_, path, &run_.streams, log_);
-    begin.EndPilots();
-  }
-  LoadOptions options = command_.load;
-  options.stop = &StopFlag();
-  options.threads = command_.threadCount;
-  FileSource source(&run_.streams);
-  Setups setups = LoadScenes(source, path, options, log_);
-  preparedSeed_.reset();
-  if (pilots_ && setups.size() == 1)
-    preparedSeed_ = pilots_->Give(*command_.dial, setups.front().get());
-  if (command_.dial) Omit(command_.dial->omitted, *setups.front());
-  begin.EndLoading();
-  return setups;
-}
 
 void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
   CheckSceneCount(command_, index, setups.size());
@@ -171,7 +162,7 @@ RenderOptions FileRenderer::MakeOptions(const PictureFilms& films, const RenderS
     photons_ = MakePhotonFileUse(command_.photonFile, false, command_.load, setup);
   options.photonFile = photons_ ? &*photons_ : nullptr;
   options.corrections = films.corrections.get();
-  options.preparedSeed = preparedSeed_;
+  options.preparedSeed = loader_.PreparedSeed();
   return options;
 }
 
@@ -214,7 +205,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
     return RenderPart({command_, setup, job, options, identity, names_.Part(), log_}, begin), true;
   const std::string picturePath = names_.Picture(setup.film.filename);
   StateKeeper keeper({names_.State(setup.film.filename), command_.resumes, command_.writeEvery,
-                      begin.wall, run_.files.PartialPicture(picturePath), command_.CanContinue(),
+                      begin.wall, run_.files.PartialPicture(picturePath), attempt_,
                       [&](const PictureSoFar& soFar) { WriteSoFar(setup, soFar, statistics); }},
                      identity, log_);
   options.resumed = keeper.Resume();
@@ -226,8 +217,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   options.checkpoints = &keeper;
   const PassesResult result = RenderPicture(
       command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
-  if (result.reason == StopReason::Bias && RaisePhotons(result.looks, &command_, log_))
-    return false;
+  if (BeginsAgain(result, keeper)) return false;
   watch_.MustFinish() = true;
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);
@@ -240,6 +230,14 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   Conclude(&run, picture, begin, &statistics);
   EndState(run, &keeper);
   if (!run.isComplete) throw Interrupted();
+  return true;
+}
+
+// Returns whether the picture begins again with more photons, because its bias is too large.
+bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& keeper) {
+  if (result.reason != StopReason::Bias || !RaisePhotons(result.looks, &command_, log_))
+    return false;
+  attempt_ = keeper.ThisAttempt();
   return true;
 }
 
@@ -307,7 +305,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
   run->accuracy = command_.accuracy;
-  if (pilots_) run->pilots = pilots_->Work();
+  run->pilots = loader_.Pilots();
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }

@@ -21,7 +21,8 @@ constexpr const char* kKnown[] = {"path", "guidedpath", "exphotonmap", "photonma
 constexpr const char* kGuided = "guidedpath";
 constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuided};
 
-constexpr std::int64_t kLeastGroup = 2;   // samples of a group
+constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
+constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
 constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
 constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
 constexpr double kMorePhotons = 4, kMostPhotons = 256;
@@ -218,10 +219,30 @@ void Replace(const DialSettings& earlier, const DialSettings& settings, RenderCo
   Apply(settings, command);
 }
 
+void SetFirstSamples(std::int64_t samples, RenderCommand* command) {
+  command->dial->firstSamples = samples;
+  command->load.samplesPerPixel = 2 * kMostGrowth * samples;
+}
+
 // Returns whether the scene has photons, and would not have too many of them.
 bool MayRaisePhotons(const DialSettings& settings) {
   const bool hasPhotons = settings.indirectPhotons + settings.causticPhotons > 0;
   return hasPhotons && settings.photons * kMorePhotons <= kMostPhotons;
+}
+
+// Returns the text of the new setting; nullopt: the dial must not multiply the photons.
+std::optional<std::string> MultiplyPhotons(RenderCommand* command) {
+  DialChoice& dial = *command->dial;
+  if (!dial.mayRaisePhotons) return std::nullopt;
+  DialSettings& settings = dial.settings;
+  const DialSettings earlier = settings;
+  dial.photonSamples *= kMorePhotons;
+  settings.photons *= kMorePhotons;
+  dial.mayRaisePhotons = MayRaisePhotons(settings);
+  Replace(earlier, settings, command);
+  std::string text = Format("%.3g times the photons of the scene", settings.photons);
+  dial.text += ", " + text;
+  return text;
 }
 
 }  // namespace
@@ -258,7 +279,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                             chosen.price.samples,
                             !command.keepsSettings && MayRaisePhotons(chosen.settings)};
   Apply(chosen.settings, turned);
-  turned->load.samplesPerPixel = 2 * kMostGrowth * turned->dial->firstSamples;
+  SetFirstSamples(turned->dial->firstSamples, turned);
   turned->certifies = chosen.correctedShare > 0;
   turned->certifiedShare = turned->certifies ? chosen.correctedShare : turned->certifiedShare;
   log.Notice("accuracy " + accuracy + ": " + turned->dial->text);
@@ -269,19 +290,28 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
 }
 
 bool RaisePhotons(int looks, RenderCommand* command, Log& log) {
-  DialChoice& dial = *command->dial;
-  if (!dial.mayRaisePhotons) return false;
-  DialSettings& settings = dial.settings;
-  const DialSettings earlier = settings;
-  dial.earlierLooks = looks;
-  dial.photonSamples *= kMorePhotons;
-  settings.photons *= kMorePhotons;
-  dial.mayRaisePhotons = MayRaisePhotons(settings);
-  Replace(earlier, settings, command);
-  const std::string text = Format("%.3g times the photons of the scene", settings.photons);
+  const auto text = MultiplyPhotons(command);
+  if (!text) return false;
+  command->dial->earlierLooks = looks;
   log.Notice("the bias is too large for the accuracy, so the picture is rendered again with " +
-             text);
-  dial.text += ", " + text;
+             *text);
+  return true;
+}
+
+bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log) {
+  DialChoice& dial = *command->dial;
+  bool hasChanged = false;
+  while (stopped.photons > dial.settings.photons) {
+    const auto text = MultiplyPhotons(command);
+    if (!text) break;
+    hasChanged = true;
+    log.Notice("the bias was too large for the accuracy, so the stopped render had begun again with " +
+               *text);
+  }
+  const bool isByClock = command->timeLimit && stopped.firstSamples >= kLeastGroup &&
+                         stopped.firstSamples <= kMostFirst;
+  if (!isByClock || stopped.firstSamples == dial.firstSamples) return hasChanged;
+  SetFirstSamples(stopped.firstSamples, command);
   return true;
 }
 

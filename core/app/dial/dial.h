@@ -18,8 +18,18 @@ class PilotRenderer;
 std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* command, const std::string& scene,
                                         FileSource::Streams* streams, Log& log);
 
-// Multiplies the photons after a render whose bias exceeds the accuracy, if the dial may do so.
-// looks: at that render and earlier ones. Returns whether they became more.
+// What a render of an accuracy has chosen after its pilots, or by a clock.
+struct LaterChoice {
+  std::int64_t firstSamples = 1;  // as in DialChoice
+  double photons = 1;             // as in DialSettings
+};
+
+// Takes over the later choice of a stopped render, which the pilots do not repeat. Returns whether
+// the command has changed.
+bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log);
+
+// Multiplies the photons after a render whose bias is too large for the accuracy, if the dial may do
+// so. looks: at that render and earlier ones. Returns whether they became more.
 bool RaisePhotons(int looks, RenderCommand* command, Log& log);
 
 // Throws Error(CommandLine) for an integrator without an estimate of its error.

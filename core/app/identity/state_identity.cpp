@@ -9,9 +9,13 @@
 
 #include "core/app/output/picture.h"
 #include "core/base/error.h"
+#include "core/base/format.h"
 
 namespace exphoton::cli {
 namespace {
+
+constexpr const char* kPhotons = "the factor of photons for --accuracy";
+constexpr const char* kFirstSamples = "the samples of a group for --accuracy";
 
 // As few digits as give the same number.
 std::string Text(double value) {
@@ -34,9 +38,7 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   for (InputHash& input : HashesOfInputs(setup)) inputs_.push_back(std::move(input));
 
   const LoadOptions& load = command.load;
-  const auto add = [this](const char* name, const std::string& value) {
-    settings_.push_back({name, value});
-  };
+  const auto add = [this](const char* name, const std::string& value) { Add(name, value); };
   add("the size",
       std::to_string(setup.film.xResolution) + "x" + std::to_string(setup.film.yResolution));
   add("the part in pixels", Text(setup.crop));
@@ -45,7 +47,8 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--filter", setup.filterName);
   add("--camera", setup.cameraName);
   add("--accelerator", setup.acceleratorName);
-  add("--spp", load.samplesPerPixel ? std::to_string(*load.samplesPerPixel) : "");
+  const bool hasSamples = load.samplesPerPixel && !command.dial;
+  add("--spp", hasSamples ? std::to_string(*load.samplesPerPixel) : "");
   add("--seed", std::to_string(command.seed));
   add("--footprint-spp", std::to_string(command.footprintSamples));
   add("the time of the frame", Text(load.timeOffset));
@@ -56,6 +59,8 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
   add("--aov", AovNames(command));
   add("--two-halves", command.asTwoHalves ? "on" : "off");
   add("--certify", command.certifies ? "on" : "off");
+  if (command.certifies) add("--certify-share", Text(command.certifiedShare));
+  if (command.accuracy) AddAccuracy(command);
   add("--target-error", command.targetError ? Text(*command.targetError) : "");
   add("--max-passes", command.maxPasses > 0 ? std::to_string(command.maxPasses) : "");
   add("--progressive", command.isProgressive ? "on" : "off");
@@ -66,6 +71,40 @@ StateIdentity::StateIdentity(const RenderCommand& command, const RenderSetup& se
     if (set.directive != "Film" || set.parameter != "filename")
       sets["--set " + set.directive + "." + set.parameter] = set.value;
   for (const auto& [name, value] : sets) add(name.c_str(), value);
+}
+
+void StateIdentity::Add(const std::string& name, const std::string& value) {
+  settings_.push_back({name, value});
+}
+
+void StateIdentity::AddAccuracy(const RenderCommand& command) {
+  Add("--accuracy", Format("%.12g%%", 100 * *command.accuracy));
+  Add("--keep", command.keepsSettings ? "on" : "off");
+  if (!command.dial) return;
+  const DialChoice& dial = *command.dial;
+  std::string omitted;
+  for (const OmittedEffect& effect : dial.omitted)
+    omitted += (omitted.empty() ? "" : ", ") + effect.name + " " + Text(effect.bound);
+  Add("the effects that --accuracy leaves out", omitted);
+  Add("the price of photons for --accuracy", Text(dial.photonSamples));
+  Add("the share of the bias for --accuracy", Text(dial.biasShare));
+  Add(kPhotons, Text(dial.settings.photons));
+  Add(kFirstSamples, std::to_string(dial.firstSamples));
+}
+
+std::optional<LaterChoice> StateIdentity::Choice() const {
+  LaterChoice choice;
+  int found = 0;
+  const auto read = [&found](const std::string& text, auto* value) {
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, *value);
+    found += error == std::errc() && at == end ? 1 : 0;
+  };
+  for (const Setting& setting : settings_) {
+    if (setting.name == kPhotons) read(setting.value, &choice.photons);
+    if (setting.name == kFirstSamples) read(setting.value, &choice.firstSamples);
+  }
+  return found == 2 ? std::optional(choice) : std::nullopt;
 }
 
 void StateIdentity::Transfer(ByteArchive* archive) {

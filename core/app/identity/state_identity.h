@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/app/dial/dial.h"
 #include "core/app/identity/input_hashes.h"
 #include "core/app/options/options.h"
 #include "core/files/state_file.h"
@@ -25,12 +27,16 @@ class StateIdentity {
   // Names everything that differs in `other`; "" if nothing does.
   std::string Differences(const StateIdentity& other) const;
   const std::string& Program() const { return program_; }  // "exphoton 0.1.0"
+  // Returns the later choice of a render with --accuracy; nullopt: it is of another render.
+  std::optional<LaterChoice> Choice() const;
 
  private:
   struct Setting {
     std::string name, value;  // "--spp", "16"
   };
   StateIdentity() = default;
+  void Add(const std::string& name, const std::string& value);
+  void AddAccuracy(const RenderCommand& command);
   void Transfer(ByteArchive* archive);
 
   std::string program_;

@@ -6,7 +6,7 @@
 
 namespace exphoton::cli {
 
-// The dial chooses what the excluded options set. States and parts do not save its choice.
+// The dial chooses what the excluded options set.
 void TakeAccuracy(const std::string& percentage, RenderCommand* command) {
   if (command->keepsSettings && percentage.empty()) FailUsage("--keep needs --accuracy");
   if (percentage.empty()) return;
@@ -21,8 +21,6 @@ void TakeAccuracy(const std::string& percentage, RenderCommand* command) {
   exclude(command->maxPasses > 0, "--max-passes");
   exclude(command->isProgressive, "--progressive");
   exclude(command->load.isQuick, "--quick");
-  exclude(command->resumes, "--resume");
-  exclude(!command->stateFile.empty(), "--state");
 }
 
 }  // namespace exphoton::cli

@@ -290,14 +290,12 @@ void TakeFrames(const RawOptions& raw, RenderCommand* command) {
   CheckFrames(*command);
 }
 
-// Corrections are not saved in states and parts.
+// Corrections are not saved in parts.
 void CheckCertificate(const RawOptions& raw, const RenderCommand& command) {
   Exclude(raw.certifiedShare.has_value(), !command.certifies, "--certify-share needs --certify");
   if (!command.certifies) return;
   if (!(command.certifiedShare > 0 && command.certifiedShare <= 16))
     FailUsage("--certify-share takes a number above 0 and at most 16");
-  Exclude(command.resumes, true, "--certify and --resume exclude each other");
-  Exclude(!command.stateFile.empty(), true, "--certify and --state exclude each other");
   Exclude(!raw.shard.empty(), true, "--certify and --shard exclude each other");
 }
 

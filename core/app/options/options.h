@@ -70,8 +70,6 @@ struct RenderCommand {
   bool HasStoppingRule() const { return timeLimit || targetError || isProgressive || accuracy; }
   // A certificate compares independent passes, so without a rule it renders two halves.
   bool RendersTwoHalves() const { return asTwoHalves || (certifies && !HasStoppingRule()); }
-  // States do not save corrections and the choice of --accuracy.
-  bool CanContinue() const { return !certifies && !accuracy; }
   bool printsStatistics = false;
   bool asHalf = true;
   bool isReproducible = false;

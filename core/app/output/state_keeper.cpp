@@ -40,6 +40,11 @@ std::string ResumeHint(const std::string& path) {
 StateKeeper::StateKeeper(const Settings& settings, const StateIdentity& identity, Log& log)
     : settings_(settings), identity_(identity), log_(log), pause_(settings.interval.value_or(0)) {
   if (!FileExists(settings.picturePath)) ownPicture_ = settings.picturePath;
+  if (settings.earlier) {
+    earlierSeconds_ = settings.earlier->earlierSeconds;
+    hasWritten_ = settings.earlier->hasState;
+    ownPicture_ = settings.earlier->ownPicture;
+  }
   if (!settings.interval) return;
   try {
     watch_ = std::thread([this] { Watch(); });
@@ -70,11 +75,12 @@ void StateKeeper::Watch() {
 }
 
 StateFile* StateKeeper::Resume() {
+  if (settings_.earlier) return nullptr;
   if (!settings_.resumes) {
     if (IsStateFile(settings_.path))
       log_.Warning("\"" + settings_.path +
                        "\" is the state of a stopped render, which this command does not continue",
-                   {}, settings_.keepsState ? ResumeHint(settings_.path) : "");
+                   {}, ResumeHint(settings_.path));
     return nullptr;
   }
   if (!FileExists(settings_.path)) {
@@ -127,7 +133,7 @@ void StateKeeper::Take(const Checkpoint& checkpoint, bool isLast) {
   const Clock::time_point start = Clock::now();
   try {
     if (checkpoint.hasWork) {
-      if (settings_.keepsState) Save(checkpoint);
+      Save(checkpoint);
       if (!isLast && checkpoint.picture) settings_.writePicture(checkpoint.picture());
     }
   } catch (const std::bad_alloc&) {

@@ -21,13 +21,20 @@ namespace exphoton::cli {
 class StateKeeper : public Checkpoints {
  public:
   using Clock = std::chrono::steady_clock;
+  // An attempt at a picture, which another one with other settings follows. Until the latter writes
+  // a state, the state of the former stays, because it leads to the same settings.
+  struct Attempt {
+    double earlierSeconds = 0;  // as EarlierSeconds
+    bool hasState = false;      // whether the state is of this render
+    std::string ownPicture;     // the picture so far, if this render made the file
+  };
   struct Settings {
     std::string path;                // of the state file
     bool resumes = false;            // whether the render is to continue from it
     std::optional<double> interval;  // seconds
     Clock::time_point start;         // of the render
     std::string picturePath;         // of the picture so far
-    bool keepsState = true;          // whether a later render may continue
+    std::optional<Attempt> earlier;  // at the same picture, which now begins again
     std::function<void(const PictureSoFar&)> writePicture;  // for an interval
   };
   StateKeeper(const Settings& settings, const StateIdentity& identity, Log& log);
@@ -44,6 +51,7 @@ class StateKeeper : public Checkpoints {
 
   const std::string& Path() const { return settings_.path; }
   bool HasWritten() const { return hasWritten_; }
+  Attempt ThisAttempt() const { return {earlierSeconds_, hasWritten_ || resumed_, ownPicture_}; }
   // The render is complete: removes the state that this object wrote or read, and the picture so
   // far, unless that file existed before the render.
   void Remove();

@@ -273,7 +273,6 @@ TEST_F(AccuracyTest, SaysWhatIsWrong) {
   refused("2%", {"--two-halves"}, "--two-halves");
   refused("2%", {"--certify"}, "--certify");
   refused("2%", {"--progressive"}, "--progressive");
-  refused("2%", {"--resume"}, "--resume");
   refused("2%", {"--photons", "x.expm"}, "--photons");
   refused("2%", {"--shard", "1/2"}, "--shard");
   refused("2%", {"--integrator", "whitted"}, "cannot be estimated");

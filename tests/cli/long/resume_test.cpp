@@ -43,15 +43,6 @@ class ResumedProgram : public ProgramTest {
   }
 };
 
-// --resume refuses these renders, so a state would be of no use.
-TEST_F(ResumedProgram, NoStateIsWrittenWithACertificate) {
-  const ProgramResult stopped = Stop(
-      Command({"--integrator", "exphotonmap", "--certify", "--write-every", "0.1"}), SIGINT, 2);
-  EXPECT_EQ(stopped.status, 130) << stopped.err;
-  EXPECT_EQ(stopped.err.find("--resume"), std::string::npos) << stopped.err;
-  EXPECT_EQ(Files(), (Names{"out.partial.exr", "scene.pbrt"}));
-}
-
 TEST_F(ResumedProgram, ContinuesToTheSameBytes) {
   const ProgramResult stopped = Stop(Command({}), SIGINT);
   EXPECT_EQ(stopped.status, 130) << stopped.err;

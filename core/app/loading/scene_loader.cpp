@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "core/app/loading/scene_loader.h"
+
+#include "core/app/dial/dial.h"
+#include "core/app/identity/state_identity.h"
+#include "core/app/process/signals.h"
+
+namespace exphoton::cli {
+
+SceneLoader::Setups SceneLoader::LoadFile(const std::string& path) {
+  LoadOptions options = command_.load;
+  options.stop = &StopFlag();
+  options.threads = command_.threadCount;
+  FileSource source(streams_);
+  return LoadScenes(source, path, options, log_);
+}
+
+SceneLoader::Setups SceneLoader::Load(const std::string& path, Begin* begin) {
+  const bool chooses = command_.accuracy && !command_.dial && command_.mode == RenderMode::Render;
+  if (chooses) {
+    pilots_ = TurnDial(&command_, path, streams_, log_);
+    begin->EndPilots();
+  }
+  Setups setups = LoadFile(path);
+  if (chooses && ContinueChoice(setups)) {
+    setups.clear();
+    setups = LoadFile(path);
+  }
+  preparedSeed_.reset();
+  if (pilots_ && setups.size() == 1)
+    preparedSeed_ = pilots_->Give(*command_.dial, setups.front().get());
+  if (command_.dial) Omit(command_.dial->omitted, *setups.front());
+  begin->EndLoading();
+  return setups;
+}
+
+// Returns whether the scene must be loaded again, with other settings than the pilots suggest. A
+// file that is no state of such a render is an error later, when the render continues from it.
+bool SceneLoader::ContinueChoice(const Setups& setups) {
+  if (!command_.resumes || setups.size() != 1) return false;
+  const std::string state = names_.State(setups.front()->film.filename);
+  if (!IsStateFile(state)) return false;
+  const auto stopped = StateIdentity::Of(StateFile(state)).Choice();
+  return stopped && cli::ContinueChoice(*stopped, &command_, log_);
+}
+
+}  // namespace exphoton::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SceneLoader loads the scenes of a file for rendering. With --accuracy it first chooses the
+// settings, and takes over what a stopped render has chosen since.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/app/dial/pilot.h"
+#include "core/app/loading/picture_begin.h"
+#include "core/app/options/options.h"
+#include "core/app/output/output_names.h"
+
+namespace exphoton::cli {
+
+class SceneLoader {
+ public:
+  using Setups = std::vector<std::unique_ptr<RenderSetup>>;
+
+  // command: receives the settings that --accuracy chooses. All arguments must outlive the loader.
+  SceneLoader(RenderCommand* command, const OutputNames& names, FileSource::Streams* streams,
+              Log& log)
+      : command_(*command), names_(names), streams_(streams), log_(log) {}
+
+  // Throws Error. `begin` receives the times.
+  Setups Load(const std::string& path, Begin* begin);
+
+  // Returns the seed of the photons that the last loaded scene has from a pilot; nullopt: none.
+  std::optional<std::uint64_t> PreparedSeed() const { return preparedSeed_; }
+  // Returns what the pilots of --accuracy did; nullopt: there were none.
+  std::optional<PilotWork> Pilots() const {
+    return pilots_ ? std::optional(pilots_->Work()) : std::nullopt;
+  }
+
+ private:
+  Setups LoadFile(const std::string& path);
+  bool ContinueChoice(const Setups& setups);
+
+  RenderCommand& command_;
+  const OutputNames& names_;
+  FileSource::Streams* streams_;
+  Log& log_;
+  std::shared_ptr<PilotRenderer> pilots_;      // of --accuracy
+  std::optional<std::uint64_t> preparedSeed_;  // of photons that the pilots shot
+};
+
+}  // namespace exphoton::cli
