@@ -102,6 +102,25 @@ TEST_F(StateKeeperTest, TheIdentityNamesTheChoice) {
   EXPECT_FALSE(StateIdentity::Of(StateFile(folder_.File("b.state"))).Choice());
 }
 
+// The scene's photons need no parameter, so the parameter for a part of them must go.
+TEST_F(StateKeeperTest, MorePhotonsReplaceFewOnes) {
+  command_.load.parameters = {{"SurfaceIntegrator", "indirectphotons", "500"}};
+  for (const ParameterOverride& parameter : command_.dial->settings.Overrides())
+    command_.load.parameters.push_back(parameter);
+  const auto photons = [this] {
+    std::string last;
+    for (const ParameterOverride& parameter : command_.load.parameters)
+      if (parameter.parameter == "indirectphotons") last = parameter.value;
+    return last;
+  };
+  EXPECT_EQ(photons(), "125");
+  ASSERT_TRUE(RaisePhotons(&command_, log_));
+  EXPECT_EQ(photons(), "500");
+  ASSERT_TRUE(RaisePhotons(&command_, log_));
+  EXPECT_EQ(photons(), "2000");
+  EXPECT_EQ(command_.load.parameters.size(), 3u);
+}
+
 // The pilots of a continued render choose the photons of the first attempt again.
 TEST_F(StateKeeperTest, AContinuedRenderTakesTheLaterChoice) {
   RenderCommand raised = command_;
