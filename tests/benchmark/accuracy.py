@@ -7,12 +7,13 @@ Renders each scene with accuracies of 10, 5 and 2 %, or with those that are give
 picture is measured against a reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be
 samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latter with the gather
 rays of the scene and with 16, and 1 to 4096 samples a pixel, as far as a render takes at most
-MOST_SECONDS. Each setting has two seeds: the mean of their relMSE and the smaller time. "Best" is the CPU time of the cheapest setting for the mean error that the dial
-reached, interpolated in the grid. "Times best" is the ratio of both. Accuracies that the grid does
-not reach are left out, and so are those where the noise of the reference exceeds a fifth of the
-squared error. The folder of --cache keeps references and grids for later runs. Another reference or
-size has other files there. The seconds of a grid are comparable only with runs on the same machine
-under the same load, so delete grid-*.json there where this has changed.
+MOST_SECONDS. Each setting has two seeds: the mean of their relMSE and the smaller time. "Best" is
+the CPU time of the cheapest setting for the mean error that the dial reached, interpolated in the
+grid. "Times best" is the ratio of both. Accuracies that the grid does not reach are left out, and
+so are those where the noise of the reference exceeds a fifth of the squared error. The folder of
+--cache keeps references and grids for later runs. Another reference or size has other files there.
+The seconds of a grid are comparable only with runs on the same machine under the same load, so
+delete grid-*.json there where this has changed.
 """
 import argparse
 import json

@@ -55,9 +55,11 @@ void DropDarkOnes(std::vector<Candidate>* candidates) {
       candidate.reason = MissingLight(candidate.mean, means);
 }
 
-// Returns the rays as in DialSettings.
-int GatherRaysFor(const std::string& integrator, int sceneRays) {
-  return ReadsPhotonMaps(integrator) && sceneRays != kGatherRays ? kGatherRays : 0;
+// Returns the rays as in DialSettings. Sharing is the reason for more rays than the scene has.
+int GatherRaysFor(const std::string& integrator, const PilotRenderer& pilots) {
+  const int rays = pilots.SceneGatherRays();
+  const bool keepsFew = rays > 0 && rays <= kGatherRays && !pilots.SceneSharesGathers();
+  return ReadsPhotonMaps(integrator) && rays != kGatherRays && !keepsFew ? kGatherRays : 0;
 }
 
 bool IsCheaper(const Explorer& a, const Explorer& b) {
@@ -91,7 +93,7 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
                                    : std::numeric_limits<double>::infinity();
   };
   for (const std::string& name : names) {
-    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, pilots->SceneGatherRays());
+    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
     const bool isTooDear = name == kGuided && IsGuideTooDear(explorers);
     explorers.emplace_back(pilots, name, rays, wish);
     if (isTooDear)

@@ -70,6 +70,8 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   sceneIntegrator_ = setup_->integratorName;
   sceneSamples_ = setup_->sampler->SamplesPerPixel();
   sceneGatherRays_ = int(GivenNumber(*setup_, "finalgathersamples"));
+  if (setup_->integrator && setup_->scene)
+    sceneSharesGathers_ = PlanSharing(*setup_->integrator, *setup_->scene, *setup_->camera).isOn;
   sceneUsedPhotons_ = GivenNumber(*setup_, "nused");
   sceneDirectPhotons_ = GivenNumber(*setup_, "directphotons");
   scenePaths_ = GivenNumber(*setup_, "maxphotonpaths");

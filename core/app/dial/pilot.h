@@ -105,6 +105,8 @@ class PilotRenderer {
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
   std::int64_t SceneSamples() const { return sceneSamples_; }
   int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
+  // Whether the scene's own integrator shares gathers.
+  bool SceneSharesGathers() const { return sceneSharesGathers_; }
   bool GivesDirectPhotons() const { return sceneDirectPhotons_ > 0; }  // the scene does
   // Of the picture that is wanted.
   int Width() const { return width_; }
@@ -136,6 +138,7 @@ class PilotRenderer {
   std::string sceneIntegrator_;
   std::int64_t sceneSamples_ = 0;
   int sceneGatherRays_ = 0;
+  bool sceneSharesGathers_ = false;
   double sceneUsedPhotons_ = 0;    // in a density estimate; 0: the scene does not give them
   double sceneDirectPhotons_ = 0;  // the same, of the direct map
   double scenePaths_ = 0;          // limit of the photon paths; 0: the scene does not give it

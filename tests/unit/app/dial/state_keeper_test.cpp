@@ -20,6 +20,8 @@ class StateKeeperTest : public testing::Test {
     command_.dial = DialChoice{};
     command_.dial->firstSamples = 8;
     command_.dial->settings = {500, 0, .25, 16};
+    command_.dial->mayRaisePhotons = true;
+    command_.load.parameters = command_.dial->settings.Overrides();
   }
 
   StateKeeper::Settings Settings() const {
@@ -60,7 +62,7 @@ TEST_F(StateKeeperTest, ASecondAttemptTakesOverTheFiles) {
   StateKeeper::Settings again = Settings();
   again.earlier = attempt;
   again.resumes = true;  // the state is of the first attempt, so it is not read
-  ASSERT_TRUE(RaisePhotons(&command_, log_));
+  ASSERT_TRUE(RaisePhotons(1, &command_, log_));
   const StateIdentity second = Identity();
   StateKeeper keeper(again, second, log_);
   EXPECT_EQ(keeper.Resume(), nullptr);
@@ -83,7 +85,7 @@ TEST_F(StateKeeperTest, AnotherAttemptKeepsTheTimeOfEarlierRuns) {
 }
 
 TEST_F(StateKeeperTest, TheIdentityNamesTheChoice) {
-  ASSERT_TRUE(RaisePhotons(&command_, log_));
+  ASSERT_TRUE(RaisePhotons(1, &command_, log_));
   const RenderCommand raised = command_;
   StateWriter writer(folder_.File("a.state"));
   Identity().Save(&writer);
@@ -102,30 +104,11 @@ TEST_F(StateKeeperTest, TheIdentityNamesTheChoice) {
   EXPECT_FALSE(StateIdentity::Of(StateFile(folder_.File("b.state"))).Choice());
 }
 
-// The scene's photons need no parameter, so the parameter for a part of them must go.
-TEST_F(StateKeeperTest, MorePhotonsReplaceFewOnes) {
-  command_.load.parameters = {{"SurfaceIntegrator", "indirectphotons", "500"}};
-  for (const ParameterOverride& parameter : command_.dial->settings.Overrides())
-    command_.load.parameters.push_back(parameter);
-  const auto photons = [this] {
-    std::string last;
-    for (const ParameterOverride& parameter : command_.load.parameters)
-      if (parameter.parameter == "indirectphotons") last = parameter.value;
-    return last;
-  };
-  EXPECT_EQ(photons(), "125");
-  ASSERT_TRUE(RaisePhotons(&command_, log_));
-  EXPECT_EQ(photons(), "500");
-  ASSERT_TRUE(RaisePhotons(&command_, log_));
-  EXPECT_EQ(photons(), "2000");
-  EXPECT_EQ(command_.load.parameters.size(), 3u);
-}
-
 // The pilots of a continued render choose the photons of the first attempt again.
 TEST_F(StateKeeperTest, AContinuedRenderTakesTheLaterChoice) {
   RenderCommand raised = command_;
-  ASSERT_TRUE(RaisePhotons(&raised, log_));
-  ASSERT_TRUE(RaisePhotons(&raised, log_));
+  ASSERT_TRUE(RaisePhotons(1, &raised, log_));
+  ASSERT_TRUE(RaisePhotons(1, &raised, log_));
   EXPECT_EQ(raised.dial->settings.photons, 4);
   RenderCommand continued = command_;
   EXPECT_TRUE(ContinueChoice({8, 4}, &continued, log_));
