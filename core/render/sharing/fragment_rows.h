@@ -3,6 +3,7 @@
 // that the fragments of neighbouring pixels of a row are neighbours in memory.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -43,11 +44,16 @@ class FragmentRows {
   struct Range {
     std::size_t begin = 0, end = 0;
   };
-  Range Fragments(int x0, int x1, int y) const;
+  Range Fragments(int x0, int x1, int y) const {
+    if (y < bounds_.y0 || y >= bounds_.y1) return {};
+    x0 = std::clamp(x0, bounds_.x0, bounds_.x1);
+    x1 = std::clamp(x1, x0, bounds_.x1);
+    const std::size_t row = IndexOf({bounds_.x0, y});
+    return {first_[row + std::size_t(x0 - bounds_.x0)], first_[row + std::size_t(x1 - bounds_.x0)]};
+  }
   std::size_t First(Point2i pixel) const { return first_[IndexOf(pixel)]; }
 
  private:
-  void SetRecords(Column first, std::size_t at, Real count, const Spectrum& light);
   std::size_t IndexOf(Point2i pixel) const {
     return std::size_t(pixel.y - bounds_.y0) * std::size_t(bounds_.Width()) +
            std::size_t(pixel.x - bounds_.x0);

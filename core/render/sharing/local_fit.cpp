@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace exphoton {
 namespace {
@@ -15,42 +17,78 @@ constexpr double kFilmRidge = 1e-3, kTiltRidge = 2e-4;
 
 using Matrix = std::array<std::array<double, kFitFeatures>, kFitFeatures>;
 
-Matrix NormalMatrix(const FitMoments& moments, double filmVariance) {
-  Matrix matrix{};
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < kFitFeatures; ++i)
-    for (std::size_t j = i; j < kFitFeatures; ++j)
-      matrix[i][j] = matrix[j][i] = double(moments.matrix[k++]);
-  const double total = matrix[0][0];
-  for (const std::size_t i : {1u, 2u}) matrix[i][i] += total * kFilmRidge * filmVariance;
-  for (const std::size_t i : {3u, 4u}) matrix[i][i] += total * kTiltRidge;
-  return matrix;
+// Calls use(0), use(1) ... with constants, so that the compiler unrolls the loops in `use`.
+template <std::size_t kCount, class Use>
+void ForConstants(const Use& use) {
+  [&use]<std::size_t... i>(std::index_sequence<i...>) {
+    (use(std::integral_constant<std::size_t, i>()), ...);
+  }
+  (std::make_index_sequence<kCount>());
 }
 
-// Turns a positive definite matrix into its Cholesky factor, in the lower triangle.
+// Fills the lower triangle of the first rows.
+template <std::size_t kSize>
+void SetNormalMatrix(const FitMoments& moments, double filmVariance, Matrix* matrix) {
+  Matrix& m = *matrix;
+  ForConstants<kSize>([&](auto j) {
+    constexpr std::size_t kDiagonal = j * kFitFeatures - j * (j - 1) / 2;
+    for (std::size_t i = j; i < kSize; ++i) m[i][j] = double(moments.matrix[kDiagonal + i - j]);
+  });
+  const double total = m[0][0];
+  for (std::size_t i = 1; i < std::min(kSize, std::size_t(3)); ++i)
+    m[i][i] += total * kFilmRidge * filmVariance;
+  for (std::size_t i = 3; i < kSize; ++i) m[i][i] += total * kTiltRidge;
+}
+
+// Turns the first rows and columns of a positive definite matrix into their Cholesky factor, in the
+// lower triangle.
+template <std::size_t kSize>
 void Factor(Matrix* matrix) {
   Matrix& m = *matrix;
-  for (std::size_t j = 0; j < kFitFeatures; ++j) {
+  ForConstants<kSize>([&](auto j) {
     for (std::size_t k = 0; k < j; ++k) m[j][j] -= m[j][k] * m[j][k];
     m[j][j] = std::sqrt(std::max(m[j][j], 1e-30));
-    for (std::size_t i = j + 1; i < kFitFeatures; ++i) {
+    for (std::size_t i = j + 1; i < kSize; ++i) {
       for (std::size_t k = 0; k < j; ++k) m[i][j] -= m[i][k] * m[j][k];
       m[i][j] /= m[j][j];
     }
-  }
+  });
 }
 
-std::array<double, kFitFeatures> Solve(const Matrix& factor,
-                                       std::array<double, kFitFeatures> right) {
-  for (std::size_t i = 0; i < kFitFeatures; ++i) {
-    for (std::size_t k = 0; k < i; ++k) right[i] -= factor[i][k] * right[k];
-    right[i] /= factor[i][i];
-  }
-  for (std::size_t i = kFitFeatures; i-- > 0;) {
-    for (std::size_t k = i + 1; k < kFitFeatures; ++k) right[i] -= factor[k][i] * right[k];
-    right[i] /= factor[i][i];
-  }
-  return right;
+// The right sides of all channels. The fourth one is 0, so that each row is two SIMD registers.
+using Channels = std::array<double, 4>;
+using RightSides = std::array<Channels, kFitFeatures>;
+
+void SubtractMultiple(double factor, const Channels& from, Channels* to) {
+  for (std::size_t c = 0; c < 4; ++c) (*to)[c] -= factor * from[c];
+}
+
+// Solves the first rows for all channels at a time, in place.
+template <std::size_t kSize>
+void Solve(const Matrix& factor, RightSides* sides) {
+  RightSides& right = *sides;
+  ForConstants<kSize>([&](auto i) {
+    for (std::size_t k = 0; k < i; ++k) SubtractMultiple(factor[i][k], right[k], &right[i]);
+    for (double& value : right[i]) value /= factor[i][i];
+  });
+  ForConstants<kSize>([&](auto fromLast) {
+    constexpr std::size_t i = kSize - 1 - fromLast;
+    for (std::size_t k = i + 1; k < kSize; ++k) SubtractMultiple(factor[k][i], right[k], &right[i]);
+    for (double& value : right[i]) value /= factor[i][i];
+  });
+}
+
+// Solves the first normal equations. The solution of the others is 0.
+template <std::size_t kSize>
+RightSides SolutionOf(const FitMoments& moments, double filmVariance) {
+  Matrix matrix;
+  SetNormalMatrix<kSize>(moments, filmVariance, &matrix);
+  Factor<kSize>(&matrix);
+  RightSides sides{};
+  for (std::size_t i = 0; i < kSize; ++i)
+    for (std::size_t c = 0; c < Spectrum::kChannels; ++c) sides[i][c] = double(moments.right[i][c]);
+  Solve<kSize>(matrix, &sides);
+  return sides;
 }
 
 }  // namespace
@@ -73,38 +111,41 @@ FitFeatures FitTarget::FeaturesOf(Point2 samplePosition, const Normal3& sampleNo
 }
 
 void FitNeighbours::Reserve(std::size_t count) {
-  if (columns[0].size() >= size + count) return;
-  for (auto& column : columns) column.resize(2 * (size + count));
+  if (first.size() >= count) return;
+  for (auto& column : columns) column.resize(2 * count * kRun);
+  first.resize(2 * count);
+  tilted.resize(2 * count);
 }
 
-void LocalFit::Collect(const FragmentRows& rows, const Place& place,
-                       std::span<const FragmentRows::Column> sets, FitNeighbours* out) {
-  const LocalFitLoops& loops = *Loops().back();
-  out->Clear();
+void LocalFit::Collect(const FragmentRows& rows, const Place& place, FitNeighbours* out) {
   const int reach = int(std::ceil(place.radius));
   const Point2i pixel = place.pixel;
+  out->rows = &rows;
+  out->radius = place.radius;
+  out->ranges.clear();
+  std::size_t runs = 0;
   for (int y = pixel.y - reach; y <= pixel.y + reach; ++y) {
     const FragmentRows::Range range = rows.Fragments(pixel.x - reach, pixel.x + reach + 1, y);
     if (range.begin == range.end) continue;
-    out->Reserve(range.end - range.begin + FitNeighbours::kRun);
-    loops.describe(rows, range, place.target, sets, out);
+    out->ranges.push_back(range);
+    runs += (range.end - range.begin + FitNeighbours::kRun - 1) / FitNeighbours::kRun;
   }
+  out->Reserve(runs);
+  Loops().back()->describe(place.target, out);
 }
 
-LocalFit::LocalFit(const FitNeighbours& neighbours, Real radius, int set) {
+LocalFit::LocalFit(const FitNeighbours& neighbours, Real radius, FragmentRows::Column set) {
   FitMoments moments;
   Loops().back()->accumulate(neighbours, radius, set, &moments);
   total_ = moments.matrix[0];
   if (IsEmpty()) return;
-  Matrix matrix = NormalMatrix(moments, double(Square(radius * FitTarget::kFilmScale)));
-  Factor(&matrix);
-  for (int c = 0; c < Spectrum::kChannels; ++c) {
-    std::array<double, kFitFeatures> right;
-    for (std::size_t i = 0; i < kFitFeatures; ++i)
-      right[i] = double(moments.right[i][std::size_t(c)]);
-    const auto solution = Solve(matrix, right);
-    for (std::size_t i = 0; i < kFitFeatures; ++i) coefficients_[i][c] = Real(solution[i]);
-  }
+  const double filmVariance = double(Square(radius * FitTarget::kFilmScale));
+  // Without tilt, the equations of the tilt are 0 but for their diagonal.
+  const RightSides solution = neighbours.tiltedRuns > 0
+                                  ? SolutionOf<kFitFeatures>(moments, filmVariance)
+                                  : SolutionOf<3>(moments, filmVariance);
+  for (std::size_t i = 0; i < kFitFeatures; ++i)
+    coefficients_[i] = {Real(solution[i][0]), Real(solution[i][1]), Real(solution[i][2])};
 }
 
 Spectrum LocalFit::At(const FitFeatures& features) const {

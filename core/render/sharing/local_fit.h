@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -31,19 +32,27 @@ struct FitTarget {
   Real depth;
 };
 
-// FitNeighbours lists the fragments around a target, as a structure of arrays, with the records of
-// one set or of two sets.
+// FitNeighbours lists the fragments around a target in runs of neighbours in FragmentRows, as a
+// structure of arrays. Runs without a fragment on the surface of the target and within the radius
+// are left out. `tilted` has the runs with a shading normal that is not exactly the target's. Flat
+// surfaces have few of them, and the others add nothing to moments of the tilt.
 struct FitNeighbours {
   static constexpr std::size_t kRun = 8;
-  enum Column { Distance2, U1, U2, U3, U4, Count0, R0, G0, B0, Count1, R1, G1, B1, kColumns };
+  // Squared distance on the film, infinite for fragments that do not count, and features. U3 and U4
+  // are those of `tilted`.
+  enum Column { Distance2, U1, U2, U3, U4, kColumns };
 
-  void Clear() { size = 0; }
-  void Reserve(std::size_t count);  // beyond `size`
+  void Reserve(std::size_t runs);
   Real* At(int column) { return columns[std::size_t(column)].data(); }
   const Real* At(int column) const { return columns[std::size_t(column)].data(); }
 
+  const FragmentRows* rows = nullptr;
+  Real radius = 0;
   std::array<std::vector<Real>, kColumns> columns;
-  std::size_t size = 0;  // a whole number of runs
+  std::vector<std::size_t> first;   // fragment of each run
+  std::vector<std::size_t> tilted;  // runs
+  std::size_t runs = 0, tiltedRuns = 0;
+  std::vector<FragmentRows::Range> ranges;  // scratch memory of LocalFit::Collect
 };
 
 // The sums of weight * feature_i * feature_j for i <= j, and of weight * feature_i * light.
@@ -54,28 +63,27 @@ struct FitMoments {
 
 // LocalFitLoops holds the loops, compiled for one SIMD target.
 struct LocalFitLoops {
-  // Appends the fragments of a range. Those on another surface, and padding, get an infinite
-  // distance.
-  void (*describe)(const FragmentRows& rows, FragmentRows::Range range, const FitTarget& target,
-                   std::span<const FragmentRows::Column> sets, FitNeighbours* out);
-  // Adds up the records of one set (0 or 1) within the radius.
-  void (*accumulate)(const FitNeighbours& from, Real radius, int set, FitMoments* moments);
+  // Lists the fragments of out->ranges, of out->rows, within out->radius. There must be memory for
+  // all runs.
+  void (*describe)(const FitTarget& target, FitNeighbours* out);
+  // Adds up the records of one set within the radius, which is at most that of the neighbours.
+  void (*accumulate)(const FitNeighbours& from, Real radius, FragmentRows::Column set,
+                     FitMoments* moments);
 };
 
 class LocalFit {
  public:
-  // Collects the fragments within `radius` pixels of the target. `sets` are the first columns of
-  // one or two sets of records.
+  // Collects the fragments within `radius` pixels of the target. The rows must outlive `out`.
   struct Place {
     const FitTarget& target;
     Point2i pixel;
     Real radius;
   };
-  static void Collect(const FragmentRows& rows, const Place& place,
-                      std::span<const FragmentRows::Column> sets, FitNeighbours* out);
+  static void Collect(const FragmentRows& rows, const Place& place, FitNeighbours* out);
 
-  // Fits the records of one set (0 or 1). The neighbours must reach to `radius`.
-  LocalFit(const FitNeighbours& neighbours, Real radius, int set);
+  // Fits one set of records, which is stated by its first column. The neighbours must reach to
+  // `radius`.
+  LocalFit(const FitNeighbours& neighbours, Real radius, FragmentRows::Column set);
 
   bool IsEmpty() const { return !(total_ > 0); }  // no record had a weight
   Spectrum At(const FitFeatures& features) const;

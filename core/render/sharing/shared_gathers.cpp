@@ -18,16 +18,10 @@ namespace {
 // The fit around one fragment, blended with the samples' own light where the window is small.
 class FragmentLight {
  public:
-  FragmentLight(const FragmentRows& rows, Point2i pixel, const GatherFragment& fragment,
-                const SharingWindows::Window& window, FitNeighbours* scratch)
-      : target_(fragment), share_(window.share) {
-    if (!(share_ > 0)) return;
-    static constexpr FragmentRows::Column kAll[] = {FragmentRows::All};
-    LocalFit::Collect(rows, {target_, pixel, window.radius}, kAll, scratch);
-    fit_.emplace(*scratch, window.radius, 0);
-    const SharingWindows::Fitted fitted{pixel, fragment, window, fit_->AtTarget()};
-    if (SharingWindows::IsDetail(rows, fitted, scratch)) fit_.reset();
-  }
+  explicit FragmentLight(const WindowFit& window)
+      : target_(window.Target()),
+        share_(window.Window().share),
+        fit_(window.To(FragmentRows::All)) {}
 
   Spectrum At(const GatherSample& sample) const {
     if (!fit_) return sample.light;
@@ -39,6 +33,35 @@ class FragmentLight {
   FitTarget target_;
   Real share_;
   std::optional<LocalFit> fit_;
+};
+
+// The fits of all fragments of one pixel after the other.
+class PixelLights {
+ public:
+  PixelLights(const FragmentRows& rows, const SharingWindows& windows, FitNeighbours* scratch)
+      : rows_(rows), windows_(windows), scratch_(scratch) {}
+
+  // Fits the light of a pixel, and checks its fits if `check` is not empty.
+  void Fit(Point2i pixel, const GatherFragments::Pixel& gathered,
+           std::optional<PixelCheck>* check) {
+    lights_.clear();
+    for (std::size_t i = 0; i < gathered.fragments.size(); ++i) {
+      const WindowFit fit(rows_, windows_, {pixel, gathered.fragments[i]}, scratch_);
+      lights_.emplace_back(fit);
+      if (*check && (*check)->HasGroup(i)) (*check)->Add(i, fit);
+      totals_.radii += double(fit.Window().radius * fit.Window().share);
+      totals_.fragments += 1;
+    }
+  }
+  Spectrum At(const GatherSample& sample) const { return lights_[sample.fragment].At(sample); }
+  const SharingTotals& Totals() const { return totals_; }
+
+ private:
+  const FragmentRows& rows_;
+  const SharingWindows& windows_;
+  FitNeighbours* scratch_;
+  std::vector<FragmentLight> lights_;
+  SharingTotals totals_;
 };
 
 Aov AovOf(const GatherSample& sample) { return sample.depth == 0 ? Aov::Indirect : Aov::Specular; }
@@ -66,6 +89,26 @@ void AddBias(const SharedLightTarget& target, Point2i pixel, const SharingChecke
     target.change->aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
 }
 
+// Adds the light of the samples of a pixel to the picture.
+void AddSamples(const SharedLightTarget& target, Point2i pixel,
+                const GatherFragments::Pixel& gathered, const PixelLights& lights,
+                SplatBuffer::Pixel* splat) {
+  if (target.splats) splat->Begin(target.splats, pixel);
+  for (const GatherSample& sample : gathered.samples) {
+    const Spectrum L = sample.weight * lights.At(sample);
+    AddChange(target, pixel, sample, L);
+    const Aov aov = AovOf(sample);
+    if (target.splats) {
+      const Point2 place = sample.film - Point2(Real(pixel.x), Real(pixel.y));
+      splat->AddLight(place, sample.sampleWeight, L, aov);
+      continue;
+    }
+    target.film->AddLight(pixel, L, sample.sampleWeight);
+    if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.sampleWeight);
+  }
+  if (target.splats) splat->End();
+}
+
 }  // namespace
 
 void SharingTotals::Transfer(ByteArchive* archive) {
@@ -88,57 +131,52 @@ SharingTotals SharedGathers::AddLight(const SharedLightTarget& target) const {
   const PixelBounds& window = target.window;
   std::vector<FitNeighbours> scratch(std::size_t(threads_->Count()));
   std::vector<SharingTotals> totals(std::size_t(window.Height()));  // by row
+  std::optional<PixelDifferences> differences;
+  if (target.isChecked) differences.emplace(window);
   threads_->For(window.Height(), [&](std::int64_t row, int worker) {
-    totals[std::size_t(row)] = AddRow(target, window.y0 + int(row), &scratch[std::size_t(worker)]);
+    totals[std::size_t(row)] =
+        AddRow(target, window.y0 + int(row), differences ? &*differences : nullptr,
+               &scratch[std::size_t(worker)]);
   });
   SharingTotals total;
   for (const SharingTotals& row : totals) total.Add(row);
+  if (differences) total.checked = CheckRows(window, target.samplesPerPixel, &*differences);
   return total;
 }
 
 SharingTotals SharedGathers::AddRow(const SharedLightTarget& target, int y,
-                                    FitNeighbours* scratch) const {
+                                    PixelDifferences* differences, FitNeighbours* scratch) const {
   const SharingChecker checker(gathers_, rows_, windows_, target.samplesPerPixel);
-  SharingTotals totals;
-  std::vector<FragmentLight> lights;
+  PixelLights lights(rows_, windows_, scratch);
   SplatBuffer::Pixel splat;
   for (int x = target.window.x0; x < target.window.x1; ++x) {
     const Point2i pixel{x, y};
     const GatherFragments::Pixel& gathered = gathers_.At(pixel);
-    lights.clear();
-    for (const GatherFragment& fragment : gathered.fragments) {
-      const SharingWindows::Window chosen = windows_.At(pixel, fragment);
-      lights.emplace_back(rows_, pixel, fragment, chosen, scratch);
-      totals.radii += double(chosen.radius * chosen.share);
-      totals.fragments += 1;
-    }
+    std::optional<PixelCheck> check =
+        differences ? checker.Begin(pixel, target.window) : std::nullopt;
+    lights.Fit(pixel, gathered, &check);
+    if (check) differences->At(pixel) = check->Difference();
     AddBias(target, pixel, checker, scratch);
-    if (target.splats) splat.Begin(target.splats, pixel);
-    for (const GatherSample& sample : gathered.samples) {
-      const Spectrum L = sample.weight * lights[sample.fragment].At(sample);
-      AddChange(target, pixel, sample, L);
-      const Aov aov = AovOf(sample);
-      if (target.splats) {
-        splat.AddLight(sample.film - Point2(Real(x), Real(y)), sample.sampleWeight, L, aov);
-        continue;
-      }
-      target.film->AddLight(pixel, L, sample.sampleWeight);
-      if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.sampleWeight);
-    }
-    if (target.splats) splat.End();
+    AddSamples(target, pixel, gathered, lights, &splat);
   }
-  return totals;
+  return lights.Totals();
 }
 
 std::vector<CheckedPixel> SharedGathers::Check(const PixelBounds& window,
                                                double samplesPerPixel) const {
+  return CheckRows(window, samplesPerPixel, nullptr);
+}
+
+std::vector<CheckedPixel> SharedGathers::CheckRows(const PixelBounds& window,
+                                                   double samplesPerPixel,
+                                                   const PixelDifferences* known) const {
   const SharingChecker checker(gathers_, rows_, windows_, samplesPerPixel);
   std::vector<FitNeighbours> scratch(std::size_t(threads_->Count()));
   std::vector<std::vector<CheckedPixel>> rows(std::size_t(window.Height()));
   threads_->For(window.Height(), [&](std::int64_t row, int worker) {
     for (int x = window.x0; x < window.x1; ++x)
       if (const auto checked =
-              checker.Check({x, window.y0 + int(row)}, &scratch[std::size_t(worker)]))
+              checker.Check({x, window.y0 + int(row)}, known, &scratch[std::size_t(worker)]))
         rows[std::size_t(row)].push_back(*checked);
   });
   std::vector<CheckedPixel> all;

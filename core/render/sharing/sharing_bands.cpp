@@ -47,10 +47,10 @@ SharingBands::SharingBands(const PixelBounds& window, const PixelBounds& gathere
 void SharingBands::AddLight(ThreadPool* threads, double windowArea,
                             const SharedLightTarget& target) {
   const SharedGathers shared(gathers_, threads, windowArea);
-  SharingTotals totals = shared.AddLight(target);
+  SharedLightTarget checkedTarget = target;
   // The picture with and without sharing shows the bias without checks.
-  if (!target.change) totals.checked = shared.Check(target.window, target.samplesPerPixel);
-  totals_.Add(totals);
+  checkedTarget.isChecked = !target.change;
+  totals_.Add(shared.AddLight(checkedTarget));
 }
 
 void SharingBands::GoToNext() {

@@ -67,13 +67,42 @@ std::optional<SharingBias> EstimateAlong(std::size_t direction,
 
 }  // namespace
 
-std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, FitNeighbours* scratch) const {
+PixelCheck::PixelCheck(const GatherFragments::Pixel& gathered, int group, double samples)
+    : gathered_(gathered), group_(group), weights_(WeightsOf(gathered, samples)) {}
+
+bool PixelCheck::HasGroup(std::size_t fragment) const {
+  return gathered_.fragments[fragment].HasGroup(group_);
+}
+
+void PixelCheck::Add(std::size_t fragment, const WindowFit& fit) {
+  if (!sum_) sum_.emplace();
+  const auto fitted = fit.To(FragmentRows::OfGroup(group_));
+  if (!fitted) return;
+  const Spectrum own = gathered_.fragments[fragment].Mean(group_);
+  *sum_ += weights_[fragment] * (fitted->AtTarget() - own) * fit.Window().share;
+}
+
+std::optional<PixelCheck> SharingChecker::Begin(Point2i pixel, const PixelBounds& window) const {
+  const auto begin = [&](int group) { return PixelCheck(gathers_.At(pixel), group, samples_); };
+  if (IsChecked(pixel)) return begin(kCheckingGroups[0]);
+  for (const Point2i checked : {Point2i{pixel.x - 1, pixel.y}, Point2i{pixel.x, pixel.y - 1}})
+    if (window.Contains(checked.x, checked.y) && IsChecked(checked) &&
+        HasRecords(checked, kCheckingGroups[0]))
+      return begin(kCheckingGroups[1]);
+  return std::nullopt;
+}
+
+std::optional<CheckedPixel> SharingChecker::Check(Point2i pixel, const PixelDifferences* known,
+                                                  FitNeighbours* scratch) const {
   if (!IsChecked(pixel)) return std::nullopt;
-  const auto own = Difference(pixel, kCheckingGroups[0], scratch);
+  const auto difference = [&](Point2i at, int group) {
+    return known && known->Window().Contains(at.x, at.y) ? known->At(at)
+                                                         : Difference(at, group, scratch);
+  };
+  const auto own = difference(pixel, kCheckingGroups[0]);
   if (!own) return std::nullopt;
   const auto neighbour = [&](int x, int y) {
-    return gathers_.Bounds().Contains(x, y) ? Difference({x, y}, kCheckingGroups[1], scratch)
-                                            : std::nullopt;
+    return gathers_.Bounds().Contains(x, y) ? difference({x, y}, kCheckingGroups[1]) : std::nullopt;
   };
   const auto right = neighbour(pixel.x + 1, pixel.y), below = neighbour(pixel.x, pixel.y + 1);
   CheckedPixel checked{pixel, {}};
@@ -96,24 +125,20 @@ Spectrum SharingChecker::Bias(Point2i pixel, FitNeighbours* scratch) const {
   return {};
 }
 
+bool SharingChecker::HasRecords(Point2i pixel, int group) const {
+  const auto& fragments = gathers_.At(pixel).fragments;
+  return std::any_of(fragments.begin(), fragments.end(),
+                     [&](const GatherFragment& fragment) { return fragment.HasGroup(group); });
+}
+
 std::optional<Spectrum> SharingChecker::Difference(Point2i pixel, int group,
                                                    FitNeighbours* scratch) const {
   const GatherFragments::Pixel& gathered = gathers_.At(pixel);
-  const std::vector<Spectrum> weights = WeightsOf(gathered, samples_);
-  const FragmentRows::Column set = FragmentRows::OfGroup(group);
-  std::optional<Spectrum> sum;
-  for (std::size_t i = 0; i < gathered.fragments.size(); ++i) {
-    const GatherFragment& fragment = gathered.fragments[i];
-    if (!fragment.HasGroup(group)) continue;
-    if (!sum) sum.emplace();
-    const SharingWindows::Window window = windows_.At(pixel, fragment);
-    if (!(window.share > 0)) continue;
-    LocalFit::Collect(rows_, {FitTarget(fragment), pixel, window.radius}, {&set, 1}, scratch);
-    const Spectrum fitted = LocalFit(*scratch, window.radius, 0).AtTarget();
-    if (SharingWindows::IsDetail(rows_, {pixel, fragment, window, fitted}, scratch)) continue;
-    *sum += weights[i] * (fitted - fragment.Mean(group)) * window.share;
-  }
-  return sum;
+  PixelCheck check(gathered, group, samples_);
+  for (std::size_t i = 0; i < gathered.fragments.size(); ++i)
+    if (check.HasGroup(i))
+      check.Add(i, WindowFit(rows_, windows_, {pixel, gathered.fragments[i]}, scratch));
+  return check.Difference();
 }
 
 std::optional<SharingBias> EstimateSharingBias(const std::vector<CheckedPixel>& checked,

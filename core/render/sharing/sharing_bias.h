@@ -14,7 +14,6 @@
 #include "core/imaging/film/film.h"
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/gather_fragments.h"
-#include "core/render/sharing/local_fit.h"
 #include "core/render/sharing/sharing_estimate.h"
 #include "core/render/sharing/sharing_windows.h"
 
@@ -28,6 +27,43 @@ struct CheckedPixel {
   std::array<std::array<double, 3>, 2> products;
 };
 
+// PixelCheck adds up, over the fragments of a pixel, the fit to a checking group minus the pixel's
+// own gathers of this group, in radiance. The expected value of the sum is the bias of the fit.
+// `samples` is the number of camera samples of a pixel.
+class PixelCheck {
+ public:
+  PixelCheck(const GatherFragments::Pixel& gathered, int group, double samples);
+  // Returns whether a fragment has records of the group, so that its fit must be added.
+  bool HasGroup(std::size_t fragment) const;
+  void Add(std::size_t fragment, const WindowFit& fit);
+  // Returns nullopt if no fragment was added.
+  const std::optional<Spectrum>& Difference() const { return sum_; }
+
+ private:
+  const GatherFragments::Pixel& gathered_;
+  int group_;
+  std::vector<Spectrum> weights_;  // of the fragments' light in the pixel
+  std::optional<Spectrum> sum_;
+};
+
+// The differences of the pixels of a window.
+class PixelDifferences {
+ public:
+  explicit PixelDifferences(const PixelBounds& window)
+      : window_(window), values_(std::size_t(window.Width()) * std::size_t(window.Height())) {}
+  const PixelBounds& Window() const { return window_; }
+  std::optional<Spectrum>& At(Point2i pixel) { return values_[IndexOf(pixel)]; }
+  const std::optional<Spectrum>& At(Point2i pixel) const { return values_[IndexOf(pixel)]; }
+
+ private:
+  std::size_t IndexOf(Point2i pixel) const {
+    return std::size_t(pixel.y - window_.y0) * std::size_t(window_.Width()) +
+           std::size_t(pixel.x - window_.x0);
+  }
+  PixelBounds window_;
+  std::vector<std::optional<Spectrum>> values_;
+};
+
 // Checks a pixel with the next ones of its row and of its column. Only one pixel of each square of
 // two by two is checked, because a check takes three fits. Returns nullopt for other pixels and
 // where a checking group has no record. `samples` is the number of camera samples of a pixel.
@@ -37,13 +73,17 @@ class SharingChecker {
                  const SharingWindows& windows, double samples)
       : gathers_(gathers), rows_(rows), windows_(windows), samples_(samples) {}
 
-  std::optional<CheckedPixel> Check(Point2i pixel, FitNeighbours* scratch) const;
-  // Returns the fit to the checking group of a pixel minus the pixel's own gathers of this group.
-  // The expected value is the bias of the fit. It is 0 where nothing is shared.
+  // Returns the empty check that the checked pixels of the window need of this pixel; nullopt:
+  // none.
+  std::optional<PixelCheck> Begin(Point2i pixel, const PixelBounds& window) const;
+  // `known` has the differences that Begin asks for in a window (null: none).
+  std::optional<CheckedPixel> Check(Point2i pixel, const PixelDifferences* known,
+                                    FitNeighbours* scratch) const;
+  // Returns the difference for the checking group of a pixel. It is 0 where nothing is shared.
   Spectrum Bias(Point2i pixel, FitNeighbours* scratch) const;
 
  private:
-  // Returns fit minus own gathers of a pixel, in radiance.
+  bool HasRecords(Point2i pixel, int group) const;
   std::optional<Spectrum> Difference(Point2i pixel, int group, FitNeighbours* scratch) const;
 
   const GatherFragments& gathers_;

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/render/sharing/local_fit.h"
-
 namespace exphoton {
 namespace {
 
@@ -72,10 +70,11 @@ SharingWindows::SharingWindows(const GatherFragments& gathers, const FragmentRow
         cell.push_back(Judge(rows, pixel, fragment, &scratch[std::size_t(worker)]));
     }
   });
-  threads->For(rows_, [&](std::int64_t row, int) {
+  std::vector<std::vector<Nearby>> nearby(scratch.size());
+  threads->For(rows_, [&](std::int64_t row, int worker) {
     for (int column = 0; column < columns_; ++column)
       for (Place& place : cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)])
-        Choose(&place);
+        Choose(&place, &nearby[std::size_t(worker)]);
   });
 }
 
@@ -85,14 +84,15 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
   Place place(pixel, fragment);
   if (!fragment.HasGroup(kChoosingGroups[0]) || !fragment.HasGroup(kChoosingGroups[1]))
     return place;
-  const FragmentRows::Column sets[] = {FragmentRows::OfGroup(kChoosingGroups[0]),
-                                       FragmentRows::OfGroup(kChoosingGroups[1])};
-  LocalFit::Collect(rows, {FitTarget(fragment), pixel, kMaxRadius}, sets, scratch);
+  LocalFit::Collect(rows, {FitTarget(fragment), pixel, kMaxRadius}, scratch);
   std::array<std::array<Spectrum, kRadii.size()>, 2> fitted;
-  for (int set = 0; set < 2; ++set)
-    for (std::size_t w = 0; w < kRadii.size(); ++w)
-      fitted[std::size_t(set)][w] = w == 0 ? fragment.Mean(kChoosingGroups[std::size_t(set)])
-                                           : LocalFit(*scratch, kRadii[w], set).At({1, 0, 0, 0, 0});
+  for (std::size_t set = 0; set < 2; ++set) {
+    const int group = kChoosingGroups[set];
+    fitted[set][0] = fragment.Mean(group);
+    for (std::size_t w = 1; w < kRadii.size(); ++w)
+      fitted[set][w] =
+          LocalFit(*scratch, kRadii[w], FragmentRows::OfGroup(group)).At({1, 0, 0, 0, 0});
+  }
   const Spectrum smooth = (fitted[0].back() + fitted[1].back()) * Real(.5);
   const double scale = SquaredDifference(smooth, Spectrum());
   if (!(scale > 0)) return place;
@@ -109,7 +109,7 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
 }
 
 template <class Use>
-void SharingWindows::ForNearby(const Place& point, Real radius, const Use& use) const {
+void SharingWindows::ForNearby(const Spot& point, Real radius, const Use& use) const {
   const int reach = int(radius);
   const int firstX = std::max(CeilDivide(point.pixel.x - reach, kStride) - x0_, 0),
             firstY = std::max(CeilDivide(point.pixel.y - reach, kStride) - y0_, 0),
@@ -128,7 +128,12 @@ void SharingWindows::ForNearby(const Place& point, Real radius, const Use& use) 
   }
 }
 
-void SharingWindows::Choose(Place* place) const {
+void SharingWindows::Choose(Place* place, std::vector<Nearby>* scratch) const {
+  std::vector<Nearby>& nearby = *scratch;
+  nearby.clear();
+  ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
+    nearby.push_back({&other, weight});
+  });
   // Start with the smallest window that has a fit. Another window replaces the best one only if its
   // errors are clearly smaller. Fits are compared with a fit, which has much less noise than a
   // group's own light, so that better windows are recognised. Fireflies are in the light of a group
@@ -136,65 +141,45 @@ void SharingWindows::Choose(Place* place) const {
   std::size_t best = 1;
   const auto compare = [&](std::size_t window, Errors Place::*kind) {
     Comparison comparison;
-    ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
-      for (const auto& errors : other.*kind)
-        comparison.Add(double(weight), double(errors[window]) - double(errors[best]));
-    });
+    for (const Nearby& other : nearby)
+      for (const auto& errors : other.place->*kind)
+        comparison.Add(double(other.weight), double(errors[window]) - double(errors[best]));
     return comparison;
   };
   for (std::size_t window = 2; window < kRadii.size(); ++window)
     if (compare(window, &Place::errorsOfFits).IsBetter(1)) best = window;
   if (best == 1 && compare(0, &Place::errors).IsBetter(2)) best = 0;
   place->radius = kRadii[best];
-  place->noise = NoiseAround(*place, std::max(best, std::size_t(1)));
+  place->noise = NoiseAround(nearby, std::max(best, std::size_t(1)));
 }
 
 // A line of single pixels differs from all fits, and is not noise. Places where the light of both
 // groups is far from the fit are therefore left out. Noise alone makes few such places, and a
 // firefly is in one group.
-Real SharingWindows::NoiseAround(const Place& place, std::size_t window) const {
+Real SharingWindows::NoiseAround(const std::vector<Nearby>& nearby, std::size_t window) {
   constexpr float kFar = 9;  // times the median
   std::vector<float> errors;
-  ForNearby(place, kChoiceRadius, [&](const Place& other, Real) {
-    for (const auto& ofGroup : other.errors) errors.push_back(ofGroup[window]);
-  });
+  errors.reserve(2 * nearby.size());
+  for (const Nearby& other : nearby)
+    for (const auto& ofGroup : other.place->errors) errors.push_back(ofGroup[window]);
   if (errors.empty()) return 0;
   const auto middle = errors.begin() + std::ptrdiff_t(errors.size() / 2);
   std::nth_element(errors.begin(), middle, errors.end());
   const float limit = kFar * *middle;
   Real noise = 0, total = 0;
-  ForNearby(place, kChoiceRadius, [&](const Place& other, Real weight) {
-    if (std::min(other.errors[0][window], other.errors[1][window]) > limit) return;
+  for (const Nearby& other : nearby) {
+    const Place& place = *other.place;
+    if (std::min(place.errors[0][window], place.errors[1][window]) > limit) continue;
     for (std::size_t set = 0; set < 2; ++set)
-      noise += weight * Real(other.errors[set][window]) * other.otherRecords[set];
-    total += 2 * weight;
-  });
-  return total > 0 ? noise / total : 0;
-}
-
-bool SharingWindows::IsDetail(const FragmentRows& rows, const Fitted& place,
-                              FitNeighbours* scratch) {
-  const GatherFragment& fragment = place.fragment;
-  const Real radius = place.window.radius, noise = place.window.noise;
-  if (!fragment.HasGroup(kChoosingGroups[0]) || !fragment.HasGroup(kChoosingGroups[1]))
-    return false;
-  const Spectrum direction = fragment.Mean(kChoosingGroups[0]) - place.fit;
-  for (int group = 0; group < kGatherGroups; ++group)
-    if (fragment.HasGroup(group) && !StandsOut(fragment, group, place.fit, direction, noise))
-      return false;
-  const FragmentRows::Column sets[] = {FragmentRows::OfGroup(kChoosingGroups[0]),
-                                       FragmentRows::OfGroup(kChoosingGroups[1])};
-  LocalFit::Collect(rows, {FitTarget(fragment), place.pixel, radius}, sets, scratch);
-  for (std::size_t set = 0; set < 2; ++set) {
-    const Spectrum other = LocalFit(*scratch, radius, int(set)).AtTarget();
-    if (!StandsOut(fragment, kChoosingGroups[1 - set], other, direction, noise)) return false;
+      noise += other.weight * Real(place.errors[set][window]) * place.otherRecords[set];
+    total += 2 * other.weight;
   }
-  return true;
+  return total > 0 ? noise / total : 0;
 }
 
 SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {
   Real radii = 0, noise = 0, total = 0;
-  ForNearby(Place(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
+  ForNearby(Spot(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
     radii += weight * place.radius;
     noise += weight * place.noise;
     total += weight;
@@ -202,6 +187,38 @@ SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& f
   const Real radius = (total > 0 ? radii / total : kRadii[1]) * scale_;
   return {std::max(radius, kRadii[1]), std::min(radius / kRadii[1], Real(1)),
           total > 0 ? noise / total : 0};
+}
+
+WindowFit::WindowFit(const FragmentRows& rows, const SharingWindows& windows, const Place& place,
+                     FitNeighbours* scratch)
+    : fragment_(place.fragment),
+      window_(windows.At(place.pixel, place.fragment)),
+      target_(place.fragment),
+      neighbours_(*scratch) {
+  if (window_.share > 0) LocalFit::Collect(rows, {target_, place.pixel, window_.radius}, scratch);
+}
+
+std::optional<LocalFit> WindowFit::To(FragmentRows::Column set) const {
+  if (!(window_.share > 0)) return std::nullopt;
+  const LocalFit fit(neighbours_, window_.radius, set);
+  if (IsDetail(fit.AtTarget())) return std::nullopt;
+  return fit;
+}
+
+bool WindowFit::IsDetail(const Spectrum& fit) const {
+  const Real noise = window_.noise;
+  if (!fragment_.HasGroup(kChoosingGroups[0]) || !fragment_.HasGroup(kChoosingGroups[1]))
+    return false;
+  const Spectrum direction = fragment_.Mean(kChoosingGroups[0]) - fit;
+  for (int group = 0; group < kGatherGroups; ++group)
+    if (fragment_.HasGroup(group) && !StandsOut(fragment_, group, fit, direction, noise))
+      return false;
+  for (std::size_t set = 0; set < 2; ++set) {
+    const LocalFit other(neighbours_, window_.radius, FragmentRows::OfGroup(kChoosingGroups[set]));
+    if (!StandsOut(fragment_, kChoosingGroups[1 - set], other.AtTarget(), direction, noise))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace exphoton

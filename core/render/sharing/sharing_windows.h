@@ -7,15 +7,15 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/gather_fragments.h"
+#include "core/render/sharing/local_fit.h"
 
 namespace exphoton {
-
-struct FitNeighbours;
 
 class SharingWindows {
  public:
@@ -37,25 +37,13 @@ class SharingWindows {
   };
   Window At(Point2i pixel, const GatherFragment& fragment) const;
 
-  // Returns whether a fragment is a detail that its window does not resolve, such as a line of
-  // single pixels: all groups of its records differ from the fit beyond their noise, in the same
-  // direction, and so do the choosing groups from each other's fits. A single bright record is in
-  // one group, so it makes no detail, neither here nor in neighbours whose fits it raises.
-  struct Fitted {
-    Point2i pixel;
-    const GatherFragment& fragment;
-    const Window& window;
-    Spectrum fit;  // at the fragment
-  };
-  static bool IsDetail(const FragmentRows& rows, const Fitted& place, FitNeighbours* scratch);
-
   // Makes the area of all windows smaller than the chosen one by this factor in (0,1].
   void Shrink(double area) { scale_ = Real(std::sqrt(area)); }
 
  private:
   using Errors = std::array<std::array<float, kRadii.size()>, 2>;
-  struct Place {  // a fragment of a pixel, mostly of a grid pixel
-    Place(Point2i aPixel, const GatherFragment& fragment)
+  struct Spot {  // of a fragment
+    Spot(Point2i aPixel, const GatherFragment& fragment)
         : pixel(aPixel),
           film(fragment.film),
           p(fragment.p),
@@ -66,6 +54,9 @@ class SharingWindows {
     Point3 p;
     Normal3 ng;
     int depth;
+  };
+  struct Place : Spot {  // a fragment of a grid pixel
+    using Spot::Spot;
     // Squared relative differences between the fit of each window and the other group's own light,
     // and its fit with the smallest window; by group of the fit.
     Errors errors{}, errorsOfFits{};
@@ -78,18 +69,52 @@ class SharingWindows {
 
   static Place Judge(const FragmentRows& rows, Point2i pixel, const GatherFragment& fragment,
                      FitNeighbours* scratch);
+  struct Nearby {  // a judged place on the surface of another one
+    const Place* place;
+    Real weight;
+  };
   // Fills radius and noise, which do not depend on those of other places.
-  void Choose(Place* place) const;
-  // Returns the noise of Window near a place, for fits of this window.
-  Real NoiseAround(const Place& place, std::size_t window) const;
-  // Calls use(place, weight) for the judged places within `radius` pixels on the surface of
-  // another place.
+  void Choose(Place* place, std::vector<Nearby>* scratch) const;
+  // Returns the noise of Window for fits of this window, from the places nearby.
+  static Real NoiseAround(const std::vector<Nearby>& nearby, std::size_t window);
+  // Calls use(place, weight) for the judged places within `radius` pixels on the surface of a
+  // spot.
   template <class Use>
-  void ForNearby(const Place& point, Real radius, const Use& use) const;
+  void ForNearby(const Spot& point, Real radius, const Use& use) const;
 
   int x0_, y0_, columns_, rows_;  // of the grid
   std::vector<Cell> cells_;
   Real scale_ = 1;  // of the radii
+};
+
+// WindowFit fits light around a fragment within its window.
+class WindowFit {
+ public:
+  struct Place {
+    Point2i pixel;
+    const GatherFragment& fragment;
+  };
+  // Collects the neighbours. The arguments must outlive this object, and `scratch` belongs to it.
+  WindowFit(const FragmentRows& rows, const SharingWindows& windows, const Place& place,
+            FitNeighbours* scratch);
+
+  const SharingWindows::Window& Window() const { return window_; }
+  const FitTarget& Target() const { return target_; }
+  // Returns the fit to one set of records, which is stated by its first column; nullopt if the
+  // fragment keeps its own light.
+  std::optional<LocalFit> To(FragmentRows::Column set) const;
+
+ private:
+  // Returns whether a fragment is a detail that its window does not resolve, such as a line of
+  // single pixels: all groups of its records differ from the fit beyond their noise, in the same
+  // direction, and so do the choosing groups from each other's fits. A single bright record is in
+  // one group, so it makes no detail, neither here nor in neighbours whose fits it raises.
+  bool IsDetail(const Spectrum& fit) const;
+
+  const GatherFragment& fragment_;
+  SharingWindows::Window window_;
+  FitTarget target_;
+  const FitNeighbours& neighbours_;
 };
 
 }  // namespace exphoton

@@ -129,8 +129,8 @@ TEST(LocalFit, ReproducesLightThatIsLinearInPositionAndTilt) {
     const FitTarget target(gathers.At(pixel).fragments[0]);
     for (const FragmentRows::Column set : {FragmentRows::OfGroup(0), FragmentRows::OfGroup(1),
                                            FragmentRows::OfGroup(3), FragmentRows::All}) {
-      LocalFit::Collect(rows, {target, pixel, 24}, {&set, 1}, &neighbours);
-      const LocalFit fit(neighbours, 24, 0);
+      LocalFit::Collect(rows, {target, pixel, 24}, &neighbours);
+      const LocalFit fit(neighbours, 24, set);
       const Place place{target.film.x + Real(.4), target.film.y - Real(.3),
                         Normalize(Normal3(Real(.1), Real(-.1), 1))};
       const Spectrum got = fit.At(target.FeaturesOf({place.x, place.y}, place.n));
@@ -152,14 +152,11 @@ TEST(LocalFit, ReadsOneGroupOnly) {
       16, [&](const Place&, RandomStream*) { return Spectrum(sample++ % 4 == 2 ? 1 : 3); });
   const FragmentRows rows(gathers);
   FitNeighbours neighbours;
-  const FragmentRows::Column sets[] = {FragmentRows::OfGroup(2), FragmentRows::OfGroup(3)};
   const FitTarget target(gathers.At({8, 8}).fragments[0]);
-  LocalFit::Collect(rows, {target, {8, 8}, 4}, sets, &neighbours);
-  EXPECT_NEAR(LocalFit(neighbours, 4, 0).AtTarget().g, 1, 1e-4);
-  EXPECT_NEAR(LocalFit(neighbours, 4, 1).AtTarget().g, 3, 1e-4);
-  const FragmentRows::Column all = FragmentRows::All;
-  LocalFit::Collect(rows, {target, {8, 8}, 4}, {&all, 1}, &neighbours);
-  EXPECT_NEAR(LocalFit(neighbours, 4, 0).AtTarget().g, 2.5, 1e-4);
+  LocalFit::Collect(rows, {target, {8, 8}, 4}, &neighbours);
+  EXPECT_NEAR(LocalFit(neighbours, 4, FragmentRows::OfGroup(2)).AtTarget().g, 1, 1e-4);
+  EXPECT_NEAR(LocalFit(neighbours, 4, FragmentRows::OfGroup(3)).AtTarget().g, 3, 1e-4);
+  EXPECT_NEAR(LocalFit(neighbours, 4, FragmentRows::All).AtTarget().g, 2.5, 1e-4);
 }
 
 TEST(LocalFit, LeavesOtherSurfacesOut) {
@@ -177,10 +174,9 @@ TEST(LocalFit, LeavesOtherSurfacesOut) {
   }
   const FragmentRows rows(gathers);
   FitNeighbours neighbours;
-  const FragmentRows::Column all = FragmentRows::All;
   const FitTarget target(gathers.At({8, 8}).fragments[0]);
-  LocalFit::Collect(rows, {target, {8, 8}, 6}, {&all, 1}, &neighbours);
-  EXPECT_NEAR(LocalFit(neighbours, 6, 0).AtTarget().g, 1, 1e-4);
+  LocalFit::Collect(rows, {target, {8, 8}, 6}, &neighbours);
+  EXPECT_NEAR(LocalFit(neighbours, 6, FragmentRows::All).AtTarget().g, 1, 1e-4);
 }
 
 // The plane z = 0 has light 1. Every second pixel has light 100 and is moved and tilted.
@@ -201,10 +197,9 @@ Spectrum FitBeside(Real height, const Normal3& ng) {
   }
   const FragmentRows rows(gathers);
   FitNeighbours neighbours;
-  const FragmentRows::Column all = FragmentRows::All;
   const FitTarget target(gathers.At(center).fragments[0]);
-  LocalFit::Collect(rows, {target, center, 6}, {&all, 1}, &neighbours);
-  return LocalFit(neighbours, 6, 0).AtTarget();
+  LocalFit::Collect(rows, {target, center, 6}, &neighbours);
+  return LocalFit(neighbours, 6, FragmentRows::All).AtTarget();
 }
 
 TEST(LocalFit, AsksThatEachPointLiesInTheOthersTangentPlane) {
@@ -216,25 +211,75 @@ TEST(LocalFit, AsksThatEachPointLiesInTheOthersTangentPlane) {
   EXPECT_NEAR(FitBeside(0, {Real(-.2), 0, 1}).g, 1, 1e-3) << "the target beside their planes";
 }
 
+// Every third row of the plane is flat: all its shading normals are equal.
+GatherFragments PartlyFlatGathers(int size) {
+  GatherFragments gathers = PlaneGathers(size, Linear);
+  for (int y = 0; y < size; y += 3)
+    for (int x = 0; x < size; ++x) gathers.At({x, y}).fragments[0].n = {0, 0, 1};
+  return gathers;
+}
+
+// Returns the moments of two sets of records in rows 4 to 19, by one SIMD target.
+std::array<FitMoments, 2> MomentsBy(const LocalFitLoops& loops, const FragmentRows& rows,
+                                    const FitTarget& target, Real radius) {
+  FitNeighbours neighbours;
+  neighbours.rows = &rows;
+  neighbours.radius = 6;
+  for (int y = 4; y < 20; ++y) neighbours.ranges.push_back(rows.Fragments(3, 20, y));
+  neighbours.Reserve(100);
+  loops.describe(target, &neighbours);
+  std::array<FitMoments, 2> moments;
+  loops.accumulate(neighbours, radius, FragmentRows::OfGroup(1), &moments[0]);
+  loops.accumulate(neighbours, radius, FragmentRows::All, &moments[1]);
+  return moments;
+}
+
 TEST(LocalFit, HasTheSameBitsOnAllTargets) {
-  const GatherFragments gathers = PlaneGathers(24, Linear);
+  const GatherFragments gathers = PartlyFlatGathers(24);
   const FragmentRows rows(gathers);
-  const FitTarget target(gathers.At({11, 9}).fragments[0]);
-  std::vector<FitMoments> moments;
-  for (const LocalFitLoops* loops : LocalFit::Loops()) {
-    FitNeighbours neighbours;
-    for (int y = 4; y < 20; ++y) {
-      const FragmentRows::Range range = rows.Fragments(3, 20, y);
-      neighbours.Reserve(range.end - range.begin + FitNeighbours::kRun);
-      const FragmentRows::Column sets[] = {FragmentRows::OfGroup(1), FragmentRows::All};
-      loops->describe(rows, range, target, {sets, 2}, &neighbours);
+  for (const Point2i pixel : {Point2i{11, 9}, {12, 10}}) {
+    const FitTarget target(gathers.At(pixel).fragments[0]);
+    for (const Real radius : {Real(4.5), Real(6)}) {
+      const auto wanted = MomentsBy(*LocalFit::Loops().front(), rows, target, radius);
+      for (const LocalFitLoops* loops : LocalFit::Loops()) {
+        const auto moments = MomentsBy(*loops, rows, target, radius);
+        for (std::size_t set = 0; set < moments.size(); ++set) {
+          EXPECT_EQ(moments[set].matrix, wanted[set].matrix);
+          EXPECT_EQ(moments[set].right, wanted[set].right);
+        }
+      }
     }
-    for (int set = 0; set < 2; ++set)
-      loops->accumulate(neighbours, Real(4.5), set, &moments.emplace_back());
   }
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    EXPECT_EQ(moments[i].matrix, moments[i % 2].matrix);
-    EXPECT_EQ(moments[i].right, moments[i % 2].right);
+}
+
+TEST(LocalFit, HasTheMomentsOfFlatAndOfTiltedFragments) {
+  const GatherFragments gathers = PartlyFlatGathers(24);
+  const FragmentRows rows(gathers);
+  constexpr double kRadius = 4.5;
+  for (const Point2i pixel : {Point2i{11, 9}, {12, 10}}) {  // flat and tilted
+    const FitTarget target(gathers.At(pixel).fragments[0]);
+    double matrix[kFitFeatures][kFitFeatures] = {}, right[kFitFeatures] = {};
+    for (int y = 0; y < 24; ++y) {
+      for (int x = 0; x < 24; ++x) {
+        const GatherFragment& fragment = gathers.At({x, y}).fragments[0];
+        const Point2 d = fragment.film - target.film;
+        const double kernel = 1 - double(d.x * d.x + d.y * d.y) / (kRadius * kRadius);
+        const FitFeatures u = target.FeaturesOf(fragment.film, fragment.n);
+        if (kernel <= 0) continue;
+        for (std::size_t i = 0; i < kFitFeatures; ++i) {
+          right[i] += kernel * double(u[i] * fragment.Light().g);
+          for (std::size_t j = i; j < kFitFeatures; ++j)
+            matrix[i][j] += kernel * double(fragment.Count() * u[i] * u[j]);
+        }
+      }
+    }
+    const auto moments = MomentsBy(*LocalFit::Loops().back(), rows, target, Real(kRadius))[1];
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < kFitFeatures; ++i) {
+      EXPECT_NEAR(moments.right[i][1], right[i], 1e-4 * moments.right[0][1]) << i;
+      for (std::size_t j = i; j < kFitFeatures; ++j)
+        EXPECT_NEAR(moments.matrix[k++], matrix[i][j], 1e-4 * moments.matrix[0]) << i << j;
+    }
   }
 }
 
