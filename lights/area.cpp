@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The area light "area" ("diffuse" in version 2 of the scene language) emits the same radiance from
 // every point into the hemisphere about the normal, and nothing on the back.
+#include "core/math/half_space.h"
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
@@ -22,7 +23,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-class DiffuseAreaLight final : public AreaLight {
+class DiffuseAreaLight final : public AreaLight, public OneSided {
  public:
   DiffuseAreaLight(std::shared_ptr<const EmitterSurface> surface, const Spectrum& radiance,
                    int sampleCount)
@@ -76,6 +77,11 @@ class DiffuseAreaLight final : public AreaLight {
   }
   EmissionPdf PdfEmission(const SurfacePoint& from, const Vector3& w) const override {
     return {1 / area_, CosineHemispherePdf(Dot(from.ng, w))};
+  }
+
+  bool MayFace(const Bounds3& box) const override {
+    const auto* const side = dynamic_cast<const OneSided*>(surface_.get());
+    return !side || side->MayFace(box);
   }
 
  private:

@@ -2,6 +2,7 @@
 // The shape "disk" is a flat disk or ring perpendicular to z, swept by phimax degrees. u follows
 // the azimuth, v runs from the rim (0) to the inner edge (1). The normal is the same everywhere,
 // also at the centre. Because the shape is flat, area sampling is uniform under any transformation.
+#include "core/math/half_space.h"
 #include "core/plugin.h"
 #include "shapes/quadric/quadric.h"
 
@@ -33,7 +34,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-class Disk final : public QuadricShape {
+class Disk final : public QuadricShape, public OneSided {
  public:
   Disk(const Settings& settings, const ShapeContext& context)
       : QuadricShape(context),
@@ -59,6 +60,15 @@ class Disk final : public QuadricShape {
     const double r = std::sqrt(inner2 + double(u.x) * (outer2 - inner2));
     const double phi = double(u.y) * phiMax_;
     return MakeSample(Describe({r * std::cos(phi), r * std::sin(phi), height_}), 1 / area_);
+  }
+
+  // The square round the disk stands for it.
+  bool MayFace(const Bounds3& box) const override {
+    const auto corner = [this](double x, double y) {
+      return PointToWorld({x * radius_, y * radius_, height_}, {0, 0, 1});
+    };
+    return !LiesBehind(box, corner(1, 1).ng,
+                       {corner(1, 1).p, corner(1, -1).p, corner(-1, 1).p, corner(-1, -1).p});
   }
 
  protected:

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // MeshEmitter samples a mesh. It chooses a triangle in proportion to its area, then a point uniform
 // on it, so that the density is 1 / area everywhere. Areas and their sums are in double.
+#include <algorithm>
 #include <utility>
 
 #include "core/geometry/triangle_mesh.h"
+#include "core/geometry/triangle_point.h"
 #include "core/geometry/vec3d.h"
+#include "core/math/half_space.h"
 #include "core/math/sampling/distribution.h"
 #include "core/math/sampling/sampling.h"
 
 namespace exphoton {
 
-class MeshEmitter final : public EmitterSurface {
+class MeshEmitter final : public EmitterSurface, public OneSided {
  public:
   explicit MeshEmitter(const TriangleMesh& mesh) : mesh_(mesh) {
     std::vector<double> areas;
@@ -32,6 +35,15 @@ class MeshEmitter final : public EmitterSurface {
     const Point2 b = SampleTriangle(u);
     const SurfaceInteraction surface = TriangleSurface(mesh_, triangle, b.x, b.y);
     return {surface, surface.uv, 1 / area_};
+  }
+
+  // The normals are those of SamplePoint.
+  bool MayFace(const Bounds3& box) const override {
+    return std::ranges::any_of(mesh_.indices, [&](const std::array<std::uint32_t, 3>& v) {
+      const Point3 &a = mesh_.p[v[0]], &b = mesh_.p[v[1]], &c = mesh_.p[v[2]];
+      const Normal3 n = TrianglePoint(Vec3d(a), Vec3d(b), Vec3d(c), 0, 0).ng;
+      return !LiesBehind(box, mesh_.flipNormal ? -n : n, {a, b, c});
+    });
   }
 
  private:

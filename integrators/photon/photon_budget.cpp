@@ -121,7 +121,7 @@ std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Sce
   if (scene.Features().Needs(Feature::Caustics) && dark > 0)
     lines.push_back("proofs        no caustics of " + std::to_string(dark) + " of " +
                     std::to_string(scene.NonBlackLightCount()) +
-                    " lights, whose cones miss all specular surfaces");
+                    " lights, which shine away from all specular surfaces");
   return lines;
 }
 

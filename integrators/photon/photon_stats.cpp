@@ -113,8 +113,8 @@ void ReportEnoughCaustics(const PhotonPassResult& result, const PhotonSettings& 
 void ReportProofs(const PhotonPassResult& result, PreprocessContext& context) {
   if (result.outOfReach == 0) return;
   context.statistics.AddToCounter("photons/out of reach", double(result.outOfReach),
-                                  "of the skipped paths, those of lights whose cones miss all "
-                                  "specular surfaces; nothing was emitted");
+                                  "of the skipped paths, those of lights that shine away from "
+                                  "all specular surfaces; nothing was emitted");
   context.log.Verbose(Text("proofs: ", result.outOfReach, " of ", result.paths,
                            " paths were not emitted, because their lights make no caustics"));
 }

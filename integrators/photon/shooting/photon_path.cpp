@@ -105,7 +105,8 @@ bool PhotonTracer::Path::IsSkipped() {
   return false;
 }
 
-// The statistics count the power that the light would have emitted. Cones emit constant power.
+// The statistics count the power that the light would have emitted. It is constant for cones, and
+// for area lights unless a transformation stretches them unevenly.
 bool PhotonTracer::Path::IsOutOfReach(const Source& source) {
   if (!source.light || !IsOnlyOpen(PhotonKind::Caustic)) return false;
   if (!tracer_.causticLights_.IsOutOfReach(light_)) return false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/lights/emission_cone.h"
+#include "core/math/half_space.h"
 
 namespace exphoton {
 namespace {
@@ -13,20 +14,23 @@ bool IsAskedForAll(const Scene& scene) {
   return scene.Features().Get(Feature::Caustics).reason == all.Get(Feature::Caustics).reason;
 }
 
+// Returns false only if no ray that the light emits hits the box.
+bool MayReach(const Light& light, const Bounds3& box) {
+  if (const auto* const cone = dynamic_cast<const ConeEmitter*>(&light))
+    return cone->Cone().MayHit(box);
+  const auto* const side = dynamic_cast<const OneSided*>(&light);
+  return !side || side->MayFace(box);
+}
+
 }  // namespace
 
 CausticLights::CausticLights(const Scene& scene) {
-  const auto coneOf = [](const std::unique_ptr<Light>& light) {
-    return dynamic_cast<const ConeEmitter*>(light.get());
-  };
-  const auto& lights = scene.Lights();
-  if (IsAskedForAll(scene) || std::ranges::none_of(lights, coneOf)) return;
+  if (IsAskedForAll(scene)) return;
   const SpecularBoxes specular(scene);
-  for (const std::unique_ptr<Light>& light : lights) {
-    const ConeEmitter* const emitter = coneOf(light);
-    const bool isOut = emitter && std::ranges::none_of(specular.Boxes(), [&](const Bounds3& box) {
-                         return emitter->Cone().MayHit(box);
-                       });
+  if (specular.Boxes().empty()) return;
+  for (const std::unique_ptr<Light>& light : scene.Lights()) {
+    const bool isOut = std::ranges::none_of(
+        specular.Boxes(), [&](const Bounds3& box) { return MayReach(*light, box); });
     isOutOfReach_.push_back(isOut);
     if (light->IsProvablyBlack()) continue;
     ++shining_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // CausticLights knows which lights provably make no caustics: the cone of their emission misses all
-// boxes of specular surfaces. Their paths for caustics keep their numbers and count, but nothing is
-// emitted. The maps have the same bits as without this proof.
+// boxes of specular surfaces, or these boxes lie behind an area light. Their paths for caustics
+// keep their numbers and count, but nothing is emitted. The maps have the same bits as without this
+// proof.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests prove that spots cannot reach specular surfaces, and compare pictures with and
-// without the proof.
+// These tests prove that spots and one-sided area lights cannot reach specular surfaces, and
+// compare pictures with and without the proof.
 #include "integrators/photon/shooting/emission/caustic_lights.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/lights/emission_cone.h"
+#include "core/math/half_space.h"
 #include "core/math/sampling/random.h"
 #include "core/math/sampling/sampling.h"
 #include "tests/support/test_scene.h"
@@ -37,6 +38,77 @@ TEST(EmissionCone, NeverMissesABoxThatItsRaysHit) {
     EXPECT_TRUE(cone.MayHit(box) || !IntersectBox(box, cone.apex, w, kInfinity)) << i;
   }
   EXPECT_GT(misses, 5000);
+}
+
+std::string AreaLamp(const std::string& shape) {
+  return "AttributeBegin AreaLightSource \"area\" \"color L\" [9 9 9] " + shape + " AttributeEnd\n";
+}
+const std::string kDiskLamp = "Shape \"disk\" \"float radius\" .5";
+// Two triangles and one that is tilted by 45 degrees. All face the direction of +z.
+const std::string kMeshLamp =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 1 4 2] "
+    "\"point P\" [0 0 0  1 0 0  1 1 0  0 1 0  2 0 1]";
+
+// Returns an area light of any shape at a random place, which is mirrored, stretched or reversed.
+std::string RandomAreaLamp(RandomStream* random) {
+  const auto number = [random] { return std::to_string(4 * random->Uniform() - 2) + " "; };
+  const auto any = [random](std::initializer_list<std::string> texts) {
+    return texts.begin()[std::size_t(random->Uniform() * Real(texts.size()))] + " ";
+  };
+  std::string shape = "Translate ";
+  for (int axis = 0; axis < 3; ++axis) shape += number();
+  shape += any({"", "", "ActiveTransform EndTime Rotate 70 1 0 0 ActiveTransform All"});
+  for (const char* axis : {"1 0 0 ", "0 1 0 "})
+    shape += "Rotate " + std::to_string(360 * random->Uniform()) + " " + axis;
+  shape += any({"", "Scale 1 1 -1", "Scale -2 1 .3"});
+  shape += any({"", "ReverseOrientation"});
+  shape += any({kDiskLamp, kMeshLamp, kDiskLamp + " \"float height\" 1 \"float phimax\" 70",
+                "Shape \"sphere\" \"float zmin\" .8", "Shape \"cylinder\""});
+  return AreaLamp(shape);
+}
+
+TEST(OneSided, NeverMissesABoxThatItsRaysHit) {
+  RandomStream random(11);
+  const auto pair = [&] {
+    const Real x = random.Uniform();
+    return Point2(x, random.Uniform());
+  };
+  std::string world =
+      "TransformTimes 0 1\nCamera \"perspective\" \"float shutterclose\" 1\nWorldBegin\n";
+  for (int i = 0; i < 100; ++i) world += RandomAreaLamp(&random);
+  const LoadedScene scene = LoadSceneText(world + "WorldEnd\n");
+  const auto& lights = scene.setup->scene->Lights();
+  ASSERT_EQ(lights.size(), 100u);
+  int misses = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Light& light = *lights[std::size_t(i) % lights.size()];
+    const Point3 center =
+        light.Bounds()->Center() + SampleUniformSphere(pair()) * (2 * random.Uniform());
+    const Vector3 half = Vector3(random.Uniform(), Real(.1), random.Uniform()) * Real(.3);
+    const Bounds3 box{center - half, center + half};
+    if (dynamic_cast<const OneSided&>(light).MayFace(box)) continue;
+    ++misses;
+    for (int j = 0; j < 100; ++j) {
+      const auto emitted = light.SampleEmission(pair(), pair(), random.Uniform(), random.Uniform());
+      ASSERT_TRUE(emitted);
+      EXPECT_FALSE(IntersectBox(box, emitted->ray.o, emitted->ray.d, kInfinity)) << i;
+    }
+  }
+  EXPECT_GT(misses, 400);
+}
+
+TEST(OneSided, IsExactForFlatSurfaces) {
+  const Bounds3 box{{-1, 2, -1}, {1, 3, 1}};
+  const Normal3 up = Normalize(Normal3(0, 1, 1));
+  // The plane through the edge of the box that is the farthest along its normal.
+  const auto liesBehind = [&](double shift) {
+    const Point3 p = Point3(0, 3, 1) + up * Real(shift);
+    return LiesBehind(box, up, {p + Vector3(1, 0, 0), p + Vector3(0, 1, -1)});
+  };
+  EXPECT_TRUE(liesBehind(.001));
+  EXPECT_FALSE(liesBehind(0));
+  EXPECT_FALSE(liesBehind(-.001));
+  EXPECT_FALSE(LiesBehind({{-1, -kInfinity, -1}, {1, 0, 1}}, {0, 1, 0}, {{0, 5, 0}}));
 }
 
 std::string CausticWorld(const std::string& lights) {
@@ -90,6 +162,39 @@ TEST(CausticLights, ProjectorsHaveCones) {
   EXPECT_FALSE(CausticLights(*unknown.setup->scene).IsOutOfReach(0));
 }
 
+// The ball lies at z > 3.
+const std::string kPanelAway = AreaLamp("Translate -2 0 2 Rotate 180 1 0 0 " + kDiskLamp);
+
+TEST(CausticLights, FlatAreaLightsHaveAHalfSpace) {
+  ExpectOutOfReach(kPanelAway);
+  ExpectOutOfReach(AreaLamp("Translate -2 0 2 ReverseOrientation Scale 2 1 3 " + kDiskLamp));
+  ExpectOutOfReach(AreaLamp("Translate -2 0 2 Scale 1 1 -1 " + kMeshLamp));
+  ExpectOutOfReach(AreaLamp(
+      "Translate -2 0 2 Rotate 150 1 0 0 ReverseOrientation Rotate 180 1 0 0 " + kDiskLamp));
+  for (const std::string& shape :
+       {kDiskLamp, kMeshLamp, "Rotate 100 1 0 0 " + kDiskLamp, "Rotate 130 0 1 0 " + kMeshLamp,
+        std::string("Shape \"sphere\" \"float radius\" .5")}) {
+    const LoadedScene scene = LoadSceneText(CausticWorld(AreaLamp("Translate -2 0 2 " + shape)));
+    EXPECT_FALSE(CausticLights(*scene.setup->scene).IsOutOfReach(0)) << shape;
+  }
+}
+
+// The ball of the scene stays behind the panel. Another one comes before it.
+TEST(CausticLights, CountTheWholeExposure) {
+  const auto isOutOfReach = [](const std::string& motion) {
+    const std::string world = CausticWorld(
+        kPanelAway + "AttributeBegin Material \"mirror\" Translate 0 0 4 ActiveTransform EndTime " +
+        motion + " ActiveTransform All Shape \"sphere\" \"float radius\" .5 AttributeEnd\n");
+    std::string moving = "TransformTimes 0 1\n" + world;
+    moving.replace(moving.find("\"float fov\" 60"), 14,
+                   "\"float fov\" 60 \"float shutterclose\" 1");
+    const LoadedScene scene = LoadSceneText(moving);
+    return CausticLights(*scene.setup->scene).IsOutOfReach(0);
+  };
+  EXPECT_TRUE(isOutOfReach("Translate 0 3 0"));
+  EXPECT_FALSE(isOutOfReach("Translate 0 0 -3"));
+}
+
 // Returns 0 where there is no such counter.
 double CountOf(const TestRender& render, const char* name) {
   const double count = render.Counter(name);
@@ -115,7 +220,12 @@ TEST(CausticLights, LeaveGuidedEmissionAsItIs) {
 
 // Both pictures have the same photons, of paths with the same numbers.
 TEST(CausticLights, LeaveThePictureAsItIs) {
-  for (const std::string& lights : {kAway + kTowards, kProjector + kTowards, kAway + kAway}) {
+  const std::string fog =
+      "Volume \"homogeneous\" \"color sigma_a\" [.01 .01 .01] \"color sigma_s\" [.05 .05 .05] "
+      "\"point p0\" [-6 -6 -6] \"point p1\" [6 6 6]\n";
+  for (const std::string& lights :
+       {kAway + kTowards, kProjector + kTowards, kPanelAway + kTowards, fog + kPanelAway + kTowards,
+        kAway + kAway, kPanelAway + kAway}) {
     Image images[2];
     double skipped[2], outOfReach[2], stored[2];
     for (int i = 0; i < 2; ++i) {
@@ -132,7 +242,7 @@ TEST(CausticLights, LeaveThePictureAsItIs) {
     EXPECT_EQ(outOfReach[1], 0);
     EXPECT_EQ(stored[0], stored[1]);
     EXPECT_GT(skipped[1], 1000);
-    if (lights == kAway + kAway) continue;  // no path is for caustics alone
+    if (!lights.ends_with(kTowards)) continue;  // no path is for caustics alone
     EXPECT_EQ(skipped[0], skipped[1]);
     EXPECT_GT(outOfReach[0], skipped[0] / 2);
     EXPECT_GT(stored[0], 100);
