@@ -22,13 +22,25 @@ bool MayReach(const Light& light, const Bounds3& box) {
   return !side || side->MayFace(box);
 }
 
+// Returns the bounds of any specular surface. They are empty if there is none.
+Bounds3 FindSpecularSurface(const PrimitiveSet& primitives) {
+  for (std::uint32_t id = 0; id < primitives.Count(); ++id)
+    if (Intersects(primitives.PossibleLobes(id), LobeSet::Specular) &&
+        !primitives.Bounds(id).IsEmpty())
+      return primitives.Bounds(id);
+  return {};
+}
+
 }  // namespace
 
 CausticLights::CausticLights(const Scene& scene) {
-  if (IsAskedForAll(scene)) return;
+  const auto& lights = scene.Lights();
+  // If all lights reach one surface, the boxes of all surfaces are not needed.
+  const Bounds3 surface = FindSpecularSurface(scene.Primitives());
+  const auto reachesIt = [&](const auto& light) { return MayReach(*light, surface); };
+  if (IsAskedForAll(scene) || surface.IsEmpty() || std::ranges::all_of(lights, reachesIt)) return;
   const SpecularBoxes specular(scene);
-  if (specular.Boxes().empty()) return;
-  for (const std::unique_ptr<Light>& light : scene.Lights()) {
+  for (const std::unique_ptr<Light>& light : lights) {
     const bool isOut = std::ranges::none_of(
         specular.Boxes(), [&](const Bounds3& box) { return MayReach(*light, box); });
     isOutOfReach_.push_back(isOut);
