@@ -23,7 +23,8 @@ SEEDS = "77", "78", "79"
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ("program", "size", "reference"):
         parser.add_argument(name)
     parser.add_argument("most_seconds", type=float)

@@ -15,6 +15,7 @@ namespace {
 constexpr int kGroups = 2;          // of passes, at least
 constexpr double kNoiseShare = .9;  // of what the bias leaves; the rest is for the interval
 constexpr double kBiasShares[] = {.06, .125, .25, .5};  // of the wanted relMSE; see AccuracyRule
+constexpr double kPilotShare = .1;                      // of the price
 constexpr std::size_t kMostPilots = 8;
 // Rough pilots have few pixels, worse guides, and fewer hits with a radiance photon. Others had up
 // to this factor less noise in the scenes of docs/decisions/0055-accuracy-dial.md.
@@ -52,7 +53,7 @@ void Explorer::Begin() {
 void Explorer::Settle(double most) {
   Guarded([&] {
     if (!isRough_ || IsTooDear(most)) return;
-    const auto likely = LikelySplit();
+    const auto likely = SplitWithGain(std::sqrt(MostGain()));
     if (likely) series_.UsePhotons(likely->price.photons);
     isRough_ = false;
     series_.Render();
@@ -90,7 +91,6 @@ void Explorer::Refine(double most) {
 PriceModel Explorer::Model() const {
   PriceModel model = series_.Model();
   if (wish_.keepsPhotons) model.hasPhotons = false;
-  model.sharing.bias /= gain_, model.sharing.error /= gain_;
   return model.WithNoise(1 / gain_, model.slope);
 }
 
@@ -152,12 +152,6 @@ double Explorer::Affordable(double most) const {
 bool Explorer::IsTooDear(double most) const {
   const std::optional<Split> split = isRough_ ? SplitWithGain(MostGain()) : CheapestSplit();
   return split && (isRough_ ? split->price.seconds : split->price.least) > most;
-}
-
-double Explorer::LikelyPrice() const {
-  const std::optional<Split> split = isRough_ ? LikelySplit() : CheapestSplit();
-  const bool hasPrice = split && candidate_.reason.empty();
-  return hasPrice ? split->price.seconds : std::numeric_limits<double>::infinity();
 }
 
 // Returns the factor by which the noise of a rough pilot may be too high.

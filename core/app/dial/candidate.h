@@ -4,7 +4,6 @@
 // cheapest one, and Refine spends up to a tenth of the price on larger pilots.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -45,16 +44,12 @@ struct Wish {
 
 class Explorer {
  public:
-  static constexpr double kPilotShare = .1;  // of the price, what pilots may cost
-
   // gatherRays: as in DialSettings.
   Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays, const Wish& wish);
 
   // `most` is the lowest price of all candidates. A candidate with a higher price need not be
   // explored further.
   void Begin();
-  // Leaves the integrator out, for this reason.
-  void Drop(const std::string& reason) { candidate_.reason = reason; }
   // Replaces a rough price where it may become the lowest one.
   void Settle(double most);
   // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
@@ -63,10 +58,6 @@ class Explorer {
   void Refine(double most);
   // The results so far.
   const Candidate& Result() const { return candidate_; }
-  bool IsRough() const { return isRough_; }
-  double Spent() const { return series_.Spent(); }  // price of the pilots
-  // Returns the price if a rough pilot shows the usual excess of noise. Infinity: there is none.
-  double LikelyPrice() const;
 
  private:
   // The cheapest split of the squared error between noise and the interval of the bias.
@@ -85,13 +76,12 @@ class Explorer {
   bool IsTooDear(double most) const;
   double MostGain() const;
   std::optional<Split> SplitWithGain(double gain) const;
-  std::optional<Split> LikelySplit() const { return SplitWithGain(std::sqrt(MostGain())); }
   void EstimateBias(double most);
 
   PilotSeries series_;
   Wish wish_;
   bool isRough_ = false;
-  double gain_ = 1;  // divides the noise of the model and its bias of sharing
+  double gain_ = 1;  // divides the noise of the model
   Candidate candidate_;
 };
 

@@ -17,9 +17,8 @@ namespace exphoton::cli {
 namespace {
 
 constexpr const char* kKnown[] = {"path", "guidedpath", "exphotonmap", "photonmap"};
-// In this order: guidedpath was the cheapest one least often. photonmap never was.
-constexpr const char* kGuided = "guidedpath";
-constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuided};
+// In this order: pilots of the first ones cost least. photonmap was never the cheapest one.
+constexpr const char* kAutomatic[] = {"path", "guidedpath", "exphotonmap"};
 
 constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
 constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
@@ -70,18 +69,6 @@ bool IsCheaper(const Explorer& a, const Explorer& b) {
   return price(a.Result()) < price(b.Result());
 }
 
-// Returns whether a first pilot of guidedpath would cost more than its result may be worth. Its
-// photons cost about as much as those of another rough pilot, and the picture would need ten times
-// as many of them.
-bool IsGuideTooDear(const std::vector<Explorer>& others) {
-  double pilot = 0, price = std::numeric_limits<double>::infinity();
-  for (const Explorer& other : others) {
-    if (other.IsRough()) pilot = std::max(pilot, other.Spent());
-    price = std::min(price, other.LikelyPrice());
-  }
-  return pilot > Explorer::kPilotShare * price;
-}
-
 // First prices of all candidates come before any of them is explored further, so that a dear one
 // gets small pilots only. The cheapest one comes first in each round.
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
@@ -94,12 +81,7 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
   };
   for (const std::string& name : names) {
     const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
-    const bool isTooDear = name == kGuided && IsGuideTooDear(explorers);
-    explorers.emplace_back(pilots, name, rays, wish);
-    if (isTooDear)
-      explorers.back().Drop("a pilot of it would cost more than a tenth of the price");
-    else
-      explorers.back().Begin();
+    explorers.emplace_back(pilots, name, rays, wish).Begin();
   }
   std::ranges::stable_sort(explorers, IsCheaper);
   for (Explorer& explorer : explorers)
@@ -242,7 +224,9 @@ std::optional<std::string> MultiplyPhotons(RenderCommand* command) {
   settings.photons *= kMorePhotons;
   dial.mayRaisePhotons = MayRaisePhotons(settings);
   Replace(earlier, settings, command);
-  std::string text = Format("%.3g times the photons of the scene", settings.photons);
+  std::string text = settings.photons == 1
+                         ? "all photons of the scene"
+                         : Format("%.3g times the photons of the scene", settings.photons);
   dial.text += ", " + text;
   return text;
 }
@@ -307,8 +291,9 @@ bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log
     const auto text = MultiplyPhotons(command);
     if (!text) break;
     hasChanged = true;
-    log.Notice("the bias was too large for the accuracy, so the stopped render had begun again with " +
-               *text);
+    log.Notice(
+        "the bias was too large for the accuracy, so the stopped render had begun again with " +
+        *text);
   }
   const bool isByClock = command->timeLimit && stopped.firstSamples >= kLeastGroup &&
                          stopped.firstSamples <= kMostFirst;

@@ -28,8 +28,8 @@ struct LaterChoice {
 // the command has changed.
 bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log);
 
-// Multiplies the photons after a render whose bias is too large for the accuracy, if the dial may do
-// so. looks: at that render and earlier ones. Returns whether they became more.
+// Multiplies the photons after a render whose bias is too large for the accuracy, if the dial may
+// do so. looks: at that render and earlier ones. Returns whether they became more.
 bool RaisePhotons(int looks, RenderCommand* command, Log& log);
 
 // Throws Error(CommandLine) for an integrator without an estimate of its error.

@@ -21,8 +21,8 @@ namespace {
 constexpr double kCorrectedShare = 1. / 16;
 // A pilot of a small picture would take as long as a part of the picture.
 constexpr double kPixelShare = .25, kFewestPixels = 750;
-constexpr double kMostShrinking = 16;  // of pixels, for which noise and bias are known
-constexpr double kSharingSlope = .35;  // of the squared bias of sharing over pixels
+constexpr double kMostShrinking = 16;          // of pixels, for which noise and bias are known
+constexpr double kSharingSlopeOfPixels = .35;  // of the squared bias of sharing over pixels
 
 // Returns the CPU time of the phases, which depends on a clock.
 CountedCost SecondsOf(const Statistics& statistics) {
@@ -155,7 +155,7 @@ double PilotRenderer::NoiseOfPicture(const RenderSetup& setup, double pixels) co
 // The bias of sharing falls with the number of pixels, too, because neighbours are nearer
 // (docs/decisions/0087-expected-bias-of-sharing.md).
 double PilotRenderer::SharingBiasOfPicture(double pixels) const {
-  return std::pow(std::clamp(pixels / Pixels(), 1 / kMostShrinking, 1.), kSharingSlope);
+  return std::pow(std::clamp(pixels / Pixels(), 1 / kMostShrinking, 1.), kSharingSlopeOfPixels);
 }
 
 std::uint64_t PilotRenderer::FirstSeed() const { return HashKey({command_.seed, kPassSeed, 0}); }

@@ -92,7 +92,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                                            BoundOf(command.dial->omitted),
                                            !command.keepsSettings,
                                            command.dial->expectedSamples,
-                                           command.dial->mayRaisePhotons,
+                                           command.dial->mayRaisePhotons && !command.timeLimit,
                                            command.dial->earlierLooks};
   return RenderInPasses(job, options, rule);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/render/passes/photon_sets.h"
+#include "core/render/sharing/sharing_estimate.h"
 
 namespace exphoton::cli {
 namespace {

@@ -88,8 +88,10 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   upper_ = estimate.noise + bias + distance;
   if (omitted_ > 0) upper_ = std::pow(std::sqrt(upper_) + omitted_, 2);
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
-  mapBias_ = certificate ? certificate->bias.squared : 0;
-  lowerMapBias_ = certificate ? certificate->bias.lower : 0;
+  // Groups with the same photons show the noise of these photons as a bias.
+  const Certificate* const ofMaps = estimate.ofMaps ? estimate.ofMaps : certificate;
+  mapBias_ = ofMaps ? ofMaps->bias.squared - estimate.fixedNoise : 0;
+  lowerMapBias_ = ofMaps ? ofMaps->bias.lower - estimate.fixedNoise : 0;
   const double left = room_ - bias - estimate.fixedNoise;
   growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + normal) / left
                      : std::numeric_limits<double>::infinity();

@@ -24,6 +24,7 @@ struct ErrorEstimate {
   // The part of the noise that groups show. It spreads as a chi-square variate with this number of
   // degrees of freedom. Infinity: the noise spreads as a normal number with the standard error.
   double betweenGroups = 0, freedom = std::numeric_limits<double>::infinity();
+  const Certificate* ofMaps = nullptr;  // of the photon maps alone; null: `certificate` is that
 };
 
 // Returns z with P(Z > z) = probability for a standard normal Z. probability: in (0, 0.5].
@@ -54,10 +55,11 @@ class AccuracyRule {
   bool IsReached() const { return upper_ <= wanted_; }
   // Returns whether the bias alone exceeds the accuracy.
   bool IsOutOfReach() const { return lowerBias_ > room_; }
-  // Returns whether the bias of the photon maps takes too much of the room, so that more photons
-  // should make it smaller.
+  // Returns whether the bias of the photon maps takes too much of the room, and the picture is far
+  // from done, so that it should begin again with more photons.
   bool NeedsMorePhotons() const {
-    return mapBias_ > kMostMapBias * room_ && lowerMapBias_ > kSureMapBias * room_;
+    return mapBias_ > kMostMapBias * room_ && lowerMapBias_ > kSureMapBias * room_ &&
+           likelyGrowth_ > kFarGrowth;
   }
   // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
   double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
@@ -80,9 +82,10 @@ class AccuracyRule {
   double WrongChance(int look) const;
   double Quantile(int look) const { return NormalQuantile(WrongChance(look)); }
 
-  // Shares of the room, for the bias and for the lower end of its interval. Certificates do not know
-  // the bias inside blocks. It is often as large as the bias of blocks, which must be small then.
+  // Shares of the room, for the bias and for the lower end of its interval. Certificates do not
+  // know the bias inside blocks, so the bias of blocks may not take the whole room.
   static constexpr double kMostMapBias = .25, kSureMapBias = .125;
+  static constexpr double kFarGrowth = 2;  // the picture needs as many samples again, at least
 
   double wanted_, room_, biasShare_;  // relMSE; without and with omissions
   double omitted_;

@@ -49,15 +49,27 @@ std::optional<Certificate> ErrorWatch::LookAt(const PassSum& sum, double fixedNo
   std::optional<Certificate> certificate;
   if (OfMaps()) certificate = Certify(*OfMaps(), sum.Levels(), *sum.Noise(), rule->NextGoal());
   if (certificate) certificate->sharing = sharing;
+  std::optional<Certificate> ofMaps;
+  if (sharing && mayRaisePhotons_) ofMaps = CertifyMaps(sum, rule->NextGoal());
   const double noiseError = sum.NoiseError();
   rule->Look({*sum.Noise(), noiseError, fixedNoise, certificate ? &*certificate : nullptr,
-              sum.NoiseBetweenGroups(), sum.NoiseFreedom()});
+              sum.NoiseBetweenGroups(), sum.NoiseFreedom(), ofMaps ? &*ofMaps : nullptr});
   picture_.job.log.Verbose(
       Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
              "error below %.3g %%",
              static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), noiseError,
              certificate ? certificate->LowerBias() : 0, certificate ? certificate->UpperBias() : 0,
              100 * std::sqrt(rule->Upper())));
+  return certificate;
+}
+
+// Returns the certificate without the bias of shared gathers, which photons do not change.
+std::optional<Certificate> ErrorWatch::CertifyMaps(const PassSum& sum,
+                                                   const CertificateGoal& goal) const {
+  if (!OfMaps() || !unshared_) return std::nullopt;
+  OfMaps()->UseSharing(false);
+  const auto certificate = Certify(*OfMaps(), sum.Levels(), *sum.Noise(), goal);
+  OfMaps()->UseSharing(true);
   return certificate;
 }
 

@@ -32,8 +32,8 @@ class ErrorWatch {
   const AccuracyRule* Rule() const { return rule_ ? &*rule_ : nullptr; }  // null: no accuracy
   // Returns the samples per pixel that the accuracy is likely to need, by the last look; 0 before.
   double NeededSamples() const { return neededSamples_; }
-  // Returns whether the picture stops because of its bias. More samples would not help, or would
-  // only make sure that more photons are needed.
+  // Returns whether the picture stops because of its bias: more samples would not help, or more
+  // photons are likely to need less time.
   bool IsBiasTooLarge() const {
     return rule_->IsOutOfReach() || (mayRaisePhotons_ && rule_->NeedsMorePhotons());
   }
@@ -59,6 +59,7 @@ class ErrorWatch {
   std::optional<Certificate> LookAt(const PassSum& sum, double fixedNoise,
                                     const std::optional<SharingBias>& sharing,
                                     AccuracyRule* rule) const;
+  std::optional<Certificate> CertifyMaps(const PassSum& sum, const CertificateGoal& goal) const;
   std::optional<SharingBias> BiasOfSharedGathers() const;
   bool MayBeBetterUnshared(const SharingBias& sharing) const;
   void LookWithoutSharing(double fixedNoise);

@@ -33,7 +33,8 @@ class PhotonSets {
   void Measure(const std::vector<double>& levels);
   // Decides whether the groups from `nextGroup` on keep the photons. Must be called while the noise
   // is known, after it was measured. wanted: noise part of relMSE that the picture may have. If
-  // they do not, the groups so far still have the noise, until `nextGroup` has photons of its own.
+  // these photons are not kept, the groups so far still have their noise, until `nextGroup` has
+  // photons of its own.
   void Decide(double wanted, int nextGroup);
 
   // Returns the number of the photons of a group. Groups with the same number have the same.

@@ -31,7 +31,8 @@ struct StoppingRule {
     // Whether the picture may lose shared gathers where their bias is dear.
     bool mayStopSharing = false;
     double expectedSamples = 0;  // that the error takes; 0: not known
-    // Whether the picture is rendered again with more photons if it stops because of its bias.
+    // Whether the picture is rendered again with more photons if it stops because of its bias. With
+    // a time limit, it stops only where the bias surely exceeds the accuracy.
     bool mayRaisePhotons = false;
     int earlierLooks = 0;  // at renders that this one replaces; all share the 5 %
   };

@@ -66,7 +66,7 @@ struct LocalFitLoops {
   // Lists the fragments of out->ranges, of out->rows, within out->radius. There must be memory for
   // all runs.
   void (*describe)(const FitTarget& target, FitNeighbours* out);
-  // Adds up the records of one set within the radius, which is at most that of the neighbours.
+  // Adds up the records of one set within the radius, at most the one of the neighbours.
   void (*accumulate)(const FitNeighbours& from, Real radius, FragmentRows::Column set,
                      FitMoments* moments);
 };

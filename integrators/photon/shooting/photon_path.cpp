@@ -105,8 +105,7 @@ bool PhotonTracer::Path::IsSkipped() {
   return false;
 }
 
-// The statistics count the power that the light would have emitted. It is constant for cones, and
-// for area lights unless a transformation stretches them unevenly.
+// The power that would have been emitted counts. It is constant, unless a light is stretched.
 bool PhotonTracer::Path::IsOutOfReach(const Source& source) {
   if (!source.light || !IsOnlyOpen(PhotonKind::Caustic)) return false;
   if (!tracer_.causticLights_.IsOutOfReach(light_)) return false;

@@ -139,6 +139,23 @@ TEST(AccuracyRule, NoNumberOfSamplesMakesUpForBias) {
   }
 }
 
+TEST(AccuracyRule, AsksForPhotonsOnlyWhereTheyHelp) {
+  const Certificate all = Bias(.0003, .0002, .0004), maps = Bias(.00005, .00004, .0001);
+  AccuracyRule rule(.02, .125);
+  rule.Look({.noise = .0006, .noiseError = 0, .certificate = &all});
+  EXPECT_TRUE(rule.NeedsMorePhotons());
+  // The bias is the one of shared gathers.
+  rule.Look({.noise = .0006, .noiseError = 0, .certificate = &all, .ofMaps = &maps});
+  EXPECT_FALSE(rule.NeedsMorePhotons());
+  // The bias is noise of the photons that all groups share.
+  rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = .00025, .certificate = &all});
+  EXPECT_FALSE(rule.NeedsMorePhotons());
+  // The picture is nearly done.
+  const Certificate sure = Bias(.00015, .00014, .00016);
+  rule.Look({.noise = .00025, .noiseError = 0, .certificate = &sure});
+  EXPECT_FALSE(rule.NeedsMorePhotons());
+}
+
 // A picture that is rendered again has looks of its own, but not a chance of 5 % of its own.
 TEST(AccuracyRule, CountsLooksAtEarlierRenders) {
   AccuracyRule rule(.02, .125);
