@@ -62,7 +62,7 @@ class Disk final : public QuadricShape, public OneSided {
     return MakeSample(Describe({r * std::cos(phi), r * std::sin(phi), height_}), 1 / area_);
   }
 
-  // The square round the disk stands for it.
+  // The square round the disk is tested instead of the disk.
   bool MayFace(const Bounds3& box) const override {
     const auto corner = [this](double x, double y) {
       return PointToWorld({x * radius_, y * radius_, height_}, {0, 0, 1});

@@ -29,7 +29,7 @@ class SceneLoader {
 
   // Returns the seed of the photons that the last loaded scene has from a pilot; nullopt: none.
   std::optional<std::uint64_t> PreparedSeed() const { return preparedSeed_; }
-  // Returns what the pilots of --accuracy did; nullopt: there were none.
+  // Returns the work of the pilots of --accuracy; nullopt: there were none.
   std::optional<PilotWork> Pilots() const {
     return pilots_ ? std::optional(pilots_->Work()) : std::nullopt;
   }

@@ -6,7 +6,7 @@
 
 namespace exphoton::cli {
 
-// The dial chooses what the excluded options set.
+// The dial chooses the settings of the excluded options.
 void TakeAccuracy(const std::string& percentage, RenderCommand* command) {
   if (command->keepsSettings && percentage.empty()) FailUsage("--keep needs --accuracy");
   if (percentage.empty()) return;

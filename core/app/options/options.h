@@ -31,10 +31,11 @@ struct DialChoice {
   double photonSamples = 0;       // the same
   DialSettings settings;
   std::vector<OmittedEffect> omitted;
-  std::string text;              // what changed
-  double expectedSamples = 0;    // as in StoppingRule::Accuracy
-  bool mayRaisePhotons = false;  // the same
-  int earlierLooks = 0;          // the same
+  std::string text;            // what changed
+  double expectedSamples = 0;  // as in StoppingRule::Accuracy
+  // Whether the picture may begin again with more photons.
+  bool mayRaisePhotons = false;
+  int earlierLooks = 0;  // as in StoppingRule::Accuracy
 };
 
 struct RenderCommand {

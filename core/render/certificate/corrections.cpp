@@ -18,6 +18,7 @@ void Move(std::vector<double>* from, std::vector<double>* to) {
   for (std::size_t i = 0; i < from->size(); ++i) (*to)[i] += std::exchange((*from)[i], 0.);
 }
 
+constexpr std::int64_t kMostCounted = std::int64_t(1) << 50;  // rays, or samples
 constexpr const char* kCountSection = "corrections";
 constexpr const char* kCurrentSection = "corrections of the pass";
 
@@ -113,8 +114,8 @@ void Corrections::TransferCounts(ByteArchive* archive) {
   std::uint64_t groups = groups_.size();
   char isFirstJoined = isFirstJoined_ ? 1 : 0;
   archive->Values(&groups, &isFirstJoined, &count_, &expected_);
-  if (groups > std::uint64_t(mostGroups_) || count_ < 0 || !(expected_ >= 0) ||
-      !std::isfinite(expected_))
+  if (groups > std::uint64_t(mostGroups_) || count_ < 0 || count_ > kMostCounted ||
+      !(expected_ >= 0) || !std::isfinite(expected_))
     throw ArchiveError("its counts of corrections contradict each other");
   groups_.resize(std::size_t(groups));
   isFirstJoined_ = isFirstJoined != 0;
@@ -126,13 +127,17 @@ void Corrections::TransferPass(ByteArchive* archive) {
   TransferNumbers(archive, currentSharing_.size(), false, &currentSharing_);
   TransferNumbers(archive, pixels, false, &rayCount_);
   TransferNumbers(archive, pixels, false, &gatherRays_);
+  const auto isCount = [](std::int64_t rays) { return rays >= 0 && rays <= kMostCounted; };
+  if (!std::ranges::all_of(rayCount_, isCount) || !std::ranges::all_of(gatherRays_, isCount))
+    throw ArchiveError("its numbers of gather rays are impossible");
 }
 
 void Corrections::TransferGroup(ByteArchive* archive, Group* group) {
   archive->Values(&group->samplesPerPixel);
   TransferNumbers(archive, current_.size(), true, &group->sums);
   TransferNumbers(archive, currentSharing_.size(), true, &group->sharing);
-  if (group->samplesPerPixel < 0 || (group->samplesPerPixel > 0 && group->sums.empty()))
+  if (group->samplesPerPixel < 0 || group->samplesPerPixel > kMostCounted ||
+      (group->samplesPerPixel > 0 && group->sums.empty()))
     throw ArchiveError("a group has no corrections");
   if (group->sharing.size() > group->sums.size())
     throw ArchiveError("a group has corrections of sharing alone");

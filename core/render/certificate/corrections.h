@@ -33,7 +33,7 @@ class Corrections {
   void AddLight(Point2i pixel, const Spectrum& correction, Real weight);
   // Adds own light minus shared light of such a sample (core/render/sharing/shared_gathers.h).
   void AddSharing(Point2i pixel, const Spectrum& correction, Real weight);
-  void ClearPixel(Point2i pixel);  // removes what the current pass added
+  void ClearPixel(Point2i pixel);  // removes corrections of the current pass
   // Keeps these parts apart, so that SumsOf can leave them out. Must be called before all passes.
   void KeepSharingApart();
   // States whether the picture shares gathers. Without sharing, SumsOf leaves these parts out.

@@ -90,8 +90,8 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
   // Groups with the same photons show the noise of these photons as a bias.
   const Certificate* const ofMaps = estimate.ofMaps ? estimate.ofMaps : certificate;
-  mapBias_ = ofMaps ? ofMaps->bias.squared - estimate.fixedNoise : 0;
-  lowerMapBias_ = ofMaps ? ofMaps->bias.lower - estimate.fixedNoise : 0;
+  mapBias_ = ofMaps ? ofMaps->bias.squared - estimate.photonNoise : 0;
+  lowerMapBias_ = ofMaps ? ofMaps->bias.lower - estimate.photonNoise : 0;
   const double left = room_ - bias - estimate.fixedNoise;
   growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + normal) / left
                      : std::numeric_limits<double>::infinity();

@@ -24,7 +24,8 @@ struct ErrorEstimate {
   // The part of the noise that groups show. It spreads as a chi-square variate with this number of
   // degrees of freedom. Infinity: the noise spreads as a normal number with the standard error.
   double betweenGroups = 0, freedom = std::numeric_limits<double>::infinity();
-  const Certificate* ofMaps = nullptr;  // of the photon maps alone; null: `certificate` is that
+  const Certificate* ofMaps = nullptr;  // of the photon maps alone; null: `certificate` is one
+  double photonNoise = 0;               // of photons that all groups so far share
 };
 
 // Returns z with P(Z > z) = probability for a standard normal Z. probability: in (0, 0.5].

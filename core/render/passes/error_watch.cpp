@@ -25,7 +25,7 @@ ErrorWatch::ErrorWatch(const Picture& picture,
   rule_.emplace(accuracy->error, accuracy->biasShare, accuracy->omitted);
   rule_->CountLooks(accuracy->earlierLooks);
   mayStopSharing_ = accuracy->mayStopSharing;
-  mayRaisePhotons_ = accuracy->mayRaisePhotons;
+  stopsForLikelyBias_ = accuracy->stopsForLikelyBias;
 }
 
 void ErrorWatch::JoinGroups() {
@@ -43,17 +43,18 @@ void ErrorWatch::Add(const Film& pass, std::int64_t samplesPerPixel, int group) 
 }
 
 // Looks at the picture with this noise. Returns its certificate.
-std::optional<Certificate> ErrorWatch::LookAt(const PassSum& sum, double fixedNoise,
+std::optional<Certificate> ErrorWatch::LookAt(const PassSum& sum, const NoiseOfPhotons& noise,
                                               const std::optional<SharingBias>& sharing,
                                               AccuracyRule* rule) const {
   std::optional<Certificate> certificate;
   if (OfMaps()) certificate = Certify(*OfMaps(), sum.Levels(), *sum.Noise(), rule->NextGoal());
   if (certificate) certificate->sharing = sharing;
   std::optional<Certificate> ofMaps;
-  if (sharing && mayRaisePhotons_) ofMaps = CertifyMaps(sum, rule->NextGoal());
+  if (sharing && stopsForLikelyBias_) ofMaps = CertifyMaps(sum, rule->NextGoal());
   const double noiseError = sum.NoiseError();
-  rule->Look({*sum.Noise(), noiseError, fixedNoise, certificate ? &*certificate : nullptr,
-              sum.NoiseBetweenGroups(), sum.NoiseFreedom(), ofMaps ? &*ofMaps : nullptr});
+  rule->Look({*sum.Noise(), noiseError, noise.fixed, certificate ? &*certificate : nullptr,
+              sum.NoiseBetweenGroups(), sum.NoiseFreedom(), ofMaps ? &*ofMaps : nullptr,
+              noise.soFar});
   picture_.job.log.Verbose(
       Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
              "error below %.3g %%",
@@ -63,22 +64,24 @@ std::optional<Certificate> ErrorWatch::LookAt(const PassSum& sum, double fixedNo
   return certificate;
 }
 
-// Returns the certificate without the bias of shared gathers, which photons do not change.
+// Returns the certificate without the bias of shared gathers, which photons do not change. Where
+// this bias is not known apart, the certificate is empty, so that it asks for no photons.
 std::optional<Certificate> ErrorWatch::CertifyMaps(const PassSum& sum,
                                                    const CertificateGoal& goal) const {
-  if (!OfMaps() || !unshared_) return std::nullopt;
+  if (!OfMaps()) return std::nullopt;
+  if (!unshared_) return Certificate{};
   OfMaps()->UseSharing(false);
   const auto certificate = Certify(*OfMaps(), sum.Levels(), *sum.Noise(), goal);
   OfMaps()->UseSharing(true);
   return certificate;
 }
 
-void ErrorWatch::Look(double fixedNoise) {
+void ErrorWatch::Look(const NoiseOfPhotons& noise) {
   if (!picture_.sum->Noise()) return;
-  const auto certificate = LookAt(*picture_.sum, fixedNoise, BiasOfSharedGathers(), &*rule_);
+  const auto certificate = LookAt(*picture_.sum, noise, BiasOfSharedGathers(), &*rule_);
   if (unshared_ && mayStopSharing_ && !rule_->IsReached() && certificate && certificate->sharing &&
       MayBeBetterUnshared(*certificate->sharing))
-    LookWithoutSharing(fixedNoise);
+    LookWithoutSharing(noise);
   neededSamples_ = double(picture_.sum->SamplesPerPixel()) * rule_->LikelyGrowth();
 }
 
@@ -95,12 +98,12 @@ bool ErrorWatch::MayBeBetterUnshared(const SharingBias& sharing) const {
 }
 
 // Takes the picture without shared gathers if it should need fewer samples.
-void ErrorWatch::LookWithoutSharing(double fixedNoise) {
+void ErrorWatch::LookWithoutSharing(const NoiseOfPhotons& noise) {
   const RenderJob& job = picture_.job;
   job.log.Verbose("the same samples without shared gathers:");
   OfMaps()->UseSharing(false);
   AccuracyRule unshared = *rule_;
-  LookAt(unshared_->Sum(), fixedNoise, std::nullopt, &unshared);
+  LookAt(unshared_->Sum(), noise, std::nullopt, &unshared);
   if (unshared.Growth() >= rule_->Growth()) {
     OfMaps()->UseSharing(true);
     rule_->CountLooks(1);

@@ -33,18 +33,23 @@ class ErrorWatch {
   // Returns the samples per pixel that the accuracy is likely to need, by the last look; 0 before.
   double NeededSamples() const { return neededSamples_; }
   // Returns whether the picture stops because of its bias: more samples would not help, or more
-  // photons are likely to need less time.
+  // photons are likely to need less time. There must be an accuracy.
   bool IsBiasTooLarge() const {
-    return rule_->IsOutOfReach() || (mayRaisePhotons_ && rule_->NeedsMorePhotons());
+    return rule_->IsOutOfReach() || (stopsForLikelyBias_ && rule_->NeedsMorePhotons());
   }
 
   // Must be called after the functions of PassSum with the same names.
   void JoinGroups();
   void SetPhotonNoise(double relative);
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
-  // Looks at the error of an accuracy. fixedNoise: the part that more samples do not reduce. May
-  // turn the picture into the one without shared gathers.
-  void Look(double fixedNoise);
+  // The noise part of relMSE that photons cause.
+  struct NoiseOfPhotons {
+    double fixed = 0;  // the part that more samples do not reduce
+    double soFar = 0;  // of the photons that all groups so far share
+  };
+  // Looks at the error of an accuracy, which there must be. May turn the picture into the one
+  // without shared gathers.
+  void Look(const NoiseOfPhotons& noise);
 
   // Adds what is known about the error to the result of the renderer.
   void Describe(PassesResult* result) const;
@@ -56,20 +61,20 @@ class ErrorWatch {
 
  private:
   Corrections* OfMaps() const { return picture_.parts->Options().corrections; }  // null: none
-  std::optional<Certificate> LookAt(const PassSum& sum, double fixedNoise,
+  std::optional<Certificate> LookAt(const PassSum& sum, const NoiseOfPhotons& noise,
                                     const std::optional<SharingBias>& sharing,
                                     AccuracyRule* rule) const;
   std::optional<Certificate> CertifyMaps(const PassSum& sum, const CertificateGoal& goal) const;
   std::optional<SharingBias> BiasOfSharedGathers() const;
   bool MayBeBetterUnshared(const SharingBias& sharing) const;
-  void LookWithoutSharing(double fixedNoise);
+  void LookWithoutSharing(const NoiseOfPhotons& noise);
   void StopSharing();
   void TransferRule(ByteArchive* archive);
 
   Picture picture_;
   GroupSamples samples_;
   std::optional<AccuracyRule> rule_;
-  bool mayStopSharing_ = false, mayRaisePhotons_ = false, hasStoppedSharing_ = false;
+  bool mayStopSharing_ = false, stopsForLikelyBias_ = false, hasStoppedSharing_ = false;
   double neededSamples_ = 0;
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
 };

@@ -65,8 +65,8 @@ void GroupForecast::Transfer(ByteArchive* archive) {
 
 void PassPlan::Transfer(ByteArchive* archive) {
   archive->Values(&groups_, &groupSamples_, &firstSamples_);
-  const bool isPossible =
-      groups_ >= 0 && groupSamples_ >= 0 && firstSamples_ >= 0 && double(firstSamples_) <= kHuge;
+  const bool isPossible = groups_ >= 0 && groupSamples_ >= 0 && double(groupSamples_) <= kHuge &&
+                          firstSamples_ >= 0 && double(firstSamples_) <= kHuge;
   if (!isPossible) throw ArchiveError("its groups of passes are impossible");
 }
 

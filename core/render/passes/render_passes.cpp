@@ -253,7 +253,8 @@ class Passes {
 
   // The bias that a look finds leaves less room for the noise of the photons.
   void LookAtError(int group) {
-    error_.Look(photons_.SharedNoise());
+    const bool isShared = photons_.IsKnown() || photons_.Divides(group + 1);
+    error_.Look({photons_.SharedNoise(), isShared ? photons_.FirstNoise() : 0});
     if (photons_.IsKnown()) photons_.Decide(error_.Rule()->RoomForNoise(), group + 1);
   }
 

@@ -31,9 +31,8 @@ struct StoppingRule {
     // Whether the picture may lose shared gathers where their bias is dear.
     bool mayStopSharing = false;
     double expectedSamples = 0;  // that the error takes; 0: not known
-    // Whether the picture is rendered again with more photons if it stops because of its bias. With
-    // a time limit, it stops only where the bias surely exceeds the accuracy.
-    bool mayRaisePhotons = false;
+    // Whether the picture also stops where its bias is likely to be too large, to begin again.
+    bool stopsForLikelyBias = false;
     int earlierLooks = 0;  // at renders that this one replaces; all share the 5 %
   };
   std::optional<Accuracy> accuracy{};

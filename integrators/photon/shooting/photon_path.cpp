@@ -105,7 +105,7 @@ bool PhotonTracer::Path::IsSkipped() {
   return false;
 }
 
-// The power that would have been emitted counts. It is constant, unless a light is stretched.
+// The power that would have been emitted counts. Lights with a proof emit the same along all rays.
 bool PhotonTracer::Path::IsOutOfReach(const Source& source) {
   if (!source.light || !IsOnlyOpen(PhotonKind::Caustic)) return false;
   if (!tracer_.causticLights_.IsOutOfReach(light_)) return false;

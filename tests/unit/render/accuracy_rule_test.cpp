@@ -148,7 +148,7 @@ TEST(AccuracyRule, AsksForPhotonsOnlyWhereTheyHelp) {
   rule.Look({.noise = .0006, .noiseError = 0, .certificate = &all, .ofMaps = &maps});
   EXPECT_FALSE(rule.NeedsMorePhotons());
   // The bias is noise of the photons that all groups share.
-  rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = .00025, .certificate = &all});
+  rule.Look({.noise = .0006, .noiseError = 0, .certificate = &all, .photonNoise = .00025});
   EXPECT_FALSE(rule.NeedsMorePhotons());
   // The picture is nearly done.
   const Certificate sure = Bias(.00015, .00014, .00016);
