@@ -30,26 +30,17 @@ Real SumOf(const Real8& values) {
 struct Mask8 {
   hn::Mask<Real8::Tag> part[Real8::kRegisters];
 };
-HWY_INLINE Mask8 IsLess(const Real8& a, const Real8& b) {
-  Mask8 r;
-  for (int i = 0; i < Real8::kRegisters; ++i) r.part[i] = hn::Lt(a.part[i], b.part[i]);
-  return r;
-}
-HWY_INLINE Mask8 IsAtMost(const Real8& a, const Real8& b) {
-  Mask8 r;
-  for (int i = 0; i < Real8::kRegisters; ++i) r.part[i] = hn::Le(a.part[i], b.part[i]);
-  return r;
-}
-HWY_INLINE Mask8 IsEqual(const Real8& a, const Real8& b) {
-  Mask8 r;
-  for (int i = 0; i < Real8::kRegisters; ++i) r.part[i] = hn::Eq(a.part[i], b.part[i]);
-  return r;
-}
-HWY_INLINE Mask8 operator&(const Mask8& a, const Mask8& b) {
-  Mask8 r;
-  for (int i = 0; i < Real8::kRegisters; ++i) r.part[i] = hn::And(a.part[i], b.part[i]);
-  return r;
-}
+#define EXPHOTON_MASK(name, Type, operation)                                                 \
+  HWY_INLINE Mask8 name(const Type& a, const Type& b) {                                      \
+    Mask8 r;                                                                                 \
+    for (int i = 0; i < Real8::kRegisters; ++i) r.part[i] = operation(a.part[i], b.part[i]); \
+    return r;                                                                                \
+  }
+EXPHOTON_MASK(IsLess, Real8, hn::Lt)
+EXPHOTON_MASK(IsAtMost, Real8, hn::Le)
+EXPHOTON_MASK(IsEqual, Real8, hn::Eq)
+EXPHOTON_MASK(operator&, Mask8, hn::And)
+#undef EXPHOTON_MASK
 // Returns a without b.
 HWY_INLINE Mask8 Without(const Mask8& a, const Mask8& b) {
   Mask8 r;
