@@ -244,8 +244,8 @@ struct PassRenderer::State {
     else
       RenderPixels(target, rendered, &passState);
     job.progress.End();
-    if (const auto bias = buffers.Finish(&job.threads, &job.statistics))
-      totals.AddSharingBias(*bias, pass.sampleCount);
+    const auto bias = buffers.Finish(&job.threads, &job.statistics);
+    if (bias && !IsStopped()) totals.AddSharingBias(*bias, pass.sampleCount);
     if (options.view && (shared || buffers.Splats())) options.view->Show(*film, film->Crop());
   }
 

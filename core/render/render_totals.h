@@ -21,7 +21,8 @@ struct RenderTotals {
   void Add(const RenderTotals& other);  // all counts, but not the light
   // Adds the picture of a pass.
   void AddLight(const Film& film, std::int64_t samplesPerPixel);
-  // Adds the estimate of a pass or of a complete batch of passes.
+  // Adds the estimate of a complete pass or batch of passes. Open pixels would count as free of
+  // bias.
   void AddSharingBias(const SharingBias& bias, std::int64_t samplesPerPixel);
   void DropSharingBias() { bias_ = biasVariance_ = 0, biasSamples_ = 0; }
   // Returns the mean of all passes; nullopt if no pass has an estimate.

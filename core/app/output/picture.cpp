@@ -99,7 +99,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
                                          const RenderSetup& setup) {
-  if (!films.corrections || !result.noise || !result.render.isComplete) return std::nullopt;
+  if (!films.corrections || !result.noise) return std::nullopt;
   std::optional<Certificate> certificate = Certify(*films.corrections, result.levels, *result.noise,
                                                    CertificateGoal::ForNoise(*result.noise));
   if (!certificate) return certificate;
@@ -111,7 +111,8 @@ std::optional<Certificate> CertificateOf(const PictureFilms& films, const Passes
 
 void ReportCertificate(const std::optional<Certificate>& certificate, Log& log) {
   if (!certificate)
-    return log.Notice("no certificate, because there are no two independent passes");
+    return log.Notice(
+        "no certificate, because fewer than two independent groups of passes are complete");
   log.Notice(ErrorText(*certificate));
   for (const std::string& text : DetailTexts(*certificate)) log.Notice(text);
 }

@@ -32,8 +32,9 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
                            const RenderOptions& options,
                            std::chrono::steady_clock::time_point start, PictureFilms* films);
 
-// Returns the certificate of a finished picture. Returns nullopt if the command asks for none, or
-// if the picture has only one group of passes.
+// Returns the certificate of a picture. A picture that was stopped has the complete passes, and so
+// has its certificate. Returns nullopt if the command asks for none, or if fewer than two groups of
+// passes are complete.
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
                                          const RenderSetup& setup);
 
