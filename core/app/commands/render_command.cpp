@@ -296,7 +296,7 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
   if (run.isComplete)
     keeper->Remove();
   else if (keeper->HasWritten())
-    log_.Notice(ResumeText(command_, run.scene.name, keeper->Path()));
+    log_.Notice(ResumeText(command_, run.scene.name, *keeper));
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {

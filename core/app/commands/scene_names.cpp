@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/app/output/state_keeper.h"
 #include "core/base/error.h"
 #include "core/params/suggestions.h"
 
@@ -65,12 +66,13 @@ void CheckSceneCount(const RenderCommand& command, std::size_t index, std::size_
 }
 
 std::string ResumeText(const RenderCommand& command, const std::string& scene,
-                       const std::string& state) {
+                       const StateKeeper& state) {
   const std::string& first = command.scenes.front();
   const bool isFirst = scene == (first == "-" ? "<stdin>" : first);
   return "the same command with " + command.resumeOptions +
          (isFirst ? "" : ", without the scenes before \"" + scene + "\",") + " continues from \"" +
-         state + '"';
+         state.Path() + '"' +
+         (state.IsOfEarlierAttempt() ? ", the state before the picture began again" : "");
 }
 
 }  // namespace exphoton::cli

@@ -42,7 +42,7 @@ StateKeeper::StateKeeper(const Settings& settings, const StateIdentity& identity
   if (!FileExists(settings.picturePath)) ownPicture_ = settings.picturePath;
   if (settings.earlier) {
     earlierSeconds_ = settings.earlier->earlierSeconds;
-    hasWritten_ = settings.earlier->hasState;
+    hasWritten_ = isEarlier_ = settings.earlier->hasState;
     ownPicture_ = settings.earlier->ownPicture;
   }
   if (!settings.interval) return;
@@ -116,6 +116,7 @@ void StateKeeper::Save(const Checkpoint& checkpoint) {
   checkpoint.save(&writer);
   writer.Commit();
   hasWritten_ = true;
+  isEarlier_ = false;
 }
 
 // The state of a render that is not continued may be hours of work, and so may the ones before it.

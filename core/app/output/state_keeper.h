@@ -51,6 +51,8 @@ class StateKeeper : public Checkpoints {
 
   const std::string& Path() const { return settings_.path; }
   bool HasWritten() const { return hasWritten_; }
+  // Returns whether the state is the one of an earlier attempt.
+  bool IsOfEarlierAttempt() const { return isEarlier_; }
   Attempt ThisAttempt() const { return {earlierSeconds_, hasWritten_ || resumed_, ownPicture_}; }
   // The render is complete: removes the state that this object wrote or read, and the picture so
   // far, unless that file existed before the render.
@@ -69,6 +71,7 @@ class StateKeeper : public Checkpoints {
   double earlierSeconds_ = 0;
   std::string ownPicture_;  // the picture so far, if this render made the file
   bool hasWritten_ = false, hasWarned_ = false;
+  bool isEarlier_ = false;  // whether the state is the one of an earlier attempt
 
   std::atomic<bool> isDue_{false};
   std::mutex mutex_;  // guards isOver_ and pause_

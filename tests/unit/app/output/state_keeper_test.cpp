@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/app/commands/scene_names.h"
 #include "core/app/dial/dial.h"
 #include "tests/support/process.h"
 #include "tests/support/test_scene.h"
@@ -68,7 +69,13 @@ TEST_F(StateKeeperTest, ASecondAttemptTakesOverTheFiles) {
   EXPECT_EQ(keeper.Resume(), nullptr);
   EXPECT_TRUE(keeper.HasWritten());
   EXPECT_EQ(StateFile(again.path).Get("text"), "first");
+  // Until then the note after a stop says that the state is an earlier one.
+  command_.scenes = {"a.pbrt"};
+  const std::string note = "the same command with --resume continues from \"" + again.path + "\"";
+  EXPECT_EQ(ResumeText(command_, "a.pbrt", keeper),
+            note + ", the state before the picture began again");
   Write(&keeper, "second");
+  EXPECT_EQ(ResumeText(command_, "a.pbrt", keeper), note);
   EXPECT_EQ(StateFile(again.path).Get("text"), "second");
   EXPECT_EQ(folder_.Names(), (std::vector<std::string>{"a.partial.exr", "a.state"}));
   keeper.Remove();
