@@ -34,14 +34,20 @@ SceneLoader::Setups SceneLoader::Load(const std::string& path, Begin* begin) {
   return setups;
 }
 
-// Returns whether the scene must be loaded again, with other settings than the pilots suggest. A
-// file that is no state of such a render is an error later, when the render continues from it.
+// Returns whether the scene must be loaded again, with other settings than the pilots suggest.
+// Throws Error if the render with these settings cannot continue from the state. A file that is no
+// state of such a render is an error later, when the render continues from it.
 bool SceneLoader::ContinueChoice(const Setups& setups) {
   if (!command_.resumes || setups.size() != 1) return false;
   const std::string state = names_.State(setups.front()->film.filename);
   if (!IsStateFile(state)) return false;
-  const auto stopped = StateIdentity::Of(StateFile(state)).Choice();
-  return stopped && cli::ContinueChoice(*stopped, &command_, log_);
+  const StateFile file(state);
+  const auto stopped = StateIdentity::Of(file).Choice();
+  RenderCommand continued = command_;
+  Log silent(Log::Level::Quiet, Log::Sink::Memory);
+  if (!stopped || !cli::ContinueChoice(*stopped, &continued, silent)) return false;
+  StateIdentity(continued, *setups.front()).Check(file);
+  return cli::ContinueChoice(*stopped, &command_, log_);
 }
 
 }  // namespace exphoton::cli

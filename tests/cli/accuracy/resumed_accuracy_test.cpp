@@ -103,6 +103,11 @@ TEST_F(ResumedAccuracy, MorePhotonsContinue) {
   const std::string picture = Read("room.exr");
   Remove("room.exr");
   ASSERT_TRUE(KillAfterState(words, "1", "rendered again with"));
+  // The state of another render does not change the photons.
+  const ProgramResult other = Run(Command(words, {"--resume", "--set", "Sampler.pixelsamples=8"}));
+  EXPECT_EQ(other.status, 1) << other.err;
+  ExpectIn("--set Sampler.pixelsamples is not given there, 8 here", other.err);
+  EXPECT_EQ(other.err.find("had begun again"), std::string::npos) << other.err;
   const ProgramResult last = Run(Command(words, {"--resume", "--nthreads", "2"}));
   ASSERT_EQ(last.status, 0) << last.err;
   ExpectIn("the stopped render had begun again with", last.err);
