@@ -18,12 +18,6 @@ class PilotRenderer;
 std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* command, const std::string& scene,
                                         FileSource::Streams* streams, Log& log);
 
-// What a render of an accuracy has chosen after its pilots, or by a clock.
-struct LaterChoice {
-  std::int64_t firstSamples = 1;  // as in DialChoice
-  double photons = 1;             // as in DialSettings
-};
-
 // Takes over the later choice of a stopped render, which the pilots do not repeat. Returns whether
 // the command has changed.
 bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log);

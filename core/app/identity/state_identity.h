@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/app/dial/dial.h"
 #include "core/app/identity/input_hashes.h"
 #include "core/app/options/options.h"
 #include "core/files/state_file.h"

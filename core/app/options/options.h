@@ -38,6 +38,12 @@ struct DialChoice {
   int earlierLooks = 0;  // as in StoppingRule::Accuracy
 };
 
+// What a render for an accuracy has chosen after its pilots, or by a clock.
+struct LaterChoice {
+  std::int64_t firstSamples = 1;  // as in DialChoice
+  double photons = 1;             // as in DialSettings
+};
+
 struct RenderCommand {
   std::vector<std::string> scenes;  // "-": standard input
   RenderMode mode = RenderMode::Render;
