@@ -29,7 +29,9 @@ struct PilotWork {
   int renders = 0;
   RayCounters rays;
   double direct = 0, caustic = 0, indirect = 0;  // photons that were stored
-  bool givesPhotons = false;  // the first groups of passes have photons of the last pilot
+  // Whether the first groups of passes of the picture, or of its last attempt, have photons of the
+  // last pilot.
+  bool givesPhotons = false;
 
   void Add(const Statistics& statistics);
 };

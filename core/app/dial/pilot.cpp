@@ -167,13 +167,13 @@ std::optional<std::uint64_t> PilotRenderer::Give(const DialChoice& choice, Rende
                       loaded_.settings.gatherRays == settings.gatherRays && !loaded_.isRough &&
                       HaveSameNames(loaded_.omitted, choice.omitted) &&
                       preparedSeed_ == FirstSeed();
+  work_.givesPhotons = isSame;
   if (!isSame) return std::nullopt;
   // The integrators refer to the scene, so they go first.
   setup->integrator = std::move(setup_->integrator);
   setup->volumeIntegrator = std::move(setup_->volumeIntegrator);
   setup->scene = std::move(setup_->scene);
   setup_.reset();
-  work_.givesPhotons = true;
   return std::exchange(preparedSeed_, std::nullopt);
 }
 

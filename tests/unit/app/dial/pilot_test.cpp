@@ -63,6 +63,22 @@ TEST_F(PilotTest, SharesWithinEachHalf) {
   EXPECT_EQ(series.Model().sharing.samples, 2);
 }
 
+// A picture that begins again with more photons shoots them itself.
+TEST_F(PilotTest, GivesItsPhotonsToAnAttemptWithTheSameSettings) {
+  const auto renderer = Renderer(false);
+  PilotRequest request;
+  request.integrator = "exphotonmap";
+  renderer->Render(request);
+  const LoadedScene first = LoadSceneText(streams_["room.pbrt"]);
+  DialChoice choice;
+  EXPECT_TRUE(renderer->Give(choice, first.setup.get()));
+  EXPECT_TRUE(renderer->Work().givesPhotons);
+  const LoadedScene second = LoadSceneText(streams_["room.pbrt"]);
+  choice.settings.photons = 4;
+  EXPECT_FALSE(renderer->Give(choice, second.setup.get()));
+  EXPECT_FALSE(renderer->Work().givesPhotons);
+}
+
 TEST_F(PilotTest, EstimatesTheBiasForAQuoteInItsLastPilotOnly) {
   const auto renderer = Renderer(true);
   PilotSeries series(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CpuSeconds);
