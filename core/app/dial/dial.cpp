@@ -164,20 +164,6 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
          ChoiceText(*pilots, *best) + ")";
 }
 
-// Returns the number of groups of passes that should reach the accuracy, at least 2. Many groups
-// can stop before the picture is better than wanted, because the noise of pilots is uncertain. But
-// each group has to shoot photons, unless those of the first groups turn out to be good enough.
-// Small groups share few gathers, so they are noisy and say little about the bias of sharing.
-double GroupsOf(const Candidate& chosen) {
-  const bool sharesGathers = chosen.correctedShare > 0;
-  const double most = sharesGathers ? std::clamp(chosen.price.samples / kSharing, 2., 4.) : 16;
-  const double oneSet = chosen.photonSamples / (chosen.photonSamples + chosen.price.samples);
-  const double cheap = 2 + kGroupShare / std::max(oneSet, 1e-6);
-  const bool isCheap = chosen.price.sets == 1 || cheap > kCheapGroups;
-  const double least = chosen.hasScatter && isCheap ? 4 : 2;
-  return std::floor(std::clamp(cheap, std::min(least, most), most));
-}
-
 // A time limit should leave time for two groups.
 std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command) {
   double size = kRoundUp * chosen.price.samples / GroupsOf(chosen);
@@ -232,6 +218,20 @@ std::optional<std::string> MultiplyPhotons(RenderCommand* command) {
 }
 
 }  // namespace
+
+// Many groups can stop before the picture is better than wanted, because the noise of pilots is
+// uncertain. But each group has to shoot photons, unless those of the first groups turn out to be
+// good enough. Small groups share few gathers, so they are noisy and say little about the bias of
+// sharing.
+double GroupsOf(const Candidate& chosen) {
+  const bool sharesGathers = chosen.correctedShare > 0;
+  const double most = sharesGathers ? std::clamp(chosen.price.samples / kSharing, 2., 4.) : 16;
+  const double oneSet = chosen.photonSamples / (chosen.photonSamples + chosen.price.samples);
+  const double cheap = 2 + kGroupShare / std::max(oneSet, 1e-6);
+  const bool isCheap = chosen.price.sets == 1 || cheap > kCheapGroups;
+  const double least = chosen.hasScatter && isCheap ? 4 : 2;
+  return std::floor(std::clamp(cheap, std::min(least, most), most));
+}
 
 void CheckDialIntegrator(const std::string& integrator) {
   if (std::ranges::find(kKnown, integrator) != std::end(kKnown)) return;

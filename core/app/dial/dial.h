@@ -11,6 +11,7 @@
 
 namespace exphoton::cli {
 
+struct Candidate;
 class PilotRenderer;
 
 // Writes the chosen settings to the command, and logs them. Returns the pilots, which may have the
@@ -25,6 +26,9 @@ bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log
 // Multiplies the photons after a render whose bias is too large for the accuracy, if the dial may
 // do so. looks: at that render and earlier ones. Returns whether they became more.
 bool RaisePhotons(int looks, RenderCommand* command, Log& log);
+
+// Returns the number of groups of passes, at least 2, that should reach the accuracy.
+double GroupsOf(const Candidate& chosen);
 
 // Throws Error(CommandLine) for an integrator without an estimate of its error.
 void CheckDialIntegrator(const std::string& integrator);
