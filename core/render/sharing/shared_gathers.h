@@ -34,7 +34,8 @@ struct SharedLightTarget {
   SharingChange* change = nullptr;     // receives shared light minus own light; needs no splats
   bool isChecked = false;              // whether the totals have the results of Check
 };
-// SharingTotals adds up the radii of the windows, in pixels.
+// SharingTotals adds up the radii of the windows over the fragments, in pixels, and collects the
+// checked pixels if they are wanted.
 struct SharingTotals {
   double radii = 0, fragments = 0;
   std::vector<CheckedPixel> checked;
@@ -55,8 +56,9 @@ class SharedGathers {
 
   // Returns the radii of the windows, and the checked pixels if they are wanted.
   SharingTotals AddLight(const SharedLightTarget& target) const;
-  // Returns what EstimateSharingBias needs. It takes nearly as long as AddLight, which can do it
-  // at half of this cost.
+  // Returns what EstimateSharingBias needs. It collects the neighbours of three pixels of four
+  // again and fits their light. AddLight can do it with the neighbours that it has, at half of this
+  // cost.
   std::vector<CheckedPixel> Check(const PixelBounds& window, double samplesPerPixel) const;
 
  private:

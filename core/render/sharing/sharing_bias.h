@@ -64,9 +64,9 @@ class PixelDifferences {
   std::vector<std::optional<Spectrum>> values_;
 };
 
-// Checks a pixel with the next ones of its row and of its column. Only one pixel of each square of
-// two by two is checked, because a check takes three fits. Returns nullopt for other pixels and
-// where a checking group has no record. `samples` is the number of camera samples of a pixel.
+// Checks a pixel with the next ones of its row and of its column. A check needs the fits of three
+// pixels, so only one pixel of each square of two by two is checked. `samples` is the number of
+// camera samples of a pixel.
 class SharingChecker {
  public:
   SharingChecker(const GatherFragments& gathers, const FragmentRows& rows,
@@ -76,7 +76,8 @@ class SharingChecker {
   // Returns the empty check that the checked pixels of the window need of this pixel; nullopt:
   // none.
   std::optional<PixelCheck> Begin(Point2i pixel, const PixelBounds& window) const;
-  // `known` has the differences that Begin asks for in a window (null: none).
+  // Returns nullopt for pixels that are not checked, and where a pixel has no record of its
+  // checking group. `known` has the differences that Begin asks for in a window (null: none).
   std::optional<CheckedPixel> Check(Point2i pixel, const PixelDifferences* known,
                                     FitNeighbours* scratch) const;
   // Returns the difference for the checking group of a pixel. It is 0 where nothing is shared.
@@ -93,8 +94,8 @@ class SharingChecker {
 };
 
 // Returns the larger one of the estimates from rows and from columns. A bias in a line of pixels
-// shows along the line only. Returns nullopt if fewer than two squares hold checked pixels. The
-// film has the picture.
+// shows along the line only. Returns nullopt if fewer than two blocks of 16 x 16 pixels have
+// products. The film has the picture.
 std::optional<SharingBias> EstimateSharingBias(const std::vector<CheckedPixel>& checked,
                                                const Film& film);
 
