@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/render/certificate/corrections.h"
 #include "tests/support/test_plugin.h"
 #include "tests/support/test_scene.h"
 
@@ -38,12 +39,17 @@ class NoisyIntegrator final : public SurfaceIntegrator {
     if (context.signedLight)
       *context.signedLight += Spectrum(passNoise * (blotch.Uniform() - Real(.5)) +
                                        sampleNoise * (random.Uniform() - Real(.5)) / 8);
+    if (context.correction) {
+      context.correction->sum += Spectrum(correction * (Real(.9) + random.Uniform() / 5));
+      ++context.correction->count;
+    }
     return light;
   }
   bool FillsSignedLight() const override { return fillsSignedLight; }
 
   Real sampleNoise = 1, passNoise = Real(.5);
   Real blotches = 100;  // per unit of direction; they have the noise of a pass
+  Real correction = 0;  // mean of a sample
   int sleep = 0;        // milliseconds per preprocessing
   bool keepsRays = false, fillsSignedLight = false;
   mutable std::vector<std::pair<Real, Real>> rays;  // recorded with one thread only
@@ -192,6 +198,28 @@ TEST_F(RenderPassesTest, ShootsAgainWherePhotonsCauseTheNoise) {
   const std::vector<float> expected = image_.pixels;
   Run(rule);
   EXPECT_EQ(image_.pixels, expected);
+}
+
+// The squared bias is .56 of the accuracy's. More photons take less time than the samples that make
+// up for it, but samples can reach the accuracy.
+TEST_F(RenderPassesTest, StopsForALikelyBiasOnlyWhereItMayBeginAgain) {
+  integrator_.passNoise = 0;
+  integrator_.correction = Real(.03);
+  for (const bool stops : {true, false}) {
+    StoppingRule rule;
+    rule.accuracy = StoppingRule::Accuracy{.04, 4};
+    rule.accuracy->stopsForLikelyBias = stops;
+    rule.maxSamples = 1 << 14;  // ends a run whose noise does not fall
+    const PassesResult result = With(1, 1, [&](const RenderJob& job, RenderOptions options) {
+      Corrections corrections(kBounds, 1);
+      options.corrections = &corrections;
+      return RenderInPasses(job, options, rule);
+    });
+    EXPECT_EQ(result.reason, stops ? StopReason::Bias : StopReason::Accuracy);
+    EXPECT_EQ(result.samplesPerPixel == 8, stops) << result.samplesPerPixel;
+    ASSERT_TRUE(result.upperError);
+    EXPECT_EQ(*result.upperError > .04 * .04, stops);
+  }
 }
 
 TEST_F(RenderPassesTest, UsesPhotonsThatAnotherRendererPrepared) {
