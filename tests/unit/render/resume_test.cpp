@@ -261,8 +261,8 @@ TEST_P(ResumeTest, APauseChangesNothing) {
 
 // A checksum does not protect against files that are made on purpose.
 TEST_P(ResumeTest, ContradictoryStatesGiveErrorsOrPictures) {
-  if (Param().rows > 14) return;  // to save time
-  CheckpointAt stop(700, true, Path());
+  const bool hasBands = Param().rows > 14;
+  CheckpointAt stop(hasBands ? 4000 : 700, true, Path());
   ASSERT_FALSE(Render(&stop, nullptr, 1).result.render.isComplete);
   const StateFile whole(Path());
   const std::vector<std::string> names = whole.Names();
@@ -270,6 +270,7 @@ TEST_P(ResumeTest, ContradictoryStatesGiveErrorsOrPictures) {
   std::uint64_t random = 1;
   for (const std::string& damaged : names) {
     if (damaged == "non-finite samples") continue;
+    if (hasBands && damaged != "pass gathers") continue;                            // to save time
     if (damaged.starts_with("batch gathers") && !damaged.ends_with("7")) continue;  // to save time
     if (damaged.starts_with("corrections of group") && !damaged.ends_with("1")) continue;
     for (int i = 0; i < 12; ++i) {
@@ -293,7 +294,7 @@ TEST_P(ResumeTest, ContradictoryStatesGiveErrorsOrPictures) {
       }
     }
   }
-  EXPECT_GE(errors, 10);
+  EXPECT_GE(errors, hasBands ? 5 : 10);
 }
 
 // A state that was written before renders of this kind could be continued has no such sections.
