@@ -2,6 +2,8 @@
 #include "core/render/passes/error_watch.h"
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "core/base/format.h"
 #include "core/render/certificate/corrections.h"
@@ -13,6 +15,21 @@ namespace {
 constexpr const char* kRuleSection = "accuracy";
 // Fewer samples share badly and say little about the bias of sharing.
 constexpr std::int64_t kFewestToStopSharing = 8;
+
+// Returns whether the groups of the corrections have the samples of the groups of the sum. Where
+// groups share places, only all samples together are compared.
+bool HaveSameGroups(const Corrections& corrections, const PassSum& sum) {
+  std::vector<std::int64_t> samples, ofSum;
+  for (const Corrections::Group* group : corrections.Groups())
+    samples.push_back(group->samplesPerPixel);
+  const PassNoise& sums = sum.GroupSums();
+  for (int place = 0; place < sums.Places(); ++place)
+    if (sums.SamplesOf(place) > 0) ofSum.push_back(sums.SamplesOf(place));
+  const auto total = [](const std::vector<std::int64_t>& all) {
+    return std::accumulate(all.begin(), all.end(), std::int64_t(0));
+  };
+  return sum.Groups() > sums.Places() ? total(samples) == total(ofSum) : samples == ofSum;
+}
 
 }  // namespace
 
@@ -158,7 +175,10 @@ void ErrorWatch::Save(StateWriter* writer) {
 void ErrorWatch::Load(const StateFile& file) {
   if (rule_) file.Read(kRuleSection, [this](ByteArchive* archive) { TransferRule(archive); });
   if (unshared_) unshared_->Load(file, *picture_.sum);
-  if (OfMaps()) OfMaps()->Load(file);
+  if (!OfMaps()) return;
+  OfMaps()->Load(file);
+  if (!HaveSameGroups(*OfMaps(), *picture_.sum))
+    file.FailAsDamaged("its corrections have other passes than the picture");
 }
 
 }  // namespace exphoton

@@ -324,6 +324,30 @@ TEST_P(ResumeTest, StatesWithoutTheErrorAreRefused) {
   EXPECT_GE(refused, 1);
 }
 
+TEST_P(ResumeTest, CorrectionsOfOtherPassesAreRefused) {
+  if (!Param().certifies || Param().rows > 14) return;
+  CheckpointAt stop(Param().mode == Mode::Accuracy ? 2000 : 700, true, Path());
+  ASSERT_FALSE(Render(&stop, nullptr, 1).result.render.isComplete);
+  const StateFile whole(Path());
+  const std::string group = "corrections of group 0";
+  ASSERT_TRUE(whole.Has(group));
+  StateWriter writer(folder_.File("b.state"));
+  for (const std::string& name : whole.Names()) {
+    std::string bytes(whole.Get(name));
+    if (name == group) ++bytes[0];  // the number of its samples
+    writer.Add(name, bytes);
+  }
+  writer.Commit();
+  StateFile state(folder_.File("b.state"));
+  try {
+    Render(nullptr, &state, 1);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.Status(), ExitStatus::File);
+    EXPECT_NE(std::string(error.what()).find("other passes"), std::string::npos) << error.what();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, ResumeTest, testing::Range(0, int(std::size(kCases))));
 
 }  // namespace
