@@ -3,16 +3,11 @@
 // after the other.
 #include "core/app/commands/render_command.h"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <new>
 
+#include "core/app/commands/output_checks.h"
 #include "core/app/commands/scene_names.h"
 #include "core/app/dial/dial.h"
 #include "core/app/effects/measured_effects.h"
@@ -35,7 +30,6 @@
 #include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/imaging/files/exr.h"
-#include "core/parser/scene_files.h"
 
 namespace exphoton::cli {
 namespace {
@@ -75,7 +69,7 @@ class FileRenderer {
         PrintOut(MeasuredText(MeasureEffects(command_, path, &run_.streams)));
       return;
     }
-    CheckOutputs(setups, index);
+    CheckOutputs(command_, setups, index, &run_.files, log_);
     for (std::unique_ptr<RenderSetup>& setup : setups) {
       if (setup != setups.front()) watch_.Restart();
       while (!RenderOne(*setup)) {
@@ -100,7 +94,6 @@ class FileRenderer {
     // There is a beginning if the picture begins again.
     return loader_.Load(path, begin_ ? &*begin_ : &begin_.emplace());
   }
-  void CheckOutputs(const Setups& setups, std::size_t index);
   RenderOptions MakeOptions(const PictureFilms& films, const RenderSetup& setup);
   RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
                     ProgressReporter& progress, Statistics& statistics);
@@ -127,27 +120,6 @@ class FileRenderer {
   std::optional<Begin> begin_;                   // of the current picture, also if it begins again
   std::optional<StateKeeper::Attempt> attempt_;  // at this picture, before it began again
 };
-
-void FileRenderer::CheckOutputs(const Setups& setups, std::size_t index) {
-  CheckSceneCount(command_, index, setups.size());
-  if (command_.shard) MakeFolder(command_.outfile);
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    CheckAovs(command_, *setups[i]);
-    CheckIntegrator(command_, *setups[i]);
-    run_.files.AddScene(*setups[i]);
-    if (!command_.photonFile.empty()) run_.files.AddInput(command_.photonFile, "--photons");
-    names_.AddTo(run_.files, {index, i}, setups[i]->film.filename);
-  }
-  run_.files.Check(log_);
-  names_.CheckEndings();
-  for (const auto& setup : setups) {
-    const std::string& name = setup->film.filename;
-    if (command_.shard || names_.NameFromUser() || IsExrName(name)) continue;
-    log_.Warning("the film's file \"" + name + "\" becomes \"" + ExrName(name) +
-                     "\", because pictures of scenes are OpenEXR files",
-                 {}, "-o NAME.png writes a PNG");
-  }
-}
 
 RenderOptions FileRenderer::MakeOptions(const PictureFilms& films, const RenderSetup& setup) {
   RenderOptions options;
@@ -345,25 +317,6 @@ void FileRenderer::Report(const RunRecord& run) {
   WriteTextFile(command_.statsFile, run_.statistics);
 }
 
-// With several scene files, the output names are known only after reading all of them. ScanScene
-// reads them without loading plugins. Errors in a file are reported later, when it is loaded.
-void CheckAllFiles(const RenderCommand& command, Run& run, Log& log) {
-  if (command.mode != RenderMode::Render || command.scenes.size() < 2) return;
-  const InterruptWatch watch(command.limits.seconds);
-  const OutputNames names(command);
-  LoadOptions options = command.load;
-  options.stop = &StopFlag();
-  for (std::size_t index = 0; index < command.scenes.size(); ++index) {
-    FileSource source(&run.streams);
-    const SceneFiles files = ScanScene(source, command.scenes[index], options);
-    run.files.AddScene(command.scenes[index], files.inputs);
-    if (!files.isWhole) continue;
-    for (std::size_t i = 0; i < files.pictures.size(); ++i)
-      names.AddTo(run.files, {index, i}, files.pictures[i]);
-  }
-  run.files.Check(log);
-}
-
 // Renders one file after the other. Returns the status of the first file that failed.
 int RenderFiles(const RenderCommand& command, Run& run) {
   int status = 0;
@@ -391,7 +344,7 @@ int RunRender(const RenderCommand& command) {
   Run run;
   run.files.AddPluginFolders(command.load.pluginFolders);
   Log log(command.logLevel);
-  CheckAllFiles(command, run, log);
+  CheckAllOutputs(command, &run.files, &run.streams, log);
   log.Summarize();
   return RenderFiles(command, run);
 }
