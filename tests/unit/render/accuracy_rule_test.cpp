@@ -156,6 +156,24 @@ TEST(AccuracyRule, AsksForPhotonsOnlyWhereTheyHelp) {
   EXPECT_FALSE(rule.NeedsMorePhotons());
 }
 
+// The shares of the room are .25 for the bias and .125 for its lower end, and the samples must
+// double.
+TEST(AccuracyRule, AsksForPhotonsWhereTheBiasIsLargeAndTheEndIsFar) {
+  constexpr double kRoom = .02 * .02;
+  const auto needsPhotons = [](double bias, double lower, double noise) {
+    const Certificate certificate = Bias(bias * kRoom, lower * kRoom, bias * kRoom);
+    AccuracyRule rule(.02, .125);
+    rule.Look({.noise = noise * kRoom, .noiseError = 0, .certificate = &certificate});
+    return rule.NeedsMorePhotons();
+  };
+  EXPECT_FALSE(needsPhotons(.24, .2, 2));
+  EXPECT_TRUE(needsPhotons(.26, .2, 2));
+  EXPECT_FALSE(needsPhotons(.5, .12, 2));
+  EXPECT_TRUE(needsPhotons(.5, .13, 2));
+  EXPECT_FALSE(needsPhotons(.5, .4, .98));
+  EXPECT_TRUE(needsPhotons(.5, .4, 1.02));
+}
+
 // A picture that is rendered again has looks of its own, but not a chance of 5 % of its own.
 TEST(AccuracyRule, CountsLooksAtEarlierRenders) {
   AccuracyRule rule(.02, .125);

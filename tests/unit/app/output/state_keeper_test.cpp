@@ -125,6 +125,7 @@ TEST_F(StateKeeperTest, AContinuedRenderTakesTheLaterChoice) {
   EXPECT_FALSE(ContinueChoice({32, 4}, &continued, log_));  // pilots decide without a time limit
   continued.timeLimit = 60;
   EXPECT_FALSE(ContinueChoice({0, 4}, &continued, log_));
+  EXPECT_FALSE(ContinueChoice({std::int64_t(1) << 62, 4}, &continued, log_));
   EXPECT_TRUE(ContinueChoice({32, 4}, &continued, log_));
   EXPECT_EQ(continued.dial->firstSamples, 32);
   EXPECT_EQ(*continued.load.samplesPerPixel, 32 * 128);
