@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The area light "area" ("diffuse" in version 2 of the scene language) emits the same radiance from
 // every point into the hemisphere about the normal, and nothing on the back.
-#include "core/math/half_space.h"
+#include "core/lights/emission_cone.h"
 #include "core/math/sampling/sampling.h"
 #include "core/plugin.h"
 
@@ -79,10 +79,7 @@ class DiffuseAreaLight final : public AreaLight, public OneSided {
     return {1 / area_, CosineHemispherePdf(Dot(from.ng, w))};
   }
 
-  bool MayFace(const Bounds3& box) const override {
-    const auto* const side = dynamic_cast<const OneSided*>(surface_.get());
-    return !side || side->MayFace(box);
-  }
+  bool MayFace(const Bounds3& box) const override { return surface_->MayFace(box); }
 
  private:
   std::shared_ptr<const EmitterSurface> surface_;

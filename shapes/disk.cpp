@@ -34,7 +34,7 @@ const ParamTable<Settings>& Parameters() {
   return table;
 }
 
-class Disk final : public QuadricShape, public OneSided {
+class Disk final : public QuadricShape {
  public:
   Disk(const Settings& settings, const ShapeContext& context)
       : QuadricShape(context),

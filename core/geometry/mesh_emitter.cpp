@@ -13,7 +13,7 @@
 
 namespace exphoton {
 
-class MeshEmitter final : public EmitterSurface, public OneSided {
+class MeshEmitter final : public EmitterSurface {
  public:
   explicit MeshEmitter(const TriangleMesh& mesh) : mesh_(mesh) {
     std::vector<double> areas;

@@ -35,6 +35,9 @@ class EmitterSurface {
   // may be slow, so keep the result.
   virtual Real Area() const = 0;
   virtual Bounds3 Bounds() const = 0;  // at all times
+  // Returns false only if no ray that leaves the surface on the side of its normals hits the box,
+  // at any time.
+  virtual bool MayFace(const Bounds3&) const { return true; }
   // Returns the reason why this surface cannot carry an area light, as a sentence, or null if it
   // can.
   virtual const char* EmitterProblem() const { return nullptr; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// This file proves that a box lies behind a one-sided surface, so that no light from the surface
-// reaches the box. Surfaces and area lights that can prove it implement OneSided beside their other
-// interface.
+// LiesBehind proves that a box lies behind a one-sided surface, so that no light from the surface
+// reaches the box.
 #pragma once
 
 #include <initializer_list>
@@ -29,13 +28,5 @@ inline bool LiesBehind(const Bounds3& box, const Normal3& normal,
   }
   return true;
 }
-
-class OneSided {
- public:
-  virtual ~OneSided() = default;
-  // Returns false only if no ray that leaves the surface on the side of its normals hits the box,
-  // at any time.
-  virtual bool MayFace(const Bounds3& box) const = 0;
-};
 
 }  // namespace exphoton

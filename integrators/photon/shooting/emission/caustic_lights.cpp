@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/lights/emission_cone.h"
-#include "core/math/half_space.h"
 
 namespace exphoton {
 namespace {
