@@ -53,7 +53,7 @@ void Explorer::Begin() {
 void Explorer::Settle(double most) {
   Guarded([&] {
     if (!isRough_ || IsTooDear(most)) return;
-    const auto likely = SplitWithGain(std::sqrt(MostGain()));
+    const auto likely = WithGain(std::sqrt(MostGain())).CheapestSplit();
     if (likely) series_.UsePhotons(likely->price.photons);
     isRough_ = false;
     series_.Render();
@@ -66,9 +66,8 @@ bool Explorer::FindOmissions(double most) {
     if (!isRough_ || !wish_.findOmissions || !ReadsPhotonMaps(candidate_.integrator) ||
         IsTooDear(most))
       return;
-    const Candidate before = candidate_;
-    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&candidate_);
-    candidate_ = before;
+    Candidate likely = WithGain(std::sqrt(MostGain())).candidate_;
+    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&likely);
     candidate_.omitted = omitted;
     candidate_.hasSoughtOmissions = true;
     series_.LeaveOut(omitted);
@@ -150,17 +149,18 @@ double Explorer::Affordable(double most) const {
 }
 
 bool Explorer::IsTooDear(double most) const {
-  const std::optional<Split> split = isRough_ ? SplitWithGain(MostGain()) : CheapestSplit();
+  const std::optional<Split> split = isRough_ ? WithGain(MostGain()).CheapestSplit() : CheapestSplit();
   return split && (isRough_ ? split->price.seconds : split->price.least) > most;
 }
 
 // Returns the factor by which the noise of a rough pilot may be too high.
 double Explorer::MostGain() const { return series_.HasBias() ? kGainOfMaps : kGainOfGuide; }
 
-std::optional<Explorer::Split> Explorer::SplitWithGain(double gain) const {
+Explorer Explorer::WithGain(double gain) const {
   Explorer better = *this;
   better.gain_ = gain;
-  return better.CheapestSplit();
+  better.TakePrice();
+  return better;
 }
 
 // Where a pilot for it is too dear, the first passes of the picture show the bias.

@@ -75,7 +75,8 @@ class Explorer {
   double Affordable(double most) const;
   bool IsTooDear(double most) const;
   double MostGain() const;
-  std::optional<Split> SplitWithGain(double gain) const;
+  // Returns the state with the noise of the pilots divided by this factor.
+  Explorer WithGain(double gain) const;
   void EstimateBias(double most);
 
   PilotSeries series_;
