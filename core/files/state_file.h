@@ -19,7 +19,7 @@
 
 namespace exphoton {
 
-inline constexpr std::uint32_t kStateVersion = 5;
+inline constexpr std::uint32_t kStateVersion = 6;
 
 // Writes a file that appears under its name only with Commit. Errors throw Error(File).
 class StateWriter {

@@ -3,6 +3,9 @@
 #include "core/render/pass_buffers.h"
 
 #include <limits>
+#include <utility>
+
+#include "core/render/render_totals.h"
 
 namespace exphoton {
 namespace {
@@ -29,15 +32,23 @@ PassBuffers::PassBuffers(const Layout& layout, Film* film, AovFilm* aovs)
   if (layout.splatWeights) splats_.emplace(*layout.splatWeights, film, aovs);
   if (layout.isShared)
     bands_.emplace(Window(layout, *film), Rendered(layout, *film), layout.samplesPerPixel,
-                   layout.batch ? kOneBand : layout.sharingMemory);
+                   layout.batch || layout.gathers ? kOneBand : layout.sharingMemory);
 }
 
-void PassBuffers::AddSharedLight(ThreadPool* threads, Statistics* statistics) {
+void PassBuffers::AddSharedLight(bool isWhole, ThreadPool* threads, Statistics* statistics) {
   if (layout_.batch) return;
   const PhaseTimer timer(*statistics, "share");
-  bands_->AddLight(threads, layout_.diskArea,
-                   {film_, aovs_, Splats(), bands_->Current().window,
-                    double(layout_.samplesPerPixel), layout_.corrections, layout_.change});
+  const SharedLightTarget target{film_,
+                                 aovs_,
+                                 Splats(),
+                                 bands_->Current().window,
+                                 double(layout_.samplesPerPixel),
+                                 layout_.corrections,
+                                 layout_.change};
+  if (layout_.gathers && isWhole)
+    AddOwnLight(bands_->Gathers(), target, threads);
+  else
+    bands_->AddLight(threads, layout_.diskArea, target);
 }
 
 std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* statistics) {
@@ -48,9 +59,8 @@ std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* 
     const PhaseTimer timer(*statistics, "share");
     batch->AddPass(bands_->Gathers(), layout_.samplesPerPixel, threads, film_, aovs_);
   }
-  statistics->SetCounter("render/sharing radius",
-                         batch ? batch->MeanRadius() : bands_->Totals().MeanRadius(),
-                         "pixels, mean radius of the windows of shared gathers");
+  if (layout_.gathers) *layout_.gathers = std::move(bands_->Gathers());
+  SetSharingRadius(batch ? batch->MeanRadius() : bands_->Totals().MeanRadius(), statistics);
   return batch ? std::nullopt : EstimateSharingBias(bands_->Totals().checked, *film_);
 }
 

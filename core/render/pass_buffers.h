@@ -26,6 +26,7 @@ class PassBuffers {
     Corrections* corrections = nullptr;  // as in RenderOptions
     double diskArea = 1;                 // as in RenderPass
     SharingChange* change = nullptr;     // as RenderOptions::sharingChange
+    GatherFragments* gathers = nullptr;  // as RenderPass::gathers
   };
   // Returns the pixels to render: those whose samples or gathers reach the film's crop window.
   static PixelBounds Rendered(const Layout& layout, const Film& film);
@@ -39,8 +40,9 @@ class PassBuffers {
   SharingBands* Bands() { return bands_ ? &*bands_ : nullptr; }
   GatherFragments* Gathers() { return bands_ ? &bands_->Gathers() : nullptr; }
 
-  // Adds the shared light of the current band of rows to the picture, unless there is a batch.
-  void AddSharedLight(ThreadPool* threads, Statistics* statistics);
+  // Adds the shared light of the current band of rows to the picture, unless there is a batch. A
+  // whole pass whose gathers the caller receives gets their own light.
+  void AddSharedLight(bool isWhole, ThreadPool* threads, Statistics* statistics);
   // Completes the film. Returns the estimate for shared gathers, if there is one. A batch has one
   // of its own.
   std::optional<SharingBias> Finish(ThreadPool* threads, Statistics* statistics);

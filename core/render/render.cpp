@@ -115,8 +115,9 @@ struct PassRenderer::State {
     SharingBands* const bands = buffers->Bands();
     for (; !bands->IsAtEnd(); bands->GoToNext()) {
       RenderPixels(target, bands->Current().gathered, pass);
-      buffers->AddSharedLight(&job.threads, &job.statistics);
-      if (IsStopped()) break;
+      const bool isStopped = IsStopped();
+      buffers->AddSharedLight(!isStopped, &job.threads, &job.statistics);
+      if (isStopped) break;
     }
   }
 
@@ -141,7 +142,8 @@ struct PassRenderer::State {
 
   PassBuffers::Layout LayoutOf(const RenderPass& pass, GatherBatch* passBatch) const {
     return {splatWeights.get(), sharing.isOn,        pass.sampleCount, options.sharingMemory,
-            passBatch,          options.corrections, pass.diskArea,    options.sharingChange};
+            passBatch,          options.corrections, pass.diskArea,    options.sharingChange,
+            pass.gathers};
   }
 
   ShardLayout ShardLayoutOf(const RenderPass& pass, const Film& film) const {

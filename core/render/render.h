@@ -28,6 +28,7 @@ namespace exphoton {
 
 class Checkpoints;
 class Corrections;
+class GatherFragments;
 struct SharingChange;
 class PhotonNoise;
 class ShardWriter;
@@ -118,6 +119,10 @@ struct RenderPass {
   double diskArea = 1;
   std::optional<Real> time{};          // of camera rays and photons
   PhotonNoise* photonNoise = nullptr;  // receives signed light; null: it is not wanted
+  // Receives the gathers of a pass that shares them alone, if it is not stopped. All of them are
+  // then in memory at once, the film receives their own light, and the caller shares them. Null:
+  // they are not wanted. Samples must not be splatted.
+  GatherFragments* gathers = nullptr;
 };
 
 // Renders pass by pass. Passes may differ in every member of RenderPass. Statistics and warnings

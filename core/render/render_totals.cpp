@@ -101,6 +101,11 @@ std::optional<SharingBias> RenderTotals::MeanSharingBias() const {
   return SharingBias{bias_ / total, std::sqrt(std::max(biasVariance_, 0.)) / total};
 }
 
+void SetSharingRadius(double radius, Statistics* statistics) {
+  statistics->SetCounter("render/sharing radius", radius,
+                         "pixels, mean radius of the windows of shared gathers");
+}
+
 void SetSharingBias(const std::optional<SharingBias>& bias, Statistics* statistics,
                     RenderResult* result) {
   result->sharingBias = bias;

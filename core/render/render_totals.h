@@ -50,6 +50,9 @@ struct SummaryTarget {
 void SetSharingBias(const std::optional<SharingBias>& bias, Statistics* statistics,
                     RenderResult* result);
 
+// `radius`: mean radius of the windows of shared gathers, in pixels.
+void SetSharingRadius(double radius, Statistics* statistics);
+
 // Fills the statistics, logs warnings and returns the non-finite samples.
 RenderResult Summarize(const SummaryTarget& job, const RenderTotals& totals,
                        const NonFiniteLog& log);

@@ -22,6 +22,19 @@ struct SharingChange {
     if (aovs) aovs->Clear();
   }
 
+  void Add(const SharingChange& other) {
+    film.Add(other.film);
+    if (aovs) aovs->Add(*other.aovs);
+  }
+  void Subtract(const SharingChange& other) {
+    film.SubtractLight(other.film);
+    if (aovs) aovs->SubtractLight(*other.aovs);
+  }
+  void Transfer(ByteArchive* archive) {  // saves or loads
+    film.Transfer(archive);
+    if (aovs) aovs->Transfer(archive);
+  }
+
   Film film;
   std::unique_ptr<AovFilm> aovs;  // the light AOVs and the bias of sharing
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/files/state_file.h"
+#include "core/imaging/film/film.h"
 #include "core/render/certificate/group_places.h"
 
 namespace exphoton {
@@ -89,6 +90,18 @@ void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
   std::fill(rayCount_.begin(), rayCount_.end(), 0);
   for (const std::int64_t rays : gatherRays_) expected_ += share_ * double(rays);
   std::fill(gatherRays_.begin(), gatherRays_.end(), 0);
+}
+
+void Corrections::SubtractSharing(const Film& light, int group) {
+  const auto place = std::size_t(PlaceOfGroup(group, mostGroups_, isFirstJoined_));
+  // Joined groups are in the first place.
+  Group& to = groups_[groups_[place].samplesPerPixel > 0 ? place : 0];
+  for (std::size_t i = 0; i < light.PixelCount(); ++i) {
+    const Film::Sums sums = light.SumsOf(i);
+    to.sharing[3 * i] -= sums.r;
+    to.sharing[3 * i + 1] -= sums.g;
+    to.sharing[3 * i + 2] -= sums.b;
+  }
 }
 
 void Corrections::JoinGroups() {

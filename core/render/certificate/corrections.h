@@ -15,6 +15,7 @@
 namespace exphoton {
 
 class ByteArchive;
+class Film;
 class StateFile;
 class StateWriter;
 
@@ -43,6 +44,10 @@ class Corrections {
   // independent.
   void EndPass(int group, std::int64_t samplesPerPixel);
   static constexpr int kMostGroups = 32;
+
+  // Subtracts light that the shared picture gets in addition, from parts that are kept apart. The
+  // group must have a pass.
+  void SubtractSharing(const Film& light, int group);
 
   // Makes one group of all groups so far, because they have the same photons and later ones do not.
   void JoinGroups();

@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kRuleSection = "accuracy";
 // Fewer samples share badly and say little about the bias of sharing.
 constexpr std::int64_t kFewestToStopSharing = 8;
+constexpr double kJointBands = 4;  // the memory of joint windows, in units of a band's
 
 // Returns whether the groups of the corrections have the samples of the groups of the sum. Where
 // groups share places, only all samples together are compared.
@@ -43,6 +44,15 @@ ErrorWatch::ErrorWatch(const Picture& picture,
   rule_->CountLooks(accuracy->earlierLooks);
   mayStopSharing_ = accuracy->mayStopSharing;
   stopsForLikelyBias_ = accuracy->stopsForLikelyBias;
+  if (unshared_)
+    joint_ = std::make_unique<JointWindows>(
+        picture.job.film, picture.parts->Aovs(),
+        kJointBands * picture.parts->Options().sharingMemory);
+}
+
+GatherFragments* ErrorWatch::BeginPass(std::int64_t samplesPerPixel) {
+  if (joint_ && !joint_->HasRoomFor(samplesPerPixel)) joint_.reset();
+  return joint_ ? joint_->OfPass() : nullptr;
 }
 
 void ErrorWatch::JoinGroups() {
@@ -55,8 +65,23 @@ void ErrorWatch::SetPhotonNoise(double relative) {
 }
 
 void ErrorWatch::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
+  if (joint_) joint_->Add(samplesPerPixel, group);
   if (unshared_) unshared_->Add(pass, samplesPerPixel, group);
   if (OfMaps()) OfMaps()->EndPass(group, samplesPerPixel);
+  if (joint_) FitJointly();
+}
+
+// Replaces the light of the gathers of all passes in the picture, its AOVs and its corrections.
+void ErrorWatch::FitJointly() {
+  const RenderJob& job = picture_.job;
+  const PhaseTimer timer(job.statistics, "share");
+  const double radius = joint_->Fit(&job.threads, [&](int group, const SharingChange& difference) {
+    picture_.sum->AddLight(difference.film, group);
+    OfMaps()->SubtractSharing(difference.film, group);
+    unshared_->AddChange(difference.aovs.get());
+    if (difference.aovs) picture_.parts->Aovs()->Add(*difference.aovs);
+  });
+  SetSharingRadius(radius, &job.statistics);
 }
 
 // Looks at the picture with this noise. Returns its certificate.
@@ -140,6 +165,7 @@ void ErrorWatch::StopSharing() {
   OfMaps()->UseSharing(false);
   picture_.sum->UseOwnLevels();
   unshared_.reset();
+  joint_.reset();
   picture_.parts->SetSharingChange(nullptr);
   picture_.renderer->StopSharing();
 }
@@ -169,12 +195,15 @@ void ErrorWatch::Save(StateWriter* writer) {
     writer->Add(kRuleSection, archive.Take());
   }
   if (unshared_) unshared_->Save(writer);
+  if (joint_) joint_->Save(writer);
   if (OfMaps()) OfMaps()->Save(writer);
 }
 
 void ErrorWatch::Load(const StateFile& file) {
   if (rule_) file.Read(kRuleSection, [this](ByteArchive* archive) { TransferRule(archive); });
   if (unshared_) unshared_->Load(file, *picture_.sum);
+  if (joint_ && !JointWindows::IsIn(file)) joint_.reset();
+  if (joint_) joint_->Load(file, picture_.sum->Groups());
   if (!OfMaps()) return;
   OfMaps()->Load(file);
   if (!HaveSameGroups(*OfMaps(), *picture_.sum))

@@ -11,6 +11,7 @@
 #include "core/render/passes/accuracy_rule.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_sum.h"
+#include "core/render/sharing/joint_windows.h"
 #include "core/render/passes/render_passes.h"
 #include "core/render/passes/unshared/unshared_picture.h"
 
@@ -37,6 +38,9 @@ class ErrorWatch {
   bool IsBiasTooLarge() const {
     return rule_->IsOutOfReach() || (stopsForLikelyBias_ && rule_->NeedsMorePhotons());
   }
+
+  // Must be called before each pass. Returns the receiver of its gathers; null: none.
+  GatherFragments* BeginPass(std::int64_t samplesPerPixel);
 
   // Must be called after the functions of PassSum with the same names.
   void JoinGroups();
@@ -67,6 +71,7 @@ class ErrorWatch {
   std::optional<Certificate> CertifyMaps(const PassSum& sum, const CertificateGoal& goal) const;
   std::optional<SharingBias> BiasOfSharedGathers() const;
   bool MayBeBetterUnshared(const SharingBias& sharing) const;
+  void FitJointly();
   void LookWithoutSharing(const NoiseOfPhotons& noise);
   void StopSharing();
   void TransferRule(ByteArchive* archive);
@@ -77,6 +82,7 @@ class ErrorWatch {
   bool mayStopSharing_ = false, stopsForLikelyBias_ = false, hasStoppedSharing_ = false;
   double neededSamples_ = 0;
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
+  std::unique_ptr<JointWindows> joint_;         // null: passes share apart, or not at all
 };
 
 }  // namespace exphoton

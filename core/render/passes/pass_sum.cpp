@@ -37,6 +37,12 @@ void PassSum::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
   samples_ += samplesPerPixel;
 }
 
+void PassSum::AddLight(const Film& light, int group) {
+  picture_->Add(light);
+  noise_.Add(group < joined_ ? 0 : PlaceOfGroup(group, kPlaces, joined_ > 0), light, 0);
+  relativeVariance_.reset();
+}
+
 std::optional<double> PassSum::Noise() const {
   if (!HasTwoGroups()) return std::nullopt;
   return correction_ * RelativeVariance() + photonNoise_;

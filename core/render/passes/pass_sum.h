@@ -53,6 +53,9 @@ class PassSum {
   // group or begins the next one.
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
 
+  // Adds light to the samples of a group that was added before.
+  void AddLight(const Film& light, int group);
+
   // States that the groups continue one sequence of camera samples, whose errors partly cancel.
   // `within` is the mean over the first two groups of GroupForecast::Difference. It must be given
   // after the passes of these groups.

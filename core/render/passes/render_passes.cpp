@@ -59,7 +59,7 @@ class Passes {
                continuesSequence_ ? GroupSamples::OneSequence : GroupSamples::Independent) {
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
     // high, because the errors of one sequence partly cancel.
-    if (continuesSequence_) sequence_ = job.sampler.WithSamplesPerPixel(kWellDistributed);
+    if (continuesSequence_) sequence_ = job.sampler.WithSamplesPerPixel(WellDistributed());
   }
 
   PassesResult Run() {
@@ -95,6 +95,10 @@ class Passes {
                             (plan_.Groups() == 0 || sum_.SamplesPerPixel() >= FirstSamples());
     if (!isPossible) throw ArchiveError("its counts of passes contradict each other");
   }
+
+  // All passes of an accuracy have at least the size of the first one, which is a power of two
+  // unless it has all samples.
+  std::int64_t WellDistributed() const { return std::max(kWellDistributed, FirstSamples()); }
 
   // Returns a number of samples that the first group has at least.
   std::int64_t FirstSamples() const {
@@ -196,6 +200,7 @@ class Passes {
       pass.sharing =
           step.isNewGroup ? RenderPass::Sharing::BeginsBatch : RenderPass::Sharing::ContinuesBatch;
     pass.photonNoise = photons_.Measurement();
+    pass.gathers = error_.BeginPass(step.size);
     passFilm_.Clear();
     progress_.BeginPass(plan_, step, State(), renderSeconds_);
     const bool isWhole = renderer_.Run(pass, sequence_ ? *sequence_ : *pattern, &passFilm_);

@@ -80,7 +80,7 @@ class Merger {
                  TransferTileGathers(archive, tile, buffers->Gathers());
                });
       loaded = end;
-      buffers->AddSharedLight(threads_, &summary_.statistics);
+      buffers->AddSharedLight(true, threads_, &summary_.statistics);
     }
   }
 

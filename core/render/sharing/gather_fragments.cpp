@@ -90,8 +90,8 @@ void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real
   }
 }
 
-void GatherFragments::Pixel::Join(const Pixel& other) {
-  std::vector<std::uint32_t> places;  // of the other fragments
+std::vector<std::uint32_t> GatherFragments::Pixel::JoinFragments(const Pixel& other) {
+  std::vector<std::uint32_t> places;
   for (const GatherFragment& added : other.fragments) {
     const auto isOnSurface = [&](const GatherFragment& fragment) {
       return fragment.depth == added.depth &&
@@ -104,6 +104,11 @@ void GatherFragments::Pixel::Join(const Pixel& other) {
     else
       AddTo(&*fragment, added);
   }
+  return places;
+}
+
+void GatherFragments::Pixel::Join(const Pixel& other) {
+  const std::vector<std::uint32_t> places = JoinFragments(other);
   samples.reserve(samples.size() + other.samples.size());
   for (const GatherSample& sample : other.samples) {
     samples.push_back(sample);

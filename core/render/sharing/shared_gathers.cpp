@@ -120,12 +120,30 @@ void SharingTotals::Transfer(ByteArchive* archive) {
   }
 }
 
+void AddOwnLight(const GatherFragments& gathers, const SharedLightTarget& target,
+                 ThreadPool* threads) {
+  threads->For(target.window.Height(), [&](std::int64_t row, int) {
+    for (int x = target.window.x0; x < target.window.x1; ++x) {
+      const Point2i pixel{x, target.window.y0 + int(row)};
+      for (const GatherSample& sample : gathers.At(pixel).samples) {
+        const Spectrum L = sample.weight * sample.light;
+        target.film->AddLight(pixel, L, sample.sampleWeight);
+        if (target.aovs) target.aovs->AddLight(pixel, AovOf(sample), L, sample.sampleWeight);
+      }
+    }
+  });
+}
+
 int SharingMargin() { return SharingWindows::kReach; }
 
 SharedGathers::SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea)
     : gathers_(gathers), threads_(threads), rows_(gathers), windows_(gathers, rows_, threads) {
   windows_.Shrink(windowArea);
 }
+
+SharedGathers::SharedGathers(const GatherFragments& gathers, const SharingWindows& windows,
+                             ThreadPool* threads)
+    : gathers_(gathers), threads_(threads), rows_(gathers), windows_(windows) {}
 
 SharingTotals SharedGathers::AddLight(const SharedLightTarget& target) const {
   const PixelBounds& window = target.window;

@@ -48,11 +48,18 @@ struct SharingTotals {
   double MeanRadius() const { return fragments > 0 ? radii / fragments : 0; }
 };
 
+// Adds the light of the gathers as it is, without sharing. `target` has no splats.
+void AddOwnLight(const GatherFragments& gathers, const SharedLightTarget& target,
+                 ThreadPool* threads);
+
 // The gathers and threads must outlive this object.
 class SharedGathers {
  public:
   // `windowArea` is the area of the windows, relative to those that cross-validation chooses.
   SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea = 1);
+
+  // Shares with windows that other gathers have chosen.
+  SharedGathers(const GatherFragments& gathers, const SharingWindows& windows, ThreadPool* threads);
 
   // Returns the radii of the windows, and the checked pixels if they are wanted.
   SharingTotals AddLight(const SharedLightTarget& target) const;

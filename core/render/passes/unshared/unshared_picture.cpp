@@ -53,6 +53,10 @@ void UnsharedPicture::Add(const Film& pass, std::int64_t samplesPerPixel, int gr
   pass_.Clear();
 }
 
+void UnsharedPicture::AddChange(const AovFilm* light) {
+  if (aovs_) aovs_->Add(*light);
+}
+
 std::optional<SharingBias> UnsharedPicture::BiasOf(const PassSum& shared,
                                                    GroupSamples samples) const {
   return BiasOfSharing(shared.GroupSums(), sum_.GroupSums(), samples);

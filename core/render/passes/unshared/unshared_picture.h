@@ -36,6 +36,8 @@ class UnsharedPicture {
   SharingChange* OfPass() { return &pass_; }
   // Adds a complete pass without its shared light, as PassSum::Add does.
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
+  // Adds AOVs of light that sharing changes in addition; null: none.
+  void AddChange(const AovFilm* light);
   // The noise of this picture.
   PassSum& Sum() { return sum_; }
   // Estimates what sharing adds to the error of the picture with this sum.
