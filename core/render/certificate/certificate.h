@@ -42,8 +42,9 @@ struct CertificateGoal {
 };
 
 // Returns nullopt with fewer than two groups. `levels` has r^2 of the picture of all groups, three
-// channels per pixel (PassSum::Levels), and `noise` is its noise part of relMSE. The blocks are the
-// finest ones that reach the goal.
+// channels per pixel (PassSum::Levels), and `noise` is its noise part of relMSE. The bias is
+// relative to the radiance that the corrections of each block lead to. The blocks are the finest
+// ones that reach the goal.
 std::optional<Certificate> Certify(const Corrections& corrections, std::span<const double> levels,
                                    double noise, const CertificateGoal& goal);
 

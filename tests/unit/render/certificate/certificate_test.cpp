@@ -44,8 +44,8 @@ TEST(Certificate, HasNoDigitsForHugeErrors) {
 }
 
 // Two groups have the correction .1 in all pixels. Half of the pixels have the radiance 1, and
-// the others 10.
-TEST(Certificate, HasTheBiasRelativeToTheLevelsOfThePicture) {
+// the others 10. Their true radiance is 1.1 and 10.1.
+TEST(Certificate, HasTheBiasRelativeToTheTrueRadiance) {
   constexpr int kWidth = 16, kHeight = 8;
   Corrections corrections({0, 0, kWidth, kHeight}, 1);
   std::vector<double> levels;
@@ -58,9 +58,23 @@ TEST(Certificate, HasTheBiasRelativeToTheLevelsOfThePicture) {
     for (int x = 0; x < kWidth; ++x) levels.insert(levels.end(), 3, x < 8 ? 1 : 100);
   const auto certificate = Certify(corrections, levels, .5, {});
   ASSERT_TRUE(certificate);
-  EXPECT_NEAR(certificate->bias.squared, .01 / 2 * (1 / 1.01 + 1 / 100.01), 1e-8);
+  EXPECT_NEAR(certificate->bias.squared, .01 / 2 * (1 / (1.21 + .01) + 1 / (102.01 + .01)), 1e-8);
   EXPECT_EQ(certificate->noise, .5);
   EXPECT_EQ(certificate->corrections, 2 * kWidth * kHeight);
+}
+
+// The corrections .4 and -.2 have the mean .1, and their product is negative: this is noise.
+TEST(Certificate, TakesNoNoiseForAnErrorOfTheRadiance) {
+  constexpr int kSize = 8;
+  Corrections corrections({0, 0, kSize, kSize}, 1);
+  for (int group = 0; group < 2; ++group) {
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        corrections.Add({x, y}, {1, Spectrum(Real(group == 0 ? .4 : -.2)), 1}, 1);
+    corrections.EndPass(group, 1);
+  }
+  const std::vector<double> levels(std::size_t(3 * kSize * kSize), 1);
+  EXPECT_NEAR(Certify(corrections, levels, .5, {})->bias.squared, -.08 / 1.01, 1e-8);
 }
 
 // By chance none of few gather rays is corrected. Then nothing is known about their bias.
@@ -86,10 +100,11 @@ TEST(Certificate, WithoutCorrectionsDependsOnTheGatherRays) {
   EXPECT_EQ(certificate(100).LowerBias(), 0);
 }
 
-// The corrections of pass i are 1 + i / 100 at each pixel, and their mean is 1.995.
+// The corrections of pass i are 1 + i / 100 at each pixel, and their mean is 1.995. The picture has
+// the radiance 4, so its true radiance is 5.995.
 TEST(Corrections, KeepFewGroupsOfManyPasses) {
   constexpr int kSize = 16, kPasses = 200;
-  const std::vector<double> levels(std::size_t(3 * kSize * kSize), 1);
+  const std::vector<double> levels(std::size_t(3 * kSize * kSize), 16);
   for (const int joined : {0, 10}) {
     Corrections corrections({0, 0, kSize, kSize}, 1);
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -110,7 +125,7 @@ TEST(Corrections, KeepFewGroupsOfManyPasses) {
     EXPECT_LE(groups[0]->samplesPerPixel, joined > 0 ? joined : kPasses / 16) << joined;
     const auto certificate = Certify(corrections, levels, .01, {});
     ASSERT_TRUE(certificate);
-    EXPECT_NEAR(certificate->bias.squared, 1.995 * 1.995 / 1.01, .02) << joined;
+    EXPECT_NEAR(certificate->bias.squared, 1.995 * 1.995 / (5.995 * 5.995 + .01), .001) << joined;
   }
 }
 
