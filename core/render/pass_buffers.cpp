@@ -59,7 +59,10 @@ std::optional<SharingBias> PassBuffers::Finish(ThreadPool* threads, Statistics* 
     const PhaseTimer timer(*statistics, "share");
     batch->AddPass(bands_->Gathers(), layout_.samplesPerPixel, threads, film_, aovs_);
   }
-  if (layout_.gathers) *layout_.gathers = std::move(bands_->Gathers());
+  if (layout_.gathers) {
+    *layout_.gathers = std::move(bands_->Gathers());
+    return std::nullopt;
+  }
   SetSharingRadius(batch ? batch->MeanRadius() : bands_->Totals().MeanRadius(), statistics);
   return batch ? std::nullopt : EstimateSharingBias(bands_->Totals().checked, *film_);
 }

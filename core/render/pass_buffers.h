@@ -8,7 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
-#include "core/render/sharing/gather_batch.h"
+#include "core/render/sharing/passes/gather_batch.h"
 #include "core/render/sharing/sharing_bands.h"
 #include "core/render/sharing/sharing_estimate.h"
 #include "core/render/splat_buffer.h"

@@ -18,12 +18,6 @@
 #include "core/render/tiles.h"
 
 namespace exphoton {
-namespace {
-
-constexpr double kBatchBands = 4;  // the memory of a batch, in units of a band's
-
-}  // namespace
-
 struct PassRenderer::State {
   State(const RenderJob& aJob, const RenderOptions& someOptions)
       : job(aJob),
@@ -60,7 +54,7 @@ struct PassRenderer::State {
   GatherBatch* BatchOf(const RenderPass& pass, const Film& film) {
     if (!sharing.isOn || options.shard || pass.sharing == RenderPass::Sharing::Alone)
       return nullptr;
-    const double memory = kBatchBands * options.sharingMemory;
+    const double memory = kBandsOfPasses * options.sharingMemory;
     const std::int64_t before = batch ? batch->SamplesPerPixel() : 0;
     const bool isTooLarge = !GatherBatch::Fits(film.Full(), before + pass.sampleCount, memory);
     if (isTooLarge && !isBatchLimitLogged) {

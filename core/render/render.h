@@ -75,7 +75,8 @@ struct RenderOptions {
   // Receives the corrections of each pass, whose end the caller reports. Null: no certificate.
   Corrections* corrections = nullptr;
   // Receives what shared gathers change in each pass, whose end the caller reports. Passes share
-  // alone, and their samples are not splatted. Null: it is not wanted.
+  // alone or leave it to the caller (RenderPass::gathers), and their samples are not splatted.
+  // Null: it is not wanted.
   SharingChange* sharingChange = nullptr;
   RenderView* view = nullptr;  // sees finished tiles and passes; null: none
 };
@@ -119,8 +120,8 @@ struct RenderPass {
   double diskArea = 1;
   std::optional<Real> time{};          // of camera rays and photons
   PhotonNoise* photonNoise = nullptr;  // receives signed light; null: it is not wanted
-  // Receives the gathers of a pass that shares them alone, if it is not stopped. All of them are
-  // then in memory at once, the film receives their own light, and the caller shares them. Null:
+  // Receives the gathers of a pass that shares alone. All of them are then in memory at once. If
+  // the pass is not stopped, the film receives their own light, and the caller shares them. Null:
   // they are not wanted. Samples must not be splatted.
   GatherFragments* gathers = nullptr;
 };

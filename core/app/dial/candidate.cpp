@@ -67,6 +67,7 @@ bool Explorer::FindOmissions(double most) {
         IsTooDear(most))
       return;
     Candidate likely = WithGain(std::sqrt(MostGain())).candidate_;
+    if (!likely.reason.empty()) return;
     const std::vector<OmittedEffect> omitted = wish_.findOmissions(&likely);
     candidate_.omitted = omitted;
     candidate_.hasSoughtOmissions = true;
@@ -149,7 +150,8 @@ double Explorer::Affordable(double most) const {
 }
 
 bool Explorer::IsTooDear(double most) const {
-  const std::optional<Split> split = isRough_ ? WithGain(MostGain()).CheapestSplit() : CheapestSplit();
+  const std::optional<Split> split =
+      isRough_ ? WithGain(MostGain()).CheapestSplit() : CheapestSplit();
   return split && (isRough_ ? split->price.seconds : split->price.least) > most;
 }
 

@@ -75,7 +75,7 @@ class Explorer {
   double Affordable(double most) const;
   bool IsTooDear(double most) const;
   double MostGain() const;
-  // Returns the state with the noise of the pilots divided by this factor.
+  // Returns a copy whose model divides the noise of the pilots by this factor, with its price.
   Explorer WithGain(double gain) const;
   void EstimateBias(double most);
 

@@ -95,7 +95,9 @@ void Corrections::EndPass(int group, std::int64_t samplesPerPixel) {
 void Corrections::SubtractSharing(const Film& light, int group) {
   const auto place = std::size_t(PlaceOfGroup(group, mostGroups_, isFirstJoined_));
   // Joined groups are in the first place.
-  Group& to = groups_[groups_[place].samplesPerPixel > 0 ? place : 0];
+  const bool hasPlace = place < groups_.size() && groups_[place].samplesPerPixel > 0;
+  Group& to = groups_[hasPlace ? place : 0];
+  to.sharing.resize(to.sums.size());
   for (std::size_t i = 0; i < light.PixelCount(); ++i) {
     const Film::Sums sums = light.SumsOf(i);
     to.sharing[3 * i] -= sums.r;

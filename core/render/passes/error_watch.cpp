@@ -8,6 +8,7 @@
 #include "core/base/format.h"
 #include "core/render/certificate/corrections.h"
 #include "core/render/render_totals.h"
+#include "core/render/sharing/sharing_bands.h"
 
 namespace exphoton {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 constexpr const char* kRuleSection = "accuracy";
 // Fewer samples share badly and say little about the bias of sharing.
 constexpr std::int64_t kFewestToStopSharing = 8;
-constexpr double kJointBands = 4;  // the memory of joint windows, in units of a band's
 
 // Returns whether the groups of the corrections have the samples of the groups of the sum. Where
 // groups share places, only all samples together are compared.
@@ -32,6 +32,13 @@ bool HaveSameGroups(const Corrections& corrections, const PassSum& sum) {
   return sum.Groups() > sums.Places() ? total(samples) == total(ofSum) : samples == ofSum;
 }
 
+bool HasPassesOf(const JointWindows& joint, const PassSum& sum) {
+  return joint.Passes() == std::size_t(sum.Passes()) &&
+         joint.SamplesPerPixel() == sum.SamplesPerPixel();
+}
+
+static_assert(JointWindows::kMostPasses <= std::size_t(PassSum::kPlaces));  // one place each
+
 }  // namespace
 
 ErrorWatch::ErrorWatch(const Picture& picture,
@@ -45,13 +52,18 @@ ErrorWatch::ErrorWatch(const Picture& picture,
   mayStopSharing_ = accuracy->mayStopSharing;
   stopsForLikelyBias_ = accuracy->stopsForLikelyBias;
   if (unshared_)
-    joint_ = std::make_unique<JointWindows>(
-        picture.job.film, picture.parts->Aovs(),
-        kJointBands * picture.parts->Options().sharingMemory);
+    joint_ =
+        std::make_unique<JointWindows>(picture.job.film, picture.parts->Aovs(),
+                                       kBandsOfPasses * picture.parts->Options().sharingMemory);
 }
 
 GatherFragments* ErrorWatch::BeginPass(std::int64_t samplesPerPixel) {
-  if (joint_ && !joint_->HasRoomFor(samplesPerPixel)) joint_.reset();
+  if (joint_ && !joint_->HasRoomFor(samplesPerPixel)) {
+    joint_.reset();
+    picture_.job.log.Verbose("later passes share their gathers alone, because " +
+                             std::to_string(picture_.sum->Passes()) +
+                             " passes are the most, or fill the memory");
+  }
   return joint_ ? joint_->OfPass() : nullptr;
 }
 
@@ -180,8 +192,10 @@ void ErrorWatch::Describe(PassesResult* result) const {
 
 void ErrorWatch::TransferRule(ByteArchive* archive) {
   rule_->Transfer(archive);
-  char hasStopped = hasStoppedSharing_ ? 1 : 0;
-  archive->Values(&hasStopped, &neededSamples_);
+  char hasStopped = hasStoppedSharing_ ? 1 : 0, isJoint = joint_ ? 1 : 0;
+  archive->Values(&hasStopped, &isJoint, &neededSamples_);
+  if (isJoint && !joint_) throw ArchiveError("its passes cannot share together");
+  if (!isJoint) joint_.reset();
   if (!(neededSamples_ >= 0)) throw ArchiveError("it needs an impossible number of samples");
   if (!hasStopped || hasStoppedSharing_) return;
   if (!unshared_) throw ArchiveError("its gathers were never shared");
@@ -202,8 +216,9 @@ void ErrorWatch::Save(StateWriter* writer) {
 void ErrorWatch::Load(const StateFile& file) {
   if (rule_) file.Read(kRuleSection, [this](ByteArchive* archive) { TransferRule(archive); });
   if (unshared_) unshared_->Load(file, *picture_.sum);
-  if (joint_ && !JointWindows::IsIn(file)) joint_.reset();
   if (joint_) joint_->Load(file, picture_.sum->Groups());
+  if (joint_ && !HasPassesOf(*joint_, *picture_.sum))
+    file.FailAsDamaged("its gathers have other passes than the picture");
   if (!OfMaps()) return;
   OfMaps()->Load(file);
   if (!HaveSameGroups(*OfMaps(), *picture_.sum))

@@ -11,9 +11,9 @@
 #include "core/render/passes/accuracy_rule.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_sum.h"
-#include "core/render/sharing/joint_windows.h"
 #include "core/render/passes/render_passes.h"
 #include "core/render/passes/unshared/unshared_picture.h"
+#include "core/render/sharing/passes/joint_windows.h"
 
 namespace exphoton {
 
@@ -82,7 +82,7 @@ class ErrorWatch {
   bool mayStopSharing_ = false, stopsForLikelyBias_ = false, hasStoppedSharing_ = false;
   double neededSamples_ = 0;
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
-  std::unique_ptr<JointWindows> joint_;         // null: passes share apart, or not at all
+  std::unique_ptr<JointWindows> joint_;        // null: passes share apart, or not at all
 };
 
 }  // namespace exphoton

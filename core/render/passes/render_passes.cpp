@@ -96,8 +96,7 @@ class Passes {
     if (!isPossible) throw ArchiveError("its counts of passes contradict each other");
   }
 
-  // All passes of an accuracy have at least the size of the first one, which is a power of two
-  // unless it has all samples.
+  // No pass of an accuracy is smaller than the first one, except for the last one before a limit.
   std::int64_t WellDistributed() const { return std::max(kWellDistributed, FirstSamples()); }
 
   // Returns a number of samples that the first group has at least.
@@ -225,7 +224,9 @@ class Passes {
       error_.JoinGroups();
     }
     sum_.Add(passFilm_, step.size, group);
+    const Clock::time_point start = Clock::now();
     error_.Add(passFilm_, step.size, group);
+    renderSeconds_ += SecondsSince(start);  // shares gathers
     if (group < 2 && rule_.passSamples == 0 && !rule_.accuracy) TakeForecast(step.size, group);
     photons_.EndPass(step.size);
     TakePhotonNoise(group);

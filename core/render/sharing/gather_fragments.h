@@ -81,9 +81,9 @@ class GatherFragments {
 
     // Adds the records of one camera sample.
     void Add(const GatherRecords& records, Point2 film, Real sampleWeight, GatherShare share);
-    void Finish();                        // turns sums into means
-    // Adds the records of another pass; both are finished. JoinFragments leaves out its samples, and
-    // returns the place of each of its fragments.
+    void Finish();  // turns sums into means
+    // Adds the records of another pass; both are finished. JoinFragments leaves out its samples,
+    // and returns the place of each of its fragments.
     void Join(const Pixel& other);
     std::vector<std::uint32_t> JoinFragments(const Pixel& other);
     void Transfer(ByteArchive* archive);  // saves or loads

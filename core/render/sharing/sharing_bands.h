@@ -12,6 +12,9 @@
 
 namespace exphoton {
 
+// The memory for the gathers of several passes, in units of a band's.
+constexpr double kBandsOfPasses = 4;
+
 // Returns the pixels whose gathers the window needs. `reach` is the number of pixels that samples
 // are splatted over; those beyond the full image count, too.
 PixelBounds WithSharingMargin(const PixelBounds& window, const PixelBounds& full, int reach);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests render passes that share their gathers in one batch.
-#include "core/render/sharing/gather_batch.h"
+#include "core/render/sharing/passes/gather_batch.h"
 
 #include <gtest/gtest.h>
 

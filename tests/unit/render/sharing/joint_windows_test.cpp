@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests share the gathers of passes whose light is a wave with noise.
-#include "core/render/sharing/joint_windows.h"
+#include "core/render/sharing/passes/joint_windows.h"
 
 #include <gtest/gtest.h>
 
@@ -159,10 +159,10 @@ TEST(JointWindows, ContinueFromAState) {
 
   JointWindows loaded(whole.film, &whole.aovs, 0x1p30);
   const StateFile file(path);
-  ASSERT_TRUE(JointWindows::IsIn(file));
   EXPECT_THROW(JointWindows(whole.film, &whole.aovs, 0x1p30).Load(file, 1), Error);
   loaded.Load(file, 2);
   EXPECT_EQ(loaded.Passes(), 2u);
+  EXPECT_EQ(loaded.SamplesPerPixel(), 2 * kWaveSamples);
   const auto next = [&](JointWindows* joint) {
     *joint->OfPass() = WavePass(2);
     joint->Add(kWaveSamples, 2);
@@ -178,13 +178,12 @@ TEST(JointWindows, ContinueFromAState) {
 
 TEST(JointWindows, EndWhereMemoryOrPassesEnd) {
   WavePicture picture;
-  const double pixels = kWaveSide * kWaveSide;
-  const double bytes = pixels * GatherFragments::BytesPerPixel(kWaveSamples);
-  EXPECT_TRUE(JointWindows(picture.film, nullptr, bytes).HasRoomFor(kWaveSamples));
-  EXPECT_FALSE(JointWindows(picture.film, nullptr, bytes).HasRoomFor(kWaveSamples + 1));
+  const double gathers = kWaveSide * kWaveSide * GatherFragments::BytesPerPixel(100 * kWaveSamples);
+  EXPECT_TRUE(JointWindows(picture.film, nullptr, gathers).HasRoomFor(50 * kWaveSamples));
+  EXPECT_FALSE(JointWindows(picture.film, nullptr, gathers).HasRoomFor(100 * kWaveSamples));
   // The gathers of the full picture count, so that a crop has the same windows.
   const Film crop(kWave, {3, 3, 5, 5});
-  EXPECT_FALSE(JointWindows(crop, nullptr, bytes).HasRoomFor(kWaveSamples + 1));
+  EXPECT_FALSE(JointWindows(crop, nullptr, gathers).HasRoomFor(100 * kWaveSamples));
   int passes = 0;
   while (picture.joint.HasRoomFor(kWaveSamples) && passes < 100) picture.Add(true), ++passes;
   EXPECT_EQ(passes, 8);

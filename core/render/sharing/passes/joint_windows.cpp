@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // JointWindows: the fragments of all passes choose the windows, and each pass fits its own gathers.
-#include "core/render/sharing/joint_windows.h"
+#include "core/render/sharing/passes/joint_windows.h"
 
 #include <string>
 #include <utility>
@@ -11,10 +11,9 @@
 namespace exphoton {
 namespace {
 
-// Passes of one picture differ in size by factors of two, so that more passes are rare. Their
-// number limits the time of the fits.
-constexpr std::size_t kMostPasses = 8;
-constexpr double kChangeBytes = 80;  // of a pixel of SharingChange
+constexpr const char* kSection = "joint windows";
+// The bytes of a pixel of SharingChange without AOVs. Fit has three of them beside those of passes.
+constexpr double kChangeBytes = 80, kFitBytes = 3 * kChangeBytes;
 
 std::string PassSection(std::size_t pass) { return "joint pass " + std::to_string(pass); }
 std::string RowSection(std::size_t pass, int y) {
@@ -32,12 +31,19 @@ JointWindows::JointWindows(const Film& picture, const AovFilm* aovs, double memo
       all_(gathered_, 0) {}
 
 bool JointWindows::HasRoomFor(std::int64_t samplesPerPixel) const {
-  double bytes = GatherFragments::BytesPerPixel(samplesPerPixel);
+  double bytes = GatherFragments::BytesPerPixel(samplesPerPixel) + kChangeBytes +
+                 GatherFragments::BytesPerPixel(0) + kFitBytes;
   for (const Pass& pass : passes_)
     bytes += GatherFragments::BytesPerPixel(pass.samples) + kChangeBytes;
   const PixelBounds& full = picture_.Full();
   const bool fits = double(full.Width()) * full.Height() * bytes <= memory_;
   return fits && passes_.size() < kMostPasses;
+}
+
+std::int64_t JointWindows::SamplesPerPixel() const {
+  std::int64_t samples = 0;
+  for (const Pass& pass : passes_) samples += pass.samples;
+  return samples;
 }
 
 void JointWindows::Add(std::int64_t samplesPerPixel, int group) {
@@ -74,7 +80,7 @@ void JointWindows::Transfer(ByteArchive* archive) {
   std::uint64_t passes = passes_.size();
   archive->Values(&passes);
   if (passes > kMostPasses) throw ArchiveError("too many passes share windows");
-  while (passes_.size() < passes) 
+  while (passes_.size() < passes)
     passes_.push_back({0, 0, GatherFragments(gathered_, 0), SharingChange(picture_, aovs_)});
 }
 
@@ -98,7 +104,8 @@ void JointWindows::Save(StateWriter* writer) {
   save(kSection, [this](ByteArchive* archive) { Transfer(archive); });
   for (std::size_t i = 0; i < passes_.size(); ++i) {
     Pass& pass = passes_[i];
-    save(PassSection(i), [&](ByteArchive* archive) { TransferPass(archive, &pass, pass.group + 1); });
+    save(PassSection(i),
+         [&](ByteArchive* archive) { TransferPass(archive, &pass, pass.group + 1); });
     for (int y = gathered_.y0; y < gathered_.y1; ++y)
       save(RowSection(i, y), [&](ByteArchive* archive) { TransferRow(archive, &pass, y); });
   }

@@ -18,8 +18,11 @@ namespace exphoton {
 
 class JointWindows {
  public:
-  // `picture` and `aovs` (null: none) have the windows of pixels and the AOVs of the passes. Gathers
-  // and changes take about `memory` bytes at most.
+  // The fits take time that grows with the square of the number of passes.
+  static constexpr std::size_t kMostPasses = 8;
+
+  // `picture` and `aovs` (null: none) have the bounds of pixels and the AOVs of the passes. All
+  // takes about `memory` bytes at most, without AOVs.
   JointWindows(const Film& picture, const AovFilm* aovs, double memory);
   JointWindows(const JointWindows&) = delete;
   JointWindows& operator=(const JointWindows&) = delete;
@@ -27,24 +30,23 @@ class JointWindows {
   // Returns whether another pass has room. The answer does not depend on a crop window.
   bool HasRoomFor(std::int64_t samplesPerPixel) const;
   GatherFragments* OfPass() { return &next_; }  // receives the gathers of the next pass
-  // Adds this pass, whose picture has the own light of its gathers. Groups are those of PassSum.
+  // Adds this pass, whose gathers must be there, and whose picture has their own light. Groups are
+  // those of PassSum.
   void Add(std::int64_t samplesPerPixel, int group);
 
-  // Fits the light of all passes again. Calls use(group, difference) for each pass, with the light
-  // that its group gets in addition. Returns the mean radius of the windows in pixels.
+  // Fits the light of all passes again. Calls use(group, difference) for each pass, with its new
+  // light minus its former one. Returns the mean radius of the windows in pixels.
   using Use = std::function<void(int group, const SharingChange& difference)>;
   double Fit(ThreadPool* threads, const Use& use);
   std::size_t Passes() const { return passes_.size(); }
+  std::int64_t SamplesPerPixel() const;  // of all passes
 
-  static bool IsIn(const StateFile& file) { return file.Has(kSection); }
   // Save and load the passes. Load throws Error(File) if the state has a pass of a group from
   // `groups` on.
   void Save(StateWriter* writer);
   void Load(const StateFile& file, int groups);
 
  private:
-  static constexpr const char* kSection = "joint windows";
-
   struct Pass {
     int group;
     std::int64_t samples;

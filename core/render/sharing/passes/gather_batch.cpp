@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // GatherBatch: the light of all gathers replaces the light of the gathers before.
-#include "core/render/sharing/gather_batch.h"
+#include "core/render/sharing/passes/gather_batch.h"
 
 #include <string>
 
