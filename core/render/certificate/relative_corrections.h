@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// RelativeCorrections divides the corrections of the groups of passes by the radiance of the picture,
+// so that their squared mean is a part of relMSE (BlockBiasEstimator). It also estimates the levels
+// of the true picture. docs/decisions/0050-bias-certificate.md has the measurements.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/render/certificate/block_bias.h"
+
+namespace exphoton {
+
+class Corrections;
+
+class RelativeCorrections {
+ public:
+  // There must be two groups.
+  explicit RelativeCorrections(const Corrections& corrections);
+
+  // Returns an estimator of the bias relative to levels r^2, three channels per pixel.
+  BlockBiasEstimator To(std::span<const double> levels, double quantile) const;
+
+  // Returns the levels of the true picture. Those of the picture contain its bias: a picture that
+  // is 30 % too bright has a bias of 30 % of the truth, which is 23 % of the picture. In each block
+  // of this width (pixels) and channel, the radiance is corrected by the factor that its mean
+  // corrections give.
+  std::vector<double> TrueLevels(std::span<const double> levels, std::size_t blockWidth) const;
+
+ private:
+  struct Block {  // sums over the pixels of a block, in one channel
+    double picture = 0;
+    std::vector<double> corrections;  // of the groups, times their shares
+  };
+
+  std::vector<Block> BlocksOf(std::span<const double> levels, std::size_t blockWidth) const;
+  std::size_t PlaceOf(std::size_t value, std::size_t blockWidth) const;
+  double FactorOf(const Block& block) const;
+
+  int width_, height_;                       // of the picture, in pixels
+  std::vector<std::vector<double>> groups_;  // mean corrections: of each pixel, three channels
+  std::vector<double> shares_;               // of the samples of all groups
+};
+
+}  // namespace exphoton
