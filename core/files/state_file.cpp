@@ -102,6 +102,12 @@ void StateWriter::AddAligned(std::string_view name, std::span<const std::byte> b
   Add(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+void StateWriter::AddArchive(std::string_view name, const Save& save) {
+  ByteArchive archive;
+  save(&archive);
+  Add(name, archive.Take());
+}
+
 void StateWriter::Commit() {
   const std::string head = SectionHead(kEnd, sizeof checksum_);
   Write(head.data(), head.size());

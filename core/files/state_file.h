@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -29,6 +30,9 @@ class StateWriter {
   // Adds a section that can be mapped: its bytes begin at a multiple of kAlignment. A section of
   // zeros may precede it.
   void AddAligned(std::string_view name, std::span<const std::byte> bytes);
+  // Adds a section of what `save` puts into an archive. StateFile::Read reads it.
+  using Save = std::function<void(ByteArchive*)>;
+  void AddArchive(std::string_view name, const Save& save);
   void Commit();
 
   static constexpr std::size_t kAlignment = 128;

@@ -66,9 +66,10 @@ bool Explorer::FindOmissions(double most) {
     if (!isRough_ || !wish_.findOmissions || !ReadsPhotonMaps(candidate_.integrator) ||
         IsTooDear(most))
       return;
-    Candidate likely = WithGain(std::sqrt(MostGain())).candidate_;
-    if (!likely.reason.empty()) return;
-    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&likely);
+    Explorer likely = WithGain(std::sqrt(MostGain()));
+    likely.TakePrice();
+    if (!likely.candidate_.reason.empty()) return;
+    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&likely.candidate_);
     candidate_.omitted = omitted;
     candidate_.hasSoughtOmissions = true;
     series_.LeaveOut(omitted);
@@ -161,7 +162,6 @@ double Explorer::MostGain() const { return series_.HasBias() ? kGainOfMaps : kGa
 Explorer Explorer::WithGain(double gain) const {
   Explorer better = *this;
   better.gain_ = gain;
-  better.TakePrice();
   return better;
 }
 

@@ -75,7 +75,7 @@ class Explorer {
   double Affordable(double most) const;
   bool IsTooDear(double most) const;
   double MostGain() const;
-  // Returns a copy whose model divides the noise of the pilots by this factor, with its price.
+  // Returns a copy whose model divides the noise of the pilots by this factor.
   Explorer WithGain(double gain) const;
   void EstimateBias(double most);
 

@@ -122,9 +122,8 @@ void StateIdentity::Transfer(ByteArchive* archive) {
 }
 
 void StateIdentity::Save(StateWriter* writer) const {
-  ByteArchive archive;
-  StateIdentity(*this).Transfer(&archive);
-  writer->Add("identity", archive.Take());
+  writer->AddArchive("identity",
+                     [this](ByteArchive* archive) { StateIdentity(*this).Transfer(archive); });
 }
 
 // `other` is the identity in the file.

@@ -110,9 +110,7 @@ void StateKeeper::Save(const Checkpoint& checkpoint) {
   if (!hasWritten_ && !resumed_) KeepOlderState();
   StateWriter writer(settings_.path);
   identity_.Save(&writer);
-  ByteArchive run;
-  TransferRun(&run);
-  writer.Add("run", run.Take());
+  writer.AddArchive("run", [this](ByteArchive* archive) { TransferRun(archive); });
   checkpoint.save(&writer);
   writer.Commit();
   hasWritten_ = true;

@@ -97,7 +97,8 @@ void Corrections::SubtractSharing(const Film& light, int group) {
   // Joined groups are in the first place.
   const bool hasPlace = place < groups_.size() && groups_[place].samplesPerPixel > 0;
   Group& to = groups_[hasPlace ? place : 0];
-  to.sharing.resize(to.sums.size());
+  to.sums.resize(current_.size());
+  to.sharing.resize(current_.size());
   for (std::size_t i = 0; i < light.PixelCount(); ++i) {
     const Film::Sums sums = light.SumsOf(i);
     to.sharing[3 * i] -= sums.r;
@@ -160,15 +161,11 @@ void Corrections::TransferGroup(ByteArchive* archive, Group* group) {
 
 // Each group has a section of its own, so that only one is in memory twice.
 void Corrections::Save(StateWriter* writer) {
-  const auto save = [writer](const std::string& name, const auto& transfer) {
-    ByteArchive archive;
-    transfer(&archive);
-    writer->Add(name, archive.Take());
-  };
-  save(kCountSection, [this](ByteArchive* archive) { TransferCounts(archive); });
-  save(kCurrentSection, [this](ByteArchive* archive) { TransferPass(archive); });
+  writer->AddArchive(kCountSection, [this](ByteArchive* archive) { TransferCounts(archive); });
+  writer->AddArchive(kCurrentSection, [this](ByteArchive* archive) { TransferPass(archive); });
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    save(GroupSection(g), [&](ByteArchive* archive) { TransferGroup(archive, &groups_[g]); });
+    writer->AddArchive(GroupSection(g),
+                       [&](ByteArchive* archive) { TransferGroup(archive, &groups_[g]); });
 }
 
 void Corrections::Load(const StateFile& file) {

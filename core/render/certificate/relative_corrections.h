@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// RelativeCorrections divides the corrections of the groups of passes by the radiance of the picture,
-// so that their squared mean is a part of relMSE (BlockBiasEstimator). It also estimates the levels
-// of the true picture. docs/decisions/0050-bias-certificate.md has the measurements.
+// RelativeCorrections divides the corrections of the groups of passes by the radiance of the
+// picture, so that their squared mean is a part of relMSE (BlockBiasEstimator). It also estimates
+// the levels of the true picture. docs/decisions/0050-bias-certificate.md has the measurements.
 #pragma once
 
 #include <cstddef>

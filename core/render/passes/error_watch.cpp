@@ -203,11 +203,8 @@ void ErrorWatch::TransferRule(ByteArchive* archive) {
 }
 
 void ErrorWatch::Save(StateWriter* writer) {
-  if (rule_) {
-    ByteArchive archive;
-    TransferRule(&archive);
-    writer->Add(kRuleSection, archive.Take());
-  }
+  if (rule_)
+    writer->AddArchive(kRuleSection, [this](ByteArchive* archive) { TransferRule(archive); });
   if (unshared_) unshared_->Save(writer);
   if (joint_) joint_->Save(writer);
   if (OfMaps()) OfMaps()->Save(writer);

@@ -109,17 +109,13 @@ class Passes {
     outer.hasWork = inner.hasWork || sum_.Passes() > 0;
     outer.save = [this, inner](StateWriter* writer) {
       inner.save(writer);
-      ByteArchive passes;
-      Transfer(&passes);
-      writer->Add("passes", passes.Take());
+      writer->AddArchive("passes", [this](ByteArchive* archive) { Transfer(archive); });
       SaveSection("film", job_.film, writer);
       parts_.SaveAovs(writer);
-      ByteArchive noise;
-      sum_.TransferNoise(&noise);
-      writer->Add("noise", noise.Take());
-      ByteArchive forecasts;
-      for (GroupForecast& forecast : forecasts_) forecast.Transfer(&forecasts);
-      writer->Add("forecast", forecasts.Take());
+      writer->AddArchive("noise", [this](ByteArchive* archive) { sum_.TransferNoise(archive); });
+      writer->AddArchive("forecast", [this](ByteArchive* archive) {
+        for (GroupForecast& forecast : forecasts_) forecast.Transfer(archive);
+      });
       error_.Save(writer);
     };
     if (!inner.picture) return outer;

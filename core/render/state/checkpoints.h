@@ -55,9 +55,7 @@ class OuterCheckpoints : public Checkpoints {
 // Saves an object that has a function Transfer(ByteArchive*).
 template <class Object>
 void SaveSection(const char* name, Object& object, StateWriter* writer) {
-  ByteArchive archive;
-  object.Transfer(&archive);
-  writer->Add(name, archive.Take());
+  writer->AddArchive(name, [&](ByteArchive* archive) { object.Transfer(archive); });
 }
 template <class Object>
 void LoadSection(const char* name, Object* object, const StateFile& file) {

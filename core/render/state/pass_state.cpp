@@ -25,16 +25,12 @@ void PassState::TransferGathers(ByteArchive* archive) {
 }
 
 void PassState::Save(StateWriter* writer) {
-  ByteArchive pass;
-  TransferPass(&pass);
-  writer->Add("pass", pass.Take());
+  writer->AddArchive("pass", [this](ByteArchive* archive) { TransferPass(archive); });
   SaveSection("pass film", *parts_.film, writer);
   if (parts_.aovs) SaveSection("pass aovs", *parts_.aovs, writer);
   if (parts_.splats) SaveSection("pass splats", *parts_.splats, writer);
-  if (!parts_.shared) return;
-  ByteArchive gathers;
-  TransferGathers(&gathers);
-  writer->Add("pass gathers", gathers.Take());
+  if (parts_.shared)
+    writer->AddArchive("pass gathers", [this](ByteArchive* archive) { TransferGathers(archive); });
 }
 
 void PassState::Load(const StateFile& file) {

@@ -74,9 +74,7 @@ void UnsharedPicture::TransferSum(ByteArchive* archive) {
 }
 
 void UnsharedPicture::Save(StateWriter* writer) {
-  ByteArchive sum;
-  TransferSum(&sum);
-  writer->Add(kSumSection, sum.Take());
+  writer->AddArchive(kSumSection, [this](ByteArchive* archive) { TransferSum(archive); });
   SaveSection(kFilmSection, picture_, writer);
   SaveSection(kPassSection, pass_.film, writer);
   if (!aovs_) return;

@@ -80,14 +80,9 @@ void GatherBatch::TransferRow(ByteArchive* archive, int y) {
 
 void GatherBatch::Save(StateWriter* writer) {
   if (samples_ == 0) return;
-  ByteArchive archive;
-  Transfer(&archive);
-  writer->Add(kSection, archive.Take());
-  for (int y = gathers_.Bounds().y0; y < gathers_.Bounds().y1; ++y) {
-    ByteArchive row;
-    TransferRow(&row, y);
-    writer->Add(RowSection(y), row.Take());
-  }
+  writer->AddArchive(kSection, [this](ByteArchive* archive) { Transfer(archive); });
+  for (int y = gathers_.Bounds().y0; y < gathers_.Bounds().y1; ++y)
+    writer->AddArchive(RowSection(y), [&](ByteArchive* archive) { TransferRow(archive, y); });
 }
 
 void GatherBatch::Load(const StateFile& file, ThreadPool* threads) {

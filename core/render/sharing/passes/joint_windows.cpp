@@ -96,18 +96,14 @@ void JointWindows::TransferRow(ByteArchive* archive, Pass* pass, int y) const {
 }
 
 void JointWindows::Save(StateWriter* writer) {
-  const auto save = [writer](const std::string& name, const auto& transfer) {
-    ByteArchive archive;
-    transfer(&archive);
-    writer->Add(name, archive.Take());
-  };
-  save(kSection, [this](ByteArchive* archive) { Transfer(archive); });
+  writer->AddArchive(kSection, [this](ByteArchive* archive) { Transfer(archive); });
   for (std::size_t i = 0; i < passes_.size(); ++i) {
     Pass& pass = passes_[i];
-    save(PassSection(i),
-         [&](ByteArchive* archive) { TransferPass(archive, &pass, pass.group + 1); });
+    writer->AddArchive(PassSection(i),
+                       [&](ByteArchive* archive) { TransferPass(archive, &pass, pass.group + 1); });
     for (int y = gathered_.y0; y < gathered_.y1; ++y)
-      save(RowSection(i, y), [&](ByteArchive* archive) { TransferRow(archive, &pass, y); });
+      writer->AddArchive(RowSection(i, y),
+                         [&](ByteArchive* archive) { TransferRow(archive, &pass, y); });
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/imaging/film/film.h"
+
 namespace exphoton {
 namespace {
 
@@ -127,6 +129,16 @@ TEST(Corrections, KeepFewGroupsOfManyPasses) {
     ASSERT_TRUE(certificate);
     EXPECT_NEAR(certificate->bias.squared, 1.995 * 1.995 / (5.995 * 5.995 + .01), .001) << joined;
   }
+}
+
+// A state that is made on purpose may lack the group that light belongs to.
+TEST(Corrections, TakeLightOfAGroupWithoutSamples) {
+  constexpr PixelBounds kCrop{0, 0, 64, 64};
+  Corrections corrections(kCrop, 1);
+  corrections.KeepSharingApart();
+  corrections.EndPass(1, 1);
+  corrections.SubtractSharing(Film(kCrop, kCrop), 0);
+  EXPECT_EQ(corrections.Groups().size(), 1u);
 }
 
 }  // namespace
