@@ -32,6 +32,17 @@ double UnseenBias(double expected, double quantile) {
   return -std::log(std::erfc(quantile / std::numbers::sqrt2) / 2) / expected;
 }
 
+// Returns the interval for levels of the true picture that are known from corrections, from the
+// intervals for the levels of the picture and for these. Corrections that noise may explain do not
+// change a level, so the true bias may lie as far again from the estimate.
+BlockBias BetweenLevels(const BlockBias& ofPicture, const BlockBias& ofTruth) {
+  BlockBias bias = ofTruth;
+  const double change = ofTruth.squared - ofPicture.squared;
+  bias.lower = std::max(std::min(ofPicture.lower, ofTruth.lower + std::min(change, 0.)), 0.);
+  bias.upper = std::max(ofPicture.upper, ofTruth.upper + std::max(change, 0.));
+  return bias;
+}
+
 // Larger errors have no digits.
 constexpr double kMostShown = 10;
 // A bias of this size is as large as the picture.
@@ -69,11 +80,13 @@ std::optional<Certificate> Certify(const Corrections& corrections, std::span<con
                                    double noise, const CertificateGoal& goal) {
   if (corrections.Groups().size() < 2) return std::nullopt;
   const RelativeCorrections relative(corrections);
-  const BlockBias first = relative.To(levels, goal.quantile).EstimateFor(goal.smallest);
-  const std::vector<double> trueLevels = relative.TrueLevels(levels, std::size_t(first.blockWidth));
+  const BlockBias ofPicture = relative.To(levels, goal.quantile).EstimateFor(goal.smallest);
+  const int width = ofPicture.blockWidth;
+  const std::vector<double> trueLevels = relative.TrueLevels(levels, std::size_t(width));
   Certificate certificate;
   certificate.noise = noise;
-  certificate.bias = relative.To(trueLevels, goal.quantile).Estimate(first.blockWidth);
+  certificate.bias =
+      BetweenLevels(ofPicture, relative.To(trueLevels, goal.quantile).Estimate(width));
   certificate.corrections = corrections.Count();
   const double unseen =
       certificate.corrections > 0 ? 0 : UnseenBias(corrections.ExpectedCount(), goal.quantile);

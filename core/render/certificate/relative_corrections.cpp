@@ -10,8 +10,9 @@
 namespace exphoton {
 namespace {
 
-// Few corrections are noisy, so they change the radiance of a block by this factor at most.
-constexpr double kLeastFactor = .5;
+// Few corrections are noisy, so those of one cell change radiance by the first factor at most, and
+// all of them together by the second one.
+constexpr double kLeastFactor = .5, kLeastRadiance = .25;
 
 }  // namespace
 
@@ -39,51 +40,74 @@ BlockBiasEstimator RelativeCorrections::To(std::span<const double> levels, doubl
   return BlockBiasEstimator(width_, height_, inputs, quantile);
 }
 
-// Returns the place of the sums that a value of a pixel and channel belongs to.
-std::size_t RelativeCorrections::PlaceOf(std::size_t value, std::size_t blockWidth) const {
+// Returns the place of the cell that a value of a pixel and channel belongs to.
+std::size_t RelativeCorrections::PlaceOf(std::size_t value, std::size_t cellWidth) const {
   const auto width = std::size_t(width_);
-  const std::size_t columns = (width + blockWidth - 1) / blockWidth;
+  const std::size_t columns = (width + cellWidth - 1) / cellWidth;
   const std::size_t x = value / 3 % width, y = value / 3 / width;
-  return 3 * (y / blockWidth * columns + x / blockWidth) + value % 3;
+  return 3 * (y / cellWidth * columns + x / cellWidth) + value % 3;
 }
 
-std::vector<RelativeCorrections::Block> RelativeCorrections::BlocksOf(
-    std::span<const double> levels, std::size_t blockWidth) const {
-  std::vector<Block> blocks(PlaceOf(levels.size() - 1, blockWidth) + 1);
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    Block& block = blocks[PlaceOf(i, blockWidth)];
-    block.picture += std::sqrt(levels[i]);
-    block.corrections.resize(groups_.size());
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      block.corrections[g] += shares_[g] * groups_[g][i];
+RelativeCorrections::Parity RelativeCorrections::ParityOf(std::size_t value) const {
+  const auto width = std::size_t(width_);
+  return (value / 3 % width + value / 3 / width) % 2 == 0 ? Parity::Even : Parity::Odd;
+}
+
+std::vector<RelativeCorrections::Cell> RelativeCorrections::CellsOf(
+    std::span<const double> picture, std::span<const double> corrected, std::size_t width,
+    Parity parity) const {
+  std::vector<Cell> cells(PlaceOf(picture.size() - 1, width) + 1);
+  for (Cell& cell : cells) cell.corrections.resize(groups_.size());
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    if (ParityOf(i) != parity) continue;
+    Cell& cell = cells[PlaceOf(i, width)];
+    cell.picture += picture[i], cell.corrected += corrected[i];
+    for (std::size_t g = 0; g < groups_.size(); ++g) cell.corrections[g] += groups_[g][i];
   }
-  return blocks;
+  return cells;
 }
 
+std::vector<double> RelativeCorrections::TrueRadiance(std::span<const double> picture,
+                                                      std::size_t blockWidth, Parity parity) const {
+  std::vector<double> corrected(picture.begin(), picture.end());
+  for (std::size_t width = blockWidth;; width = std::max(width / 2, kFinest)) {
+    const std::vector<Cell> cells = CellsOf(picture, corrected, width, parity);
+    for (std::size_t i = 0; i < picture.size(); ++i)
+      corrected[i] = std::clamp(corrected[i] * FactorOf(cells[PlaceOf(i, width)]),
+                                kLeastRadiance * picture[i], picture[i] / kLeastRadiance);
+    if (width <= kFinest) return corrected;
+  }
+}
+
+// A correction that is large by chance would make its own level small, and so count for more. So
+// the level of each pixel follows from the corrections of the pixels of the other parity.
 std::vector<double> RelativeCorrections::TrueLevels(std::span<const double> levels,
                                                     std::size_t blockWidth) const {
-  const std::vector<Block> blocks = BlocksOf(levels, blockWidth);
-  std::vector<double> corrected(levels.begin(), levels.end());
+  std::vector<double> picture;
+  for (const double level : levels) picture.push_back(std::sqrt(level));
+  const std::vector<double> even = TrueRadiance(picture, blockWidth, Parity::Even);
+  std::vector<double> corrected = TrueRadiance(picture, blockWidth, Parity::Odd);
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double factor = FactorOf(blocks[PlaceOf(i, blockWidth)]);
-    corrected[i] *= factor * factor;
+    if (ParityOf(i) == Parity::Odd) corrected[i] = even[i];
+    corrected[i] *= corrected[i];
   }
   return corrected;
 }
 
-// Returns the true radiance of a block relative to the picture's. The part of the corrections that
-// groups do not agree on is noise: the product of two groups has their squared mean without noise
-// as its expected value, and divided by the squared mean with noise it is the part to keep.
-double RelativeCorrections::FactorOf(const Block& block) const {
+// Returns the true radiance of a cell relative to its corrected one. The part of the corrections
+// that groups do not agree on is noise: the product of two groups has their squared mean without
+// noise as its expected value, and divided by the squared mean with noise it is the part to keep.
+double RelativeCorrections::FactorOf(const Cell& cell) const {
   double mean = 0, own = 0, pairs = 1;
   for (std::size_t g = 0; g < shares_.size(); ++g) {
-    mean += block.corrections[g];
-    own += block.corrections[g] * block.corrections[g];
+    const double missing = shares_[g] * (cell.corrections[g] - (cell.corrected - cell.picture));
+    mean += missing;
+    own += missing * missing;
     pairs -= shares_[g] * shares_[g];
   }
-  if (!(block.picture > 0) || !(mean * mean > 0)) return 1;
+  if (!(cell.corrected > 0) || !(mean * mean > 0)) return 1;
   const double kept = std::clamp((mean * mean - own) / (pairs * mean * mean), 0., 1.);
-  return std::clamp(1 + kept * mean / block.picture, kLeastFactor, 1 / kLeastFactor);
+  return std::clamp(1 + kept * mean / cell.corrected, kLeastFactor, 1 / kLeastFactor);
 }
 
 }  // namespace exphoton

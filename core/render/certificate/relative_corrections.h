@@ -23,20 +23,28 @@ class RelativeCorrections {
   BlockBiasEstimator To(std::span<const double> levels, double quantile) const;
 
   // Returns the levels of the true picture. Those of the picture contain its bias: a picture that
-  // is 30 % too bright has a bias of 30 % of the truth, which is 23 % of the picture. In each block
-  // of this width (pixels) and channel, the radiance is corrected by the factor that its mean
-  // corrections give.
+  // is 30 % too bright has a bias of 30 % of the truth, which is 23 % of the picture. Radiance is
+  // multiplied by the factors that the mean corrections of blocks of this width (pixels) give, then
+  // of cells of half of the width, and so on down to kFinest.
   std::vector<double> TrueLevels(std::span<const double> levels, std::size_t blockWidth) const;
+  static constexpr std::size_t kFinest = 8;  // pixels
 
  private:
-  struct Block {  // sums over the pixels of a block, in one channel
-    double picture = 0;
-    std::vector<double> corrections;  // of the groups, times their shares
+  // The pixels with x + y even, or odd.
+  enum class Parity { Even, Odd };
+  struct Cell {  // sums over pixels, in one channel
+    double picture = 0, corrected = 0;
+    std::vector<double> corrections;  // of the groups
   };
 
-  std::vector<Block> BlocksOf(std::span<const double> levels, std::size_t blockWidth) const;
-  std::size_t PlaceOf(std::size_t value, std::size_t blockWidth) const;
-  double FactorOf(const Block& block) const;
+  // Returns the radiance that pixels of one parity give for all pixels.
+  std::vector<double> TrueRadiance(std::span<const double> picture, std::size_t blockWidth,
+                                   Parity parity) const;
+  std::vector<Cell> CellsOf(std::span<const double> picture, std::span<const double> corrected,
+                            std::size_t width, Parity parity) const;
+  std::size_t PlaceOf(std::size_t value, std::size_t cellWidth) const;
+  Parity ParityOf(std::size_t value) const;
+  double FactorOf(const Cell& cell) const;
 
   int width_, height_;                       // of the picture, in pixels
   std::vector<std::vector<double>> groups_;  // mean corrections: of each pixel, three channels
