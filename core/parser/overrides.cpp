@@ -207,8 +207,9 @@ void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params) {
       if (given->numbers.size() != 1) continue;  // malformed: the binder reports the error
       param = *given;
     } else {
-      const std::optional<std::vector<double>> value = ParseNumbers(declaration.defaultText);
-      if (!value) continue;  // no numeric default: the plugin derives the value
+      std::optional<std::vector<double>> value = ParseNumbers(declaration.defaultText);
+      if (!value && declaration.quickDefault) value = {*declaration.quickDefault};
+      if (!value) continue;  // the plugin derives the value
       param.name = declaration.name;
       param.type = "integer";
       param.where = params->where;
