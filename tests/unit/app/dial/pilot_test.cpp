@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
+#include "core/app/dial/candidate.h"
 #include "core/base/log.h"
 #include "tests/support/test_scene.h"
 
@@ -86,6 +90,35 @@ TEST_F(PilotTest, EstimatesTheBiasForAQuoteInItsLastPilotOnly) {
   EXPECT_EQ(series.Model().sharing.error, 0);
   series.RenderBias(1);
   EXPECT_GT(series.Model().sharing.error, 0);
+}
+
+// Returns what a rough pilot says, and what the search for omissions gets to know.
+std::array<Candidate, 2> RoughAndLikely(PilotRenderer* pilots, double bound) {
+  Candidate likely;
+  Wish wish;
+  wish.error = .002;
+  wish.findOmissions = [&](Candidate* candidate) {
+    likely = *candidate;
+    return std::vector<OmittedEffect>{{"caustics", bound, .5}};
+  };
+  Explorer explorer(pilots, "exphotonmap", 0, wish);
+  explorer.Begin();
+  const Candidate rough = explorer.Result();
+  EXPECT_TRUE(rough.isRough);
+  EXPECT_TRUE(explorer.FindOmissions(rough.price.seconds));
+  EXPECT_EQ(explorer.Result().price.seconds, rough.price.seconds);
+  EXPECT_EQ(explorer.Result().omitted.size(), 1u);
+  return {rough, likely};
+}
+
+// The noise of a rough pilot may be 20 times too high, and its root is the likely factor. The
+// number of samples is proportional to the noise here.
+TEST_F(PilotTest, PairsForOmissionsCountWithTheLikelyPrice) {
+  const auto renderer = Renderer(true);
+  const auto [rough, likely] = RoughAndLikely(renderer.get(), .0001);
+  EXPECT_TRUE(likely.reason.empty()) << likely.reason;
+  EXPECT_LT(likely.price.seconds, rough.price.seconds);
+  EXPECT_NEAR(rough.price.samples / likely.price.samples, std::sqrt(20), .05);
 }
 
 }  // namespace
