@@ -4,7 +4,8 @@
 Usage: coverage.py PROGRAM WxH REFERENCE_SECONDS SEEDS SCENE ... [--quotes QUOTES]
 - Studies of four seeds: noise, bias^2 and relMSE with their +- (one standard error, so the share
   should be 68 %). The truth is what all seeds together say; for bias^2, with the reference.
-- --two-halves: the noise within 1.96 standard errors (95 %). The truth is the variance of all seeds.
+- --two-halves: the noise within 1.96 standard errors (95 %). The truth is the variance of all seeds,
+  relative to levels of the same integrator that do not depend on these seeds.
 - --accuracy 10% with QUOTES seeds (default 10): the upper end of the error (95 %).
 - Quotes with QUOTES seeds: the 90 % interval of the price of 10 %. The truth is the CPU time for this
   error, interpolated between renders whose errors are means over four seeds.
@@ -30,6 +31,8 @@ SEEDS_OF_A_STUDY = 4
 SAMPLES = 4
 INTEGRATORS = "exphotonmap", "path"
 OFFSET = .01  # of relMSE
+LEVEL_SAMPLES = 1024  # of each of the two pictures whose mean is the level
+LEVEL_SEED = 2000
 
 
 class Table:
@@ -48,13 +51,28 @@ class Table:
               flush=True)
 
 
-def variance_of(pictures):
-    """Returns the variance of one picture relative to the mean, as a part of relMSE."""
+def weights_of(first, second):
+    """Returns 1 / (r^2 + .01) by channel and pixel, for two independent pictures with the mean r. The
+    variance of r makes the inverse too large, and the second order of this is removed."""
+    weights = {}
+    for channel in "RGB":
+        weights[channel] = []
+        for a, b in zip(first[channel], second[channel]):
+            square, variance = ((a + b) / 2) ** 2, (a - b) ** 2 / 4
+            weight = 1 / (square + OFFSET)
+            excess = variance * (3 * square - OFFSET) * weight ** 2
+            weights[channel].append(weight / (1 + max(excess, 0)))
+    return weights
+
+
+def variance_of(pictures, weights):
+    """Returns the variance of one picture, as a part of relMSE. The weights must not depend on the
+    pictures: pixels that are too bright by chance have too large a variance and too small a weight."""
     count, total, values = len(pictures), 0., 0
     for channel in "RGB":
-        for pixel in zip(*(picture[channel] for picture in pictures)):
+        for weight, pixel in zip(weights[channel], zip(*(p[channel] for p in pictures))):
             mean = sum(pixel) / count
-            total += sum((x - mean) ** 2 for x in pixel) / (count - 1) / (mean * mean + OFFSET)
+            total += sum((x - mean) ** 2 for x in pixel) / (count - 1) * weight
             values += 1
     return total / values
 
@@ -70,7 +88,9 @@ def two_halves(scene, name, seeds, table):
         with open(statistics) as file:
             values = json.load(file)
         printed.append((values["noise"], values["noiseError"]))
-    truth = variance_of(pictures)
+    levels = [read_exr(scene.render("levels", "--integrator", name, "--spp", str(LEVEL_SAMPLES),
+                                    "--seed", str(LEVEL_SEED + i))[0]) for i in (0, 1)]
+    truth = variance_of(pictures, weights_of(*levels))
     table.add(scene.name, f"--two-halves of {name}",
               [abs(noise - truth) <= 1.96 * error for noise, error in printed], .95)
 

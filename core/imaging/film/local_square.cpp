@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/imaging/metrics/metrics.h"
+
 namespace exphoton {
 namespace {
 
@@ -18,6 +20,7 @@ struct Kind {
     ++count, values += value, squares += value * value, variances += variance;
   }
   double Mean() const { return values / count; }
+  double VarianceOfMean() const { return variances / (count * count); }
   // Returns the variance of the true values: the spread beyond the noise.
   double Spread() const {
     if (count < 2) return 0;
@@ -25,6 +28,16 @@ struct Kind {
     return std::max(spread - variances / count, 0.);
   }
 };
+
+// Returns the square s for which 1 / (s + .01) estimates 1 / (r^2 + .01), where r is the expected
+// value of a level with this variance. To second order, the inverse of level^2 + .01 is too large
+// by a share of variance (3 level^2 - .01) / (level^2 + .01)^2. The first terms of exp(share)
+// divide it, so that the result is positive.
+double UnbiasedSquare(double level, double variance) {
+  const double square = level * level, sum = square + kRelMseOffset;
+  const double share = std::max(variance * (3 * square - kRelMseOffset) / (sum * sum), 0.);
+  return square + sum * share * (1 + share / 2);
+}
 
 // The picture, one channel at a time.
 class Levels {
@@ -40,11 +53,15 @@ class Levels {
     const double mean = double(means_[at]), variance = double(variances_[at]);
     const bool isNoisy = variance > 0 && variance < std::numeric_limits<double>::infinity();
     if (!isNoisy) return mean * mean;
-    const Kind kind = KindOf(x, y, channel);
-    // The true value is normally distributed around the mean of its kind.
-    const double spread = kind.Spread();
-    const double level = (spread * mean + variance * kind.Mean()) / (spread + variance);
-    return level * level;
+    const Kind others = OthersOfKind(x, y, channel);
+    if (others.count == 0) return UnbiasedSquare(mean, variance);
+    Kind kind = others;
+    kind.Add(mean, variance);
+    // The true value is normally distributed around the mean of its kind. The value itself is not
+    // in this mean, because its error depends on the error of its variance.
+    const double spread = kind.Spread(), own = spread / (spread + variance), rest = 1 - own;
+    return UnbiasedSquare(own * mean + rest * others.Mean(),
+                          own * own * variance + rest * rest * others.VarianceOfMean());
   }
 
  private:
@@ -52,22 +69,24 @@ class Levels {
     return std::size_t(3 * (y * columns_ + x) + channel);
   }
 
-  Kind KindOf(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t channel) const {
+  Kind OthersOfKind(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t channel) const {
     const std::size_t at = Index(x, y, channel);
     const double mean = double(means_[at]), variance = double(variances_[at]);
-    Kind kind;  // of which the value itself is a member
+    Kind others;
     for (std::ptrdiff_t v = std::max(y - kReach, std::ptrdiff_t(0));
          v <= std::min(y + kReach, rows_ - 1); ++v) {
       for (std::ptrdiff_t u = std::max(x - kReach, std::ptrdiff_t(0));
            u <= std::min(x + kReach, columns_ - 1); ++u) {
         const std::size_t other = Index(u, v, channel);
+        if (other == at) continue;
         const double difference = double(means_[other]) - mean;
         const double noise = variance + double(variances_[other]);
-        if (difference * difference <= kDeviations * kDeviations * noise)
-          kind.Add(double(means_[other]), double(variances_[other]));
+        if (noise < std::numeric_limits<double>::infinity() &&
+            difference * difference <= kDeviations * kDeviations * noise)
+          others.Add(double(means_[other]), double(variances_[other]));
       }
     }
-    return kind;
+    return others;
   }
 
   const std::vector<float>&means_, &variances_;

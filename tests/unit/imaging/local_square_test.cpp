@@ -16,9 +16,10 @@ struct Picture {
   std::vector<float> variances = std::vector<float>(3 * kColumns * kRows, 0);
 
   std::size_t At(std::size_t x, std::size_t y) const { return 3 * (y * kColumns + x); }
-  double Level(std::size_t x, std::size_t y) const {
-    return std::sqrt(SquaredLevels(means, variances, kColumns)[At(x, y)]);
+  double Square(std::size_t x, std::size_t y) const {
+    return SquaredLevels(means, variances, kColumns)[At(x, y)];
   }
+  double Level(std::size_t x, std::size_t y) const { return std::sqrt(Square(x, y)); }
 };
 
 TEST(SquaredLevels, OfPreciseValuesAreTheirSquares) {
@@ -28,19 +29,37 @@ TEST(SquaredLevels, OfPreciseValuesAreTheirSquares) {
   EXPECT_EQ(picture.Level(3, 3), 1);
 }
 
-// One value of 25 is too bright by three quarters of its standard deviation.
-TEST(SquaredLevels, OfNoisyValuesAreTheMeanOfTheirKind) {
+// The square that has no bias for a level with this variance.
+double Unbiased(double level, double variance) {
+  const double sum = level * level + .01;
+  const double share = variance * (3 * level * level - .01) / (sum * sum);
+  return level * level + sum * share * (1 + share / 2);
+}
+
+// One value of 25 is too bright by three quarters of its standard deviation. The levels of its
+// neighbours have this error, and its own level has not.
+TEST(SquaredLevels, OfNoisyValuesAreTheMeanOfTheOthersOfTheirKind) {
   Picture picture;
-  std::fill(picture.variances.begin(), picture.variances.end(), 4);
-  picture.means[picture.At(4, 3)] = 2.5;
-  EXPECT_NEAR(picture.Level(4, 3), 1 + 1.5 / 25, 1e-6);
+  std::fill(picture.variances.begin(), picture.variances.end(), .04f);
+  picture.means[picture.At(4, 3)] = 1.15f;
+  EXPECT_NEAR(picture.Square(4, 3), Unbiased(1, .04 / 24), 1e-6);
+  EXPECT_NEAR(picture.Square(3, 3), Unbiased(1 + .15 / 24, .04 / 24), 1e-6);
   // At a border there are 15 values.
   picture.means[picture.At(4, 3)] = 1;
-  picture.means[picture.At(4, 0)] = 2.5;
-  EXPECT_NEAR(picture.Level(4, 0), 1 + 1.5 / 15, 1e-6);
+  picture.means[picture.At(4, 0)] = 1.15f;
+  EXPECT_NEAR(picture.Square(4, 0), Unbiased(1, .04 / 14), 1e-6);
+  EXPECT_NEAR(picture.Square(4, 1), Unbiased(1 + .15 / 19, .04 / 19), 1e-6);
   picture.means[picture.At(4, 0)] = 1;
-  picture.means[picture.At(8, 3)] = 2.5;
-  EXPECT_NEAR(picture.Level(8, 3), 1 + 1.5 / 15, 1e-6);
+  picture.means[picture.At(8, 3)] = 1.15f;
+  EXPECT_NEAR(picture.Square(8, 3), Unbiased(1, .04 / 14), 1e-6);
+}
+
+// Where the square is much smaller than the offset, the inverse is too small and stays so.
+TEST(SquaredLevels, OfDarkNoiseAreNotReduced) {
+  Picture picture;
+  std::fill(picture.means.begin(), picture.means.end(), .01f);
+  std::fill(picture.variances.begin(), picture.variances.end(), .04f);
+  EXPECT_NEAR(picture.Square(4, 3), .0001, 1e-9);
 }
 
 // A dark pixel whose noise is small keeps its value beside a bright surface.
@@ -50,8 +69,8 @@ TEST(SquaredLevels, IgnoreNeighboursOfAnotherKind) {
     for (std::size_t x = 5; x < kColumns; ++x)
       for (std::size_t c = 0; c < 3; ++c) picture.means[picture.At(x, y) + c] = 100;
   std::fill(picture.variances.begin(), picture.variances.end(), .01f);
-  EXPECT_NEAR(picture.Level(4, 3), 1, 1e-6);
-  EXPECT_NEAR(picture.Level(5, 3), 100, 1e-4);
+  EXPECT_NEAR(picture.Square(4, 3), Unbiased(1, .01 / 14), 1e-6);
+  EXPECT_NEAR(picture.Square(5, 3), Unbiased(100, .01 / 14), 1e-4);
 }
 
 // The values of the kind are 0 and 2, and the noise explains a part of their spread. In 5 x 5
@@ -62,8 +81,9 @@ TEST(SquaredLevels, StayNearTheValueWhereItsKindDiffers) {
   for (std::size_t y = 0; y < kRows; ++y)
     for (std::size_t x = 0; x < kColumns; ++x)
       picture.means[picture.At(x, y)] = (x + y) % 2 ? 0 : 2;
-  const double spread = 1.04 - .5, mean = 24. / 25;
-  EXPECT_NEAR(picture.Level(4, 3), .5 * mean / (spread + .5), 1e-6);
+  const double own = (1.04 - .5) / 1.04;  // the value itself is 0
+  EXPECT_NEAR(picture.Square(4, 3),
+              Unbiased((1 - own) * 1, .5 * (own * own + (1 - own) * (1 - own) / 24)), 1e-6);
 }
 
 TEST(SquaredLevels, OfInfiniteNoiseAreNumbers) {

@@ -87,6 +87,34 @@ TEST(PassNoise, DoesNotDivergeWhereOnePassMeetsALight) {
   EXPECT_LT(estimate, 2000);
 }
 
+// Few bright hits make pixels too bright, and their halves differ more. Relative to levels that
+// contain the pixel itself, this noise would be .77 of the truth.
+TEST(PassNoise, DoesNotHideTheNoiseOfPixelsThatAreTooBright) {
+  constexpr double kHits = 1, kBrightness = .2;  // of each pixel and pass; the mean is twice this
+  constexpr int kTrials = 60;
+  const auto pass = [](std::uint64_t seed) {
+    Film film(kBounds, kBounds);
+    RandomStream random(HashKey({seed, 11}));
+    for (int y = 0; y < kBounds.y1; ++y)
+      for (int x = 0; x < kBounds.x1; ++x) {
+        double light = 0;  // a Poisson number of hits, which are squares of exponential variates
+        for (double time = -std::log1p(-double(random.Uniform())); time < kHits;
+             time -= std::log1p(-double(random.Uniform())))
+          light += kBrightness * std::pow(std::log1p(-double(random.Uniform())), 2);
+        film.AddSample({x, y}, Spectrum(Real(light)), 1, 1);
+      }
+    return film;
+  };
+  const double mean = kHits * 2 * kBrightness, variance = kHits * 24 * kBrightness * kBrightness;
+  double sum = 0;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    PassNoise noise(kBounds, 2);
+    for (int i = 0; i < 2; ++i) noise.Add(i, pass(2 * trial + std::uint64_t(i)), 1);
+    sum += noise.RelativeVariance();
+  }
+  EXPECT_NEAR(sum / kTrials * 2 * (mean * mean + kOffset) / variance, 1.06, .1);
+}
+
 // Every fourth column is dark and has noise. Relative to the mean of its neighbourhood, this noise
 // would be 12 times too small, as at edges of reflections in scenes/glossy-floor-room.
 TEST(PassNoise, CountsTheNoiseOfDarkPixelsBesideBrightOnes) {
