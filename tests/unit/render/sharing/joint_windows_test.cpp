@@ -121,8 +121,10 @@ TEST(JointWindows, GiveSeveralPassesLessError) {
 // The light of the picture, of the AOVs, and own light minus the corrections are the same.
 TEST(JointWindows, ReplaceLightWhereverItIsKnown) {
   WavePicture picture;
-  for (int pass = 0; pass < 3; ++pass) picture.Add(true);
-  picture.Fit();
+  for (int pass = 0; pass < 3; ++pass) {
+    picture.Add(true);
+    picture.Fit();  // also replaces the light of the fit before
+  }
   Image aovs;
   picture.aovs.AppendTo(picture.film, false, &aovs);
   std::vector<double> own(std::size_t(kWaveSide * kWaveSide));
