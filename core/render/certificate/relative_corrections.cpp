@@ -40,30 +40,31 @@ BlockBiasEstimator RelativeCorrections::To(std::span<const double> levels, doubl
   return BlockBiasEstimator(width_, height_, inputs, quantile);
 }
 
-// Returns the place of the cell that a value of a pixel and channel belongs to.
-std::size_t RelativeCorrections::PlaceOf(std::size_t value, std::size_t cellWidth) const {
-  const auto width = std::size_t(width_);
+template <class Use>
+void RelativeCorrections::ForEachValue(std::size_t cellWidth, const Use& use) const {
+  const auto width = std::size_t(width_), height = std::size_t(height_);
   const std::size_t columns = (width + cellWidth - 1) / cellWidth;
-  const std::size_t x = value / 3 % width, y = value / 3 / width;
-  return 3 * (y / cellWidth * columns + x / cellWidth) + value % 3;
-}
-
-RelativeCorrections::Parity RelativeCorrections::ParityOf(std::size_t value) const {
-  const auto width = std::size_t(width_);
-  return (value / 3 % width + value / 3 / width) % 2 == 0 ? Parity::Even : Parity::Odd;
+  std::size_t value = 0;
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t place = 3 * (y / cellWidth * columns + x / cellWidth);
+      const Parity parity = (x + y) % 2 == 0 ? Parity::Even : Parity::Odd;
+      for (std::size_t c = 0; c < 3; ++c) use(value++, place + c, parity);
+    }
+  }
 }
 
 std::vector<RelativeCorrections::Cell> RelativeCorrections::CellsOf(
     std::span<const double> picture, std::span<const double> corrected, std::size_t width,
     Parity parity) const {
-  std::vector<Cell> cells(PlaceOf(picture.size() - 1, width) + 1);
-  for (Cell& cell : cells) cell.corrections.resize(groups_.size());
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    if (ParityOf(i) != parity) continue;
-    Cell& cell = cells[PlaceOf(i, width)];
+  std::vector<Cell> cells;
+  ForEachValue(width, [&](std::size_t i, std::size_t place, Parity ofValue) {
+    while (cells.size() <= place) cells.emplace_back().corrections.resize(groups_.size());
+    if (ofValue != parity) return;
+    Cell& cell = cells[place];
     cell.picture += picture[i], cell.corrected += corrected[i];
     for (std::size_t g = 0; g < groups_.size(); ++g) cell.corrections[g] += groups_[g][i];
-  }
+  });
   return cells;
 }
 
@@ -71,10 +72,13 @@ std::vector<double> RelativeCorrections::TrueRadiance(std::span<const double> pi
                                                       std::size_t blockWidth, Parity parity) const {
   std::vector<double> corrected(picture.begin(), picture.end());
   for (std::size_t width = blockWidth;; width = std::max(width / 2, kFinest)) {
-    const std::vector<Cell> cells = CellsOf(picture, corrected, width, parity);
-    for (std::size_t i = 0; i < picture.size(); ++i)
-      corrected[i] = std::clamp(corrected[i] * FactorOf(cells[PlaceOf(i, width)]),
-                                kLeastRadiance * picture[i], picture[i] / kLeastRadiance);
+    std::vector<double> factors;
+    for (const Cell& cell : CellsOf(picture, corrected, width, parity))
+      factors.push_back(FactorOf(cell));
+    ForEachValue(width, [&](std::size_t i, std::size_t place, Parity) {
+      corrected[i] = std::clamp(corrected[i] * factors[place], kLeastRadiance * picture[i],
+                                picture[i] / kLeastRadiance);
+    });
     if (width <= kFinest) return corrected;
   }
 }
@@ -87,10 +91,10 @@ std::vector<double> RelativeCorrections::TrueLevels(std::span<const double> leve
   for (const double level : levels) picture.push_back(std::sqrt(level));
   const std::vector<double> even = TrueRadiance(picture, blockWidth, Parity::Even);
   std::vector<double> corrected = TrueRadiance(picture, blockWidth, Parity::Odd);
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (ParityOf(i) == Parity::Odd) corrected[i] = even[i];
+  ForEachValue(blockWidth, [&](std::size_t i, std::size_t, Parity parity) {
+    if (parity == Parity::Odd) corrected[i] = even[i];
     corrected[i] *= corrected[i];
-  }
+  });
   return corrected;
 }
 

@@ -42,9 +42,11 @@ class RelativeCorrections {
                                    Parity parity) const;
   std::vector<Cell> CellsOf(std::span<const double> picture, std::span<const double> corrected,
                             std::size_t width, Parity parity) const;
-  std::size_t PlaceOf(std::size_t value, std::size_t cellWidth) const;
-  Parity ParityOf(std::size_t value) const;
   double FactorOf(const Cell& cell) const;
+  // Calls use(value, place, parity) for each value of a pixel and channel, with the place of its
+  // cell among cells of this width.
+  template <class Use>
+  void ForEachValue(std::size_t cellWidth, const Use& use) const;
 
   int width_, height_;                       // of the picture, in pixels
   std::vector<std::vector<double>> groups_;  // mean corrections: of each pixel, three channels

@@ -34,7 +34,7 @@ TEST_F(QuoteTest, PrintsCommandsThatRenderThePicture) {
 }
 
 TEST_F(QuoteTest, NeedsMoreTimeForLessError) {
-  const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "5,1%", "--pilot-time",
+  const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "2,.5%", "--pilot-time",
                                    "1s", "--integrators", "path", "--quiet"});
   ASSERT_EQ(quote.status, 0) << quote.err;
   std::vector<int> samples;
