@@ -80,13 +80,12 @@ void AddChange(const SharedLightTarget& target, Point2i pixel, const GatherSampl
 // Adds the bias to the AOV that shows it, if it is wanted.
 void AddBias(const SharedLightTarget& target, Point2i pixel, const SharingChecker& checker,
              FitNeighbours* scratch) {
-  if (!target.aovs || !target.aovs->NeedsSharingBias() ||
-      !target.aovs->Crop().Contains(pixel.x, pixel.y))
-    return;
+  AovFilm* const changed = target.change ? target.change->aovs.get() : nullptr;
+  const AovFilm* const wanted = target.aovs ? target.aovs : changed;
+  if (!wanted || !wanted->NeedsSharingBias() || !wanted->Crop().Contains(pixel.x, pixel.y)) return;
   const Spectrum bias = checker.Bias(pixel, scratch);
-  target.aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
-  if (target.change && target.change->aovs)
-    target.change->aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
+  for (AovFilm* aovs : {target.aovs, changed})
+    if (aovs) aovs->AddSharingBias(pixel, bias, target.samplesPerPixel);
 }
 
 // Adds the light of the samples of a pixel to the picture.
@@ -103,7 +102,7 @@ void AddSamples(const SharedLightTarget& target, Point2i pixel,
       splat->AddLight(place, sample.sampleWeight, L, aov);
       continue;
     }
-    target.film->AddLight(pixel, L, sample.sampleWeight);
+    if (target.film) target.film->AddLight(pixel, L, sample.sampleWeight);
     if (target.aovs) target.aovs->AddLight(pixel, aov, L, sample.sampleWeight);
   }
   if (target.splats) splat->End();
@@ -137,8 +136,12 @@ void AddOwnLight(const GatherFragments& gathers, const SharedLightTarget& target
 int SharingMargin() { return SharingWindows::kReach; }
 
 SharedGathers::SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea)
-    : gathers_(gathers), threads_(threads), rows_(gathers), windows_(gathers, rows_, threads) {
-  windows_.Shrink(windowArea);
+    : gathers_(gathers),
+      threads_(threads),
+      rows_(gathers),
+      own_(std::in_place, gathers, rows_, threads),
+      windows_(*own_) {
+  own_->Shrink(windowArea);
 }
 
 SharedGathers::SharedGathers(const GatherFragments& gathers, const SharingWindows& windows,

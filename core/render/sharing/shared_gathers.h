@@ -5,6 +5,9 @@
 // (sharing_windows.h). docs/decisions/0033-shared-gathers.md has the measurements.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/base/parallel.h"
 #include "core/imaging/film/aov_film.h"
 #include "core/imaging/film/film.h"
@@ -22,7 +25,7 @@ struct SharingChange;
 // The light of a pixel depends on the gathers within this number of pixels.
 int SharingMargin();
 
-// Adds the light of the gathers in the window to the film and, if not null, to the AOVs. If
+// Adds the light of the gathers in the window to the film and to the AOVs, if they are not null. If
 // `splats` is not null, it receives the light instead.
 struct SharedLightTarget {
   Film* film;
@@ -48,11 +51,11 @@ struct SharingTotals {
   double MeanRadius() const { return fragments > 0 ? radii / fragments : 0; }
 };
 
-// Adds the light of the gathers as it is, without sharing. `target` has no splats.
+// Adds the light of the gathers as it is, without sharing. `target` has a film and no splats.
 void AddOwnLight(const GatherFragments& gathers, const SharedLightTarget& target,
                  ThreadPool* threads);
 
-// The gathers and threads must outlive this object.
+// The gathers, the threads and windows that are passed must outlive this object.
 class SharedGathers {
  public:
   // `windowArea` is the area of the windows, relative to those that cross-validation chooses.
@@ -60,6 +63,8 @@ class SharedGathers {
 
   // Shares with windows that other gathers have chosen.
   SharedGathers(const GatherFragments& gathers, const SharingWindows& windows, ThreadPool* threads);
+  SharedGathers(const SharedGathers&) = delete;
+  SharedGathers& operator=(const SharedGathers&) = delete;
 
   // Returns the radii of the windows, and the checked pixels if they are wanted.
   SharingTotals AddLight(const SharedLightTarget& target) const;
@@ -78,7 +83,8 @@ class SharedGathers {
   const GatherFragments& gathers_;
   ThreadPool* threads_;
   FragmentRows rows_;
-  SharingWindows windows_;
+  std::optional<SharingWindows> own_;  // the windows, if these gathers have chosen them
+  const SharingWindows& windows_;
 };
 
 }  // namespace exphoton

@@ -12,8 +12,8 @@ namespace exphoton {
 namespace {
 
 constexpr const char* kSection = "joint windows";
-// The bytes of a pixel of SharingChange without AOVs. Fit has three of them beside those of passes.
-constexpr double kChangeBytes = 80, kFitBytes = 3 * kChangeBytes;
+// The bytes of a pixel of SharingChange without AOVs. Fit has two of them beside those of passes.
+constexpr double kChangeBytes = 80, kFitBytes = 2 * kChangeBytes;
 
 std::string PassSection(std::size_t pass) { return "joint pass " + std::to_string(pass); }
 std::string RowSection(std::size_t pass, int y) {
@@ -49,24 +49,28 @@ std::int64_t JointWindows::SamplesPerPixel() const {
 void JointWindows::Add(std::int64_t samplesPerPixel, int group) {
   passes_.push_back({group, samplesPerPixel, std::exchange(next_, GatherFragments({}, 0)),
                      SharingChange(picture_, aovs_)});
-  Join(passes_.back());
 }
 
-void JointWindows::Join(const Pass& pass) {
-  for (int y = gathered_.y0; y < gathered_.y1; ++y)
+void JointWindows::JoinNewPasses(ThreadPool* threads) {
+  threads->For(gathered_.Height(), [&](std::int64_t row, int) {
     for (int x = gathered_.x0; x < gathered_.x1; ++x)
-      all_.At({x, y}).JoinFragments(pass.gathers.At({x, y}));
+      for (std::size_t i = joined_; i < passes_.size(); ++i) {
+        const Point2i pixel{x, gathered_.y0 + int(row)};
+        all_.At(pixel).JoinFragments(passes_[i].gathers.At(pixel));
+      }
+  });
+  joined_ = passes_.size();
 }
 
 double JointWindows::Fit(ThreadPool* threads, const Use& use) {
+  JoinNewPasses(threads);
   const SharingWindows windows(all_, FragmentRows(all_), threads);
-  SharingChange light(picture_, aovs_);
   SharingTotals totals;
   for (Pass& pass : passes_) {
     SharingChange change(picture_, aovs_);
     const SharedGathers shared(pass.gathers, windows, threads);
-    totals.Add(shared.AddLight({&light.film, light.aovs.get(), nullptr, picture_.Crop(),
-                                double(pass.samples), nullptr, &change}));
+    totals.Add(shared.AddLight(
+        {nullptr, nullptr, nullptr, picture_.Crop(), double(pass.samples), nullptr, &change}));
     SharingChange difference(picture_, aovs_);
     difference.Add(change);
     difference.Subtract(pass.change);
@@ -114,7 +118,6 @@ void JointWindows::Load(const StateFile& file, int groups) {
     file.Read(PassSection(i), [&](ByteArchive* archive) { TransferPass(archive, &pass, groups); });
     for (int y = gathered_.y0; y < gathered_.y1; ++y)
       file.Read(RowSection(i, y), [&](ByteArchive* archive) { TransferRow(archive, &pass, y); });
-    Join(pass);
   }
 }
 

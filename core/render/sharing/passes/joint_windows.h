@@ -27,7 +27,8 @@ class JointWindows {
   JointWindows(const JointWindows&) = delete;
   JointWindows& operator=(const JointWindows&) = delete;
 
-  // Returns whether another pass has room. The answer does not depend on a crop window.
+  // Returns whether another pass has room. The answer depends neither on a crop window nor on AOVs,
+  // because the picture is the same with and without them.
   bool HasRoomFor(std::int64_t samplesPerPixel) const;
   GatherFragments* OfPass() { return &next_; }  // receives the gathers of the next pass
   // Adds this pass, whose gathers must be there, and whose picture has their own light. Groups are
@@ -57,15 +58,16 @@ class JointWindows {
   void Transfer(ByteArchive* archive);
   void TransferPass(ByteArchive* archive, Pass* pass, int groups);
   void TransferRow(ByteArchive* archive, Pass* pass, int y) const;
-  void Join(const Pass& pass);
+  void JoinNewPasses(ThreadPool* threads);
 
   const Film& picture_;
   const AovFilm* aovs_;
   double memory_;
   PixelBounds gathered_;
   std::deque<Pass> passes_;
-  GatherFragments next_;  // of the next pass
-  GatherFragments all_;   // fragments of all passes, without their samples
+  GatherFragments next_;    // of the next pass
+  GatherFragments all_;     // fragments of the first passes, without their samples
+  std::size_t joined_ = 0;  // the number of these passes
 };
 
 }  // namespace exphoton
