@@ -54,7 +54,9 @@ class Levels {
     const bool isNoisy = variance > 0 && variance < std::numeric_limits<double>::infinity();
     if (!isNoisy) return mean * mean;
     const Kind others = OthersOfKind(x, y, channel);
-    if (others.count == 0) return UnbiasedSquare(mean, variance);
+    // The noise of the value makes the inverse too large, and the dependence of both errors makes
+    // the quotient too small.
+    if (others.count == 0) return mean * mean;
     Kind kind = others;
     kind.Add(mean, variance);
     // The true value is normally distributed around the mean of its kind. The value itself is not
