@@ -92,7 +92,7 @@ TEST_F(PilotTest, EstimatesTheBiasForAQuoteInItsLastPilotOnly) {
   EXPECT_GT(series.Model().sharing.error, 0);
 }
 
-// Returns what a rough pilot says, and what the search for omissions gets to know.
+// Returns the candidate of a rough pilot, and the one that the search for omissions receives.
 std::array<Candidate, 2> RoughAndLikely(PilotRenderer* pilots, double bound) {
   Candidate likely;
   Wish wish;
