@@ -5,9 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
-
-#include "core/imaging/film/local_square.h"
 
 namespace exphoton {
 namespace {
@@ -20,13 +17,6 @@ Film PassOf(double value, int samples) {
   return pass;
 }
 
-// Returns the level of a single pixel of radiance 1 whose mean has this variance, plus .01. It is
-// larger than 1.01 (docs/decisions/0101-levels-without-own-noise.md).
-double DivisorOf(double variance) {
-  const std::vector<float> means(3, 1), variances(3, float(variance));
-  return SquaredLevels(means, variances, 1)[0] + .01;
-}
-
 TEST(PassSum, StopsAtTheTargetOrAtTheLimit) {
   Film picture(kSumPixel, kSumPixel);
   PassSum sum(&picture, {.001, 6});
@@ -34,7 +24,7 @@ TEST(PassSum, StopsAtTheTargetOrAtTheLimit) {
   EXPECT_FALSE(sum.Noise());
   EXPECT_FALSE(sum.Reason());
   sum.Add(PassOf(.8, 2), 2, 1);
-  EXPECT_NEAR(*sum.Noise(), .04 / DivisorOf(.04), 1e-6);
+  EXPECT_NEAR(*sum.Noise(), .04 / 1.01, 1e-6);
   EXPECT_FALSE(sum.Reason());
   sum.Add(PassOf(1, 2), 2, 2);
   EXPECT_EQ(sum.Reason(), StopReason::Samples);
@@ -55,12 +45,13 @@ TEST(PassSum, AddsTheNoiseOfPhotonsThatAllPassesShare) {
   sum.SetPhotonNoise(.008);
   EXPECT_FALSE(sum.Noise());
   sum.Add(PassOf(.95, 2), 2, 1);
-  EXPECT_NEAR(*sum.Noise(), .0025 / DivisorOf(.0025) + .008, 1e-6);
+  const double between = .0025 / 1.01;
+  EXPECT_NEAR(*sum.Noise(), between + .008, 1e-6);
   EXPECT_FALSE(sum.Reason());
   PassesResult result;
   sum.Describe(true, &result);
   ASSERT_EQ(result.variances.size(), 3u);
-  EXPECT_NEAR(double(result.variances[0]), .0025 + .008 * DivisorOf(.0025), 1e-5);
+  EXPECT_NEAR(double(result.variances[0]), .0025 + .008 * 1.01, 1e-5);
 }
 
 // A pixel that sharing makes brighter has the noise relative to its true level.
@@ -89,7 +80,7 @@ TEST(PassSum, JoinsGroupsWithTheSamePhotons) {
   EXPECT_FALSE(sum.Noise());
   EXPECT_FALSE(sum.Reason());
   sum.Add(PassOf(.9, 4), 4, 2);  // the others have the mean 1.1
-  EXPECT_NEAR(*sum.Noise(), .01 / DivisorOf(.01), 1e-6);
+  EXPECT_NEAR(*sum.Noise(), .01 / 1.01, 1e-6);
   EXPECT_EQ(sum.Groups(), 3);
 }
 
@@ -101,7 +92,7 @@ TEST(PassSum, KeepsTheGroupAfterManyJoinedOnesApart) {
   for (int group = 0; group < PassSum::kPlaces; ++group) sum.Add(PassOf(1.1, 1), 1, group);
   sum.JoinGroups();
   sum.Add(PassOf(.9, 8), 8, PassSum::kPlaces);
-  EXPECT_NEAR(*sum.Noise(), .01 / DivisorOf(.01), 1e-6);
+  EXPECT_NEAR(*sum.Noise(), .01 / 1.01, 1e-6);
   for (int group = PassSum::kPlaces + 1; group < 3 * PassSum::kPlaces; ++group)
     sum.Add(PassOf(.9, 1), 1, group);
   EXPECT_EQ(sum.GroupSums().SamplesOf(0), PassSum::kPlaces);
