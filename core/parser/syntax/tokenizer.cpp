@@ -110,7 +110,10 @@ SourceLocation Tokenizer::Locate(const TextPosition& position) const {
   if (before <= kMaxShownColumn) {
     const std::string_view text(file_->text);
     const std::string_view start = text.substr(position.lineStart, before + kShownAfterColumn);
-    where.lineText = start.substr(0, std::min(start.find_first_of("\r\n"), start.size()));
+    // Values have locations, too, so the search takes much of the time of reading a scene.
+    // find_first_of would call memchr for each character.
+    const auto end = std::ranges::find_if(start, [](char c) { return c == '\n' || c == '\r'; });
+    where.lineText.assign(start.begin(), end);
     for (char& c : where.lineText)
       if ((static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127) c = ' ';
   }
