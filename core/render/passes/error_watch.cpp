@@ -59,6 +59,7 @@ ErrorWatch::ErrorWatch(const Picture& picture,
 
 GatherFragments* ErrorWatch::BeginPass(std::int64_t samplesPerPixel) {
   if (joint_ && !joint_->HasRoomFor(samplesPerPixel)) {
+    FitJointly();
     joint_.reset();
     picture_.job.log.Verbose("later passes share their gathers alone, because " +
                              std::to_string(picture_.sum->Passes()) +
@@ -77,14 +78,18 @@ void ErrorWatch::SetPhotonNoise(double relative) {
 }
 
 void ErrorWatch::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
-  if (joint_) joint_->Add(samplesPerPixel, group);
+  if (joint_) {
+    joint_->Add(samplesPerPixel, group);
+    isFitMissing_ = true;
+  }
   if (unshared_) unshared_->Add(pass, samplesPerPixel, group);
   if (OfMaps()) OfMaps()->EndPass(group, samplesPerPixel);
-  if (joint_) FitJointly();
 }
 
 // Replaces the light of the gathers of all passes in the picture, its AOVs and its corrections.
 void ErrorWatch::FitJointly() {
+  if (!joint_ || !isFitMissing_) return;
+  isFitMissing_ = false;
   const RenderJob& job = picture_.job;
   const PhaseTimer timer(job.statistics, "share");
   const double radius = joint_->Fit(&job.threads, [&](int group, const SharingChange& difference) {
@@ -132,6 +137,7 @@ std::optional<Certificate> ErrorWatch::CertifyMaps(const PassSum& sum,
 
 void ErrorWatch::Look(const NoiseOfPhotons& noise) {
   if (!picture_.sum->Noise()) return;
+  FitJointly();
   const auto certificate = LookAt(*picture_.sum, noise, BiasOfSharedGathers(), &*rule_);
   if (unshared_ && mayStopSharing_ && !rule_->IsReached() && certificate && certificate->sharing &&
       MayBeBetterUnshared(*certificate->sharing))
@@ -214,6 +220,8 @@ void ErrorWatch::Load(const StateFile& file) {
   if (rule_) file.Read(kRuleSection, [this](ByteArchive* archive) { TransferRule(archive); });
   if (unshared_) unshared_->Load(file, *picture_.sum);
   if (joint_) joint_->Load(file, picture_.sum->Groups());
+  // Another fit of the same passes changes nothing, so the state need not say whether it is there.
+  isFitMissing_ = joint_ && joint_->Passes() > 0;
   if (joint_ && !HasPassesOf(*joint_, *picture_.sum))
     file.FailAsDamaged("its gathers have other passes than the picture");
   if (!OfMaps()) return;

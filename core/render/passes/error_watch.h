@@ -42,7 +42,8 @@ class ErrorWatch {
   // Must be called before each pass. Returns the receiver of its gathers; null: none.
   GatherFragments* BeginPass(std::int64_t samplesPerPixel);
 
-  // Must be called after the functions of PassSum with the same names.
+  // Must be called after the functions of PassSum with the same names. The gathers of a pass are
+  // shared before the next look, not before, because each fit takes the time of all passes so far.
   void JoinGroups();
   void SetPhotonNoise(double relative);
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
@@ -55,6 +56,9 @@ class ErrorWatch {
   // without shared gathers.
   void Look(const NoiseOfPhotons& noise);
 
+  // Shares the gathers of passes after which there was no look. Must be called before the picture
+  // is used without another pass.
+  void Complete() { FitJointly(); }
   // Adds what is known about the error to the result of the renderer.
   void Describe(PassesResult* result) const;
 
@@ -83,6 +87,7 @@ class ErrorWatch {
   double neededSamples_ = 0;
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
   std::unique_ptr<JointWindows> joint_;        // null: passes share apart, or not at all
+  bool isFitMissing_ = false;                  // whether a pass of joint_ has its own light
 };
 
 }  // namespace exphoton

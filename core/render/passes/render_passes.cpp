@@ -220,9 +220,7 @@ class Passes {
       error_.JoinGroups();
     }
     sum_.Add(passFilm_, step.size, group);
-    const Clock::time_point start = Clock::now();
     error_.Add(passFilm_, step.size, group);
-    renderSeconds_ += SecondsSince(start);  // shares gathers
     if (group < 2 && rule_.passSamples == 0 && !rule_.accuracy) TakeForecast(step.size, group);
     photons_.EndPass(step.size);
     TakePhotonNoise(group);
@@ -231,7 +229,9 @@ class Passes {
     const AccuracyRule* const accuracy = error_.Rule();
     const bool isFarAway = accuracy && photons_.Divides(group + 1) &&
                            photons_.FirstNoise() > kMuchNoise * accuracy->RoomForNoise();
+    const Clock::time_point start = Clock::now();
     if (accuracy && !isFarAway) LookAtError(group);
+    renderSeconds_ += SecondsSince(start);  // shares gathers
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup)
@@ -293,6 +293,7 @@ class Passes {
 
   PassesResult Finish() {
     progress_.End(result_.reason != StopReason::Signal);
+    error_.Complete();
     result_.render = renderer_.Finish();
     error_.Describe(&result_);
     sum_.Describe(parts_.NeedsVariances(), &result_);

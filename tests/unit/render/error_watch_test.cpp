@@ -61,7 +61,8 @@ class WatchedPasses {
         watch_({job_, &parts_, &sum_, &renderer_}, AccuracyOf(settings), GroupSamples::OneSequence),
         sequence_(scene_.setup->sampler->WithSamplesPerPixel(4)) {}
 
-  // Renders the next pass as a group of its own. Returns whether it shares with earlier ones.
+  // Renders the next pass as a group of its own, and shares its gathers. Returns whether it shares
+  // with earlier ones.
   bool Add(std::int64_t samples) {
     RenderPass pass;
     pass.preprocessSeed = 5;
@@ -75,6 +76,7 @@ class WatchedPasses {
     EXPECT_TRUE(renderer_.Run(pass, *sequence_, &passes.back()));
     sum_.Add(passes.back(), samples, group);
     watch_.Add(passes.back(), samples, group);
+    watch_.Complete();
     parts_.TakeAovs(true);
     return isJoint;
   }
