@@ -66,10 +66,9 @@ bool Explorer::FindOmissions(double most) {
     if (!isRough_ || !wish_.findOmissions || !ReadsPhotonMaps(candidate_.integrator) ||
         IsTooDear(most))
       return;
-    Explorer likely = WithGain(std::sqrt(MostGain()));
-    likely.TakePrice();
-    if (!likely.candidate_.reason.empty()) return;
-    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&likely.candidate_);
+    Candidate likely = LikelyResult();
+    if (!likely.reason.empty()) return;
+    const std::vector<OmittedEffect> omitted = wish_.findOmissions(&likely);
     candidate_.omitted = omitted;
     candidate_.hasSoughtOmissions = true;
     series_.LeaveOut(omitted);
@@ -154,6 +153,13 @@ bool Explorer::IsTooDear(double most) const {
   const std::optional<Split> split =
       isRough_ ? WithGain(MostGain()).CheapestSplit() : CheapestSplit();
   return split && (isRough_ ? split->price.seconds : split->price.least) > most;
+}
+
+Candidate Explorer::LikelyResult() const {
+  if (!isRough_ || !candidate_.reason.empty()) return candidate_;
+  Explorer likely = WithGain(std::sqrt(MostGain()));
+  likely.TakePrice();
+  return likely.candidate_;
 }
 
 // Returns the factor by which the noise of a rough pilot may be too high.

@@ -58,6 +58,8 @@ class Explorer {
   void Refine(double most);
   // The results so far.
   const Candidate& Result() const { return candidate_; }
+  // The same with the price that a pilot of full size is likely to show after a rough one.
+  Candidate LikelyResult() const;
 
  private:
   // The cheapest split of the squared error between noise and the interval of the bias.

@@ -17,8 +17,12 @@ namespace exphoton::cli {
 namespace {
 
 constexpr const char* kKnown[] = {"path", "guidedpath", "exphotonmap", "photonmap"};
-// In this order: pilots of the first ones cost least. photonmap was never the cheapest one.
-constexpr const char* kAutomatic[] = {"path", "guidedpath", "exphotonmap"};
+// In this order: pilots of the first one cost least, and the first two show whether the last one
+// may be the cheapest. photonmap was never the cheapest one.
+constexpr const char* kAutomatic[] = {"path", "exphotonmap", "guidedpath"};
+// The price of path, divided by the price of guidedpath, is less than this in all scenes that were
+// tried (docs/decisions/0055-accuracy-dial.md).
+constexpr double kMostGainOfGuide = 16;
 
 constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
 constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
@@ -69,31 +73,68 @@ bool IsCheaper(const Explorer& a, const Explorer& b) {
   return price(a.Result()) < price(b.Result());
 }
 
-// First prices of all candidates come before any of them is explored further, so that a dear one
-// gets small pilots only. The cheapest one comes first in each round.
-std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
-                                  const Wish& wish) {
-  std::vector<Explorer> explorers;
+// Returns whether guidedpath may be cheaper than all of these.
+bool MayGuidingWin(const std::vector<Candidate>& others) {
+  double path = 0, best = std::numeric_limits<double>::infinity();
+  for (const Candidate& other : others) {
+    if (!other.reason.empty()) continue;
+    best = std::min(best, other.price.seconds);
+    if (other.integrator == "path") path = other.price.seconds;
+  }
+  return !(path > kMostGainOfGuide * best);
+}
+
+std::vector<Candidate> LikelyResults(const std::vector<Explorer>& explorers) {
+  std::vector<Candidate> results;
+  for (const Explorer& explorer : explorers) results.push_back(explorer.LikelyResult());
+  return results;
+}
+
+// Explores candidates that have a first price. The cheapest one comes first in each round.
+std::vector<Candidate> Explore(std::vector<Explorer>* explorers) {
   const auto best = [&] {
-    const Candidate cheapest = std::ranges::min_element(explorers, IsCheaper)->Result();
+    const Candidate cheapest = std::ranges::min_element(*explorers, IsCheaper)->Result();
     return cheapest.reason.empty() ? cheapest.price.seconds
                                    : std::numeric_limits<double>::infinity();
   };
-  for (const std::string& name : names) {
-    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
-    explorers.emplace_back(pilots, name, rays, wish).Begin();
-  }
-  std::ranges::stable_sort(explorers, IsCheaper);
-  for (Explorer& explorer : explorers)
+  std::ranges::stable_sort(*explorers, IsCheaper);
+  for (Explorer& explorer : *explorers)
     if (explorer.FindOmissions(best())) break;
-  for (Explorer& explorer : explorers) explorer.Settle(best());
-  std::ranges::stable_sort(explorers, IsCheaper);
+  for (Explorer& explorer : *explorers) explorer.Settle(best());
+  std::ranges::stable_sort(*explorers, IsCheaper);
   std::vector<Candidate> candidates;
-  for (Explorer& explorer : explorers) {
+  for (Explorer& explorer : *explorers) {
     explorer.Refine(best());
     candidates.push_back(explorer.Result());
   }
   if (candidates.size() > 1) DropDarkOnes(&candidates);
+  return candidates;
+}
+
+// First prices of all candidates come before any of them is explored further, so that a dear one
+// gets small pilots only. guidedpath gets none if the others show that it cannot be the cheapest.
+std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
+                                  const Wish& wish) {
+  std::vector<Explorer> explorers;
+  bool isGuideLeftOut = false;
+  const auto begin = [&](const std::string& name) {
+    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
+    explorers.emplace_back(pilots, name, rays, wish).Begin();
+  };
+  for (const std::string& name : names) {
+    isGuideLeftOut = name == "guidedpath" && !MayGuidingWin(LikelyResults(explorers));
+    if (!isGuideLeftOut) begin(name);
+  }
+  std::vector<Candidate> candidates = Explore(&explorers);
+  if (!isGuideLeftOut) return candidates;
+  if (MayGuidingWin(candidates)) {
+    begin("guidedpath");
+    return Explore(&explorers);
+  }
+  Candidate guided;
+  guided.integrator = "guidedpath";
+  guided.reason = "no pilot, because path costs far more";
+  candidates.push_back(guided);
   return candidates;
 }
 

@@ -197,6 +197,18 @@ TEST_F(AccuracyTest, IntegratorsGetRoughPilotsFirst) {
   EXPECT_NE(err.find("rough pilot of guidedpath"), std::string::npos) << err;
 }
 
+// In this room, path costs more than fifty times as much as exphotonmap.
+TEST_F(AccuracyTest, GuidingGetsNoPilotWherePathIsFarDearer) {
+  const std::string scene = EXPHOTON_SOURCE_DIR "/scenes/skylight-room/exphotonmap.pbrt";
+  const ProgramResult result = Render("5%", {"--resolution", "32x24", "--verbose"}, scene);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("rough pilot of exphotonmap"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("pilot of guidedpath"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("; guidedpath: no pilot, because path costs far more"),
+            std::string::npos)
+      << result.err;
+}
+
 // Few photons are enough for a coarse picture, and cost less.
 TEST_F(AccuracyTest, TakesFewerPhotonsWhereTheyAreMany) {
   WriteRoom("many.pbrt", "exphotonmap", 200000);
