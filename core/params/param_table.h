@@ -55,11 +55,8 @@ struct ParamDecl {
   std::vector<std::string> choices;  // Choice only
   std::string defaultText;           // in scene file syntax; "" if automatic
   int quickDivisor = 1;              // --quick divides the value by this
-  // The value that --quick divides where the default is automatic; absent: it changes nothing
-  // there.
-  std::optional<double> quickDefault;
-  bool isBasic = false;    // among the few that most scenes need
-  bool isIgnored = false;  // accepted for other programs' scenes; has no effect
+  bool isBasic = false;              // among the few that most scenes need
+  bool isIgnored = false;            // accepted for other programs' scenes; has no effect
   // The default in scenes of version 2, as numbers; empty if it is the same.
   std::vector<double> version2Default;
   // The default where the command line names the integrator, as a number; absent if it is the same.
@@ -208,10 +205,9 @@ class Param : public ParamDraft {
     return *this;
   }
   // For the counts of an integrator: --quick divides the value of the file, or the default, by
-  // this. `usual` takes the place of an automatic default.
-  Param& DividedByQuick(int divisor, std::optional<double> usual = {}) {
+  // this.
+  Param& DividedByQuick(int divisor) {
     decl.quickDivisor = divisor;
-    decl.quickDefault = usual;
     return *this;
   }
   // For a Vec3 member that is a vector or normal, or a string member that names a file.

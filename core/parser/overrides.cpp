@@ -207,9 +207,8 @@ void ScaleForQuick(const std::vector<ParamDecl>& declared, ParamSet* params) {
       if (given->numbers.size() != 1) continue;  // malformed: the binder reports the error
       param = *given;
     } else {
-      std::optional<std::vector<double>> value = ParseNumbers(declaration.defaultText);
-      if (!value && declaration.quickDefault) value = {*declaration.quickDefault};
-      if (!value) continue;  // the plugin derives the value
+      const std::optional<std::vector<double>> value = ParseNumbers(declaration.defaultText);
+      if (!value) continue;  // no numeric default: the plugin derives the value
       param.name = declaration.name;
       param.type = "integer";
       param.where = params->where;

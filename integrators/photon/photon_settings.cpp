@@ -24,7 +24,7 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "guided and caustics carry little light")
           .Basic()
           .Range(0, 1e9)
-          .DividedByQuick(10, S::kUsualCausticPhotons),
+          .DividedByQuick(10),
       Param("directphotons", &S::directPhotons,
             "photons wanted in the direct map; if absent, as indirectphotons, or 100000 if those "
             "are 0")

@@ -32,8 +32,8 @@ enum class PhotonTargeting {
 enum class ShowMap { Nothing, Radiance, Direct, Caustic, Indirect };
 
 struct PhotonSettings {
-  static constexpr std::int64_t kUsualPhotons = 100000, kUsualCausticPhotons = 20000;
-  std::optional<std::int64_t> causticPhotons;  // absent: at most kUsualCausticPhotons
+  static constexpr std::int64_t kUsualPhotons = 100000;
+  std::optional<std::int64_t> causticPhotons;  // absent: at most 20000
   std::optional<std::int64_t> directPhotons;   // absent: DirectPhotons() chooses
   std::int64_t indirectPhotons = kUsualPhotons;
   int nUsed = 50;
@@ -65,7 +65,7 @@ struct PhotonSettings {
   bool guideEmission = false;
   bool directWithPhotons = false;  // direct light from the direct map; a parameter of photonmap
 
-  std::int64_t CausticPhotons() const { return causticPhotons.value_or(kUsualCausticPhotons); }
+  std::int64_t CausticPhotons() const { return causticPhotons.value_or(20000); }
   // Without indirect photons, gather rays still read direct light.
   std::int64_t DirectPhotons() const {
     return directPhotons.value_or(indirectPhotons > 0 ? indirectPhotons : kUsualPhotons);

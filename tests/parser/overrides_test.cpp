@@ -148,17 +148,6 @@ TEST(Overrides, QuickDividesGivenAndDefaultCounts) {
   EXPECT_EQ(params.Find("maxdepth"), nullptr);
 }
 
-TEST(Overrides, QuickDividesTheUsualValueOfAnAutomaticCount) {
-  ParamDecl caustic, direct;
-  caustic.name = "causticphotons", direct.name = "directphotons";
-  caustic.quickDivisor = direct.quickDivisor = 10;
-  caustic.quickDefault = 20000;
-  ParamSet params;
-  ScaleForQuick({caustic, direct}, &params);
-  EXPECT_EQ(params.Find("causticphotons")->numbers[0], 2000);
-  EXPECT_EQ(params.Find("directphotons"), nullptr);
-}
-
 TEST(Overrides, QuickLeavesNoPhotonsNone) {
   ParamDecl photons;
   photons.name = "causticphotons", photons.defaultText = "20000", photons.min = 0;
