@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "core/app/quote/missing_light.h"
 
 namespace exphoton::cli {
+
+inline constexpr double kNoPrice = std::numeric_limits<double>::infinity();
 
 struct Candidate {
   std::string integrator;
@@ -33,7 +36,14 @@ struct Candidate {
   std::vector<MeasuredLight> parts;  // of the light of the last pilot
   std::vector<OmittedEffect> omitted;
   bool hasSoughtOmissions = false;  // before its pilot with all photons
+
+  // Returns the expected price; kNoPrice if there is a reason.
+  double KnownPrice() const { return reason.empty() ? price.seconds : kNoPrice; }
 };
+
+// Returns whether guidedpath may be cheaper than all of these. It is if path is not among them, or
+// has no price.
+bool MayGuidingWin(const std::vector<Candidate>& others);
 
 struct Wish {
   double error = 0;           // root of relMSE

@@ -16,13 +16,11 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr const char* kKnown[] = {"path", "guidedpath", "exphotonmap", "photonmap"};
+constexpr const char* kGuided = "guidedpath";
+constexpr const char* kKnown[] = {"path", kGuided, "exphotonmap", "photonmap"};
 // In this order: pilots of the first one cost least, and the first two show whether the last one
 // may be the cheapest. photonmap was never the cheapest one.
-constexpr const char* kAutomatic[] = {"path", "exphotonmap", "guidedpath"};
-// The price of path, divided by the price of guidedpath, is less than this in all scenes that were
-// tried (docs/decisions/0055-accuracy-dial.md).
-constexpr double kMostGainOfGuide = 16;
+constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuided};
 
 constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
 constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
@@ -66,22 +64,7 @@ int GatherRaysFor(const std::string& integrator, const PilotRenderer& pilots) {
 }
 
 bool IsCheaper(const Explorer& a, const Explorer& b) {
-  const auto price = [](const Candidate& candidate) {
-    return candidate.reason.empty() ? candidate.price.seconds
-                                    : std::numeric_limits<double>::infinity();
-  };
-  return price(a.Result()) < price(b.Result());
-}
-
-// Returns whether guidedpath may be cheaper than all of these.
-bool MayGuidingWin(const std::vector<Candidate>& others) {
-  double path = 0, best = std::numeric_limits<double>::infinity();
-  for (const Candidate& other : others) {
-    if (!other.reason.empty()) continue;
-    best = std::min(best, other.price.seconds);
-    if (other.integrator == "path") path = other.price.seconds;
-  }
-  return !(path > kMostGainOfGuide * best);
+  return a.Result().KnownPrice() < b.Result().KnownPrice();
 }
 
 std::vector<Candidate> LikelyResults(const std::vector<Explorer>& explorers) {
@@ -90,12 +73,11 @@ std::vector<Candidate> LikelyResults(const std::vector<Explorer>& explorers) {
   return results;
 }
 
-// Explores candidates that have a first price. The cheapest one comes first in each round.
-std::vector<Candidate> Explore(std::vector<Explorer>* explorers) {
+// Explores candidates that have a first price, where the lowest price of others is `most`. The
+// cheapest one comes first in each round.
+std::vector<Candidate> Explore(std::vector<Explorer>* explorers, double most) {
   const auto best = [&] {
-    const Candidate cheapest = std::ranges::min_element(*explorers, IsCheaper)->Result();
-    return cheapest.reason.empty() ? cheapest.price.seconds
-                                   : std::numeric_limits<double>::infinity();
+    return std::min(most, std::ranges::min_element(*explorers, IsCheaper)->Result().KnownPrice());
   };
   std::ranges::stable_sort(*explorers, IsCheaper);
   for (Explorer& explorer : *explorers)
@@ -107,7 +89,6 @@ std::vector<Candidate> Explore(std::vector<Explorer>* explorers) {
     explorer.Refine(best());
     candidates.push_back(explorer.Result());
   }
-  if (candidates.size() > 1) DropDarkOnes(&candidates);
   return candidates;
 }
 
@@ -115,26 +96,33 @@ std::vector<Candidate> Explore(std::vector<Explorer>* explorers) {
 // gets small pilots only. guidedpath gets none if the others show that it cannot be the cheapest.
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
                                   const Wish& wish) {
+  const auto begin = [&](const std::string& name, std::vector<Explorer>* explorers) {
+    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
+    explorers->emplace_back(pilots, name, rays, wish).Begin();
+  };
   std::vector<Explorer> explorers;
   bool isGuideLeftOut = false;
-  const auto begin = [&](const std::string& name) {
-    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
-    explorers.emplace_back(pilots, name, rays, wish).Begin();
-  };
   for (const std::string& name : names) {
-    isGuideLeftOut = name == "guidedpath" && !MayGuidingWin(LikelyResults(explorers));
-    if (!isGuideLeftOut) begin(name);
+    if (name == kGuided && !MayGuidingWin(LikelyResults(explorers)))
+      isGuideLeftOut = true;
+    else
+      begin(name, &explorers);
   }
-  std::vector<Candidate> candidates = Explore(&explorers);
+  std::vector<Candidate> candidates = Explore(&explorers, kNoPrice);
+  if (candidates.size() > 1) DropDarkOnes(&candidates);
   if (!isGuideLeftOut) return candidates;
-  if (MayGuidingWin(candidates)) {
-    begin("guidedpath");
-    return Explore(&explorers);
+  if (!MayGuidingWin(candidates)) {
+    Candidate guided;
+    guided.integrator = kGuided;
+    guided.reason = "no pilot, because path costs far more";
+    candidates.push_back(guided);
+    return candidates;
   }
-  Candidate guided;
-  guided.integrator = "guidedpath";
-  guided.reason = "no pilot, because path costs far more";
-  candidates.push_back(guided);
+  std::vector<Explorer> guided;
+  begin(kGuided, &guided);
+  const double most = std::ranges::min(candidates, {}, &Candidate::KnownPrice).KnownPrice();
+  candidates.push_back(Explore(&guided, most).front());
+  DropDarkOnes(&candidates);
   return candidates;
 }
 

@@ -54,8 +54,8 @@ class Levels {
     const bool isNoisy = variance > 0 && variance < std::numeric_limits<double>::infinity();
     if (!isNoisy) return mean * mean;
     const Kind others = OthersOfKind(x, y, channel);
-    // The noise of the value makes the inverse too large, and the dependence of both errors makes
-    // the quotient too small.
+    // Without others, the level is the value. Its convexity and its correlation with the variance
+    // change the quotient in opposite directions, so neither is removed.
     if (others.count == 0) return mean * mean;
     Kind kind = others;
     kind.Add(mean, variance);

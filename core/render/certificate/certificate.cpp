@@ -40,6 +40,7 @@ BlockBias BetweenLevels(const BlockBias& ofPicture, const BlockBias& ofTruth) {
   const double change = ofTruth.squared - ofPicture.squared;
   bias.lower = std::max(std::min(ofPicture.lower, ofTruth.lower + std::min(change, 0.)), 0.);
   bias.upper = std::max(ofPicture.upper, ofTruth.upper + std::max(change, 0.));
+  bias.smallest = std::max(ofPicture.smallest, ofTruth.smallest);
   return bias;
 }
 

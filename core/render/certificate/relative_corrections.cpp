@@ -57,9 +57,11 @@ void RelativeCorrections::ForEachValue(std::size_t cellWidth, const Use& use) co
 std::vector<RelativeCorrections::Cell> RelativeCorrections::CellsOf(
     std::span<const double> picture, std::span<const double> corrected, std::size_t width,
     Parity parity) const {
-  std::vector<Cell> cells;
+  const std::size_t columns = (std::size_t(width_) + width - 1) / width;
+  const std::size_t rows = (std::size_t(height_) + width - 1) / width;
+  std::vector<Cell> cells(3 * columns * rows);
+  for (Cell& cell : cells) cell.corrections.resize(groups_.size());
   ForEachValue(width, [&](std::size_t i, std::size_t place, Parity ofValue) {
-    while (cells.size() <= place) cells.emplace_back().corrections.resize(groups_.size());
     if (ofValue != parity) return;
     Cell& cell = cells[place];
     cell.picture += picture[i], cell.corrected += corrected[i];

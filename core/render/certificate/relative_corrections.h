@@ -25,7 +25,9 @@ class RelativeCorrections {
   // Returns the levels of the true picture. Those of the picture contain its bias: a picture that
   // is 30 % too bright has a bias of 30 % of the truth, which is 23 % of the picture. Radiance is
   // multiplied by the factors that the mean corrections of blocks of this width (pixels) give, then
-  // of cells of half of the width, and so on down to kFinest.
+  // of cells of half of the width, and so on, and at last of cells of kFinest. The level of a noisy
+  // pixel is larger than its squared radiance (core/imaging/film/local_square.h), which makes these
+  // factors a little smaller than they should be.
   std::vector<double> TrueLevels(std::span<const double> levels, std::size_t blockWidth) const;
   static constexpr std::size_t kFinest = 8;  // pixels
 

@@ -43,7 +43,7 @@ class ErrorWatch {
   GatherFragments* BeginPass(std::int64_t samplesPerPixel);
 
   // Must be called after the functions of PassSum with the same names. The gathers of a pass are
-  // shared before the next look, not before, because each fit takes the time of all passes so far.
+  // not shared before the next look, because each fit takes the time of all passes so far.
   void JoinGroups();
   void SetPhotonNoise(double relative);
   void Add(const Film& pass, std::int64_t samplesPerPixel, int group);
@@ -56,8 +56,8 @@ class ErrorWatch {
   // without shared gathers.
   void Look(const NoiseOfPhotons& noise);
 
-  // Shares the gathers of passes after which there was no look. Must be called before the picture
-  // is used without another pass.
+  // Shares the gathers of passes after which there was no look. Must be called before the final
+  // picture is read. Pictures that are shown meanwhile may have gathers that are not shared.
   void Complete() { FitJointly(); }
   // Adds what is known about the error to the result of the renderer.
   void Describe(PassesResult* result) const;
@@ -87,7 +87,7 @@ class ErrorWatch {
   double neededSamples_ = 0;
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
   std::unique_ptr<JointWindows> joint_;        // null: passes share apart, or not at all
-  bool isFitMissing_ = false;                  // whether a pass of joint_ has its own light
+  bool isFitMissing_ = false;                  // whether the passes of joint_ may need a fit
 };
 
 }  // namespace exphoton

@@ -231,7 +231,7 @@ class Passes {
                            photons_.FirstNoise() > kMuchNoise * accuracy->RoomForNoise();
     const Clock::time_point start = Clock::now();
     if (accuracy && !isFarAway) LookAtError(group);
-    renderSeconds_ += SecondsSince(start);  // shares gathers
+    renderSeconds_ += SecondsSince(start);  // shares gathers before it looks
     if (group == 2)
       for (GroupForecast& forecast : forecasts_) forecast.Release();
     if (step.isNewGroup)
@@ -292,8 +292,8 @@ class Passes {
   }
 
   PassesResult Finish() {
-    progress_.End(result_.reason != StopReason::Signal);
     error_.Complete();
+    progress_.End(result_.reason != StopReason::Signal);
     result_.render = renderer_.Finish();
     error_.Describe(&result_);
     sum_.Describe(parts_.NeedsVariances(), &result_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests render with an accuracy whose passes share their gathers together before a look.
-#include "core/render/passes/error_watch.h"
+#include "core/render/passes/render_passes.h"
 
 #include <gtest/gtest.h>
 
@@ -37,9 +37,9 @@ double SharingRadiusAfter(std::int64_t samples) {
 }
 
 // No look follows the first pass, but the picture may end there.
-TEST(ErrorWatchSharing, SharesTheGathersOfASinglePass) { EXPECT_GT(SharingRadiusAfter(2), 0); }
+TEST(FitsBeforeLooks, SharesTheGathersOfASinglePass) { EXPECT_GT(SharingRadiusAfter(2), 0); }
 
-TEST(ErrorWatchSharing, SharesTheGathersOfSeveralPasses) { EXPECT_GT(SharingRadiusAfter(6), 0); }
+TEST(FitsBeforeLooks, SharesTheGathersOfSeveralPasses) { EXPECT_GT(SharingRadiusAfter(6), 0); }
 
 }  // namespace
 }  // namespace exphoton

@@ -79,22 +79,37 @@ TEST(Certificate, TakesNoNoiseForAnErrorOfTheRadiance) {
   EXPECT_NEAR(Certify(corrections, levels, .5, {})->bias.squared, -.08 / 1.01, 1e-8);
 }
 
-// The picture is twice as bright as the truth. Its bias is .5 of its own radiance, and 1 of the
-// true one. Corrections that are taken for noise may hide as much again.
-TEST(Certificate, HasAnIntervalForAllLevelsThatMayBeTrue) {
+// Returns the certificate of a picture of radiance 1 whose corrections have this value without
+// noise.
+BlockBias BiasOfPicture(double correction) {
   constexpr int kSize = 8;
   Corrections corrections({0, 0, kSize, kSize}, 1);
   for (int group = 0; group < 2; ++group) {
     for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x) corrections.Add({x, y}, {1, Spectrum(Real(-.5)), 1}, 1);
+      for (int x = 0; x < kSize; ++x)
+        corrections.Add({x, y}, {1, Spectrum(Real(correction)), 1}, 1);
     corrections.EndPass(group, 1);
   }
   const std::vector<double> levels(std::size_t(3 * kSize * kSize), 1);
-  const BlockBias bias = Certify(corrections, levels, .5, {})->bias;
+  return Certify(corrections, levels, .5, {})->bias;
+}
+
+// The picture is twice as bright as the truth. Its bias is .5 of its own radiance, and 1 of the
+// true one. Corrections that are taken for noise may hide as much again.
+TEST(Certificate, HasAnIntervalForAllLevelsOfABrightPicture) {
+  const BlockBias bias = BiasOfPicture(-.5);
   const double ofPicture = .25 / 1.01, ofTruth = .25 / .26;
   EXPECT_NEAR(bias.squared, ofTruth, 1e-6);
   EXPECT_NEAR(bias.lower, ofPicture, 1e-6);
   EXPECT_NEAR(bias.upper, ofTruth + (ofTruth - ofPicture), 1e-6);
+}
+
+TEST(Certificate, HasAnIntervalForAllLevelsOfADarkPicture) {
+  const BlockBias bias = BiasOfPicture(.2);
+  const double ofPicture = .04 / 1.01, ofTruth = .04 / 1.45;
+  EXPECT_NEAR(bias.squared, ofTruth, 1e-6);
+  EXPECT_NEAR(bias.lower, ofTruth - (ofPicture - ofTruth), 1e-6);
+  EXPECT_NEAR(bias.upper, ofPicture, 1e-6);
 }
 
 // By chance none of few gather rays is corrected. Then nothing is known about their bias.

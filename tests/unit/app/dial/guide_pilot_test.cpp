@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests decide whether guidedpath gets a pilot beside other integrators.
+#include <gtest/gtest.h>
+
+#include "core/app/dial/candidate.h"
+
+namespace exphoton::cli {
+namespace {
+
+Candidate Priced(const char* integrator, double price) {
+  Candidate candidate;
+  candidate.integrator = integrator;
+  candidate.price.seconds = price;
+  return candidate;
+}
+
+TEST(GuidePilot, IsLeftOutWherePathIsFarDearer) {
+  EXPECT_FALSE(MayGuidingWin({Priced("path", 16.5), Priced("exphotonmap", 1)}));
+  EXPECT_TRUE(MayGuidingWin({Priced("path", 15.5), Priced("exphotonmap", 1)}));
+  EXPECT_TRUE(MayGuidingWin({Priced("path", 1), Priced("exphotonmap", 100)}));
+}
+
+TEST(GuidePilot, IsNeededWherePathHasNoPrice) {
+  Candidate path = Priced("path", 100);
+  path.reason = "less light than others";
+  EXPECT_TRUE(MayGuidingWin({path, Priced("exphotonmap", 1)}));
+  EXPECT_TRUE(MayGuidingWin({Priced("exphotonmap", 1)}));
+  EXPECT_TRUE(MayGuidingWin({}));
+}
+
+// Then the price of the other one says nothing.
+TEST(GuidePilot, IsNeededWhereTheCheapestHasNoPrice) {
+  Candidate gathered = Priced("exphotonmap", 1);
+  gathered.reason = "less light than others";
+  EXPECT_TRUE(MayGuidingWin({Priced("path", 100), gathered}));
+}
+
+}  // namespace
+}  // namespace exphoton::cli
