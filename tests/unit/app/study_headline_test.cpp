@@ -59,6 +59,18 @@ TEST(StudyHeadline, NamesTheErrorThatMostIntegratorsReach) {
             "On room, to the same error fast needs 1/7 of slow's time and 1/130 of path's.");
 }
 
+TEST(StudyHeadline, NamesAnErrorThatShowsWhoIsFastest) {
+  // Three have a time at .1, but the cheapest picture of "fast" is better than that, so it may need
+  // less time than "rough".
+  Analysis analysis = TwoLines({CostAt(1, .05), CostAt(10, .01)}, {CostAt(7, .1), CostAt(70, .01)});
+  AddLine("rough", "rough", {CostAt(.1, .5), CostAt(.9, .1)}, &analysis);
+  Write(&analysis);
+  ASSERT_TRUE(analysis.target);
+  EXPECT_DOUBLE_EQ(*analysis.target, .01);
+  EXPECT_EQ(analysis.headline,
+            "On room, to the same error fast needs 1/7 of slow's time; rough does not reach it.");
+}
+
 TEST(StudyHeadline, CountsManySettingsOfOneIntegratorAsOne) {
   Analysis analysis = SevenTimes();
   for (const char* label : {"narrow", "wide"})

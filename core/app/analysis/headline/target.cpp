@@ -19,6 +19,8 @@ const std::string& IntegratorOf(const Line& line) {
 struct Support {
   int reached = 0, exact = 0;  // exact: the time is interpolated, not only bounded
   bool hasRatio = false;       // a contender other than the fastest has an exact time
+  bool isDecided = true;       // no contender other than the fastest has a bound only, which would
+                               // leave open whether it is faster
 };
 
 Support SupportOf(const Analysis& analysis, double error) {
@@ -34,20 +36,22 @@ Support SupportOf(const Analysis& analysis, double error) {
     support.exact += time.kind == Kind::Reached;
     fastest = std::min(fastest, time.seconds.value);
   }
-  for (const TimeToError& time : times)
-    if (time.kind == Kind::Reached && (count == 1 || time.seconds.value > fastest))
-      support.hasRatio = true;
+  for (const TimeToError& time : times) {
+    const bool isSlower = time.seconds.value > fastest;
+    if (time.kind == Kind::Reached && (count == 1 || isSlower)) support.hasRatio = true;
+    if (time.kind == Kind::AtMost && isSlower) support.isDecided = false;
+  }
   return support;
 }
 
 std::optional<double> BestOf(const Analysis& analysis, const std::vector<double>& errors) {
   std::optional<double> best;
-  std::tuple<int, int, double> most;
+  std::tuple<bool, int, int, double> most;
   for (const double error : errors) {
     if (!(error > 0) || ReferenceShortfall(analysis.reference, error) > 1) continue;
     const Support support = SupportOf(analysis, error);
     if (!support.hasRatio) continue;
-    const std::tuple<int, int, double> rank{support.reached, support.exact, -error};
+    const std::tuple rank{support.isDecided, support.reached, support.exact, -error};
     if (best && rank <= most) continue;
     best = error;
     most = rank;
