@@ -193,13 +193,23 @@ TEST_F(ReportSections, AnUnknownNoiseIsTheWholeErrorOfItsBar) {
 TEST_F(ReportSections, TheChartNamesLinesOnceAndSaysTheSlopes) {
   const Html wide = CostChart(results_, analysis_, kWideChart);
   EXPECT_EQ(CountOf(wide, ">photons</text>"), 1);
-  EXPECT_EQ(wide.Markup().find("class=\"keys\""), std::string::npos);
+  EXPECT_EQ(wide.Markup().find("class=\"keys"), std::string::npos);
   ExpectText(wide, "relMSE, noise alone: slope −1");
   ExpectText(wide, "√relMSE, slope −1/2");
   ExpectText(wide, "photons, spp=8: 2 s, 0.3");  // the title of a mark
   const Html narrow = CostChart(results_, analysis_, kNarrowChart);
   ExpectText(narrow, "relMSE; noise alone: slope −1");
   EXPECT_EQ(TextOf(narrow).find("√"), std::string::npos);
+}
+
+// Only one of the two drawings is shown, and so are its keys.
+TEST_F(ReportSections, KeysOfLinesWithoutPlaceBelongToOneDrawing) {
+  for (int i = 0; i < 30; ++i)
+    analysis_.lines.push_back({"a line with a long name " + std::to_string(i), {0}, {}, {}});
+  const std::string wide = CostChart(results_, analysis_, kWideChart).Markup();
+  const std::string narrow = CostChart(results_, analysis_, kNarrowChart).Markup();
+  EXPECT_NE(wide.find("class=\"keys wide\""), std::string::npos);
+  EXPECT_NE(narrow.find("class=\"keys narrow\""), std::string::npos);
 }
 
 TEST_F(ReportSections, TheChartJoinsSettingsThatDifferInSamplesOnly) {

@@ -55,6 +55,9 @@ std::vector<std::vector<std::size_t>> GroupBySamples(const Results& results,
   return sorted;
 }
 
+// Names the drawing for page.css, which shows one of the two.
+const char* KindOf(const ChartShape& shape) { return shape.isNarrow ? "narrow" : "wide"; }
+
 class Chart {
  public:
   Chart(const Results& results, const Analysis& analysis, const ChartFrame& frame)
@@ -79,7 +82,7 @@ class Chart {
     AddTargetNotes();
     AddSlope();
     AddNotes();
-    return Fill("chart", {{"kind", shape.isNarrow ? "narrow" : "wide"},
+    return Fill("chart", {{"kind", KindOf(shape)},
                           {"width", shape.width},
                           {"height", shape.height},
                           {"content", background_ + lines_ + marks_ + texts_}});
@@ -309,7 +312,8 @@ Html CostChart(const Results& results, const Analysis& analysis, const ChartShap
   Html keys;
   for (const std::size_t line : chart.Unnamed())
     keys += Fill("line-key", {{"marker", LineMarker(line)}, {"label", analysis.lines[line].label}});
-  return keys.IsEmpty() ? drawn : drawn + Fill("chart-keys", {{"keys", keys}});
+  if (keys.IsEmpty()) return drawn;
+  return drawn + Fill("chart-keys", {{"kind", KindOf(shape)}, {"keys", keys}});
 }
 
 }  // namespace exphoton::study
