@@ -14,6 +14,7 @@
 #include "core/imaging/film/film.h"
 #include "core/params/param_set.h"
 #include "core/params/param_table.h"
+#include "core/parser/syntax/directive.h"
 #include "core/parser/syntax/scene_limits.h"
 #include "core/parser/syntax/source.h"
 #include "core/sampling/filter.h"
@@ -60,10 +61,13 @@ struct LoadOptions {
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
   bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
 
-  // If not null, a setup of the same file, without integrators. Its scene and names move to the new
-  // setup, instead of being made again, and its dialect holds. An error is thrown if the world has
-  // changed.
+  // If not null, a setup of the same file, which has its scene. The file is not read again: the
+  // scene and its names move to the new setup, and the other objects are made from the directives
+  // of the known one. Integrators of the known setup still refer to the scene.
   RenderSetup* known = nullptr;
+  // Receives messages about the text and the world. Null: they go where all others go. There are
+  // none with a known setup.
+  Log* sceneLog = nullptr;
 };
 
 struct LoadingStopped {};
@@ -84,7 +88,10 @@ struct RenderSetup {
   std::string integratorName, samplerName, filterName, cameraName, acceleratorName;
   // The scene file, its included files and the files that parameters name; sorted.
   std::vector<std::string> inputFiles;
-  std::vector<std::string> plugins;                          // "integrators/exphotonmap", sorted
+  std::vector<std::string> plugins;       // "integrators/exphotonmap", sorted
+  std::vector<std::string> worldPlugins;  // of these, those of the scene
+  // The directives outside the world, with WorldBegin and WorldEnd.
+  std::shared_ptr<const std::vector<Directive>> outside;
   double acceleratorSeconds = 0, acceleratorCpuSeconds = 0;  // spent on building while loading
   std::uint64_t sceneHash = 0;  // of the directives; independent of layout and comments
   // Of the directives that decide where light goes: the world, the times of its transformations

@@ -22,6 +22,8 @@ class PluginRegistry {
   PluginRegistry(const std::vector<std::string>& chosen, Log* log)
       : PluginRegistry(ChosenFolders(chosen), log) {}
 
+  void SetLog(Log* log) { log_ = log; }  // for later messages
+
   // Returns --plugin-dir, PBRT_SEARCHPATH and the folders beside the program, in this order.
   static std::vector<std::string> DefaultFolders(const std::vector<std::string>& extra);
 

@@ -37,7 +37,6 @@ TEST(RenderSetup, OfAKnownWorldHasItsDialect) {
   const BuiltScene first = BuildText(text);
   EXPECT_NE(first.Messages().find("scene language version 2"), std::string::npos);
   EXPECT_EQ(Only(first).dialect, Dialect::V2);
-  first.setups.at(0)->integrator.reset();
   LoadOptions options;
   options.known = first.setups.at(0).get();
   const BuiltScene second = BuildText(text, options);

@@ -2,6 +2,8 @@
 // Worlds one after the other, the camera of the second dialect, and what a scene's hash is made of.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/parser/parse_support.h"
 
 namespace exphoton {
@@ -46,49 +48,82 @@ TEST(SceneBuilder, HashesTheStringsOfParameters) {
   EXPECT_NE(hash("one.exr"), hash("two.exr"));
 }
 
-// Pilots render one scene with several integrators.
+// Pilots render one scene with several integrators. The file is not read again.
 TEST(SceneBuilder, TakesTheSceneOfAKnownSetup) {
-  const auto text = [](const std::string& shape) {
-    return "SurfaceIntegrator \"path\"\n" + kWorldsBegin + "AttributeBegin Shape \"" + shape +
-           "\" AttributeEnd\nLightSource \"point\"\nWorldEnd\n";
-  };
-  BuiltScene first = BuildText(text("sphere"));
+  BuiltScene first = BuildText("SurfaceIntegrator \"path\"\n" + kWorldsBegin +
+                               "AttributeBegin Shape \"sphere\" AttributeEnd\n"
+                               "LightSource \"point\"\nWorldEnd\n");
   ASSERT_EQ(first.error, "");
-  const auto* const scene = first.setups.at(0)->scene.get();
-  first.setups[0]->integrator.reset();
+  RenderSetup& known = *first.setups.at(0);
+  const auto* const scene = known.scene.get();
   LoadOptions again;
-  again.known = first.setups[0].get();
+  again.known = &known;
   again.integrator = "directlighting";
-  const BuiltScene changed = BuildText(text("disk"), again);
-  EXPECT_NE(changed.error.find("has changed"), std::string::npos) << changed.error;
-  const BuiltScene second = BuildText(text("sphere"), again);
+  const BuiltScene second = BuildText("no scene", again);
   ASSERT_EQ(second.error, "");
-  EXPECT_EQ(second.setups.at(0)->scene.get(), scene);
-  EXPECT_EQ(second.setups[0]->integratorName, "directlighting");
-  const BuiltScene third = BuildText(text("sphere"), again);
-  EXPECT_NE(third.error.find("has changed"), std::string::npos) << third.error;
+  const RenderSetup& setup = *second.setups.at(0);
+  EXPECT_EQ(setup.scene.get(), scene);
+  EXPECT_EQ(known.scene, nullptr);
+  EXPECT_EQ(setup.integratorName, "directlighting");
+  EXPECT_EQ(setup.sceneHash, known.sceneHash);
+  EXPECT_EQ(setup.worldHash, known.worldHash);
+  EXPECT_EQ(setup.inputFiles, known.inputFiles);
+  std::vector<std::string> plugins = known.plugins;
+  std::ranges::replace(plugins, "integrators/path", "integrators/directlighting");
+  EXPECT_EQ(setup.plugins, plugins);
 }
 
-// Blocks restore the transformation, which decides what CoordSysTransform adds to the hash.
-TEST(SceneBuilder, FollowsTheBlocksOfAKnownWorld) {
-  std::string blocks;  // their product would be 0
-  for (const char* block : {"Attribute", "Transform", "Object"}) {
-    const std::string begin = std::string(block) + "Begin";
-    const std::string name = begin == "ObjectBegin" ? " \"o\"" : "";
-    for (int i = 0; i < 400; ++i) blocks += begin + name + " Scale .1 .1 .1 " + block + "End\n";
+TEST(SceneBuilder, TakesASceneFromOneSetupToTheNext) {
+  BuiltScene built = BuildText(kWorldsBegin + "LightSource \"point\"\nWorldEnd\n");
+  ASSERT_EQ(built.error, "");
+  const std::vector<std::string> plugins = built.setups.at(0)->plugins;
+  for (const char* integrator : {"path", "directlighting"}) {
+    LoadOptions again;
+    again.known = built.setups.at(0).get();
+    again.integrator = integrator;
+    built = BuildText("", again);
+    ASSERT_EQ(built.error, "");
   }
-  const std::string text =
-      "SurfaceIntegrator \"path\"\n" + kWorldsBegin +
-      "AttributeBegin Translate 1 2 3 AttributeEnd CoordinateSystem \"here\"\n" + blocks +
-      "CoordSysTransform \"here\" Shape \"sphere\"\nLightSource \"point\"\nWorldEnd\n";
-  BuiltScene first = BuildText(text);
-  ASSERT_EQ(first.error, "");
-  first.setups.at(0)->integrator.reset();
+  EXPECT_EQ(built.setups.at(0)->plugins, plugins);
+}
+
+TEST(SceneBuilder, KeepsTheSceneOfAKnownSetupIfTheNewOneHasErrors) {
+  const BuiltScene first = BuildText(kWorldsBegin + "LightSource \"point\"\nWorldEnd\n");
   LoadOptions again;
-  again.known = first.setups[0].get();
-  const BuiltScene second = BuildText(text, again);
-  EXPECT_EQ(second.error, "");
-  EXPECT_EQ(second.setups.size(), 1u);
+  again.known = first.setups.at(0).get();
+  again.integrator = "none";
+  EXPECT_NE(BuildText("", again).error.find("none"), std::string::npos);
+  EXPECT_NE(first.setups[0]->scene, nullptr);
+}
+
+// The world is made once, and setups with other settings follow.
+TEST(SceneBuilder, ReportsOnTextAndWorldToALogOfTheirOwn) {
+  Log ofScene(Log::Level::Normal, Log::Sink::Memory);
+  LoadOptions options;
+  options.sceneLog = &ofScene;
+  const BuiltScene first =
+      BuildText("Sampler \"random\" \"float sampled\" 1\n" + kWorldsBegin +
+                    "Shape \"sphere\" \"float radus\" 1\nAttributeBegin\n"
+                    "MakeNamedMaterial \"m\" \"string type\" \"matte\"\n"
+                    "MakeNamedMaterial \"m\" \"string type\" \"mirror\"\nWorldEnd\n",
+                options);
+  ASSERT_EQ(first.error, "");
+  std::string scene;
+  for (const std::string& message : ofScene.Messages()) scene += message;
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  for (const char* part :
+       {"language version 2", "radus", "without its end", "defined again", "has no light"}) {
+    EXPECT_TRUE(has(scene, part)) << part << "\n" << scene;
+    EXPECT_FALSE(has(first.Messages(), part)) << part << "\n" << first.Messages();
+  }
+  EXPECT_TRUE(has(first.Messages(), "sampled"));
+  EXPECT_FALSE(has(scene, "sampled"));
+  LoadOptions again;
+  again.known = first.setups.at(0).get();
+  const BuiltScene second = BuildText("", again);
+  EXPECT_EQ(second.Messages(), first.Messages());
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
       scene_(std::move(scene), surroundings.option, surroundings.streams),
       verbose_(*surroundings.log) {
   const double begin = ProcessCpuSeconds();
+  if (surroundings.isForPicture) scene_.ShowMessages(surroundings.log);
   small_ = scene_.Options(command, &setup_);
   loadSeconds_ = ProcessCpuSeconds() - begin;
   sceneIntegrator_ = setup_->integratorName;
@@ -79,7 +80,8 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   pilotPixels_ = std::min(Pixels(), kPilotPixels);
   small_.isStrict = false;  // parameters of other integrators are unknown
   fewer_ = small_;
-  if (surroundings.savesPixels)
+  // Then pilots of photon maps have at most a quarter of the pixels of the picture.
+  if (surroundings.isForPicture)
     SmallScene::SetPixels(
         *setup_,
         std::clamp(kPixelShare * Pixels(), std::min(kFewestPixels, pilotPixels_), kPilotPixels),
@@ -168,11 +170,14 @@ std::optional<std::uint64_t> PilotRenderer::Give(const DialChoice& choice, Rende
                       HaveSameNames(loaded_.omitted, choice.omitted) &&
                       preparedSeed_ == FirstSeed();
   work_.givesPhotons = isSame;
-  if (!isSame) return std::nullopt;
+  if (!isSame) {
+    if (setup_ && !setup_->scene) setup_.reset();  // its integrators refer to a scene elsewhere
+    return std::nullopt;
+  }
   // The integrators refer to the scene, so they go first.
   setup->integrator = std::move(setup_->integrator);
   setup->volumeIntegrator = std::move(setup_->volumeIntegrator);
-  setup->scene = std::move(setup_->scene);
+  if (setup_->scene) setup->scene = std::move(setup_->scene);
   setup_.reset();
   return std::exchange(preparedSeed_, std::nullopt);
 }

@@ -61,9 +61,12 @@ class PilotRenderer {
   struct Surroundings {
     const char* option;  // for a message about a file with several scenes
     FileSource::Streams* streams;
-    Log* log;                  // receives a verbose line for each pilot
-    bool savesPixels = false;  // pilots of photon maps have at most a quarter of the picture's
+    Log* log;                   // receives a verbose line for each pilot
+    bool isForPicture = false;  // which follows, with the scene of the pilots if possible
   };
+  // Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
+  static bool HasWholeScene(const RenderSetup& setup);
+
   // Loads the scene once at its own resolution. Throws Error.
   PilotRenderer(const RenderCommand& command, std::string scene, Surroundings surroundings);
   PilotRenderer(const PilotRenderer&) = delete;
@@ -97,9 +100,12 @@ class PilotRenderer {
   // Renders a loan with random numbers of its own for each `number`. Throws LoadingStopped.
   OnePass RenderOnce(const RenderSetup& setup, std::uint64_t number);
 
+  // Returns the setup of the last pilot, for LoadOptions::known; null: its scene is not whole. No
+  // other pilots can be rendered once its scene has moved.
+  RenderSetup* Known() const { return setup_ && HasWholeScene(*setup_) ? setup_.get() : nullptr; }
   // If the last pilot had this integrator, the settings and effects of the choice, and the photons
-  // of the first pass of the picture, moves its scene and its integrator to `setup`, and returns
-  // the seed of the photons. They refer to this object.
+  // of the first pass of the picture, moves its scene (unless it has moved before) and its
+  // integrator to `setup`, and returns the seed of the photons. They refer to this object.
   std::optional<std::uint64_t> Give(const DialChoice& choice, RenderSetup* setup);
 
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
@@ -121,8 +127,6 @@ class PilotRenderer {
 
  private:
   static std::string TextOf(const PilotRequest& request, const PilotPicture& picture);
-  // Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
-  static bool HasWholeScene(const RenderSetup& setup);
   const RenderSetup& Load(const PilotRequest& request);
   double NoiseOfPicture(const RenderSetup& setup, double pixels) const;
   double SharingBiasOfPicture(double pixels) const;  // relative to the pilot's

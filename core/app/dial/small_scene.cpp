@@ -28,7 +28,9 @@ LoadOptions SmallScene::Options(const RenderCommand& command, std::unique_ptr<Re
   LoadOptions options = command.load;
   options.stop = &StopFlag();
   options.threads = command.threadCount;
+  options.sceneLog = sceneLog_;
   std::unique_ptr<RenderSetup> setup = Load(options);
+  options.sceneLog = nullptr;
   SetPixels(*setup, kPilotPixels, &options);
   if (full) *full = std::move(setup);
   return options;

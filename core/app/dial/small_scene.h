@@ -24,6 +24,9 @@ class SmallScene {
   SmallScene(std::string path, std::string option, FileSource::Streams* streams)
       : path_(std::move(path)), option_(std::move(option)), streams_(streams) {}
 
+  // Shows the messages about the text and the world of the first scene. Later ones know it.
+  void ShowMessages(Log* log) { sceneLog_ = log; }
+
   // Returns the options of the command, at a resolution of about 3000 pixels. `full`, if not null,
   // receives the scene at its own resolution. Throws Error.
   LoadOptions Options(const RenderCommand& command, std::unique_ptr<RenderSetup>* full = nullptr);
@@ -35,6 +38,7 @@ class SmallScene {
  private:
   std::string path_, option_;
   FileSource::Streams* streams_;
+  Log* sceneLog_ = nullptr;
   Log log_{Log::Level::Quiet, Log::Sink::Memory};  // the messages of small scenes are not shown
 };
 

@@ -39,7 +39,9 @@ struct Begin {
     const double seconds = loadWall - setup.acceleratorSeconds;
     const double cpuSeconds = loadCpu - setup.acceleratorCpuSeconds;
     statistics->AddPhase("parse", std::max(seconds, 0.), std::max(cpuSeconds, 0.));
-    statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
+    // The pilots may have built it.
+    if (setup.acceleratorSeconds > 0)
+      statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
   }
 };
 

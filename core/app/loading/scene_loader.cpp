@@ -7,10 +7,11 @@
 
 namespace exphoton::cli {
 
-SceneLoader::Setups SceneLoader::LoadFile(const std::string& path) {
+SceneLoader::Setups SceneLoader::LoadFile(const std::string& path, RenderSetup* known) {
   LoadOptions options = command_.load;
   options.stop = &StopFlag();
   options.threads = command_.threadCount;
+  options.known = known;
   FileSource source(streams_);
   return LoadScenes(source, path, options, log_);
 }
@@ -21,17 +22,24 @@ SceneLoader::Setups SceneLoader::Load(const std::string& path, Begin* begin) {
     pilots_ = TurnDial(&command_, path, streams_, log_);
     begin->EndPilots();
   }
-  Setups setups = LoadFile(path);
-  if (chooses && ContinueChoice(setups)) {
-    setups.clear();
-    setups = LoadFile(path);
-  }
+  Setups setups = LoadFile(path, chooses ? pilots_->Known() : nullptr);
+  if (chooses && ContinueChoice(setups)) setups = LoadAgain(path, std::move(setups));
   preparedSeed_.reset();
   if (pilots_ && setups.size() == 1)
     preparedSeed_ = pilots_->Give(*command_.dial, setups.front().get());
   if (command_.dial) Omit(command_.dial->omitted, *setups.front());
   begin->EndLoading();
   return setups;
+}
+
+// Loads the scene with other settings.
+SceneLoader::Setups SceneLoader::LoadAgain(const std::string& path, Setups setups) {
+  RenderSetup& first = *setups.front();
+  RenderSetup* const known = PilotRenderer::HasWholeScene(first) ? &first : nullptr;
+  // The integrators refer to the scene, so they go first.
+  first.integrator.reset();
+  first.volumeIntegrator.reset();
+  return LoadFile(path, known);
 }
 
 // Returns whether the scene must be loaded again, with other settings than the pilots suggest.

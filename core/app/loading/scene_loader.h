@@ -35,7 +35,9 @@ class SceneLoader {
   }
 
  private:
-  Setups LoadFile(const std::string& path);
+  // `known` is as in LoadOptions.
+  Setups LoadFile(const std::string& path, RenderSetup* known);
+  Setups LoadAgain(const std::string& path, Setups setups);
   bool ContinueChoice(const Setups& setups);
 
   RenderCommand& command_;

@@ -17,24 +17,6 @@
 #include "core/scene/required_features.h"
 
 namespace exphoton {
-namespace {
-
-// Returns whether a directive begins or ends a block.
-bool IsBlockDirective(DirectiveId id) {
-  switch (id) {
-    case DirectiveId::AttributeBegin:
-    case DirectiveId::AttributeEnd:
-    case DirectiveId::TransformBegin:
-    case DirectiveId::TransformEnd:
-    case DirectiveId::ObjectBegin:
-    case DirectiveId::ObjectEnd:
-      return true;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
 
 SceneBuilder::SceneBuilder(std::string sceneName, const LoadOptions& options, Dialect dialect,
                            Log& log)
@@ -55,6 +37,7 @@ void SceneBuilder::Reset() {
   errors_.DropDependent(false);
   hash_ = worldHash_ = std::uint64_t(dialect_);
   inputFiles_ = {sceneName_};
+  outside_ = std::make_shared<std::vector<Directive>>();
 }
 
 void SceneBuilder::CheckScope(const Directive& directive) const {
@@ -99,6 +82,7 @@ void SceneBuilder::HandleOrThrow(Directive directive) {
   AddToWorldHash(directive);
   NoteInputFiles(directive, &inputFiles_);
   const DirectiveId id = directive.spec->id;
+  if (!world_ || id == DirectiveId::WorldEnd) outside_->push_back(directive);
   if (IsTransformDirective(id)) return ChangeTransform(directive);
   switch (id) {
     case DirectiveId::ActiveTransform:
@@ -122,8 +106,6 @@ void SceneBuilder::HandleOrThrow(Directive directive) {
     default:
       break;
   }
-  // A known world is not made again, but the hash depends on transformations, and so on blocks.
-  if (world_ && options_.known && !IsBlockDirective(id)) return;
   if (world_) return HandleWorld(std::move(directive));
   render_->Handle(std::move(directive), state_.transform);
 }
@@ -189,8 +171,9 @@ void SceneBuilder::ChangeTransform(const Directive& directive) {
     current.end = ApplyTransform(current.end, directive, dialect_);
   if (state_.active != ActiveTimes::All && directive.spec->id == DirectiveId::Rotate &&
       std::abs(directive.numbers[0]) > 180)
-    log_.Warning("a rotation by more than half a turn: moving objects rotate the shortest way",
-                 directive.Where());
+    CurrentLog().Warning(
+        "a rotation by more than half a turn: moving objects rotate the shortest way",
+        directive.Where());
 }
 
 void SceneBuilder::SetActiveTransform(const Directive& directive) {
@@ -260,8 +243,8 @@ void SceneBuilder::MakeNamedMaterial(Directive directive) {
   spec->label = name;
   MaterialMap& materials = state_.OwnNamedMaterials();
   if (materials.contains(name))
-    log_.Warning("material \"" + name + "\" is defined again: later shapes use the new one",
-                 directive.Where());
+    CurrentLog().Warning("material \"" + name + "\" is defined again: later shapes use the new one",
+                         directive.Where());
   materials[name] = std::move(spec);
 }
 

@@ -59,7 +59,11 @@ class SceneBuilder final : public DirectiveHandler {
   PluginFolder ClassifyPluginFolder(const std::string& path, const SourceLocation& where);
   void BeginWorld(const Directive& directive);
   void EndWorld(const Directive& directive);
-  void CheckKnownWorld(const Directive& directive) const;
+  // Returns the log of the world between its beginning and its end, else the log of the setup.
+  Log& CurrentLog() const { return world_ && options_.sceneLog ? *options_.sceneLog : log_; }
+  void MakeRenderObjects(RenderSetup* setup);
+  // Takes the scene of the known setup.
+  void TakeKnownWorld(RenderSetup* setup);
   // Takes the scene at its end, and the names of its parts.
   void TakeWorld(const Directive& directive, RenderSetup* setup);
   void Reset();  // to the state at the beginning of a file
@@ -79,6 +83,7 @@ class SceneBuilder final : public DirectiveHandler {
   std::map<std::string, MovingTransform> coordinateSystems_;
   std::uint64_t hash_ = 0, worldHash_ = 0;  // see RenderSetup
   std::set<std::string> inputFiles_;
+  std::shared_ptr<std::vector<Directive>> outside_;  // see RenderSetup
   ErrorCollector errors_;
   std::vector<std::unique_ptr<RenderSetup>> setups_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SceneBuilder completes a render setup at WorldEnd. LoadScenes parses a file with a SceneBuilder.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/log.h"
@@ -16,8 +17,10 @@ void SceneBuilder::BeginWorld(const Directive& directive) {
   render_->SetDefaultLocation(directive.Where());
   AcceleratorSpec accelerator{"bvh", {}, options_.threads};
   errors_.Try([&] { accelerator = render_->Accelerator(*registry_); });
-  world_.emplace(*registry_, log_, options_, dialect_, std::move(accelerator),
+  Log& log = options_.sceneLog ? *options_.sceneLog : log_;
+  world_.emplace(*registry_, log, options_, dialect_, std::move(accelerator),
                  render_->TransformTimes());
+  registry_->SetLog(&log);
   state_.transform = MovingTransform();
   state_.active = ActiveTimes::All;
   if (!coordinateSystems_.contains("camera")) coordinateSystems_["camera"] = MovingTransform();
@@ -32,7 +35,8 @@ void SceneBuilder::EndWorld(const Directive& directive) {
     FailDependent(directive.Where(), "the object that begins at " +
                                          LocationText(stack_.Innermost()) + " has no ObjectEnd");
   if (!stack_.IsEmpty())
-    log_.Warning(std::string(stack_.InnermostName()) + " without its end", stack_.Innermost());
+    CurrentLog().Warning(std::string(stack_.InnermostName()) + " without its end",
+                         stack_.Innermost());
 
   auto setup = std::make_unique<RenderSetup>();
   setup->sceneName = sceneName_;
@@ -40,42 +44,73 @@ void SceneBuilder::EndWorld(const Directive& directive) {
   setup->worldHash = worldHash_;
   setup->dialect = dialect_;
   setup->inputFiles.assign(inputFiles_.begin(), inputFiles_.end());
-  CheckKnownWorld(directive);
-  const bool hasMedia = options_.known ? options_.known->scene->HasMedia() : world_->HasMedia();
-  render_->Create(*registry_, log_, hasMedia, setup.get(), &errors_);
+  setup->outside = outside_;
+  MakeRenderObjects(setup.get());
   if (!errors_.IsEmpty()) return Reset();  // no time is spent on a scene that will not be rendered
-  if (options_.known) {
-    setup->scene = std::move(options_.known->scene);
-    setup->names = std::move(options_.known->names);
-  } else {
+  if (options_.known)
+    TakeKnownWorld(setup.get());
+  else
     TakeWorld(directive, setup.get());
-  }
   RequiredFeatures plan =
       ChooseEffects(FindRequiredFeatures(*setup->scene, *setup->camera), options_.effects, log_);
   plan.KeepComputed(setup->integrator->ComputedFeatures());
   NoteTimes(*setup->scene, *setup->camera, &plan);
   setup->scene->SetFeatures(std::move(plan), setup->camera->Shutter());
-  setup->plugins = registry_->Loaded();
   setups_.push_back(std::move(setup));
   Reset();
 }
 
-void SceneBuilder::CheckKnownWorld(const Directive& directive) const {
-  const RenderSetup* const known = options_.known;
-  if (known && (!known->scene || known->worldHash != worldHash_))
-    FailAt(directive.Where(), "the scene has changed since it was read first");
+namespace {
+
+using Names = std::vector<std::string>;  // sorted
+
+Names Union(const Names& a, const Names& b) {
+  Names all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
+}
+
+Names Without(const Names& all, const Names& some) {
+  Names rest;
+  std::ranges::set_difference(all, some, std::back_inserter(rest));
+  return rest;
+}
+
+}  // namespace
+
+void SceneBuilder::MakeRenderObjects(RenderSetup* setup) {
+  const bool hasMedia = options_.known ? options_.known->scene->HasMedia() : world_->HasMedia();
+  setup->worldPlugins = registry_->Loaded();
+  registry_->SetLog(&log_);
+  render_->Create(*registry_, log_, hasMedia, setup, &errors_);
+  setup->plugins = registry_->Loaded();
+}
+
+void SceneBuilder::TakeKnownWorld(RenderSetup* setup) {
+  RenderSetup& known = *options_.known;
+  setup->scene = std::move(known.scene);
+  setup->names = std::move(known.names);
+  setup->inputFiles = known.inputFiles;
+  setup->sceneHash = known.sceneHash;
+  setup->worldHash = known.worldHash;
+  setup->worldPlugins = known.worldPlugins;
+  setup->plugins = Union(setup->plugins, known.worldPlugins);
 }
 
 void SceneBuilder::TakeWorld(const Directive& directive, RenderSetup* setup) {
+  registry_->SetLog(&CurrentLog());
   setup->names = world_->Names();
-  SceneParts parts = world_->Take();
+  SceneParts parts = world_->Take();  // which may load an accelerator
+  setup->worldPlugins = Union(setup->worldPlugins, Without(registry_->Loaded(), setup->plugins));
+  setup->plugins = registry_->Loaded();
   for (const Statistics::Phase& phase : world_->Times().Phases()) {
     setup->acceleratorSeconds += phase.wallSeconds;
     setup->acceleratorCpuSeconds += phase.cpuSeconds;
   }
   const bool glows = std::any_of(parts.media.begin(), parts.media.end(),
                                  [](const auto& medium) { return medium->Emits(); });
-  if (parts.lights.empty() && !glows) log_.Warning("the scene has no light", directive.Where());
+  if (parts.lights.empty() && !glows)
+    CurrentLog().Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
 }
 
@@ -111,20 +146,35 @@ void ParseAll(SceneSource& source, const std::string& path, const LoadOptions& o
   if (const std::optional<Error> error = builder->TakeErrors()) throw *error;
 }
 
+std::vector<std::unique_ptr<RenderSetup>> ReadScenes(SceneSource& source, const std::string& path,
+                                                     const LoadOptions& options, Log& log) {
+  RefuseLaterVersion(source, path, options);
+  Log& logOfText = options.sceneLog ? *options.sceneLog : log;
+  const Dialect dialect =
+      options.dialect ? *options.dialect : RecogniseDialect(source, path, options, logOfText);
+  SceneBuilder builder(path == "-" ? "<stdin>" : path, options, dialect, log);
+  ParseAll(source, path, options, logOfText, &builder);
+  std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();
+  for (const auto& setup : setups) AddFilesRead(source, setup.get());
+  return setups;
+}
+
+// Makes another setup from the directives outside the world of the known one.
+std::vector<std::unique_ptr<RenderSetup>> MakeAgain(const LoadOptions& options, Log& log) {
+  const RenderSetup& known = *options.known;
+  SceneBuilder builder(known.sceneName, options, known.dialect, log);
+  const auto outside = known.outside;
+  for (const Directive& directive : *outside) builder.Handle(directive);
+  if (const std::optional<Error> error = builder.TakeErrors()) throw *error;
+  return builder.TakeSetups();
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<RenderSetup>> LoadScenes(SceneSource& source, const std::string& path,
                                                      const LoadOptions& options, Log& log) {
   try {
-    RefuseLaterVersion(source, path, options);
-    const Dialect dialect = options.known     ? options.known->dialect
-                            : options.dialect ? *options.dialect
-                                              : RecogniseDialect(source, path, options, log);
-    SceneBuilder builder(path == "-" ? "<stdin>" : path, options, dialect, log);
-    ParseAll(source, path, options, log, &builder);
-    std::vector<std::unique_ptr<RenderSetup>> setups = builder.TakeSetups();
-    for (const auto& setup : setups) AddFilesRead(source, setup.get());
-    return setups;
+    return options.known ? MakeAgain(options, log) : ReadScenes(source, path, options, log);
   } catch (const Error& error) {
     const bool isCommandLine = error.Where() && error.Where()->file == kCommandLineLocation;
     if (!isCommandLine || error.Status() == ExitStatus::CommandLine) throw;

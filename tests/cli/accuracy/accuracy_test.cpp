@@ -191,6 +191,22 @@ TEST_F(AccuracyTest, ThePictureTakesThePhotonsOfThePilot) {
 }
 
 // They show whether an integrator may be the cheapest one.
+// The world is made once, for the first pilot.
+TEST_F(AccuracyTest, ThePictureTakesTheSceneOfThePilots) {
+  const std::string room = Read("room.pbrt");
+  Write("room.pbrt",
+        room.substr(0, room.rfind("WorldEnd")) + "Shape \"sphere\" \"float radus\" 1\nWorldEnd\n");
+  const ProgramResult result = Render("20%", {"--stats-json", "room.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::size_t first = result.err.find("radus");
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_LT(first, result.err.find("accuracy 20%")) << result.err;
+  const std::string later = result.err.substr(result.err.find("accuracy 20%"));
+  EXPECT_EQ(later.find("radus"), std::string::npos) << later;
+  for (const auto& phase : nlohmann::json::parse(Read("room.json")).at("phases"))
+    EXPECT_NE(phase.at("name"), "accelerator");
+}
+
 TEST_F(AccuracyTest, IntegratorsGetRoughPilotsFirst) {
   const std::string err = Render("30%", {"--verbose"}).err;
   EXPECT_NE(err.find("rough pilot of exphotonmap"), std::string::npos) << err;
