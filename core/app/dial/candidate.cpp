@@ -22,6 +22,14 @@ constexpr std::size_t kMostPilots = 8;
 constexpr double kGainOfGuide = 2, kGainOfMaps = 20;
 constexpr int kMostTries = 3;     // of numbers of photons
 constexpr double kScatter = .25;  // of the noise of the last pilot
+// The photons of a picture cost at least this many times those of a rough pilot, which are a tenth
+// of the scene's. With a quarter of the photons, this was 1.68 to 2.3 in the scenes of
+// docs/decisions/0103-cheaper-small-pictures.md.
+constexpr double kPhotonsOfPicture = 1.5;
+constexpr double kCostOfPath = 1.35;  // one ray, at least; paths that are skipped cost less
+constexpr double kMorePaths = 4;      // of a rough pilot that was cut off too early
+// With fewer paths, the limit would keep photons from learning where to start.
+constexpr double kFewestPaths = 1 << 19;
 // The price of path, divided by the price of guidedpath, is less than this in all scenes that were
 // tried (docs/decisions/0055-accuracy-dial.md).
 constexpr double kMostGainOverPath = 16;
@@ -39,7 +47,9 @@ bool MayGuidingWin(const std::vector<Candidate>& others) {
 
 Explorer::Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays,
                    const Wish& wish)
-    : series_(pilots, integrator, gatherRays, PilotSeries::Unit::CountedCost), wish_(wish) {
+    : pilots_(pilots),
+      series_(pilots, integrator, gatherRays, PilotSeries::Unit::CountedCost),
+      wish_(wish) {
   candidate_.integrator = integrator;
 }
 
@@ -54,12 +64,29 @@ void Explorer::Guarded(const Step& step) {
   }
 }
 
-void Explorer::Begin() {
+void Explorer::Begin(double most) {
   Guarded([&] {
-    isRough_ = series_.RenderRough();
+    isRough_ = RenderRough(most);
     if (!isRough_) series_.Render();
-    TakePrice();
+    if (candidate_.reason.empty()) TakePrice();
   });
+}
+
+// Returns whether there is a rough pilot. If it is cut off, and the photons of the picture would
+// not cost more than `most`, it is rendered again with more paths.
+bool Explorer::RenderRough(double most) {
+  double paths = std::max(most / (kPhotonsOfPicture * kCostOfPath), kFewestPaths);
+  for (;; paths *= kMorePaths) {
+    pilots_->LimitRoughPaths(paths);
+    if (!series_.RenderRough()) return false;
+    if (!series_.Last().isCutOff) return true;
+    candidate_.leastPrice = kPhotonsOfPicture * series_.Last().cost.maps;
+    if (candidate_.leastPrice > most) {
+      candidate_.reason = "its photons cost more";
+      return true;
+    }
+    candidate_.leastPrice = 0;
+  }
 }
 
 void Explorer::Settle(double most) {

@@ -25,6 +25,7 @@ struct Candidate {
   DialSettings settings;
   PilotMean mean;                    // of the last pilot
   bool isRough = false;              // the price and the mean are from a rough pilot
+  double leastPrice = 0;             // where a rough pilot was cut off; there is a reason then
   double secondsPerCost = 0;         // CPU time of the pilots, for messages only
   double correctedShare = 0;         // of the gather rays; 0: no certificate
   double biasShare = 0;              // of the squared error, what the certificate should resolve
@@ -58,8 +59,8 @@ class Explorer {
   Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays, const Wish& wish);
 
   // `most` is the lowest price of all candidates. A candidate with a higher price need not be
-  // explored further.
-  void Begin();
+  // explored further. A rough pilot is cut off where photons alone will cost more.
+  void Begin(double most = kNoPrice);
   // Replaces a rough price where it may become the lowest one.
   void Settle(double most);
   // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
@@ -78,6 +79,7 @@ class Explorer {
     double biasShare = 0;
   };
 
+  bool RenderRough(double most);
   template <class Step>
   void Guarded(const Step& step);
   double Wanted() const { return wish_.error * wish_.error; }
@@ -91,6 +93,7 @@ class Explorer {
   Explorer WithGain(double gain) const;
   void EstimateBias(double most);
 
+  PilotRenderer* pilots_;
   PilotSeries series_;
   Wish wish_;
   bool isRough_ = false;

@@ -92,37 +92,66 @@ std::vector<Candidate> Explore(std::vector<Explorer>* explorers, double most) {
   return candidates;
 }
 
+double LowestPrice(const std::vector<Candidate>& candidates) {
+  double lowest = kNoPrice;
+  for (const Candidate& candidate : candidates) lowest = std::min(lowest, candidate.KnownPrice());
+  return lowest;
+}
+
+// Returns whether a candidate without a first price may still be the cheapest.
+bool MayWin(const Candidate& leftOut, const std::vector<Candidate>& others) {
+  if (leftOut.leastPrice > 0) return leftOut.leastPrice < LowestPrice(others);
+  return MayGuidingWin(others);
+}
+
+Explorer MakeExplorer(PilotRenderer* pilots, const std::string& name, const Wish& wish) {
+  return {pilots, name, wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots), wish};
+}
+
+// Returns the explorers of candidates with a first price. The others go to `leftOut`: those whose
+// photons cost more than an earlier candidate, and guidedpath where it cannot be the cheapest.
+std::vector<Explorer> BeginAll(PilotRenderer* pilots, const std::vector<std::string>& names,
+                               const Wish& wish, std::vector<Candidate>* leftOut) {
+  std::vector<Explorer> explorers;
+  for (const std::string& name : names) {
+    if (name == kGuided && !MayGuidingWin(LikelyResults(explorers))) {
+      Candidate guided;
+      guided.integrator = kGuided;
+      guided.reason = "no pilot, because path costs far more";
+      leftOut->push_back(guided);
+      continue;
+    }
+    double most = kNoPrice;
+    for (const Explorer& other : explorers) most = std::min(most, other.Result().KnownPrice());
+    Explorer explorer = MakeExplorer(pilots, name, wish);
+    explorer.Begin(most);
+    if (explorer.Result().leastPrice > 0)
+      leftOut->push_back(explorer.Result());
+    else
+      explorers.push_back(std::move(explorer));
+  }
+  return explorers;
+}
+
 // First prices of all candidates come before any of them is explored further, so that a dear one
-// gets small pilots only. guidedpath gets none if the others show that it cannot be the cheapest.
+// gets small pilots only. Candidates that were left out are explored if the others turn out to cost
+// more.
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
                                   const Wish& wish) {
-  const auto begin = [&](const std::string& name, std::vector<Explorer>* explorers) {
-    const int rays = wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots);
-    explorers->emplace_back(pilots, name, rays, wish).Begin();
-  };
-  std::vector<Explorer> explorers;
-  bool isGuideLeftOut = false;
-  for (const std::string& name : names) {
-    if (name == kGuided && !MayGuidingWin(LikelyResults(explorers)))
-      isGuideLeftOut = true;
-    else
-      begin(name, &explorers);
-  }
+  std::vector<Candidate> leftOut;
+  std::vector<Explorer> explorers = BeginAll(pilots, names, wish, &leftOut);
   std::vector<Candidate> candidates = Explore(&explorers, kNoPrice);
   if (candidates.size() > 1) DropDarkOnes(&candidates);
-  if (!isGuideLeftOut) return candidates;
-  if (!MayGuidingWin(candidates)) {
-    Candidate guided;
-    guided.integrator = kGuided;
-    guided.reason = "no pilot, because path costs far more";
-    candidates.push_back(guided);
-    return candidates;
+  for (const Candidate& candidate : leftOut) {
+    if (!MayWin(candidate, candidates)) {
+      candidates.push_back(candidate);
+      continue;
+    }
+    std::vector<Explorer> late{MakeExplorer(pilots, candidate.integrator, wish)};
+    late.front().Begin();
+    candidates.push_back(Explore(&late, LowestPrice(candidates)).front());
+    DropDarkOnes(&candidates);
   }
-  std::vector<Explorer> guided;
-  begin(kGuided, &guided);
-  const double most = std::ranges::min(candidates, {}, &Candidate::KnownPrice).KnownPrice();
-  candidates.push_back(Explore(&guided, most).front());
-  DropDarkOnes(&candidates);
   return candidates;
 }
 

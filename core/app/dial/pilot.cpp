@@ -126,7 +126,7 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
   options.isQuick = request.isRough;
   for (ParameterOverride& parameter : request.settings.Overrides())
     options.parameters.push_back(std::move(parameter));
-  if (request.isRough) options.parameters.push_back(FewPaths());
+  if (request.isRough) options.parameters.push_back(LimitOfPaths());
   options.known = HasWholeScene(*setup_) ? setup_.get() : nullptr;
   // The integrators refer to the scene, so they go first.
   setup_->integrator.reset();
@@ -140,11 +140,21 @@ const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
 }
 
 // Where few paths leave photons, the limit of the paths decides what photons cost.
-ParameterOverride PilotRenderer::FewPaths() const {
+std::int64_t PilotRenderer::FewPaths() const {
   constexpr double kByDefault = 1 << 24;
   const double paths = kFewPhotons * (scenePaths_ > 0 ? scenePaths_ : kByDefault);
-  return {"SurfaceIntegrator", "maxphotonpaths",
-          std::to_string(std::max<std::int64_t>(std::int64_t(paths), 1))};
+  return std::max<std::int64_t>(std::int64_t(paths), 1);
+}
+
+ParameterOverride PilotRenderer::LimitOfPaths() const {
+  return {"SurfaceIntegrator", "maxphotonpaths", std::to_string(std::min(FewPaths(), roughPaths_))};
+}
+
+void PilotRenderer::LimitRoughPaths(double paths) {
+  const std::int64_t limit =
+      paths < double(kNoLimit) ? std::max<std::int64_t>(std::int64_t(paths), 1) : kNoLimit;
+  if (limit != roughPaths_ && loaded_.isRough) loaded_ = {};
+  roughPaths_ = limit;
 }
 
 // With more pixels, more gathers lie near each other on a surface. The noise of shared gathers
@@ -254,6 +264,8 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);
   picture.settings = request.settings;
+  picture.isCutOff = request.isRough && roughPaths_ < FewPaths() &&
+                     CounterOf(statistics, "photons/shot") >= double(roughPaths_);
   const auto photonsOf = [&](const std::string& map) {
     const double stored = CounterOf(statistics, "photons/" + map + " stored");
     return PhotonsOf(setup, stored / std::max(picture.mapCount, 1), map);

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,12 +39,14 @@ struct PilotRequest {
 };
 
 constexpr double kFewPhotons = .1;  // of PilotRequest::isRough
+constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
 struct PilotPicture {
   Pilot pilot;
   CountedCost cost;
   CountedCost cpuSeconds;  // the same by the clock
   int mapCount = 0;        // sets of maps that were made for this pilot
+  bool isCutOff = false;   // a rough pilot with too few photons (PilotRenderer::LimitRoughPaths)
   double seconds = 0;      // CPU time of everything
   double pixels = 0;
   double noiseOfPicture = 1;  // expected with the pixels of the picture; relative to the pilot's
@@ -74,6 +78,9 @@ class PilotRenderer {
 
   // Throws Error.
   PilotPicture Render(const PilotRequest& request);
+
+  // Ends the photons of later rough pilots after about this number of paths.
+  void LimitRoughPaths(double paths);
 
   // One render with 1000 to 3000 camera samples.
   struct OnePass {
@@ -134,7 +141,8 @@ class PilotRenderer {
                             PilotPicture* picture);
 
   std::uint64_t FirstSeed() const;
-  ParameterOverride FewPaths() const;  // limits the paths of kFewPhotons
+  std::int64_t FewPaths() const;  // the limit for the paths of kFewPhotons
+  ParameterOverride LimitOfPaths() const;
 
   const RenderCommand command_;
   SmallScene scene_;
@@ -147,6 +155,7 @@ class PilotRenderer {
   double sceneDirectPhotons_ = 0;  // the same, of the direct map
   double scenePaths_ = 0;          // limit of the photon paths; 0: the scene does not give it
   int width_ = 0, height_ = 0;
+  std::int64_t roughPaths_ = kNoLimit;  // limit of the photon paths of rough pilots
   double pilotPixels_ = 0;
   double loadSeconds_ = 0;
   PilotWork work_;

@@ -34,7 +34,7 @@ PilotRenderer::Loan::Loan(PilotRenderer* pilots, const std::string& integrator,
   if (ReadsPhotonMaps(integrator)) {
     const double used = pilots_.sceneUsedPhotons_ > 0 ? pilots_.sceneUsedPhotons_ : kUsedByDefault;
     set("nused", std::max(kFewPhotons * used, kLeastUsed));
-    options.parameters.push_back(pilots_.FewPaths());
+    set("maxphotonpaths", double(pilots_.FewPaths()));
     if (pilots_.sceneDirectPhotons_ > 0)
       set("directphotons", kFewPhotons * pilots_.sceneDirectPhotons_);
   }

@@ -226,6 +226,16 @@ TEST_F(AccuracyTest, GuidingGetsNoPilotWherePathIsFarDearer) {
 }
 
 // Few photons are enough for a coarse picture, and cost less.
+TEST_F(AccuracyTest, PilotsStopShootingPhotonsThatCostMoreThanPath) {
+  WriteRoom("dear.pbrt", "exphotonmap", 20000000);
+  const ProgramResult result = Render("40%", {"--stats-json", "dear.json"}, "dear.pbrt");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("exphotonmap: its photons cost more"), std::string::npos) << result.err;
+  const auto json = nlohmann::json::parse(Read("dear.json"));
+  EXPECT_EQ(json.at("integrator"), "path");
+  EXPECT_LT(json.at("accuracy").at("pilots").at("indirectPhotons"), 1500000);
+}
+
 TEST_F(AccuracyTest, TakesFewerPhotonsWhereTheyAreMany) {
   WriteRoom("many.pbrt", "exphotonmap", 200000);
   const Names one{"--integrator", "exphotonmap"};

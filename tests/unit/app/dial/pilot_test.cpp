@@ -121,5 +121,33 @@ TEST_F(PilotTest, PairsForOmissionsCountWithTheLikelyPrice) {
   EXPECT_NEAR(rough.price.samples / likely.price.samples, std::sqrt(20), .05);
 }
 
+// All photons of the rough pilot, a tenth of the scene's, would take many more paths.
+TEST_F(PilotTest, ARoughPilotIsCutOffWhereItsPhotonsCostTooMuch) {
+  LoadOptions load;
+  load.parameters.push_back({"SurfaceIntegrator", "indirectphotons", "20000000"});
+  const auto renderer = Renderer(false, load);
+  Wish wish;
+  wish.error = .1;
+  Explorer explorer(renderer.get(), "exphotonmap", 0, wish);
+  explorer.Begin(1000);
+  EXPECT_GT(explorer.Result().leastPrice, 1000);
+  EXPECT_EQ(explorer.Result().reason, "its photons cost more");
+  EXPECT_LT(renderer->Work().indirect, .5 * .1 * 20000000);
+}
+
+TEST_F(PilotTest, ARoughPilotWithFewPathsIsNotCutOff) {
+  Wish wish;
+  wish.error = .1;
+  const auto priceWith = [&](double most) {
+    const auto renderer = Renderer(false);
+    Explorer explorer(renderer.get(), "exphotonmap", 0, wish);
+    explorer.Begin(most);
+    EXPECT_EQ(explorer.Result().reason, "");
+    EXPECT_EQ(explorer.Result().leastPrice, 0);
+    return explorer.Result().price.seconds;
+  };
+  EXPECT_EQ(priceWith(1), priceWith(kNoPrice));
+}
+
 }  // namespace
 }  // namespace exphoton::cli
