@@ -2,6 +2,7 @@
 #include "core/imaging/film/local_square.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/imaging/metrics/metrics.h"
@@ -9,8 +10,9 @@
 namespace exphoton {
 namespace {
 
-constexpr std::ptrdiff_t kReach = 2;  // pixels
-constexpr double kDeviations = 3;     // at most, between a value and a neighbour of its kind
+constexpr std::ptrdiff_t kReach = 2;       // pixels
+constexpr double kDeviations = 3;          // at most, between a value and a neighbour of its kind
+constexpr double kDeviationsOfOthers = 2;  // at least, from the level to a value that replaces it
 
 // Sums over the neighbours of a value that differ from it by no more than their noise.
 struct Kind {
@@ -20,6 +22,7 @@ struct Kind {
     ++count, values += value, squares += value * value, variances += variance;
   }
   double Mean() const { return values / count; }
+  double MeanVariance() const { return variances / count; }
   double VarianceOfMean() const { return variances / (count * count); }
   // Returns the variance of the true values: the spread beyond the noise.
   double Spread() const {
@@ -42,9 +45,11 @@ double UnbiasedSquare(double level, double variance) {
 // The picture, one channel at a time.
 class Levels {
  public:
-  Levels(const std::vector<float>& means, const std::vector<float>& variances, std::size_t width)
+  Levels(const std::vector<float>& means, const std::vector<float>& variances, std::size_t width,
+         double deviations)
       : means_(means),
         variances_(variances),
+        deviations_(deviations),
         columns_(std::ptrdiff_t(width)),
         rows_(std::ptrdiff_t(means.size() / 3) / columns_) {}
 
@@ -62,8 +67,13 @@ class Levels {
     // The true value is normally distributed around the mean of its kind. The value itself is not
     // in this mean, because its error depends on the error of its variance.
     const double spread = kind.Spread(), own = spread / (spread + variance), rest = 1 - own;
-    return UnbiasedSquare(own * mean + rest * others.Mean(),
-                          own * own * variance + rest * rest * others.VarianceOfMean());
+    const double square =
+        UnbiasedSquare(own * mean + rest * others.Mean(),
+                       own * own * variance + rest * rest * others.VarianceOfMean());
+    // Several groups agree that the value is brighter than its kind, so it is a kind of its own.
+    const double lower = mean - deviations_ * std::sqrt(variance);
+    const double chance = kDeviationsOfOthers * std::sqrt(others.MeanVariance());
+    return lower > std::sqrt(square) + chance ? lower * lower : square;
   }
 
  private:
@@ -92,14 +102,16 @@ class Levels {
   }
 
   const std::vector<float>&means_, &variances_;
+  double deviations_;
   std::ptrdiff_t columns_, rows_;
 };
 
 }  // namespace
 
 std::vector<double> SquaredLevels(const std::vector<float>& means,
-                                  const std::vector<float>& variances, std::size_t width) {
-  const Levels levels(means, variances, width);
+                                  const std::vector<float>& variances, std::size_t width,
+                                  double deviations) {
+  const Levels levels(means, variances, width, deviations);
   std::vector<double> squares(means.size());
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const std::size_t pixel = i / 3;

@@ -171,6 +171,19 @@ double PassNoise::DegreesOfCell(const std::vector<Group>& groups) {
   return 1 / (shares + sum * sum - squares);
 }
 
+// Returns the value of a pixel that only the largest group sees, in standard deviations by
+// Variances. A pixel that only a smaller group sees has a smaller quotient. Its group has the term
+// 1 - share in place of share^2 / (1 - share).
+double PassNoise::DeviationsOfOneGroup(const std::vector<Group>& groups) {
+  if (groups.size() < 2) return 1;  // there are no variances
+  double largest = 0, terms = 0;
+  for (const Group& group : groups) {
+    largest = std::max(largest, group.share);
+    terms += group.share * group.share / (1 - group.share);
+  }
+  return 1 / std::sqrt(terms - largest * largest / (1 - largest) + 1 - largest);
+}
+
 // The degrees of a sum of independent estimates are 2 m^2 / v for the expected value m and the
 // variance v of the sum (Satterthwaite 1946, "An Approximate Distribution of Estimates of Variance
 // Components"). The square of the sum has the expected value m^2 + v. The estimates of v are those
@@ -200,7 +213,8 @@ std::vector<double> PassNoise::RelativeVariances() const {
 
 const std::vector<double>& PassNoise::Levels() const {
   if (levelsFrom_) return levelsFrom_->Levels();
-  if (levels_.empty()) levels_ = SquaredLevels(Means(), Variances(), width_);
+  if (levels_.empty())
+    levels_ = SquaredLevels(Means(), Variances(), width_, DeviationsOfOneGroup(Groups()));
   return levels_;
 }
 

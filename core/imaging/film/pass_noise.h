@@ -57,6 +57,7 @@ class PassNoise {
   };
   std::vector<Group> Groups() const;
   static double DegreesOfCell(const std::vector<Group>& groups);
+  static double DeviationsOfOneGroup(const std::vector<Group>& groups);
   Sums TotalOf(const std::vector<Group>& groups, std::size_t pixel) const;
 
   double SampleCount() const;        // per pixel, over all groups

@@ -86,6 +86,28 @@ TEST(SquaredLevels, StayNearTheValueWhereItsKindDiffers) {
               Unbiased((1 - own) * 1, .5 * (own * own + (1 - own) * (1 - own) / 24)), 1e-6);
 }
 
+// A lamp that is much smaller than a pixel. Its groups agree that there is light.
+TEST(SquaredLevels, OfAConfirmedBrightPixelAreALowerBoundOfItsValue) {
+  Picture picture;
+  std::fill(picture.variances.begin(), picture.variances.end(), .01f);
+  picture.means[picture.At(4, 3)] = 19;
+  picture.variances[picture.At(4, 3)] = 49;
+  EXPECT_NEAR(picture.Level(4, 3), 19 - 7, 1e-5);
+  EXPECT_LT(SquaredLevels(picture.means, picture.variances, kColumns, 2)[picture.At(4, 3)], 5 * 5);
+  // Noise of the others explains the difference.
+  for (std::size_t i = 0; i < picture.variances.size(); ++i) picture.variances[i] = 49;
+  EXPECT_LT(picture.Level(4, 3), 8);
+}
+
+// Light that only one group has seen may be an error.
+TEST(SquaredLevels, OfAnUnconfirmedBrightPixelAreThoseOfItsKind) {
+  Picture picture;
+  std::fill(picture.variances.begin(), picture.variances.end(), .01f);
+  picture.means[picture.At(4, 3)] = 20;
+  picture.variances[picture.At(4, 3)] = 19 * 19;
+  EXPECT_LT(picture.Level(4, 3), 2);
+}
+
 TEST(SquaredLevels, OfInfiniteNoiseAreNumbers) {
   Picture picture;
   picture.variances[picture.At(4, 3)] = std::numeric_limits<float>::infinity();

@@ -240,5 +240,27 @@ TEST(PassNoise, IsUncertainIfOnePixelDecides) {
   EXPECT_GT(noise.RelativeVarianceError(), .5 * noise.RelativeVariance());
 }
 
+// Returns a pass with bright light in half of the samples of one pixel, or without.
+Film MakeLamp(std::uint64_t seed, int samples, bool isSeen) {
+  Film film = MakePass(seed, samples, .01, 0);
+  for (int i = 0; i < samples; ++i) film.AddSample({30, 20}, Spectrum(isSeen ? 200 : 1), 1, 1);
+  return film;
+}
+
+// Returns the level of the lamp after three groups, the first of which has half of the samples.
+double LevelOfLamp(bool isInFirst, bool isInSecond) {
+  PassNoise noise(kBounds, 3);
+  noise.Add(0, MakeLamp(1, 8, isInFirst), 8);
+  noise.Add(1, MakeLamp(2, 4, isInSecond), 4);
+  noise.Add(2, MakeLamp(3, 4, false), 4);
+  return std::sqrt(noise.Levels()[3 * (20 * 64 + 30)]);
+}
+
+TEST(PassNoise, BelievesBrightLightThatTwoGroupsHaveSeen) {
+  EXPECT_GT(LevelOfLamp(true, true), 20);
+  EXPECT_LT(LevelOfLamp(true, false), 3);
+  EXPECT_LT(LevelOfLamp(false, true), 3);
+}
+
 }  // namespace
 }  // namespace exphoton
