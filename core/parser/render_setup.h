@@ -61,9 +61,9 @@ struct LoadOptions {
   std::string effects = "auto";  // auto, all, or a list: "caustics=off,lens=on"
   bool isQuick = false;  // a quarter of the resolution, 1 sample, fewer photons (overrides.h)
 
-  // If not null, a setup of the same file, which has its scene. The file is not read again: the
-  // scene and its names move to the new setup, and the other objects are made from the directives
-  // of the known one. Integrators of the known setup still refer to the scene.
+  // If not null, a setup of the same file, which must have its scene. The file is not read again:
+  // the scene and its names move to the new setup, and the other objects are made from the
+  // directives of the known one. Integrators of the known setup still refer to the scene.
   RenderSetup* known = nullptr;
   // Receives messages about the text and the world. Null: they go where all others go. There are
   // none with a known setup.

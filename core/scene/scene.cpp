@@ -32,8 +32,12 @@ std::unique_ptr<const LightSampler> Scene::MakeLightSampler(LightSelection selec
 void Scene::SetFeatures(RequiredFeatures plan, Interval shutter) {
   effects_ = std::move(plan);
   exposure_ = {shutter.min, effects_.Needs(Feature::Motion) ? shutter.max : shutter.min};
-  if (!effects_.Needs(Feature::Media)) parts_.media.clear();
+  if (!effects_.Needs(Feature::Media) && !parts_.media.empty()) {
+    parts_.media.clear();
+    isWhole_ = false;
+  }
   if (effects_.Needs(Feature::Environment)) return;
+  isWhole_ = isWhole_ && infiniteLights_.empty();
   for (std::size_t i = parts_.lights.size(); i-- > 0;) {
     if (!parts_.lights[i]->IsInfinite()) continue;
     parts_.lights.erase(parts_.lights.begin() + std::ptrdiff_t(i));

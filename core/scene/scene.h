@@ -78,6 +78,8 @@ class Scene {
   // Feature::Environment is off. `shutter` is the shutter interval. If Feature::Motion is off, all
   // rays use the time at which the shutter opens.
   void SetFeatures(RequiredFeatures plan, Interval shutter = {0, 0});
+  // Returns whether SetFeatures has removed nothing so far, so that any features can follow.
+  bool IsWhole() const { return isWhole_; }
   // The time interval of camera rays and photons.
   Interval Exposure() const { return exposure_; }
 
@@ -102,6 +104,7 @@ class Scene {
   const Aggregate* aggregate_;
   Bounds3 bounds_;
   std::vector<const Light*> infiniteLights_;
+  bool isWhole_ = true;
   RequiredFeatures effects_;
   Interval exposure_{0, 0};
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "tests/parser/parse_support.h"
 
@@ -74,17 +75,63 @@ TEST(SceneBuilder, TakesTheSceneOfAKnownSetup) {
 }
 
 TEST(SceneBuilder, TakesASceneFromOneSetupToTheNext) {
-  BuiltScene built = BuildText(kWorldsBegin + "LightSource \"point\"\nWorldEnd\n");
-  ASSERT_EQ(built.error, "");
-  const std::vector<std::string> plugins = built.setups.at(0)->plugins;
+  std::vector<BuiltScene> built;  // scenes may refer to the log of the first
+  built.push_back(BuildText(kWorldsBegin + "LightSource \"point\"\nWorldEnd\n"));
+  ASSERT_EQ(built[0].error, "");
   for (const char* integrator : {"path", "directlighting"}) {
     LoadOptions again;
-    again.known = built.setups.at(0).get();
+    again.known = built.back().setups.at(0).get();
     again.integrator = integrator;
-    built = BuildText("", again);
-    ASSERT_EQ(built.error, "");
+    built.push_back(BuildText("", again));
+    ASSERT_EQ(built.back().error, "");
   }
-  EXPECT_EQ(built.setups.at(0)->plugins, plugins);
+  EXPECT_EQ(built.back().setups.at(0)->plugins, built[0].setups.at(0)->plugins);
+}
+
+// Two lists of a setup's objects are equal if both setups render the same pictures.
+std::string ObjectsOf(const RenderSetup& setup) {
+  std::ostringstream text;
+  for (const Real time : {Real(0), Real(1)}) {
+    const auto ray =
+        setup.camera->GenerateRay({{Real(3.5), Real(1.5)}, {Real(.3), Real(.6)}, time}, false);
+    text << ray.o.x << ' ' << ray.o.y << ' ' << ray.o.z << ' ' << ray.d.x << ' ' << ray.d.y << ' '
+         << ray.d.z << ' ' << ray.time << '\n';
+  }
+  const FilterSample sample = setup.filter->Sample({Real(.1), Real(.8)});
+  text << sample.offset.x << ' ' << sample.offset.y << ' ' << sample.weight << '\n';
+  text << setup.film.filename << ' ' << setup.film.xResolution << ' ' << setup.crop.x0 << ' '
+       << setup.crop.x1 << ' ' << setup.sampler->SamplesPerPixel() << '\n';
+  text << setup.samplerName << ' ' << setup.filterName << ' ' << setup.cameraName << ' '
+       << setup.integratorName << ' ' << setup.sceneHash << ' ' << setup.worldHash << '\n';
+  return text.str();
+}
+
+TEST(SceneBuilder, MakesTheSameObjectsForAKnownScene) {
+  const std::string text =
+      "TransformTimes .5 2\nTranslate 1 2 3\nActiveTransform EndTime\nRotate 20 0 1 0\n"
+      "ActiveTransform All\nCoordinateSystem \"mine\"\nIdentity\nScale 1 2 1\n"
+      "CoordSysTransform \"mine\"\n"
+      "Camera \"perspective\" \"float fov\" 33 \"float shutteropen\" .5 \"float shutterclose\" 2\n"
+      "Film \"image\" \"integer xresolution\" 7 \"integer yresolution\" 5\n"
+      "Sampler \"random\" \"integer xsamples\" 3 \"integer ysamples\" 2\n"
+      "PixelFilter \"gaussian\" \"float xwidth\" 3\nSurfaceIntegrator \"path\"\n" +
+      kWorldsBegin +
+      "Translate 9 9 9\nActiveTransform StartTime\nCoordinateSystem \"mine\"\n"
+      "LightSource \"point\"\nWorldEnd\n";
+  const BuiltScene read = BuildText(text);
+  ASSERT_EQ(read.error, "");
+  const std::string objects = ObjectsOf(*read.setups.at(0));
+  LoadOptions again;
+  again.known = read.setups.at(0).get();
+  const BuiltScene made = BuildText("", again);
+  ASSERT_EQ(made.error, "");
+  EXPECT_EQ(ObjectsOf(*made.setups.at(0)), objects);
+  // Settings of the command line replace those of the file.
+  again.known = made.setups.at(0).get();
+  again.parameters.push_back({"Camera", "fov", "60"});
+  const BuiltScene other = BuildText("", again);
+  ASSERT_EQ(other.error, "");
+  EXPECT_NE(ObjectsOf(*other.setups.at(0)), objects);
 }
 
 TEST(SceneBuilder, KeepsTheSceneOfAKnownSetupIfTheNewOneHasErrors) {

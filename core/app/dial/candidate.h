@@ -25,7 +25,7 @@ struct Candidate {
   DialSettings settings;
   PilotMean mean;                    // of the last pilot
   bool isRough = false;              // the price and the mean are from a rough pilot
-  double leastPrice = 0;             // where a rough pilot was cut off; there is a reason then
+  double leastPrice = 0;             // bound of the price if a rough pilot was cut off
   double secondsPerCost = 0;         // CPU time of the pilots, for messages only
   double correctedShare = 0;         // of the gather rays; 0: no certificate
   double biasShare = 0;              // of the squared error, what the certificate should resolve

@@ -80,7 +80,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   pilotPixels_ = std::min(Pixels(), kPilotPixels);
   small_.isStrict = false;  // parameters of other integrators are unknown
   fewer_ = small_;
-  // Then pilots of photon maps have at most a quarter of the pixels of the picture.
+  // For a picture, pilots of photon maps have at most a quarter of its pixels.
   if (surroundings.isForPicture)
     SmallScene::SetPixels(
         *setup_,
@@ -89,9 +89,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
 }
 
 bool PilotRenderer::HasWholeScene(const RenderSetup& setup) {
-  if (!setup.scene || !setup.integrator) return false;
-  const FeatureSet computed = setup.integrator->ComputedFeatures();
-  return computed.Has(Feature::Environment) && computed.Has(Feature::Media);
+  return setup.scene && setup.scene->IsWhole();
 }
 
 std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPicture& picture) {
@@ -114,7 +112,7 @@ std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPictur
 // Pilots that differ only in their samples use the same objects. The numbers of photons in the
 // settings are always the scene's, so only their factor matters.
 const RenderSetup& PilotRenderer::Load(const PilotRequest& request) {
-  const bool isLoaded = setup_ && loaded_.integrator == request.integrator &&
+  const bool isLoaded = setup_->scene && loaded_.integrator == request.integrator &&
                         loaded_.settings.photons == request.settings.photons &&
                         loaded_.settings.gatherRays == request.settings.gatherRays &&
                         loaded_.isRough == request.isRough &&

@@ -66,9 +66,10 @@ class PilotRenderer {
     const char* option;  // for a message about a file with several scenes
     FileSource::Streams* streams;
     Log* log;                   // receives a verbose line for each pilot
-    bool isForPicture = false;  // which follows, with the scene of the pilots if possible
+    bool isForPicture = false;  // a picture follows and takes the scene of the pilots if possible
   };
-  // Scenes lose lights and media that their integrator does not compute (Scene::SetFeatures).
+  // Scenes lose lights and media that are switched off, or that their integrator does not compute
+  // (Scene::SetFeatures).
   static bool HasWholeScene(const RenderSetup& setup);
 
   // Loads the scene once at its own resolution. Throws Error.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "core/app/loading/scene_loader.h"
 
+#include <utility>
+
 #include "core/app/dial/dial.h"
 #include "core/app/identity/state_identity.h"
 #include "core/app/process/signals.h"
@@ -12,6 +14,7 @@ SceneLoader::Setups SceneLoader::LoadFile(const std::string& path, RenderSetup* 
   options.stop = &StopFlag();
   options.threads = command_.threadCount;
   options.known = known;
+  if (std::exchange(hasShownWorld_, true)) options.sceneLog = &silent_;
   FileSource source(streams_);
   return LoadScenes(source, path, options, log_);
 }
@@ -20,6 +23,7 @@ SceneLoader::Setups SceneLoader::Load(const std::string& path, Begin* begin) {
   const bool chooses = command_.accuracy && !command_.dial && command_.mode == RenderMode::Render;
   if (chooses) {
     pilots_ = TurnDial(&command_, path, streams_, log_);
+    hasShownWorld_ = true;
     begin->EndPilots();
   }
   Setups setups = LoadFile(path, chooses ? pilots_->Known() : nullptr);

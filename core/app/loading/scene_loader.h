@@ -35,7 +35,7 @@ class SceneLoader {
   }
 
  private:
-  // `known` is as in LoadOptions.
+  // `known` is as in LoadOptions. Messages about text and world appear once.
   Setups LoadFile(const std::string& path, RenderSetup* known);
   Setups LoadAgain(const std::string& path, Setups setups);
   bool ContinueChoice(const Setups& setups);
@@ -44,6 +44,8 @@ class SceneLoader {
   const OutputNames& names_;
   FileSource::Streams* streams_;
   Log& log_;
+  Log silent_{Log::Level::Quiet, Log::Sink::Memory};
+  bool hasShownWorld_ = false;                 // its messages
   std::shared_ptr<PilotRenderer> pilots_;      // of --accuracy
   std::optional<std::uint64_t> preparedSeed_;  // of photons that the pilots shot
 };

@@ -46,7 +46,7 @@ double UnbiasedSquare(double level, double variance) {
 class Levels {
  public:
   Levels(const std::vector<float>& means, const std::vector<float>& variances, std::size_t width,
-         double deviations)
+         const std::vector<float>& deviations)
       : means_(means),
         variances_(variances),
         deviations_(deviations),
@@ -71,12 +71,15 @@ class Levels {
         UnbiasedSquare(own * mean + rest * others.Mean(),
                        own * own * variance + rest * rest * others.VarianceOfMean());
     // Several groups agree that the value is brighter than its kind, so it is a kind of its own.
-    const double lower = mean - deviations_ * std::sqrt(variance);
+    const double lower = mean - Deviations(at) * std::sqrt(variance);
     const double chance = kDeviationsOfOthers * std::sqrt(others.MeanVariance());
     return lower > std::sqrt(square) + chance ? lower * lower : square;
   }
 
  private:
+  double Deviations(std::size_t at) const {
+    return deviations_.empty() ? 1 : double(deviations_[at / 3]);
+  }
   std::size_t Index(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t channel) const {
     return std::size_t(3 * (y * columns_ + x) + channel);
   }
@@ -101,8 +104,7 @@ class Levels {
     return others;
   }
 
-  const std::vector<float>&means_, &variances_;
-  double deviations_;
+  const std::vector<float>&means_, &variances_, &deviations_;
   std::ptrdiff_t columns_, rows_;
 };
 
@@ -110,7 +112,7 @@ class Levels {
 
 std::vector<double> SquaredLevels(const std::vector<float>& means,
                                   const std::vector<float>& variances, std::size_t width,
-                                  double deviations) {
+                                  const std::vector<float>& deviations) {
   const Levels levels(means, variances, width, deviations);
   std::vector<double> squares(means.size());
   for (std::size_t i = 0; i < squares.size(); ++i) {

@@ -19,11 +19,12 @@ namespace exphoton {
 // of others, it does not depend on the error of the variance.
 //
 // A lower bound of the value replaces r where it is higher than r by more than two standard
-// deviations of the others: the value minus `deviations` of its own standard deviations. Light that
-// only one of the groups of samples has seen must not pass this bound. With groups of equal size,
-// such light is exactly one standard deviation.
+// deviations of the others: the value minus `deviations` of its own standard deviations, with one
+// number for each pixel. Without these numbers, it is one standard deviation. Light that only one
+// of the groups of samples has seen must not pass this bound. With groups of equal weight, such
+// light is exactly one standard deviation.
 std::vector<double> SquaredLevels(const std::vector<float>& means,
                                   const std::vector<float>& variances, std::size_t width,
-                                  double deviations = 1);
+                                  const std::vector<float>& deviations = {});
 
 }  // namespace exphoton

@@ -171,17 +171,31 @@ double PassNoise::DegreesOfCell(const std::vector<Group>& groups) {
   return 1 / (shares + sum * sum - squares);
 }
 
-// Returns the value of a pixel that only the largest group sees, in standard deviations by
-// Variances. A pixel that only a smaller group sees has a smaller quotient. Its group has the term
-// 1 - share in place of share^2 / (1 - share).
-double PassNoise::DeviationsOfOneGroup(const std::vector<Group>& groups) {
-  if (groups.size() < 2) return 1;  // there are no variances
-  double largest = 0, terms = 0;
-  for (const Group& group : groups) {
-    largest = std::max(largest, group.share);
-    terms += group.share * group.share / (1 - group.share);
+// If only group g sees light in a pixel, Variances gives the mean's square times
+//   V_g = (1 - w_g)^2 / (1 - s_g) + sum over the other groups j of w_j^2 / (1 - s_j).
+// w_j is the group's part of the pixel's weight, and s_j its share of the samples.
+std::vector<float> PassNoise::DeviationsOfOneGroup() const {
+  const std::vector<Group> groups = Groups();
+  if (groups.size() < 2) return {};  // there are no variances
+  const double samples = SampleCount();
+  std::vector<float> deviations(pixelCount_);
+  std::vector<double> parts(groups.size());
+  for (std::size_t i = 0; i < pixelCount_; ++i) {
+    const double weight = SafeWeight(double(TotalOf(groups, i).weight), samples);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      parts[g] = double(groups[g].pixels[i].weight) / weight;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      double variance = 0;
+      for (std::size_t j = 0; j < groups.size(); ++j) {
+        const double distance = j == g ? 1 - parts[j] : parts[j];
+        variance += distance * distance / (1 - groups[j].share);
+      }
+      least = std::min(least, variance);
+    }
+    deviations[i] = float(1 / std::sqrt(least));
   }
-  return 1 / std::sqrt(terms - largest * largest / (1 - largest) + 1 - largest);
+  return deviations;
 }
 
 // The degrees of a sum of independent estimates are 2 m^2 / v for the expected value m and the
@@ -214,7 +228,7 @@ std::vector<double> PassNoise::RelativeVariances() const {
 const std::vector<double>& PassNoise::Levels() const {
   if (levelsFrom_) return levelsFrom_->Levels();
   if (levels_.empty())
-    levels_ = SquaredLevels(Means(), Variances(), width_, DeviationsOfOneGroup(Groups()));
+    levels_ = SquaredLevels(Means(), Variances(), width_, DeviationsOfOneGroup());
   return levels_;
 }
 

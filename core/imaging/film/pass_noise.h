@@ -57,7 +57,9 @@ class PassNoise {
   };
   std::vector<Group> Groups() const;
   static double DegreesOfCell(const std::vector<Group>& groups);
-  static double DeviationsOfOneGroup(const std::vector<Group>& groups);
+  // Returns for each pixel how many standard deviations (Variances) its value has at most if only
+  // one group sees light in it; empty with fewer than two groups.
+  std::vector<float> DeviationsOfOneGroup() const;
   Sums TotalOf(const std::vector<Group>& groups, std::size_t pixel) const;
 
   double SampleCount() const;        // per pixel, over all groups

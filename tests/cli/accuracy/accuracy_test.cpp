@@ -190,7 +190,6 @@ TEST_F(AccuracyTest, ThePictureTakesThePhotonsOfThePilot) {
   EXPECT_EQ(json.at("rays").at("photon"), 0);
 }
 
-// They show whether an integrator may be the cheapest one.
 // The world is made once, for the first pilot.
 TEST_F(AccuracyTest, ThePictureTakesTheSceneOfThePilots) {
   const std::string room = Read("room.pbrt");
@@ -207,6 +206,29 @@ TEST_F(AccuracyTest, ThePictureTakesTheSceneOfThePilots) {
     EXPECT_NE(phase.at("name"), "accelerator");
 }
 
+// The scene of the pilots lacks its fog, so the file is read again for the picture.
+TEST_F(AccuracyTest, WarnsOfWhatTheUserSwitchesOff) {
+  const std::string room = Read("room.pbrt");
+  const std::size_t world = room.find("WorldBegin");
+  Write("room.pbrt", "VolumeIntegrator \"emission\"\n" + room.substr(0, world) +
+                         "WorldBegin\nVolume \"homogeneous\" \"color Le\" [.1 .1 .1]\n"
+                         "Shape \"sphere\" \"float radus\" 1\n" +
+                         room.substr(world + 10));
+  const ProgramResult result = Render("30%", {"--effects", "media=off"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto count = [&](const std::string& text) {
+    int hits = 0;
+    for (std::size_t at = result.err.find(text); at != std::string::npos;
+         at = result.err.find(text, at + 1))
+      ++hits;
+    return hits;
+  };
+  EXPECT_EQ(count("leaves out light that the scene needs"), 1) << result.err;
+  EXPECT_EQ(count("radus"), 1) << result.err;
+  EXPECT_EQ(count("has nothing to do"), 0) << result.err;
+}
+
+// Rough pilots show whether an integrator may be the cheapest one.
 TEST_F(AccuracyTest, IntegratorsGetRoughPilotsFirst) {
   const std::string err = Render("30%", {"--verbose"}).err;
   EXPECT_NE(err.find("rough pilot of exphotonmap"), std::string::npos) << err;
@@ -225,7 +247,6 @@ TEST_F(AccuracyTest, GuidingGetsNoPilotWherePathIsFarDearer) {
       << result.err;
 }
 
-// Few photons are enough for a coarse picture, and cost less.
 TEST_F(AccuracyTest, PilotsStopShootingPhotonsThatCostMoreThanPath) {
   WriteRoom("dear.pbrt", "exphotonmap", 20000000);
   const ProgramResult result = Render("40%", {"--stats-json", "dear.json"}, "dear.pbrt");
@@ -236,6 +257,7 @@ TEST_F(AccuracyTest, PilotsStopShootingPhotonsThatCostMoreThanPath) {
   EXPECT_LT(json.at("accuracy").at("pilots").at("indirectPhotons"), 1500000);
 }
 
+// Few photons are enough for a coarse picture, and cost less.
 TEST_F(AccuracyTest, TakesFewerPhotonsWhereTheyAreMany) {
   WriteRoom("many.pbrt", "exphotonmap", 200000);
   const Names one{"--integrator", "exphotonmap"};

@@ -93,7 +93,10 @@ TEST(SquaredLevels, OfAConfirmedBrightPixelAreALowerBoundOfItsValue) {
   picture.means[picture.At(4, 3)] = 19;
   picture.variances[picture.At(4, 3)] = 49;
   EXPECT_NEAR(picture.Level(4, 3), 19 - 7, 1e-5);
-  EXPECT_LT(SquaredLevels(picture.means, picture.variances, kColumns, 2)[picture.At(4, 3)], 5 * 5);
+  const std::vector<float> deviations(picture.means.size() / 3, 1.5f);
+  EXPECT_NEAR(
+      SquaredLevels(picture.means, picture.variances, kColumns, deviations)[picture.At(4, 3)],
+      (19 - 1.5 * 7) * (19 - 1.5 * 7), 1e-4);
   // Noise of the others explains the difference.
   for (std::size_t i = 0; i < picture.variances.size(); ++i) picture.variances[i] = 49;
   EXPECT_LT(picture.Level(4, 3), 8);

@@ -256,6 +256,17 @@ double LevelOfLamp(bool isInFirst, bool isInSecond) {
   return std::sqrt(noise.Levels()[3 * (20 * 64 + 30)]);
 }
 
+// Filters with negative lobes add samples of neighbours, so groups of equal size have different
+// weights in a pixel.
+TEST(PassNoise, DoesNotBelieveLightOfOneGroupWithALargeWeight) {
+  PassNoise noise(kBounds, 2);
+  Film seen = MakeLamp(1, 8, true);
+  for (int i = 0; i < 8; ++i) seen.AddSample({30, 20}, Spectrum(1), 1, Real(.5));
+  noise.Add(0, seen, 8);
+  noise.Add(1, MakeLamp(2, 8, false), 8);
+  EXPECT_LT(std::sqrt(noise.Levels()[3 * (20 * 64 + 30)]), 3);
+}
+
 TEST(PassNoise, BelievesBrightLightThatTwoGroupsHaveSeen) {
   EXPECT_GT(LevelOfLamp(true, true), 20);
   EXPECT_LT(LevelOfLamp(true, false), 3);

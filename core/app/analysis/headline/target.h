@@ -11,11 +11,11 @@ std::vector<double> RoundErrors();
 
 std::vector<Contender> FindContenders(const Analysis& analysis);
 
-// Returns the error for which most contenders have a time. Of several it takes the one for which
-// most times are exact, and of these the smallest. Errors that leave open who is the fastest come
-// last: the time of a contender is only a bound if even its cheapest picture is better. Only errors
-// count that give at least one ratio of times, that the reference can measure, and, where possible,
-// that are round and useful.
+// Returns an error that shows who is the fastest, if there is one: the time of a contender is only
+// a bound if even its cheapest picture is better. Of several it takes the one for which most
+// contenders have a time, then the one for which most times are exact, and of these the smallest.
+// Only errors count that give at least one ratio of times, that the reference can measure, and,
+// where possible, that are round and useful.
 std::optional<double> ChooseTarget(const Results& results, const Analysis& analysis);
 
 }  // namespace exphoton::study
