@@ -224,7 +224,7 @@ TEST_F(AccuracyTest, WarnsOfWhatTheUserSwitchesOff) {
     return hits;
   };
   EXPECT_EQ(count("leaves out light that the scene needs"), 1) << result.err;
-  EXPECT_EQ(count("radus"), 1) << result.err;
+  EXPECT_EQ(count("unknown parameter \"radus\""), 1) << result.err;
   EXPECT_EQ(count("has nothing to do"), 0) << result.err;
 }
 
