@@ -88,7 +88,7 @@ TEST(SceneBuilder, TakesASceneFromOneSetupToTheNext) {
   EXPECT_EQ(built.back().setups.at(0)->plugins, built[0].setups.at(0)->plugins);
 }
 
-// Two lists of a setup's objects are equal if both setups render the same pictures.
+// Returns properties of the objects outside the world.
 std::string ObjectsOf(const RenderSetup& setup) {
   std::ostringstream text;
   for (const Real time : {Real(0), Real(1)}) {

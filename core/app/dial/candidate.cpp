@@ -22,9 +22,9 @@ constexpr std::size_t kMostPilots = 8;
 constexpr double kGainOfGuide = 2, kGainOfMaps = 20;
 constexpr int kMostTries = 3;     // of numbers of photons
 constexpr double kScatter = .25;  // of the noise of the last pilot
-// The photons of a picture cost at least this many times those of a rough pilot, which are a tenth
-// of the scene's. With a quarter of the photons, this was 1.68 to 2.3 in the scenes of
-// docs/decisions/0103-cheaper-small-pictures.md.
+// The photons of a picture are expected to cost at least this many times those of a rough pilot,
+// which are a tenth of the scene's. With a quarter of the photons, it was 1.68 to 2.3 times in the
+// scenes of docs/decisions/0103-cheaper-small-pictures.md.
 constexpr double kPhotonsOfPicture = 1.5;
 constexpr double kCostOfPath = 1.35;  // one ray, at least; paths that are skipped cost less
 constexpr double kMorePaths = 4;      // of a rough pilot that was cut off too early

@@ -59,7 +59,7 @@ class Explorer {
   Explorer(PilotRenderer* pilots, const std::string& integrator, int gatherRays, const Wish& wish);
 
   // `most` is the lowest price of all candidates. A candidate with a higher price need not be
-  // explored further. A rough pilot is cut off where photons alone will cost more.
+  // explored further. A rough pilot is cut off where photons alone are expected to cost more.
   void Begin(double most = kNoPrice);
   // Replaces a rough price where it may become the lowest one.
   void Settle(double most);
