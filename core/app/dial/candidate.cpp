@@ -33,8 +33,15 @@ constexpr double kFewestPaths = 1 << 19;
 // The price of path, divided by the price of guidedpath, is less than this in all scenes that were
 // tried (docs/decisions/0055-accuracy-dial.md).
 constexpr double kMostGainOverPath = 16;
+// Pilots with few samples were wrong by up to this factor about the ratio of two prices.
+constexpr double kRivalRatio = 4;
 
 }  // namespace
+
+bool Candidate::IsRivalOf(const Candidate& other) const {
+  const double a = KnownPrice(), b = other.KnownPrice();
+  return a < kNoPrice && b < kNoPrice && a < kRivalRatio * b && b < kRivalRatio * a;
+}
 
 bool MayGuidingWin(const std::vector<Candidate>& others) {
   double path = 0, best = kNoPrice;
@@ -116,11 +123,13 @@ bool Explorer::FindOmissions(double most) {
   return candidate_.hasSoughtOmissions;
 }
 
-void Explorer::Refine(double most) {
+void Explorer::Refine(double most, bool hasRivals) {
   Guarded([&] {
     if (isRough_) return;
+    // The picture takes the maps, but a choice without rivals needs no exact price.
+    const double maps = hasRivals ? 0 : series_.OwnedMaps();
     while (series_.Count() < kMostPilots && !IsTooDear(most) &&
-           series_.Spent() + series_.Next() <= Affordable(most))
+           series_.Spent() + maps + series_.Next() <= Affordable(most))
       series_.Render();
     if (series_.HasBias() && !IsTooDear(most)) EstimateBias(most);
     TakePrice();
@@ -216,7 +225,7 @@ void Explorer::EstimateBias(double most) {
   for (int i = 0; i < kMostTries; ++i) {
     const PriceModel& model = series_.Model();
     const double maps = photons == model.owned ? 0 : model.MapsFor(photons);
-    if (series_.Spent() + maps + series_.Next() > Affordable(most)) return;
+    if (series_.Spent() + series_.OwnedMaps() + maps + series_.Next() > Affordable(most)) return;
     series_.RenderBias(photons);
     // Another pilot confirms the number of photons that the model chose.
     const std::optional<Split> split = CheapestSplit();

@@ -40,6 +40,8 @@ struct Candidate {
 
   // Returns the expected price; kNoPrice if there is a reason.
   double KnownPrice() const { return reason.empty() ? price.seconds : kNoPrice; }
+  // Returns whether better pilots may show that the other one is cheaper, or that it is not.
+  bool IsRivalOf(const Candidate& other) const;
 };
 
 // Returns whether guidedpath may be cheaper than all of these. It is if path is not among them, or
@@ -66,7 +68,8 @@ class Explorer {
   // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
   // Returns whether they were sought.
   bool FindOmissions(double most);
-  void Refine(double most);
+  // A candidate with rivals gets more pilots.
+  void Refine(double most, bool hasRivals);
   // The results so far.
   const Candidate& Result() const { return candidate_; }
   // The same with the price that a pilot of full size is likely to show after a rough one.

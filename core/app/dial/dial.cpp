@@ -67,6 +67,12 @@ bool IsCheaper(const Explorer& a, const Explorer& b) {
   return a.Result().KnownPrice() < b.Result().KnownPrice();
 }
 
+bool HasRivals(const Explorer& explorer, const std::vector<Explorer>& all) {
+  return std::ranges::any_of(all, [&](const Explorer& other) {
+    return &other != &explorer && explorer.Result().IsRivalOf(other.Result());
+  });
+}
+
 std::vector<Candidate> LikelyResults(const std::vector<Explorer>& explorers) {
   std::vector<Candidate> results;
   for (const Explorer& explorer : explorers) results.push_back(explorer.LikelyResult());
@@ -86,7 +92,7 @@ std::vector<Candidate> Explore(std::vector<Explorer>* explorers, double most) {
   std::ranges::stable_sort(*explorers, IsCheaper);
   std::vector<Candidate> candidates;
   for (Explorer& explorer : *explorers) {
-    explorer.Refine(best());
+    explorer.Refine(best(), HasRivals(explorer, *explorers));
     candidates.push_back(explorer.Result());
   }
   return candidates;

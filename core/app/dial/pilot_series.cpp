@@ -69,7 +69,9 @@ void PilotSeries::TakeSharing() {
 
 // The picture of an accuracy takes the maps of the last pilot. Quotes are for other renders.
 void PilotSeries::OwnMaps(double photons) {
-  if (unit_ == Unit::CountedCost) model_.owned = photons;
+  if (unit_ != Unit::CountedCost) return;
+  model_.owned = photons;
+  if (last_.mapCount > 0) ownedMaps_ = last_.cost.maps;
 }
 
 // Returns the pilot with the noise of the scene's photons.

@@ -49,8 +49,9 @@ class PilotSeries {
   const DialSettings& Settings() const { return settings_; }  // with the photons of the scene
   double CausticMaps() const { return causticMaps_; }  // price for one group, with few photons
   double GatherRays() const { return gatherRays_; }    // for one sample per pixel of the picture
-  // Prices of the pilots so far, and of the next one.
-  double Spent() const { return spent_; }
+  // Prices of the pilots so far, without the maps that the picture takes, and of the next one.
+  double Spent() const { return spent_ - ownedMaps_; }
+  double OwnedMaps() const { return ownedMaps_; }
   double Next() const { return next_; }
   double SecondsPerPrice() const { return secondsPerPrice_; }  // CPU time
 
@@ -72,6 +73,7 @@ class PilotSeries {
   PilotPicture last_;
   DialSettings settings_;
   double causticMaps_ = 0;
+  double ownedMaps_ = 0;  // what the maps of PriceModel::owned cost
   double spent_ = 0, next_ = 0, secondsPerPrice_ = 0, gatherRays_ = 0;
   double costOfSample_ = 0;  // of one sample per pixel of a pilot without an estimate of the bias
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// These tests decide whether guidedpath gets a pilot beside other integrators.
+// These tests decide whether guidedpath gets a pilot beside other integrators, and which candidates
+// are rivals.
 #include <gtest/gtest.h>
 
 #include "core/app/dial/candidate.h"
@@ -33,6 +34,20 @@ TEST(GuidePilot, IsNeededWhereTheCheapestHasNoPrice) {
   Candidate gathered = Priced("exphotonmap", 1);
   gathered.reason = "less light than others";
   EXPECT_TRUE(MayGuidingWin({Priced("path", 100), gathered}));
+}
+
+TEST(GuidePilot, RivalsHaveSimilarPrices) {
+  EXPECT_TRUE(Priced("path", 1).IsRivalOf(Priced("exphotonmap", 3.9)));
+  EXPECT_TRUE(Priced("path", 3.9).IsRivalOf(Priced("exphotonmap", 1)));
+  EXPECT_FALSE(Priced("path", 1).IsRivalOf(Priced("exphotonmap", 4.1)));
+  EXPECT_FALSE(Priced("path", 4.1).IsRivalOf(Priced("exphotonmap", 1)));
+}
+
+TEST(GuidePilot, OnlyCandidatesWithPricesAreRivals) {
+  Candidate dark = Priced("path", 1);
+  dark.reason = "less light than others";
+  EXPECT_FALSE(dark.IsRivalOf(Priced("exphotonmap", 1)));
+  EXPECT_FALSE(Priced("exphotonmap", 1).IsRivalOf(dark));
 }
 
 }  // namespace

@@ -149,5 +149,35 @@ TEST_F(PilotTest, ARoughPilotWithFewPathsIsNotCutOff) {
   EXPECT_EQ(priceWith(1), priceWith(kNoPrice));
 }
 
+// Seconds of quotes are those of other renders, which make their maps again.
+TEST_F(PilotTest, MapsThatThePictureTakesAreNotSpent) {
+  const auto renderer = Renderer(false);
+  PilotSeries counted(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CountedCost);
+  counted.Render();
+  EXPECT_GT(counted.OwnedMaps(), 0);
+  EXPECT_EQ(counted.OwnedMaps(), counted.Last().cost.maps);
+  EXPECT_NEAR(counted.Spent(), counted.Last().cost.samples, .01);
+  PilotSeries quoted(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CpuSeconds);
+  quoted.Render();
+  EXPECT_EQ(quoted.OwnedMaps(), 0);
+}
+
+// The maps cost a large part of what pilots may cost here.
+TEST_F(PilotTest, RivalsGetMorePilots) {
+  LoadOptions load;
+  load.parameters.push_back({"SurfaceIntegrator", "indirectphotons", "100000"});
+  Wish wish;
+  wish.error = .02;
+  const auto rendersOf = [&](bool hasRivals) {
+    const auto renderer = Renderer(false, load);
+    Explorer explorer(renderer.get(), "exphotonmap", 0, wish);
+    explorer.Begin();
+    explorer.Settle(kNoPrice);
+    explorer.Refine(kNoPrice, hasRivals);
+    return renderer->Work().renders;
+  };
+  EXPECT_GT(rendersOf(true), rendersOf(false));
+}
+
 }  // namespace
 }  // namespace exphoton::cli
