@@ -36,14 +36,14 @@ TEST(GuidePilot, IsNeededWhereTheCheapestHasNoPrice) {
   EXPECT_TRUE(MayGuidingWin({Priced("path", 100), gathered}));
 }
 
-TEST(GuidePilot, RivalsHaveSimilarPrices) {
+TEST(Candidate, RivalsHaveSimilarPrices) {
   EXPECT_TRUE(Priced("path", 1).IsRivalOf(Priced("exphotonmap", 3.9)));
   EXPECT_TRUE(Priced("path", 3.9).IsRivalOf(Priced("exphotonmap", 1)));
   EXPECT_FALSE(Priced("path", 1).IsRivalOf(Priced("exphotonmap", 4.1)));
   EXPECT_FALSE(Priced("path", 4.1).IsRivalOf(Priced("exphotonmap", 1)));
 }
 
-TEST(GuidePilot, OnlyCandidatesWithPricesAreRivals) {
+TEST(Candidate, OnlyCandidatesWithPricesAreRivals) {
   Candidate dark = Priced("path", 1);
   dark.reason = "less light than others";
   EXPECT_FALSE(dark.IsRivalOf(Priced("exphotonmap", 1)));
