@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/transport/light_sample.h"
+#include "integrators/photon/certificate/caustic_rays.h"
 
 namespace exphoton {
 namespace {
@@ -79,10 +80,16 @@ Spectrum ExactRadiance::Correct(const GatherRay::Segment& segment, const Spectru
 Spectrum ExactRadiance::Sample(const ShadingPoint& point) {
   const LobeSet lobes = gather_.MappedLobes();
   if (!point.bsdf.Has(lobes)) return {};
-  const PhotonMapSet& maps = sources_.maps;
   const Rays rays = RaysAt(point);
-  return Direct(point, rays) + AlongRays(point, rays) +
-         maps.Radiance(PhotonKind::Caustic, point, &context_.arena, lobes) +
+  return Direct(point, rays) + Caustic(point) + AlongRays(point, rays);
+}
+
+Spectrum ExactRadiance::Caustic(const ShadingPoint& point) {
+  const LobeSet lobes = gather_.MappedLobes();
+  if (sources_.causticGuide)
+    return CausticRays(*sources_.causticGuide, cone_, context_, random_).Sample(point, lobes);
+  const PhotonMapSet& maps = sources_.maps;
+  return maps.Radiance(PhotonKind::Caustic, point, &context_.arena, lobes) +
          maps.KernelCorrection(PhotonKind::Caustic, point, &context_.arena, lobes);
 }
 

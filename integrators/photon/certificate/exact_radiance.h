@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ExactRadiance estimates the error of what gather rays read from the photon maps. At a hit, it
 // compares the radiance that was read with a sample of the true radiance: direct light by next
-// event estimation, caustic light from the caustic map, and light along a few rays in directions
+// event estimation, caustic light along rays of its own, and light along a few rays in directions
 // sampled from the BSDF and from the guiding distribution of nearby photons. These rays read the
 // maps again, and Russian roulette decides which of their reads are corrected in the same way. The
 // sum telescopes to an unbiased estimate (docs/decisions/0050-bias-certificate.md). Source: Misso
@@ -23,6 +23,9 @@ struct CorrectionSources {
   const PhotonSettings& settings;
   const LightSampler& lights;
   const PhotonGuide& guide;
+  // The guide of the caustic map. Null: caustic light is read from this map, and corrected for the
+  // blur of its kernel.
+  const PhotonGuide* causticGuide = nullptr;
 };
 
 class ExactRadiance final : private GatherRay::ReadCorrector {
@@ -64,6 +67,7 @@ class ExactRadiance final : private GatherRay::ReadCorrector {
   Spectrum Sample(const ShadingPoint& point);
   Rays RaysAt(const ShadingPoint& point);
   Spectrum Direct(const ShadingPoint& point, const Rays& rays);
+  Spectrum Caustic(const ShadingPoint& point);
   // The light along the rays: emission, with MIS against Direct, and what the hits reflect.
   Spectrum AlongRays(const ShadingPoint& point, const Rays& rays);
   // Draws direction number `index` of the rays; u shifts all directions of the hit.

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// GatherCorrection: the number of rays, their choice, and the context of their corrections.
+// GatherCorrection: the number of rays and their choice.
 #include "integrators/photon/certificate/gather_correction.h"
 
 #include <cmath>
 
+#include "integrators/photon/certificate/separate_context.h"
+
 namespace exphoton {
 namespace {
-
-constexpr std::uint64_t kStream = 0x63657274ull;  // "cert" in ASCII
-
-// Returns a context whose random numbers and state are separate from the picture's.
-LiContext SeparateContext(const LiContext& context, RayCounters* rays) {
-  LiContext own{context.scene, context.samples, context.arena, *rays,
-                HashKey({context.key, kStream})};
-  own.threadState = context.threadState;
-  own.volume = context.volume;
-  return own;
-}
 
 // Writes cumulative sums of the rays' probabilities, which are not normalized. A ray that hits
 // nothing has none. The mean radiance is added to each radiance, so that rays that wrongly read
@@ -41,16 +32,16 @@ Real Accumulate(const GatherRay::Reads& reads, std::span<Real> sums) {
 
 void GatherCorrection::Observe(const ShadingPoint& point, const GatherRay::Reads& reads) {
   CorrectionSample& result = *context_.correction;
-  RandomStream random = context_.Stream(HashKey({kStream, std::uint64_t(point.depth)}));
+  RandomStream random =
+      context_.Stream(HashKey({SeparateContext::kStream, std::uint64_t(point.depth)}));
   const std::size_t count = reads.segments.size();
   const auto chosen = int(std::floor(result.share * double(count) + double(random.Uniform())));
   if (chosen == 0) return;
   const Arena::Mark mark = context_.arena.GetMark();
   const std::span<Real> sums(context_.arena.AllocateArray<Real>(count), count);
   const Real mean = Accumulate(reads, sums);
-  RayCounters rays;
-  LiContext own = SeparateContext(context_, &rays);
-  ExactRadiance exact(sources_, own, &random);
+  SeparateContext own(context_);
+  ExactRadiance exact(sources_, own.Get(), &random);
   const double expected = result.share * double(count);
   for (int i = 0; i < chosen && sums.back() > 0; ++i) {
     const Real u = random.Uniform() * sums.back();
@@ -64,7 +55,6 @@ void GatherCorrection::Observe(const ShadingPoint& point, const GatherRay::Reads
         point.throughput * reads.weights[at] * correction / (probability * Real(expected));
     ++result.count;
   }
-  for (std::size_t i = 0; i < rays.counts.size(); ++i) context_.rays.counts[i] += rays.counts[i];
   context_.arena.Rewind(mark);
 }
 

@@ -138,6 +138,57 @@ TEST(Corrections, EndBetweenSurfacesThatGainEnergy) {
   EXPECT_TRUE(std::isfinite(Render(scene, 1).correction));
 }
 
+// A corner of two small squares, which see a ball of light only in a mirror behind the camera. A
+// screen is between them, and a black wall is behind them. `mirror` false: the ball is where its
+// mirror image would be.
+std::string MirroredLight(bool mirror) {
+  const auto quad = [](const std::string& corners) {
+    return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" + corners +
+           "]\n";
+  };
+  const std::string z = mirror ? "4" : "-8";
+  return "WorldBegin\nAttributeBegin\nTranslate 3.5 0 " + z +
+         "\nAreaLightSource \"area\" \"color L\" [50 50 50]\nMaterial \"matte\" \"color Kd\" [0 0 "
+         "0]\n"
+         "Shape \"sphere\" \"float radius\" [1]\nAttributeEnd\n"
+         "Material \"matte\" \"color Kd\" [.9 .9 .9]\n" +
+         quad("-.5 -.5 3 .5 -.5 3 .5 .5 3 -.5 .5 3") +
+         quad("-.5 -.5 2 .5 -.5 2 .5 -.5 3 -.5 -.5 3") +
+         "Material \"matte\" \"color Kd\" [0 0 0]\n" + quad("1 -3 1.9 1 3 1.9 1 3 6 1 -3 6") +
+         quad("-3 -3 6 3 -3 6 3 3 6 -3 3 6") +
+         (mirror ? "Material \"mirror\" \"color Kr\" [1 1 1]\n" +
+                       quad("-9 -9 -2 9 -9 -2 9 9 -2 -9 9 -2")
+                 : "") +
+         "WorldEnd\n";
+}
+
+// A picture of the squares alone.
+std::string SquaresHeader(const std::string& integrator, int samples) {
+  std::string header = TestHeader(integrator, 12, 12, samples);
+  return header.replace(header.find("[90]"), 4, "[30]");
+}
+
+// The searches for photons reach far beyond the squares, where there is no photon, so the picture
+// is too dark.
+TEST(CorrectedCaustic, HasTheTrueMeanOnSmallSurfaces) {
+  const std::string photons = Integrator(
+      "exphotonmap",
+      "\"integer causticphotons\" [2000] \"integer indirectphotons\" [2000] \"integer "
+      "maxphotonpaths\" [200000] \"integer nused\" [400] \"float maxdist\" [2] \"integer "
+      "finalgathersamples\" [8]");
+  const std::string scene = SquaresHeader(photons, 64) + MirroredLight(true);
+  const double truth =
+      Render(SquaresHeader(Integrator("path", ""), 4096) + MirroredLight(false), 1).picture;
+  const auto corrected = EstimateOverSeeds(
+      [&](std::uint64_t seed) {
+        const Means means = Render(scene, seed);
+        return means.picture + means.correction;
+      },
+      16);
+  EXPECT_LT(Render(scene, 1).picture, .9 * truth) << "the bias is too small to test";
+  EXPECT_TRUE(IsWithin(.02, corrected, truth));
+}
+
 class CorrectedFurnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
 
 TEST_P(CorrectedFurnace, ShowsEmissionOverOneMinusAlbedo) {
