@@ -19,4 +19,12 @@ inline Real ShadingNormalFactor(const Vector3& wo, const Vector3& wi, const Norm
   return std::min(AbsDot(wo, ns) * AbsDot(wi, ng) / denominator, kMaxShadingNormalFactor);
 }
 
+// Returns |w.n| / |w.base|. Returns 0 if the denominator is 0, and at most kMaxShadingNormalFactor.
+inline Real CosineRatio(const Vector3& w, const Normal3& n, const Normal3& base) {
+  if (n == base) return 1;
+  const Real denominator = AbsDot(w, base);
+  if (!(denominator > 0)) return 0;
+  return std::min(AbsDot(w, n) / denominator, kMaxShadingNormalFactor);
+}
+
 }  // namespace exphoton

@@ -8,10 +8,10 @@ ShadingPoint MakeShadingPoint(const SurfaceInteraction& surface, const RayDiffer
                               int depth, TransportMode mode, Arena* arena) {
   SurfaceInteraction shaded = surface;
   const Material* material = surface.material;
-  if (!material) return {shaded, Bsdf(shaded), ray, depth, Spectrum(1)};
+  if (!material) return {shaded, Bsdf(shaded), ray, depth};
   if (ray.hasDifferentials && material->NeedsDifferentials()) shaded.ComputeDifferentials(ray);
   const Bsdf bsdf = material->Evaluate(&shaded, mode, arena);
-  return {shaded, bsdf, ray, depth, Spectrum(1)};
+  return {shaded, bsdf, ray, depth, Spectrum(1), surface.shading.n};
 }
 
 }  // namespace exphoton

@@ -17,6 +17,8 @@ struct ShadingPoint {
   RayDifferential ray;     // the ray that hit the surface
   int depth = 0;           // number of specular bounces since the camera
   Spectrum throughput{1};  // of the path to the camera; known to SpecularTree only
+  // The interpolated normal, without bumps. It has unit length and lies on ng's side.
+  Normal3 smooth = surface.shading.n;
 
   const Vector3& Wo() const { return surface.wo; }
   // Returns the radiance that the surface emits towards the ray's origin.

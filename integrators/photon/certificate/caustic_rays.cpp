@@ -74,8 +74,7 @@ Spectrum CausticRays::ByGuide(const ShadingPoint& point, const Rays& rays, LobeS
   const Point2 u{random_->Uniform(), random_->Uniform()};
   const Vector3 wi = rays.guide.Draw(InStratum(index, rays.each), u).w;
   const BsdfValue scattered = point.bsdf.Evaluate(point.Wo(), wi, lobes);
-  const Spectrum weight =
-      scattered.f * (AbsDot(wi, point.bsdf.Ns()) / rays.Pdf(wi, scattered.pdf));
+  const Spectrum weight = scattered.f * (AbsDot(wi, point.bsdf.Ns()) / rays.Pdf(wi, scattered.pdf));
   if (weight.IsBlack() || !weight.IsFinite()) return {};
   return weight * Along(SpawnRay(point.surface, wi));
 }

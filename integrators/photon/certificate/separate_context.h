@@ -23,8 +23,7 @@ class SeparateContext {
   SeparateContext(const SeparateContext&) = delete;
   SeparateContext& operator=(const SeparateContext&) = delete;
   ~SeparateContext() {
-    for (std::size_t i = 0; i < rays_.counts.size(); ++i)
-      outer_.rays.counts[i] += rays_.counts[i];
+    for (std::size_t i = 0; i < rays_.counts.size(); ++i) outer_.rays.counts[i] += rays_.counts[i];
   }
 
   LiContext& Get() { return own_; }

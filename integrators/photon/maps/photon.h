@@ -14,8 +14,10 @@ namespace exphoton {
 // Photon is a packet of power that arrived at a surface.
 struct Photon {
   Point3 p;
-  Vector3 wi;      // unit, towards where the light came from
-  Spectrum alpha;  // power; density estimates divide it by the map's number of paths
+  Vector3 wi;  // unit, towards where the light came from
+  // Power, times the ratio of the cosines of wi to the interpolated and the geometric normal
+  // (docs/theory/exphotonmap.md, eq. 12). Density estimates divide it by the map's number of paths.
+  Spectrum alpha;
   // Path length since the emission or the last non-specular scattering, as a fraction of
   // PhotonBuffer::farthest.
   Real distance = 1;

@@ -11,14 +11,6 @@
 namespace exphoton {
 namespace {
 
-// Returns |wi.ns| / |wi.ng|, capped: photon power is per geometric area, f |cos| per shading area.
-Real GeometricToShading(const Vector3& wi, const Normal3& ng, const Normal3& ns) {
-  if (ng == ns) return 1;
-  const Real geometric = AbsDot(wi, ng);
-  if (!(geometric > 0)) return 0;
-  return std::min(AbsDot(wi, ns) / geometric, kMaxShadingNormalFactor);
-}
-
 struct SignedSum {
   Spectrum plain, withSigns;
 
@@ -111,9 +103,9 @@ Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
   const bool isDiffuse = !bsdf.Has(lobes & kGlossy) && bsdf.IsLambertian();
   const KernelDisk disk(kernel_, radius2);
   SignedSum front, back, glossy;
-  // If the surface is also one-sided and has no separate shading normal, photon directions do not
-  // matter: the search has already tested the side.
-  const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.surface.ng;
+  // If the surface is also one-sided and has no bumps, photon directions do not matter: the search
+  // has already tested the side.
+  const bool isPlain = isDiffuse && isOneSided && bsdf.Ns() == point.smooth;
   for (std::size_t i = 0; i < around.photons.size(); ++i) {
     if (around.distance2[i] > radius2) continue;
     const std::uint32_t photon = around.photons[i];
@@ -124,7 +116,7 @@ Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
       continue;
     }
     const Vector3 wi = rest.DirectionBack(map.Direction(photon));
-    const Spectrum flux = weighted * GeometricToShading(wi, point.surface.ng, bsdf.Ns());
+    const Spectrum flux = weighted * CosineRatio(wi, bsdf.Ns(), point.smooth);
     if (!isDiffuse)
       glossy.Add(bsdf.f(point.Wo(), wi, lobes) * flux, sign);
     else

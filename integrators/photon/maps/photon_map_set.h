@@ -32,8 +32,8 @@ class PhotonMapSet {
   Real MaxDistance(PhotonKind kind) const { return radii_[std::size_t(kind)]; }
 
   // Returns the radiance leaving the point towards wo by `lobes` (all non-specular), estimated from
-  // the photons of one map: 1/N sum K f alpha (docs/theory/exphotonmap.md, eq. 12). Photons measure
-  // power per geometric area, so the estimate corrects for the shading normal.
+  // the photons of one map: 1/N sum K f alpha (docs/theory/exphotonmap.md, eq. 12). Photons count
+  // with their interpolated normals, and the estimate corrects for bumps.
   // signedRadiance receives the same with the sign of each photon (signed_power.h); null: it is not
   // wanted.
   Spectrum Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,

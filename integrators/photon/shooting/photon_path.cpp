@@ -241,7 +241,8 @@ void PhotonTracer::Path::Store(PhotonKind kind, const ShadingPoint& point) {
   const SurfaceInteraction& surface = point.surface;
   const RestPose rest(surface);
   const Point3 p = rest.Point(surface.p);
-  const Spectrum power = surface.motion ? now_.alpha * rest.PowerScale(surface.ng) : now_.alpha;
+  const Real onSmooth = CosineRatio(point.Wo(), point.smooth, surface.ng);
+  const Spectrum power = now_.alpha * (onSmooth * rest.PowerScale(surface.ng));
   chunk_->photons[std::size_t(kind)].emplace_back(Photon{
       p, rest.Direction(point.Wo()), power, now_.distance / tracer_.farthest_, HasNegativeSign()});
   ++stored_;
@@ -253,10 +254,9 @@ void PhotonTracer::Path::Store(PhotonKind kind, const ShadingPoint& point) {
   const Spectrum transmittance = point.bsdf.Rho(LobeSet::DiffuseTransmission);
   const bool isGlossy = point.bsdf.Has(LobeSet::Glossy);
   const Real glossy = isGlossy ? point.bsdf.Rho(LobeSet::Glossy).Y() : Real(0);
-  const Real diffuse = (reflectance + transmittance).Y();
+  const Real all = glossy + (reflectance + transmittance).Y();
   chunk_->sites.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())), reflectance,
-                           transmittance, SafeDivide(glossy, glossy + diffuse, Real(0)),
-                           point.bsdf.IsCoated()});
+                           transmittance, SafeDivide(glossy, all, Real(0)), point.bsdf.IsCoated()});
 }
 
 void PhotonTracer::Path::Drop() {

@@ -105,5 +105,46 @@ TEST(PhotonShading, AnEstimateOnALeaningNormalIsTheLightOnThatNormal) {
   }
 }
 
+// A pleated sheet of strips along z, whose slopes alternate. All its shading normals point upwards.
+// Sunlight grazes every second strip. Density estimates are as wide as several strips.
+std::string PleatedSheet(const std::string& integrator) {
+  constexpr int kEdges = 17;
+  std::string points, normals, indices;
+  for (int i = 0; i < kEdges; ++i) {
+    char text[80];
+    std::snprintf(text, sizeof text, " %.4f %.4f -1 %.4f %.4f 1", i / 8. - 1, .06 * (i % 2),
+                  i / 8. - 1, .06 * (i % 2));
+    points += text;
+    normals += " 0 1 0 0 1 0";
+    std::snprintf(text, sizeof text, " %d %d %d %d %d %d", 2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1,
+                  2 * i + 3, 2 * i + 2);
+    if (i + 1 < kEdges) indices += text;
+  }
+  return "LookAt 0 3 0  0 0 0  0 0 1\nCamera \"orthographic\" \"float screenwindow\" [-.6 .6 -.6 "
+         ".6]\nFilm \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12\nPixelFilter "
+         "\"box\"\nSampler \"lowdiscrepancy\" \"integer pixelsamples\" 16\nSurfaceIntegrator " +
+         integrator +
+         "\nWorldBegin\nLightSource \"distant\" \"color L\" [3 3 3] \"point from\" [2.6 1.6 0] "
+         "\"point to\" [0 0 0]\nMaterial \"matte\" \"color Kd\" [.5 .5 .5]\nShape \"trianglemesh\" "
+         "\"integer indices\" [" +
+         indices + "] \"point P\" [" + points + "] \"normal N\" [" + normals + "]\nWorldEnd\n";
+}
+
+// A photon counts with the cosine to its own triangle. With the cosine to the triangle of the
+// estimate, the grazed strips would be more than twice as bright.
+TEST(PhotonShading, AnEstimateOverSmoothTrianglesHasTheLightOfEach) {
+  const double expected =
+      MeanRadiance(RenderSceneText(PleatedSheet("\"directlighting\""), {}).image);
+  const auto measure = [&](std::uint64_t seed) {
+    TestRenderOptions options;
+    options.seed = seed;
+    const std::string photons =
+        "\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 20000 "
+        "\"integer indirectphotons\" 0 \"integer nused\" 400 \"bool finalgather\" \"false\"";
+    return MeanRadiance(RenderSceneText(PleatedSheet(photons), options).image);
+  };
+  EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected));
+}
+
 }  // namespace
 }  // namespace exphoton

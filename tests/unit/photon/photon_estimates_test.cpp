@@ -135,7 +135,8 @@ void SeeBothSides(const Surface& surface, const Visit& visit) {
       bsdf.Add(lobe);
       isSheet = isSheet || lobe->Matches(LobeSet::Transmission);
     }
-    visit(ShadingPoint{si, bsdf, {}, 0}, isSheet);
+    const Normal3 smooth = si.ng;  // the tilt is a bump
+    visit(ShadingPoint{si, bsdf, {}, 0, Spectrum(1), smooth}, isSheet);
   }
 }
 
