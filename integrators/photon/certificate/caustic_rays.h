@@ -5,8 +5,6 @@
 // lights that have a size, so the estimate is unbiased if all lights of the scene have one.
 #pragma once
 
-#include <optional>
-
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/gather/cone_mixture.h"

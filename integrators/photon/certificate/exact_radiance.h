@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ExactRadiance estimates the error of what gather rays read from the photon maps. At a hit, it
 // compares the radiance that was read with a sample of the true radiance: direct light by next
-// event estimation, caustic light along rays of its own, and light along a few rays in directions
-// sampled from the BSDF and from the guiding distribution of nearby photons. These rays read the
-// maps again, and Russian roulette decides which of their reads are corrected in the same way. The
-// sum telescopes to an unbiased estimate (docs/decisions/0050-bias-certificate.md). Source: Misso
-// et al. 2022, "Unbiased and consistent rendering using biased estimators".
+// event estimation, caustic light along rays of its own (CausticRays) or from its map, and light
+// along a few rays in directions sampled from the BSDF and from the guiding distribution of nearby
+// photons. These rays read the maps again, and Russian roulette decides which of their reads are
+// corrected in the same way. The sum telescopes to an unbiased estimate
+// (docs/decisions/0050-bias-certificate.md). Source: Misso et al. 2022, "Unbiased and consistent
+// rendering using biased estimators".
 #pragma once
 
 #include "core/lights/selection/light_sampler.h"
