@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // ShadingNormalFactor is the adjoint correction for shading normals (Veach 1997, section 5.3).
 // Scattering with an interpolated or bumped normal is not symmetric. Photon paths apply this
-// factor; camera paths do not.
+// factor; camera paths do not. CosineRatio relates the light on a surface with one normal to the
+// light on a surface with another.
 #pragma once
 
 #include "core/math/vec.h"
