@@ -72,11 +72,18 @@ TEST(PhotonShading, PhotonsLeaveTiltedNormalsAsTheRadianceThatCamerasSee) {
   }
 }
 
-// A floor whose shading normals lean by 40 degrees along x, under sunlight that comes from
-// `degrees` off the vertical. Direct light from photons, without shadow rays.
-std::string LeaningFloor(double degrees) {
+// A floor whose shading normals lean by 40 degrees along x, by interpolation or by bumps, under
+// sunlight that comes from `degrees` off the vertical. Direct light from photons, without shadow
+// rays.
+std::string LeaningFloor(double degrees, bool isBumped) {
   const double angle = degrees * kPi64 / 180;
-  const std::string n = " .642788 0 .766044";
+  const std::string n = isBumped ? " 0 0 1" : " .642788 0 .766044";
+  // The bumps descend by 2 tan(40 degrees) over the width of the floor.
+  const std::string bumps =
+      isBumped ? "Texture \"slope\" \"float\" \"bilerp\" \"float v00\" 1.678199 \"float v01\" "
+                 "1.678199 \"float v10\" 0 \"float v11\" 0\n"
+               : "";
+  const std::string bumpMap = isBumped ? " \"texture bumpmap\" \"slope\"" : "";
   char from[64];
   std::snprintf(from, sizeof from, "%.6f 0 %.6f", std::sin(angle), std::cos(angle));
   return "LookAt 0 0 1  0 0 0  0 1 0\nCamera \"orthographic\" \"float screenwindow\" [-.6 .6 -.6 "
@@ -85,25 +92,31 @@ std::string LeaningFloor(double degrees) {
          "\"photonmap\" \"bool directwithphotons\" \"true\" \"integer directphotons\" 20000 "
          "\"integer indirectphotons\" 0 \"integer nused\" 400 \"bool finalgather\" \"false\"\n"
          "WorldBegin\nLightSource \"distant\" \"color L\" [1 1 1] \"point from\" [" +
-         std::string(from) +
-         "] \"point to\" [0 0 0]\nMaterial \"matte\" \"color Kd\" [.5 .5 .5]\nShape "
-         "\"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0 1 -1 0 1 1 0 "
-         "-1 1 0] \"normal N\" [" +
+         std::string(from) + "] \"point to\" [0 0 0]\n" + bumps +
+         "Material \"matte\" \"color Kd\" [.5 .5 .5]" + bumpMap +
+         "\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0 1 -1 0 1 "
+         "1 "
+         "0 -1 1 0] \"float uv\" [0 0 1 0 1 1 0 1] \"normal N\" [" +
          n + n + n + n + "]\nWorldEnd\n";
 }
 
-TEST(PhotonShading, AnEstimateOnALeaningNormalIsTheLightOnThatNormal) {
+void ExpectLightOnLeaningNormal(bool isBumped) {
   // Light from -60 degrees is in front of the surface and behind its shading normal.
   for (const double degrees : {60.0, 0.0, -30.0, -60.0}) {
     const auto measure = [&](std::uint64_t seed) {
       TestRenderOptions options;
       options.seed = seed;
-      return MeanRadiance(RenderSceneText(LeaningFloor(degrees), options).image);
+      return MeanRadiance(RenderSceneText(LeaningFloor(degrees, isBumped), options).image);
     };
     const double expected = .5 / kPi64 * std::abs(std::cos((degrees - 40) * kPi64 / 180));
     EXPECT_TRUE(IsWithin(.03, EstimateOverSeeds(measure), expected)) << degrees << " degrees";
   }
 }
+
+TEST(PhotonShading, AnEstimateOnALeaningNormalIsTheLightOnThatNormal) {
+  ExpectLightOnLeaningNormal(false);
+}
+TEST(PhotonShading, AnEstimateOnABumpIsTheLightOnItsNormal) { ExpectLightOnLeaningNormal(true); }
 
 // A pleated sheet of strips along z, whose slopes alternate. All its shading normals point upwards.
 // Sunlight grazes every second strip. Density estimates are as wide as several strips.
