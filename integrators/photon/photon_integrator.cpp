@@ -10,7 +10,6 @@
 #include "core/base/memory.h"
 #include "integrators/photon/certificate/caustic_rays.h"
 #include "integrators/photon/certificate/gather_correction.h"
-#include "integrators/photon/certificate/separate_context.h"
 #include "integrators/photon/gather/gather_ray.h"
 #include "integrators/photon/maps/rest_pose.h"
 #include "integrators/photon/photon_pass.h"
@@ -21,13 +20,6 @@ namespace {
 
 // The maps in the order of PhotonMapNames.
 constexpr std::array kListedMaps{PhotonKind::Indirect, PhotonKind::Direct, PhotonKind::Caustic};
-
-constexpr std::uint64_t kCausticStream = 0x63617573ull;  // "caus" in ASCII
-// Visible points with nothing but caustic light whose caustic is corrected, for each gather ray
-// that is corrected.
-constexpr double kSeenCaustics = 4;
-// The least part of the light that a caustic counts as, because its map may lack it.
-constexpr Real kLeastPart = Real(.05);
 
 // Returns the share of the stored photons that become radiance photons. A disk of a smaller area
 // keeps its number of radiance photons, because their density estimates are unbiased only if the
@@ -45,12 +37,12 @@ PhotonIntegrator::PhotonIntegrator(const PhotonSettings& settings)
       direct_(settings.directLights.value_or(DirectLighting::kMostLights),
               settings.directLights.value_or(DirectLighting::kChosenLights)),
       gather_(settings),
-      correctionGuide_(settings.gatherPhotons, Cone(Radians(settings.gatherAngle))),
-      causticGuide_(settings.gatherPhotons, Cone(Radians(settings.gatherAngle))) {}
+      correctionGuide_(settings.gatherPhotons, Cone(Radians(settings.gatherAngle))) {}
 
 void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context) {
   // Release the memory of an earlier pass
   radianceMap_.reset();
+  causticCorrection_.reset();
   maps_ = {};
 
   gathers_ = GathersIndirectLight(settings_, scene);
@@ -78,8 +70,7 @@ void PhotonIntegrator::BuildMaps(const Scene& scene, PhotonPassResult* photons,
     gather_.Prepare(maps_.Map(PhotonKind::Indirect));
     correctionGuide_.Prepare(maps_.Map(PhotonKind::Indirect));
   }
-  tracesCaustics_ = settings_.CausticPhotons() != 0 && CausticRaysFindAll(scene);
-  if (tracesCaustics_) causticGuide_.Prepare(maps_.Map(PhotonKind::Caustic));
+  causticCorrection_ = std::make_unique<CausticCorrection>(scene, maps_, settings_);
   context.CheckStop();
 }
 
@@ -106,7 +97,8 @@ Spectrum PhotonIntegrator::Li(const RayDifferential& ray, LiContext& context) co
         FillDensity(point, context);
         const SurfaceLight light{point.Le(), Direct(point, context), Caustic(point, context),
                                  Indirect(point, context)};
-        if (tracesCaustics_ && context.correction) CorrectCaustic(point, light, context);
+        if (context.correction && causticCorrection_->Guide())
+          causticCorrection_->Correct(point, light, context);
         return light.Collect(point, context);
       });
 }
@@ -127,40 +119,23 @@ Spectrum PhotonIntegrator::Seen(PhotonKind kind, const ShadingPoint& point,
   const Spectrum radiance = maps_.Radiance(kind, point, &context.arena, LobeSet::NonSpecular,
                                            context.signedLight ? &signedRadiance : nullptr);
   if (context.signedLight) *context.signedLight += point.throughput * signedRadiance;
-  const bool isTraced = tracesCaustics_ && kind == PhotonKind::Caustic;
-  if (context.correction && !isTraced)
+  if (!context.correction) return radiance;
+  const bool isTraced = kind == PhotonKind::Caustic && causticCorrection_->Guide();
+  if (!isTraced)
     context.correction->sum +=
         point.throughput * maps_.KernelCorrection(kind, point, &context.arena);
   return radiance;
-}
-
-// The chance is in proportion to the share of the caustic in the light, because errors are relative
-// to the light.
-void PhotonIntegrator::CorrectCaustic(const ShadingPoint& point, const SurfaceLight& light,
-                                      LiContext& context) const {
-  CorrectionSample& correction = *context.correction;
-  const Real all = (light.direct + light.caustic + light.indirect).Y();
-  const Real part = all > 0 ? std::max(light.caustic.Y() / all, kLeastPart) : Real(1);
-  const double perGather = correction.share * double(settings_.finalGatherSamples);
-  const Real chance = std::min(Real(kSeenCaustics * perGather) * part, Real(1));
-  RandomStream random = context.Stream(
-      HashKey({SeparateContext::kStream, kCausticStream, std::uint64_t(point.depth)}));
-  if (!(random.Uniform() < chance)) return;
-  SeparateContext own(context);
-  CausticRays rays(causticGuide_, Cone(Radians(settings_.gatherAngle)), own.Get(), &random);
-  correction.sum +=
-      point.throughput * (rays.Sample(point, LobeSet::NonSpecular) - light.caustic) / chance;
 }
 
 Spectrum PhotonIntegrator::Indirect(const ShadingPoint& point, LiContext& context) const {
   if (!gathers_) return Seen(PhotonKind::Indirect, point, context);
   RandomStream random = context.Stream(kGatherRayStream + std::uint64_t(point.depth));
   GatherRay rays(maps_, radianceMap_.get(), settings_, *lights_, context, &random);
-  const CorrectionSources sources{
-      maps_,    radianceMap_.get(), settings_,
-      *lights_, correctionGuide_,   tracesCaustics_ ? &causticGuide_ : nullptr};
+  if (!context.correction) return gather_.Gather(point, context, rays);
+  const CorrectionSources sources{maps_,    radianceMap_.get(), settings_,
+                                  *lights_, correctionGuide_,   causticCorrection_->Guide()};
   GatherCorrection correction(sources, context);
-  if (context.correction) rays.SetObserver(&correction);
+  rays.SetObserver(&correction);
   return gather_.Gather(point, context, rays);
 }
 
@@ -206,6 +181,8 @@ std::optional<CertificationLimits> PhotonIntegrator::Certification(const Scene& 
     add("caustics (causticphotons is 0)");
   else if (needs(Feature::Caustics) && !CausticRaysFindAll(scene))
     add("the kernel's blur of caustics where they change within the search radius");
+  else if (needs(Feature::Caustics))
+    add("the kernel's blur of caustics if rays rarely find their lights");
   if (settings_.directWithPhotons)
     add("the blur of the direct map where light changes within the search radius");
   if (!settings_.finalGather && needs(Feature::Indirect))

@@ -11,6 +11,7 @@
 #include "core/transport/direct_lighting.h"
 #include "core/transport/integrator.h"
 #include "core/transport/specular/specular_tree.h"
+#include "integrators/photon/certificate/caustic_correction.h"
 #include "integrators/photon/certificate/exact_radiance.h"
 #include "integrators/photon/gather/final_gather.h"
 #include "integrators/photon/maps/photon_map_set.h"
@@ -63,11 +64,8 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   Spectrum Caustic(const ShadingPoint& point, LiContext& context) const;
   Spectrum Indirect(const ShadingPoint& point, LiContext& context) const;
   // Returns the light of a map that is seen directly, and corrects the blur of its kernel, unless
-  // CorrectCaustic does this.
+  // rays correct it.
   Spectrum Seen(PhotonKind kind, const ShadingPoint& point, LiContext& context) const;
-  // Corrects the caustic of the point with rays, for a random choice of points.
-  void CorrectCaustic(const ShadingPoint& point, const SurfaceLight& light,
-                      LiContext& context) const;
 
   // If the parameter "show" selects one map, Li is this instead: the light from that map, as the
   // term it belongs to, and no other light.
@@ -82,13 +80,12 @@ class PhotonIntegrator final : public SurfaceIntegrator {
   DirectLighting direct_;
   FinalGather gather_;
   PhotonGuide correctionGuide_;  // guides corrections even where it does not guide the gather
-  PhotonGuide causticGuide_;     // guides corrections of caustics, if rays can find them
-  bool tracesCaustics_ = false;  // whether they can; false: the kernel is corrected
   bool gathers_ = false;         // whether indirect light is gathered; false: read from its map
   // Samples the direct light that glossy lobes reflect where gather rays hit.
   std::unique_ptr<const LightSampler> lights_;
   PhotonMapSet maps_;
-  std::unique_ptr<RadiancePhotonMap> radianceMap_;  // null: no radiance photons
+  std::unique_ptr<const CausticCorrection> causticCorrection_;  // of the photons in maps_
+  std::unique_ptr<RadiancePhotonMap> radianceMap_;              // null: no radiance photons
 };
 
 }  // namespace exphoton

@@ -3,6 +3,7 @@
 // follow specular surfaces to the emission at their end. Half of them sample the BSDF, and half of
 // them cones about the directions of nearby caustic photons (balance heuristic). A ray can hit only
 // lights that have a size, so the estimate is unbiased if all lights of the scene have one.
+// It is noisy where rays rarely meet them (CausticCorrection).
 #pragma once
 
 #include "core/transport/integrator.h"

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/render/certificate/corrections.h"
 #include "tests/support/equivalence.h"
@@ -140,17 +141,18 @@ TEST(Corrections, EndBetweenSurfacesThatGainEnergy) {
 
 // A corner of two small squares, which see a ball of light only in a mirror behind the camera. A
 // screen is between them, and a black wall is behind them. `mirror` false: the ball is where its
-// mirror image would be.
-std::string MirroredLight(bool mirror) {
+// mirror image would be. The light is the same for all small radii of the ball.
+std::string MirroredLight(bool mirror, double radius = 1) {
   const auto quad = [](const std::string& corners) {
     return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" + corners +
            "]\n";
   };
-  const std::string z = mirror ? "4" : "-8";
+  const std::string z = mirror ? "4" : "-8", light = std::to_string(50 / (radius * radius));
   return "WorldBegin\nAttributeBegin\nTranslate 3.5 0 " + z +
-         "\nAreaLightSource \"area\" \"color L\" [50 50 50]\nMaterial \"matte\" \"color Kd\" [0 0 "
-         "0]\n"
-         "Shape \"sphere\" \"float radius\" [1]\nAttributeEnd\n"
+         "\nAreaLightSource \"area\" \"color L\" [" + light + " " + light + " " + light +
+         "]\nMaterial \"matte\" \"color Kd\" [0 0 0]\nShape \"sphere\" \"float radius\" [" +
+         std::to_string(radius) +
+         "]\nAttributeEnd\n"
          "Material \"matte\" \"color Kd\" [.9 .9 .9]\n" +
          quad("-.5 -.5 3 .5 -.5 3 .5 .5 3 -.5 .5 3") +
          quad("-.5 -.5 2 .5 -.5 2 .5 -.5 3 -.5 -.5 3") +
@@ -170,13 +172,14 @@ std::string SquaresHeader(const std::string& integrator, int samples) {
 
 // The searches for photons reach far beyond the squares, where there is no photon, so the picture
 // is too dark.
+const std::string kWideSearches =
+    Integrator("exphotonmap",
+               "\"integer causticphotons\" [2000] \"integer indirectphotons\" [2000] \"integer "
+               "maxphotonpaths\" [200000] \"integer nused\" [400] \"float maxdist\" [2] \"integer "
+               "finalgathersamples\" [8]");
+
 TEST(CorrectedCaustic, HasTheTrueMeanOnSmallSurfaces) {
-  const std::string photons = Integrator(
-      "exphotonmap",
-      "\"integer causticphotons\" [2000] \"integer indirectphotons\" [2000] \"integer "
-      "maxphotonpaths\" [200000] \"integer nused\" [400] \"float maxdist\" [2] \"integer "
-      "finalgathersamples\" [8]");
-  const std::string scene = SquaresHeader(photons, 64) + MirroredLight(true);
+  const std::string scene = SquaresHeader(kWideSearches, 64) + MirroredLight(true);
   const double truth =
       Render(SquaresHeader(Integrator("path", ""), 4096) + MirroredLight(false), 1).picture;
   const auto corrected = EstimateOverSeeds(
@@ -187,6 +190,21 @@ TEST(CorrectedCaustic, HasTheTrueMeanOnSmallSurfaces) {
       16);
   EXPECT_LT(Render(scene, 1).picture, .9 * truth) << "the bias is too small to test";
   EXPECT_TRUE(IsWithin(.02, corrected, truth));
+}
+
+// Rays nearly always miss so small a ball. Those that hit it would make corrections many times as
+// bright as the picture, so the kernel is corrected instead.
+TEST(CorrectedCaustic, HasLittleScatterIfRaysMissTheLight) {
+  const std::string scene = SquaresHeader(kWideSearches, 16) + MirroredLight(true, .02);
+  constexpr int kSeeds = 16;
+  std::vector<double> relative;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Means means = Render(scene, seed);
+    ASSERT_GT(means.picture, 0);
+    relative.push_back(means.correction / means.picture);
+  }
+  const auto [least, most] = std::ranges::minmax(relative);
+  EXPECT_LT(most - least, .5);
 }
 
 class CorrectedFurnace : public testing::TestWithParam<std::tuple<const char*, double>> {};
