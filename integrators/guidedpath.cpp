@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/plugin.h"
 #include "core/transport/path/path_tracer.h"
+#include "core/transport/path/unseen_light.h"
 #include "integrators/photon/gather/path_guide.h"
 #include "integrators/photon/photon_budget.h"
 #include "integrators/photon/photon_pass.h"
@@ -76,6 +77,9 @@ class GuidedPathIntegrator final : public SurfaceIntegrator {
   }
   AovSet Aovs() const override { return kLightAovs; }
   std::optional<int> EmissionDepth() const override { return 0; }
+  std::vector<std::string> UnseenLight(const Scene& scene) const override {
+    return UnseenByPaths(scene);
+  }
   FeatureSet ComputedFeatures() const override {
     return FeatureSet::All().Without(kPhotonMapFeatures);
   }

@@ -5,6 +5,7 @@
 // light only), as in pbrt-v1, which has the same default. Up to maxdepth the estimate is unbiased.
 #include "core/plugin.h"
 #include "core/transport/path/path_tracer.h"
+#include "core/transport/path/unseen_light.h"
 
 namespace exphoton {
 namespace {
@@ -32,6 +33,9 @@ class PathIntegrator final : public SurfaceIntegrator {
   }
   AovSet Aovs() const override { return kLightAovs; }
   std::optional<int> EmissionDepth() const override { return 0; }
+  std::vector<std::string> UnseenLight(const Scene& scene) const override {
+    return UnseenByPaths(scene);
+  }
   FeatureSet ComputedFeatures() const override {
     return FeatureSet::All().Without(kPhotonMapFeatures);
   }

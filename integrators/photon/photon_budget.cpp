@@ -7,9 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/transport/specular/caustic_lights.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/maps/radiance_photon_map.h"
-#include "integrators/photon/shooting/emission/caustic_lights.h"
 
 namespace exphoton {
 namespace {

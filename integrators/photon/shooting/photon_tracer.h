@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "core/transport/integrator.h"
+#include "core/transport/specular/caustic_lights.h"
+#include "core/transport/specular/specular_boxes.h"
 #include "integrators/photon/maps/photon.h"
 #include "integrators/photon/photon_settings.h"
 #include "integrators/photon/shooting/distant_light_targeting.h"
-#include "integrators/photon/shooting/emission/caustic_lights.h"
 #include "integrators/photon/shooting/media_photons.h"
 #include "integrators/photon/shooting/photon_rejection.h"
-#include "integrators/photon/shooting/specular_boxes.h"
 
 namespace exphoton {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check the bounding boxes of specular surfaces. No ray that hits such a surface may
 // miss the boxes. The caustic map must be the same if paths that miss the boxes are skipped.
-#include "integrators/photon/shooting/specular_boxes.h"
+#include "core/transport/specular/specular_boxes.h"
 
 #include <gtest/gtest.h>
 

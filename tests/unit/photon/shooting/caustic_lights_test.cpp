@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests prove that spots and one-sided area lights cannot reach specular surfaces, and
 // compare pictures with and without the proof.
-#include "integrators/photon/shooting/emission/caustic_lights.h"
+#include "core/transport/specular/caustic_lights.h"
 
 #include <gtest/gtest.h>
 

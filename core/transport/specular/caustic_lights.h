@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scene/scene.h"
-#include "integrators/photon/shooting/specular_boxes.h"
+#include "core/transport/specular/specular_boxes.h"
 
 namespace exphoton {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "integrators/photon/shooting/emission/caustic_lights.h"
+#include "core/transport/specular/caustic_lights.h"
 
 #include <algorithm>
 

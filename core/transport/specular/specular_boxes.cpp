@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SpecularBoxes splits the surfaces recursively at their median centre along the longest axis.
-#include "integrators/photon/shooting/specular_boxes.h"
+#include "core/transport/specular/specular_boxes.h"
 
 #include <algorithm>
 #include <span>
