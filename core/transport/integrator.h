@@ -177,6 +177,12 @@ class SurfaceIntegrator {
     (void)scene;
     return std::nullopt;
   }
+  // Returns phrases for light that Li never finds, however many samples there are, such as
+  // "caustics of a light without a size".
+  virtual std::vector<std::string> UnseenLight(const Scene& scene) const {
+    (void)scene;
+    return {};
+  }
   // Returns whether Li fills LiContext::signedLight.
   virtual bool FillsSignedLight() const { return false; }
   // Returns the radiance along the camera ray.

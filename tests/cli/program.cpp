@@ -67,4 +67,22 @@ std::string SmallRoom() {
          "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n";
 }
 
+std::string RoomWithAHiddenLamp() {
+  return "Film \"image\" \"integer xresolution\" 96 \"integer yresolution\" 72\n"
+         "Camera \"perspective\" \"float fov\" 60\nPixelFilter \"box\"\n"
+         "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 400000\n"
+         "\"integer causticphotons\" 5000 \"integer maxphotonpaths\" 2000000\nWorldBegin\n"
+         "Material \"matte\" \"color Kd\" [0 0 0]\n"
+         "AttributeBegin AreaLightSource \"area\" \"color L\" [600 600 600]\n"
+         "Translate 0 0 -3.5 Shape \"sphere\" \"float radius\" .1 AttributeEnd\n"
+         "Shape \"cylinder\" \"float radius\" .3 \"float zmin\" -4.5 \"float zmax\" -3\n"
+         "AttributeBegin Translate 0 0 -3 Shape \"disk\" \"float radius\" .3 AttributeEnd\n"
+         "Material \"mirror\" \"color Kr\" [1 1 1]\n"
+         "AttributeBegin Translate 0 0 -5.2 Shape \"disk\" \"float radius\" .9 AttributeEnd\n"
+         "Material \"matte\" \"color Kd\" [.3 .3 .3]\n"
+         "AttributeBegin AreaLightSource \"area\" \"color L\" [5 5 5]\n"
+         "Translate 0 3 4 Shape \"sphere\" AttributeEnd\n"
+         "ReverseOrientation Shape \"sphere\" \"float radius\" 6\nWorldEnd\n";
+}
+
 }  // namespace exphoton

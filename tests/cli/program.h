@@ -47,5 +47,8 @@ std::string SmallScene(const std::string& options = "", const std::string& world
 
 // Returns a closed round room with a lamp and a ball, for exphotonmap, of 24 x 16 pixels.
 std::string SmallRoom();
+// A room in which few paths from the camera meet a lamp that only a mirror behind it shows. The
+// lamp has 4 % of the light, so that pilots of path miss it, and a picture meets it.
+std::string RoomWithAHiddenLamp();
 
 }  // namespace exphoton

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "core/app/budget/setting_renders.h"
 
-#include "core/app/dial/counted_cost.h"
+#include "core/app/dial/pilots/counted_cost.h"
 #include "core/app/process/signals.h"
 
 namespace exphoton::cli {

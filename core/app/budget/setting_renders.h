@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/app/budget/pair_products.h"
-#include "core/app/dial/small_scene.h"
+#include "core/app/dial/pilots/small_scene.h"
 #include "core/base/statistics.h"
 #include "core/render/certificate/corrections.h"
 

@@ -74,6 +74,7 @@ class FileRenderer {
       if (setup != setups.front()) watch_.Restart();
       while (!RenderOne(*setup)) {
         watch_.MustFinish() = false;
+        setup.reset();  // it refers to objects of the pilots
         setup = std::move(Load(path).front());
       }
       begin_.reset();
@@ -205,9 +206,12 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   return true;
 }
 
-// Returns whether the picture begins again with more photons, because its bias is too large.
+// Returns whether the picture begins again: with more photons, because its bias is too large, or
+// with another choice, because of its noise.
 bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& keeper) {
-  if (result.reason != StopReason::Bias || !RaisePhotons(result.looks, &command_, log_))
+  if (result.reason == StopReason::Price)
+    loader_.GiveUp(result.leastSamples, result.looks);
+  else if (result.reason != StopReason::Bias || !RaisePhotons(result.looks, &command_, log_))
     return false;
   attempt_ = keeper.ThisAttempt();
   return true;
@@ -220,6 +224,7 @@ RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& st
   run.seed = command_.seed;
   run.footprintSamples = command_.footprintSamples;
   run.aovs = AovNames(command_);
+  if (command_.accuracy) run.unseen = setup.integrator->UnseenLight(*setup.scene);
   return run;
 }
 
@@ -279,6 +284,10 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->accuracy = command_.accuracy;
   run->pilots = loader_.Pilots();
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
+  for (const std::string& light : run->unseen)
+    log_.Warning("the error does not contain " + light + ", which integrator \"" +
+                     run->scene.integrator + "\" never finds",
+                 {}, "--integrator exphotonmap finds this light");
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }
 

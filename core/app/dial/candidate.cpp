@@ -12,6 +12,7 @@
 namespace exphoton::cli {
 namespace {
 
+constexpr const char* kDearBias = "its bias needs too many photons";
 constexpr int kGroups = 2;          // of passes, at least
 constexpr double kNoiseShare = .9;  // of what the bias leaves; the rest is for the interval
 constexpr double kBiasShares[] = {.06, .125, .25, .5};  // of the wanted relMSE; see AccuracyRule
@@ -58,6 +59,8 @@ Explorer::Explorer(PilotRenderer* pilots, const std::string& integrator, int gat
       series_(pilots, integrator, gatherRays, PilotSeries::Unit::CountedCost),
       wish_(wish) {
   candidate_.integrator = integrator;
+  for (const GivenUp& picture : wish.givenUp)
+    if (picture.integrator == integrator) leastSamples_ = picture.samples;
 }
 
 // An integrator that cannot render the scene has no price.
@@ -75,8 +78,24 @@ void Explorer::Begin(double most) {
   Guarded([&] {
     isRough_ = RenderRough(most);
     if (!isRough_) series_.Render();
+    TakeLight();
     if (candidate_.reason.empty()) TakePrice();
   });
+}
+
+// Takes over the light of the last pilot.
+void Explorer::TakeLight() {
+  candidate_.mean = {candidate_.integrator, series_.Last().light};
+  candidate_.isRough = isRough_;
+  const std::vector<std::string>& unseen = series_.Last().unseen;
+  if (wish_.mayMissLight || unseen.empty()) return;
+  candidate_.reason = "never finds " + unseen.front();
+  candidate_.leastPrice = 0;
+}
+
+void Explorer::SettleLight() {
+  if (candidate_.reason == kDearBias) candidate_.reason.clear();
+  Settle(kNoPrice);
 }
 
 // Returns whether there is a rough pilot. If it is cut off, and the photons of the picture would
@@ -103,7 +122,8 @@ void Explorer::Settle(double most) {
     if (likely) series_.UsePhotons(likely->price.photons);
     isRough_ = false;
     series_.Render();
-    TakePrice();
+    TakeLight();
+    if (candidate_.reason.empty()) TakePrice();
   });
 }
 
@@ -152,6 +172,10 @@ std::optional<Explorer::Split> Explorer::CheapestSplit() const {
     std::optional<Price> price =
         PriceOf(model, {wish_.error * std::sqrt(left), kGroups, !wish_.keepsPhotons});
     if (!price) continue;
+    const double more = std::max(leastSamples_ - price->samples, 0.);
+    price->samples += more;
+    for (double* cost : {&price->seconds, &price->least, &price->most})
+      *cost += more * model.sample;
     if (hasBias) {
       const double extra = certificate.correction * certificate.Corrections(share * Wanted());
       price->seconds += extra, price->least += extra;
@@ -164,15 +188,13 @@ std::optional<Explorer::Split> Explorer::CheapestSplit() const {
 void Explorer::TakePrice() {
   const std::optional<Split> split = CheapestSplit();
   if (!split) {
-    candidate_.reason = "its bias needs too many photons";
+    candidate_.reason = kDearBias;
     return;
   }
   const PriceModel& model = series_.Model();
   candidate_.price = split->price;
   candidate_.settings = series_.Settings();
   candidate_.settings.photons = split->price.photons;
-  candidate_.isRough = isRough_;
-  candidate_.mean = {candidate_.integrator, series_.Last().light};
   candidate_.secondsPerCost = series_.SecondsPerPrice();
   candidate_.parts = series_.Last().parts;
   candidate_.biasShare = split->biasShare;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/app/dial/pilot_series.h"
+#include "core/app/dial/pilots/pilot_series.h"
 #include "core/app/quote/missing_light.h"
 
 namespace exphoton::cli {
@@ -51,8 +51,10 @@ bool MayGuidingWin(const std::vector<Candidate>& others);
 struct Wish {
   double error = 0;           // root of relMSE
   bool keepsPhotons = false;  // the number of photons must be the scene's
+  bool mayMissLight = false;  // also an integrator that never finds some light has a price
   // Returns the effects that a candidate may leave out, and changes its price. Null: none.
   std::function<std::vector<OmittedEffect>(Candidate*)> findOmissions{};
+  std::vector<GivenUp> givenUp{};  // pictures of the same scene
 };
 
 class Explorer {
@@ -65,6 +67,8 @@ class Explorer {
   void Begin(double most = kNoPrice);
   // Replaces a rough price where it may become the lowest one.
   void Settle(double most);
+  // Renders a pilot of full size to know the light, whatever it costs, also if there is no price.
+  void SettleLight();
   // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
   // Returns whether they were sought.
   bool FindOmissions(double most);
@@ -83,6 +87,7 @@ class Explorer {
   };
 
   bool RenderRough(double most);
+  void TakeLight();
   template <class Step>
   void Guarded(const Step& step);
   double Wanted() const { return wish_.error * wish_.error; }
@@ -100,7 +105,8 @@ class Explorer {
   PilotSeries series_;
   Wish wish_;
   bool isRough_ = false;
-  double gain_ = 1;  // divides the noise of the model
+  double gain_ = 1;          // divides the noise of the model
+  double leastSamples_ = 0;  // that a picture which was given up needs
   Candidate candidate_;
 };
 

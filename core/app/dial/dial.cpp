@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/app/analysis/numbers.h"
-#include "core/app/dial/candidate.h"
+#include "core/app/dial/exploration.h"
 #include "core/app/dial/omissions.h"
 #include "core/base/error.h"
 #include "core/base/format.h"
@@ -16,149 +16,29 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr const char* kGuided = "guidedpath";
-constexpr const char* kKnown[] = {"path", kGuided, "exphotonmap", "photonmap"};
+constexpr const char* kKnown[] = {"path", kGuidedPath, "exphotonmap", "photonmap"};
 // In this order: pilots of the first one cost least, and the first two show whether the last one
 // may be the cheapest. photonmap was never the cheapest one.
-constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuided};
+constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuidedPath};
 
 constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
 constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
 constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
 constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
 constexpr double kMorePhotons = 4, kMostPhotons = 256;
-constexpr double kNotableRatio = 1.1;      // of times
-constexpr double kNotableOmission = .005;  // root of relMSE
-constexpr double kFirstShare = .25;        // of a time limit, for the first group of passes
-constexpr double kGroupShare = .1;         // of the price, for photons of more groups
-constexpr double kCheapGroups = 3;         // number of groups that this pays for
-constexpr double kSharing = 4;             // samples of a group that shares gathers, at least
-// Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
-// rays would make the bias of sharing uncertain.
-constexpr int kGatherRays = 16;
+constexpr double kNotableRatio = 1.1;  // of times
+constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
+constexpr double kGroupShare = .1;     // of the price, for photons of more groups
+constexpr double kCheapGroups = 3;     // number of groups that this pays for
+constexpr double kSharing = 4;         // samples of a group that shares gathers, at least
+// The price of a candidate whose rough pilot was cut off is about this many times its least price.
+constexpr double kLikelyPrice = 4;
 
 std::vector<std::string> NamesOf(const RenderCommand& command, const std::string& sceneIntegrator) {
   if (command.load.integrator) return {*command.load.integrator};
   if (!command.keepsSettings) return {std::begin(kAutomatic), std::end(kAutomatic)};
   CheckDialIntegrator(sceneIntegrator);
   return {sceneIntegrator};
-}
-
-// A candidate that does not find all light has no price. The means of rough pilots say little, and
-// so do those of pilots that lack much light on purpose.
-void DropDarkOnes(std::vector<Candidate>* candidates) {
-  std::vector<PilotMean> means;
-  for (const Candidate& candidate : *candidates)
-    if (!candidate.isRough && candidate.mean.light.mean > 0) means.push_back(candidate.mean);
-  for (Candidate& candidate : *candidates)
-    if (!candidate.isRough && candidate.reason.empty() && !means.empty() &&
-        BoundOf(candidate.omitted) < kNotableOmission)
-      candidate.reason = MissingLight(candidate.mean, means);
-}
-
-// Returns the rays as in DialSettings. Sharing is the reason for more rays than the scene has.
-int GatherRaysFor(const std::string& integrator, const PilotRenderer& pilots) {
-  const int rays = pilots.SceneGatherRays();
-  const bool keepsFew = rays > 0 && rays <= kGatherRays && !pilots.SceneSharesGathers();
-  return ReadsPhotonMaps(integrator) && rays != kGatherRays && !keepsFew ? kGatherRays : 0;
-}
-
-bool IsCheaper(const Explorer& a, const Explorer& b) {
-  return a.Result().KnownPrice() < b.Result().KnownPrice();
-}
-
-bool HasRivals(const Explorer& explorer, const std::vector<Explorer>& all) {
-  return std::ranges::any_of(all, [&](const Explorer& other) {
-    return &other != &explorer && explorer.Result().IsRivalOf(other.Result());
-  });
-}
-
-std::vector<Candidate> LikelyResults(const std::vector<Explorer>& explorers) {
-  std::vector<Candidate> results;
-  for (const Explorer& explorer : explorers) results.push_back(explorer.LikelyResult());
-  return results;
-}
-
-// Explores candidates that have a first price, where the lowest price of others is `most`. The
-// cheapest one comes first in each round.
-std::vector<Candidate> Explore(std::vector<Explorer>* explorers, double most) {
-  const auto best = [&] {
-    return std::min(most, std::ranges::min_element(*explorers, IsCheaper)->Result().KnownPrice());
-  };
-  std::ranges::stable_sort(*explorers, IsCheaper);
-  for (Explorer& explorer : *explorers)
-    if (explorer.FindOmissions(best())) break;
-  for (Explorer& explorer : *explorers) explorer.Settle(best());
-  std::ranges::stable_sort(*explorers, IsCheaper);
-  std::vector<Candidate> candidates;
-  for (Explorer& explorer : *explorers) {
-    explorer.Refine(best(), HasRivals(explorer, *explorers));
-    candidates.push_back(explorer.Result());
-  }
-  return candidates;
-}
-
-double LowestPrice(const std::vector<Candidate>& candidates) {
-  double lowest = kNoPrice;
-  for (const Candidate& candidate : candidates) lowest = std::min(lowest, candidate.KnownPrice());
-  return lowest;
-}
-
-// Returns whether a candidate without a first price may still be the cheapest.
-bool MayWin(const Candidate& leftOut, const std::vector<Candidate>& others) {
-  if (leftOut.leastPrice > 0) return leftOut.leastPrice < LowestPrice(others);
-  return MayGuidingWin(others);
-}
-
-Explorer MakeExplorer(PilotRenderer* pilots, const std::string& name, const Wish& wish) {
-  return {pilots, name, wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots), wish};
-}
-
-// Returns the explorers of candidates with a first price. The others go to `leftOut`: those whose
-// photons cost more than an earlier candidate, and guidedpath where it cannot be the cheapest.
-std::vector<Explorer> BeginAll(PilotRenderer* pilots, const std::vector<std::string>& names,
-                               const Wish& wish, std::vector<Candidate>* leftOut) {
-  std::vector<Explorer> explorers;
-  for (const std::string& name : names) {
-    if (name == kGuided && !MayGuidingWin(LikelyResults(explorers))) {
-      Candidate guided;
-      guided.integrator = kGuided;
-      guided.reason = "no pilot, because path costs far more";
-      leftOut->push_back(guided);
-      continue;
-    }
-    double most = kNoPrice;
-    for (const Explorer& other : explorers) most = std::min(most, other.Result().KnownPrice());
-    Explorer explorer = MakeExplorer(pilots, name, wish);
-    explorer.Begin(most);
-    if (explorer.Result().leastPrice > 0)
-      leftOut->push_back(explorer.Result());
-    else
-      explorers.push_back(std::move(explorer));
-  }
-  return explorers;
-}
-
-// First prices of all candidates come before any of them is explored further, so that a dear one
-// gets small pilots only. Candidates that were left out are explored if the others turn out to cost
-// more.
-std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
-                                  const Wish& wish) {
-  std::vector<Candidate> leftOut;
-  std::vector<Explorer> explorers = BeginAll(pilots, names, wish, &leftOut);
-  std::vector<Candidate> candidates = Explore(&explorers, kNoPrice);
-  if (candidates.size() > 1) DropDarkOnes(&candidates);
-  for (const Candidate& candidate : leftOut) {
-    if (!MayWin(candidate, candidates)) {
-      candidates.push_back(candidate);
-      continue;
-    }
-    std::vector<Explorer> late{MakeExplorer(pilots, candidate.integrator, wish)};
-    late.front().Begin();
-    candidates.push_back(Explore(&late, LowestPrice(candidates)).front());
-    DropDarkOnes(&candidates);
-  }
-  return candidates;
 }
 
 const Candidate& CheapestOf(const std::vector<Candidate>& candidates, const std::string& accuracy) {
@@ -212,9 +92,24 @@ std::string ReasonText(const std::vector<Candidate>& candidates, const Candidate
   return text;
 }
 
+// Returns the lowest price of other candidates, in samples per pixel of the chosen one. An
+// integrator that was given up once stays if it is chosen again.
+double RivalSamples(const std::vector<Candidate>& candidates, const Candidate& chosen,
+                    const std::vector<GivenUp>& given) {
+  const auto isChosen = [&](const GivenUp& one) { return one.integrator == chosen.integrator; };
+  if (std::ranges::any_of(given, isChosen)) return kNoPrice;
+  double price = kNoPrice;
+  for (const Candidate& other : candidates) {
+    if (other.integrator == chosen.integrator) continue;
+    price = std::min(price,
+                     other.leastPrice > 0 ? kLikelyPrice * other.leastPrice : other.KnownPrice());
+  }
+  return price / chosen.priceOfSample;
+}
+
 // Compares the settings that --keep keeps with those that would be chosen without it.
 std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wish) {
-  wish.keepsPhotons = false;
+  wish.keepsPhotons = wish.mayMissLight = false;
   wish.findOmissions = nullptr;
   std::vector<std::string> names(std::begin(kAutomatic), std::end(kAutomatic));
   const Candidate* best = nullptr;
@@ -313,21 +208,26 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
       command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
-  const Wish wish{*command.accuracy, command.keepsSettings, [&](Candidate* candidate) {
-                    return FindOmissions(command, &pilots, candidate, log);
-                  }};
+  const Wish wish{
+      *command.accuracy, command.keepsSettings, names.size() == 1,
+      [&](Candidate* candidate) { return FindOmissions(command, &pilots, candidate, log); },
+      command.givenUp};
   const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
   Candidate chosen = CheapestOf(candidates, accuracy);
   if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
-  turned->dial = DialChoice{FirstSamples(chosen, command),
-                            chosen.biasShare,
-                            chosen.photonSamples,
-                            chosen.settings,
-                            chosen.omitted,
-                            ChoiceText(pilots, chosen),
-                            chosen.price.samples,
-                            !command.keepsSettings && MayRaisePhotons(chosen.settings)};
+  const std::vector<GivenUp>& given = command.givenUp;
+  turned->dial =
+      DialChoice{.firstSamples = FirstSamples(chosen, command),
+                 .biasShare = chosen.biasShare,
+                 .photonSamples = chosen.photonSamples,
+                 .settings = chosen.settings,
+                 .omitted = chosen.omitted,
+                 .text = ChoiceText(pilots, chosen),
+                 .expectedSamples = chosen.price.samples,
+                 .mayRaisePhotons = !command.keepsSettings && MayRaisePhotons(chosen.settings),
+                 .earlierLooks = given.empty() ? 0 : given.back().looks,
+                 .rivalSamples = RivalSamples(candidates, chosen, given)};
   Apply(chosen.settings, turned);
   SetFirstSamples(turned->dial->firstSamples, turned);
   turned->certifies = chosen.correctedShare > 0;

@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 
-#include "core/app/dial/counted_cost.h"
 #include "core/app/dial/omission_bound.h"
-#include "core/app/dial/pilot.h"
+#include "core/app/dial/pilots/counted_cost.h"
+#include "core/app/dial/pilots/pilot.h"
 #include "core/base/format.h"
 #include "core/scene/required_features.h"
 

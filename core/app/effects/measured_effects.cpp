@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/app/dial/small_scene.h"
+#include "core/app/dial/pilots/small_scene.h"
 #include "core/app/output/picture.h"
 #include "core/app/process/signals.h"
 #include "core/base/format.h"

@@ -15,12 +15,21 @@ namespace exphoton::cli {
 namespace {
 
 constexpr const char* kPhotons = "the factor of photons for --accuracy";
+constexpr const char* kGivenUp = "the picture that --accuracy gave up";
 constexpr const char* kFirstSamples = "the samples of a group for --accuracy";
 
 // As few digits as give the same number.
 std::string Text(double value) {
   char text[32];
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+// Returns false if the text is no number.
+template <class Number>
+bool ReadNumber(const std::string& text, Number* value) {
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, *value);
+  return error == std::errc() && at == end;
 }
 
 std::string Text(const PixelBounds& bounds) {
@@ -88,6 +97,8 @@ void StateIdentity::AddAccuracy(const RenderCommand& command) {
   Add("the effects that --accuracy leaves out", omitted);
   Add("the price of photons for --accuracy", Text(dial.photonSamples));
   Add("the share of the bias for --accuracy", Text(dial.biasShare));
+  for (const GivenUp& picture : command.givenUp)
+    Add(kGivenUp, picture.integrator + " " + Text(picture.samples));
   Add(kPhotons, Text(dial.settings.photons));
   Add(kFirstSamples, std::to_string(dial.firstSamples));
 }
@@ -95,14 +106,15 @@ void StateIdentity::AddAccuracy(const RenderCommand& command) {
 std::optional<LaterChoice> StateIdentity::Choice() const {
   LaterChoice choice;
   int found = 0;
-  const auto read = [&found](const std::string& text, auto* value) {
-    const char* const end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data(), end, *value);
-    found += error == std::errc() && at == end ? 1 : 0;
-  };
   for (const Setting& setting : settings_) {
-    if (setting.name == kPhotons) read(setting.value, &choice.photons);
-    if (setting.name == kFirstSamples) read(setting.value, &choice.firstSamples);
+    if (setting.name == kPhotons) found += ReadNumber(setting.value, &choice.photons);
+    if (setting.name == kFirstSamples) found += ReadNumber(setting.value, &choice.firstSamples);
+    if (setting.name != kGivenUp) continue;
+    const std::size_t space = setting.value.find(' ');
+    if (space == std::string::npos) return std::nullopt;
+    GivenUp& picture = choice.givenUp.emplace_back();
+    picture.integrator = setting.value.substr(0, space);
+    if (!ReadNumber(setting.value.substr(space + 1), &picture.samples)) return std::nullopt;
   }
   return found == 2 ? std::optional(choice) : std::nullopt;
 }

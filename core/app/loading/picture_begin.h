@@ -25,13 +25,15 @@ struct Begin {
   double pilotWall = 0, pilotCpu = 0, loadWall = 0, loadCpu = 0;
 
   double Wall() const { return ElapsedSince(wall); }
-  // The pilots of --accuracy come before loading.
-  void EndPilots() { pilotWall = Wall(), pilotCpu = ProcessCpuSeconds() - cpu; }
+  double Cpu() const { return ProcessCpuSeconds() - cpu; }
+  // The pilots of --accuracy come before loading. Later ones may follow a picture that is given up.
+  void BeginPilots() { pilotWall -= Wall(), pilotCpu -= Cpu(); }
+  void EndPilots() { pilotWall += Wall(), pilotCpu += Cpu(); }
   // Loading again, for more photons, is no part of it.
   void EndLoading() {
     if (loadWall > 0) return;
     loadWall = Wall() - pilotWall;
-    loadCpu = ProcessCpuSeconds() - cpu - pilotCpu;
+    loadCpu = Cpu() - pilotCpu;
   }
   // Loading the scene file counts towards its first picture.
   void AddLoadingTimes(const RenderSetup& setup, Statistics* statistics) const {

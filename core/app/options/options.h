@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ namespace exphoton::cli {
 
 enum class RenderMode { Render, Check, Explain };
 
+// A picture for an accuracy that was given up, because it had more noise than its pilots suggested.
+struct GivenUp {
+  std::string integrator;
+  double samples = 0;  // per pixel, that the accuracy needs at least
+  int looks = 0;       // at pictures that were given up
+};
+
 // What --accuracy chose for a scene, beyond the options of the command.
 struct DialChoice {
   std::int64_t firstSamples = 1;  // as in StoppingRule::Accuracy
@@ -35,13 +43,15 @@ struct DialChoice {
   double expectedSamples = 0;  // as in StoppingRule::Accuracy
   // Whether the picture may begin again with more photons.
   bool mayRaisePhotons = false;
-  int earlierLooks = 0;  // as in StoppingRule::Accuracy
+  int earlierLooks = 0;                                           // as in StoppingRule::Accuracy
+  double rivalSamples = std::numeric_limits<double>::infinity();  // the same
 };
 
 // What a render for an accuracy has chosen after its pilots, or by a clock.
 struct LaterChoice {
   std::int64_t firstSamples = 1;  // as in DialChoice
   double photons = 1;             // as in DialSettings
+  std::vector<GivenUp> givenUp;
 };
 
 struct RenderCommand {
@@ -62,6 +72,7 @@ struct RenderCommand {
   std::optional<double> accuracy;    // --accuracy: root of relMSE
   bool keepsSettings = false;        // --keep
   std::optional<DialChoice> dial;    // of --accuracy
+  std::vector<GivenUp> givenUp;      // by --accuracy
   bool isProgressive = false;        // --progressive
   double progressiveAlpha = kProgressiveAlpha;
   std::optional<Shard> shard;        // --shard: outfile is a folder

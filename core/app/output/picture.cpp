@@ -12,6 +12,24 @@ namespace {
 
 constexpr const char* kHalfNames[2] = {"half1", "half2"};
 
+// The picture may begin again unless time is limited.
+StoppingRule::Accuracy RuleOf(double error, const RenderCommand& command) {
+  const DialChoice& dial = *command.dial;
+  StoppingRule::Accuracy accuracy;
+  accuracy.error = error;
+  accuracy.firstSamples = dial.firstSamples;
+  accuracy.biasShare = dial.biasShare;
+  accuracy.photonSamples = dial.photonSamples;
+  accuracy.omitted = BoundOf(dial.omitted);
+  accuracy.mayStopSharing = !command.keepsSettings;
+  accuracy.expectedSamples = dial.expectedSamples;
+  accuracy.earlierLooks = dial.earlierLooks;
+  if (command.timeLimit) return accuracy;
+  accuracy.stopsForLikelyBias = dial.mayRaisePhotons;
+  accuracy.rivalSamples = dial.rivalSamples;
+  return accuracy;
+}
+
 PassesResult RenderFixed(const RenderJob& job, const RenderOptions& options) {
   PassesResult result;
   result.render = Render(job, options);
@@ -84,16 +102,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
         command.maxPasses > 0 ? rule.passSamples * command.maxPasses : StoppingRule::kMaxSamples;
   }
   if (command.isProgressive) rule.progressiveAlpha = command.progressiveAlpha;
-  if (command.accuracy)
-    rule.accuracy = StoppingRule::Accuracy{*command.accuracy,
-                                           command.dial->firstSamples,
-                                           command.dial->biasShare,
-                                           command.dial->photonSamples,
-                                           BoundOf(command.dial->omitted),
-                                           !command.keepsSettings,
-                                           command.dial->expectedSamples,
-                                           command.dial->mayRaisePhotons && !command.timeLimit,
-                                           command.dial->earlierLooks};
+  if (command.accuracy) rule.accuracy = RuleOf(*command.accuracy, command);
   return RenderInPasses(job, options, rule);
 }
 

@@ -241,6 +241,8 @@ std::string ExplainText(const RenderSetup& setup) {
     plugins += (i ? ", " : ": ") + setup.plugins[i];
   std::string computed;
   for (const std::string& line : setup.integrator->Explain(*setup.scene)) computed += line + "\n";
+  for (const std::string& light : setup.integrator->UnseenLight(*setup.scene))
+    computed += Row("unseen", light + ", which this integrator never finds");
   return Row("scene", setup.sceneName) + Row("hash", HashText(setup.sceneHash)) +
          Row("integrator", setup.integratorName) + Row("sampler", setup.samplerName) +
          Row("samples", std::to_string(setup.sampler->SamplesPerPixel()) + " a pixel") +

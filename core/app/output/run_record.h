@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/app/dial/counted_cost.h"
 #include "core/app/dial/omitted_effect.h"
+#include "core/app/dial/pilots/counted_cost.h"
 #include "core/app/shards/scene_record.h"
 #include "core/base/statistics.h"
 #include "core/imaging/image.h"
@@ -51,6 +51,7 @@ struct RunRecord {
   std::optional<double> upperError;    // relMSE; the upper end of its interval (AccuracyRule)
   std::string choice;                  // what --accuracy chose
   std::vector<OmittedEffect> omitted;  // what it left out
+  std::vector<std::string> unseen;     // light that the error does not contain
   std::optional<PilotWork> pilots;     // what its pilots traced and stored
   std::optional<double> lastDiskArea;  // of the last progressive pass, relative to the first
   std::string aovs;                    // "albedo, N"

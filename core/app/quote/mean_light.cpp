@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/app/dial/small_scene.h"
+#include "core/app/dial/pilots/small_scene.h"
 
 namespace exphoton::cli {
 namespace {

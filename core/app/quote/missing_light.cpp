@@ -10,9 +10,6 @@
 namespace exphoton::cli {
 namespace {
 
-// The chance that noise lies four standard errors from 0.
-constexpr double kChance = 6.3e-5;
-constexpr double kLeastMissing = .02;
 constexpr double kMostFreedom = 1e6;
 
 // Degrees of freedom of the difference of two means (Welch 1947).
@@ -25,15 +22,16 @@ double FreedomOf(const MeanLight& a, const MeanLight& b) {
 
 }  // namespace
 
-std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all) {
+std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all,
+                         const LightTest& test) {
   const PilotMean& brightest =
       *std::ranges::max_element(all, {}, [](const PilotMean& pilot) { return pilot.light.mean; });
   const double missing = 1 - mean.light.mean / brightest.light.mean;
-  if (!(missing > kLeastMissing)) return "";
+  if (!(missing > test.leastMissing)) return "";
   const double noise = std::hypot(mean.light.relativeError, brightest.light.relativeError);
   const double freedom = FreedomOf(mean.light, brightest.light);
-  const double t = (missing - kLeastMissing) / noise;
-  if (noise > 0 && !(StudentTail(t, std::min(freedom, kMostFreedom)) < kChance)) return "";
+  const double t = (missing - test.leastMissing) / noise;
+  if (noise > 0 && !(StudentTail(t, std::min(freedom, kMostFreedom)) < test.mostChance)) return "";
   return Format("finds %.3g %% less light than ", 100 * missing) + brightest.integrator;
 }
 

@@ -15,8 +15,16 @@ struct PilotMean {
   MeanLight light;  // of the pilot's picture
 };
 
-// Returns a phrase if the mean lies below the largest one by more than the noise of both; otherwise
-// "". `all` contains `mean`.
-std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all);
+// What shows that light is missing.
+struct LightTest {
+  double leastMissing = .02;  // share of the light
+  // That noise alone explains it: what lies four standard errors from 0.
+  double mostChance = 6.3e-5;
+};
+
+// Returns a phrase if the mean lies below the largest one by more than the test allows and noise
+// explains; otherwise "". `all` contains `mean`.
+std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all,
+                         const LightTest& test = {});
 
 }  // namespace exphoton::cli

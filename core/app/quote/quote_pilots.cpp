@@ -42,6 +42,7 @@ Quote RunPilots(PilotRenderer* renderer, const std::string& integrator, double c
   quote.model = series.Model();
   quote.settings = series.Settings();
   quote.light = last.light;
+  if (!last.unseen.empty()) quote.failure = "never finds " + last.unseen.front();
   quote.memory = PeakMemoryBytes() + kPixelMemory * (renderer->Pixels() - last.pixels);
   if (last.certificate) quote.notCovered = last.certificate->notCovered;
   return quote;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/app/dial/pilot_series.h"
+#include "core/app/dial/pilots/pilot_series.h"
 #include "core/app/quote/mean_light.h"
 
 namespace exphoton::cli {

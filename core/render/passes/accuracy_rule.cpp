@@ -101,15 +101,18 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   const double sharing = isShared ? std::max(certificate->sharing->squared, 0.) : 0;
   likelyGrowth_ =
       GrowthUntil({estimate.noise - fixed + normal, sharing, fixed + bias - sharing}, room_);
+  const double leastNoise = std::max(estimate.noise - estimate.noiseError - fixed, 0.);
+  leastGrowth_ = IsOutOfReach() ? 1 : GrowthUntil({leastNoise, 0, fixed}, room_ - lowerBias_);
 }
 
 void AccuracyRule::Transfer(ByteArchive* archive) {
   constexpr int kMostLooks = 1 << 30;
   archive->Values(&looks_, &upper_, &bias_, &lowerBias_, &growth_, &likelyGrowth_);
-  archive->Values(&mapBias_, &lowerMapBias_);
+  archive->Values(&mapBias_, &lowerMapBias_, &leastGrowth_);
   const bool isPossible = looks_ >= 0 && looks_ <= kMostLooks && upper_ >= 0 && bias_ >= 0 &&
                           lowerBias_ >= 0 && growth_ >= 0 && likelyGrowth_ >= 0 &&
-                          std::isfinite(mapBias_) && std::isfinite(lowerMapBias_);
+                          leastGrowth_ >= 0 && std::isfinite(mapBias_) &&
+                          std::isfinite(lowerMapBias_);
   if (!isPossible) throw ArchiveError("its looks at the error are impossible");
 }
 

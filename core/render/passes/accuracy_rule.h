@@ -73,6 +73,14 @@ class AccuracyRule {
   // again lower the fixed noise. This mean exponent is good for planning the next look. It does not
   // show whether to share, because the exponents of scenes differ.
   double LikelyGrowth() const { return likelyGrowth_; }
+  // The same if the noise is one standard error lower than estimated, and the bias as low as its
+  // interval allows.
+  double LeastGrowth() const { return leastGrowth_; }
+  // Returns whether the picture of the last look, with this number of samples, costs far more than
+  // a rival for this number, even with the least growth.
+  bool IsDearerThan(double rivalSamples, double samples) const {
+    return samples * (leastGrowth_ - 1) > kDearer * rivalSamples;
+  }
 
   // Returns whether there is a result. Looks at an earlier render have none.
   bool HasLooked() const { return upper_ < std::numeric_limits<double>::infinity(); }
@@ -87,13 +95,14 @@ class AccuracyRule {
   // know the bias inside blocks, so the bias of blocks may not take the whole room.
   static constexpr double kMostMapBias = .25, kSureMapBias = .125;
   static constexpr double kFarGrowth = 2;  // the picture needs as many samples again, at least
+  static constexpr double kDearer = 2;     // the rival's price comes from small pilots
 
   double wanted_, room_, biasShare_;  // relMSE; without and with omissions
   double omitted_;
   int looks_ = 0;
   double upper_ = std::numeric_limits<double>::infinity();  // before the first look
   double bias_ = 0, lowerBias_ = 0, mapBias_ = 0, lowerMapBias_ = 0;
-  double growth_ = 1, likelyGrowth_ = 1;
+  double growth_ = 1, likelyGrowth_ = 1, leastGrowth_ = 1;
 };
 
 }  // namespace exphoton

@@ -51,6 +51,7 @@ ErrorWatch::ErrorWatch(const Picture& picture,
   rule_->CountLooks(accuracy->earlierLooks);
   mayStopSharing_ = accuracy->mayStopSharing;
   stopsForLikelyBias_ = accuracy->stopsForLikelyBias;
+  rivalSamples_ = accuracy->rivalSamples;
   if (unshared_)
     joint_ =
         std::make_unique<JointWindows>(picture.job.film, picture.parts->Aovs(),
@@ -142,7 +143,10 @@ void ErrorWatch::Look(const NoiseOfPhotons& noise) {
   if (unshared_ && mayStopSharing_ && !rule_->IsReached() && certificate && certificate->sharing &&
       MayBeBetterUnshared(*certificate->sharing))
     LookWithoutSharing(noise);
-  neededSamples_ = double(picture_.sum->SamplesPerPixel()) * rule_->LikelyGrowth();
+  const auto samples = double(picture_.sum->SamplesPerPixel());
+  neededSamples_ = samples * rule_->LikelyGrowth();
+  leastSamples_ = samples * rule_->LeastGrowth();
+  isTooDear_ = rule_->IsDearerThan(rivalSamples_, samples);
 }
 
 std::optional<SharingBias> ErrorWatch::BiasOfSharedGathers() const {
@@ -191,6 +195,7 @@ void ErrorWatch::StopSharing() {
 void ErrorWatch::Describe(PassesResult* result) const {
   if (unshared_) SetSharingBias(BiasOfSharedGathers(), &picture_.job.statistics, &result->render);
   if (rule_) result->looks = rule_->Looks();
+  result->leastSamples = leastSamples_;
   if (rule_ && rule_->HasLooked()) result->upperError = rule_->Upper();
   if (hasStoppedSharing_) result->changes = ", gathers shared -> not shared";
   if (OfMaps() && picture_.sum->Groups() > 1) result->levels = picture_.sum->Levels();

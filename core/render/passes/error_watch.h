@@ -39,6 +39,10 @@ class ErrorWatch {
     return rule_->IsOutOfReach() || (stopsForLikelyBias_ && rule_->NeedsMorePhotons());
   }
 
+  // Returns whether the picture stops because another integrator is expected to need far less time.
+  // There must be an accuracy.
+  bool IsTooDear() const { return isTooDear_; }
+
   // Must be called before each pass. Returns the receiver of its gathers; null: none.
   GatherFragments* BeginPass(std::int64_t samplesPerPixel);
 
@@ -84,7 +88,8 @@ class ErrorWatch {
   GroupSamples samples_;
   std::optional<AccuracyRule> rule_;
   bool mayStopSharing_ = false, stopsForLikelyBias_ = false, hasStoppedSharing_ = false;
-  double neededSamples_ = 0;
+  double neededSamples_ = 0, leastSamples_ = 0, rivalSamples_ = 0;
+  bool isTooDear_ = false;                     // by the last look
   std::unique_ptr<UnsharedPicture> unshared_;  // null: none is needed, or it is the picture
   std::unique_ptr<JointWindows> joint_;        // null: passes share apart, or not at all
   bool isFitMissing_ = false;                  // whether the passes of joint_ may need a fit

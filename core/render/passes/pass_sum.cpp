@@ -20,6 +20,8 @@ const char* StopReasonName(StopReason reason) {
       return "accuracy";
     case StopReason::Bias:
       return "bias";
+    case StopReason::Price:
+      return "price";
     case StopReason::TimeLimit:
       return "time-limit";
     case StopReason::Signal:

@@ -17,7 +17,7 @@
 
 namespace exphoton {
 
-enum class StopReason { Samples, TargetError, Accuracy, Bias, TimeLimit, Signal };
+enum class StopReason { Samples, TargetError, Accuracy, Bias, Price, TimeLimit, Signal };
 const char* StopReasonName(StopReason reason);  // for example "target-error"
 
 struct PassesResult {
@@ -31,6 +31,7 @@ struct PassesResult {
   std::optional<double> lastDiskArea{};  // of the last pass; nullopt: passes are not progressive
   std::optional<double> upperError{};    // relMSE; the upper end of its interval (AccuracyRule)
   int looks = 0;                         // at the error, with those of earlier renders
+  double leastSamples = 0;               // that an accuracy needs at least, by the last look
   std::string changes{};                 // of settings, such as ", gathers shared -> not shared"
   std::vector<double> levels{};          // PassSum::Levels, for a certificate; empty without one
 };

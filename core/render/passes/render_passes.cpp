@@ -283,6 +283,8 @@ class Passes {
       reasonMet_ = StopReason::Accuracy;
     else if (accuracy && error_.IsBiasTooLarge())
       reasonMet_ = StopReason::Bias;
+    else if (accuracy && error_.IsTooDear())
+      reasonMet_ = StopReason::Price;
     if (reasonMet_) return reasonMet_;
     if (rule_.timeLimit && next.size < 1)
       reasonMet_ = StopReason::TimeLimit;

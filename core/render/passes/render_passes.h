@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <optional>
 
 #include "core/render/passes/pass_sum.h"
@@ -34,6 +35,9 @@ struct StoppingRule {
     // Whether the picture also stops where its bias is likely to be too large, to begin again.
     bool stopsForLikelyBias = false;
     int earlierLooks = 0;  // at renders that this one replaces; all share the 5 %
+    // What a rival costs, in samples per pixel of this picture. The picture stops if it is sure to
+    // need far more of them (AccuracyRule::IsDearerThan).
+    double rivalSamples = std::numeric_limits<double>::infinity();
   };
   std::optional<Accuracy> accuracy{};
   // Passes are progressive (progressive.h) with this alpha; nullopt: they are not. Needs

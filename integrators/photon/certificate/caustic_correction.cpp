@@ -80,8 +80,10 @@ bool CausticCorrection::FindsLight(const PhotonGuide& guide) const {
     ++probes, sum += light, squares += light * light;
   }
   const double least = std::max(kLeastEffective, kLeastEffectiveShare * probes);
+  // The map is too bright at the place of a photon, which is among the photons of the estimate.
+  const double found = kLeastFound * (1 - 1. / settings_.nUsed);
   return squares > 0 && sum * sum >= least * squares &&
-         sum + 2 * std::sqrt(squares) >= kLeastFound * probes;
+         sum + 2 * std::sqrt(squares) >= found * probes;
 }
 
 // The chance is in proportion to the share of the caustic in the light, because errors are relative

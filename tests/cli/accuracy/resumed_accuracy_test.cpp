@@ -117,6 +117,21 @@ TEST_F(ResumedAccuracy, MorePhotonsContinue) {
   EXPECT_FALSE(Exists("room.partial.exr"));
 }
 
+TEST_F(ResumedAccuracy, SecondChoicesContinue) {
+  Write("room.pbrt", RoomWithAHiddenLamp());
+  const Names words{"room.pbrt", "--accuracy", "20%", "--seed", "1"};
+  ASSERT_EQ(Run(Command(words, {"--nthreads", "1"})).status, 0);
+  const std::string picture = Read("room.exr");
+  Remove("room.exr");
+  ASSERT_TRUE(KillAfterState(words, "1", "another choice is made"));
+  const ProgramResult last = Run(Command(words, {"--resume", "--nthreads", "2"}));
+  ASSERT_EQ(last.status, 0) << last.err;
+  ExpectIn("the stopped render had begun again, because of its noise", last.err);
+  ExpectIn("continuing \"room.exr.state\"", last.err);
+  EXPECT_TRUE(Read("room.exr") == picture);
+  EXPECT_FALSE(Exists("room.exr.state"));
+}
+
 TEST_F(ResumedAccuracy, CertificatesContinue) {
   Write("room.pbrt", SmallRoom());
   const Names words{"room.pbrt",    "--certify", "--integrator", "exphotonmap",

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/math/sampling/random.h"
 #include "core/render/passes/pass_sum.h"
@@ -104,6 +105,32 @@ TEST(AccuracyRule, ExpectsLessNoiseFromNewPhotons) {
     rule.Look({.noise = .0006, .noiseError = 0, .fixedNoise = fixed});
     EXPECT_NEAR(rule.LikelyGrowth(), fixed < .0001 ? .00054 / .00034 : .0006 / .0004, 1e-6);
   }
+}
+
+// 32 samples have 40 times the noise that is allowed, and 30 times if the estimate is one standard
+// error too high.
+TEST(AccuracyRule, GivesUpAPictureThatIsSureToBeDearerThanItsRival) {
+  AccuracyRule rule(.1, .125);
+  rule.Look({.noise = .4, .noiseError = .1});
+  EXPECT_TRUE(rule.IsDearerThan(.99 * 32 * 29 / 2, 32));
+  EXPECT_FALSE(rule.IsDearerThan(1.01 * 32 * 29 / 2, 32));
+  EXPECT_FALSE(rule.IsDearerThan(std::numeric_limits<double>::infinity(), 32));
+}
+
+// Noise that is hardly known says little.
+TEST(AccuracyRule, KeepsAPictureWhoseNoiseIsHardlyKnown) {
+  AccuracyRule rule(.1, .125);
+  rule.Look({.noise = .4, .noiseError = .395});
+  EXPECT_FALSE(rule.IsDearerThan(0, 32));
+}
+
+// More photons mend a bias, not another integrator.
+TEST(AccuracyRule, KeepsAPictureWhoseBiasIsTooLarge) {
+  AccuracyRule rule(.02, .125);
+  const Certificate certificate = Bias(.004, .002, .006);
+  rule.Look({.noise = .4, .noiseError = 0, .certificate = &certificate});
+  EXPECT_TRUE(rule.IsOutOfReach());
+  EXPECT_FALSE(rule.IsDearerThan(0, 32));
 }
 
 // The light that is missing may have the sign of the bias, so roots of relMSE add up.

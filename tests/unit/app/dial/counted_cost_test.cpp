@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests count the cost of a render whose statistics are known.
-#include "core/app/dial/counted_cost.h"
+#include "core/app/dial/pilots/counted_cost.h"
 
 #include <gtest/gtest.h>
 

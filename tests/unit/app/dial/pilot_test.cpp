@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests render pilots of a glowing sphere, seen from its inside.
-#include "core/app/dial/pilot_series.h"
+#include "core/app/dial/pilots/pilot_series.h"
 
 #include <gtest/gtest.h>
 
@@ -160,6 +160,23 @@ TEST_F(PilotTest, MapsThatThePictureTakesAreNotSpent) {
   PilotSeries quoted(renderer.get(), "exphotonmap", 0, PilotSeries::Unit::CpuSeconds);
   quoted.Render();
   EXPECT_EQ(quoted.OwnedMaps(), 0);
+}
+
+// What a picture showed about an integrator counts for this integrator alone.
+TEST_F(PilotTest, APictureThatWasGivenUpRaisesThePrice) {
+  const auto priceAfter = [&](const std::string& givenUp) {
+    const auto renderer = Renderer(false);
+    Wish wish;
+    wish.error = .1;
+    wish.givenUp.push_back({givenUp, 5000});
+    Explorer explorer(renderer.get(), "path", 0, wish);
+    explorer.Begin();
+    return explorer.Result();
+  };
+  const Candidate noisy = priceAfter("path"), other = priceAfter("guidedpath");
+  EXPECT_EQ(noisy.price.samples, 5000);
+  EXPECT_LT(other.price.samples, 500);
+  EXPECT_NEAR(noisy.price.seconds, 5000 * noisy.priceOfSample, .01 * noisy.price.seconds);
 }
 
 // The maps cost a large part of what pilots may cost here.

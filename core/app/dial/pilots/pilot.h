@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "core/app/dial/counted_cost.h"
 #include "core/app/dial/dial_settings.h"
 #include "core/app/dial/omitted_effect.h"
-#include "core/app/dial/small_scene.h"
+#include "core/app/dial/pilots/counted_cost.h"
+#include "core/app/dial/pilots/small_scene.h"
 #include "core/app/effects/light_parts.h"
 #include "core/app/options/options.h"
 #include "core/app/output/picture.h"
@@ -52,6 +52,7 @@ struct PilotPicture {
   double noiseOfPicture = 1;  // expected with the pixels of the picture; relative to the pilot's
   SharingBias sharing;        // expected with the pixels of the picture
   MeanLight light;
+  std::vector<std::string> unseen;         // SurfaceIntegrator::UnseenLight
   std::vector<MeasuredLight> parts;        // of the light; none: the integrator does not divide it
   double gatherRays = 0;                   // of the whole picture
   DialSettings settings;                   // the request's, with the photons of the scene

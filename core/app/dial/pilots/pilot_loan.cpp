@@ -2,7 +2,7 @@
 // This file lends the scene of the pilots for single renders with few photons.
 #include <algorithm>
 
-#include "core/app/dial/pilot.h"
+#include "core/app/dial/pilots/pilot.h"
 #include "core/app/process/signals.h"
 
 namespace exphoton::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/app/dial/pilot_series.h"
+#include "core/app/dial/pilots/pilot_series.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/app/dial/pilot.h"
+#include "core/app/dial/pilots/pilot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -258,6 +258,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.noiseOfPicture = NoiseOfPicture(setup, picture.pixels);
   picture.sharing.squared *= SharingBiasOfPicture(picture.pixels);
   picture.sharing.standardError *= SharingBiasOfPicture(picture.pixels);
+  picture.unseen = setup.integrator->UnseenLight(*setup.scene);
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
   if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/app/dial/pilot.h"
+#include "core/app/dial/pilots/pilot.h"
 
 namespace exphoton::cli {
 

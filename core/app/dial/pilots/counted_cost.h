@@ -34,6 +34,7 @@ struct PilotWork {
   bool givesPhotons = false;
 
   void Add(const Statistics& statistics);
+  void Add(const PilotWork& other);  // but not givesPhotons
 };
 
 }  // namespace exphoton::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // docs/decisions/0055-accuracy-dial.md compares counted costs with seconds. The seconds for one
 // unit differ between scenes by a factor of 3, but less between integrators in one scene.
-#include "core/app/dial/counted_cost.h"
+#include "core/app/dial/pilots/counted_cost.h"
 
 #include <algorithm>
 
@@ -63,6 +63,12 @@ void PilotWork::Add(const Statistics& statistics) {
   direct += CounterOf(statistics, "photons/direct stored");
   caustic += CounterOf(statistics, "photons/caustic stored");
   indirect += CounterOf(statistics, "photons/indirect stored");
+}
+
+void PilotWork::Add(const PilotWork& other) {
+  renders += other.renders;
+  rays.Add(other.rays);
+  direct += other.direct, caustic += other.caustic, indirect += other.indirect;
 }
 
 double CounterOf(const Statistics& statistics, const std::string& name) {

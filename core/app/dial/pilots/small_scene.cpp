@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/app/dial/small_scene.h"
+#include "core/app/dial/pilots/small_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// ExploreAll finds out, with pilots, at what prices integrators reach an accuracy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/app/dial/candidate.h"
+
+namespace exphoton::cli {
+
+inline constexpr const char* kGuidedPath = "guidedpath";
+
+// First prices of all candidates come before any of them is explored further, so that a dear one
+// gets small pilots only. Candidates that were left out are explored if the others turn out to cost
+// more.
+std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
+                                  const Wish& wish);
+
+}  // namespace exphoton::cli

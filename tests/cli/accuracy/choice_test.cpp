@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests order an accuracy for scenes in which paths from the camera miss much light. A wall
+// sees a bright light only in a mirror behind the camera, because a screen is between them.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.h"
+
+namespace exphoton {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const std::string kBrightPoint =
+    "LightSource \"point\" \"point from\" [3.5 0 4] \"color I\" [63 63 63]\n";
+// It has the same intensity.
+const std::string kBrightBead =
+    "AttributeBegin Translate 3.5 0 4 AreaLightSource \"area\" \"color L\" [5e6 5e6 5e6]\n"
+    "Material \"matte\" \"color Kd\" [0 0 0] Shape \"sphere\" \"float radius\" .002 AttributeEnd\n";
+
+std::string Quad(const std::string& corners) {
+  return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" + corners + "]\n";
+}
+
+class ChoiceTest : public ProgramTest {
+ protected:
+  ProgramResult Render(const std::string& light, const Names& more = {}) const {
+    Write("room.pbrt",
+          "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 24\n"
+          "Camera \"perspective\" \"float fov\" 40\nPixelFilter \"box\"\n"
+          "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 2000\n"
+          "\"integer causticphotons\" 2000 \"integer maxphotonpaths\" 200000\nWorldBegin\n" +
+              light +
+              "AttributeBegin Translate -4 0 3 AreaLightSource \"area\" \"color L\" [1 1 1]\n"
+              "Material \"matte\" \"color Kd\" [0 0 0] Shape \"sphere\" AttributeEnd\n"
+              "Material \"matte\" \"color Kd\" [.7 .7 .7]\n" +
+              Quad("-3 -3 6 3 -3 6 3 3 6 -3 3 6") + "Material \"matte\" \"color Kd\" [0 0 0]\n" +
+              Quad("3 -3 1.9 3 3 1.9 3 3 6 3 -3 6") + "Material \"mirror\" \"color Kr\" [1 1 1]\n" +
+              Quad("-9 -9 -2 9 -9 -2 9 9 -2 -9 9 -2") + "WorldEnd\n");
+    Names words{"room.pbrt", "--accuracy", "10%", "-o", "room.exr", "--no-progress"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Run(words);
+  }
+  static void ExpectIn(const std::string& part, const std::string& text) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
+  }
+};
+
+TEST_F(ChoiceTest, LeavesOutIntegratorsThatNeverFindSomeLight) {
+  const ProgramResult result = Render(kBrightPoint);
+  ASSERT_EQ(result.status, 0) << result.err;
+  ExpectIn("accuracy 10%: integrator exphotonmap, ", result.err);
+  ExpectIn("path: never finds caustics of a light without a size", result.err);
+}
+
+// A user may still want such an integrator.
+TEST_F(ChoiceTest, SaysWhatTheErrorOfANamedIntegratorDoesNotContain) {
+  const ProgramResult result =
+      Render(kBrightPoint, {"--integrator", "path", "--stats-json", "room.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  ExpectIn("warning: the error does not contain caustics of a light without a size", result.err);
+  ExpectIn("\"notCovered\":\"caustics of a light without a size\"", Read("room.json"));
+  ExpectIn("accuracy/notCovered", Run({"info", "room.exr"}).out);
+  ExpectIn("unseen        caustics of a light without a size",
+           Run({"explain", "room.pbrt", "--integrator", "path"}).out);
+}
+
+// No pilot of path meets the bead, so it looks cheap. Photons show more than half of the light.
+TEST_F(ChoiceTest, LeavesOutIntegratorsThatLackMuchLightOfARoughPilot) {
+  const ProgramResult result = Render(kBrightBead);
+  ASSERT_EQ(result.status, 0) << result.err;
+  ExpectIn("accuracy 10%: integrator exphotonmap, ", result.err);
+  ExpectIn("less light than exphotonmap", result.err);
+  ExpectIn("the error lies below", result.err);
+}
+
+TEST_F(ChoiceTest, IsMadeAgainWhereAPictureIsFarNoisierThanItsPilots) {
+  Write("lamp.pbrt", RoomWithAHiddenLamp());
+  std::string pictures[2];
+  for (const char* threads : {"1", "2"}) {
+    const ProgramResult result =
+        Run({"lamp.pbrt", "--accuracy", "20%", "--seed", "1", "--nthreads", threads, "-o",
+             "lamp.exr", "--reproducible", "--no-progress", "--stats-json", "lamp.json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    ExpectIn("accuracy 20%: integrator exphotonmap -> path", result.err);
+    ExpectIn("the picture of path needs at least ", result.err);
+    ExpectIn("accuracy 20%: integrator exphotonmap, ", result.err);
+    EXPECT_EQ(result.err.find("which is not the accuracy"), std::string::npos) << result.err;
+    pictures[threads[0] - '1'] = Read("lamp.exr");
+  }
+  EXPECT_TRUE(pictures[0] == pictures[1]);
+  // The pilots of both choices count: two of path, and at least three of photons.
+  const nlohmann::json statistics = nlohmann::json::parse(Read("lamp.json"));
+  EXPECT_GE(statistics["accuracy"]["pilots"]["renders"].get<int>(), 5);
+}
+
+TEST_F(ChoiceTest, QuotesNoPriceForLightThatIsNeverFound) {
+  Render(kBrightPoint);
+  const ProgramResult quote =
+      Run({"quote", "room.pbrt", "--integrators", "path,photonmap", "--accuracies", "10%"});
+  ASSERT_EQ(quote.status, 0) << quote.err;
+  ExpectIn("open: never finds caustics of a light without a size", quote.out);
+}
+
+}  // namespace
+}  // namespace exphoton
