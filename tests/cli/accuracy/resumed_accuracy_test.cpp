@@ -43,6 +43,25 @@ class ResumedAccuracy : public ProgramTest {
   }
   std::string State() const { return Exists("room.exr.state") ? Read("room.exr.state") : ""; }
 
+  // Returns the bytes of a picture that nothing stopped, and removes its file.
+  std::string WholePicture(const Names& words) {
+    const ProgramResult whole = Run(Command(words, {"--nthreads", "1"}));
+    EXPECT_EQ(whole.status, 0) << whole.err;
+    std::string picture = Read("room.exr");
+    Remove("room.exr");
+    return picture;
+  }
+  // Continues the render, and expects these messages and this picture.
+  void ExpectContinued(const Names& words, const std::string& message, const std::string& picture) {
+    const ProgramResult last = Run(Command(words, {"--resume", "--nthreads", "2"}));
+    ASSERT_EQ(last.status, 0) << last.err;
+    ExpectIn(message, last.err);
+    ExpectIn("continuing \"room.exr.state\"", last.err);
+    EXPECT_TRUE(Read("room.exr") == picture);
+    EXPECT_FALSE(Exists("room.exr.state"));
+    EXPECT_FALSE(Exists("room.partial.exr"));
+  }
+
   // Compares a render that is killed several times with one that is not. Returns the messages of
   // the latter.
   std::string ExpectSameBytes(const Names& words) {
@@ -99,37 +118,22 @@ TEST_F(ResumedAccuracy, MorePhotonsContinue) {
   room.replace(room.find(photons), photons.size(), "\"integer indirectphotons\" 10");
   Write("room.pbrt", room);
   const Names words{"room.pbrt", "--integrator", "exphotonmap", "--accuracy", "3%", "--seed", "4"};
-  ASSERT_EQ(Run(Command(words, {"--nthreads", "1"})).status, 0);
-  const std::string picture = Read("room.exr");
-  Remove("room.exr");
+  const std::string picture = WholePicture(words);
   ASSERT_TRUE(KillAfterState(words, "1", "rendered again with"));
   // The state of another render does not change the photons.
   const ProgramResult other = Run(Command(words, {"--resume", "--set", "Sampler.pixelsamples=8"}));
   EXPECT_EQ(other.status, 1) << other.err;
   ExpectIn("--set Sampler.pixelsamples is not given there, 8 here", other.err);
   EXPECT_EQ(other.err.find("had begun again"), std::string::npos) << other.err;
-  const ProgramResult last = Run(Command(words, {"--resume", "--nthreads", "2"}));
-  ASSERT_EQ(last.status, 0) << last.err;
-  ExpectIn("the stopped render had begun again with", last.err);
-  ExpectIn("continuing \"room.exr.state\"", last.err);
-  EXPECT_TRUE(Read("room.exr") == picture);
-  EXPECT_FALSE(Exists("room.exr.state"));
-  EXPECT_FALSE(Exists("room.partial.exr"));
+  ExpectContinued(words, "the stopped render had begun again with", picture);
 }
 
 TEST_F(ResumedAccuracy, SecondChoicesContinue) {
   Write("room.pbrt", RoomWithAHiddenLamp());
   const Names words{"room.pbrt", "--accuracy", "20%", "--seed", "1"};
-  ASSERT_EQ(Run(Command(words, {"--nthreads", "1"})).status, 0);
-  const std::string picture = Read("room.exr");
-  Remove("room.exr");
+  const std::string picture = WholePicture(words);
   ASSERT_TRUE(KillAfterState(words, "1", "another choice is made"));
-  const ProgramResult last = Run(Command(words, {"--resume", "--nthreads", "2"}));
-  ASSERT_EQ(last.status, 0) << last.err;
-  ExpectIn("the stopped render had begun again, because of its noise", last.err);
-  ExpectIn("continuing \"room.exr.state\"", last.err);
-  EXPECT_TRUE(Read("room.exr") == picture);
-  EXPECT_FALSE(Exists("room.exr.state"));
+  ExpectContinued(words, "the stopped render had begun again, because of its noise", picture);
 }
 
 TEST_F(ResumedAccuracy, CertificatesContinue) {
