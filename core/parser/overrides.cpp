@@ -140,6 +140,10 @@ void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::
   }
 }
 
+bool Declares(const std::vector<ParamDecl>& declared, const std::string& parameter) {
+  return FindDeclaration(declared, parameter) != nullptr;
+}
+
 bool MeansTheSame(const ParamDecl& a, const ParamDecl& b) {
   return a.name == b.name && a.type == b.type && a.unit == b.unit && a.doc == b.doc;
 }

@@ -17,6 +17,9 @@ void CheckOverrides(const std::vector<ParameterOverride>& overrides);
 void ApplyOverrides(const std::vector<ParameterOverride>& overrides, const std::string& directive,
                     const std::string& what, const ParamTableBase& table, ParamSet* params);
 
+// Returns whether a plugin declares the parameter.
+bool Declares(const std::vector<ParamDecl>& declared, const std::string& parameter);
+
 // Returns whether two plugins mean the same by a parameter: they declare it with the same name,
 // type, unit and meaning. "maxdepth" of "path" counts all bounces, and for "whitted" specular
 // ones.

@@ -50,6 +50,9 @@ struct LoadOptions {
   // declares and a sampler the number of samples per pixel.
   std::optional<std::string> sampler, filter, camera, accelerator;
   std::vector<ParameterOverride> parameters;
+  // Integrators that one command compares. A parameter of SurfaceIntegrator applies to those of
+  // them that declare it, and is ignored for the others.
+  std::vector<std::string> comparedIntegrators;
   std::optional<std::vector<Real>> cropWindow;  // x0 x1 y0 y1
   std::optional<PixelBounds> pixelBounds;       // takes precedence over a crop window
   // The resolution in which pixelBounds counts. Absent: the one of the picture. Otherwise the

@@ -7,7 +7,7 @@ Renders each scene with accuracies of 10, 5 and 2 %, or with those that are give
 picture is measured against a reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be
 samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latter with the gather
 rays of the scene and with 16, and 1 to 4096 samples a pixel, as far as a render takes at most
-MOST_SECONDS. Each setting has two seeds: the mean of their relMSE and the smaller time. "Best" is
+MOST_SECONDS, another setting is not cheaper, and the error is not below half of the accuracy. Each setting has two seeds: the mean of their relMSE and the smaller time. "Best" is
 the CPU time of the cheapest setting for the mean error that the dial reached, interpolated in the
 grid. "Times best" is the ratio of both. Accuracies that the grid does not reach are left out, and
 so are those where the noise of the reference exceeds a fifth of the squared error. The folder of
@@ -24,18 +24,22 @@ import tempfile
 from picture_errors import Scene, folder_of
 
 THREAD = ("--nthreads", "1")
-SETTINGS = {"path": [], "guidedpath": [], "exphotonmap": [],
-            "exphotonmap with 16 rays": ["--set", "SurfaceIntegrator.finalgathersamples=16"]}
-LEAST_ERROR = .005 ** 2  # relMSE; few accuracies need less
+# The likely cheapest ones come first, so that the others end early.
+SETTINGS = {"exphotonmap": [],
+            "exphotonmap with 16 rays": ["--set", "SurfaceIntegrator.finalgathersamples=16"],
+            "path": [], "guidedpath": []}
+LEAST_SHARE = .5  # of the smallest accuracy: the error that the grid has to reach
 
 
-def grid_of(scene, most_seconds):
-    """Returns for each setting a list of (relMSE, seconds), by falling error."""
-    kept = os.path.join(scene.folder, f"two-grids-{most_seconds:g}.json")
+def grid_of(scene, most_seconds, least_error):
+    """Returns for each setting a list of (relMSE, seconds), by falling error. It ends after the
+    first point below the least error, or above the time of another setting for this error."""
+    kept = os.path.join(scene.folder, f"two-grids-{most_seconds:g}-{least_error:g}.json")
     if os.path.exists(kept):
         with open(kept, encoding="utf-8") as file:
             return json.load(file)
     grid = {}
+    limit = most_seconds
     for name, options in SETTINGS.items():
         points = []
         for octave in range(0, 13):
@@ -47,7 +51,9 @@ def grid_of(scene, most_seconds):
                 times.append(cpu)
             cpu = min(times)
             points.append((max(sum(errors) / len(errors), 1e-12), cpu))
-            if 2 * cpu > most_seconds or points[-1][0] < LEAST_ERROR:
+            reaches = points[-1][0] < least_error ** 2
+            if reaches or cpu > limit or 2 * cpu > most_seconds:
+                limit = min(limit, cpu) if reaches else limit
                 break
         grid[name] = points
     with open(kept, "w", encoding="utf-8") as file:
@@ -103,9 +109,10 @@ class Table:
             folder = folder_of(given.cache, path, given.size, given.reference, temporary)
             scene = Scene(given.program, path, given.size, folder)
             scene.reference(given.reference)
-            grid = grid_of(scene, given.most_seconds)
+            accuracies = [float(text) for text in given.accuracies.split(",")]
+            grid = grid_of(scene, given.most_seconds, LEAST_SHARE * min(accuracies) / 100)
             scene.folder = temporary
-            for percent in map(float, given.accuracies.split(",")):
+            for percent in accuracies:
                 label = f"| {path.split('/')[-2]} | {percent:g} % |"
                 if scene.noise / 4 > .2 * (percent / 100) ** 2:
                     print(label, "the reference is too noisy | | | | | |", flush=True)

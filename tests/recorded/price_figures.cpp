@@ -73,8 +73,11 @@ void AddQuotes(FigureLines* lines) {
     quotes.push_back(quote);
   }
   quotes.push_back({"slow", {}, {}, 0, {}, {}, "renders longer than a pilot may"});
-  const QuoteScene plain{"room.pbrt", {}};
-  const QuoteScene other{"a room.pbrt", {"--set", "Camera.fov=30", "--resolution", "64x48"}};
+  QuoteScene plain{"room.pbrt", {}}, other{"a room.pbrt", {}};
+  for (const Quote& quote : quotes) {
+    plain.options[quote.integrator] = {};
+    other.options[quote.integrator] = {"--set", "Camera.fov=30", "--resolution", "64x48"};
+  }
   for (const QuoteScene& scene : {plain, other}) {
     std::istringstream text(QuoteText(scene, quotes, {.2, .05, .018, .001}));
     for (std::string line; std::getline(text, line);) lines->Add("quote:" + line);

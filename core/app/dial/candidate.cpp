@@ -76,6 +76,9 @@ void Explorer::Guarded(const Step& step) {
 
 void Explorer::Begin(double most) {
   Guarded([&] {
+    CheckLight();
+    // The pilot of path costs little, and shows whether others find still less light.
+    if (!candidate_.reason.empty() && candidate_.integrator != "path") return;
     isRough_ = RenderRough(most);
     if (!isRough_) series_.Render();
     TakeLight();
@@ -83,14 +86,17 @@ void Explorer::Begin(double most) {
   });
 }
 
+// An integrator that never finds some light has no price.
+void Explorer::CheckLight() {
+  if (wish_.mayMissLight) return;
+  const std::vector<std::string> unseen = series_.UnseenLight();
+  if (!unseen.empty()) candidate_.reason = "never finds " + unseen.front();
+}
+
 // Takes over the light of the last pilot.
 void Explorer::TakeLight() {
   candidate_.mean = {candidate_.integrator, series_.Last().light};
   candidate_.isRough = isRough_;
-  const std::vector<std::string>& unseen = series_.Last().unseen;
-  if (wish_.mayMissLight || unseen.empty()) return;
-  candidate_.reason = "never finds " + unseen.front();
-  candidate_.leastPrice = 0;
 }
 
 void Explorer::SettleLight() {

@@ -87,6 +87,7 @@ class Explorer {
   };
 
   bool RenderRough(double most);
+  void CheckLight();
   void TakeLight();
   template <class Step>
   void Guarded(const Step& step);

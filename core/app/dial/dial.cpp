@@ -201,6 +201,8 @@ void CheckDialIntegrator(const std::string& integrator) {
 
 std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string& scene,
                                         FileSource::Streams* streams, Log& log) {
+  if (!turned->load.integrator && !turned->keepsSettings)
+    turned->load.comparedIntegrators = {std::begin(kAutomatic), std::end(kAutomatic)};
   const RenderCommand command = *turned;
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
   if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);

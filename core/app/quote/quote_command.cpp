@@ -2,6 +2,7 @@
 #include "core/app/quote/quote_command.h"
 
 #include <cstdio>
+#include <set>
 
 #include "core/app/options/arguments.h"
 #include "core/app/options/errors.h"
@@ -70,13 +71,15 @@ QuoteOptions ParseQuoteOptions(const std::vector<std::string>& arguments) {
   return options;
 }
 
-// Returns the options that the pilots and the quoted renders have in common.
-std::vector<std::string> SceneOptionsOf(const QuoteOptions& options) {
+// Returns the options of the quoted renders, without these of --set.
+std::vector<std::string> SceneOptionsOf(const QuoteOptions& options,
+                                        const std::set<std::string>& foreignSets) {
   std::vector<std::string> words;
   const auto add = [&](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };
-  for (const std::string& set : options.sets) add("--set", set);
+  for (const std::string& set : options.sets)
+    if (!foreignSets.contains(set)) add("--set", set);
   for (const std::string& folder : options.pluginFolders) add("--plugin-dir", folder);
   if (options.allowsScenePlugins) words.push_back("--allow-scene-plugins");
   if (options.threads > 0) add("--nthreads", std::to_string(options.threads));
@@ -84,29 +87,38 @@ std::vector<std::string> SceneOptionsOf(const QuoteOptions& options) {
   return words;
 }
 
-RenderCommand PilotCommand(const QuoteOptions& options, const QuoteScene& scene) {
-  std::vector<std::string> words{scene.path, "--seed", std::to_string(options.seed)};
-  words.insert(words.end(), scene.options.begin(), scene.options.end());
-  return ParseRenderCommand(words, RenderMode::Render);
+// The pilots have all options of --set, and know which integrators are compared.
+RenderCommand PilotCommand(const QuoteOptions& options) {
+  std::vector<std::string> words{options.scene, "--seed", std::to_string(options.seed)};
+  const std::vector<std::string> common = SceneOptionsOf(options, {});
+  words.insert(words.end(), common.begin(), common.end());
+  RenderCommand command = ParseRenderCommand(words, RenderMode::Render);
+  command.load.comparedIntegrators = options.integrators;
+  return command;
 }
 
-// Throws Error for an unknown integrator.
-void CheckIntegrators(const QuoteOptions& options) {
+// Returns the options of the renders of each integrator. Throws Error for an unknown integrator,
+// or a parameter that none has.
+QuoteScene SceneOf(const QuoteOptions& options) {
   StudyOptions study;
   study.pluginFolders = options.pluginFolders;
+  study.sets = options.sets;
   for (const std::string& name : options.integrators) study.plan.bases.push_back({name, name, {}});
-  PlanSettings(study);
+  auto foreign = FindForeignSets(study, PlanSettings(study));
+  QuoteScene scene{options.scene, {}};
+  for (const std::string& name : options.integrators)
+    scene.options[name] = SceneOptionsOf(options, foreign[name]);
+  return scene;
 }
 
 void MakeQuote(const std::vector<std::string>& arguments) {
   const QuoteOptions options = ParseQuoteOptions(arguments);
-  const QuoteScene scene{options.scene, SceneOptionsOf(options)};
-  const RenderCommand command = PilotCommand(options, scene);
+  const RenderCommand command = PilotCommand(options);
   const InterruptWatch watch;
   FileSource::Streams streams;
   Log log(options.isVerbose ? Log::Level::Verbose : Log::Level::Normal);
-  PilotRenderer renderer(command, scene.path, {"quote", &streams, &log});
-  CheckIntegrators(options);
+  PilotRenderer renderer(command, options.scene, {"quote", &streams, &log});
+  const QuoteScene scene = SceneOf(options);
   const double cpuSeconds = options.seconds * ThreadPool(options.threads).Count();
   std::vector<Quote> quotes;
   for (const std::string& name : options.integrators) {

@@ -42,7 +42,8 @@ Quote RunPilots(PilotRenderer* renderer, const std::string& integrator, double c
   quote.model = series.Model();
   quote.settings = series.Settings();
   quote.light = last.light;
-  if (!last.unseen.empty()) quote.failure = "never finds " + last.unseen.front();
+  const std::vector<std::string> unseen = series.UnseenLight();
+  if (!unseen.empty()) quote.failure = "never finds " + unseen.front();
   quote.memory = PeakMemoryBytes() + kPixelMemory * (renderer->Pixels() - last.pixels);
   if (last.certificate) quote.notCovered = last.certificate->notCovered;
   return quote;

@@ -43,7 +43,8 @@ Offer MakeOffer(const Quote& quote, std::span<const PilotMean> means, double acc
 std::string CommandOf(const QuoteScene& scene, const Offer& offer) {
   const Quote& quote = *offer.quote;
   std::vector<std::string> words{"exphoton", scene.path, "--integrator", quote.integrator};
-  words.insert(words.end(), scene.options.begin(), scene.options.end());
+  const std::vector<std::string>& common = scene.options.at(quote.integrator);
+  words.insert(words.end(), common.begin(), common.end());
   words.insert(words.end(), {"--spp", std::to_string(std::int64_t(offer.price->samples))});
   DialSettings settings = quote.settings;
   settings.photons = offer.price->photons;

@@ -2,6 +2,7 @@
 // QuoteText prints the prices of all integrators, with the commands that render so.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace exphoton::cli {
 // What the commands render.
 struct QuoteScene {
   std::string path;
-  std::vector<std::string> options;  // such as --set and --resolution
+  // Of the renders of each integrator, such as --set and --resolution.
+  std::map<std::string, std::vector<std::string>> options;
 };
 
 // accuracies: relative, .05 for 5 %.

@@ -180,6 +180,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   const ProgramFacts program = ExamineProgram(options);
   study::Results results = Describe(options, scene, program);
   results.settings = PlanSettings(options);
+  options.foreignSets = FindForeignSets(options, results.settings);
   options.sceneSets = scene.sets;
   RequireCertificates(options, results.settings);
   if (!options.photonFile.empty())

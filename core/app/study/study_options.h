@@ -4,6 +4,7 @@
 // relative to its own folder. An option of the command line replaces the file's.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,6 +22,7 @@ struct StudyOptions {
   int seeds = 4;
   int threads = 0;
   std::vector<std::string> sets, pluginFolders;
+  std::map<std::string, std::set<std::string>> foreignSets;  // those of `sets`, by integrator
   bool allowsScenePlugins = false;
   std::string limits;                   // of every render
   std::vector<std::string> inputFiles;  // study files, scenes and references

@@ -42,16 +42,19 @@ study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean
 std::vector<study::Prediction> Predict(const StudyOptions& options,
                                        const std::vector<study::Setting>& settings) {
   const std::vector<std::string> names = IntegratorsOf(settings);
+  StudyOptions all = options;
+  all.foreignSets.clear();  // the pilots know which integrators are compared
   std::vector<std::string> arguments =
-      RenderArguments(options, options.scene, {"", names.front(), {}}, 0);
+      RenderArguments(all, options.scene, {"", names.front(), {}}, 0);
   arguments.erase(arguments.begin());  // the name of the command
+  RenderCommand command = ParseRenderCommand(arguments, RenderMode::Render);
+  command.load.comparedIntegrators = names;
   FileSource::Streams streams;
   Log log(Log::Level::Quiet, Log::Sink::Memory);
   std::vector<Quote> quotes;
   std::vector<PilotMean> means;
   try {
-    PilotRenderer renderer(ParseRenderCommand(arguments, RenderMode::Render), options.scene,
-                           {"--predict", &streams, &log});
+    PilotRenderer renderer(command, options.scene, {"--predict", &streams, &log});
     for (const std::string& name : names) {
       Say(options, "pilots of " + name);
       quotes.push_back(RunPilots(&renderer, name, kPilotSeconds / double(names.size())));

@@ -226,6 +226,28 @@ std::vector<study::Setting> PlanSettings(const StudyOptions& options) {
   }
 }
 
+std::map<std::string, std::set<std::string>> FindForeignSets(
+    const StudyOptions& options, const std::vector<study::Setting>& settings) {
+  const PluginParameterLookup lookup(options);
+  std::set<std::string> integrators;
+  for (const study::Setting& setting : settings) integrators.insert(setting.integrator);
+  if (!options.makeReference.empty())
+    integrators.insert(study::ParseSetting(options.makeReference).integrator);
+  std::map<std::string, std::set<std::string>> foreign;
+  for (const std::string& text : options.sets) {
+    const ParameterOverride set = ParseOverride(text);
+    if (set.directive != "SurfaceIntegrator") continue;
+    std::set<std::string> without;
+    for (const std::string& integrator : integrators)
+      if (!lookup.Has(integrator, set.parameter)) without.insert(integrator);
+    if (without == integrators)
+      FailUsage("--set: no integrator of the comparison has a parameter \"" + set.parameter + "\"",
+                DidYouMean(set.parameter, lookup.Names(*integrators.begin())));
+    for (const std::string& integrator : without) foreign[integrator].insert(text);
+  }
+  return foreign;
+}
+
 std::set<std::string> FindPhotonIntegrators(const StudyOptions& options,
                                             const std::vector<study::Setting>& settings) {
   std::set<std::string> names;
@@ -243,7 +265,9 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
   const auto add = [&](const char* option, const std::string& value) {
     arguments.insert(arguments.end(), {option, value});
   };
-  for (const std::string& set : options.sets) add("--set", set);
+  const auto foreign = options.foreignSets.find(setting.integrator);
+  for (const std::string& set : options.sets)
+    if (foreign == options.foreignSets.end() || !foreign->second.contains(set)) add("--set", set);
   for (const auto& [name, value] : setting.parameters) {
     if (name == "spp")
       add("--spp", value);

@@ -4,6 +4,7 @@
 // integrator.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -32,6 +33,11 @@ std::string ReadTextFile(const std::string& path);  // empty if the file cannot 
 
 // Expands the plan. Throws Error for an unknown integrator or parameter.
 std::vector<study::Setting> PlanSettings(const StudyOptions& options);
+
+// Returns for each integrator, also of the reference, the --set options that apply only to others.
+// Throws Error if one of them applies to none.
+std::map<std::string, std::set<std::string>> FindForeignSets(
+    const StudyOptions& options, const std::vector<study::Setting>& settings);
 
 // Returns those integrators of the settings that can read photons from a file. Throws Error if
 // there are none.

@@ -17,6 +17,8 @@
 namespace exphoton {
 namespace {
 
+constexpr const char* kIntegratorDirective = "SurfaceIntegrator";
+
 constexpr int kQuickResolutionDivisor = 4;
 
 // Renderer "sampler" has no parameters. The empty table reports those that a file gives.
@@ -171,13 +173,25 @@ BindContext RenderDirectives::Bind(PluginKind kind, const std::string& name, Log
   return bind;
 }
 
+bool RenderDirectives::IsOfAnotherIntegrator(const ParameterOverride& set,
+                                             PluginRegistry& registry) const {
+  const auto declares = [&](const std::string& integrator) {
+    const auto* const declared = registry.Declarations(PluginKind::Integrator, integrator);
+    return declared && Declares(*declared, set.parameter);
+  };
+  return set.directive == kIntegratorDirective && !declares(integrator_.name) &&
+         std::ranges::any_of(options_.comparedIntegrators, declares);
+}
+
 ParamSet RenderDirectives::Overridden(const char* directive, const Choice& choice, PluginKind kind,
                                       PluginRegistry& registry) const {
   const ParamTableBase& table = *registry.Find(kind, choice.name, choice.params.where).parameters;
   const std::vector<ParamDecl>& declared = table.Declarations();
   ParamSet params = choice.isReplaced ? KnownParameters(choice, declared) : choice.params;
-  ApplyOverrides(options_.parameters, directive,
-                 std::string(PluginKindName(kind)) + " \"" + choice.name + "\"", table, &params);
+  std::vector<ParameterOverride> sets = options_.parameters;
+  std::erase_if(sets, [&](const auto& set) { return IsOfAnotherIntegrator(set, registry); });
+  ApplyOverrides(sets, directive, std::string(PluginKindName(kind)) + " \"" + choice.name + "\"",
+                 table, &params);
   if (kind != PluginKind::Integrator) return params;
   if (options_.integrator) AddNamedDefaults(declared, &params);
   if (options_.isQuick) ScaleForQuick(declared, &params);
@@ -270,8 +284,12 @@ void RenderDirectives::KeepSharedParameters(PluginRegistry& registry, Log& log) 
 
 void RenderDirectives::CreateIntegrator(PluginRegistry& registry, Log& log,
                                         RenderSetup* setup) const {
+  for (const ParameterOverride& set : options_.parameters)
+    if (IsOfAnotherIntegrator(set, registry))
+      log.Notice("--set " + set.directive + "." + set.parameter +
+                 " does not apply to integrator \"" + integrator_.name + "\"");
   const ParamSet params =
-      Overridden("SurfaceIntegrator", integrator_, PluginKind::Integrator, registry);
+      Overridden(kIntegratorDirective, integrator_, PluginKind::Integrator, registry);
   setup->integratorName = integrator_.name;
   setup->integratorParameters = params;
   setup->integrator = registry.Create<PluginKind::Integrator>(

@@ -51,6 +51,8 @@ class RenderDirectives {
   ParamSet KnownParameters(const Choice& choice, const std::vector<ParamDecl>& declared) const;
   // Chooses the integrator that takes the place of a renderer of version 2 that is not available.
   void ReplaceRenderer(Log& log);
+  // Returns whether only other integrators that are compared declare a parameter of --set.
+  bool IsOfAnotherIntegrator(const ParameterOverride& set, PluginRegistry& registry) const;
   ParamSet Overridden(const char* directive, const Choice& choice, PluginKind kind,
                       PluginRegistry& registry) const;
   BindContext Bind(PluginKind kind, const std::string& name, Log& log) const;

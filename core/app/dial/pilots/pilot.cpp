@@ -235,6 +235,11 @@ PassesResult PilotRenderer::RenderHalves(const RenderJob& job, bool estimatesSha
   return result;
 }
 
+std::vector<std::string> PilotRenderer::UnseenLight(const PilotRequest& request) {
+  const RenderSetup& setup = Load(request);
+  return setup.integrator->UnseenLight(*setup.scene);
+}
+
 PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   const RenderSetup& setup = Load(request);
   const double begin = ProcessCpuSeconds();
@@ -258,7 +263,6 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.noiseOfPicture = NoiseOfPicture(setup, picture.pixels);
   picture.sharing.squared *= SharingBiasOfPicture(picture.pixels);
   picture.sharing.standardError *= SharingBiasOfPicture(picture.pixels);
-  picture.unseen = setup.integrator->UnseenLight(*setup.scene);
   picture.light = MeanOfHalves(*films.halves[0], *films.halves[1]);
   if (films.aovs) picture.parts = LightPartsOf(films.film, *films.aovs);
   picture.gatherRays = double(statistics.Rays().counts[std::size_t(RayKind::Gather)]);

@@ -52,7 +52,6 @@ struct PilotPicture {
   double noiseOfPicture = 1;  // expected with the pixels of the picture; relative to the pilot's
   SharingBias sharing;        // expected with the pixels of the picture
   MeanLight light;
-  std::vector<std::string> unseen;         // SurfaceIntegrator::UnseenLight
   std::vector<MeasuredLight> parts;        // of the light; none: the integrator does not divide it
   double gatherRays = 0;                   // of the whole picture
   DialSettings settings;                   // the request's, with the photons of the scene
@@ -78,6 +77,8 @@ class PilotRenderer {
   PilotRenderer(const PilotRenderer&) = delete;
   PilotRenderer& operator=(const PilotRenderer&) = delete;
 
+  // Returns light that the integrator of the pilot never finds. Throws Error.
+  std::vector<std::string> UnseenLight(const PilotRequest& request);
   // Throws Error.
   PilotPicture Render(const PilotRequest& request);
 

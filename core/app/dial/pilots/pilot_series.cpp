@@ -19,10 +19,20 @@ PilotSeries::PilotSeries(PilotRenderer* pilots, const std::string& integrator, i
   model_.fixed = unit == Unit::CpuSeconds ? pilots->LoadSeconds() : 0;
 }
 
+// Returns the request of the first pilot. That of path is not rough.
+PilotRequest PilotSeries::FirstRequest() const {
+  PilotRequest first = request_;
+  first.isRough = request_.integrator != "path";
+  return first;
+}
+
+std::vector<std::string> PilotSeries::UnseenLight() {
+  return renderer_->UnseenLight(FirstRequest());
+}
+
 bool PilotSeries::RenderRough() {
-  if (request_.integrator == "path") return false;
-  PilotRequest rough = request_;
-  rough.isRough = true;
+  const PilotRequest rough = FirstRequest();
+  if (!rough.isRough) return false;
   last_ = renderer_->Render(rough);
   TakeCosts(last_);
   settings_ = last_.settings;

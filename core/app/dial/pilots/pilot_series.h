@@ -28,6 +28,8 @@ class PilotSeries {
   // gatherRays: as in DialSettings.
   PilotSeries(PilotRenderer* pilots, const std::string& integrator, int gatherRays, Unit unit);
 
+  // Returns light that the integrator never finds, without a pilot.
+  std::vector<std::string> UnseenLight();
   // Renders a rough pilot. It shows what all photons cost, but its noise is too high. It does not
   // belong to the series. Returns false for path, which needs none.
   bool RenderRough();
@@ -56,6 +58,7 @@ class PilotSeries {
   double SecondsPerPrice() const { return secondsPerPrice_; }  // CPU time
 
  private:
+  PilotRequest FirstRequest() const;
   CountedCost CostOf(const PilotPicture& picture) const;
   void TakeCosts(const PilotPicture& picture);
   MapPrices OneSetOf(const PilotPicture& picture) const;
